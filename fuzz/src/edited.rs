@@ -8,7 +8,8 @@ use armill_formats::robot::urdf::meshes as shapes;
 use crate::verdicts::refused;
 
 /// A value of a text that is changed: the path on the first line, the value as JSON on the second, the text after that.
-/// What is no JSON is put in as text. What comes out is TOML, has the value there, and is left alone by the same change.
+/// What is no JSON is put in as text. What comes out is TOML, has the value there, and is left alone by the same change; but
+/// that a new entry of a list can be taken away again.
 pub fn edit(bytes: &[u8]) {
     let input = String::from_utf8_lossy(bytes);
     let mut lines = input.splitn(3, '\n');
@@ -22,6 +23,30 @@ pub fn edit(bytes: &[u8]) {
         Ok(new) => {
             let read = Document::parse("study.toml", &new);
             assert!(read.is_ok_and(|read| change.value.is_null() || read.contains(&change.path)));
+            let before = Document::parse("study.toml", text);
+            let had = before.is_ok_and(|before| before.contains(&change.path));
+            match (had, change.value.is_null()) {
+                // The entry behind it has its place now.
+                (true, true) if change.path.ends_with(']') => return,
+                // A new entry goes again.
+                (false, false) if change.path.ends_with(']') => {
+                    let path = change.path.clone();
+                    let gone = changed(
+                        "study.toml",
+                        &new,
+                        &[Change {
+                            path,
+                            value: serde_json::Value::Null,
+                        }],
+                    );
+                    let gone = gone
+                        .ok()
+                        .and_then(|gone| Document::parse("study.toml", &gone).ok());
+                    assert!(gone.is_some_and(|gone| !gone.contains(&change.path)));
+                    return;
+                }
+                _ => (),
+            }
             let again = changed("study.toml", &new, std::slice::from_ref(&change));
             assert_eq!(again.ok().as_deref(), Some(new.as_str()));
         }

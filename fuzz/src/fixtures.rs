@@ -43,6 +43,11 @@ pub fn edits() -> Vec<Vec<u8>> {
         ("place.\"x y\"", "{\"a\": [true, \"b\"]}"),
         ("ask", "null"),
         ("ask[7].limit_um", "1e300"),
+        ("ask[2]", "{\"kind\": \"map\"}"),
+        ("ask[0]", "null"),
+        ("ballbar[0]", "{\"files\": []}"),
+        ("ask[1].tool.spring[0]", "{\"at\": \"tool\"}"),
+        ("plane.centre_mm[1]", "null"),
         ("", "plain"),
     ];
     let one = |(path, value)| format!("{path}\n{value}\n{TEXT}").into_bytes();

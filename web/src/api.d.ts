@@ -1158,9 +1158,9 @@ export interface components {
         };
         /** @description A value that is to be another. */
         ChangedValue: {
-            /** @description Which: `plane.centre_mm`. */
+            /** @description Which: `plane.centre_mm`, `program.feature[1]`. */
             key: string;
-            /** @description What it is to be; `null` takes it away. */
+            /** @description What it is to be; `null` takes it away. The entry behind the last of a list is a new one. */
             value: unknown;
             /**
              * @description Whether it is one of the study, also where an ask is named.
@@ -3462,7 +3462,7 @@ export interface components {
         };
         /** @description Every posture at one place, as `armill pose --json` tells it, and how each is drawn. */
         PosturesAnswer: {
-            /** @description The postures under the load case asked for. */
+            /** @description The postures under the load case asked for, without what moves the tool along a path beside the load. */
             answer: components["schemas"]["PoseAnswer"];
             /** @description The arm in each posture. */
             drawings: components["schemas"]["DrawnPosture"][];
@@ -3470,7 +3470,10 @@ export interface components {
             limits: components["schemas"]["JointLimits"][];
             /** @description Joints of each posture as the chain of the robot counts them, in place of its controller. */
             chain: components["schemas"]["ChainPosition"][][];
-            /** @description Deviation of each posture under each load case; `null` where the arm finds no rest, or no compliance is known. */
+            /**
+             * @description Deviation of each posture under each load case; `null` where the arm finds no rest, or no compliance is known. Along a
+             *     path backlash and geometry are in that of the posture that it is followed in.
+             */
             in_plane: (components["schemas"]["CaseAnswer"] | null)[][];
         };
         /** @description Every posture of a pose. Positions in the frame `base`, everything else about the TCP in base axes. */

@@ -125,6 +125,49 @@ fn a_change_in_an_ask_mends_it_and_comments_stay() {
 }
 
 #[test]
+fn asks_and_lists_inside_of_them_are_added_and_taken_away_with_comments_kept() {
+    let text = "format = 1\nrobot = \"yaskawa/mh12\"\nlimit_um = 100\nload = { cases_n = [[3, 5, 5]] }\nplane = { centre_mm = [1000, 0, 800], half_size_mm = 100, step_mm = 50 }\n\n# what is asked\n\n# the plate\n[[ask]]\nkind = \"map\" # all of it\n# a remark\n";
+    let with = |text: &str, key: &str, value: Value| {
+        let change = ChangedValue {
+            key: key.to_owned(),
+            value,
+            whole: true,
+        };
+        changed(of(text), None, &[change]).unwrap()
+    };
+    let more = with(text, "ask[1]", json!({"kind": "path"}));
+    assert_eq!(more.text, format!("{text}\n[[ask]]\nkind = \"path\"\n"));
+    // What a path needs is told where it is missing.
+    assert_eq!(
+        (more.asks.len(), more.problems[0].line()),
+        (2, 14),
+        "{:?}",
+        more.problems
+    );
+    let round = with(&more.text, "ask[1].circle.radius_mm", json!(50));
+    assert!(round.problems.is_empty(), "{:?}", round.problems);
+    assert!(answer_json(of(&round.text), Some(&round.asks[1].name), Watch::NONE).is_ok());
+    let spring = with(
+        &round.text,
+        "ask[1].tool.spring[0]",
+        json!({"at": "tool", "source": ""}),
+    );
+    assert!(
+        spring.text.ends_with(
+            "circle = { radius_mm = 50 }\ntool = { spring = [{ at = \"tool\", source = \"\" }] }\n"
+        )
+    );
+    assert!(!spring.problems.is_empty());
+    let back = with(&spring.text, "ask[1].tool.spring[0]", Value::Null);
+    assert_eq!(back.text, round.text);
+    assert_eq!(with(&back.text, "ask[1]", Value::Null).text, text);
+    // The first goes with what is said of it alone; a study without asks means a map.
+    let none = with(text, "ask[0]", Value::Null);
+    assert!(none.text.contains("# what is asked") && !none.text.contains("# the plate"));
+    assert!(none.problems.is_empty() && none.asks.len() == 1);
+}
+
+#[test]
 fn the_values_of_an_ask_are_its_own_or_those_of_the_study() {
     let study = BROKEN.replace("step_mm = -1", "tilt_deg = 30");
     let told = values(of(&study), Some("bad")).unwrap();
@@ -239,6 +282,102 @@ fn points_of_a_path_lie_on_its_plate_and_deviate_as_its_table_says() {
         .map(|case| case.in_plane_um)
         .fold(0.0, f64::max);
     assert!((most - points.columns["in_plane_um"][7].as_f64().unwrap()).abs() < 2e-3);
+}
+
+/// A study whose path is cut.
+const POCKET: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../studies/r2000ic-pocket");
+
+/// The in-plane deviation, its uncertainty and its shares that the answer has at the worst point of this ask, beside those
+/// that an arm standing there has in the same posture.
+fn worst_beside_stand(text: Text<'_>, ask: &str, part: &str) -> [(f64, f64, Vec<f64>); 2] {
+    let stand = Stand {
+        follow: Follow::Worst,
+        at: None,
+        section: 0,
+        case: None,
+    };
+    let told = view(text, Some(ask), (&[], Some(&stand)), Watch::NONE).unwrap();
+    let answer = serde_json::to_value(&told.answer).unwrap();
+    let point = answer.pointer(part).unwrap();
+    let stands = told.stands.unwrap();
+    let branches = stands.pose.answer.postures.iter().map(|posture| &posture.branch);
+    let held = branches
+        .zip(&stands.pose.in_plane)
+        .find(|(branch, _)| json!(branch) == point["branch"]);
+    let here = held.unwrap().1[stands.case - 1].clone().unwrap();
+    // A place to ask for alone.
+    let question = PostureQuestion {
+        ask: Some(ask),
+        at: stands.at,
+        case: stands.case,
+    };
+    let alone = postures(text, &question, Watch::NONE).unwrap();
+    assert_eq!(
+        serde_json::to_value(&alone).unwrap(),
+        serde_json::to_value(&stands.pose).unwrap(),
+        "{ask}"
+    );
+    let number = |key: &str| point[key].as_f64().unwrap();
+    let shares = point["joint_share_um"].as_array().unwrap();
+    let shares = shares.iter().map(|share| share.as_f64().unwrap()).collect();
+    [
+        (number("in_plane_um"), number("in_plane_u_um"), shares),
+        (
+            here.in_plane_um,
+            here.in_plane_u_um.unwrap(),
+            here.share_um.unwrap(),
+        ),
+    ]
+}
+
+#[test]
+fn an_arm_at_the_worst_point_deviates_as_the_answer_says_on_a_cut_or_searched_path_and_at_holes_too() {
+    let pocket = studies::find(Path::new(POCKET)).unwrap();
+    // Turns of a tool in line with the flange would change little.
+    let bent = CIRCLE.replace("[0, 0, 150, 0, 0, 0]", "[60, 0, 150, 0, 30, 0]");
+    let searched = "posture = { search = { turns_deg = [-60, 60], step_deg = 20 } }\n";
+    let holes = format!(
+        "{bent}[[ask]]\nkind = \"holes\"\nname = \"rivets\"\nholes = {{ at_mm = [[0, 0, 0], [40, 20, 0]] }}\n{searched}"
+    );
+    let turned = bent.replace("name = \"rim\"\n", &format!("name = \"rim\"\n{searched}"));
+    let mut found = Vec::new();
+    for (text, ask, part) in [
+        (text(&pocket), "pocket", "/paths/0/worst"),
+        (of(&bent), "rim", "/paths/0/worst"),
+        (of(&turned), "rim", "/paths/0/worst"),
+        (of(&bent), "far", "/maps/0/worst"),
+        (of(&bent), "box", "/volumes/0/worst"),
+        (of(&holes), "rivets", "/holes/0/worst_holes/0/point"),
+    ] {
+        let [answer, stand] = worst_beside_stand(text, ask, part);
+        let close = |a: f64, b: f64| (a - b).abs() < 1e-6 * a.abs().max(1.0);
+        assert!(close(answer.0, stand.0), "{ask}: {} {}", answer.0, stand.0);
+        assert!(close(answer.1, stand.1), "{ask}: {} {}", answer.1, stand.1);
+        assert!(answer.2.iter().zip(&stand.2).all(|(a, b)| close(*a, *b)), "{ask}");
+        found.push(answer.0);
+    }
+    assert!(found[1] > found[2] + 1.0, "the search finds turns: {found:?}");
+}
+
+#[test]
+fn what_moves_the_tool_without_load_is_in_the_posture_that_the_path_is_followed_in() {
+    let folder = tempfile::tempdir().unwrap();
+    let robot = concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots/yaskawa/mh12.toml");
+    let robot = std::fs::read_to_string(robot).unwrap().replace(
+        "compliance_u_source = \"assumed\"\n",
+        "compliance_u_source = \"assumed\"\nbacklash_deg = 0.01\nbacklash_source = \"paper\"\n",
+    );
+    std::fs::write(folder.path().join("loose.toml"), robot).unwrap();
+    let loose = CIRCLE.replace("yaskawa/mh12", "loose.toml");
+    let text = Text {
+        folder: folder.path(),
+        ..of(&loose)
+    };
+    let [answer, stand] = worst_beside_stand(text, "rim", "/paths/0/worst");
+    assert!((answer.0 - stand.0).abs() < 1e-3, "{} {}", answer.0, stand.0);
+    assert!((answer.1 - stand.1).abs() < 1e-3);
+    let [without, _] = worst_beside_stand(of(CIRCLE), "rim", "/paths/0/worst");
+    assert!(answer.0 > without.0 + 1.0);
 }
 
 #[test]

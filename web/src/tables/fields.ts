@@ -1,10 +1,10 @@
 // All tables of a study as fields beside its text: a value that is changed here is changed in the text, with the comments
-// kept; a problem stands at the field that it is about.
+// kept; a problem stands at the field that it is about. Lists of tables get new entries and lose such as go.
 
 import { fill, h, type Child } from "../dom";
 import type { Problem, Tables } from "../types";
 import { input, type Input } from "./inputs";
-import { fieldsOf, named, type Field, type Schema } from "./schema";
+import { beginning, fieldsOf, named, type Field, type Schema } from "./schema";
 
 /** Tables in the order in which one asks for them; others follow. */
 const FIRST = ["place", "posture", "tool", "load", "cut", "plane", "ask"];
@@ -15,8 +15,11 @@ export class Fields {
   private readonly open = new Set<string>();
   private inputs = new Map<string, Input>();
   private tables: Tables | null = null;
+  /** What gets the focus once the text has changed: the begin of its data-key. */
+  private focus: string | null = null;
 
-  constructor(private readonly changed: (path: string, value: unknown) => void) {}
+  /** `changed`: whether the text could be changed. */
+  constructor(private readonly changed: (path: string, value: unknown) => Promise<boolean>) {}
 
   learn(schema: Schema): void {
     const place = (f: Field) => (FIRST.indexOf(f.key) + FIRST.length + 1) % (FIRST.length + 1);
@@ -27,6 +30,11 @@ export class Fields {
   show(tables: Tables): void {
     this.tables = tables;
     this.draw();
+    if (this.focus === null) return;
+    const target = this.root.querySelector<HTMLElement>(`[data-key^="${CSS.escape(this.focus)}"]`);
+    this.focus = null;
+    target?.scrollIntoView({ block: "nearest" });
+    target?.focus({ preventScroll: true });
   }
 
   /** Unfolds a table and shows it. */
@@ -50,25 +58,64 @@ export class Fields {
     return fields.map((f) => {
       const at = path === "" ? f.key : `${path}.${f.key}`;
       if (f.kind.of === "table" || f.kind.of === "tables") return this.child(f, at, values[f.key]);
-      const made = input(at, f, values[f.key], (value) => this.changed(at, value));
+      const made = input(at, f, values[f.key], (value) => void this.changed(at, value));
       this.inputs.set(at, made);
       return made.root;
     });
   }
 
   private child(field: Field, path: string, value: unknown): Child {
-    const table = (at: string, title: string, of: unknown) => {
-      const fields = field.kind.of === "table" || field.kind.of === "tables" ? field.kind.fields : [];
+    const fields = field.kind.of === "table" || field.kind.of === "tables" ? field.kind.fields : [];
+    const table = (at: string, title: string, of: unknown, ...more: Child[]) => {
       const values = typeof of === "object" && of !== null && !Array.isArray(of) ? (of as Record<string, unknown>) : {};
-      return this.fold(at, title, field.about, () => this.rows(fields, at, values), of !== undefined);
+      return this.fold(at, title, field.about, () => [...this.rows(fields, at, values), ...more], of !== undefined);
     };
-    if (field.kind.of === "table") return table(path, named(field.key).name, value);
-    // Entries that are there; more are written in the text.
+    const { name } = named(field.key);
+    if (field.kind.of === "table") return table(path, name, value);
     const entries = Array.isArray(value) ? value : [];
-    return entries.map((entry: unknown, i) => {
-      const name = typeof entry === "object" && entry !== null && "name" in entry ? String(entry.name) : String(i + 1);
-      return table(`${path}[${i}]`, `${named(field.key).name}: ${name}`, entry);
+    const tables = entries.map((entry: unknown, i) => {
+      const own = typeof entry === "object" && entry !== null && "name" in entry && entry.name !== "" ? String(entry.name) : String(i + 1);
+      return table(`${path}[${i}]`, `${name}: ${own}`, entry, this.button(`remove ${path}[${i}]`, `Remove ${name}: ${own}`, () => this.remove(path, i)));
     });
+    return [...tables, this.button(`add ${path}`, `Add ${name}`, () => this.add(path, entries.length, fields))];
+  }
+
+  private button(key: string, text: string, pressed: () => Promise<boolean>): Child {
+    const button = h("button", { type: "button", class: "quiet small entry-button", "data-key": key }, text);
+    // Once: what it stands for is another after that.
+    button.addEventListener("click", () => {
+      button.disabled = true;
+      void pressed().then((made) => {
+        button.disabled = made;
+        if (!made) this.focus = null;
+      });
+    });
+    return button;
+  }
+
+  private async add(path: string, count: number, fields: Field[]): Promise<boolean> {
+    const at = `${path}[${count}]`;
+    this.open.add(at);
+    this.focus = `${at}.`;
+    return this.changed(at, beginning(fields));
+  }
+
+  private async remove(path: string, index: number): Promise<boolean> {
+    this.focus = `add ${path}`;
+    const made = await this.changed(`${path}[${index}]`, null);
+    if (made) this.openAfter(path, index);
+    return made;
+  }
+
+  /** Entries behind one that went have moved up, and are as open as they were. */
+  private openAfter(path: string, index: number): void {
+    const open = [...this.open].flatMap((at) => {
+      const inside = at.startsWith(`${path}[`) ? /^\[(\d+)\](.*)$/.exec(at.slice(path.length)) : null;
+      if (!inside || Number(inside[1]) < index) return [at];
+      return Number(inside[1]) === index ? [] : [`${path}[${Number(inside[1]) - 1}]${inside[2]}`];
+    });
+    this.open.clear();
+    open.forEach((at) => this.open.add(at));
   }
 
   /** A table that unfolds; what is inside is made when it does. `there`: the text has it. */

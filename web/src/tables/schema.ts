@@ -75,6 +75,33 @@ function kindOf(schema: Schema, root: Schema): Kind {
   return { of: "list" };
 }
 
+/** A table that has what it needs, to begin with: what cannot be guessed is empty, and the server tells what is wrong with it. */
+export function beginning(fields: Field[]): Record<string, unknown> {
+  const needed = fields.filter((f) => f.needed);
+  return Object.fromEntries(needed.map((f) => [f.key, first(f.kind)]));
+}
+
+function first(kind: Kind): unknown {
+  const zero = ({ least, most }: { least: number | null; most: number | null }) => Math.min(Math.max(0, least ?? 0), most ?? Infinity);
+  switch (kind.of) {
+    case "number":
+      return zero(kind);
+    case "numbers":
+      return Array<number>(kind.count ?? 0).fill(zero(kind));
+    case "choice":
+      return kind.options[0]!.value;
+    case "flag":
+      return false;
+    case "text":
+      return "";
+    case "table":
+      return beginning(kind.fields);
+    case "list":
+    case "tables":
+      return [];
+  }
+}
+
 const UNITS: [string, string][] = [
   ["_mm_deg", "mm, °"],
   ["_rad_per_n_m", "rad/(N m)"],

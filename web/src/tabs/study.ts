@@ -47,15 +47,19 @@ export function studyTab(live: Live): Tab & { reveal: (table: string) => void } 
   // A field changes the text that stands there when its turn comes: one after the other.
   let turn: Promise<void> = Promise.resolve();
   const fields = new Fields((path, value) => {
-    turn = turn.then(async () => {
+    const made = turn.then(async () => {
       try {
         const made = await api.change(text.value, null, [{ key: path, value, whole: true }]);
         text.value = made.text;
         edited();
+        return true;
       } catch (error) {
         message.textContent = error instanceof Error ? error.message : String(error);
+        return false;
       }
     });
+    turn = made.then(() => undefined);
+    return made;
   });
   void api.schema().then((schema) => fields.learn(schema), () => undefined);
   const checks = new Newest<string, [Checked, Tables]>({

@@ -91,6 +91,53 @@ test("[posture.search], [tool] and the asks by fields; what they change is answe
   await page.context().close();
 });
 
+test("an ask is added, filled in, answered and removed again; a list inside it likewise", async () => {
+  const page = await open(browser, server.url);
+  await page.click("#tab-study");
+  await fine(page);
+  const text = () => page.inputValue("#study-text");
+  const before = await text();
+  const asks = (before.match(/^\[\[ask\]\]/gm) ?? []).length;
+  const at = `ask[${asks}]`;
+  await page.getByRole("button", { name: "Add ask", exact: true }).click();
+  await field(page, `${at}.kind`).waitFor();
+  assert.equal(await text(), `${before}\n[[ask]]\nkind = "map"\n`);
+  // Ready to be filled in: its first field has the focus.
+  await page.waitForFunction((key) => document.activeElement?.dataset.key === key, `${at}.kind 0`);
+  await field(page, `${at}.kind`).locator("select").selectOption("path");
+  // What a path needs is missing: told, at the entry.
+  await page.waitForSelector(`[data-table="${at}"].wrong`);
+  await field(page, `${at}.name`).locator("input").fill("rim");
+  await field(page, `${at}.name`).locator("input").press("Tab");
+  await page.locator(`[data-table="${at}"] > summary`, { hasText: "ask: rim" }).waitFor();
+  await unfold(page, `${at}.circle`);
+  await field(page, `${at}.circle.radius_mm`).locator("input").fill("40");
+  await field(page, `${at}.circle.radius_mm`).locator("input").press("Tab");
+  await fine(page);
+  // An entry of a list inside: what it needs is there, and what is wrong with it stands at its field.
+  await unfold(page, `${at}.tool`);
+  await page.locator(`[data-key="add ${at}.tool.spring"]`).click();
+  await field(page, `${at}.tool.spring[0].at`).waitFor();
+  assert.match(await text(), /spring = \[\{ at = "", source = "" \}\]/);
+  await page.waitForSelector(`.row[data-path="${at}.tool.spring[0].at"] [aria-invalid=true]`);
+  await page.locator(`[data-key="remove ${at}.tool.spring[0]"]`).click();
+  await fine(page);
+  assert.doesNotMatch(await text(), /spring/);
+  await page.click("#tab-live");
+  await settled(page);
+  await page.locator("#field-ask").selectOption("rim");
+  await settled(page);
+  const { paths } = await ask("POST", "/api/answer", { text: `${before}\n[[ask]]\nkind = "path"\nname = "rim"\ncircle = { radius_mm = 40 }\n`, ask: "rim" });
+  assert.ok((await page.locator("[data-follow=worst] .extreme-value").innerText()).startsWith(String(Math.round(paths[0].worst.in_plane_um))));
+  await page.click("#tab-study");
+  await page.getByRole("button", { name: "Remove ask: rim", exact: true }).click();
+  await page.waitForFunction((text) => document.querySelector("#study-text").value === text, before);
+  await fine(page);
+  assert.equal(await page.locator(`[data-table="${at}"]`).count(), 0);
+  assert.deepEqual(page.complaints, []);
+  await page.context().close();
+});
+
 test("joints are counted as the controller does, or as the chain does", async () => {
   const page = await open(browser, server.url);
   const text = readFileSync(join(server.folder, "study.toml"), "utf8");

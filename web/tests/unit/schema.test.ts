@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { fieldsOf, named, type Schema } from "../../src/tables/schema";
+import { beginning, fieldsOf, named, type Schema } from "../../src/tables/schema";
 
 const SCHEMA: Schema = {
   type: "object",
@@ -43,4 +43,22 @@ test("the unit is the end of a key", () => {
   expect(named("turn_deg_per_mm")).toEqual({ name: "turn", unit: "°/mm" });
   expect(named("cases_n")).toEqual({ name: "cases", unit: "N" });
   expect(named("kind")).toEqual({ name: "kind", unit: "" });
+});
+
+test("a new entry has what its table needs, within its bounds, and no more", () => {
+  const schema: Schema = {
+    type: "object",
+    required: ["kind", "name", "mass_kg", "centre_mm", "files", "inner", "least_mm"],
+    properties: {
+      kind: { oneOf: [{ const: "map" }, { const: "path" }] },
+      name: { type: "string" },
+      mass_kg: { type: "number", minimum: 0 },
+      centre_mm: { type: "array", items: { type: "number", minimum: -1, maximum: 1 }, minItems: 3, maxItems: 3 },
+      files: { type: "array", items: { type: "string" } },
+      inner: { type: "object", required: ["on"], properties: { on: { type: "boolean" }, off: { type: "boolean" } } },
+      least_mm: { type: "number", minimum: 5 },
+      title: { type: "string" },
+    },
+  };
+  expect(beginning(fieldsOf(schema, schema))).toEqual({ kind: "map", name: "", mass_kg: 0, centre_mm: [0, 0, 0], files: [], inner: { on: false }, least_mm: 5 });
 });

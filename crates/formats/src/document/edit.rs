@@ -10,26 +10,27 @@
 //! # Ok::<(), armill_formats::document::Problems>(())
 //! ```
 
-use toml_edit::{Array, DocumentMut, InlineTable, Item, Table, Value};
+use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, Value};
 
 use super::path::{Step, steps};
-use super::{Document, Problem, Problems};
+use super::{Document, Problem, Problems, entries};
 
 /// One value that is to be another.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Change {
     /// Which, as [`Document::problem`] takes it: `plane.centre_mm`, `ask[1].plane.step_mm`.
     pub path: String,
-    /// What it is to be; `null` takes it away.
+    /// What it is to be; `null` takes it away. The entry behind the last of a list is a new one.
     pub value: serde_json::Value,
 }
 
-/// The text with these changes, one after the other; tables that are not there are made.
+/// The text with these changes, one after the other; tables and lists that are not there are made, lists and tables on a
+/// line that are empty then taken away.
 ///
 /// Not checked: whether it is still what anybody wants; reading it tells that.
 ///
 /// # Errors
-/// A text that is not TOML; every change that cannot be made: an entry of a list that is not there, a key inside what is
+/// A text that is not TOML, or would not be any more; every change that cannot be made: an entry of a list that is not there, a key inside what is
 /// no table, a value that TOML cannot hold.
 pub fn changed(name: &str, text: &str, changes: &[Change]) -> Result<String, Problems> {
     let checked = Document::parse(name, text)?;
@@ -38,16 +39,28 @@ pub fn changed(name: &str, text: &str, changes: &[Change]) -> Result<String, Pro
     })?;
     let mut refused: Vec<Problem> = Vec::new();
     for Change { path, value } in changes {
+        let steps = steps(path);
         let made = match value {
-            serde_json::Value::Null => remove(document.as_item_mut(), &steps(path)),
-            value => toml_value(value).and_then(|value| set(document.as_item_mut(), &steps(path), value)),
+            serde_json::Value::Null => {
+                let others = entries::others(document.as_item(), &steps);
+                let removed = remove(document.as_item_mut(), &steps);
+                if let (Ok(()), Some(others)) = (&removed, others) {
+                    entries::put_back(&mut document, &others);
+                }
+                removed
+            }
+            value => toml_value(value).and_then(|value| set(document.as_item_mut(), &steps, value)),
         };
+        entries::settle(&mut document);
         if let Err(reason) = made {
             refused.push(checked.problem(path, format!("`{path}` cannot be changed: {reason}"), None));
         }
     }
     Problems::from(refused).into_result()?;
-    Ok(document.to_string())
+    let new = document.to_string();
+    // A path as deep as nobody has tables makes a text that nobody reads.
+    Document::parse(name, &new)?;
+    Ok(new)
 }
 
 /// The value of TOML that says the same.
@@ -82,15 +95,22 @@ fn set(here: &mut Item, steps: &[Step], value: Value) -> Result<(), String> {
         return replace(here, value);
     };
     let next = match first {
+        Step::Entry(index) if rest.is_empty() && entries::count(here) == Some(*index) => {
+            return entries::append(here, value);
+        }
         Step::Entry(index) => here.get_mut(*index).ok_or(format!("there is no entry {index}"))?,
         Step::Key(key) => {
             // Below the root a table gets its header, inside of others it stands on a line of theirs.
             let at_root = here.as_table().is_some_and(|table| table.position().is_none());
             let table = here.as_table_like_mut().ok_or("it stands in what is no table")?;
-            table.entry(key).or_insert_with(|| match rest.is_empty() {
-                true => Item::Value(Value::from(false)),
-                false if at_root => Item::Table(Table::new()),
-                false => Item::Value(Value::InlineTable(InlineTable::new())),
+            table.entry(key).or_insert_with(|| match rest {
+                [] => Item::Value(Value::from(false)),
+                [Step::Entry(_)] if at_root && value.is_inline_table() => {
+                    Item::ArrayOfTables(ArrayOfTables::new())
+                }
+                [Step::Entry(_)] => Item::Value(Value::Array(Array::new())),
+                _ if at_root => Item::Table(Table::new()),
+                _ => Item::Value(Value::InlineTable(InlineTable::new())),
             })
         }
     };
@@ -110,7 +130,8 @@ fn replace(here: &mut Item, mut value: Value) -> Result<(), String> {
     Ok(())
 }
 
-/// Takes the value at these steps away, and a table on a line that is then empty; what is not there is gone already.
+/// Takes the value at these steps away, and a list or a table on a line that is then empty; what is not there is gone
+/// already.
 fn remove(here: &mut Item, steps: &[Step]) -> Result<(), String> {
     match steps {
         [] => Err("it is the whole file".to_owned()),
@@ -119,7 +140,7 @@ fn remove(here: &mut Item, steps: &[Step]) -> Result<(), String> {
             table.remove(key);
             Ok(())
         }
-        [Step::Entry(_)] => Err("entries of lists are not taken away".to_owned()),
+        [Step::Entry(index)] => entries::take(here, *index),
         [first, rest @ ..] => {
             let next = match first {
                 Step::Key(key) => here.get_mut(key.as_str()),
@@ -129,7 +150,8 @@ fn remove(here: &mut Item, steps: &[Step]) -> Result<(), String> {
                 return Ok(());
             };
             remove(next, rest)?;
-            let emptied = next.as_inline_table().is_some_and(InlineTable::is_empty);
+            let emptied = next.as_inline_table().is_some_and(InlineTable::is_empty)
+                || matches!(rest, [Step::Entry(_)]) && entries::count(next) == Some(0);
             match (first, here.as_table_like_mut()) {
                 (Step::Key(key), Some(table)) if emptied => drop(table.remove(key)),
                 _ => (),
@@ -195,6 +217,112 @@ mod tests {
     }
 
     #[test]
+    fn a_new_entry_stands_behind_the_last_and_takes_no_comment_of_others() {
+        let new = with("ask[2]", json!({"kind": "map", "name": ""})).unwrap();
+        assert_eq!(new, format!("{STUDY}\n[[ask]]\nkind = \"map\"\nname = \"\"\n"));
+        let first = with("ballbar[0]", json!({"files": []})).unwrap();
+        assert_eq!(first, format!("{STUDY}\n[[ballbar]]\nfiles = []\n"));
+        // Remarks below the last ask stay with it, what is about the next table or the file stays there.
+        let text = "[[ask]]\nkind = \"map\"\n[ask.plane] # its own\nstep_mm = 5\n# a remark on it\n\n# the place\n[place]\nx_mm = [1, 2]\n# the end\n";
+        let more = to(text, "ask[1]", json!({"kind": "path"}));
+        assert_eq!(
+            more,
+            text.replace("\n# the place", "\n[[ask]]\nkind = \"path\"\n\n# the place")
+        );
+        let text = "limit_um = 1\n# of the drawing";
+        let one = to(text, "ask[0]", json!({"kind": "map"}));
+        assert_eq!(one, format!("{text}\n\n[[ask]]\nkind = \"map\"\n"));
+        let close = "[[ask]]\nkind = \"map\"\n# the place\n[place]\n";
+        let close = to(close, "ask[1]", json!({"kind": "path"}));
+        assert_eq!(
+            close,
+            "[[ask]]\nkind = \"map\"\n\n[[ask]]\nkind = \"path\"\n# the place\n[place]\n"
+        );
+    }
+
+    #[test]
+    fn an_entry_goes_with_its_comments_and_leaves_the_others() {
+        let text = "limit_um = 1\n\n# ---- asks ----\n\n# the first\n[[ask]] # here\nkind = \"map\"\n[ask.plane]\nstep_mm = 5\n\n# the rim\n[[ask]]\nkind = \"path\" # round\n# a remark on the rim\n\n# where it may lie\n[place]\nx_mm = [1, 2]\n";
+        let without_first = to(text, "ask[0]", Json::Null);
+        assert_eq!(
+            without_first,
+            text.replace(
+                "\n# the first\n[[ask]] # here\nkind = \"map\"\n[ask.plane]\nstep_mm = 5\n",
+                ""
+            )
+        );
+        let without_rim = to(text, "ask[1]", Json::Null);
+        assert!(without_rim.contains("step_mm = 5\n# a remark on the rim\n\n# where it may lie\n[place]"));
+        assert!(!without_rim.contains("round") && !without_rim.contains("# the rim"));
+        let none = to(&without_rim, "ask[0]", Json::Null);
+        assert!(
+            none.starts_with("limit_um = 1\n\n# ---- asks ----\n") && !none.contains("ask]"),
+            "{none}"
+        );
+        // Nothing is there, so nothing goes.
+        assert_eq!(to(text, "ask[2]", Json::Null), text);
+    }
+
+    #[test]
+    fn entries_of_lists_inside_of_tables_come_and_go_with_their_lines() {
+        let text = "[[ask]]\nprogram = { file = \"a.ngc\", feature = [\n  { name = \"bore\" }, # the bore\n  # the rim, too\n  { name = \"rim\" } # last\n] }\n";
+        let longer = to(text, "ask[0].program.feature[2]", json!({"name": "slot"}));
+        assert_eq!(
+            longer,
+            text.replace(
+                "{ name = \"rim\" } # last\n]",
+                "{ name = \"rim\" }, # last\n  { name = \"slot\" },\n]"
+            )
+        );
+        let rim = to(text, "ask[0].program.feature[0]", Json::Null);
+        assert_eq!(rim, text.replace("\n  { name = \"bore\" }, # the bore", ""));
+        let bore = to(text, "ask[0].program.feature[1]", Json::Null);
+        assert_eq!(
+            bore,
+            text.replace(
+                "{ name = \"bore\" }, # the bore\n  # the rim, too\n  { name = \"rim\" } # last",
+                "{ name = \"bore\" } # the bore"
+            )
+        );
+        let none = to(&bore, "ask[0].program.feature[0]", Json::Null);
+        assert_eq!(none, "[[ask]]\nprogram = { file = \"a.ngc\"}\n");
+        let spring = to(
+            "[tool] # steel\nlength_mm = 5\n",
+            "tool.spring[0]",
+            json!({"at": "tool"}),
+        );
+        assert_eq!(
+            spring,
+            "[tool] # steel\nlength_mm = 5\nspring = [{ at = \"tool\" }]\n"
+        );
+        let nested = "[tool]\n[[tool.spring]] # soft\nat = \"tool\"\n[plane]\n";
+        let second = to(nested, "tool.spring[1]", json!({"at": "base"}));
+        assert_eq!(
+            second,
+            nested.replace("[plane]", "\n[[tool.spring]]\nat = \"base\"\n[plane]")
+        );
+    }
+
+    /// This text with one change, which is TOML still.
+    fn to(text: &str, path: &str, value: Json) -> String {
+        let change = Change {
+            path: path.to_owned(),
+            value,
+        };
+        let new = changed("study.toml", text, &[change]).unwrap();
+        assert!(Document::parse("", &new).is_ok(), "{new}");
+        new
+    }
+
+    #[test]
+    fn a_path_deeper_than_tables_go_is_refused() {
+        for path in ["a.".repeat(90) + "a", "ask[0".to_owned() + &"[".repeat(90)] {
+            assert!(with(&path, json!("x")).is_err(), "{path}");
+        }
+        assert!(with("a.b.c.d.e", json!("x")).is_ok());
+    }
+
+    #[test]
     fn all_that_cannot_be_changed_is_told_with_its_place() {
         let change = |path: &str, value: Json| Change {
             path: path.to_owned(),
@@ -204,6 +332,8 @@ mod tests {
             change("ask[7].limit_um", json!(1)),
             change("plane", json!(1)),
             change("limit_um.deeper", json!(1)),
+            change("limit_um[0]", json!(1)),
+            change("ask[2]", json!(1)),
             change("plane.step_mm", json!([null])),
             change("", Json::Null),
         ];
@@ -216,7 +346,7 @@ mod tests {
     proptest! {
         #[test]
         fn no_change_panics_and_what_comes_out_is_toml(
-            path in "[a-z_.\\[\\]\"0-9]{0,12}|(plane|ask\\[[01]\\])(\\.[a-z]{1,4}){0,3}",
+            path in "[a-z_.\\[\\]\"0-9]{0,12}|(plane|ask\\[[0-3]\\])(\\.[a-z]{1,4}){0,3}(\\[[01]\\])?",
             number in proptest::num::f64::ANY,
         ) {
             for value in [json!(number), json!({"a": [number, "x"]}), Json::Null] {

@@ -7,7 +7,7 @@
 //! In reading order: `source` (the text), `problem` (what is told of it), `tree` (its values, each with its place),
 //! `path` (finds a value), `limits` (refuses what would nest too deep); `shape` and `merge` (what a schema wants),
 //! `check` (compares tree and shape), `unit` and `words` (units of names, and how both are said); [`edit`] (changes values of
-//! a text and leaves the rest); `lines` (text that is no TOML, line by line).
+//! a text and leaves the rest) with `entries` (of lists: new ones, and such as go); `lines` (text that is no TOML, line by line).
 //!
 //! ```
 //! use armill_formats::document::Document;
@@ -27,6 +27,7 @@
 
 mod check;
 pub mod edit;
+mod entries;
 mod limits;
 pub(crate) mod lines;
 mod merge;

@@ -11,6 +11,7 @@
 //! | `tables` | which values does the text give, for fields to be filled with? |
 //! | `answered` | what does `armill run` say of it: answer, table, pictures? |
 //! | `posture` | how does the arm stand at one place of it, and what does a load do there? |
+//! | `along` | how does the answer hold the tool at a point of a path, or at a hole, and what pushes there? |
 //! | `stand` | where are its worst and best points, and how does the arm stand there? |
 //! | `scene` | what of it can be drawn in space? |
 //! | `meshes` | how does the robot look, where its file names shapes? |
@@ -28,6 +29,7 @@
 //! # Ok::<(), armill_study::StudyError>(())
 //! ```
 
+mod along;
 mod answered;
 mod file_kind;
 mod meshes;

@@ -49,9 +49,9 @@ pub struct ChangedAnswer {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ChangedValue {
-    /// Which: `plane.centre_mm`.
+    /// Which: `plane.centre_mm`, `program.feature[1]`.
     pub key: String,
-    /// What it is to be; `null` takes it away.
+    /// What it is to be; `null` takes it away. The entry behind the last of a list is a new one.
     pub value: serde_json::Value,
     /// Whether it is one of the study, also where an ask is named.
     #[serde(default)]

@@ -2,12 +2,13 @@
 //!
 //! A place is told on the plane of the ask, by joints, as a point of the frame that coordinates count from with the tool
 //! held as on the plane, or by the number of a point of a path, of holes or of a box. What yields and weighs is the
-//! study's, as in its answer. Turns that a search finds along a path are left out, and so is what moves the tool there
-//! without load.
+//! study's, as in its answer.
+//!
+//! At a point of a path the posture that the path is followed in deviates as the path tells: `along` says what that takes.
 
 use armill_core::compliance::{by_force, permissible_force, permissible_force_in_worst_direction};
 use armill_core::frame::{Isometry, tool_orientation};
-use armill_core::kernel::{BranchChoice, Question, evaluate};
+use armill_core::kernel::{BranchChoice, Question, evaluate, evaluate_on_path};
 use armill_core::nalgebra::{Point2, Point3, Unit, Vector3};
 use armill_core::predict::predict_in_full;
 use armill_core::robot::Robot;
@@ -20,16 +21,16 @@ use armill_core::workpiece::Split;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::along::{Held, at_hole, on_path};
 use super::meshes::{DrawnMesh, Shapes};
 use super::{Text, setting};
 use crate::error::StudyError;
-use crate::file::path::PathAsk;
 use crate::file::resolve::{Parsed, Setting, Study, Subject};
 use crate::joint_unit::JointUnit;
 use crate::number::without_rounding;
 use crate::output::arm_posture;
 use crate::pose::{At, PoseAnswer, PoseQuestion, answer_under, joint_positions};
-use crate::run::runner;
+use crate::run::Done;
 
 /// Where the tool is: one of these.
 #[derive(Clone, Debug, Default, Deserialize, Serialize, JsonSchema)]
@@ -69,7 +70,7 @@ pub struct PostureQuestion<'a> {
 /// Every posture at one place, as `armill pose --json` tells it, and how each is drawn.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PosturesAnswer {
-    /// The postures under the load case asked for.
+    /// The postures under the load case asked for, without what moves the tool along a path beside the load.
     pub answer: PoseAnswer,
     /// The arm in each posture.
     pub drawings: Vec<DrawnPosture>,
@@ -77,7 +78,8 @@ pub struct PosturesAnswer {
     pub limits: Vec<JointLimits>,
     /// Joints of each posture as the chain of the robot counts them, in place of its controller.
     pub chain: Vec<Vec<ChainPosition>>,
-    /// Deviation of each posture under each load case; `null` where the arm finds no rest, or no compliance is known.
+    /// Deviation of each posture under each load case; `null` where the arm finds no rest, or no compliance is known. Along a
+    /// path backlash and geometry are in that of the posture that it is followed in.
     pub in_plane: Vec<Vec<Option<CaseAnswer>>>,
 }
 
@@ -156,11 +158,13 @@ pub struct CaseAnswer {
 }
 
 /// Where the tool is, in the terms of the core.
-struct Asked {
-    at: At,
-    normal: Unit<Vector3<f64>>,
+pub(super) struct Asked {
+    pub at: At,
+    pub normal: Unit<Vector3<f64>>,
     /// Wrenches on the tool, base, one a case.
-    cases: Vec<Wrench>,
+    pub cases: Vec<Wrench>,
+    /// How the answer holds the tool there, of a path and of holes.
+    pub held: Option<Held>,
 }
 
 /// Every posture at a place of this ask.
@@ -173,17 +177,23 @@ pub fn postures(
     watch: Watch<'_>,
 ) -> Result<PosturesAnswer, StudyError> {
     let (parsed, _, study) = text.one_ask(question.ask)?;
-    postures_of((text, &parsed, &study), (&question.at, question.case), watch)
+    postures_of(
+        (text, &parsed, &study),
+        (&question.at, question.case),
+        None,
+        watch,
+    )
 }
 
-/// [`postures`] of a text that has been read, its study with this ask alone.
+/// [`postures`] of a text that has been read, its study with this ask alone, which may have been done.
 pub(super) fn postures_of(
     (text, parsed, study): (Text<'_>, &Parsed, &Study),
     (at, case): (&Place, usize),
+    done: Option<&Done<'_>>,
     watch: Watch<'_>,
 ) -> Result<PosturesAnswer, StudyError> {
     let setting = setting(study, at.section.unwrap_or(0))?;
-    let asked = asked(study, setting, at, watch)?;
+    let asked = asked((study, setting), at, done, watch)?;
     let robot = &study.robot.robot;
     let wrench = match (
         case.checked_sub(1).and_then(|case| asked.cases.get(case)),
@@ -198,11 +208,13 @@ pub(super) fn postures_of(
         }
         (found, _) => found.copied(),
     };
-    let home = setting.home.as_ref();
+    // Joints to spare stand as they do in the answer.
+    let held = asked.held.as_ref().and_then(|held| held.joints.as_ref());
+    let home = held.or(setting.home.as_ref());
     let answer = answer_under(
         &study.robot,
         &PoseQuestion {
-            at: asked.at,
+            at: asked.at.clone(),
             flange_from_tool: setting.flange_from_tool,
             wrench,
             load_dependent: setting.model.load_dependent,
@@ -226,7 +238,7 @@ pub(super) fn postures_of(
     let of_cases = joints
         .iter()
         .zip(&answer.postures)
-        .map(|(q, posture)| deviations(robot, setting, (q, &posture.branch), (&asked.cases, asked.normal)));
+        .map(|(q, posture)| deviations(robot, setting, (q, &posture.branch), &asked));
     let in_plane = of_cases.collect();
     let shapes = Shapes::of(&parsed.file.robot, text.folder);
     let drawn = |q: &Vec<f64>| DrawnPosture {
@@ -243,11 +255,17 @@ pub(super) fn postures_of(
 }
 
 /// What the place means.
-fn asked(study: &Study, setting: &Setting, at: &Place, watch: Watch<'_>) -> Result<Asked, StudyError> {
+fn asked(
+    (study, setting): (&Study, &Setting),
+    at: &Place,
+    done: Option<&Done<'_>>,
+    watch: Watch<'_>,
+) -> Result<Asked, StudyError> {
     let on_plane = |at: At| Asked {
         at,
         normal: setting.plane.normal(),
         cases: setting.cases.clone(),
+        held: None,
     };
     let one_of = "one of: y_mm with z_mm, joints_deg, xyz_mm, point";
     let numbers = [at.y_mm, at.z_mm].into_iter().flatten();
@@ -270,7 +288,7 @@ fn asked(study: &Study, setting: &Setting, at: &Place, watch: Watch<'_>) -> Resu
             let tcp = setting.base_from_counted * Point3::from(Vector3::from(xyz) * 1e-3);
             Ok(on_plane(At::Pose(held_at(setting, tcp))))
         }
-        (None, None, None, None, Some(index)) => point(study, (setting, index), watch),
+        (None, None, None, None, Some(index)) => point((study, setting), index, done, watch),
         _ => Err(StudyError::value("the place is not told in one way", one_of)),
     }
 }
@@ -287,35 +305,37 @@ fn held_at(setting: &Setting, tcp: Point3<f64>) -> Isometry {
 }
 
 /// A point of a path, of holes or of a box.
-fn point(study: &Study, (setting, index): (&Setting, usize), watch: Watch<'_>) -> Result<Asked, StudyError> {
-    let beyond = |count: usize| {
-        StudyError::value(
+fn point(
+    (study, setting): (&Study, &Setting),
+    index: usize,
+    done: Option<&Done<'_>>,
+    watch: Watch<'_>,
+) -> Result<Asked, StudyError> {
+    let within = |count: usize| match index < count {
+        true => Ok(()),
+        false => Err(StudyError::value(
             format!("there is no point {index}"),
             format!("they count from 0 to {}", count.saturating_sub(1)),
-        )
-    };
-    let on_path = |path: &PathAsk| {
-        let track = &path.track;
-        if index >= track.len() {
-            return Err(beyond(track.len()));
-        }
-        let (load, _) = runner(study, watch)?.pushed(path)?;
-        let loaded = track.loaded_stop(index, &load);
-        Ok(Asked {
-            at: At::Pose(loaded.stop.base_from_tool),
-            normal: loaded.stop.normal,
-            cases: loaded.cases,
-        })
+        )),
     };
     match study.asks.first().map(|ask| &ask.subject) {
-        Some(Subject::Path(path)) => on_path(path),
-        Some(Subject::Holes(holes)) => on_path(&holes.path),
-        Some(Subject::Volume(_, grid)) if index < grid.len() => Ok(Asked {
-            at: At::Pose(held_at(setting, grid.point(index))),
-            normal: setting.plane.normal(),
-            cases: setting.cases.clone(),
-        }),
-        Some(Subject::Volume(_, grid)) => Err(beyond(grid.len())),
+        Some(Subject::Path(path)) => {
+            within(path.track.len())?;
+            on_path((study, path), index, done, watch)
+        }
+        Some(Subject::Holes(holes)) => {
+            within(holes.path.track.len())?;
+            at_hole((study, holes), index, done, watch)
+        }
+        Some(Subject::Volume(_, grid)) => {
+            within(grid.len())?;
+            Ok(Asked {
+                at: At::Pose(held_at(setting, grid.point(index))),
+                normal: setting.plane.normal(),
+                cases: setting.cases.clone(),
+                held: None,
+            })
+        }
         _ => Err(StudyError::value(
             "points of a map are told by y_mm and z_mm",
             "such as {\"y_mm\": 0, \"z_mm\": 0}",
@@ -328,11 +348,16 @@ fn deviations(
     robot: &Robot,
     setting: &Setting,
     (q, branch): (&[f64], &str),
-    (cases, normal): (&[Wrench], Unit<Vector3<f64>>),
+    asked: &Asked,
 ) -> Vec<Option<CaseAnswer>> {
+    let (cases, normal) = (&asked.cases, asked.normal);
     let Some(compliance) = robot.compliance() else {
         return vec![None; cases.len()];
     };
+    let held = asked.held.as_ref();
+    let unloaded = held
+        .filter(|held| held.is_in(q))
+        .and_then(|held| held.unloaded.as_ref());
     let arm = Arm {
         robot,
         compliance,
@@ -343,9 +368,10 @@ fn deviations(
     standing.stand(q);
     let yields = by_force(&setting.compliance_at(robot, q));
     let any = permissible_force_in_worst_direction(&yields, normal, setting.limit).0;
-    let mut of = |wrench: &Wrench| {
+    let mut of = |(case, wrench): (usize, &Wrench)| {
         let deviation = predict_in_full(&mut standing, wrench).ok()?;
-        let split = Split::of(&deviation.twist.linear, normal);
+        let moved = unloaded.map_or_else(Vector3::zeros, |unloaded| unloaded.moved[case]);
+        let split = Split::of(&(deviation.twist.linear + moved), normal);
         let question = Question {
             arm,
             home: Some(q),
@@ -354,7 +380,8 @@ fn deviations(
             normal,
             choice: BranchChoice::Best,
         };
-        let (u, shares) = in_plane_parts(&question, (q, branch)).unzip();
+        let dragged = unloaded.map(|unloaded| unloaded.dragged.as_slice());
+        let (u, shares) = in_plane_parts(&question, (q, branch), dragged).unzip();
         // A case that is a moment alone has no direction.
         let along =
             Unit::try_new(wrench.force, 1e-12).map(|f| permissible_force(&yields, normal, f, setting.limit));
@@ -368,28 +395,38 @@ fn deviations(
             permissible_any_direction_n: Some(any).filter(|n| n.is_finite()),
         })
     };
-    cases.iter().map(&mut of).collect()
+    cases.iter().enumerate().map(&mut of).collect()
 }
 
 /// Positions (rad, m) that are the same posture, whatever was computed on the way there.
 const SAME_POSTURE: f64 = 1e-6;
 
+/// Whether these positions (rad, m) are the same posture.
+pub(super) fn is_same(a: &[f64], b: &[f64]) -> bool {
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() < SAME_POSTURE)
+}
+
 /// Standard uncertainty (um) of the in-plane deviation and the shares in it, as a map tells them, of the posture `q` that
-/// has this name; none of a posture without a name that the arm could be asked for by.
-fn in_plane_parts(question: &Question<'_>, (q, branch): (&[f64], &str)) -> Option<(f64, Vec<f64>)> {
+/// has this name; none of a posture without a name that the arm could be asked for by. On a path where links were `dragged`
+/// in their gaps is told too.
+fn in_plane_parts(
+    question: &Question<'_>,
+    (q, branch): (&[f64], &str),
+    dragged: Option<&[f64]>,
+) -> Option<(f64, Vec<f64>)> {
     let arm = &question.arm;
     let question = Question {
         choice: BranchChoice::Of(branch.parse().ok()?),
         ..*question
     };
     let base_from_tool = tool_on(&forward(arm.robot, q), arm.flange_from_tool);
-    let answers = evaluate(&question, 1, |_| base_from_tool, Watch::NONE).ok()?;
+    let answers = match dragged {
+        Some(dragged) => evaluate_on_path(&question, &base_from_tool, dragged),
+        None => evaluate(&question, 1, |_| base_from_tool, Watch::NONE).ok()?,
+    };
     let held = answers.points[0].as_ref().ok()?;
-    let mut apart = answers.joints_at(0).iter().zip(q).map(|(a, b)| (a - b).abs());
     let shares = answers.shares_at(0).iter().map(|share| share * 1e6).collect();
-    apart
-        .all(|apart| apart < SAME_POSTURE)
-        .then_some((held.in_plane_uncertainty * 1e6, shares))
+    is_same(answers.joints_at(0), q).then_some((held.in_plane_uncertainty * 1e6, shares))
 }
 
 /// The arm at these joint positions (rad, m).

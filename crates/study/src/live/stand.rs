@@ -112,13 +112,13 @@ fn extreme_points(answer: &StudyAnswer, section: usize) -> [Option<&PointAnswer>
     [holes.map(|worst| &worst.point), None]
 }
 
-/// The arm where it is to stand in this ask, the only one of the study; none where there is no such place, or no longer.
+/// The arm where it is to stand in this ask, the only one of the study, that was done; none where there is no such place, or no longer.
 ///
 /// # Errors
 /// Cancelled by the watch; a fault.
 pub(super) fn stands_of(
     (text, parsed, study): (Text<'_>, &Parsed, &Study),
-    (answer, extremes): (&StudyAnswer, &[ExtremesAnswer]),
+    (answer, extremes, done): (&StudyAnswer, &[ExtremesAnswer], &[Done<'_>]),
     stand: &Stand,
     watch: Watch<'_>,
 ) -> Result<Option<StandsAnswer>, StudyError> {
@@ -133,7 +133,7 @@ pub(super) fn stands_of(
         return Ok(None);
     };
     let case = stand.case.or(point.map(|point| point.deciding_case)).unwrap_or(1);
-    match postures_of((text, parsed, study), (&at, case), watch) {
+    match postures_of((text, parsed, study), (&at, case), done.first(), watch) {
         Ok(pose) => Ok(Some(StandsAnswer { at, case, pose })),
         // A place of before, on a path that is shorter now: who asks for it alone is told why.
         Err(error) if error.kind() == ErrorKind::InvalidInput => Ok(None),

@@ -53,7 +53,7 @@ pub fn view(
     let done = run(&study, watch)?;
     let answer = answer(&study, &done);
     let extremes = extremes_of(&answer, &done);
-    let told = (&answer, extremes.as_slice());
+    let told = (&answer, extremes.as_slice(), done.as_slice());
     let stands = match stand {
         Some(stand) => stands_of((text, &parsed, &study), told, stand, watch)?,
         None => None,

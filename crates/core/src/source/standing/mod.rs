@@ -24,13 +24,14 @@ mod unloaded;
 
 pub use doubt::AsItStands;
 
-use nalgebra::{IsometryMatrix3, Matrix3, Matrix6, Point3, Vector3};
+use nalgebra::{IsometryMatrix3, Matrix3, Matrix6, Point3, Rotation3, Vector3};
 
 use super::equilibrium::{Equilibrium, Unstable};
 use super::gravity::{Carried, carry_into, torque};
 use super::stiffness_model::{Arm, Gravity};
 use crate::load::TipYield;
 use crate::robot::forward::{Frames, forward_into};
+use crate::robot::inverse::tool_on;
 use crate::robot::jacobian::screws_into;
 use crate::robot::yielding::{seat_frame, spring_screw};
 use crate::robot::{JointCompliance, Seat};
@@ -42,7 +43,7 @@ pub struct Standing<'a> {
     arm: Arm<'a>,
     compliances: Vec<JointCompliance>,
     seats: Vec<Seat>,
-    flange_from_tool: IsometryMatrix3<f64>,
+    flange_from_tool: Rotation3<f64>,
     /// Whether every drive and spring gives way in proportion to its torque, whatever else stands on the arm.
     in_proportion: bool,
     /// Room for [`Standing::stand`]; taken while it is in use.
@@ -90,7 +91,7 @@ impl<'a> Standing<'a> {
             arm,
             compliances,
             seats,
-            flange_from_tool: nalgebra::convert(*arm.flange_from_tool),
+            flange_from_tool: arm.flange_from_tool.rotation.to_rotation_matrix(),
             in_proportion: arm.model.is_affine() && arm.model.structure.compensator.is_none(),
             frames: None,
             joints: vec![0.0; joints],
@@ -141,8 +142,9 @@ impl<'a> Standing<'a> {
         let room = self.frames.take();
         let mut frames = room.unwrap_or_else(|| Frames::for_robot(self.arm.robot));
         forward_into(self.arm.robot, q, &mut frames);
-        let tcp = frames.base_from_flange * Point3::from(self.flange_from_tool.translation.vector);
-        self.stand_in(q, &frames, &tcp);
+        // As a posture has it, to the last bit.
+        let tcp = tool_on(&frames, self.arm.flange_from_tool).translation.vector;
+        self.stand_in(q, &frames, &tcp.into());
         self.frames = Some(frames);
     }
 
@@ -152,7 +154,7 @@ impl<'a> Standing<'a> {
         let structure = &model.structure;
         let joints = self.theta.len();
         screws_into(robot, frames, tcp, &mut self.screws[..joints]);
-        let turn = frames.base_from_flange.rotation * self.flange_from_tool.rotation;
+        let turn = frames.base_from_flange.rotation * self.flange_from_tool;
         let base_from_tool = IsometryMatrix3::from_parts(tcp.coords.into(), turn);
         self.base_from_tool = base_from_tool;
         let frame = |seat: Seat| seat_frame(seat, frames, &base_from_tool);

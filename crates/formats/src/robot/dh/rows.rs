@@ -10,6 +10,7 @@
 //! Capitals do not count. Lengths up to 1000 m, angles up to two turns: more is a number under the wrong unit.
 
 use std::collections::BTreeSet;
+use std::f64::consts::TAU;
 
 use armill_core::robot::chain::LONGEST;
 use armill_core::robot::joint::Sign;
@@ -257,11 +258,18 @@ impl RowReader<'_> {
     }
 
     /// The number below the column of a quantity, in SI; zero where there is no such column.
+    ///
+    /// # Errors
+    /// As of [`Self::si`]; an angle beyond a turn, which no robot file may hold.
     fn value(&self, of: &str) -> Result<f64, Problems> {
-        match self.cell(of) {
-            Some((name, cell)) => self.si(name, cell),
-            None => Ok(0.0),
+        let Some((name, cell)) = self.cell(of) else {
+            return Ok(0.0);
+        };
+        let si = self.si(name, cell)?;
+        if !name.text.to_lowercase().ends_with('m') && si.abs() > TAU {
+            return Err(self.refused(cell, "is an angle beyond a turn"));
         }
+        Ok(si)
     }
 
     /// A limit in SI; `None` where the column or the cell is empty.

@@ -192,6 +192,9 @@ fn every_cell_that_is_wrong_is_told() {
     ] {
         assert!(text.contains(words), "no `{words}` in {text}");
     }
+    // A robot file could not hold it.
+    let turned = refusal(&MH12.replace("T; -90", "T; -690"));
+    assert!(turned.contains("`-690` is an angle beyond a turn"), "{turned}");
     assert!(refusal(&MH12.replace("S; 0; 0; 0;", "S; 0; 0;")).contains("7 cells where the header has 8"));
     assert!(refusal("convention = standard\n").contains("no header"));
     assert!(refusal("convention = standard\na_m, alpha_deg, d_m, theta_deg\n").contains("no row"));

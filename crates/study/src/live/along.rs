@@ -1,0 +1,120 @@
+//! How does the answer hold the tool at a point of a path, or at a hole, and what pushes there?
+//!
+//! | what the answer found on its way | how far it counts |
+//! |---|---|
+//! | turns of the tool that a search found | for every posture |
+//! | forces of a cut, at rest with the tool that they push away in the posture followed | for every posture |
+//! | where joints to spare stand | for every posture |
+//! | backlash and geometry | for the posture followed alone: others would have come there otherwise |
+//!
+//! A path that was not done yet is followed first.
+
+use armill_core::kernel::Answers;
+use armill_core::load::PathLoad;
+use armill_core::nalgebra::{UnitQuaternion, Vector3};
+use armill_core::optimize::holes_held;
+use armill_core::path::Track;
+use armill_core::watch::Watch;
+
+use super::posture::{Asked, is_same};
+use crate::error::StudyError;
+use crate::file::holes::HolesAsk;
+use crate::file::path::PathAsk;
+use crate::file::resolve::Study;
+use crate::pose::At;
+use crate::run::{Done, Found, runner};
+
+/// How the answer holds the tool at a point.
+pub(super) struct Held {
+    /// Joint positions (rad, m); none where the arm does not come there.
+    pub joints: Option<Vec<f64>>,
+    /// What moves the tool beside the load; none where nothing does.
+    pub unloaded: Option<UnloadedHere>,
+}
+
+/// What moves the tool at a point beside the load.
+pub(super) struct UnloadedHere {
+    /// Where links were dragged to in their gaps, rad (m), one a joint.
+    pub dragged: Vec<f64>,
+    /// Displacement of the tool (m, base), one a case.
+    pub moved: Vec<Vector3<f64>>,
+}
+
+impl Held {
+    /// Whether the answer holds the tool in this posture (rad, m).
+    pub fn is_in(&self, q: &[f64]) -> bool {
+        self.joints.as_ref().is_some_and(|joints| is_same(joints, q))
+    }
+}
+
+/// Point `index` of a path of this study, which may have been done; there is such a point.
+pub(super) fn on_path(
+    (study, path): (&Study, &PathAsk),
+    index: usize,
+    done: Option<&Done<'_>>,
+    watch: Watch<'_>,
+) -> Result<Asked, StudyError> {
+    let of_now;
+    let (along, searched) = match done.map(|done| &done.found) {
+        Some(Found::Path(_, found)) => (&found.along, found.searched.as_ref()),
+        _ => {
+            let runner = runner(study, watch)?;
+            let (load, _) = runner.pushed(path)?;
+            of_now = runner.follow(path, load)?;
+            (&of_now.along, of_now.searched.as_ref())
+        }
+    };
+    let answers = &along.answers;
+    let unloaded = along.unloaded.as_ref().map(|unloaded| UnloadedHere {
+        dragged: unloaded.dragged_at(index, answers.joint_count).to_vec(),
+        moved: unloaded.moved[index * answers.case_count..][..answers.case_count].to_vec(),
+    });
+    let held = Held {
+        joints: joints_at(answers, index),
+        unloaded,
+    };
+    let spin = searched.map_or(0.0, |searched| searched.posture.spins[index]);
+    Ok(turned((&path.track, &along.load), index, spin, held))
+}
+
+/// Hole `index` of this study, whose holes may have been done; there is such a hole.
+pub(super) fn at_hole(
+    (study, holes): (&Study, &HolesAsk),
+    index: usize,
+    done: Option<&Done<'_>>,
+    watch: Watch<'_>,
+) -> Result<Asked, StudyError> {
+    let of = (&holes.path.track, &holes.path.load);
+    let of_now;
+    let found = match done.map(|done| &done.found) {
+        Some(Found::Holes(_, found)) => found.as_ref(),
+        _ => {
+            let runner = runner(study, watch)?;
+            of_now = holes_held(&runner.question(&holes.path.setting), of, &holes.search, watch)?;
+            &of_now
+        }
+    };
+    let held = Held {
+        joints: joints_at(&found.answers, index),
+        unloaded: None,
+    };
+    Ok(turned(of, index, found.spins[index], held))
+}
+
+/// A point of this track with the tool turned about its axis by `spin` (rad) more.
+fn turned((track, load): (&Track, &PathLoad), index: usize, spin: f64, held: Held) -> Asked {
+    let here = track.loaded_stop(index, load);
+    let spin = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), spin);
+    Asked {
+        at: At::Pose(here.stop.base_from_tool * spin),
+        normal: here.stop.normal,
+        cases: here.cases,
+        held: Some(held),
+    }
+}
+
+/// Joint positions (rad, m) of the answer at this point; none where the arm does not come there.
+fn joints_at(answers: &Answers, index: usize) -> Option<Vec<f64>> {
+    let joints = || answers.joints_at(index).to_vec();
+    answers.points[index].is_ok().then(joints)
+}
