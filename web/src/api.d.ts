@@ -1966,9 +1966,9 @@ export interface components {
             worst: components["schemas"]["PointAnswer"] | null;
             /** @description The point with the least in-plane deviation. */
             best: components["schemas"]["PointAnswer"] | null;
-            /** @description The region within the limit. */
+            /** @description The region within the limit, inside the joint limits. */
             region: components["schemas"]["RegionAnswer"];
-            /** @description How sure that is. */
+            /** @description How sure that is: points outside joint limits count as not held. */
             certainty: components["schemas"]["CertaintyAnswer"];
             /** @description What all points share. */
             setting: components["schemas"]["SettingAnswer"];
@@ -2926,8 +2926,14 @@ export interface components {
             /** @description Holes by reason; they add up to all. */
             counts: components["schemas"]["CountsAnswer"];
             /**
+             * Format: uint
+             * @description Holes that no turn and branch holds clear of singularities and inside joint limits; they are told in a posture that
+             *     is refused.
+             */
+            refused: number;
+            /**
              * Format: double
-             * @description Holes within the limit over all holes.
+             * @description Holes within the limit in a posture that is not refused, over all holes.
              */
             fraction_within: number;
             /**
