@@ -62,7 +62,7 @@ def test_no_command_that_answers_is_left_out(command):
     first = [line.split()[0] for line in listed.splitlines() if line.startswith("  ") and line[2:3].isalpha()]
     names = {name.replace("-", "_") for name in first} - {"help"}
     # `run` and `check` are Study; `new` makes a folder; these two answer nothing.
-    assert names - set(COMMANDS) == {"run", "check", "new", "serve", "completions"}
+    assert names - set(COMMANDS) == {"run", "check", "new", "serve", "completions", "man"}
 
 
 def test_a_table_of_points_gives_the_bytes_of_the_command(command, tmp_path, monkeypatch):

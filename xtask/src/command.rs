@@ -76,6 +76,20 @@ pub fn printed(command: &mut Command) -> Result<String, String> {
     String::from_utf8(output.stdout).map_err(|problem| format!("{line}: {problem}"))
 }
 
+/// Says what runs and runs it on our own terminal.
+///
+/// # Errors
+/// In a line: it does not start, or it failed.
+pub fn succeeded(command: &mut Command) -> Result<(), String> {
+    let line = command_line(command);
+    eprintln!("+ {line}");
+    match command.status() {
+        Ok(status) if status.success() => Ok(()),
+        Ok(_) => Err(format!("{line} failed")),
+        Err(problem) => Err(format!("{line} does not start: {problem}")),
+    }
+}
+
 /// Refuses arguments for a chore that takes none: one that is ignored would look obeyed.
 ///
 /// # Errors

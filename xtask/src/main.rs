@@ -17,6 +17,7 @@
 mod audit;
 mod bench;
 mod command;
+mod dist;
 mod fuzz;
 mod scale;
 mod serve;
@@ -89,6 +90,11 @@ const CHORES: &[Chore] = &[
         name: "audit",
         about: audit::ABOUT,
         run: audit::run,
+    },
+    Chore {
+        name: "dist",
+        about: dist::ABOUT,
+        run: dist::run,
     },
 ];
 

@@ -17,8 +17,8 @@ pub const ABOUT: &str = "Builds the page of `armill serve` into web/dist; needs 
 
 /// Where the description of the server stands for the page.
 const DESCRIPTION: &str = "web/openapi.json";
-/// The source that embeds the page: Cargo sees by its time that it must be built again.
-const EMBEDS: &str = "crates/web/src/page.rs";
+/// What finds the page to embed: Cargo sees by its time that it must run again.
+const EMBEDS: &str = "crates/web/build.rs";
 
 /// Builds the page, or says what is missing.
 pub fn run(arguments: &[String]) -> ExitCode {

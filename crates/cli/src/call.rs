@@ -251,7 +251,11 @@ mod tests {
         for command in Arguments::command().get_subcommands() {
             let name = command.get_name();
             let told = options_of(name);
-            assert_eq!(told.is_none(), ["serve", "completions"].contains(&name), "{name}");
+            assert_eq!(
+                told.is_none(),
+                ["serve", "completions", "man"].contains(&name),
+                "{name}"
+            );
             for option in told.map(|(_, options)| options).unwrap_or_default() {
                 assert!(!option.help.is_empty(), "{name}: {}", option.name);
             }

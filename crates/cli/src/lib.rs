@@ -76,6 +76,7 @@ fn run(command: &Command) -> Result<Outcome, StudyError> {
         Command::Budget(budget) => command::budget::run(budget),
         Command::Serve(serve) => command::serve::run(serve),
         Command::Completions(completions) => command::completions::run(completions),
+        Command::Man(man) => command::man::run(man),
     }
 }
 

@@ -161,9 +161,9 @@ impl Report {
         self.figures += 1;
         if let Some((_, captions)) = self.sections.last_mut() {
             captions.push(format!(
-                "<a href=\"#f{}\">{}</a>",
+                "<a href=\"#f{0}\">{0}. {1}</a>",
                 self.figures,
-                escape(short(caption))
+                escape(&short(caption))
             ));
         }
         self.body.push_str(&format!(
@@ -192,9 +192,9 @@ impl Report {
         }
         let sections = self.sections.iter().enumerate().map(|(k, (heading, captions))| {
             let figures: String = captions.iter().map(|link| format!("<li>{link}</li>")).collect();
-            let inner = match captions.is_empty() {
-                true => String::new(),
-                false => format!("<ul>{figures}</ul>"),
+            let inner = match captions.len() {
+                0 => String::new(),
+                count => format!("<details><summary>{count} figures</summary><ul>{figures}</ul></details>"),
             };
             format!(
                 "<li><a href=\"#s{}\">{}</a>{inner}</li>\n",
@@ -234,17 +234,29 @@ impl Report {
     }
 }
 
-/// The first clause of a caption.
-fn short(caption: &str) -> &str {
-    let end = caption.find([',', ';']).unwrap_or(caption.len());
-    caption[..end].trim_end_matches('.')
+/// As much of a caption as fits a line of the contents.
+fn short(caption: &str) -> String {
+    let mut line = String::new();
+    for word in caption.trim_end_matches('.').split_whitespace() {
+        if line.chars().count() + word.chars().count() > LINE {
+            return line.trim_end_matches([',', ':', ';']).to_owned() + " …";
+        }
+        if !line.is_empty() {
+            line.push(' ');
+        }
+        line.push_str(word);
+    }
+    line
 }
+
+/// Characters of a caption in the contents.
+const LINE: usize = 52;
 
 /// Text of the terminal as a page shows it: escaped, code between backticks, and a sign for `+-`.
 fn prose(text: &str) -> String {
     let text = escape(text).replace("+-", "±");
     let parts: Vec<&str> = text.split('`').collect();
-    if parts.len() % 2 == 0 {
+    if parts.len().is_multiple_of(2) {
         return text;
     }
     let shown = parts.iter().enumerate().map(|(k, part)| match k % 2 {

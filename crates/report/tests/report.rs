@@ -74,3 +74,44 @@ fn figures_and_tables_are_numbered() {
     let html = report().picture("<svg/>", "second").to_html();
     assert!(html.contains("<b>Figure 2.</b> second") && html.contains("<b>Table 1.</b>"));
 }
+
+#[test]
+fn a_long_report_lists_its_sections_and_figures_and_a_short_one_does_not() {
+    let svg = "<svg xmlns=\"http://www.w3.org/2000/svg\"></svg>";
+    let with = |figures: usize| {
+        let report = Report::new("r")
+            .section("Planes & paths")
+            .paragraph("none")
+            .section("Pictures");
+        let caption =
+            "Fig. 6, elbow down: where the deviation is <largest> of all that were asked for in the study.";
+        (0..figures)
+            .fold(report, |report, _| report.picture(svg, caption))
+            .to_html()
+    };
+    assert!(!with(7).contains("class=\"contents\""));
+    let long = with(8);
+    assert!(
+        long.contains("<a href=\"#s1\">Planes &amp; paths</a>")
+            && long.contains("<summary>8 figures</summary>")
+    );
+    for number in 1..=8 {
+        assert!(long.contains(&format!("<figure id=\"f{number}\">")), "{number}");
+        let line =
+            format!("<a href=\"#f{number}\">{number}. Fig. 6, elbow down: where the deviation is …</a>");
+        assert!(long.contains(&line), "{line} in {long}");
+    }
+}
+
+#[test]
+fn text_of_the_terminal_is_shown_with_code_and_signs() {
+    let html = Report::new("r")
+        .warning("use `armill place` <now>: 3 +- 1 um")
+        .paragraph("an odd ` stays")
+        .to_html();
+    assert!(
+        html.contains("use <code>armill place</code> &lt;now&gt;: 3 ± 1 um"),
+        "{html}"
+    );
+    assert!(html.contains("<p>an odd ` stays</p>"));
+}

@@ -1,7 +1,8 @@
 //! The robot and material libraries and the example studies, embedded: every command works from an empty folder.
 //!
 //! The robot `yaskawa/mh12` is `robots/yaskawa/mh12.toml`, the material `brass` is `materials/brass.toml`. A file that
-//! is not listed here is not in the program; `cargo xtask tidy` tells one that was forgotten.
+//! is not listed here is not in the program; `cargo xtask tidy` tells one that was forgotten. Where the folders lie, `build.rs`
+//! of the crate finds.
 
 use armill_formats::document::Problems;
 use armill_formats::material::{self, Material};
@@ -23,7 +24,7 @@ pub struct Embedded {
 /// Pairs of name and path in the repository, with the texts of the files.
 macro_rules! embedded {
     ($($name:literal in $path:literal),+ $(,)?) => {
-        &[$(Embedded { name: $name, path: $path, text: include_str!(concat!("../../../", $path)) }),+]
+        &[$(Embedded { name: $name, path: $path, text: include_str!(concat!(env!("ARMILL_LIBRARY"), "/", $path)) }),+]
     };
 }
 

@@ -2,23 +2,18 @@
 //!
 //! Its files hold nothing of the study, so that they need no token.
 
-use std::borrow::Cow;
 use std::sync::Arc;
 
 use axum::Router;
 use axum::http::Uri;
 use axum::response::{IntoResponse, Response};
-use rust_embed::RustEmbed;
 
 use crate::body::typed;
 use crate::error::ApiError;
 use crate::server::State;
 
-/// The files of `web/dist`, which `cargo xtask web` makes.
-#[derive(RustEmbed)]
-#[folder = "../../web/dist"]
-#[allow_missing = true]
-struct Built;
+/// The files of the page by their names, which `cargo xtask web` makes and `build.rs` finds; empty where there are none.
+const BUILT: &[(&str, &[u8])] = include!(concat!(env!("OUT_DIR"), "/page.rs"));
 
 /// What is served without it.
 const NOT_BUILT: &str = "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>armill</title>\
@@ -27,7 +22,7 @@ again. Everything under <code>/api</code> works as it is.</p></html>";
 
 /// Whether the page was built into this program.
 pub fn has_page() -> bool {
-    Built::get("index.html").is_some()
+    !BUILT.is_empty()
 }
 
 pub(crate) fn routes() -> Router<Arc<State>> {
@@ -41,11 +36,8 @@ async fn file(uri: Uri) -> Response {
         "" => "index.html",
         path => path,
     };
-    match Built::get(path) {
-        Some(file) => match file.data {
-            Cow::Borrowed(bytes) => typed(kind(path), bytes),
-            Cow::Owned(bytes) => typed(kind(path), bytes),
-        },
+    match BUILT.iter().find(|(name, _)| *name == path) {
+        Some((_, bytes)) => typed(kind(path), *bytes),
         None if path == "index.html" => typed(kind(path), NOT_BUILT),
         None => ApiError::not_found("there is nothing at this path").into_response(),
     }
@@ -71,11 +63,28 @@ pub(crate) fn kind(path: &str) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::path::Path;
 
     #[test]
-    fn a_page_that_was_built_is_in_the_program() {
-        let built = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../web/dist/index.html");
-        assert_eq!(has_page(), built.is_file());
+    fn a_page_that_is_there_is_whole() {
+        // What the page names is there, be it built in or not.
+        let of = |name: &str| {
+            BUILT
+                .iter()
+                .find(|(other, _)| *other == name)
+                .map(|(_, bytes)| *bytes)
+        };
+        let Some(index) = of("index.html") else {
+            assert!(!has_page());
+            return;
+        };
+        let index = String::from_utf8_lossy(index);
+        let mut named = index
+            .split('"')
+            .filter(|word| word.ends_with(".js") || word.ends_with(".css"));
+        assert!(named.clone().count() >= 2, "{index}");
+        assert!(
+            named.all(|name| of(name.trim_start_matches("./").trim_start_matches('/')).is_some()),
+            "{index}"
+        );
     }
 }

@@ -1,7 +1,7 @@
 //! What can be typed behind `armill`: a file here for each command of the same name in `command`.
 //!
 //! `run`, `check`, `compare`, `new`, `robots`, `materials`, `pose`, `posture`, `place`, `advise`, `compensate`,
-//! `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `serve`, `completions`; `poses` and `program` are for two of them each.
+//! `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `serve`, `completions`, `man`; `poses` and `program` are for two of them each.
 //!
 //! Doc comments of fields and variants are the text of `--help`: one line without a full stop, the unit in the
 //! option's name. What a developer should know stands in `//` comments and in these heads. Names of options are
@@ -21,6 +21,7 @@ mod compensate;
 mod completions;
 mod forces;
 mod identify;
+mod man;
 mod materials;
 mod new;
 mod path_accuracy;
@@ -46,6 +47,7 @@ pub(crate) use compensate::CompensateArguments;
 pub(crate) use completions::CompletionsArguments;
 pub(crate) use forces::ForcesArguments;
 pub(crate) use identify::{IdentifyArguments, PointsArgument, PriorArgument};
+pub(crate) use man::ManArguments;
 pub(crate) use materials::MaterialsArguments;
 pub(crate) use new::NewArguments;
 pub(crate) use path_accuracy::PathAccuracyArguments;
@@ -126,6 +128,8 @@ pub(crate) enum Command {
     Serve(ServeArguments),
     /// Print shell completions
     Completions(CompletionsArguments),
+    /// Write the manual pages into a folder
+    Man(ManArguments),
 }
 
 impl Command {
@@ -156,7 +160,7 @@ impl Command {
             Command::PoseAccuracy(a) => a.json,
             Command::PathAccuracy(a) => a.json,
             Command::Budget(a) => a.json,
-            Command::Serve(_) | Command::Completions(_) => false,
+            Command::Serve(_) | Command::Completions(_) | Command::Man(_) => false,
         }
     }
 }

@@ -36,7 +36,7 @@ pub(crate) struct RobotsArguments {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum RobotsAction {
-    /// Make a robot file of armill from a URDF, xacro, OPW file, DH table or chain
+    /// Make a robot file of armill from a URDF, xacro, OPW file, DH table or chain, or from one of the library
     Import(ImportArguments),
     /// Compare a robot file with poses read from its pendant, and say which sign, zero or base differs
     Check(RobotsCheckArguments),
@@ -49,11 +49,12 @@ The format follows from the ending: .urdf, .xacro, .xml; .yaml (OPW parameters);
 
 Examples:
   armill robots import kr120.urdf --out kr120.toml
+  armill robots import yaskawa/mh12 --out mine.toml      a copy to add play, masses, measured stiffness to
   armill robots import m20ia_macro.xacro --tip tool0 --out m20ia.toml
   armill robots import opw_parameters_mh12.yaml > mh12.toml
   armill robots import table.txt --format dh --out arm.toml --force")]
 pub(crate) struct ImportArguments {
-    /// Robot file of another format
+    /// Robot file of another format, or a robot of the library
     pub file: PathBuf,
     /// Link of a URDF or xacro that is the flange (the end with the most moving joints if left out)
     #[arg(long, value_name = "LINK")]

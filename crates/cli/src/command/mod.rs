@@ -1,7 +1,7 @@
 //! What each command does: options into a question, the answer of `armill-study` onto stdout, in words or as JSON.
 //!
 //! A file a command: `run`, `check`, `compare`, `new`, `robots` (a folder, for its own commands), `materials`, `pose`, `posture`, `place`, `advise`, `compensate`, `identify`, `calibrate`,
-//! `forces`, `roundness`, `ballbar`, `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `serve`, `completions`. `poses`: options of measured poses. `program`: options of a program of the robot. `numbers`: what an option that takes numbers refuses. `drawing`: pictures that were asked for.
+//! `forces`, `roundness`, `ballbar`, `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `serve`, `completions`, `man`. `poses`: options of measured poses. `program`: options of a program of the robot. `numbers`: what an option that takes numbers refuses. `drawing`: pictures that were asked for.
 //!
 //! Each command has one function `run(&Arguments) -> Result<Outcome, StudyError>`: it finds robot or study,
 //! makes the question from the options (numbers checked, mm and degrees into SI), asks `armill_study`, writes
@@ -20,6 +20,7 @@ pub(crate) mod compensate;
 pub(crate) mod completions;
 pub(crate) mod forces;
 pub(crate) mod identify;
+pub(crate) mod man;
 pub(crate) mod materials;
 pub(crate) mod new;
 pub(crate) mod path_accuracy;

@@ -87,6 +87,7 @@ fn readme_runs() {
 #[test]
 fn guide_runs() {
     for page in [
+        "install",
         "predict",
         "your-robot",
         "measure-stiffness",
@@ -122,7 +123,7 @@ fn every_page_of_the_guide_is_run() {
     let pages = std::fs::read_dir(repository().join("docs/guide"))
         .unwrap()
         .count();
-    assert_eq!(pages, 25, "name the new page in `guide_runs`");
+    assert_eq!(pages, 26, "name the new page in `guide_runs`");
 }
 
 #[test]

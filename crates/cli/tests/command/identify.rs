@@ -361,7 +361,7 @@ fn real_tests_left_out_are_predicted_better_than_by_least_squares() {
 fn a_robot_from_a_urdf_gets_a_robot_file_with_its_springs() {
     let folder = tempfile::tempdir().unwrap();
     filled_in(folder.path());
-    std::fs::write(folder.path().join("arm.urdf"), crate::cell::MH12_URDF).unwrap();
+    std::fs::write(folder.path().join("arm.urdf"), MH12_URDF).unwrap();
     let arguments = [
         "identify",
         "tests.csv",

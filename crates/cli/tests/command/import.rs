@@ -29,6 +29,40 @@ fn an_imported_urdf_poses_as_the_urdf_does() {
 }
 
 #[test]
+fn a_robot_of_the_library_is_copied_with_its_comments_and_compliances() {
+    let cell = Cell::new();
+    let said = cell
+        .armill(&["robots", "import", "yaskawa/mh12", "--out", "mine.toml"])
+        .fine();
+    assert!(
+        said.err.contains("made mine.toml") && !said.err.contains("missing"),
+        "{}",
+        said.err
+    );
+    let copy = std::fs::read(cell.at("mine.toml")).unwrap();
+    assert!(copy == include_bytes!("../../../../robots/yaskawa/mh12.toml"));
+    let answer = |robot: &str| {
+        let flags = [
+            "--joints-deg",
+            "10,20,-30,40,50,60",
+            "--wrench-n",
+            "3,5,5",
+            "--json",
+        ];
+        let mut answer = cell
+            .armill(&[&["pose", robot], &flags[..]].concat())
+            .fine()
+            .json();
+        answer["postures"].take()
+    };
+    assert_eq!(answer("mine.toml"), answer("yaskawa/mh12"));
+    // A file of that name is what is meant, where there is one.
+    cell.file("yaskawa/mh12", "no robot");
+    cell.armill(&["robots", "import", "yaskawa/mh12"])
+        .refused(&["yaskawa/mh12"]);
+}
+
+#[test]
 fn a_file_that_is_there_is_overwritten_by_force_only() {
     let cell = Cell::new();
     cell.file("arm.chain", CHAIN);

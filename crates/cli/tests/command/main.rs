@@ -1,6 +1,6 @@
 //! The command as a user meets it: one program with all its tests, so that it is linked once.
 //!
-//! `cell` is where they run. What a user meets first: `new_and_robots`, `documents` (every page is run). Commands: `run`,
+//! `cell` is where they run. What a user meets first: `new_and_robots`, `shell`, `documents` (every page is run). Commands: `run`,
 //! `pose`, `place`, `advise`, `springs`, `assumed`, `robots_check`, `import`, `materials`, `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `budget`, `path_accuracy`, `compare`, `holes`, `unloaded` (backlash). What goes wrong: `refused`,
 //! `terminal`, `killed`, `rough` (places and inputs).
 
@@ -35,6 +35,7 @@ mod rough;
 mod roundness;
 mod run;
 mod serve;
+mod shell;
 mod springs;
 mod terminal;
 mod unloaded;

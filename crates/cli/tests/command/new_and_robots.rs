@@ -1,4 +1,4 @@
-//! `armill new`, `robots`, `check --schema`, `completions` and the help: what a user meets first.
+//! `armill new`, `robots`, `check --schema` and the help: what a user meets first.
 
 use crate::cell::{Cell, LEVER, MH12_URDF, number, numbers, what_is_half};
 
@@ -283,17 +283,6 @@ fn examples_of_the_help_work() {
         cell.armill(&example.split_whitespace().skip(1).collect::<Vec<_>>())
             .fine();
     }
-}
-
-#[test]
-fn completions_know_every_command_and_flag() {
-    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
-        let said = Cell::new().armill(&["completions", shell]).fine();
-        for word in ["run", "check", "new", "robots", "pose", "no-pictures", "wrench-n"] {
-            assert!(said.out.contains(word), "no {word} for {shell}");
-        }
-    }
-    Cell::new().armill(&["completions", "tcsh"]).refused(&["tcsh"]);
 }
 
 #[test]

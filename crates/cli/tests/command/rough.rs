@@ -14,7 +14,7 @@ const ASK: &str = "\n[[ask]]\nkind = \"path\"\nname = \"part\"\nprogram.file = \
 /// [`SMALL`] of a robot that lies beside it.
 fn with_own_robot() -> String {
     let own = SMALL.replace("\"yaskawa/mh12\"", "\"mh12.urdf\"");
-    let compliance = "[compliance]\nrad_per_n_m = [2.1e-6, 2.5e-6, 4.0e-5, 6.0e-5, 6.0e-5, 8.0e-5]\nsource = "made-up"\n";
+    let compliance = "[compliance]\nrad_per_n_m = [2.1e-6, 2.5e-6, 4.0e-5, 6.0e-5, 6.0e-5, 8.0e-5]\nsource = \"made-up\"\n";
     format!("{own}\n{compliance}{ASK}")
 }
 

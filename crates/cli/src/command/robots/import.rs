@@ -1,14 +1,16 @@
-//! `armill robots import`: a robot file of ours from one of another format.
+//! `armill robots import`: a robot file of ours from one of another format, or from the library, to be changed.
 //!
 //! The file goes to `--out`, or to stdout; with `--json` stdout holds an [`ImportedRobot`]. Stderr says what was assumed and
 //! what is missing. What cannot be read again is not written.
+
+use std::path::Path;
 
 use armill_formats::file::write_atomically;
 use armill_formats::robot::RobotDescription;
 use armill_formats::robot::armill;
 use armill_formats::robot::format::Wanted;
 use armill_study::robot_answers::ImportedRobot;
-use armill_study::{StudyError, robots};
+use armill_study::{StudyError, library, robots};
 
 use crate::Outcome;
 use crate::arguments::ImportArguments;
@@ -28,12 +30,7 @@ pub(super) fn run(arguments: &ImportArguments) -> Result<Outcome, StudyError> {
             "choose another name, or overwrite it with --force",
         ));
     }
-    let wanted = Wanted {
-        format: arguments.format,
-        tip: arguments.tip.clone(),
-    };
-    let found = robots::import(&arguments.file, &wanted)?;
-    let text = armill::write(&found);
+    let (found, text) = source(arguments)?;
     let shown = out.map(|path| path.display().to_string());
     armill::read(
         shown.as_deref().unwrap_or("imported robot"),
@@ -55,6 +52,24 @@ pub(super) fn run(arguments: &ImportArguments) -> Result<Outcome, StudyError> {
     Ok(Outcome::Fine)
 }
 
+/// The robot, and the text of its file: of the library as it stands there, with its comments.
+fn source(arguments: &ImportArguments) -> Result<(RobotDescription, String), StudyError> {
+    let file = &arguments.file;
+    let name = file.to_string_lossy();
+    if !file.exists() && library::robot(&name).is_some() {
+        let found = robots::find(&name, Path::new("."))?;
+        let [_, text] = robots::text_of(&name, &found)?;
+        return Ok((found, text));
+    }
+    let wanted = Wanted {
+        format: arguments.format,
+        tip: arguments.tip.clone(),
+    };
+    let found = robots::import(file, &wanted)?;
+    let text = armill::write(&found);
+    Ok((found, text))
+}
+
 /// What a user should know of the robot that was made.
 fn summary(found: &RobotDescription, file: Option<&str>) -> Vec<String> {
     let count = found.robot.joints().len();
@@ -64,7 +79,9 @@ fn summary(found: &RobotDescription, file: Option<&str>) -> Vec<String> {
         found.robot.inverse()
     )];
     lines.extend(found.remarks.iter().map(|remark| format!("assumed: {remark}")));
-    lines.push("missing: joint compliances; see the comments in the file".to_owned());
+    if found.robot.compliance().is_none() {
+        lines.push("missing: joint compliances; see the comments in the file".to_owned());
+    }
     lines.extend(file.map(|file| {
         format!("made {file}; compare it with the pendant: armill pose {file} --joints-deg ...")
     }));

@@ -1,0 +1,82 @@
+//! The crates as they would be published: packed by cargo, each unpacked again and built from its package alone.
+//!
+//! They depend on each other, and none is in a registry yet: cargo packs and builds all of them together.
+
+use super::{Release, copy, locked, target_folder};
+use crate::command::succeeded;
+use std::path::PathBuf;
+
+/// In the order of their dependencies: so they would be published too.
+const CRATES: &[&str] = &[
+    "armill-core",
+    "armill-formats",
+    "armill-report",
+    "armill-study",
+    "armill-web",
+    "armill",
+];
+
+/// Packs and builds all of them, and gives the paths of the packages.
+///
+/// # Errors
+/// In a line: one cannot be packed, or does not build by itself.
+pub fn package(release: &Release) -> Result<Vec<PathBuf>, String> {
+    let mut command = locked(&["package"]);
+    command.args(CRATES.iter().flat_map(|name| ["-p", name]));
+    // The built page is of no commit; what else is not was refused before, or allowed.
+    command.arg("--allow-dirty");
+    succeeded(&mut command)?;
+    let mut packages = Vec::new();
+    for name in CRATES {
+        let file = format!("{name}-{}.crate", release.version);
+        let package = release.out.join(&file);
+        copy(&target_folder().join("package").join(&file), &package)?;
+        packages.push(package);
+    }
+    Ok(packages)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+    use std::path::Path;
+
+    /// The manifest of each folder of `crates/`.
+    fn manifests() -> Vec<String> {
+        let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
+        let folders = fs::read_dir(crates).unwrap();
+        folders
+            .map(|folder| fs::read_to_string(folder.unwrap().path().join("Cargo.toml")).unwrap())
+            .collect()
+    }
+
+    #[test]
+    fn every_crate_is_handed_out_or_says_that_it_is_not() {
+        for manifest in manifests() {
+            let name = manifest.lines().find_map(|line| line.strip_prefix("name = \""));
+            let name = name.unwrap().trim_end_matches('"');
+            let private = manifest.contains("\npublish = false\n");
+            assert_ne!(CRATES.contains(&name), private, "{name}");
+            // What a package needs on its own.
+            for line in ["\ndescription = ", "\nreadme.workspace", "\ninclude = ["] {
+                assert!(private || manifest.contains(line), "{name} has no{line}");
+            }
+        }
+    }
+
+    #[test]
+    fn no_crate_stands_before_one_that_it_needs() {
+        for manifest in manifests() {
+            let name = manifest.lines().find_map(|line| line.strip_prefix("name = \""));
+            let name = name.unwrap().trim_end_matches('"');
+            let Some(place) = CRATES.iter().position(|listed| *listed == name) else {
+                continue;
+            };
+            for later in &CRATES[place..] {
+                let named = format!("\n{later}.workspace = true");
+                assert!(!manifest.contains(&named), "{name} needs {later}");
+            }
+        }
+    }
+}
