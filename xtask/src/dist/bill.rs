@@ -2,7 +2,7 @@
 //!
 //! It holds what every component is, its licence, the checksum of its package, and which others it uses; nothing of when and
 //! where it was made, so that the same sources give the same bytes.
-//! Format: ECMA-424, https://cyclonedx.org/docs/1.6/json/
+//! Format: ECMA-424, <https://cyclonedx.org/docs/1.6/json/>
 
 use super::component::{Component, Components};
 
