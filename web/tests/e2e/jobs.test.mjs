@@ -30,7 +30,7 @@ ${path}
 ${place}`;
 // So few points and so little room that a search is over soon, and the contrary.
 const SMALL = study("step_mm = 60", "[place]\nx_mm = [900, 1100]\n");
-const LARGE = study("step_mm = 2", "[place]\nx_mm = [700, 1200]\ny_mm = [-300, 300]\nz_mm = [400, 1100]\ntilt_deg = [-30, 60]\n");
+const LARGE = study("step_mm = 0.5", "[place]\nx_mm = [700, 1200]\ny_mm = [-300, 300]\nz_mm = [400, 1100]\ntilt_deg = [-30, 60]\n");
 
 /** A page on a server of this study, at its jobs. */
 async function at(text, work) {
