@@ -10,6 +10,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Container
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -167,7 +168,9 @@ scale.run(works.waves(seconds=0.05), {folder!r}, "local", workers=2, items_per_p
 
 def started(folder: Path, progress: bool = False) -> subprocess.Popen[str]:
     script = SCRIPT.format(tests=str(Path(__file__).parents[1]), folder=str(folder), progress=progress)
-    return subprocess.Popen([sys.executable, "-c", script], stderr=subprocess.PIPE, text=True)
+    # A shell has its background jobs ignore Ctrl-C, and what they start does too.
+    heeds = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
+    return subprocess.Popen([sys.executable, "-c", script], stderr=subprocess.PIPE, text=True, preexec_fn=heeds)
 
 
 def has_parts(folder: Path, count: int, process: subprocess.Popen[str]) -> None:
