@@ -93,6 +93,8 @@ for (const [ask, [names, column]] of Object.entries(CHARTS))
     for (let i = 0; i < drawn.length; i++) {
       const saved = {};
       for (const kind of ["SVG", "PNG", "CSV"]) {
+        // Chromium takes ten downloads of a page at once, and drops what comes faster.
+        await page.waitForTimeout(200);
         const [download] = await Promise.all([page.waitForEvent("download", { timeout: 60_000 }), cards.nth(i).getByRole("button", { name: kind, exact: true }).click()]);
         assert.ok(download.suggestedFilename().endsWith(`.${kind.toLowerCase()}`), download.suggestedFilename());
         saved[kind] = readFileSync(await download.path());

@@ -28,9 +28,9 @@ name = "groove"
 circle.radius_mm = 100
 ${path}
 ${place}`;
-// So few points and so little room that a search is over soon, and the contrary.
+// So few points and so little room that a search is over soon; so much work at each point that it is not.
 const SMALL = study("step_mm = 60", "[place]\nx_mm = [900, 1100]\n");
-const LARGE = study("step_mm = 0.5", "[place]\nx_mm = [700, 1200]\ny_mm = [-300, 300]\nz_mm = [400, 1100]\ntilt_deg = [-30, 60]\n");
+const LARGE = study("step_mm = 0.5", "[place]\nx_mm = [700, 1200]\ny_mm = [-300, 300]\nz_mm = [400, 1100]\ntilt_deg = [-30, 60]\n").replace("limit_um = 50", "limit_um = 50\nload_dependent = true");
 
 /** A page on a server of this study, at its jobs. */
 async function at(text, work) {
