@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::{env, fs};
 
 fn main() -> Result<(), Box<dyn Error>> {
-    // `cargo xtask web` gives this file a new time.
+    // `npm run build` of the page gives this file a new time.
     println!("cargo::rerun-if-changed=build.rs");
     let here = PathBuf::from(env::var("CARGO_MANIFEST_DIR")?);
     let places = [here.join("dist"), here.join("../../web/dist")];

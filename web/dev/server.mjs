@@ -13,7 +13,7 @@ const FILES = { "/": "index.html", "/index.html": "index.html", "/app.js": "app.
 const TYPES = { ".html": "text/html; charset=utf-8", ".js": "text/javascript", ".css": "text/css" };
 
 /** The page of `dist` before the server at `url`; the address to open instead, and how to end it. */
-export async function before(url) {
+async function before(url) {
   const target = new URL(url);
   const server = createServer(async (asked, answer) => {
     const path = new URL(asked.url, target).pathname;

@@ -1,6 +1,5 @@
 // How long from an input to its picture: 101 x 101 points, 4 load cases, the branch that the study names. Env ARMILL_BIN:
-// a release build of armill; ARMILL_PAGE=dist: the page of this folder, over a proxy. Changes follow one another as soon as
-// the last is on the screen. Chromium is as it comes: without a graphics card the processor draws WebGL (SwiftShader) and
+// a release build of armill, with the page in it. Changes follow one another as soon as the last is on the screen. Chromium is as it comes: without a graphics card the processor draws WebGL (SwiftShader) and
 // all else, and then `shown` is mostly that.
 //
 // | row | from - to |

@@ -17,8 +17,6 @@ pub const ABOUT: &str = "Builds the page of `armill serve` into web/dist; needs 
 
 /// Where the description of the server stands for the page.
 const DESCRIPTION: &str = "web/openapi.json";
-/// What finds the page to embed: Cargo sees by its time that it must run again.
-const EMBEDS: &str = "crates/web/build.rs";
 
 /// Builds the page, or says what is missing.
 pub fn run(arguments: &[String]) -> ExitCode {
@@ -71,15 +69,7 @@ pub fn build() -> ExitCode {
             return code;
         }
     }
-    // A file that is new in web/dist is seen by nobody; a source with a new time is.
-    let touched = fs::read(EMBEDS).and_then(|text| fs::write(EMBEDS, text));
-    match touched {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("{EMBEDS}: {error}");
-            ExitCode::from(COULD_NOT_RUN)
-        }
-    }
+    ExitCode::SUCCESS
 }
 
 /// On Windows npm is a script.

@@ -15,8 +15,16 @@ pub const MOST_BYTES: u64 = 64 << 20;
 /// # Errors
 /// A file that cannot be read; [`io::ErrorKind::FileTooLarge`] where it has more than [`MOST_BYTES`].
 pub fn read(path: &Path) -> io::Result<Vec<u8>> {
+    bytes_of(File::open(path)?)
+}
+
+/// All that `reader` gives.
+///
+/// # Errors
+/// As of [`read`].
+pub fn bytes_of(reader: impl Read) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    File::open(path)?.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
+    reader.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > MOST_BYTES {
         let message = format!("it has more than {} MiB; is it the right file?", MOST_BYTES >> 20);
         return Err(io::Error::new(io::ErrorKind::FileTooLarge, message));

@@ -8,8 +8,8 @@ use std::ops::Range;
 
 use roxmltree::{Document, Node, ParsingOptions};
 
-use crate::document::{Problem, Problems, Source, unreadable};
-use crate::whole::MOST_BYTES;
+use crate::document::{Problems, Source, unreadable};
+use crate::whole;
 
 /// More elements, attributes and texts than this are no robot and no result: the largest robot of ROS-Industrial has 2000.
 const MOST_NODES: u32 = 1_000_000;
@@ -21,15 +21,9 @@ const MOST_LEVELS: usize = 64;
 /// The text of the XML file `path`.
 ///
 /// # Errors
-/// A reader that fails; more than [`MOST_BYTES`].
+/// A reader that fails; more than [`whole::MOST_BYTES`].
 pub(crate) fn text_of(path: &str, reader: impl Read) -> Result<String, Problems> {
-    let mut bytes = Vec::new();
-    let whole = reader.take(MOST_BYTES + 1).read_to_end(&mut bytes);
-    whole.map_err(|error| unreadable(path, &error))?;
-    if bytes.len() as u64 > MOST_BYTES {
-        let message = format!("an XML file of more than {} MiB", MOST_BYTES >> 20);
-        return Err(Problem::of_file(path, message, "export one result alone").into());
-    }
+    let bytes = whole::bytes_of(reader).map_err(|error| unreadable(path, &error))?;
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 

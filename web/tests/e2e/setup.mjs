@@ -1,6 +1,5 @@
 // A real Chromium against a real server: `armill serve` on a copy of the paper's study, in a folder of its own.
-// Env ARMILL_BIN: the armill binary. Env CHROMIUM: the browser, Debian's if left out. Env ARMILL_PAGE=dist: the page of
-// this folder in place of the one that the binary holds.
+// Env ARMILL_BIN: the armill binary, with the page in it. Env CHROMIUM: the browser, Debian's if left out.
 
 import { spawn } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -8,7 +7,6 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { createInterface } from "node:readline";
 import { chromium } from "playwright-core";
-import { before } from "../../dev/server.mjs";
 
 export const STUDY = new URL("../../../studies/mh12-groove/study.toml", import.meta.url).pathname;
 const FLAGS = ["--headless", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync", "--enable-unsafe-swiftshader"];
@@ -24,10 +22,8 @@ export async function serve(edit = (text) => text) {
     createInterface({ input: child.stdout }).once("line", done);
     child.once("exit", (code) => fail(new Error(`armill serve ended with ${code}`)));
   });
-  const page = process.env.ARMILL_PAGE === "dist" ? await before(url) : null;
   const stop = () =>
     new Promise((done) => {
-      page?.stop();
       child.removeAllListeners("exit");
       child.once("exit", (code) => {
         rmSync(folder, { recursive: true, force: true });
@@ -35,7 +31,7 @@ export async function serve(edit = (text) => text) {
       });
       child.kill("SIGTERM");
     });
-  return { url: page?.url ?? url, folder, pid: child.pid, stop };
+  return { url, folder, pid: child.pid, stop };
 }
 
 export const launch = () => chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: FLAGS });

@@ -7,11 +7,12 @@
 //!
 //! | step | fails where |
 //! |---|---|
+//! | the page, built | see `page` |
 //! | unit and integration tests | one does not pass, in any crate of the workspace |
 //! | documentation tests | an example in the documentation does not compile or run |
 //! | documentation | a link leads nowhere, or rustdoc has another warning |
 //! | the kernel for NEON | it does not compile; left out without the standard library for that target |
-//! | the page | see `page` |
+//! | the page, tested | see `page` |
 //! | the Python package | see `python` |
 //!
 //! Exit codes as for any chore; a run without a single test is one that could not run.
@@ -34,19 +35,21 @@ pub const ABOUT: &str =
 
 /// What makes up "all tests", in order. A new step, an installation included, is one line here.
 fn steps() -> Vec<Step> {
-    let mut steps = vec![
+    // First, so that the program whose tests run holds the page.
+    let mut steps = page::build();
+    steps.extend([
         Step::new("unit and integration tests", test_runner()),
         Step::new(
             "documentation tests",
             cargo(&["test", "--doc", "--workspace", "--no-fail-fast"]),
         ),
         Step::new("documentation", documentation_without_warnings()),
-    ];
+    ]);
     if has_target(NEON) {
         let check = cargo(&["check", "-p", "armill-core", "--target", NEON]);
         steps.push(Step::new("the kernel for NEON, compiled only", check));
     }
-    steps.extend(page::steps());
+    steps.extend(page::tests());
     steps.extend(python::steps());
     steps
 }

@@ -19,8 +19,8 @@ const CHROMIUM: &str = "/usr/bin/chromium";
 /// The command that unit and integration tests have built.
 const ARMILL: &str = "../target/debug/armill";
 
-/// Installs what is missing, and gives the steps.
-pub fn steps() -> Vec<Step> {
+/// Installs what is missing; gives the steps that make the page, from where the next build of armill takes it.
+pub fn build() -> Vec<Step> {
     let missing: Vec<&str> = [("nodejs", starts("node")), ("npm", starts("npm"))]
         .into_iter()
         .chain([("chromium", Path::new(CHROMIUM).is_file())])
@@ -29,11 +29,17 @@ pub fn steps() -> Vec<Step> {
     if !missing.is_empty() {
         install(&missing);
     }
-    let mut in_chromium = npm(&["run", "e2e"]);
-    in_chromium.env("ARMILL_BIN", ARMILL).env("ARMILL_PAGE", "dist");
     vec![
         Step::new("the page: packages", npm(&["ci", "--no-audit", "--no-fund"])),
         Step::new("the page: types and bundle", npm(&["run", "build"])),
+    ]
+}
+
+/// The steps that test it.
+pub fn tests() -> Vec<Step> {
+    let mut in_chromium = npm(&["run", "e2e"]);
+    in_chromium.env("ARMILL_BIN", ARMILL);
+    vec![
         Step::new("the page: parts", npm(&["test"])),
         Step::new("the page: in Chromium", in_chromium),
     ]

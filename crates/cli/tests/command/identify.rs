@@ -137,6 +137,7 @@ fn a_plan_expects_what_the_compliances_of_the_robot_file_give() {
             numbers(&posture["postures"][0]["deviation_um"]),
         );
         for (mm, um) in expected.iter().zip(&told) {
+            // Degrees are turned into radians and back, and written in full.
             assert!((mm - um / 1e3).abs() < 1e-9 * (1.0 + mm.abs()), "{test} {told:?}");
         }
     }

@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 
 use crate::cell::{ARMILL, Cell, SMALL, files_in, what_is_half};
 
-/// Moments at which a run is killed, shares of the time that an undisturbed one takes: scattered by the golden ratio, the
-/// last one early, so that there are some of every kind. `ARMILL_KILLS=100` asks for more than the few that every test
+/// Moments at which a run is killed, shares of the time that an undisturbed one takes: scattered by the golden ratio: early
+/// and late ones, never twice the same. `ARMILL_KILLS=100` asks for more than the few that every test
 /// run has time for.
 fn moments() -> Vec<f64> {
     let count = std::env::var("ARMILL_KILLS").map_or(8, |count| count.parse().expect("ARMILL_KILLS=100"));

@@ -93,15 +93,6 @@ impl Counts {
 }
 
 impl PlaneMap {
-    /// In-plane deviation (m) of each point, `None` without posture.
-    pub fn in_plane(&self) -> Vec<Option<f64>> {
-        self.answers
-            .points
-            .iter()
-            .map(|point| point.as_ref().ok().map(|held| held.in_plane))
-            .collect()
-    }
-
     /// The region within `limit` (m), of points inside the joint limits.
     pub fn region(&self, limit: f64) -> Region {
         region_within(&self.grid, &self.inside_joint_limits(|held| held.in_plane), limit)

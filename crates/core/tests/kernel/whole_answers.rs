@@ -145,6 +145,7 @@ fn any_chain_at_known_joint_positions_agrees_with_predict() {
         for (wrench, told) in cases.iter().zip(out[15 * i..].chunks(3)) {
             let witness = predict(&posture, &compliance, wrench).twist.linear;
             let away = Vector3::from_column_slice(told) - witness;
+            // Seven shares are added in another order: some ten roundings.
             assert!(away.norm() < 1e-14 * witness.norm());
         }
     }

@@ -10,6 +10,7 @@ use armill_core::robot::Robot;
 use armill_formats::robot::format::Format;
 use armill_formats::robot::urdf::meshes::{Mesh, meshes};
 use armill_formats::robot::xacro;
+use armill_formats::whole;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -20,10 +21,6 @@ use crate::number::without_rounding;
 
 /// The ending of meshes that a page draws.
 const ENDING: &str = "stl";
-/// Bytes of a mesh.
-const MOST_BYTES: u64 = 64 << 20;
-/// Bytes of a URDF that meshes are looked for in.
-const MOST_URDF_BYTES: u64 = 16 << 20;
 
 /// A shape of a link, in base.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -78,7 +75,7 @@ pub fn mesh_bytes(text: Text<'_>, file: &str) -> Result<Vec<u8>, StudyError> {
     let robot = Parsed::of(text.shown, text.bytes)?.file.robot;
     let Shapes(shapes) = Shapes::of(&robot, text.folder);
     let named = shapes.into_iter().find(|(mesh, _)| mesh.file == file);
-    let bytes = named.and_then(|(_, path)| bounded(&path, MOST_BYTES));
+    let bytes = named.and_then(|(_, path)| whole::read(&path).ok());
     bytes.ok_or_else(|| {
         let message = format!("the robot shows no mesh `{file}`");
         StudyError::value(
@@ -93,7 +90,7 @@ fn found(robot: &str, folder: &Path) -> Option<Vec<(Mesh, PathBuf)>> {
     let path = folder.join(robot);
     let format = |text: &str| Format::of(Path::new(robot), text);
     // What is no file of its own, of the library say, names no meshes.
-    let bytes = bounded(&path, MOST_URDF_BYTES)?;
+    let bytes = path.is_file().then(|| whole::read(&path).ok()).flatten()?;
     let text = String::from_utf8_lossy(&bytes);
     let urdf = match format(&text)? {
         Format::Urdf => text.into_owned(),
@@ -184,14 +181,6 @@ impl Places {
             .any(|root| real.strip_prefix(root).is_ok_and(plain));
         mesh && inside && real.is_file()
     }
-}
-
-/// The bytes of a file that is no larger.
-fn bounded(path: &Path, most: u64) -> Option<Vec<u8>> {
-    let meta = path.metadata().ok()?;
-    (meta.is_file() && meta.len() <= most)
-        .then(|| std::fs::read(path).ok())
-        .flatten()
 }
 
 #[cfg(test)]
