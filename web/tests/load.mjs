@@ -3,7 +3,7 @@
 // 200 connections ask 1000 times a second between them: the study, the robot library, the page, a file that is not there,
 // and one time in a hundred what is in a text. Meanwhile 20 clients send a byte a second, and 20 listen to a job and go away
 // in the middle, again and again. The server's memory is read every second. Told are what came out, how long it took,
-// and how the memory went; the exit code is 1 where an answer was wrong, the rate was not held, or memory grew.
+// and how the memory went; the exit code is 1 where an answer was wrong or late, the rate was not held, or memory grew.
 
 import { readFileSync } from "node:fs";
 import http from "node:http";
@@ -17,6 +17,8 @@ const SLOW = 20;
 const LISTENERS = 20;
 /** Growth that is no growth, MiB: arenas of threads that were not there before. */
 const GROWTH = 16;
+/** An answer that takes longer was forgotten by the server: it waited for others to go away. */
+const LATE_MS = 3000;
 
 const server = await serve();
 const at = new URL(server.url);
@@ -134,4 +136,6 @@ for (const [what, count] of wrong) console.log(`wrong: ${count} x ${what}`);
 const held = times.length / seconds > 0.95 * RATE;
 if (!held) console.log("the rate was not held");
 if (late - early > GROWTH) console.log("memory grew");
-process.exitCode = wrong.size > 0 || !held || late - early > GROWTH || code !== 0 ? 1 : 0;
+const forgotten = share(times, 1) > LATE_MS;
+if (forgotten) console.log("an answer was late");
+process.exitCode = wrong.size > 0 || forgotten || !held || late - early > GROWTH || code !== 0 ? 1 : 0;

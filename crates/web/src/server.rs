@@ -2,7 +2,7 @@
 //!
 //! | bound | value |
 //! |---|---|
-//! | connections at a time | 128 |
+//! | connections at a time | 512 |
 //! | head of a request | 10 s, 64 kB |
 //! | answers under way when it stops, a job to hear of it | 5 s each |
 //!
@@ -30,8 +30,9 @@ use crate::jobs::Jobs;
 use crate::work::Work;
 use crate::{answers, error, files, guard, jobs, openapi, page, study};
 
-/// Connections at a time; more wait.
-const MOST_CONNECTIONS: usize = 128;
+/// Connections at a time; more wait, up to [`HEAD_TIME`] where slow clients hold them. Half of the files that most systems
+/// let a process open.
+const MOST_CONNECTIONS: usize = 512;
 /// How long the head of a request may take.
 const HEAD_TIME: Duration = Duration::from_secs(10);
 /// Bytes of the head of a request.
