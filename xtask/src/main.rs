@@ -19,6 +19,7 @@ mod bench;
 mod command;
 mod dist;
 mod fuzz;
+mod node;
 mod scale;
 mod serve;
 mod test;

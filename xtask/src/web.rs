@@ -8,9 +8,10 @@
 
 use crate::COULD_NOT_RUN;
 use crate::command::{cargo, expect_no_arguments, printed, run_in_place};
+use crate::node;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, ExitCode, Stdio};
+use std::process::ExitCode;
 
 /// What `--help` says.
 pub const ABOUT: &str = "Builds the page of `armill serve` into web/dist; needs Node and npm.";
@@ -32,13 +33,9 @@ pub fn build() -> ExitCode {
         eprintln!("there is no web/package.json: this checkout has no page");
         return ExitCode::from(COULD_NOT_RUN);
     }
-    for program in ["node", "npm"] {
-        if !starts(program) {
-            eprintln!(
-                "{program} is not installed: the page is built with Node 20 or later, https://nodejs.org"
-            );
-            return ExitCode::from(COULD_NOT_RUN);
-        }
+    if let Some(problem) = node::missing() {
+        eprintln!("{problem}");
+        return ExitCode::from(COULD_NOT_RUN);
     }
     let described = printed(&mut cargo(&[
         "run",
@@ -62,26 +59,10 @@ pub fn build() -> ExitCode {
         &["run", "build"],
     ];
     for step in steps {
-        let mut npm = Command::new(NPM);
-        npm.args(step).current_dir("web");
-        let code = run_in_place(npm);
+        let code = run_in_place(node::npm(step));
         if code != ExitCode::SUCCESS {
             return code;
         }
     }
     ExitCode::SUCCESS
-}
-
-/// On Windows npm is a script.
-const NPM: &str = if cfg!(windows) { "npm.cmd" } else { "npm" };
-
-/// Whether a program is there.
-fn starts(program: &str) -> bool {
-    let name = if program == "npm" { NPM } else { program };
-    let mut command = Command::new(name);
-    command
-        .arg("--version")
-        .stdout(Stdio::null())
-        .stderr(Stdio::null());
-    command.status().is_ok_and(|status| status.success())
 }

@@ -121,7 +121,8 @@ impl Cell {
             let by_load = predict_in_full(&mut standing, &wrench).unwrap().twist.linear;
             let by_gaps = standing.backlash(&dragged, &wrench).linear;
             let scatter = Vector3::from_fn(|_, _| stream.normal()) * model.structure.repeatability;
-            let moved = by_load + by_gaps + scatter;
+            let missed = by_load * (stream.normal() * model.structure.model_error);
+            let moved = by_load + missed + by_gaps + scatter;
             lengths.push((moved - self.normal.into_inner() * moved.dot(&self.normal)).norm());
         }
         let mean = lengths.iter().sum::<f64>() / DRAWS as f64;
@@ -156,6 +157,7 @@ fn all_that_is_not_known_scatters_the_deviation_as_it_is_told() {
     cell.model.structure.backlash = vec![Some(gap(7e-4)), Some(gap(2e-4)), None, Some(gap(5e-4))];
     cell.dragged = vec![3.5e-4, -1e-4, 0.0, 2.5e-4, 0.0, 0.0];
     cell.model.structure.repeatability = repeatability::deviation_of(160e-6);
+    cell.model.structure.model_error = 0.08;
     let (held, joints) = cell.told();
     let (mean, spread) = cell.drawn(&joints, normal);
     // The draws know a standard deviation to 0.5 %; the rest is the second order of unknowns of a quarter.
@@ -173,6 +175,7 @@ fn all_that_is_not_known_scatters_the_deviation_as_it_is_told() {
     };
     assert!(without(&|cell| cell.doubt.relative = 0.0) < 0.99 * told);
     assert!(without(&|cell| cell.model.structure.repeatability = 0.0) < 0.99 * told);
+    assert!(without(&|cell| cell.model.structure.model_error = 0.0) < 0.99 * told);
     let known = |cell: &mut Cell| {
         let gaps = cell.model.structure.backlash.iter_mut().flatten();
         gaps.for_each(|gap| gap.standard_uncertainty = 0.0);

@@ -153,6 +153,7 @@ impl RobotSource {
         let identified = Identified {
             springs: springs.collect(),
             covariance: Vec::new(),
+            model_error: None,
             what: "joint compliances given by the caller".to_owned(),
             place: "Robot.with_compliance".to_owned(),
         };

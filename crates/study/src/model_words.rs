@@ -3,13 +3,16 @@
 //! ```text
 //! drive springs; 6 further springs; torque curves of A2; gravity compensator of A2;
 //! gravity, against the posture where the tool was set; load-dependent stiffness; covariance of the compliances;
-//! backlash of L, U along paths; the measured arm along paths; repeatability in the uncertainty
+//! backlash of L, U along paths; the measured arm along paths; repeatability in the uncertainty;
+//! model error of 9.4 % in the uncertainty
 //! ```
 //!
 //! An answer has those of its own model, in this order.
 
 use armill_core::robot::Robot;
 use armill_core::source::StiffnessModel;
+
+use crate::number::without_rounding;
 
 /// The parts of `model` on this robot, the drive springs first.
 pub fn parts(robot: &Robot, model: &StiffnessModel) -> Vec<String> {
@@ -49,6 +52,12 @@ pub fn parts(robot: &Robot, model: &StiffnessModel) -> Vec<String> {
     }
     if structure.repeatability > 0.0 {
         parts.push("repeatability in the uncertainty".to_owned());
+    }
+    if structure.model_error > 0.0 {
+        parts.push(format!(
+            "model error of {} % in the uncertainty",
+            without_rounding(structure.model_error * 100.0)
+        ));
     }
     parts
 }

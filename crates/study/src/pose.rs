@@ -135,7 +135,7 @@ pub struct PostureAnswer {
     pub rotation_urad: Option<[f64; 3]>,
     /// Share of each of `shares_of` in the displacement.
     pub joint_share_um: Option<Vec<[f64; 3]>>,
-    /// Standard uncertainty of the displacement, from those of the compliances and the repeatability of the arm.
+    /// Standard uncertainty of the displacement, from those of the compliances, the repeatability of the arm and the error of its model.
     pub deviation_u_um: Option<[f64; 3]>,
 }
 

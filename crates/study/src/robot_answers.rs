@@ -153,6 +153,8 @@ pub struct KnownStructure {
     pub covariance_known: bool,
     /// Standard deviation of where the tool comes to rest from time to time, along any axis; zero where it is not known.
     pub scatter_um: f64,
+    /// Standard uncertainty of what the model predicts, beside that of its compliances; zero where it is not known.
+    pub model_error_percent: f64,
 }
 
 /// A direction in which the arm yields.
@@ -395,6 +397,7 @@ impl KnownStructure {
             }),
             covariance_known: structure.covariance.is_some(),
             scatter_um: structure.repeatability * 1e6,
+            model_error_percent: without_rounding(structure.model_error * 100.0),
         }
     }
 }

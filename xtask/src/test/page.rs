@@ -7,12 +7,14 @@
 //! | parts | a test without a browser fails |
 //! | in Chromium | the page does not show what the server answers, or looks otherwise |
 //!
-//! Node, npm and Chromium are installed by `apt-get` where they are missing and it is there; without them the steps fail.
+//! Chromium is installed by `apt-get` where it is missing and that is there, Node and npm into `target/node` where they are missing or
+//! too old; without them the steps fail.
 
-use super::install;
 use super::step::Step;
+use super::{install, python};
+use crate::node;
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 /// The browser, as Debian has it.
 const CHROMIUM: &str = "/usr/bin/chromium";
@@ -21,13 +23,12 @@ const ARMILL: &str = "../target/debug/armill";
 
 /// Installs what is missing; gives the steps that make the page, from where the next build of armill takes it.
 pub fn build() -> Vec<Step> {
-    let missing: Vec<&str> = [("nodejs", starts("node")), ("npm", starts("npm"))]
-        .into_iter()
-        .chain([("chromium", Path::new(CHROMIUM).is_file())])
-        .filter_map(|(package, is_there)| (!is_there).then_some(package))
-        .collect();
-    if !missing.is_empty() {
-        install(&missing);
+    if !Path::new(CHROMIUM).is_file() {
+        install(&["chromium"]);
+    }
+    if node::missing().is_some() {
+        python::ensure();
+        node::install();
     }
     vec![
         Step::new("the page: packages", npm(&["ci", "--no-audit", "--no-fund"])),
@@ -45,20 +46,9 @@ pub fn tests() -> Vec<Step> {
     ]
 }
 
-/// `npm` in the folder of the page.
+/// Summaries are read: without colours.
 fn npm(arguments: &[&str]) -> Command {
-    let mut command = Command::new("npm");
-    // Summaries are read: without colours.
-    command.args(arguments).current_dir("web").env("NO_COLOR", "1");
+    let mut command = node::npm(arguments);
+    command.env("NO_COLOR", "1");
     command
-}
-
-/// Whether a program is there.
-fn starts(program: &str) -> bool {
-    let mut command = Command::new(program);
-    command
-        .arg("--version")
-        .stdout(Stdio::null())
-        .stderr(Stdio::null());
-    command.status().is_ok_and(|status| status.success())
 }

@@ -22,11 +22,16 @@ const VENV: &str = "target/python-venv";
 /// Where wheels go.
 const WHEELS: &str = "target/python-wheels";
 
-/// Installs what is missing, and gives the steps.
-pub fn steps() -> Vec<Step> {
+/// Installs Python where it is missing.
+pub fn ensure() {
     if !has_venv() {
         install(&["python3", "python3-venv"]);
     }
+}
+
+/// Installs what is missing, and gives the steps.
+pub fn steps() -> Vec<Step> {
+    ensure();
     let mut environment = Command::new("python3");
     environment.args(["-m", "venv", VENV]);
     let python = |arguments: &[&str]| in_package("python", arguments);

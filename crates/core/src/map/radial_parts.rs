@@ -3,6 +3,7 @@
 //! ```text
 //! dr(a) = without(a) + load(a)                     without: the same path in the same postures, no wrench
 //! d_m(a) = sum over k of L_mk e . (s_k(w) - s_k(0))        S = L^T L
+//! d_0(a) = m e . (delta(w) - delta(0))                       by what the model misses
 //! u^2(a) = sum over m of d_m^2(a)
 //! g_i(a) = e . s_i u_i u(b_i)/b_i                     of what it has without load, by a gap that is not known exactly
 //! ```
@@ -13,6 +14,7 @@
 //! | `d_m` | change of the load's part by one independent unknown, off by its standard uncertainty | m |
 //! | `s_k(w)` | displacement per unit of compliance k under the wrench `w` | m/(rad/(N m)) |
 //! | `S` | covariance of the compliances | |
+//! | `delta(w)`, `m` | displacement under the wrench `w`; model error, as a fraction of it | m, 1 |
 //! | `g_i` | change of `without` by a gap that is off by its standard uncertainty | m |
 //! | `u_i`, `b_i`, `u(b_i)` | where a link lies in its gap, the gap, its standard uncertainty | rad (m) |
 //! | `e` | unit vector outwards | 1 |
@@ -174,9 +176,11 @@ impl<'q> Room<'q> {
         forward_into(question.arm.robot, joints, frames);
         standing.stand_in(joints, frames, &base_from_tool.translation.vector.into());
         let size = standing.screws().len();
+        // By each compliance, and last by what the model misses.
         let mut sensitive = |wrench: &Wrench| -> Result<Vec<f64>, Unstable> {
             standing.elastic(wrench)?;
-            Ok((0..size).map(|k| standing.sensitivity(k).dot(outward)).collect())
+            let by_compliance = (0..size).map(|k| standing.sensitivity(k).dot(outward));
+            Ok(by_compliance.chain([standing.missed().dot(outward)]).collect())
         };
         let without = sensitive(&Wrench::ZERO)?;
         let mut by_load = sensitive(wrench)?;
@@ -185,7 +189,11 @@ impl<'q> Room<'q> {
             .zip(&without)
             .for_each(|(with, without)| *with -= without);
         let along_row = |row: &Vec<f64>| row.iter().zip(&by_load).map(|(l, s)| l * s).sum();
-        let mut moves: Vec<f64> = unknowns.iter().map(along_row).collect();
+        let mut moves: Vec<f64> = unknowns
+            .iter()
+            .map(along_row)
+            .chain(by_load.last().copied())
+            .collect();
         let stands = AsItStands {
             joints,
             frames,

@@ -321,13 +321,13 @@ impl Placeable<'_> {
             return 0.0;
         }
         let branch = merit.branch.map_or(self.goal.branches, BranchPattern::from);
-        let by_load = merit.cost * self.question.doubt.relative;
-        let scatter = self.question.arm.model.structure.repeatability;
+        let structure = &self.question.arm.model.structure;
+        let in_proportion = merit.cost * self.question.doubt.relative.hypot(structure.model_error);
         let off = judges.off.iter_mut().map(|judge| {
             let cost = self.nominal(judge, (lie, branch), None);
             cost.map_or(0.0, |there| there.cost - merit.cost)
         });
-        off.fold(by_load.hypot(scatter), f64::hypot)
+        off.fold(in_proportion.hypot(structure.repeatability), f64::hypot)
     }
 
     /// What the place is worth to this judge, as if all were known.

@@ -157,8 +157,8 @@ impl Robot {
         Ok(self)
     }
 
-    /// This robot with joint compliances of another origin than those of its file. Curves of its drives and the
-    /// covariance go: they were of the compliances that these replace. Other springs and masses stay.
+    /// This robot with joint compliances of another origin than those of its file. Curves of its drives,
+    /// covariance and model error go: they were of the compliances that these replace. Other springs and masses stay.
     ///
     /// # Errors
     /// As [`Robot::with_compliance`].
@@ -166,6 +166,7 @@ impl Robot {
         let mut robot = self.with_compliance(compliance)?;
         robot.structure.curves.clear();
         robot.structure.covariance = None;
+        robot.structure.model_error = 0.0;
         Ok(robot)
     }
 

@@ -1,5 +1,5 @@
 //! What yields, weighs, has play and scatters in an arm beside its drives: springs, masses, compensator, torque curves,
-//! backlash, repeatability.
+//! backlash, repeatability; and how much of what it does no such part explains.
 //!
 //! Empty for the simple model, in which only joints yield, each about its own axis.
 
@@ -28,6 +28,9 @@ pub struct Structure {
     pub backlash: Vec<Option<Backlash>>,
     /// Standard deviation of where the tool comes to rest, along any axis, from time to time, m; zero where it is not known.
     pub repeatability: f64,
+    /// Standard uncertainty of what the model predicts under a load, as a fraction of it, beside that of its compliances: what
+    /// springs and joints do that no number of this arm describes. Zero where it is not known.
+    pub model_error: f64,
 }
 
 /// Why a structure fits no arm.
@@ -87,6 +90,9 @@ pub enum StructureError {
     /// A repeatability that is none.
     #[error("a standard deviation of {0} m is not a number from 0 to {WIDEST_SCATTER}")]
     Repeatability(f64),
+    /// A model error that is none.
+    #[error("a model error of {0} is not a fraction from 0 to {WORST_MODEL}")]
+    ModelError(f64),
     /// A curve of fewer than two pairs.
     #[error("a torque curve of {0} pairs: two make a line")]
     ShortCurve(usize),
@@ -110,6 +116,9 @@ pub const WIDEST: f64 = 0.1;
 /// No arm scatters by more, m.
 pub const WIDEST_SCATTER: f64 = 0.01;
 
+/// A model that misses more, as a fraction of what it predicts, predicts nothing.
+pub const WORST_MODEL: f64 = 10.0;
+
 impl Structure {
     /// Nothing yields or weighs but the drives.
     pub const EMPTY: Structure = Structure {
@@ -120,6 +129,7 @@ impl Structure {
         covariance: None,
         backlash: Vec::new(),
         repeatability: 0.0,
+        model_error: 0.0,
     };
 
     /// The torque curve of joint `index`, if it has one.
@@ -188,6 +198,9 @@ impl Structure {
         }
         if !(0.0..=WIDEST_SCATTER).contains(&self.repeatability) {
             return Err(StructureError::Repeatability(self.repeatability));
+        }
+        if !(0.0..=WORST_MODEL).contains(&self.model_error) {
+            return Err(StructureError::ModelError(self.model_error));
         }
         if let Some(c) = &self.compensator {
             turns("the compensator", c.joint)?;

@@ -49,6 +49,8 @@ pub struct SettingAnswer {
     pub tool_length_u_mm: f64,
     /// Standard deviation of where the tool comes to rest from time to time, along any axis; zero where it is not known.
     pub scatter_um: f64,
+    /// Standard uncertainty of what the model predicts, beside that of its compliances; zero where it is not known.
+    pub model_error_percent: f64,
     /// The tolerance.
     pub limit_um: f64,
     /// Parts of the stiffness model that were on.
@@ -82,6 +84,7 @@ impl SettingAnswer {
             load_u_n: setting.doubt.forces.map(|u| clean(u.into())),
             tool_length_u_mm: without_rounding(setting.doubt.tool_length * 1e3),
             scatter_um: setting.model.structure.repeatability * 1e6,
+            model_error_percent: without_rounding(setting.model.structure.model_error * 100.0),
             limit_um: without_rounding(setting.limit * 1e6),
             model: parts(robot, &setting.model),
             shares_of: setting.model.sharer_names(robot.joints()),
@@ -108,7 +111,7 @@ pub struct PointAnswer {
     pub deciding_case: usize,
     /// Largest in-plane deviation of all cases.
     pub in_plane_um: f64,
-    /// Its standard uncertainty, from compliances, load, tool length and repeatability.
+    /// Its standard uncertainty, from compliances, load, tool length, repeatability and model error.
     pub in_plane_u_um: f64,
     /// Deviation along the outward normal, of the case where it is largest.
     pub normal_um: f64,

@@ -1,6 +1,7 @@
 //! The robot file with identified compliances: what later predictions use.
 //!
-//! It takes springs with their uncertainties, the covariance of those that turn, and a source that names the tests.
+//! It takes springs with their uncertainties, the covariance of those that turn, how much left-out tests miss by as the error
+//! of the model, and a source that names the tests.
 //! Lost motion is left out.
 
 use armill_core::identify::Role;
@@ -64,6 +65,7 @@ pub fn robot_file(
     let identified = Identified {
         springs,
         covariance,
+        model_error: answer.left_out.as_ref().map(|errors| errors.fraction_of_measured),
         what,
         place: tests_path.to_owned(),
     };

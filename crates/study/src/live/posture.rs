@@ -143,7 +143,7 @@ pub struct ChainPosition {
 pub struct CaseAnswer {
     /// Length of its part in the plane.
     pub in_plane_um: f64,
-    /// Its standard uncertainty, from compliances, load, tool length and repeatability; of postures with a name.
+    /// Its standard uncertainty, from compliances, load, tool length, repeatability and model error; of postures with a name.
     pub in_plane_u_um: Option<f64>,
     /// Along the outward normal.
     pub normal_um: f64,

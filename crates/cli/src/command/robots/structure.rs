@@ -74,6 +74,18 @@ pub(super) fn as_text(robot: &Robot) -> Vec<String> {
     if structure.covariance.is_some() {
         lines.push("  covariance of the compliances: known".to_owned());
     }
+    if structure.repeatability > 0.0 {
+        lines.push(format!(
+            "  repeatability: {:.1} um along any axis, one standard deviation",
+            structure.repeatability * 1e6
+        ));
+    }
+    if structure.model_error > 0.0 {
+        lines.push(format!(
+            "  model error: {:.1} % of what it predicts, one standard uncertainty",
+            structure.model_error * 100.0
+        ));
+    }
     if !lines.is_empty() {
         lines.insert(0, "Beside the drives:".to_owned());
         lines.insert(0, String::new());

@@ -110,6 +110,10 @@ impl<'q> Points<'q> {
         if undecided || at_the_edge {
             return None;
         }
+        let structure = &self.question.arm.model.structure;
+        let beside = structure
+            .repeatability
+            .hypot(structure.model_error * worst.in_plane[index]);
         let limited = stances.room[index] < 0.5 * super::arm::UNLIMITED;
         Some(Held {
             name: PostureName::Branch(branch(chosen, &stances.flip, index)),
@@ -122,7 +126,7 @@ impl<'q> Points<'q> {
             singularity: singularity(flags),
             deciding_case: worst.case[index] as usize,
             in_plane: worst.in_plane[index],
-            in_plane_uncertainty: uncertainty[index].hypot(self.question.arm.model.structure.repeatability),
+            in_plane_uncertainty: uncertainty[index].hypot(beside),
             normal: worst.normal[index],
             full: worst.full[index],
         })

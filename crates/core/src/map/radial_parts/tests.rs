@@ -227,7 +227,7 @@ fn compliances_that_go_together_move_the_circle_as_their_covariance_says() {
 }
 
 #[test]
-fn a_load_of_uncertain_size_scales_the_whole_curve() {
+fn a_load_of_uncertain_size_and_a_model_that_misses_scale_the_whole_curve() {
     let robot = arms::mh12();
     let sure: Vec<JointCompliance> = compliance(&robot)
         .iter()
@@ -240,8 +240,12 @@ fn a_load_of_uncertain_size_scales_the_whole_curve() {
         relative: 0.05,
         ..Doubt::NONE
     };
-    let (outward, _, curves) = told(&robot, (&sure, StiffnessModel::DRIVES, doubt), &push(&[FORCE]));
-    assert_eq!(curves.len(), 1);
-    let scaled: Vec<f64> = outward.iter().map(|by| 0.05 * by).collect();
-    assert!(farthest_apart(&curves[0], &scaled) < 1e-16);
+    let mut missing = StiffnessModel::DRIVES.clone();
+    missing.structure.model_error = 0.05;
+    for (model, doubt) in [(StiffnessModel::DRIVES, doubt), (&missing, Doubt::NONE)] {
+        let (outward, _, curves) = told(&robot, (&sure, model, doubt), &push(&[FORCE]));
+        assert_eq!(curves.len(), 1);
+        let scaled: Vec<f64> = outward.iter().map(|by| 0.05 * by).collect();
+        assert!(farthest_apart(&curves[0], &scaled) < 1e-16);
+    }
 }

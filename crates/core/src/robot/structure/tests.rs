@@ -52,6 +52,7 @@ fn sound() -> Structure {
         covariance: Some(DMatrix::identity(8, 8) * 1e-14),
         backlash: vec![None, backlash(2e-4)],
         repeatability: 2e-5,
+        model_error: 0.1,
     }
 }
 
@@ -61,6 +62,17 @@ fn backlash(gap: f64) -> Option<Backlash> {
         standard_uncertainty: 1e-5,
         flank: Flank::Motion,
     })
+}
+
+#[test]
+fn a_model_error_is_a_fraction_of_ten_at_most() {
+    for value in [-1e-9, 10.0_f64.next_up(), f64::NAN] {
+        let told = refused(|s| s.model_error = value);
+        assert_eq!(
+            told,
+            format!("a model error of {value} is not a fraction from 0 to 10")
+        );
+    }
 }
 
 #[test]

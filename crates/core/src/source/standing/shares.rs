@@ -1,7 +1,9 @@
 //! Who made the displacement of an arm under its last load, and how sure it is.
 //!
-//! `cov(delta) = A S A^T`, columns `a_k`: displacement per unit of compliance k. `S` is the covariance of the structure;
-//! compliances that it does not reach are independent.
+//! `cov(delta) = A S A^T + m^2 delta delta^T`, columns `a_k`: displacement per unit of compliance k. `S` is the covariance of
+//! the structure; compliances that it does not reach are independent. `m` is its model error: what no compliance explains,
+//! as a fraction of what all of them together make (a discrepancy as of Kennedy and O'Hagan, Bayesian calibration of
+//! computer models, J. R. Stat. Soc. B 63, 2001, that is in proportion to the prediction).
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -49,10 +51,23 @@ impl Standing<'_> {
         }
     }
 
-    /// Variance (m^2) of the displacement along the unit vector `along`, from the compliances.
+    /// Variance (m^2) of the displacement along the unit vector `along`, from the compliances and the model error.
     pub fn variance_along(&self, along: &Vector3<f64>) -> f64 {
         let a = |k: usize| self.sensitivity(k).dot(along);
-        self.variances(a, |a, b| a * b, 0.0)
+        self.variances(a, |a, b| a * b, self.missed().dot(along).powi(2))
+    }
+
+    /// What the model may miss of the displacement under the last load, one standard deviation along it, m.
+    pub fn missed(&self) -> Vector3<f64> {
+        match self.arm.model.structure.model_error {
+            0.0 => Vector3::zeros(),
+            fraction => {
+                (0..self.seats.len())
+                    .map(|k| self.part(k).linear)
+                    .sum::<Vector3<f64>>()
+                    * fraction
+            }
+        }
     }
 
     /// Standard deviation (m) of where the tool comes to rest, along any axis.
@@ -60,20 +75,20 @@ impl Standing<'_> {
         self.arm.model.structure.repeatability
     }
 
-    /// Covariance (m^2) of the displacement, from the compliances: `A S A^T`.
+    /// Covariance (m^2) of the displacement, from the compliances and the model error.
     pub fn covariance(&self) -> Matrix3<f64> {
-        let a = |k: usize| self.sensitivity(k);
-        self.variances(a, |a, b| a * b.transpose(), Matrix3::zeros())
+        let (a, missed) = (|k: usize| self.sensitivity(k), self.missed());
+        self.variances(a, |a, b| a * b.transpose(), missed * missed.transpose())
     }
 
-    /// `sum_kl S_kl a_k a_l`, with independent compliances where no covariance is known.
-    fn variances<A, S>(&self, a: impl Fn(usize) -> A, times: impl Fn(A, A) -> S, zero: S) -> S
+    /// `beside + sum_kl S_kl a_k a_l`, with independent compliances where no covariance is known.
+    fn variances<A, S>(&self, a: impl Fn(usize) -> A, times: impl Fn(A, A) -> S, beside: S) -> S
     where
         S: std::ops::Add<Output = S> + std::ops::Mul<f64, Output = S>,
     {
         let known = self.arm.model.structure.covariance.as_ref();
         let size = known.map_or(0, nalgebra::DMatrix::nrows);
-        let mut sum = zero;
+        let mut sum = beside;
         if let Some(s) = known {
             for i in 0..size {
                 for j in 0..size {

@@ -74,6 +74,7 @@ fn everything() -> StiffnessModel {
             covariance: None,
             backlash: Vec::new(),
             repeatability: 0.0,
+            model_error: 0.0,
         },
         gravity: Some(Gravity {
             acceleration: -Vector3::z() * FREE_FALL,
@@ -177,6 +178,7 @@ fn the_variance_along_a_direction_is_that_of_the_covariance() {
     let (tool, mut model) = (arms::bent_tool(), everything());
     let mut stream = Stream(63);
     for known in [false, true] {
+        model.structure.model_error = if known { 0.3 } else { 0.0 };
         model.structure.covariance = known.then(|| {
             let root = nalgebra::DMatrix::from_fn(7, 7, |i, j| ((3 * i + 5 * j + i * j) % 7) as f64 - 2.5);
             &root * root.transpose() * 1e-15

@@ -43,6 +43,8 @@ pub(super) struct RobotFile {
     pub covariance: Option<CovarianceTable>,
     /// How much the arm scatters from time to time.
     pub repeatability: Option<RepeatabilityTable>,
+    /// How much of what it predicts the model misses.
+    pub model_error: Option<ModelErrorTable>,
     /// Greatest load at the flange.
     pub payload: Option<PayloadTable>,
     /// Where the numbers come from, by key.
@@ -268,6 +270,17 @@ pub(super) struct RepeatabilityTable {
     /// Pose repeatability RP of ISO 9283, as data sheets tell it after a plus-minus.
     #[schemars(range(min = 0.0, max = 30.0))]
     pub pose_mm: f64,
+    /// Key of the source.
+    #[serde(rename = "source")]
+    pub _source: String,
+}
+
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ModelErrorTable {
+    /// Standard uncertainty of a predicted deviation beside that of the compliances: what tests that were left out miss by.
+    #[schemars(range(min = 0.0, max = 1000.0))]
+    pub percent: f64,
     /// Key of the source.
     #[serde(rename = "source")]
     pub _source: String,

@@ -1,7 +1,7 @@
 //! A robot file with compliances that were identified in place of its own.
 //!
-//! Everything else stays as it is: order, remarks, spelling. Springs and covariance of the file go, since they belong
-//! to the compliances that are replaced; sources that no number names any more go with them.
+//! Everything else stays as it is: order, remarks, spelling. Springs, covariance and model error of the file go, since they
+//! belong to the compliances that are replaced; sources that no number names any more go with them.
 
 use std::collections::BTreeSet;
 
@@ -19,6 +19,8 @@ pub struct Identified {
     pub springs: Vec<IdentifiedSpring>,
     /// Covariance of those that turn, in their order, rad^2/(N m)^2; empty if it is not known.
     pub covariance: Vec<Vec<f64>>,
+    /// How much tests miss by that were left out, as a fraction of what was measured; `None` if none were.
+    pub model_error: Option<f64>,
     /// The tests they come from, for people.
     pub what: String,
     /// Where these tests are kept.
@@ -47,6 +49,10 @@ impl IdentifiedSpring {
 
 /// Key of the source of identified numbers, in `[sources]` and wherever they stand.
 const KEY: &str = "identified";
+/// Model errors of more are not told apart.
+const MOST_PERCENT: f64 = 1000.0;
+/// What is said after a note of the file that was there before.
+const BEFORE_TESTS: &str = "This was said before its compliances were identified from load tests.";
 /// Digits kept of a compliance: far more than any test gives.
 const DIGITS: usize = 7;
 
@@ -61,14 +67,24 @@ const DIGITS: usize = 7;
 /// and others have none: such problems stand at their place in the new text, told as that of `path (identified)`.
 pub fn with_springs(path: &str, text: &str, identified: &Identified) -> Result<String, Problems> {
     let Identified {
-        springs, covariance, ..
+        springs,
+        covariance,
+        model_error,
+        ..
     } = identified;
     let checked = Document::parse(path, text)?;
     let mut document: DocumentMut = text
         .parse()
         .map_err(|error: toml_edit::TomlError| Problems::from(checked.problem("", error.message(), None)))?;
+    if let Some(note) = document.get("note").and_then(Item::as_str)
+        && !note.ends_with(BEFORE_TESTS)
+    {
+        let note = format!("{} {BEFORE_TESTS}", note.trim_end());
+        document.insert("note", value(note));
+    }
     document.remove("spring");
     document.remove("covariance");
+    document.remove("model_error");
     // `joint = [{ ... }]` is the same as tables of their own.
     if let Some(joint) = document.get_mut("joint")
         && let Ok(mut joints) = std::mem::take(joint).into_array_of_tables()
@@ -91,6 +107,13 @@ pub fn with_springs(path: &str, text: &str, identified: &Identified) -> Result<S
     if covariance.len() > 1 {
         let turning = springs.iter().filter(|spring| spring.turns());
         document.insert("covariance", covariance_table(turning, covariance));
+    }
+    if let Some(fraction) = model_error {
+        let mut table = Table::new();
+        let percent = (fraction * 1e4).round() / 1e2;
+        table.insert("percent", value(percent.min(MOST_PERCENT)));
+        table.insert("source", value(KEY));
+        document.insert("model_error", Item::Table(table));
     }
     set_sources(&mut document, KEY, [&identified.what, &identified.place])?;
     let text = document.to_string();
@@ -233,6 +256,7 @@ mod tests {
         Identified {
             springs: springs.to_vec(),
             covariance: covariance.iter().map(|row| row.to_vec()).collect(),
+            model_error: Some(0.0942),
             what: "43 tests".to_owned(),
             place: "tests.csv".to_owned(),
         }
@@ -251,6 +275,7 @@ mod tests {
         );
         assert!(!text.contains("guess"), "{text}");
         let read = super::super::read("lever.toml", "lever", &text).unwrap();
+        assert!((read.robot.structure().model_error - 0.0942).abs() < 1e-12);
         let compliance = read.robot.compliance().unwrap();
         assert!((compliance[0].value - 2.5e-6).abs() < 1e-18, "{text}");
         assert!((compliance[1].value - 3e-8).abs() < 1e-18, "{text}");
@@ -262,6 +287,36 @@ mod tests {
             read.joint_notes[0].compliance_source.as_deref(),
             Some("identified")
         );
+    }
+
+    #[test]
+    fn a_model_error_replaces_the_one_before_and_goes_where_none_is_known() {
+        let drives = [
+            spring("A", Yields::Drive, 2.5e-6),
+            spring("B", Yields::SlidingDrive, 3e-8),
+        ];
+        let of = |text: &str, model_error| {
+            let found = Identified {
+                model_error,
+                ..identified(&drives, &[])
+            };
+            with_springs("lever.toml", text, &found).unwrap()
+        };
+        let read = |text: &str| {
+            let read = super::super::read("lever.toml", "lever", text).unwrap();
+            (read.robot.structure().model_error * 100.0, read.note)
+        };
+        let first = of(
+            &FILE.replace("name = \"lever\"", "name = \"lever\"\nnote = \"Soft.\""),
+            Some(0.26),
+        );
+        let second = of(&first, Some(1e4));
+        let third = of(&second, None);
+        let note = Some(format!("Soft. {BEFORE_TESTS}"));
+        assert_eq!(read(&first), (26.0, note.clone()));
+        assert_eq!(read(&second), (MOST_PERCENT, note.clone()));
+        assert_eq!(read(&third), (0.0, note));
+        assert_eq!(third.matches("sources.identified").count(), 1, "{third}");
     }
 
     #[test]

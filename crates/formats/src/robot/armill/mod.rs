@@ -12,7 +12,7 @@
 //! name = "Maker Type"
 //! [chain]       source, motions = [{ about = "z", joint = "S" }, { along = "z", length_mm = 450 }, ...]
 //! [[joint]]     name, sign, zero_offset_deg, limits_deg, max_speed_deg_per_s, compliance_rad_per_n_m, ...
-//! [[frame]] [[spring]] [[mass]] [compensator] [covariance] [repeatability] [payload]        each may be left out
+//! [[frame]] [[spring]] [[mass]] [compensator] [covariance] [repeatability] [model_error] [payload]    each may be left out
 //! [sources.KEY] what, where, licence: every KEY that a `source` names, and no other
 //! ```
 //!

@@ -1,5 +1,5 @@
 //! What a robot file says of an arm beside its drives: springs, masses, compensator, torque curves, covariance, backlash,
-//! repeatability.
+//! repeatability, model error.
 //!
 //! Compliances are counted as the core counts them: the drives in the order of the joints, then the springs in the
 //! order of their tables, of which one with a whole matrix makes up to six. A covariance names those it is of; all
@@ -48,6 +48,7 @@ impl Checks<'_> {
         structure.compensator = self.compensator(file, &joints);
         structure.repeatability = (file.repeatability.as_ref())
             .map_or(0.0, |table| repeatability::deviation_of(table.pose_mm * 1e-3));
+        structure.model_error = (file.model_error.as_ref()).map_or(0.0, |table| table.percent / 100.0);
         if let Some(table) = &file.covariance {
             structure.covariance = self.covariance(table, &names, &structure, file);
         }
