@@ -2046,7 +2046,7 @@ export interface components {
             in_plane_um: number;
             /**
              * Format: double
-             * @description Its standard uncertainty, from compliances, load, tool length and repeatability.
+             * @description Its standard uncertainty, from compliances, load, tool length, repeatability and model error.
              */
             in_plane_u_um: number;
             /**
@@ -2228,6 +2228,11 @@ export interface components {
              * @description Standard deviation of where the tool comes to rest from time to time, along any axis; zero where it is not known.
              */
             scatter_um: number;
+            /**
+             * Format: double
+             * @description Standard uncertainty of what the model predicts, beside that of its compliances; zero where it is not known.
+             */
+            model_error_percent: number;
             /**
              * Format: double
              * @description The tolerance.
@@ -3656,7 +3661,7 @@ export interface components {
                 number,
                 number
             ][] | null;
-            /** @description Standard uncertainty of the displacement, from those of the compliances and the repeatability of the arm. */
+            /** @description Standard uncertainty of the displacement, from those of the compliances, the repeatability of the arm and the error of its model. */
             deviation_u_um: [
                 number,
                 number,
@@ -3912,7 +3917,7 @@ export interface components {
             in_plane_um: number;
             /**
              * Format: double
-             * @description Its standard uncertainty, from compliances, load, tool length and repeatability; of postures with a name.
+             * @description Its standard uncertainty, from compliances, load, tool length, repeatability and model error; of postures with a name.
              */
             in_plane_u_um: number | null;
             /**
