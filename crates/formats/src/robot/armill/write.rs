@@ -122,7 +122,10 @@ fn chain(text: &mut String, found: &RobotDescription) {
         let axis = axis.letter();
         let amount = match (motion, motion.amount()) {
             (Motion::Along(..), Amount::Constant(m)) => format!("length_mm = {}", millimetres(m, CHAIN)),
-            (Motion::About(..), Amount::Constant(rad)) => format!("angle_deg = {}", degrees(rad, CHAIN)),
+            // Whole turns do nothing, and `read` takes none.
+            (Motion::About(..), Amount::Constant(rad)) => {
+                format!("angle_deg = {}", degrees(rad % std::f64::consts::TAU, CHAIN))
+            }
             (_, Amount::Joint(joint)) => {
                 let name = found
                     .robot
@@ -176,7 +179,12 @@ fn joint(text: &mut String, found: &RobotDescription, index: usize) {
     }
     match joint.limits {
         Some(limits) => {
-            let (lower, upper) = (number(limits.lower, RANGE), number(limits.upper, RANGE));
+            let ends = |within| [limits.lower, limits.upper].map(|end| number(end, within));
+            // Limits that lie closer together than what is kept are written in full.
+            let [lower, upper] = match ends(RANGE) {
+                [lower, upper] if lower == upper => ends(0.0),
+                told => told,
+            };
             line(text, &format!("limits_{unit} = [{lower}, {upper}]"));
         }
         None => line(text, &format!("# limits_{unit} = [lower, upper]")),

@@ -127,3 +127,35 @@ fn what_is_missing_stands_in_comments() {
         assert!(text.contains(words), "no `{words}` in\n{text}");
     }
 }
+
+#[test]
+fn turns_beyond_a_whole_one_and_limits_close_together_are_written_so_that_they_read() {
+    for (angle, limits) in [
+        (11.0, [0.0, 1.7e-11]),
+        (-7.0, [1.0, 1.0 + 3e-16]),
+        (6.3, [-1e-300, 0.0]),
+    ] {
+        let motions = vec![
+            Motion::About(Axis::Z, Amount::Constant(angle)),
+            Motion::Along(Axis::X, Amount::Constant(1.0)),
+            Motion::About(Axis::Y, Amount::Joint(0)),
+        ];
+        let joint = Joint {
+            limits: Some(Limits {
+                lower: limits[0],
+                upper: limits[1],
+            }),
+            ..Joint::plain("A")
+        };
+        let robot = Robot::new("odd", motions, vec![joint]).unwrap();
+        let text = write(&described(robot.clone()));
+        let back = read("odd.toml", "odd", &text).unwrap().robot;
+        let pose = |robot: &Robot| {
+            let posture = posture_at(robot, &[0.3], &Isometry::identity());
+            posture.base_from_tool.to_homogeneous()
+        };
+        assert!((pose(&robot) - pose(&back)).norm() < 1e-14, "{text}");
+        let kept = back.joints()[0].limits.unwrap();
+        assert!((kept.lower - limits[0]).abs() < 1e-15 && (kept.upper - limits[1]).abs() < 1e-15);
+    }
+}
