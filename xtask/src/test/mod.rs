@@ -3,7 +3,8 @@
 //! `ARMILL_SAMPLES` goes through to the tests: with it a missing sample fails a test, without it the test
 //! says that it was skipped.
 //!
-//! `step`: one of them; `page`: those of the page of `armill serve`; `python`: those of the Python package; `count`: the tests in what it printed.
+//! `step`: one of them; `page`: those of the page of `armill serve`; `python`: those of the Python package;
+//! `count`: the tests in what it printed; `room`: whether the disk has room for them.
 //!
 //! | step | fails where |
 //! |---|---|
@@ -20,6 +21,7 @@
 mod count;
 mod page;
 mod python;
+mod room;
 mod step;
 
 use crate::command::{cargo, expect_no_arguments, has_cargo_tool};
@@ -81,6 +83,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
             eprintln!("samples: ARMILL_SAMPLES is not set; tests that need them say that they are skipped");
         }
     }
+    room::tell_if_little();
     let outcomes: Vec<Outcome> = steps().into_iter().map(Step::run).collect();
     println!("\n{}", table(&outcomes));
     let total = outcomes
