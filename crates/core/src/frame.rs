@@ -140,6 +140,12 @@ pub fn some_across(axis: &Vector3<f64>) -> Vector3<f64> {
     axis.cross(&Vector3::ith(axis.iamin(), 1.0)).normalize()
 }
 
+/// Two directions across a unit vector and each other, always the same ones for the same vector.
+pub fn both_across(axis: &Vector3<f64>) -> [Vector3<f64>; 2] {
+    let across = some_across(axis);
+    [across, axis.cross(&across)]
+}
+
 #[cfg(test)]
 mod tests {
     use std::f64::consts::{FRAC_PI_2, PI};

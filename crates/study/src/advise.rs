@@ -6,6 +6,7 @@
 //!
 //! Each step is taken only where it makes the path better. The study that comes of them is run and written as any other.
 
+use armill_core::optimize::Compensation;
 use armill_core::watch::Watch;
 use serde::Serialize;
 
@@ -128,7 +129,7 @@ pub fn advise(
         false => (&there, still),
     };
     told("compensation");
-    let commanded = compensate(advised, Some(name), quiet)?;
+    let commanded = compensate(advised, Some(name), Compensation::USUAL, quiet)?;
     let compensated = commanded.first().map(|path| path.told.after);
     let answer = crate::answer::answer(advised, &done);
     let path = answer.paths.into_iter().next();

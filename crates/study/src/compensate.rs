@@ -18,7 +18,7 @@ use armill_core::frame::tool_orientation;
 use armill_core::kernel::Answers;
 use armill_core::nalgebra::{UnitQuaternion, Vector3};
 use armill_core::optimize::{Compensated, Compensation, compensated};
-use armill_core::path::{Pace, Parts, Track};
+use armill_core::path::{Pace, Parts, Shape, Track};
 use armill_core::watch::Watch;
 use armill_formats::table::{Column, ColumnData, Table, csv};
 use armill_report::{PathPlot, Series};
@@ -106,18 +106,20 @@ pub struct Commanded<'a> {
     pub program: Vec<(String, Vec<u8>)>,
 }
 
-/// Compensates every path of the study, or the one called `name`.
+/// Compensates every path of the study, or the one called `name`. A circle is closed: its first point is commanded again at
+/// its end.
 ///
 /// # Errors
 /// No such path; a robot without compliance; a path that misses its stock; cancelled by the watch.
 pub fn compensate<'a>(
     study: &'a Study,
     name: Option<&str>,
+    compensation: Compensation,
     watch: Watch<'_>,
 ) -> Result<Vec<Commanded<'a>>, StudyError> {
     let runner = runner(study, watch)?;
     let all: Vec<Commanded<'a>> = paths(study, name)
-        .map(|(name, path)| of_path(&runner, name, path))
+        .map(|(name, path)| of_path(&runner, (name, path), compensation))
         .collect::<Result<_, _>>()?;
     if all.is_empty() {
         let message = match name {
@@ -153,7 +155,23 @@ pub(crate) fn paths<'a>(
     })
 }
 
-fn of_path<'a>(runner: &Runner<'_>, name: &str, ask: &'a PathAsk) -> Result<Commanded<'a>, StudyError> {
+fn of_path<'a>(
+    runner: &Runner<'_>,
+    (name, path): (&str, &'a PathAsk),
+    compensation: Compensation,
+) -> Result<Commanded<'a>, StudyError> {
+    let closed;
+    let ask = match path.shape() {
+        Some(Shape::Circle { .. }) => {
+            closed = PathAsk {
+                track: path.track.closed(path.length()),
+                load: path.load.closed(),
+                ..path.clone()
+            };
+            &closed
+        }
+        _ => path,
+    };
     let (load, _) = runner.pushed(ask)?;
     let followed = runner.follow(ask, load.clone())?;
     let drawn = followed.turned.as_ref().unwrap_or(&ask.track);
@@ -162,7 +180,7 @@ fn of_path<'a>(runner: &Runner<'_>, name: &str, ask: &'a PathAsk) -> Result<Comm
         &question,
         (drawn, &load),
         &followed.along.choices,
-        Compensation::USUAL,
+        compensation,
         runner.watch,
     )?;
     let rewritten = in_place(runner, ask, (&followed, &load), &found.track)?;
@@ -211,7 +229,7 @@ fn of_path<'a>(runner: &Runner<'_>, name: &str, ask: &'a PathAsk) -> Result<Comm
             (&found, in_place.as_ref()),
         ),
         csv: csv::write(&table(name, &found.track)?),
-        setting: &ask.setting,
+        setting: &path.setting,
         path: (found.track, found.along.answers),
         told,
         program: in_place.map_or_else(Vec::new, |written| written.files),

@@ -3,7 +3,7 @@
 //! ```text
 //! drive springs; 6 further springs; torque curves of A2; gravity compensator of A2;
 //! gravity, against the posture where the tool was set; load-dependent stiffness; covariance of the compliances;
-//! backlash of L, U along paths; the measured arm along paths; repeatability in the uncertainty;
+//! backlash of L, U; the measured arm; repeatability in the uncertainty;
 //! model error of 9.4 % in the uncertainty
 //! ```
 //!
@@ -45,10 +45,10 @@ pub fn parts(robot: &Robot, model: &StiffnessModel) -> Vec<String> {
     }
     let play: Vec<String> = structure.gaps().map(|(joint, _)| name(joint)).collect();
     if !play.is_empty() {
-        parts.push(format!("backlash of {} along paths", play.join(", ")));
+        parts.push(format!("backlash of {}", play.join(", ")));
     }
     if model.actual.is_some() {
-        parts.push("the measured arm along paths".to_owned());
+        parts.push("the measured arm".to_owned());
     }
     if structure.repeatability > 0.0 {
         parts.push("repeatability in the uncertainty".to_owned());

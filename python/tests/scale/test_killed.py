@@ -23,13 +23,19 @@ import sys
 sys.path.insert(0, {tests!r})
 from scale import works
 from armill import scale
-scale.run(works.waves(), {folder!r}, "local", workers=2, items_per_part=10)
+scale.run(works.waves(), {folder!r}, "local", workers=2, items_per_part=2)
 """
+#: As many as that script makes.
+PARTS = 500
 
 
 def started(folder: Path) -> subprocess.Popen[bytes]:
+    """The script, as soon as it has made its folder."""
     script = SCRIPT.format(tests=str(Path(__file__).parents[1]), folder=str(folder))
-    return subprocess.Popen([sys.executable, "-c", script], stderr=subprocess.DEVNULL)
+    process = subprocess.Popen([sys.executable, "-c", script], stderr=subprocess.DEVNULL)
+    while not folder.exists() and process.poll() is None:
+        time.sleep(0.001)
+    return process
 
 
 def finished(folder: Path) -> dict[str, str]:
@@ -39,15 +45,16 @@ def finished(folder: Path) -> dict[str, str]:
 
 
 def test_killed_at_any_moment_the_next_run_ends_it_with_the_same_bytes(tmp_path: Path) -> None:
+    process = started(tmp_path / "undisturbed")
     begun = time.monotonic()
-    assert started(tmp_path / "undisturbed").wait() == 0
+    assert process.wait() == 0
     whole_time = time.monotonic() - begun
     undisturbed = finished(tmp_path / "undisturbed")
-    assert len(undisturbed) == 100
+    assert len(undisturbed) == PARTS
 
     caught = []
-    for k in range(int(os.environ.get("ARMILL_KILLS", "5"))):
-        # Scattered by the golden ratio over the whole run, its start of Python included.
+    for k in range(int(os.environ.get("ARMILL_KILLS", "4"))):
+        # Scattered by the golden ratio over the whole run.
         moment = (k * 0.61803398875) % 1
         folder = tmp_path / f"killed {k}"
         process = started(folder)
@@ -61,10 +68,10 @@ def test_killed_at_any_moment_the_next_run_ends_it_with_the_same_bytes(tmp_path:
         told = manifest(folder)["parts"] if (folder / "manifest.json").exists() else []
         assert {f"part-{part['part']:06d}.parquet" for part in told} <= left.keys(), f"after {moment:.3f}"
 
-        again = scale.run(works.waves(), folder, items_per_part=10)
-        assert again.part_count == 100
+        again = scale.run(works.waves(), folder, items_per_part=2)
+        assert again.part_count == PARTS
         assert sums(folder) == list(undisturbed[name] for name in sorted(undisturbed)), f"after {moment:.3f}"
         assert not list(folder.rglob(f"*{scale.files.UNFINISHED}")), f"after {moment:.3f}"
         caught.append(len(left))
-    print(f"parts left by each kill: {caught} of 100")
-    assert min(caught) < 100, "every run was over before it was killed"
+    print(f"parts left by each kill: {caught} of {PARTS}")
+    assert min(caught) < PARTS, "every run was over before it was killed"

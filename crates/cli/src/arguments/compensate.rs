@@ -14,6 +14,7 @@ Examples:
   armill compensate cell                   every path of the study, into cell/compensated
   armill compensate cell --ask ring --out fixed
   armill compensate cell --ask ring --program ring.src --frame 3 --tool 2
+  armill compensate cell --ask ring --as-drawn --program first.src --feed-mm-per-min 1000
 The ending of --program is the language: .src KUKA, .mod ABB, .jbi Yaskawa, .ls FANUC, .script UR, .pjx Staubli.
 A path that follows a program of a robot (program = { file = \"part.src\" }) brings that program too, under its own name, with
 its targets moved and every other byte as it was. A program alone tells no robot and no load: put it into a study.
@@ -27,6 +28,9 @@ pub(crate) struct CompensateArguments {
     /// Folder for the results (STUDY/compensated if left out)
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Make up for nothing: the path as it is drawn, such as a first circle of a ball-bar
+    #[arg(long)]
+    pub as_drawn: bool,
     #[command(flatten)]
     pub program: ProgramOptions,
     /// Speed of the tip where the path tells none

@@ -60,12 +60,7 @@ pub(crate) fn run(arguments: &BallbarArguments) -> Result<Outcome, StudyError> {
     let table = match &taught {
         None => None,
         Some((told, circle, _)) => {
-            if told.most_lobes < arguments.teach_lobes {
-                answer.warnings.push(format!(
-                    "the taught circle takes off {} lobes, not {}: the samples are too far apart for more",
-                    told.most_lobes, arguments.teach_lobes
-                ));
-            }
+            answer.warnings.extend(told.warnings(arguments.teach_lobes));
             answer.taught = Some(told.clone());
             Some(circle.csv()?)
         }

@@ -5,6 +5,7 @@
 
 use std::fmt::Write as _;
 
+use armill_core::optimize::Compensation;
 use armill_core::source::StiffnessModel;
 use armill_formats::file::write_atomically;
 use armill_study::compensate::{CompensatedPath, CompensationAnswer, compensate};
@@ -36,11 +37,18 @@ pub(crate) fn run(arguments: &CompensateArguments) -> Result<Outcome, StudyError
         &study,
         arguments.ask.as_deref(),
     ));
-    let commanded = progress.watch(|watch| compensate(&study, arguments.ask.as_deref(), watch))?;
+    let compensation = match arguments.as_drawn {
+        true => Compensation::NONE,
+        false => Compensation::USUAL,
+    };
+    let name = arguments.ask.as_deref();
+    let commanded = progress.watch(|watch| compensate(&study, name, compensation, watch))?;
     for one in &commanded {
         write_atomically(out.join(&one.told.file), &one.csv)?;
         let picture = one.told.file.replace(".commanded.csv", "-compensated.svg");
-        write_atomically(out.join(picture), one.picture.as_bytes())?;
+        if one.told.rounds > 0 {
+            write_atomically(out.join(picture), one.picture.as_bytes())?;
+        }
         for (name, bytes) in &one.program {
             write_atomically(out.join(name), bytes)?;
         }
@@ -96,11 +104,15 @@ fn as_text(answer: &CompensationAnswer) -> String {
     let mut lines: Vec<String> = answer
         .paths
         .iter()
-        .map(|path| {
-            format!(
+        .map(|path| match path.rounds {
+            0 => format!(
+                "{}: as it is drawn; the tool goes {:.1} µm from it at most ({:.1} µm rms)",
+                path.name, path.before.max_um, path.before.rms_um
+            ),
+            _ => format!(
                 "{}: the tool goes {:.1} µm from the path at most ({:.1} µm rms), compensated {:.2} µm ({:.2} µm rms); points move by up to {:.1} µm",
                 path.name, path.before.max_um, path.before.rms_um, path.after.max_um, path.after.rms_um, path.largest_correction_um
-            )
+            ),
         })
         .collect();
     for path in answer

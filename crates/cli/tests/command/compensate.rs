@@ -318,6 +318,77 @@ fn what_keeps_a_program_from_being_written_in_place_is_said() {
     ]);
 }
 
+const CIRCLE: &str = "[[ask]]\nkind = \"path\"\nname = \"round\"\ncircle.radius_mm = 40\nstep_mm = 2\n";
+
+/// Places of the straight moves of a KRL program, mm.
+fn places(cell: &Cell, program: &str) -> Vec<[f64; 3]> {
+    let text = std::fs::read_to_string(cell.at(program)).unwrap();
+    let place = |line: &str| {
+        let mut numbers = line.strip_prefix("LIN {X ")?.split([' ', ',']);
+        let mut next = || numbers.find_map(|word| word.parse().ok());
+        Some([next()?, next()?, next()?])
+    };
+    text.lines().filter_map(place).collect()
+}
+
+#[test]
+fn the_program_of_a_circle_ends_where_it_begins() {
+    let cell = Cell::with_study(&format!("{CELL}{CIRCLE}"));
+    let all = [
+        "compensate",
+        "study.toml",
+        "--program",
+        "round.src",
+        "--feed-mm-per-min",
+        "600",
+    ];
+    cell.armill(&all).fine();
+    let places = places(&cell, "round.src");
+    // Down to the first point at the beginning, up from the last at the end.
+    let [first, .., last, up] = places[..] else {
+        panic!("{places:?}")
+    };
+    assert_eq!(first, last);
+    assert!((up[2] - last[2] - 50.0).abs() < 1e-9, "{places:?}");
+    let table = std::fs::read_to_string(cell.at("compensated/round.commanded.csv")).unwrap();
+    let rows: Vec<&str> = table.lines().filter(|line| line.starts_with('-')).collect();
+    let of = |row: &str| row.split(',').take(3).map(str::to_owned).collect::<Vec<_>>();
+    assert_eq!(of(rows[0]), of(rows[rows.len() - 1]));
+}
+
+#[test]
+fn a_path_as_it_is_drawn_makes_up_for_nothing() {
+    let cell = Cell::with_study(&format!("{CELL}{CIRCLE}"));
+    let all = [
+        "compensate",
+        "study.toml",
+        "--as-drawn",
+        "--program",
+        "round.src",
+        "--feed-mm-per-min",
+        "600",
+    ];
+    let said = cell.armill(&all).fine();
+    assert!(
+        said.out.starts_with("round: as it is drawn; the tool goes "),
+        "{}",
+        said.out
+    );
+    let places = places(&cell, "round.src");
+    for [x, y, z] in &places[..places.len() - 1] {
+        assert!((x.hypot(*y) - 40.0).abs() < 1e-3 && *z == 0.0, "{x} {y} {z}");
+    }
+    assert!(!cell.at("compensated/round-compensated.svg").exists());
+    let told = cell.armill(&[&all[..], &["--json"]].concat()).fine().json();
+    let path = &told["paths"][0];
+    assert_eq!(
+        (&path["rounds"], &path["largest_correction_um"]),
+        (&0.into(), &0.0.into())
+    );
+    assert_eq!(path["before"], path["after"]);
+    assert!(number(&path["before"]["max_um"]) > 50.0);
+}
+
 #[test]
 fn what_cannot_be_compensated_says_why() {
     let cell = cell("file = \"ring.ngc\"", "");

@@ -68,10 +68,7 @@ fn backlash_of_the_robot_file_is_part_of_the_deviation_along_a_path() {
     let table = std::fs::read_to_string(cell.at("with/ring.csv")).unwrap();
     assert!(table.contains("unloaded_cross_um"));
     let model = with["setting"]["model"].to_string();
-    assert!(
-        model.contains("backlash of S, L, U, R, B, T along paths"),
-        "{model}"
-    );
+    assert!(model.contains("backlash of S, L, U, R, B, T"), "{model}");
 }
 
 #[test]
@@ -97,21 +94,58 @@ fn what_is_known_of_backlash_and_geometry_is_compensated() {
 }
 
 #[test]
-fn maps_leave_backlash_out_and_say_so() {
-    let cell = Cell::with_study(
-        &CELL
-            .replace("kind = \"path\"", "kind = \"map\"")
-            .replace("circle.radius_mm = 60\nstep_mm = 2\n", ""),
-    );
-    cell.file("arm.toml", with_play());
-    let said = cell
-        .armill(&["run", "study.toml", "--no-pictures", "--json"])
-        .fine();
+fn maps_have_play_where_it_moves_the_tool_farthest_and_say_so() {
+    let map = CELL.split_once("[[ask]]").unwrap().0;
+    let cell = Cell::with_study(map);
+    let told = |arm: String| {
+        cell.file("arm.toml", arm);
+        let said = cell.armill(&["run", "study.toml", "--no-pictures", "--json"]);
+        said.fine().json()
+    };
+    let without = told(mh12());
+    assert!(!without["warnings"].to_string().contains("gaps"));
+    let with = told(with_play());
+    let farthest = "maps, sections, volumes and holes tell where backlash moves the tool farthest";
     assert!(
-        said.json()["warnings"].to_string().contains("along paths alone"),
+        with["warnings"].to_string().contains(farthest),
         "{}",
-        said.err
+        with["warnings"]
     );
+    let worst = |told: &serde_json::Value| told["maps"][0]["worst"].clone();
+    // Half of 0.01 deg at a metre are 87 um a joint.
+    assert!(number(&worst(&with)["in_plane_um"]) > number(&worst(&without)["in_plane_um"]) + 100.0);
+    let shares = worst(&with)["joint_share_um"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(number)
+        .sum::<f64>();
+    assert!((shares - number(&worst(&with)["in_plane_um"])).abs() < 1e-3);
+}
+
+#[test]
+fn a_map_of_a_measured_arm_has_its_geometry() {
+    let map = CELL.split_once("[[ask]]").unwrap().0;
+    let cell = Cell::with_study(&map.replace("arm.toml\"", "yaskawa/mh12\"\nactual_robot = \"arm.toml\""));
+    let fraction = |arm: String| {
+        cell.file("arm.toml", arm);
+        let said = cell
+            .armill(&["run", "study.toml", "--no-pictures", "--json"])
+            .fine()
+            .json();
+        let map = said["maps"][0].clone();
+        let answer = said["answer"].to_string();
+        (
+            number(&map["fraction_within"]),
+            number(&map["max_in_plane_um"]),
+            answer,
+        )
+    };
+    assert_eq!(fraction(mh12()).0, 1.0);
+    let longer = mh12().replace("length_mm = 640", "length_mm = 641");
+    let (within, most, answer) = fraction(longer);
+    assert!(within < 0.5 && most > 500.0, "{within} {most}");
+    assert!(answer.contains("mostly by the geometry ("), "{answer}");
 }
 
 #[test]

@@ -11,7 +11,7 @@
 
 use nalgebra::{Matrix2x3, Matrix3, Unit, Vector3};
 
-use crate::frame::some_across;
+use crate::frame::both_across;
 
 /// A direction in which a force moves the tool along itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,9 +61,7 @@ pub fn permissible_force_in_worst_direction(
 
 /// The two in-plane rows of the translational compliance, in an arbitrary basis of the plane.
 fn in_plane_rows(by_force: &Matrix3<f64>, normal: Unit<Vector3<f64>>) -> Matrix2x3<f64> {
-    let n = normal.into_inner();
-    let u = some_across(&n);
-    let v = n.cross(&u);
+    let [u, v] = both_across(&normal);
     Matrix2x3::from_rows(&[u.transpose() * by_force, v.transpose() * by_force])
 }
 

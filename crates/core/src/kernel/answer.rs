@@ -192,9 +192,9 @@ const UNANSWERED: Result<Held, Unreachable> = Err(Unreachable::OtherBranch);
 /// What is told of a point beside its posture and its deviations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Told {
-    /// Who made the deviation of the deciding case, and how sure it is.
+    /// Who made the deviation of the deciding case, and how sure it is; of all that moves the tool.
     Shares,
-    /// Nothing more.
+    /// Nothing more, and of what the load does alone.
     DeviationsAlone,
 }
 

@@ -6,7 +6,7 @@
 //! |---|---|---|
 //! | `d` | deviation that counts | m |
 //! | `a`, `b` | directions that it counts along, base ([`Push::along`]) | - |
-//! | `delta` | elastic deviation of the tip and what gravity adds ([`crate::predict`]) | m |
+//! | `delta` | elastic deviation of the tip and what gravity adds ([`crate::predict`]); [by itself](Columns::by_themselves) all that moves it | m |
 //!
 //! A column is made for the poses of one point of a path with the tool turned about its axis: all feel the same forces.
 //! Ortho-parallel arms that yield at their drives alone go through lanes, a block of turns at once; any other arm takes
@@ -18,7 +18,7 @@ use super::AT_LIMIT;
 use super::lanes::{Backend, Batch, POINTS, flag};
 use super::question::Question;
 use crate::frame::Isometry;
-use crate::predict::deviation_of;
+use crate::predict::{deviation_of, farthest_beside_load};
 use crate::robot::forward::{Frames, forward_into, joint_axis};
 use crate::robot::inverse::{Finder, Found, Wanted};
 use crate::robot::{Branch, Joint, PostureName, Robot, Singularity};
@@ -155,6 +155,18 @@ impl<'q> Columns<'q> {
         }
     }
 
+    /// [`Columns::new`] for points that no path joins: backlash and geometry count as [`super::evaluate`] has them.
+    pub fn by_themselves(arm: Arm<'q>, home: Option<&'q [f64]>, wrist: f64) -> Columns<'q> {
+        if !arm.model.moves_unloaded() {
+            return Columns::new(arm, home, wrist);
+        }
+        let mut columns = Columns::one_by_one(arm, home, [wrist, 0.0]);
+        if let Way::General(one_by_one) = &mut columns.way {
+            one_by_one.lie = Some(vec![0.0; arm.robot.joints().len()]);
+        }
+        columns
+    }
+
     /// [`Columns::new`] for any arm, one pose after the other; every joint also stays `margin` (rad) away from its limits, and
     /// of an ortho-parallel arm the elbow so far from stretched and folded.
     pub(super) fn one_by_one(
@@ -175,6 +187,7 @@ impl<'q> Columns<'q> {
                 standing: Standing::new(arm),
                 tool_from_flange: arm.flange_from_tool.inverse(),
                 rail: None,
+                lie: None,
             })),
         }
     }
@@ -263,6 +276,8 @@ struct OneByOne<'q> {
     tool_from_flange: Isometry,
     /// Joint positions at home, with the rail where it was told to stand; `None` where the question says.
     rail: Option<Vec<f64>>,
+    /// Where links lie in their gaps, rad (m); `None` where only the load counts.
+    lie: Option<Vec<f64>>,
 }
 
 impl OneByOne<'_> {
@@ -318,7 +333,12 @@ impl OneByOne<'_> {
             for wrench in push.cases {
                 match deviation_of(&mut self.standing, wrench) {
                     Ok(twist) => {
-                        let [a, b] = push.along.map(|along| along.dot(&twist.linear));
+                        let mut moved = twist.linear;
+                        if let Some(lie) = &mut self.lie {
+                            let by_load = (&twist.linear, &push.along);
+                            moved += farthest_beside_load(&self.standing, by_load, wrench, lie).linear;
+                        }
+                        let [a, b] = push.along.map(|along| along.dot(&moved));
                         most = most.max(a.hypot(b));
                     }
                     Err(_) => most = f64::INFINITY,

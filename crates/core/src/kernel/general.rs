@@ -7,8 +7,8 @@ use nalgebra::Vector3;
 
 use super::answer::{Held, Told};
 use super::question::{BranchChoice, Question};
-use crate::frame::Isometry;
-use crate::predict::{beside_load, deviation_of};
+use crate::frame::{Isometry, both_across};
+use crate::predict::{beside_load, deviation_of, farthest_beside_load};
 use crate::robot::forward::{Frames, forward_into};
 use crate::robot::inverse::{Finder, Found, Wanted};
 use crate::robot::{Overrun, PostureName, Seat, Unreachable};
@@ -29,8 +29,7 @@ pub(super) struct General<'q> {
     standing: Standing<'q>,
     /// Whom shares are told for; nobody where they are not asked for.
     sharers: Vec<Seat>,
-    /// Where links were dragged to in their gaps, on a path; elsewhere nobody knows.
-    dragged: Option<&'q [f64]>,
+    beside: Beside<'q>,
     joints: Vec<f64>,
     deviations: Vec<Vector3<f64>>,
     shares: Vec<f64>,
@@ -38,10 +37,26 @@ pub(super) struct General<'q> {
     kept: (Vec<f64>, Vec<Vector3<f64>>, Vec<f64>),
 }
 
+/// What moves the tool beside its load.
+enum Beside<'q> {
+    /// Nothing, or whoever asks adds it.
+    Nothing,
+    /// On a path: geometry, and links that friction dragged here in their gaps, rad (m), one a joint.
+    Dragged(&'q [f64]),
+    /// At a point by itself: geometry, and links that lie where they move the tool farthest; where, one a joint and case.
+    Farthest(Vec<f64>),
+}
+
 impl<'q> General<'q> {
     pub(super) fn new(question: &Question<'q>, told: Told) -> General<'q> {
         let (joints, cases) = (question.arm.robot.joints().len(), question.cases.len());
         let sharers = told.sharers(question);
+        let beside = match told {
+            Told::Shares if question.arm.model.moves_unloaded() => {
+                Beside::Farthest(vec![0.0; joints * cases])
+            }
+            _ => Beside::Nothing,
+        };
         General {
             tool_from_flange: question.arm.flange_from_tool.inverse(),
             finder: Finder::new(question.arm.robot),
@@ -57,15 +72,14 @@ impl<'q> General<'q> {
                 vec![0.0; sharers.len()],
             ),
             sharers,
-            dragged: None,
+            beside,
         }
     }
 
-    /// The same on a path, where links were dragged to in their gaps, rad (m), one a joint: what moves the tool beside the
-    /// load is told too.
+    /// The same on a path, where it is known where links were dragged to in their gaps, rad (m), one a joint.
     pub(super) fn on_path(question: &Question<'q>, told: Told, dragged: &'q [f64]) -> General<'q> {
         General {
-            dragged: Some(dragged),
+            beside: Beside::Dragged(dragged),
             ..General::new(question, told)
         }
     }
@@ -96,7 +110,10 @@ impl<'q> General<'q> {
             BranchChoice::Best => {
                 let found = self.finder.all(&wanted)?;
                 self.candidates.clear();
-                if question.arm.model.is_drives_alone() && question.arm.robot.inverse().flips_are_alike() {
+                let by_load_alone = matches!(self.beside, Beside::Nothing);
+                let alike =
+                    question.arm.model.is_drives_alone() && question.arm.robot.inverse().flips_are_alike();
+                if by_load_alone && alike {
                     let pairs = found.chunk_by(|a, b| differ_in_flip(a.name, b.name));
                     self.candidates
                         .extend(pairs.filter_map(|pair| roomiest(question, pair)).cloned());
@@ -173,8 +190,16 @@ impl<'q> General<'q> {
         for (case, wrench) in question.cases.iter().enumerate() {
             let unstable = |_| Unreachable::Unstable { case };
             self.deviations[case] = deviation_of(&mut self.standing, wrench).map_err(unstable)?.linear;
-            if let Some(dragged) = self.dragged {
-                self.deviations[case] += beside_load(&self.standing, dragged, wrench).linear;
+            let deviation = &mut self.deviations[case];
+            match &mut self.beside {
+                Beside::Nothing => {}
+                Beside::Dragged(dragged) => *deviation += beside_load(&self.standing, dragged, wrench).linear,
+                Beside::Farthest(lie) => {
+                    let lie = &mut lie[case * self.joints.len()..][..self.joints.len()];
+                    let across = both_across(&question.normal);
+                    *deviation +=
+                        farthest_beside_load(&self.standing, (&*deviation, &across), wrench, lie).linear;
+                }
             }
         }
         held.take_envelope(&self.deviations, question.normal);
@@ -202,11 +227,14 @@ impl<'q> General<'q> {
         }
         self.standing.share_along(&along, &self.sharers, &mut self.shares);
         let mut variance = self.standing.variance_along(&along).max(0.0) + self.standing.scatter().powi(2);
-        if let Some(dragged) = self.dragged {
-            let lie = (dragged, &question.cases[case]);
-            variance += self
-                .standing
-                .share_backlash(&along, lie, &self.sharers, &mut self.shares);
+        let lie = match &self.beside {
+            Beside::Nothing => None,
+            Beside::Dragged(dragged) => Some(*dragged),
+            Beside::Farthest(lie) => Some(&lie[case * self.joints.len()..][..self.joints.len()]),
+        };
+        if let Some(lie) = lie {
+            let (standing, lie) = (&self.standing, (lie, &question.cases[case]));
+            variance += standing.share_backlash(&along, lie, &self.sharers, &mut self.shares);
         }
         if !question.doubt.is_none() {
             let standing = AsItStands {

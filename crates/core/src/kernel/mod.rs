@@ -66,6 +66,9 @@ pub fn evaluate_on_path(question: &Question<'_>, base_from_tool: &Isometry, drag
 
 /// Answers `question` at `count` tool poses; `base_from_tool(i)` gives the pose of point `i`.
 ///
+/// Backlash and geometry count: a torque holds the link of a joint on its flank, or, where friction decides, it lies on the
+/// one on which it moves the tool farthest across the normal, for which one it is nobody knows at a pose by itself.
+///
 /// # Errors
 /// [`Cancelled`] if the watch says so.
 ///
@@ -96,7 +99,7 @@ pub fn evaluate(
 }
 
 /// [`evaluate`] along a path: one block after the other, so that joint 4 keeps its place through a wrist
-/// singularity.
+/// singularity. For arms that nothing moves but load and gravity: where a path drags links is not looked at.
 ///
 /// # Errors
 /// [`Cancelled`] if the watch says so.

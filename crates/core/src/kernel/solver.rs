@@ -15,7 +15,7 @@ pub(super) const BLOCK: usize = POINTS;
 /// Room to answer a question, one a thread.
 pub(super) struct Solver<'q> {
     question: &'q Question<'q>,
-    /// For ortho-parallel arms that yield at their drives alone.
+    /// For ortho-parallel arms whose drives alone move the tool.
     lanes: Option<Points<'q>>,
     general: General<'q>,
     poses: Vec<Isometry>,
@@ -40,10 +40,12 @@ impl<'q> Solver<'q> {
     /// If it has no load case.
     pub fn new(question: &'q Question<'q>, order: Order, told: Told) -> Solver<'q> {
         assert!(!question.cases.is_empty(), "a question has a load case at least");
+        let model = question.arm.model;
+        let by_load_alone = told == Told::DeviationsAlone || !model.moves_unloaded();
         Solver {
             question,
             order,
-            lanes: (question.arm.model.is_drives_alone() && question.doubt.is_none())
+            lanes: (model.is_drives_alone() && by_load_alone && question.doubt.is_none())
                 .then(|| question.arm.robot.ortho_parallel())
                 .flatten()
                 .map(|arm| Points::new(question, arm)),

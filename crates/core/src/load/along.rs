@@ -110,6 +110,17 @@ impl PathLoad {
         matches!(self, PathLoad::Cases(load) if load.frame != LoadFrame::Feed)
     }
 
+    /// The load along a path that is closed by its first point.
+    pub fn closed(&self) -> PathLoad {
+        let mut closed = self.clone();
+        match &mut closed {
+            PathLoad::Cases(_) => {}
+            PathLoad::OfEach { cases, wrenches, .. } => wrenches.extend_from_within(..*cases),
+            PathLoad::Cuts(cuts) => cuts.points.extend_from_within(..1),
+        }
+        closed
+    }
+
     /// Whether it tells what pushes at each of so many points, and of cuts with which of its tools.
     pub fn covers(&self, points: usize) -> bool {
         match self {
@@ -261,11 +272,12 @@ mod tests {
 
     #[test]
     fn a_load_covers_the_points_that_it_tells_of() {
-        let each = PathLoad::OfEach {
+        let each_of = |points: usize| PathLoad::OfEach {
             cases: 2,
             frame: LoadFrame::Base,
-            wrenches: vec![wrench(0.0); 7],
+            wrenches: vec![wrench(0.0); 2 * points],
         };
+        let each = each_of(3);
         assert!(each.covers(0) && each.covers(3) && !each.covers(4) && !each.covers(usize::MAX));
         let cut = cuts(vec![CutHere::NOTHING; 3]);
         assert!(cut.covers(3) && !cut.covers(4));
@@ -274,6 +286,9 @@ mod tests {
             ..CutHere::NOTHING
         };
         assert!(!cuts(vec![other_tool]).covers(1));
+        // Closed by their first point they tell of one more.
+        let [each, cut] = [each_of(3), cut].map(|load| load.closed());
+        assert!(each.covers(4) && !each.covers(5) && cut.covers(4) && !cut.covers(5));
         let same = PathLoad::Cases(LoadCases {
             frame: LoadFrame::Feed,
             cases: vec![wrench(1.0)],

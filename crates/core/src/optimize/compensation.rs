@@ -45,9 +45,9 @@ pub struct Compensated {
     pub residual: Vec<Vector3<f64>>,
     /// Rounds that were done.
     pub rounds: usize,
-    /// Largest move of the last round, m.
+    /// Largest move of the last round, m; zero of none.
     pub last_move: f64,
-    /// The last contraction; `None` after one round.
+    /// The last contraction; `None` of fewer than two rounds.
     pub contraction: Option<f64>,
     /// Points without posture on the way, which stay where they are drawn.
     pub unmoved: usize,
@@ -59,6 +59,9 @@ impl Compensation {
         rest: 1e-7,
         rounds: 10,
     };
+
+    /// Nothing is made up for: the path is commanded as it is drawn.
+    pub const NONE: Compensation = Compensation { rest: 0.0, rounds: 0 };
 }
 
 /// The path to be commanded for `track` under `load`, in these branches ([`along_postures`]).
@@ -69,7 +72,7 @@ impl Compensation {
 /// [`Cancelled`] if the watch says so.
 ///
 /// # Panics
-/// If the load does not [cover](PathLoad::covers) the points of the track, or no round is asked for.
+/// If the load does not [cover](PathLoad::covers) the points of the track.
 pub fn compensated(
     question: &Question<'_>,
     (track, load): (&Track, &PathLoad),
@@ -77,14 +80,13 @@ pub fn compensated(
     asked: Compensation,
     watch: Watch<'_>,
 ) -> Result<Compensated, Cancelled> {
-    assert!(asked.rounds > 0, "a round at least");
     let load = as_drawn(load);
     let follow = |track: &Track| along_postures(question, (track, load.clone()), choices.to_vec(), watch);
     let path_from_base = track.placing.base_from_path.rotation.inverse();
     let mut commanded = track.clone();
     let mut along = follow(&commanded)?;
-    let (mut rounds, mut last_move, mut contraction) = (0, f64::INFINITY, None);
-    while rounds < asked.rounds && last_move > asked.rest {
+    let (mut rounds, mut last_move, mut contraction) = (0, 0.0, None);
+    while rounds < asked.rounds && (rounds == 0 || last_move > asked.rest) {
         let mut moved = 0.0_f64;
         for (index, _) in along.answers.held() {
             let delta = path_from_base * mean(&along.answers, index);
@@ -93,8 +95,8 @@ pub fn compensated(
             moved = moved.max((to - *at).norm());
             *at = to;
         }
+        contraction = (rounds > 0).then_some(moved / last_move);
         rounds += 1;
-        contraction = last_move.is_finite().then_some(moved / last_move);
         last_move = moved;
         along = follow(&commanded)?;
     }

@@ -1,8 +1,8 @@
 //! How should the arm hold the tool at points that no path joins? Each in the turn and the branch that is best for itself.
 //!
-//! `d_i = min over turns and postures that stand of the deviation that counts` ([`crate::kernel::Columns`]); of postures that
-//! differ by rounding alone (a flipped wrist and its twin) the one farthest from its joint limits, then the least turn.
-//! The points know nothing of each other: any order gives the same.
+//! `d_i = min over turns and postures that stand of the deviation that counts` ([`crate::kernel::Columns`]), backlash and
+//! geometry in it; of postures that differ by rounding alone (a flipped wrist and its twin) the one farthest from its joint
+//! limits, then the least turn. The points know nothing of each other: any order gives the same.
 //!
 //! A point where nothing stands is answered without a turn, in the best of the open branches, so that its reason and amount
 //! are told.
@@ -47,7 +47,7 @@ pub fn holes_held(
     assert!(load.covers(track.len()), "a load for each point of the track");
     assert!(search.spins.count > 0, "a turn at least");
     let maker = || {
-        let columns = Columns::new(question.arm, question.home, search.wrist);
+        let columns = Columns::by_themselves(question.arm, question.home, search.wrist);
         (columns, Column::default())
     };
     let each = |(columns, column): &mut (Columns<'_>, Column), index: usize| {

@@ -30,7 +30,7 @@ use super::lattice::Lattice;
 use super::links::{Between, JointRate};
 use super::reversals::reversals;
 use super::smooth::without_steps;
-use crate::frame::{Isometry, some_across};
+use crate::frame::{Isometry, both_across};
 use crate::kernel::{BranchChoice, Column, Columns, Push, Question, SLOTS, Stand};
 use crate::load::PathLoad;
 use crate::map::along_postures;
@@ -345,10 +345,7 @@ impl Counts {
     ) -> [Vector3<f64>; 2] {
         let normal = normal.into_inner();
         match self {
-            Counts::InPlane => {
-                let across = some_across(&normal);
-                [across, normal.cross(&across)]
-            }
+            Counts::InPlane => both_across(&normal),
             Counts::CrossTrack => [track.base_from_feed(index) * Vector3::y(), Vector3::zeros()],
             Counts::Axial => [normal, Vector3::zeros()],
         }

@@ -4,6 +4,7 @@ use nalgebra::{Rotation3, Unit, UnitQuaternion, Vector3};
 
 use super::placing::Placing;
 use super::sampled::SampledPath;
+use super::sampler::PathPoint;
 use crate::frame::Isometry;
 use crate::load::PathLoad;
 use crate::spatial::Wrench;
@@ -59,6 +60,20 @@ impl Track {
     /// Whether there is no point.
     pub fn is_empty(&self) -> bool {
         self.path.points.is_empty()
+    }
+
+    /// The track of a shape that goes round, closed: its first point stands at its end again, `length` (m) along it.
+    pub fn closed(&self, length: f64) -> Track {
+        let mut closed = self.clone();
+        let first = self.path.points.first();
+        closed.path.points.extend(first.map(|first| PathPoint {
+            along: length,
+            ..*first
+        }));
+        if let Some(spins) = &mut closed.spins {
+            spins.extend(spins.first().copied());
+        }
+        closed
     }
 
     /// The tool pose at point `index`, and the tool axis as its normal.

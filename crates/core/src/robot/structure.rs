@@ -24,7 +24,7 @@ pub struct Structure {
     pub curves: Vec<Option<JointCurve>>,
     /// Covariance of the compliances of the drives, then the springs; what it does not reach is independent.
     pub covariance: Option<DMatrix<f64>>,
-    /// Backlash, by joint; a list may end early. It yields to nothing, and moves the tool along paths alone.
+    /// Backlash, by joint; a list may end early. It yields to nothing; it moves the tool.
     pub backlash: Vec<Option<Backlash>>,
     /// Standard deviation of where the tool comes to rest, along any axis, from time to time, m; zero where it is not known.
     pub repeatability: f64,

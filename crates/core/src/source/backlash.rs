@@ -3,6 +3,7 @@
 //! ```text
 //! u_i(k) = clamp(u_i(k-1) - (theta_i(k) - theta_i(k-1)), -b_i/2, b_i/2)        friction: the link stays until its flank comes
 //! u_i    = (b_i/2) sign(tau_i)                                                the torque on it holds a flank
+//! u_i    = +- b_i/2, the signs with which |P (d + sum u_i s_i)| is largest     nobody knows which flank
 //! delta  = sum u_i s_i
 //! ```
 //!
@@ -13,12 +14,15 @@
 //! | `theta` | position of the motor, the chain's counting | rad (m) |
 //! | `tau` | torque of load and gravity on the link | N m (N) |
 //! | `s` | screw of the joint at the TCP | |
+//! | `d`, `P` | what else moves the tool, m; the projection across the normal | |
 //!
 //! Once a joint has moved on by its gap, `u = -(b/2) sigma` with `sigma` the sign of its speed: the link lags behind the
 //! motor.
 //!
 //! Source: the play operator of backlash, as in Nordin and Gutman, Controlling mechanical systems with backlash: a survey,
 //! Automatica 38, 2002 \[recalled\]; `docs/theory/unloaded.md`.
+
+use nalgebra::Vector2;
 
 use crate::robot::{Backlash, Flank, STANDS_STILL};
 use crate::spatial::{Twist, Wrench};
@@ -56,10 +60,72 @@ pub fn lies(backlash: &Backlash, dragged: f64, (screw, wrench): (&Twist, &Wrench
     }
 }
 
+/// Writes the signs with which `from + sum sign_i halves_i` is longest (in a plane, m); 0 for a half that moves nothing.
+///
+/// The sums fill a zonotope, and the farthest is one of its corners: at the two ends of the edge along a half every other
+/// half has the sign of the side that it lies on. Of corners that are equally far the first.
+pub fn farthest(from: Vector2<f64>, halves: &[Vector2<f64>], signs: &mut [f64]) {
+    signs.fill(0.0);
+    let corner = |edge: &Vector2<f64>, side: f64, end: f64, half: &Vector2<f64>| {
+        let across = edge.perp(half);
+        // Halves along the edge go to its end with it.
+        let leans = if across == 0.0 {
+            end * edge.dot(half)
+        } else {
+            side * across
+        };
+        if leans == 0.0 { 0.0 } else { leans.signum() }
+    };
+    let mut most = f64::NEG_INFINITY;
+    for edge in halves.iter().filter(|edge| **edge != Vector2::zeros()) {
+        for (side, end) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
+            let sum: Vector2<f64> = halves
+                .iter()
+                .map(|half| half * corner(edge, side, end, half))
+                .sum();
+            let far = (from + sum).norm();
+            if far > most {
+                most = far;
+                for (sign, half) in signs.iter_mut().zip(halves) {
+                    *sign = corner(edge, side, end, half);
+                }
+            }
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use nalgebra::Vector3;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn no_other_flanks_are_farther(
+            from in prop::array::uniform2(-1.0_f64..1.0),
+            halves in prop::collection::vec(prop::array::uniform2(-3_i8..4), 0..7),
+        ) {
+            // Whole numbers: many halves are parallel, equal, or nothing.
+            let from = Vector2::from(from);
+            let halves: Vec<Vector2<f64>> = halves.iter().map(|half| Vector2::from(half.map(f64::from))).collect();
+            let far = |signs: &[f64]| {
+                let sum: Vector2<f64> = halves.iter().zip(signs).map(|(half, sign)| half * *sign).sum();
+                (from + sum).norm()
+            };
+            let mut signs = vec![f64::NAN; halves.len()];
+            farthest(from, &halves, &mut signs);
+            for (sign, half) in signs.iter().zip(&halves) {
+                prop_assert_eq!(sign.abs(), f64::from(*half != Vector2::zeros()));
+            }
+            let all = 1_usize << halves.len();
+            let every = (0..all).map(|flanks| {
+                let sign = |joint: usize| if flanks >> joint & 1 == 0 { 1.0 } else { -1.0 };
+                far(&(0..halves.len()).map(sign).collect::<Vec<f64>>())
+            });
+            prop_assert!((far(&signs) - every.fold(0.0, f64::max)).abs() < 1e-12);
+        }
+    }
 
     #[test]
     fn a_link_lags_by_half_its_gap_and_stays_while_the_gap_is_crossed() {

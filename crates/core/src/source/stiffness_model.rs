@@ -31,7 +31,7 @@ pub struct StiffnessModel {
     pub gravity: Option<Gravity>,
     /// Whether the load acts on the arm as it has yielded, instead of as it stood.
     pub load_dependent: bool,
-    /// The arm as it was measured, where its controller reckons with another; it moves the tool along paths alone.
+    /// The arm as it was measured, where its controller reckons with another.
     pub actual: Option<Arc<Robot>>,
 }
 
@@ -58,7 +58,7 @@ impl StiffnessModel {
         !self.load_dependent && self.structure.curves.iter().all(Option::is_none)
     }
 
-    /// Whether something moves the tool along a path that no load makes: backlash, or geometry.
+    /// Whether something moves the tool that no load makes: backlash, or geometry.
     pub fn moves_unloaded(&self) -> bool {
         self.structure.gaps().next().is_some() || self.actual.is_some()
     }

@@ -34,12 +34,14 @@ pub use path::{
     CutAnswer, FeatureAnswer, LimitAnswer, LimitsAnswer, MeasuredAnswer, OperationAnswer, PathAnswer,
     ProgramAnswer, RestAnswer, SearchAnswer, StatisticsAnswer, StockAnswer, WorstPoint,
 };
+pub(crate) use point::GEOMETRY;
 pub use point::{PointAnswer, SettingAnswer};
 pub(crate) use sentence::{culprit, micrometres};
 pub use statement::{Reading, StatementAnswer};
 pub use volume::VolumeAnswer;
 
 use armill_core::load::CuttingLaw;
+use armill_core::robot::Flank;
 use armill_formats::robot::OtherLimits;
 use armill_formats::sources::Source;
 use rayon::prelude::*;
@@ -48,7 +50,7 @@ use serde::Serialize;
 
 use crate::budget::{self, BudgetAnswer};
 use crate::file::path::{Cut, PathAsk};
-use crate::file::resolve::{Study, Subject};
+use crate::file::resolve::{Setting, Study, Subject};
 use crate::joint_unit::JointUnit;
 use crate::model_words::left_out;
 use crate::run::{Done, Found, Section};
@@ -341,9 +343,16 @@ fn warnings(
         .asks
         .iter()
         .any(|ask| !matches!(ask.subject, Subject::Path(_)));
-    if beside_paths && study.settings().any(|setting| setting.model.moves_unloaded()) {
+    let has_play = |setting: &Setting| {
+        setting
+            .model
+            .structure
+            .gaps()
+            .any(|(_, gap)| gap.flank == Flank::Motion)
+    };
+    if beside_paths && study.settings().any(has_play) {
         warnings.push(
-            "Backlash and the measured arm move the tool along paths alone: maps, sections, volumes and holes leave them out."
+            "Beside paths nobody knows on which side of their gaps links lie: maps, sections, volumes and holes tell where backlash moves the tool farthest."
                 .to_owned(),
         );
     }

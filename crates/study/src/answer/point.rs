@@ -92,6 +92,9 @@ impl SettingAnswer {
     }
 }
 
+/// What moves the tool where its arm is not the one that its controller reckons with.
+pub(crate) const GEOMETRY: &str = "geometry";
+
 /// A point where the arm holds the tool.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PointAnswer {
@@ -128,12 +131,21 @@ pub struct PointAnswer {
 }
 
 impl PointAnswer {
-    /// What has the largest share, by size, as its index in `shares_of`; and the part of the in-plane deviation that it
-    /// makes, where there is any. A share may work against the others.
-    pub(crate) fn largest_share(&self) -> Option<(usize, Option<f64>)> {
-        let shares = self.joint_share_um.iter().enumerate();
-        let (index, share) = shares.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
-        Some((index, (self.in_plane_um > 0.0).then(|| share / self.in_plane_um)))
+    /// Who of `shares_of` has the largest share, by size, or `geometry`, which makes what is in nobody's; and the part of the
+    /// in-plane deviation that it makes, where there is any. A share may work against the others.
+    pub(crate) fn mostly_by<'a>(&self, shares_of: &'a [String]) -> Option<(&'a str, Option<f64>)> {
+        let shares = shares_of
+            .iter()
+            .map(String::as_str)
+            .zip(self.joint_share_um.iter().copied());
+        let (name, share) = shares.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+        let in_nobodys = self.in_plane_um - self.joint_share_um.iter().sum::<f64>();
+        let (name, share) = if in_nobodys.abs() > share.abs() {
+            (GEOMETRY, in_nobodys)
+        } else {
+            (name, share)
+        };
+        Some((name, (self.in_plane_um > 0.0).then(|| share / self.in_plane_um)))
     }
 
     /// y', z' of a point of base from the centre of `plane`.

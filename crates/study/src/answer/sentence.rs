@@ -159,14 +159,16 @@ fn of_holes(study: &Study, holes: &HolesAnswer) -> String {
 
 /// What has the largest share, and how large.
 pub(crate) fn culprit(study: &Study, point: &PointAnswer, shares_of: &[String]) -> String {
-    point.largest_share().map_or_else(String::new, |(i, part)| {
-        let is_joint = i < study.robot.robot.joints().len();
-        let name = format!("{} {}", if is_joint { "joint" } else { "the" }, shares_of[i]);
-        match part {
-            Some(part) => format!("{name} ({:.0} %)", part * 100.0),
-            None => name,
-        }
-    })
+    point
+        .mostly_by(shares_of)
+        .map_or_else(String::new, |(name, part)| {
+            let is_joint = study.robot.robot.joints().iter().any(|joint| joint.name == name);
+            let name = format!("{} {name}", if is_joint { "joint" } else { "the" });
+            match part {
+                Some(part) => format!("{name} ({:.0} %)", part * 100.0),
+                None => name,
+            }
+        })
 }
 
 /// A deviation with the digits that mean something.

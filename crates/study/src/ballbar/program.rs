@@ -18,7 +18,7 @@ use std::f64::consts::{PI, TAU};
 use armill_core::load::{LoadCases, LoadFrame, PathLoad};
 use armill_core::map::along_path;
 use armill_core::nalgebra::Vector2;
-use armill_core::path::{PathPoint, Shape, Track};
+use armill_core::path::{Shape, Track};
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
 use armill_formats::robot_program::Written;
@@ -97,15 +97,11 @@ pub fn taught_program(
         let at = centre + Vector2::new(-cos, sin) * taught.radius_at(sign * (a - circle.zero));
         (point.at.x, point.at.y) = (at.x, at.y);
     }
-    let close = path.points.first().map(|first| PathPoint {
-        along: TAU * radius,
-        ..*first
-    });
-    path.points.extend(close);
     let track = Track {
         path,
         ..ask.track.clone()
     };
+    let track = track.closed(TAU * radius);
     let nothing = PathLoad::Cases(LoadCases {
         frame: LoadFrame::Base,
         cases: vec![Wrench::ZERO],

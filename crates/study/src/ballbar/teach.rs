@@ -38,6 +38,26 @@ pub struct TaughtAnswer {
     pub stays_um: Option<f64>,
 }
 
+impl TaughtAnswer {
+    /// What must be known before this circle is taught, of which so many lobes were asked to be taken off.
+    pub fn warnings(&self, most_lobes: usize) -> Vec<String> {
+        let fewer = (self.most_lobes < most_lobes).then(|| {
+            format!(
+                "the taught circle takes off {} lobes, not {most_lobes}: the samples are too far apart for more",
+                self.most_lobes
+            )
+        });
+        let worse = match (self.circular_before_um, self.circular_expected_um) {
+            (Some(before), Some(expected)) if expected >= before => Some(format!(
+                "do not teach this circle: the ring would go from {before:.1} to {expected:.1} um, for steps of joints that turn \
+                 back are no lobes (`armill backlash` tells which joints)"
+            )),
+            _ => None,
+        };
+        fewer.into_iter().chain(worse).collect()
+    }
+}
+
 /// The circle itself.
 #[derive(Clone, Debug)]
 pub struct TaughtCircle {
@@ -200,5 +220,29 @@ fn same_circle(before: &Measured, after: &Measured) -> Result<(), StudyError> {
             format!("--before: the {what} was {one}, and is {other} now"),
             "tests of one circle are compared, in the same plane and at the same feed",
         )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_circle_that_makes_the_ring_worse_is_not_to_be_taught() {
+        let told = |expected: Option<f64>| TaughtAnswer {
+            points: 72,
+            most_lobes: 15,
+            largest_correction_um: 22.5,
+            circular_before_um: Some(158.4),
+            circular_expected_um: expected,
+            radial_before_um: [-80.0, 78.4],
+            radial_expected_um: [-90.0, 79.6],
+            stays_um: Some(77.8),
+        };
+        let worse = told(Some(169.6)).warnings(15);
+        assert!(worse[0].starts_with("do not teach this circle: the ring would go from 158.4 to 169.6 um"));
+        assert!(told(Some(34.9)).warnings(15).is_empty());
+        assert!(told(None).warnings(15).is_empty());
+        assert!(told(Some(34.9)).warnings(30)[0].contains("takes off 15 lobes, not 30"));
     }
 }

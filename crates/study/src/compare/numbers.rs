@@ -120,7 +120,7 @@ fn numbers(
     deviations.sort_by(f64::total_cmp);
     let reached = deviations.len();
     let normal = answers.held().map(|(_, held)| held.normal.abs() * 1e6);
-    let share = worst.and_then(PointAnswer::largest_share);
+    let share = worst.and_then(|worst| worst.mostly_by(&setting.shares_of));
     CellNumbers {
         cell: String::new(),
         robot: String::new(),
@@ -138,7 +138,7 @@ fn numbers(
         fraction_within: counts.fraction_within(),
         fraction_within_and_inside_joint_limits: counts.fraction_within_and_inside_joint_limits(),
         counts: CountsAnswer::of(&counts),
-        mostly_by: share.map(|(index, _)| setting.shares_of[index].clone()),
+        mostly_by: share.map(|(name, _)| name.to_owned()),
         mostly_by_percent: share.and_then(|(_, part)| part).map(|part| part * 100.0),
     }
 }

@@ -29,8 +29,7 @@ pub struct StudyFile {
     pub question: Option<String>,
     /// Name of a library robot (`armill robots`), or a robot file of any format relative to the study.
     pub robot: String,
-    /// The robot as it was measured (calibrated), where its controller reckons with `robot`: found likewise. It moves the
-    /// tool along paths.
+    /// The robot as it was measured (calibrated), where its controller reckons with `robot`: found likewise.
     pub actual_robot: Option<String>,
     /// Where heights count from: `base_link` (default) or a frame of the robot such as `controller`.
     pub base: Option<String>,

@@ -7,10 +7,10 @@
 //! At a point of a path the posture that the path is followed in deviates as the path tells: `along` says what that takes.
 
 use armill_core::compliance::{by_force, permissible_force, permissible_force_in_worst_direction};
-use armill_core::frame::{Isometry, tool_orientation};
+use armill_core::frame::{Isometry, both_across, tool_orientation};
 use armill_core::kernel::{BranchChoice, Question, evaluate, evaluate_on_path};
 use armill_core::nalgebra::{Point2, Point3, Unit, Vector3};
-use armill_core::predict::predict_in_full;
+use armill_core::predict::{farthest_beside_load, predict_in_full};
 use armill_core::robot::Robot;
 use armill_core::robot::forward::{forward, joint_axis};
 use armill_core::robot::inverse::tool_on;
@@ -343,7 +343,8 @@ fn point(
     }
 }
 
-/// The deviation of this posture under each case.
+/// The deviation of this posture under each case: of the followed one of a path with what moves the tool there beside the load,
+/// of any other as a point by itself has it.
 fn deviations(
     robot: &Robot,
     setting: &Setting,
@@ -366,11 +367,16 @@ fn deviations(
     };
     let mut standing = Standing::new(arm);
     standing.stand(q);
+    let mut lie = vec![0.0; q.len()];
     let yields = by_force(&setting.compliance_at(robot, q));
     let any = permissible_force_in_worst_direction(&yields, normal, setting.limit).0;
     let mut of = |(case, wrench): (usize, &Wrench)| {
         let deviation = predict_in_full(&mut standing, wrench).ok()?;
-        let moved = unloaded.map_or_else(Vector3::zeros, |unloaded| unloaded.moved[case]);
+        let by_load = (&deviation.twist.linear, &both_across(&normal));
+        let moved = match unloaded {
+            Some(unloaded) => unloaded.moved[case],
+            None => farthest_beside_load(&standing, by_load, wrench, &mut lie).linear,
+        };
         let split = Split::of(&(deviation.twist.linear + moved), normal);
         let question = Question {
             arm,

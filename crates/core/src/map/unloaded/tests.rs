@@ -5,7 +5,7 @@ use nalgebra::{Point2, Point3};
 use super::*;
 use crate::arms;
 use crate::frame::Isometry;
-use crate::kernel::{BranchChoice, Question, evaluate_on_path};
+use crate::kernel::{BranchChoice, Question, evaluate, evaluate_on_path};
 use crate::load::{LoadCases, LoadFrame};
 use crate::map::{AlongPath, along_path};
 use crate::path::{Placing, Shape, Spin};
@@ -232,6 +232,52 @@ fn a_point_asked_by_itself_deviates_as_on_the_path_and_its_shares_add_up() {
         };
         let sure = evaluate_on_path(&sure, &stop.base_from_tool, dragged).points[0].unwrap();
         assert!(held.in_plane_uncertainty > sure.in_plane_uncertainty);
+    }
+}
+
+/// Witness: links on every combination of flanks, each asked as on a path.
+#[test]
+fn at_a_point_by_itself_links_lie_where_they_move_the_tool_farthest() {
+    let robot = arms::mh12();
+    let mut model = model(Flank::Motion, GAP);
+    model.structure.backlash[1].as_mut().unwrap().flank = Flank::Torque;
+    model.structure.backlash[4] = None;
+    let tool = arms::bent_tool();
+    for index in [0, 60, 230] {
+        let (track, load) = (track(false), push([0.4, 0.1, -0.6]));
+        let stop = track.stop(index);
+        let mut cases = vec![Wrench::ZERO; 2];
+        track.wrenches(&load, index, &mut cases);
+        let asked = Question {
+            cases: &cases,
+            normal: stop.normal,
+            ..question(&robot, &model, &tool)
+        };
+        let told = evaluate(&asked, 1, |_| stop.base_from_tool, Watch::NONE).unwrap();
+        let held = told.points[0].unwrap();
+        let flanks = (0..64).map(|flanks: usize| {
+            let lies = |joint: usize| {
+                if flanks >> joint & 1 == 0 {
+                    0.5 * GAP
+                } else {
+                    -0.5 * GAP
+                }
+            };
+            let dragged: Vec<f64> = (0..6).map(lies).collect();
+            evaluate_on_path(&asked, &stop.base_from_tool, &dragged).points[0]
+                .unwrap()
+                .in_plane
+        });
+        let all: Vec<f64> = flanks.collect();
+        let farthest = all.iter().copied().fold(0.0, f64::max);
+        let nearest = all.iter().copied().fold(f64::INFINITY, f64::min);
+        assert!(
+            (held.in_plane - farthest).abs() < 1e-12,
+            "{} {farthest}",
+            held.in_plane
+        );
+        assert!(nearest < 0.9 * farthest, "flanks matter: {nearest} {farthest}");
+        assert!((told.shares_at(0).iter().sum::<f64>() - held.in_plane).abs() < 1e-15);
     }
 }
 

@@ -1,4 +1,5 @@
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 use nalgebra::{Point3, Unit, Vector3};
 
@@ -8,6 +9,7 @@ use crate::frame::{Isometry, from_xyz_and_fixed_angles};
 use crate::load::{LoadCases, LoadFrame};
 use crate::optimize::{Counts, Goal, Spins};
 use crate::path::{Hole, Placing, path_of_holes};
+use crate::robot::{Amount, Backlash, Flank, Motion};
 use crate::source::{Arm, StiffnessModel};
 use crate::spatial::Wrench;
 use crate::workpiece::Plane;
@@ -76,27 +78,67 @@ const SEARCH: PostureSearch = PostureSearch {
 };
 
 fn found(holes: &[Hole], search: &PostureSearch) -> HolesFound {
+    found_by(StiffnessModel::DRIVES, holes, search)
+}
+
+fn found_by(model: &StiffnessModel, holes: &[Hole], search: &PostureSearch) -> HolesFound {
     let (robot, tool) = (arms::mh12(), tool());
-    let question = question(&robot, &tool);
+    let question = question(&robot, &tool, model);
     holes_held(&question, (&track(holes), &load()), search, Watch::NONE).unwrap()
 }
 
-fn question<'a>(robot: &'a Robot, tool: &'a Isometry) -> Question<'a> {
+fn question<'a>(robot: &'a Robot, tool: &'a Isometry, model: &'a StiffnessModel) -> Question<'a> {
     let arm = Arm {
         robot,
         compliance: robot.compliance().unwrap(),
         flange_from_tool: tool,
-        model: StiffnessModel::DRIVES,
+        model,
     };
     Question::unloaded(arm, None)
 }
 
-/// Witness: every turn in every branch, each asked by itself.
+/// Play of some joints, links longer than the controller has them: each moves the tool more than the thrust does.
+fn worn() -> StiffnessModel {
+    let mut model = StiffnessModel::DRIVES.clone();
+    let gap = |flank| {
+        Some(Backlash {
+            gap: 4e-4,
+            standard_uncertainty: 0.0,
+            flank,
+        })
+    };
+    model.structure.backlash = vec![gap(Flank::Motion), gap(Flank::Torque), None, gap(Flank::Motion)];
+    let robot = arms::mh12();
+    let mut motions = robot.chain().motions().to_vec();
+    for motion in &mut motions {
+        if let Motion::Along(_, Amount::Constant(length)) = motion {
+            *length *= 1.0005;
+        }
+    }
+    model.actual = Some(Arc::new(
+        Robot::new("actual", motions, robot.joints().to_vec()).unwrap(),
+    ));
+    model
+}
+
 #[test]
 fn no_turn_and_branch_is_better() {
+    by_every_turn_and_branch(StiffnessModel::DRIVES);
+}
+
+#[test]
+fn no_turn_and_branch_of_a_worn_arm_is_better() {
+    by_every_turn_and_branch(&worn());
+    let in_plane = |found: HolesFound| found.answers.points[0].as_ref().unwrap().in_plane;
+    let least = in_plane(found(&holes(), &SEARCH));
+    assert!(in_plane(found_by(&worn(), &holes(), &SEARCH)) > 2.0 * least);
+}
+
+/// Witness: every turn in every branch, each asked by itself.
+fn by_every_turn_and_branch(model: &StiffnessModel) {
     let (robot, tool) = (arms::mh12(), tool());
     let (holes, track) = (holes(), track(&holes()));
-    let found = found(&holes, &SEARCH);
+    let found = found_by(model, &holes, &SEARCH);
     for index in 0..4 {
         let here = track.loaded_stop(index, &load());
         let mut least = f64::INFINITY;
@@ -107,7 +149,7 @@ fn no_turn_and_branch_is_better() {
                     cases: &here.cases,
                     normal: here.stop.normal,
                     choice: BranchChoice::Of(branch.into()),
-                    ..question(&robot, &tool)
+                    ..question(&robot, &tool, model)
                 };
                 let answers = evaluate(&asked, 1, |_| pose, Watch::NONE).unwrap();
                 if let Ok(held) = &answers.points[0]
@@ -199,7 +241,7 @@ fn a_cancelled_search_stops() {
         finished: &|_| (),
         cancel: &cancel,
     };
-    let question = question(&robot, &tool);
+    let question = question(&robot, &tool, StiffnessModel::DRIVES);
     let gave = holes_held(&question, (&track(&holes()), &load()), &SEARCH, watch);
     assert!(gave.is_err());
 }

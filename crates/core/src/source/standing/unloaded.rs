@@ -1,7 +1,7 @@
 //! What moves the tool of an arm beside its load: links in the gaps of their joints, and an arm that is not the one its
 //! controller reckons with.
 
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 
 use super::Standing;
 use crate::robot::Seat;
@@ -23,6 +23,32 @@ impl Standing<'_> {
         model.actual.as_ref().map_or(Twist::ZERO, |actual| {
             geometric::displacement(arm.robot, actual, arm.flange_from_tool, &self.joints)
         })
+    }
+
+    /// Lets links lie on the flanks on which they move the tool farthest, counted along these two directions (base), that all
+    /// else has moved by `from` (m, base): writes where, one a joint, rad (m). Those that a torque holds get 0: they lie
+    /// where it holds them.
+    pub fn lie_farthest(
+        &self,
+        (from, along): (&Vector3<f64>, &[Vector3<f64>; 2]),
+        wrench: &Wrench,
+        lies: &mut [f64],
+    ) {
+        lies.fill(0.0);
+        let counted = |v: &Vector3<f64>| Vector2::from(along.map(|along| along.dot(v)));
+        let gaps = self.arm.model.structure.gaps();
+        let free = gaps.filter(|(joint, _)| self.backlash_of(*joint, lies, wrench) == Twist::ZERO);
+        let (joints, halves): (Vec<(usize, f64)>, Vec<Vector2<f64>>) = free
+            .map(|(joint, gap)| {
+                let half = 0.5 * gap.gap;
+                ((joint, half), counted(&(self.screws[joint].linear * half)))
+            })
+            .unzip();
+        let mut signs = vec![0.0; halves.len()];
+        backlash::farthest(counted(from), &halves, &mut signs);
+        for ((joint, half), sign) in joints.into_iter().zip(signs) {
+            lies[joint] = half * sign;
+        }
     }
 
     /// Part of joint `joint`, which has play.

@@ -72,8 +72,8 @@ fn cause(study: &Study, (ask, index): (&PathAsk, usize), held: &Held, point: &Po
     let joints = study.robot.robot.joints();
     let names = ask.setting.model.sharer_names(joints);
     let largest = point
-        .largest_share()
-        .and_then(|(i, part)| Some(format!("{} {:.0} %", names[i], 100.0 * part?)));
+        .mostly_by(&names)
+        .and_then(|(name, part)| Some(format!("{name} {:.0} %", 100.0 * part?)));
     let mut parts: Vec<String> = largest.into_iter().collect();
     if let Some(singularity) = held.singularity {
         parts.push(format!("near the {singularity}"));
