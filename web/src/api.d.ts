@@ -3930,6 +3930,12 @@ export interface components {
              * @description Its length.
              */
             full_um: number;
+            /** @description All of it, of the TCP, base axes: with gravity, backlash and geometry, where they are known. */
+            deviation_um: [
+                number,
+                number,
+                number
+            ];
             /** @description Share of each of `answer.shares_of` in the in-plane deviation; they add up to it. Of postures with a name. */
             share_um: number[] | null;
             /**

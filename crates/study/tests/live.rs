@@ -305,6 +305,8 @@ fn worst_beside_stand(text: Text<'_>, ask: &str, part: &str) -> [(f64, f64, Vec<
         .zip(&stands.pose.in_plane)
         .find(|(branch, _)| json!(branch) == point["branch"]);
     let here = held.unwrap().1[stands.case - 1].clone().unwrap();
+    let length = here.deviation_um.iter().map(|um| um * um).sum::<f64>().sqrt();
+    assert!((length - here.full_um).abs() < 1e-6 * length);
     // A place to ask for alone.
     let question = PostureQuestion {
         ask: Some(ask),
@@ -360,7 +362,7 @@ fn an_arm_at_the_worst_point_deviates_as_the_answer_says_on_a_cut_or_searched_pa
 }
 
 #[test]
-fn what_moves_the_tool_without_load_is_in_the_posture_that_the_path_is_followed_in() {
+fn what_moves_the_tool_without_load_is_in_the_posture_that_the_answer_has() {
     let folder = tempfile::tempdir().unwrap();
     let robot = concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots/yaskawa/mh12.toml");
     let robot = std::fs::read_to_string(robot).unwrap().replace(
@@ -373,11 +375,27 @@ fn what_moves_the_tool_without_load_is_in_the_posture_that_the_path_is_followed_
         folder: folder.path(),
         ..of(&loose)
     };
-    let [answer, stand] = worst_beside_stand(text, "rim", "/paths/0/worst");
-    assert!((answer.0 - stand.0).abs() < 1e-3, "{} {}", answer.0, stand.0);
-    assert!((answer.1 - stand.1).abs() < 1e-3);
-    let [without, _] = worst_beside_stand(of(CIRCLE), "rim", "/paths/0/worst");
-    assert!(answer.0 > without.0 + 1.0);
+    for (ask, part) in [
+        ("rim", "/paths/0/worst"),
+        ("far", "/maps/0/worst"),
+        ("box", "/volumes/0/worst"),
+    ] {
+        let [answer, stand] = worst_beside_stand(text, ask, part);
+        assert!(
+            (answer.0 - stand.0).abs() < 1e-3,
+            "{ask}: {} {}",
+            answer.0,
+            stand.0
+        );
+        assert!(
+            (answer.1 - stand.1).abs() < 1e-3,
+            "{ask}: {} {}",
+            answer.1,
+            stand.1
+        );
+        let [without, _] = worst_beside_stand(of(CIRCLE), ask, part);
+        assert!(answer.0 > without.0 + 1.0, "{ask}: {} {}", answer.0, without.0);
+    }
 }
 
 #[test]

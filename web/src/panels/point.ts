@@ -29,7 +29,7 @@ export function point(live: Live): HTMLElement {
         "dl",
         { class: "facts" },
         fact("Position", posture.tool.xyz_mm.map(mm).join(", "), "mm"),
-        fact("Moves by", posture.deviation_um?.map((v) => um(v)).join(", ") ?? DASH, "µm"),
+        fact("Moves by", values.deviation_um.map((v) => um(v)).join(", "), "µm"),
         fact("Turns by", posture.rotation_urad?.map((v) => fixed(v, 0)).join(", ") ?? DASH, "µrad"),
         along ? fact("Limit holds up to", newton(along), "N along this load") : null,
         any ? fact("", newton(any), "N in any direction") : null,

@@ -182,7 +182,7 @@ export class SceneView {
         this.force.draw(tip, new THREE.Vector3(...force).multiplyScalar(this.show.mm_per_n), size, true);
         if (this.force.group.visible) this.stage.labels.add("arm", this.force.start, `force ${Math.hypot(...force).toFixed(1)} N`, "force");
       }
-      const moved = answer.deviation_um;
+      const moved = pose?.in_plane[posture]?.[load_case - 1]?.deviation_um;
       if (this.show.deviation && moved) {
         this.deviation.draw(tip, new THREE.Vector3(...moved).multiplyScalar(this.show.magnified / 1000), size);
         // The tool stands against the part: its axis is the normal, everywhere.

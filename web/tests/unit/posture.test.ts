@@ -8,6 +8,7 @@ const values = (...in_plane: number[]): CaseValues[] =>
     in_plane_u_um: null,
     normal_um: 0,
     full_um: in_plane_um,
+    deviation_um: [in_plane_um, 0, 0],
     share_um: null,
     permissible_along_load_n: null,
     permissible_any_direction_n: null,

@@ -149,6 +149,8 @@ pub struct CaseAnswer {
     pub normal_um: f64,
     /// Its length.
     pub full_um: f64,
+    /// All of it, of the TCP, base axes: with gravity, backlash and geometry, where they are known.
+    pub deviation_um: [f64; 3],
     /// Share of each of `answer.shares_of` in the in-plane deviation; they add up to it. Of postures with a name.
     pub share_um: Option<Vec<f64>>,
     /// Force that keeps the limit in the direction of this case; none where it has no force or moves nothing in the plane.
@@ -377,7 +379,8 @@ fn deviations(
             Some(unloaded) => unloaded.moved[case],
             None => farthest_beside_load(&standing, by_load, wrench, &mut lie).linear,
         };
-        let split = Split::of(&(deviation.twist.linear + moved), normal);
+        let moved = deviation.twist.linear + moved;
+        let split = Split::of(&moved, normal);
         let question = Question {
             arm,
             home: Some(q),
@@ -396,6 +399,7 @@ fn deviations(
             in_plane_u_um: u,
             normal_um: split.normal * 1e6,
             full_um: split.full * 1e6,
+            deviation_um: (moved * 1e6).into(),
             share_um: shares,
             permissible_along_load_n: along.filter(|n| n.is_finite()),
             permissible_any_direction_n: Some(any).filter(|n| n.is_finite()),
