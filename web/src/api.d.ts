@@ -3930,7 +3930,7 @@ export interface components {
              * @description Its length.
              */
             full_um: number;
-            /** @description All of it, of the TCP, base axes: with gravity, backlash and geometry, where they are known. */
+            /** @description All of it, of the TCP, base axes. */
             deviation_um: [
                 number,
                 number,

@@ -13,7 +13,7 @@
 //! [`StiffnessModel`](crate::source::StiffnessModel), and without them the same numbers.
 //! Reference point: TCP. Basis: base. Deviation = where the tool is minus where it was asked to be.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Matrix3;
 
 use crate::robot::Posture;
 use crate::robot::joint::JointCompliance;
@@ -72,20 +72,6 @@ pub fn predict_in_full(standing: &mut Standing<'_>, wrench: &Wrench) -> Result<D
 pub(crate) fn deviation_of(standing: &mut Standing<'_>, wrench: &Wrench) -> Result<Twist, Unstable> {
     let (elastic, gravity) = (standing.elastic(wrench)?, standing.gravity()?);
     Ok(gravity.map_or(elastic, |gravity| elastic + gravity))
-}
-
-/// What comes on top of the displacement `by_load` (m, base) where nobody knows on which flanks links lie: geometry, and links
-/// where they move the tool farthest, counted along two directions (base); writes where they `lie`, one a joint, rad (m).
-pub fn farthest_beside_load(
-    standing: &Standing<'_>,
-    (by_load, along): (&Vector3<f64>, &[Vector3<f64>; 2]),
-    wrench: &Wrench,
-    lie: &mut [f64],
-) -> Twist {
-    lie.fill(0.0);
-    let held = beside_load(standing, lie, wrench);
-    standing.lie_farthest((&(by_load + held.linear), along), wrench, lie);
-    beside_load(standing, lie, wrench)
 }
 
 /// What comes on top along a path, where it is known where links were `dragged` to in their gaps, rad (m).

@@ -18,7 +18,7 @@ use super::AT_LIMIT;
 use super::lanes::{Backend, Batch, POINTS, flag};
 use super::question::Question;
 use crate::frame::Isometry;
-use crate::predict::{deviation_of, farthest_beside_load};
+use crate::predict::deviation_of;
 use crate::robot::forward::{Frames, forward_into, joint_axis};
 use crate::robot::inverse::{Finder, Found, Wanted};
 use crate::robot::{Branch, Joint, PostureName, Robot, Singularity};
@@ -336,7 +336,7 @@ impl OneByOne<'_> {
                         let mut moved = twist.linear;
                         if let Some(lie) = &mut self.lie {
                             let by_load = (&twist.linear, &push.along);
-                            moved += farthest_beside_load(&self.standing, by_load, wrench, lie).linear;
+                            moved += self.standing.farthest_beside_load(by_load, wrench, lie).linear;
                         }
                         let [a, b] = push.along.map(|along| along.dot(&moved));
                         most = most.max(a.hypot(b));

@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use super::answer::{Held, Told};
 use super::question::{BranchChoice, Question};
 use crate::frame::{Isometry, both_across};
-use crate::predict::{beside_load, deviation_of, farthest_beside_load};
+use crate::predict::{beside_load, deviation_of};
 use crate::robot::forward::{Frames, forward_into};
 use crate::robot::inverse::{Finder, Found, Wanted};
 use crate::robot::{Overrun, PostureName, Seat, Unreachable};
@@ -197,8 +197,10 @@ impl<'q> General<'q> {
                 Beside::Farthest(lie) => {
                     let lie = &mut lie[case * self.joints.len()..][..self.joints.len()];
                     let across = both_across(&question.normal);
-                    *deviation +=
-                        farthest_beside_load(&self.standing, (&*deviation, &across), wrench, lie).linear;
+                    *deviation += self
+                        .standing
+                        .farthest_beside_load((&*deviation, &across), wrench, lie)
+                        .linear;
                 }
             }
         }

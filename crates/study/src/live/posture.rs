@@ -10,7 +10,7 @@ use armill_core::compliance::{by_force, permissible_force, permissible_force_in_
 use armill_core::frame::{Isometry, both_across, tool_orientation};
 use armill_core::kernel::{BranchChoice, Question, evaluate, evaluate_on_path};
 use armill_core::nalgebra::{Point2, Point3, Unit, Vector3};
-use armill_core::predict::{farthest_beside_load, predict_in_full};
+use armill_core::predict::predict_in_full;
 use armill_core::robot::Robot;
 use armill_core::robot::forward::{forward, joint_axis};
 use armill_core::robot::inverse::tool_on;
@@ -149,7 +149,7 @@ pub struct CaseAnswer {
     pub normal_um: f64,
     /// Its length.
     pub full_um: f64,
-    /// All of it, of the TCP, base axes: with gravity, backlash and geometry, where they are known.
+    /// All of it, of the TCP, base axes.
     pub deviation_um: [f64; 3],
     /// Share of each of `answer.shares_of` in the in-plane deviation; they add up to it. Of postures with a name.
     pub share_um: Option<Vec<f64>>,
@@ -345,8 +345,7 @@ fn point(
     }
 }
 
-/// The deviation of this posture under each case: of the followed one of a path with what moves the tool there beside the load,
-/// of any other as a point by itself has it.
+/// The deviation of this posture under each case; beside paths, and of another one than the path's, as a point by itself has it.
 fn deviations(
     robot: &Robot,
     setting: &Setting,
@@ -377,7 +376,7 @@ fn deviations(
         let by_load = (&deviation.twist.linear, &both_across(&normal));
         let moved = match unloaded {
             Some(unloaded) => unloaded.moved[case],
-            None => farthest_beside_load(&standing, by_load, wrench, &mut lie).linear,
+            None => standing.farthest_beside_load(by_load, wrench, &mut lie).linear,
         };
         let moved = deviation.twist.linear + moved;
         let split = Split::of(&moved, normal);
@@ -416,9 +415,8 @@ pub(super) fn is_same(a: &[f64], b: &[f64]) -> bool {
     a.iter().zip(b).all(|(a, b)| (a - b).abs() < SAME_POSTURE)
 }
 
-/// Standard uncertainty (um) of the in-plane deviation and the shares in it, as a map tells them, of the posture `q` that
-/// has this name; none of a posture without a name that the arm could be asked for by. On a path where links were `dragged`
-/// in their gaps is told too.
+/// Standard uncertainty (um) of the in-plane deviation and the shares in it, as a map tells them, of the posture `q` of this
+/// name; none where the arm cannot be asked for it by name. On a path it is known where links were `dragged` in their gaps.
 fn in_plane_parts(
     question: &Question<'_>,
     (q, branch): (&[f64], &str),

@@ -25,16 +25,30 @@ impl Standing<'_> {
         })
     }
 
+    /// What comes on top of the displacement `by_load` (m, base) where nobody knows on which flanks links lie: geometry, and
+    /// links where they move the tool farthest, counted along two directions (base); writes where they `lie`, one a joint,
+    /// rad (m).
+    pub fn farthest_beside_load(
+        &self,
+        (by_load, along): (&Vector3<f64>, &[Vector3<f64>; 2]),
+        wrench: &Wrench,
+        lie: &mut [f64],
+    ) -> Twist {
+        lie.fill(0.0);
+        let geometric = self.geometric();
+        let known = geometric + self.backlash(lie, wrench);
+        self.lie_farthest((&(by_load + known.linear), along), wrench, lie);
+        geometric + self.backlash(lie, wrench)
+    }
+
     /// Lets links lie on the flanks on which they move the tool farthest, counted along these two directions (base), that all
-    /// else has moved by `from` (m, base): writes where, one a joint, rad (m). Those that a torque holds get 0: they lie
-    /// where it holds them.
-    pub fn lie_farthest(
+    /// else has moved by `from` (m, base). Those that a torque holds get 0: they lie where it holds them.
+    fn lie_farthest(
         &self,
         (from, along): (&Vector3<f64>, &[Vector3<f64>; 2]),
         wrench: &Wrench,
         lies: &mut [f64],
     ) {
-        lies.fill(0.0);
         let counted = |v: &Vector3<f64>| Vector2::from(along.map(|along| along.dot(v)));
         let gaps = self.arm.model.structure.gaps();
         let free = gaps.filter(|(joint, _)| self.backlash_of(*joint, lies, wrench) == Twist::ZERO);
