@@ -352,7 +352,8 @@ impl Robot {
     ///
     /// `branch` is words of a branch (`front elbow-up no-flip`), `nominal`, or `best`: the posture inside the joint limits
     /// with the least deviation. `normal` (3,) is the outward normal of the plane that deviations are split on; without,
-    /// the plane across the tool, which must then point the same way everywhere.
+    /// the plane across the tool, which must then point the same way everywhere. Play of a robot file counts where it moves
+    /// the tool farthest across that normal; in `deviation`, at joint positions, the load alone does.
     #[pyo3(signature = (poses, forces, tool=None, *, branch="nominal", normal=None, home=None, threads=None))]
     fn hold(
         &self,
