@@ -92,7 +92,7 @@ fn without_a_terminal_nothing_is_coloured_and_no_bar_is_drawn() {
     assert!(!said.out.contains('\u{1b}'), "{:?}", said.out);
 }
 
-/// What armill writes on a terminal of its own, through script(1); `None` where there is none.
+/// What armill writes on a terminal of its own, through script(1); `None` where that makes none.
 #[cfg(target_os = "linux")]
 fn on_a_terminal(cell: &Cell, command: &str, no_colour: Option<&str>) -> Option<String> {
     let mut script = Command::new("script");
@@ -104,10 +104,10 @@ fn on_a_terminal(cell: &Cell, command: &str, no_colour: Option<&str>) -> Option<
         .env("TERM", "xterm-256color")
         .stdin(Stdio::null());
     script.envs(no_colour.map(|value| ("NO_COLOR", value)));
-    script
-        .output()
-        .ok()
-        .map(|output| String::from_utf8_lossy(&output.stdout).into_owned())
+    let output = script.output().ok()?;
+    // A root without /dev/pts.
+    let none = String::from_utf8_lossy(&output.stderr).contains("pseudo-terminal");
+    (!none).then(|| String::from_utf8_lossy(&output.stdout).into_owned())
 }
 
 /// How a terminal is told a colour: bold red, or any other.
@@ -124,7 +124,7 @@ fn is_coloured(text: &str) -> bool {
 fn on_a_terminal_problems_are_coloured_unless_no_color_is_set() {
     let cell = broken();
     let Some(coloured) = on_a_terminal(&cell, "check study.toml", None) else {
-        println!("skipped: script(1), which makes a terminal, is not installed");
+        println!("skipped: script(1) makes no terminal here, or is not installed");
         return;
     };
     assert!(coloured.contains("study.toml:4"), "{coloured:?}");
@@ -143,7 +143,7 @@ fn no_color_holds_for_wrong_arguments_and_the_progress_bar_too() {
     let cell = Cell::with_study(&format!("{SMALL}{EVERY_KIND}"));
     for command in ["fly", "--help", "run study.toml"] {
         let Some(said) = on_a_terminal(&cell, command, Some("1")) else {
-            println!("skipped: script(1), which makes a terminal, is not installed");
+            println!("skipped: script(1) makes no terminal here, or is not installed");
             return;
         };
         assert!(!said.is_empty() && !is_coloured(&said), "{command}: {said:?}");
