@@ -6,6 +6,7 @@ import hashlib
 import json
 import os
 import signal
+import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -18,6 +19,22 @@ pytest.importorskip("pyarrow", reason='sweeps need pyarrow: pip install "armill[
 
 # Processes that are started here find the works of these tests as this one does.
 os.environ["PYTHONPATH"] = os.pathsep.join([str(Path(__file__).parents[1]), *filter(None, [os.environ.get("PYTHONPATH")])])
+
+
+SCRIPT = """
+import sys
+sys.path.insert(0, {tests!r})
+from scale import works
+from armill import scale
+scale.run(works.waves(seconds={seconds}), {folder!r}, "local", workers=2, items_per_part={items_per_part}, progress={progress})
+"""
+
+
+def script(folder: Path, items_per_part: int, seconds: float = 0.0, progress: bool = False) -> list[str]:
+    """The command of a sweep in a process of its own, which may be killed."""
+    tests = str(Path(__file__).parents[1])
+    told = SCRIPT.format(tests=tests, folder=str(folder), items_per_part=items_per_part, seconds=seconds, progress=progress)
+    return [sys.executable, "-c", told]
 
 
 def sums(folder: Path) -> list[str]:

@@ -7,7 +7,6 @@ import json
 import os
 import signal
 import subprocess
-import sys
 import time
 from collections.abc import Container
 from functools import partial
@@ -20,7 +19,7 @@ from armill import scale
 from armill.scale import files
 
 from . import works
-from .conftest import manifest, sums
+from .conftest import manifest, script, sums
 
 
 @pytest.fixture
@@ -157,20 +156,11 @@ def test_bad_numbers_of_workers_are_refused(tmp_path: Path) -> None:
         scale.run(works.waves(), tmp_path, "slurm")
 
 
-SCRIPT = """
-import sys
-sys.path.insert(0, {tests!r})
-from scale import works
-from armill import scale
-scale.run(works.waves(seconds=0.05), {folder!r}, "local", workers=2, items_per_part=10, progress={progress})
-"""
-
-
 def started(folder: Path, progress: bool = False) -> subprocess.Popen[str]:
-    script = SCRIPT.format(tests=str(Path(__file__).parents[1]), folder=str(folder), progress=progress)
     # A shell has its background jobs ignore Ctrl-C, and what they start does too.
     heeds = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
-    return subprocess.Popen([sys.executable, "-c", script], stderr=subprocess.PIPE, text=True, preexec_fn=heeds)
+    command = script(folder, items_per_part=10, seconds=0.05, progress=progress)
+    return subprocess.Popen(command, stderr=subprocess.PIPE, text=True, preexec_fn=heeds)
 
 
 def has_parts(folder: Path, count: int, process: subprocess.Popen[str]) -> None:

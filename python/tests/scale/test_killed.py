@@ -9,30 +9,21 @@ import hashlib
 import os
 import signal
 import subprocess
-import sys
 import time
 from pathlib import Path
 
 from armill import scale
 
 from . import works
-from .conftest import manifest, sums
+from .conftest import manifest, script, sums
 
-SCRIPT = """
-import sys
-sys.path.insert(0, {tests!r})
-from scale import works
-from armill import scale
-scale.run(works.waves(), {folder!r}, "local", workers=2, items_per_part=2)
-"""
-#: As many as that script makes.
+#: As many as a sweep of 2 items a part makes.
 PARTS = 500
 
 
 def started(folder: Path) -> subprocess.Popen[bytes]:
-    """The script, as soon as it has made its folder."""
-    script = SCRIPT.format(tests=str(Path(__file__).parents[1]), folder=str(folder))
-    process = subprocess.Popen([sys.executable, "-c", script], stderr=subprocess.DEVNULL)
+    """The sweep, as soon as it has made its folder."""
+    process = subprocess.Popen(script(folder, items_per_part=2), stderr=subprocess.DEVNULL)
     while not folder.exists() and process.poll() is None:
         time.sleep(0.001)
     return process

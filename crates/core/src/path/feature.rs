@@ -14,7 +14,7 @@
 
 use nalgebra::{Matrix3, Point3, Unit, Vector3};
 
-use crate::frame::some_across;
+use crate::frame::both_across;
 use crate::roundness::{Plane, least_squares};
 
 /// What a stretch of the path was to make.
@@ -127,8 +127,7 @@ fn plane(points: &[Strayed]) -> Option<Became> {
         return None;
     }
     let normal = mean(points.iter().map(|p| p.axis.into_inner()))?.try_normalize(1e-9)?;
-    let x = some_across(&normal);
-    let y = normal.cross(&x);
+    let [x, y] = both_across(&normal);
     let middle = mean(points.iter().map(|p| p.at.coords))?;
     let part = |p: &Strayed| {
         let from = p.at.coords - middle;

@@ -49,8 +49,8 @@ impl TaughtAnswer {
         });
         let worse = match (self.circular_before_um, self.circular_expected_um) {
             (Some(before), Some(expected)) if expected >= before => Some(format!(
-                "do not teach this circle: the ring would go from {before:.1} to {expected:.1} um, for steps of joints that turn \
-                 back are no lobes (`armill backlash` tells which joints)"
+                "do not teach this circle: the ring would go from {before:.1} to {expected:.1} um; where joints that turn \
+                 back make steps, those are no lobes (`armill backlash` tells which joints)"
             )),
             _ => None,
         };

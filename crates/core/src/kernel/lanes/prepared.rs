@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::arm::Arm;
 use super::limits::CosineLimits;
-use crate::frame::some_across;
+use crate::frame::both_across;
 use crate::kernel::Question;
 use crate::robot::inverse::OrthoParallel;
 
@@ -36,7 +36,7 @@ impl Prepared {
             .map(|wrench| [turn(wrench.force), turn(wrench.moment)])
             .collect();
         let normal = turn(question.normal.into_inner());
-        let first = some_across(&normal);
+        let [first, second] = both_across(&normal);
         let of = |get: fn(&crate::robot::JointCompliance) -> f64| {
             std::array::from_fn(|i| question.arm.compliance.get(i).map_or(0.0, get))
         };
@@ -47,7 +47,7 @@ impl Prepared {
             uncertainty: of(|c| c.standard_uncertainty),
             moments: cases.iter().any(|[_, moment]| *moment != Vector3::zeros()),
             cases,
-            plane: [first, normal.cross(&first), normal],
+            plane: [first, second, normal],
             arm,
         }
     }
