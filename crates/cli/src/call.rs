@@ -19,7 +19,7 @@ use clap::{Arg, ArgAction, CommandFactory, Parser};
 
 use crate::arguments::Arguments;
 use crate::listener::{Listener, heard_by};
-use crate::{Outcome, run};
+use crate::{Outcome, inputs_of, run};
 
 /// What is asked.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,9 +82,10 @@ pub struct OptionOf {
 /// What the command line would refuse; what stops the command.
 pub fn ask(call: &Call, listener: &Arc<Listener>) -> Result<Answer, Refused> {
     let words = words(call)?;
+    let inputs = inputs_of(&words);
     let arguments =
         Arguments::try_parse_from(words).map_err(|refused| Refused::Usage(bare(&refused.render())))?;
-    let outcome = heard_by(Some(Arc::clone(listener)), || run(&arguments.command))?;
+    let outcome = heard_by(Some(Arc::clone(listener)), || inputs.during(|| run(&arguments.command)))?;
     let (json, talk) = listener.heard();
     Ok(Answer {
         json,

@@ -21,7 +21,9 @@ mod progress;
 mod terminal;
 
 use std::ffi::OsString;
+use std::path::Path;
 
+use armill_formats::input::Inputs;
 use armill_study::{ErrorKind, StudyError};
 use clap::Parser;
 
@@ -33,6 +35,8 @@ pub use terminal::problems_json;
 
 /// Does what these words say, the first of which is the name of the program, on the terminal, and gives the exit code.
 pub fn command(words: impl IntoIterator<Item = OsString>) -> u8 {
+    let words: Vec<OsString> = words.into_iter().collect();
+    let inputs = inputs_of(&words);
     let arguments = match Arguments::try_parse_from(words) {
         Ok(arguments) => arguments,
         Err(refused) => {
@@ -41,7 +45,7 @@ pub fn command(words: impl IntoIterator<Item = OsString>) -> u8 {
             return u8::try_from(refused.exit_code()).unwrap_or(2);
         }
     };
-    match run(&arguments.command) {
+    match inputs.during(|| run(&arguments.command)) {
         Ok(Outcome::Fine) => 0,
         Ok(Outcome::ToleranceNotHeld) => 1,
         Err(error) => {
@@ -49,6 +53,14 @@ pub fn command(words: impl IntoIterator<Item = OsString>) -> u8 {
             exit_code(&error)
         }
     }
+}
+
+/// The files that these words name: operands, and values of options behind `=`.
+fn inputs_of(words: &[OsString]) -> Inputs {
+    let values = words
+        .iter()
+        .filter_map(|word| word.to_str()?.split_once('=').map(|(_, value)| value.as_ref()));
+    Inputs::naming(words.iter().map(Path::new).chain(values))
 }
 
 /// Does what a command says.

@@ -10,8 +10,8 @@
 //! - [`toolpath`]: tool path programs in.
 //! - [`robot_program`]: programs of robot controllers, in and out.
 //! - [`measurement`]: records of forces, tables of load tests, points of round profiles and circular tests in.
-//! - [`file`](mod@file): files that are either written whole or not at all.
-//! - [`whole`]: files that are read as a whole, and how large they may be.
+//! - [`file`](mod@file): files that are written: whole or not at all, never over what is not ours.
+//! - [`input`]: files that are read: which ones, how far.
 //!
 //! `xml` is the ground of all that is XML.
 //!
@@ -21,6 +21,7 @@
 pub mod convention;
 pub mod document;
 pub mod file;
+pub mod input;
 pub mod material;
 pub mod measurement;
 pub mod robot;
@@ -28,6 +29,5 @@ pub mod robot_program;
 pub mod sources;
 pub mod table;
 pub mod toolpath;
-pub mod whole;
 
 mod xml;

@@ -9,7 +9,7 @@ use std::ops::Range;
 use roxmltree::{Document, Node, ParsingOptions};
 
 use crate::document::{Problems, Source, unreadable};
-use crate::whole;
+use crate::input;
 
 /// More elements, attributes and texts than this are no robot and no result: the largest robot of ROS-Industrial has 2000.
 const MOST_NODES: u32 = 1_000_000;
@@ -21,9 +21,9 @@ const MOST_LEVELS: usize = 64;
 /// The text of the XML file `path`.
 ///
 /// # Errors
-/// A reader that fails; more than [`whole::MOST_BYTES`].
+/// A reader that fails; more than [`input::MOST_BYTES`].
 pub(crate) fn text_of(path: &str, reader: impl Read) -> Result<String, Problems> {
-    let bytes = whole::bytes_of(reader).map_err(|error| unreadable(path, &error))?;
+    let bytes = input::bytes_of(reader).map_err(|error| unreadable(path, &error))?;
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 

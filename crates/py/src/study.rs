@@ -6,6 +6,8 @@ use std::sync::{Arc, Mutex, OnceLock, TryLockError};
 use std::time::Duration;
 
 use armill_core::watch::Watch;
+use armill_formats::file::Writer;
+use armill_formats::input::Inputs;
 use armill_study::finished::Finished;
 use armill_study::output::{self, Csv, Pictures, Wanted};
 use armill_study::run::point_count;
@@ -24,6 +26,8 @@ use crate::threads::{Beats, Effort, watched, work};
 #[pyclass(frozen, module = "armill")]
 pub(crate) struct Study {
     found: FoundStudy,
+    /// The files that it was read from: none of them is written over.
+    inputs: Inputs,
     /// Read when it is first asked for.
     checked: OnceLock<Result<Arc<Checked>, StudyError>>,
 }
@@ -32,13 +36,14 @@ impl Study {
     fn of(found: FoundStudy) -> Study {
         Study {
             found,
+            inputs: Inputs::default(),
             checked: OnceLock::new(),
         }
     }
 
     fn checked(&self, py: Python<'_>) -> Result<Arc<Checked>, &StudyError> {
         // Reading may take long: a study may follow a program of any length.
-        let read = || self.found.read().map(Arc::new);
+        let read = || self.inputs.during(|| self.found.read().map(Arc::new));
         let checked = py.detach(|| self.checked.get_or_init(read));
         checked.as_ref().map(Arc::clone)
     }
@@ -63,8 +68,13 @@ impl Study {
     /// What is wrong inside is told by `problems` and `check`.
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf) -> PyResult<Study> {
-        let found = studies::find(&path).map_err(|error| exception(py, &error))?;
-        Ok(Study::of(found))
+        let inputs = Inputs::naming([&*path]);
+        let found = inputs.during(|| studies::find(&path));
+        let found = found.map_err(|error| exception(py, &error))?;
+        Ok(Study {
+            inputs,
+            ..Study::of(found)
+        })
     }
 
     /// text, folder -> Study: the text of a study file; files that it names are looked for in `folder`.
@@ -153,17 +163,20 @@ impl Study {
     /// folder or None -> Result: runs every ask, and writes what `armill run` writes where a folder `out` is given.
     ///
     /// `progress` is called now and then with the number of points finished, of `point_count`.
-    #[pyo3(signature = (out=None, *, pictures=true, csv=false, threads=None, progress=None))]
+    /// Files in `out` that armill did not make, or that were changed since, are replaced with `force=True` alone.
+    #[pyo3(signature = (out=None, *, pictures=true, csv=false, force=false, threads=None, progress=None))]
     fn run(
         &self,
         py: Python<'_>,
         out: Option<PathBuf>,
         pictures: bool,
         csv: bool,
+        force: bool,
         threads: Option<usize>,
         progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<Outcome> {
         let study = self.checked(py).map_err(|error| exception(py, error))?;
+        let writer = self.inputs.during(|| Writer::new("run", force));
         let (cancel, counted) = (AtomicBool::new(false), AtomicUsize::new(0));
         let finished = |points: usize| {
             counted.fetch_add(points, Ordering::Relaxed);
@@ -179,12 +192,14 @@ impl Study {
         let tell = progress.map(|progress| move |count: usize| progress.call1((count,)).map(|_| ()));
         let tell = tell.as_ref().map(|tell| tell as &dyn Fn(usize) -> PyResult<()>);
         let found = watched(py, threads, (beats, tell), || {
+            let wanted = wanted(pictures, csv);
+            let out = out.map(|out| writer.folder(&out)).transpose()?;
             if let Some(out) = &out {
-                output::prepare(out)?;
+                output::allow(&study, (out, wanted))?;
             }
             let mut finished = Finished::run(study, watch)?;
             if let Some(out) = &out {
-                finished.write(out, wanted(pictures, csv))?;
+                finished.write(out, wanted)?;
             }
             let json = output::json(finished.answer())?;
             Ok::<_, StudyError>((finished, json))

@@ -1,11 +1,11 @@
 //! The class `ToolPath`: the moves of a tool path program, as arrays.
 
-use std::fs::File;
 use std::io::BufReader;
 use std::path::PathBuf;
 
 use armill_core::nalgebra::{Unit, Vector3};
 use armill_core::path::{Course, Move, Operation, Pace, Step};
+use armill_formats::input::{self, Inputs};
 use armill_formats::toolpath::apt::Dialect;
 use armill_formats::toolpath::format::{Wanted, read};
 use armill_formats::toolpath::{LengthUnit, Summary};
@@ -61,7 +61,8 @@ pub(crate) fn read_path(
         }
     };
     let shown = file.display().to_string();
-    let opened = File::open(&file)
+    let opened = Inputs::naming([&*file])
+        .during(|| input::open(&file))
         .map_err(|error| refused(py, format!("cannot read {shown}: {error}"), "is the path right?"))?;
     let found = work(py, Some(1), Effort::Long, |_| {
         let (mut moves, mut operation, mut operations) = (Vec::new(), Vec::new(), Vec::new());

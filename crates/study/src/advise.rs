@@ -96,7 +96,7 @@ const MOST_STRETCHES: usize = 10;
 pub fn advise(
     (found, study): (&FoundStudy, &Study),
     placing: &Placing<'_>,
-    journal: &mut Journal,
+    journal: &mut Journal<'_>,
     (watch, told): (Watch<'_>, &dyn Fn(&str)),
 ) -> Result<Advice, StudyError> {
     let quiet = Watch {

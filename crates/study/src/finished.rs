@@ -4,12 +4,13 @@
 //! What comes out of an ask borrows what was asked ([`Done`]); here both stay together, and are put side by side for the time
 //! of a question.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use armill_core::map::{PlaneMap, VolumeMap};
 use armill_core::optimize::HolesFound;
 use armill_core::watch::Watch;
+use armill_formats::file::ResultFolder;
 use armill_formats::table::Table;
 
 use crate::answer::{StudyAnswer, answer};
@@ -75,8 +76,7 @@ impl Finished {
     ///
     /// # Errors
     /// A file cannot be written.
-    pub fn write(&mut self, out: &Path, wanted: Wanted<'_>) -> Result<Vec<PathBuf>, StudyError> {
-        output::prepare(out)?;
+    pub fn write(&mut self, out: &ResultFolder, wanted: Wanted<'_>) -> Result<Vec<PathBuf>, StudyError> {
         self.with(|study, done, answer| output::write(study, done, answer, (out, wanted), &|_| ()))
     }
 
@@ -130,6 +130,10 @@ fn beside((ask, kept): (&Ask, Kept)) -> Option<Done<'_>> {
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
+    use armill_formats::file::Writer;
+
     use super::*;
     use crate::studies;
 
@@ -154,7 +158,8 @@ mod tests {
             assert_eq!(names(&finished.pictures()), names(&pictures));
         }
         let folder = tempfile::tempdir().unwrap();
-        let files = finished.write(folder.path(), Wanted::TABLES).unwrap();
+        let out = Writer::new("run", false).folder(folder.path()).unwrap();
+        let files = finished.write(&out, Wanted::TABLES).unwrap();
         assert!(files.iter().all(|file| file.is_file()));
         assert_eq!(finished.asks().len(), done.len());
     }

@@ -17,6 +17,7 @@ use armill_core::load::PathLoad;
 use armill_core::nalgebra::{Point3, Translation3, Vector3};
 use armill_core::optimize::{Shares, fitted, left_by};
 use armill_core::path::{Move, Sampler, Sampling, Spin, Track};
+use armill_formats::file::ResultFolder;
 use armill_formats::robot_program::{Motion, Moved, ProgramText, RobotMove, Spelled, Target, follow};
 use serde::Serialize;
 
@@ -114,20 +115,11 @@ pub(crate) fn in_place(
 ///
 /// # Errors
 /// One that was read lies there; two have one name.
-pub fn check_folder(study: &Study, name: Option<&str>, out: &Path) -> Result<(), StudyError> {
+pub fn allow_programs(study: &Study, name: Option<&str>, out: &ResultFolder) -> Result<(), StudyError> {
     let mut names: Vec<String> = Vec::new();
     let robots = paths(study, name).filter_map(|(_, path)| path.source.robot());
     for text in robots.flat_map(|robot| &robot.program.texts) {
-        let (file, name) = (Path::new(text.name()), name_of(text.name()));
-        if let (Ok(ours), Ok(theirs)) = (out.join(&name).canonicalize(), file.canonicalize())
-            && ours == theirs
-        {
-            let message = format!(
-                "--out: {} is the program that was read, and would be written over",
-                text.name()
-            );
-            return Err(StudyError::value(message, "another folder: --out DIR"));
-        }
+        let name = name_of(text.name());
         if names.contains(&name) {
             let message = format!("two programs have a file `{name}`, and one folder holds one");
             return Err(StudyError::value(
@@ -137,7 +129,7 @@ pub fn check_folder(study: &Study, name: Option<&str>, out: &Path) -> Result<(),
         }
         names.push(name);
     }
-    Ok(())
+    Ok(out.allow(names.iter().map(String::as_str))?)
 }
 
 /// The name of a file without its folder.

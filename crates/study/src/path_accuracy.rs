@@ -6,12 +6,12 @@
 //!
 //! Commanded and measured points are in the same axes: a tracker is set to the frame of the path before.
 
-use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 use armill_core::measure::path_accuracy::{CYCLES, PathAccuracy, PointAccuracy, path_accuracy};
 use armill_core::nalgebra::Vector3;
+use armill_formats::input;
 use armill_formats::measurement::trace::{self, Traces};
 use armill_formats::table::{Column, ColumnData, Table, csv};
 use armill_report::{PathPlot, Series};
@@ -86,7 +86,7 @@ pub struct Measured {
 pub fn read(commanded: &Path, runs: &[PathBuf]) -> Result<Measured, StudyError> {
     let traces = |path: &Path| -> Result<(String, Traces), StudyError> {
         let shown = path.display().to_string();
-        let file = File::open(path).map_err(|error| {
+        let file = input::open(path).map_err(|error| {
             StudyError::value(
                 format!("cannot read {shown}: {error}"),
                 "a table of points: x_mm, y_mm, z_mm, and run where it holds several",

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use armill_formats::robot::format::{self, Format, Wanted};
 use armill_formats::robot::{RobotDescription, armill};
-use armill_formats::whole;
+use armill_formats::input;
 
 use crate::error::StudyError;
 use crate::library;
@@ -61,7 +61,7 @@ pub fn import(path: &Path, wanted: &Wanted) -> Result<RobotDescription, StudyErr
 /// The robot of the file at `path`, called after it.
 fn read(path: &Path, wanted: &Wanted) -> Result<RobotDescription, StudyError> {
     let shown = path.display();
-    let bytes = whole::read(path).map_err(|error| {
+    let bytes = input::read(path).map_err(|error| {
         let hint = "in a study, paths count from the folder of the study file";
         StudyError::value(format!("cannot read robot file {shown}: {error}"), hint)
     })?;
@@ -83,7 +83,7 @@ pub fn text_of(name: &str, found: &RobotDescription) -> Result<[String; 2], Stud
     if !name.to_lowercase().ends_with(".toml") {
         return Ok([name.to_owned(), armill::write(found)]);
     }
-    let text = whole::read_text(Path::new(name)).map_err(|error| {
+    let text = input::read_text(Path::new(name)).map_err(|error| {
         StudyError::value(
             format!("cannot read robot file {name}: {error}"),
             "is the path right?",

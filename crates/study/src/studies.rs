@@ -6,7 +6,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use armill_formats::toolpath::format::{Format, HEAD_BYTES};
-use armill_formats::whole;
+use armill_formats::input;
 
 use crate::error::StudyError;
 use crate::file::format::StudyFile;
@@ -57,7 +57,7 @@ pub fn find(given: &Path) -> Result<FoundStudy, StudyError> {
         return example(given, &shown);
     }
     refuse_program(&file)?;
-    let bytes = whole::read(&file).map_err(|error| {
+    let bytes = input::read(&file).map_err(|error| {
         StudyError::value(format!("cannot read {shown}: {error}"), "give a readable file")
     })?;
     let folder = file.parent().map_or_else(|| PathBuf::from("."), Path::to_owned);
@@ -82,10 +82,13 @@ const SMALLEST: &str = r#"a program tells neither its robot nor what pushes on t
 /// Tells that a program was given where a study belongs.
 fn refuse_program(file: &Path) -> Result<(), StudyError> {
     let is_study = file.extension().is_some_and(|ending| ending == "toml");
+    // What is read of a pipe is gone.
+    if is_study || !file.is_file() {
+        return Ok(());
+    }
     let mut head = Vec::new();
-    let opened = std::fs::File::open(file).map(|file| file.take(HEAD_BYTES));
-    let read = opened.and_then(|mut begin| begin.read_to_end(&mut head));
-    if is_study || read.is_err() {
+    let opened = input::open(file).map(|file| file.take(HEAD_BYTES));
+    if opened.and_then(|mut begin| begin.read_to_end(&mut head)).is_err() {
         return Ok(());
     }
     let what = match Format::of(file, &String::from_utf8_lossy(&head)) {

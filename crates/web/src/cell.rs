@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use armill_formats::file::write_atomically;
-use armill_formats::whole;
+use armill_formats::input;
 use armill_study::live::Text;
 use armill_study::{StudyError, studies};
 use tempfile::TempDir;
@@ -87,7 +87,7 @@ impl Cell {
     pub(crate) fn bytes(&self) -> Result<Vec<u8>, StudyError> {
         match &self.file {
             None => Ok(self.example.clone()),
-            Some(file) => whole::read(file).map_err(|error| {
+            Some(file) => input::read(file).map_err(|error| {
                 let message = format!("cannot read {}: {error}", self.shown);
                 StudyError::value(message, "has the file been moved?")
             }),

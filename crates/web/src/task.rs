@@ -10,7 +10,8 @@
 use std::path::{Path, PathBuf};
 
 use armill_core::nalgebra::Vector3;
-use armill_formats::file::write_atomically;
+use armill_formats::file::{ResultFolder, Writer};
+use armill_formats::input::{self, Inputs};
 use armill_formats::measurement::load_tests;
 use armill_study::answer::answer;
 use armill_study::file::placement::PlaceTable;
@@ -148,12 +149,24 @@ impl Task {
     }
 }
 
+/// The folder `name` of `root` for what this task writes.
+///
+/// # Errors
+/// A folder where nothing can be written, or where another run writes.
+fn folder(task: &Task, root: &Path, name: &str) -> Result<ResultFolder, StudyError> {
+    Ok(Writer::new(task.kind(), false).folder(&root.join(name))?)
+}
+
 impl Job {
     /// Does what the task says; results go into folders of `root`.
     ///
     /// # Errors
     /// As the command of that name.
     pub(crate) fn outcome(&self, shown: &str, root: &Path) -> Result<Outcome, StudyError> {
+        Inputs::default().during(|| self.done(shown, root))
+    }
+
+    fn done(&self, shown: &str, root: &Path) -> Result<Outcome, StudyError> {
         let found = |text: &str| FoundStudy {
             shown: shown.to_owned(),
             folder: root.to_owned(),
@@ -172,21 +185,29 @@ impl Job {
                 } else {
                     Wanted::USUAL
                 };
-                self.results(&text.study(options.ask.as_deref())?, &root.join("out"), wanted)
+                let study = text.study(options.ask.as_deref())?;
+                self.results(&study, &folder(self.task(), root, "out")?, wanted)
             }
             Task::Posture { text, options } => {
                 let mut study = found(text).read()?;
                 study.search_postures(options.as_ref())?;
-                self.results(&study, &root.join("posture"), Wanted::USUAL)
+                self.results(&study, &folder(self.task(), root, "posture")?, Wanted::USUAL)
             }
-            Task::Place { text, options } => self.place(&found(text), options, &root.join("place")),
+            Task::Place { text, options } => {
+                self.place(&found(text), options, &folder(self.task(), root, "place")?)
+            }
             Task::Identify { text, options } => self.identify(&found(text), options, root),
         }
     }
 
     /// Runs a study and writes its results.
-    fn results(&self, study: &Study, out: &Path, wanted: Wanted<'_>) -> Result<Outcome, StudyError> {
-        output::prepare(out)?;
+    fn results(
+        &self,
+        study: &Study,
+        out: &ResultFolder,
+        wanted: Wanted<'_>,
+    ) -> Result<Outcome, StudyError> {
+        output::allow(study, (out, wanted))?;
         let done = self.counted(point_count(study), |watch| run(study, watch))?;
         let answer = answer(study, &done);
         let files = output::write(study, &done, &answer, (out, wanted), &|name| self.tell(name))?;
@@ -194,22 +215,25 @@ impl Job {
     }
 
     /// Searches a place, and runs the path there.
-    fn place(&self, found: &FoundStudy, options: &PlaceOptions, out: &Path) -> Result<Outcome, StudyError> {
+    fn place(
+        &self,
+        found: &FoundStudy,
+        options: &PlaceOptions,
+        out: &ResultFolder,
+    ) -> Result<Outcome, StudyError> {
         let study = found.read()?;
         let placing = Placing::new(
             &study,
             options.place.clone(),
             u64::from(options.seed.unwrap_or(1)),
         )?;
-        output::prepare(out)?;
-        let mut journal = Journal::kept_in(out.join("place.rounds"));
+        let mut journal = Journal::kept_in(out);
         let placed = self.counted(placing.place_count(), |watch| {
             placing.search(&mut journal, watch, &|best| self.tell(best))
         })?;
         let json = serde_json::to_string_pretty(&placed.answer)? + "\n";
-        let placement = out.join("placement.json");
-        write_atomically(&placement, json.as_bytes())?;
-        output::write_pictures("placement-", &placed.pictures, out)?;
+        out.write("placement.json", json.as_bytes())?;
+        output::write_pictures(&placed.pictures, out)?;
         let opening = placed.opening();
         let wanted = Wanted {
             opening: Some(&opening),
@@ -219,8 +243,9 @@ impl Job {
         let pictures = placed
             .pictures
             .iter()
-            .map(|picture| out.join(format!("{}.svg", picture.name)));
-        files.extend(std::iter::once(placement).chain(pictures));
+            .map(|picture| format!("{}.svg", picture.name));
+        let names = std::iter::once("placement.json".to_owned()).chain(pictures);
+        files.extend(names.map(|name| out.path().join(name)));
         self.tell(&placed.answer.sentences().join(" "));
         journal.done();
         Ok((json, files))
@@ -261,7 +286,7 @@ impl Job {
         let file = inside(root, &options.tests).map_err(|_| {
             StudyError::value(format!("there is no file `{}`", options.tests), "upload it first")
         })?;
-        let bytes = std::fs::read(file).map_err(|error| {
+        let bytes = input::read(&file).map_err(|error| {
             StudyError::value(
                 format!("cannot read {}: {error}", options.tests),
                 "a table of load tests, CSV",
@@ -281,10 +306,12 @@ impl Job {
         };
         let [path, text] = robots::text_of(&named, &robot)?;
         let written = robot_file(&robot.robot, [&path, &text], &answer, &options.tests)?;
-        let out = root.join("identify");
-        output::prepare(&out)?;
-        let file = out.join("robot.toml");
-        write_atomically(&file, written.as_bytes())?;
-        Ok((serde_json::to_string_pretty(&answer)?, vec![file]))
+        let out = folder(self.task(), root, "identify")?;
+        out.write("robot.toml", written.as_bytes())?;
+        out.finish()?;
+        Ok((
+            serde_json::to_string_pretty(&answer)?,
+            vec![out.path().join("robot.toml")],
+        ))
     }
 }

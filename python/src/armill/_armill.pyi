@@ -222,6 +222,7 @@ class Study:
         *,
         pictures: bool = True,
         csv: bool = False,
+        force: bool = False,
         threads: int | None = None,
         progress: _Progress | None = None,
     ) -> Result: ...

@@ -6,6 +6,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::writing::WritingOptions;
+
 const AFTER: &str = "\
 STUDY has circles (asks of kind = \"path\") and, for the gaps, what a ball-bar measured on them: [[ballbar]] with ask and files.
 Angles of the files are turned onto the circle by zero_deg and mirrored. The guide: docs/guide/ballbar.md
@@ -56,6 +58,8 @@ pub(crate) struct BacklashArguments {
     /// Folder for answer, table and pictures (nothing is written if left out)
     #[arg(long, value_name = "FOLDER", conflicts_with_all = ["circles", "simulate"])]
     pub out: Option<PathBuf>,
+    #[command(flatten)]
+    pub writing: WritingOptions,
     /// Machine-readable answer and errors
     #[arg(long)]
     pub json: bool,

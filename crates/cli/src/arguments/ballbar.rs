@@ -8,6 +8,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::program::ProgramOptions;
+use super::writing::WritingOptions;
 
 #[derive(Debug, Args)]
 #[command(
@@ -90,6 +91,8 @@ pub(crate) struct BallbarArguments {
     /// Write the answer, tables, pictures and a report into this folder
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    #[command(flatten)]
+    pub writing: WritingOptions,
     /// Print as JSON on stdout
     #[arg(long)]
     pub json: bool,

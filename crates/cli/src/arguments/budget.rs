@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::writing::WritingOptions;
+
 const AFTER: &str = "\
 Puts what was measured on a circle of the study ([measured]: the profile of the part, circular tests of the path without
 load) beside the deviation that is predicted under load: each part of the error with bias and scatter, their sums, how
@@ -22,6 +24,8 @@ pub(crate) struct BudgetArguments {
     /// Folder for table and pictures (nothing is written if left out)
     #[arg(long, value_name = "FOLDER")]
     pub out: Option<PathBuf>,
+    #[command(flatten)]
+    pub writing: WritingOptions,
     /// Machine-readable answer and errors
     #[arg(long)]
     pub json: bool,

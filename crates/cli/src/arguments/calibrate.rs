@@ -6,6 +6,7 @@ use clap::{Args, ValueEnum};
 
 use super::ROBOT_HELP;
 use super::poses::PosesOptions;
+use super::writing::WritingOptions;
 
 #[derive(Debug, Args)]
 #[command(
@@ -50,6 +51,8 @@ pub(crate) struct CalibrateArguments {
     /// Draw errors before and after to this file (.svg, .png)
     #[arg(long, value_name = "FILE")]
     pub drawing: Option<PathBuf>,
+    #[command(flatten)]
+    pub writing: WritingOptions,
     /// Print as JSON on stdout
     #[arg(long)]
     pub json: bool,

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::writing::WritingOptions;
+
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -27,6 +29,8 @@ pub(crate) struct CompareArguments {
     /// Threads to use (all processors if left out)
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
+    #[command(flatten)]
+    pub writing: WritingOptions,
     /// Print the whole comparison as JSON on stdout
     #[arg(long)]
     pub json: bool,

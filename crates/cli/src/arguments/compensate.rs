@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::program::ProgramOptions;
+use super::writing::WritingOptions;
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
@@ -36,6 +37,8 @@ pub(crate) struct CompensateArguments {
     /// Speed of the tip where the path tells none
     #[arg(long, value_name = "MM/MIN")]
     pub feed_mm_per_min: Option<f64>,
+    #[command(flatten)]
+    pub writing: WritingOptions,
     /// Print the answer as JSON on stdout
     #[arg(long)]
     pub json: bool,

@@ -7,6 +7,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::writing::WritingOptions;
+
 #[derive(Debug, Args)]
 #[command(
     allow_negative_numbers = true,
@@ -54,6 +56,8 @@ pub(crate) struct ForcesArguments {
     /// Write tables and pictures into this folder
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    #[command(flatten)]
+    pub writing: WritingOptions,
     /// Print as JSON on stdout
     #[arg(long)]
     pub json: bool,

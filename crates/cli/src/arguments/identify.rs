@@ -8,6 +8,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::ROBOT_HELP;
+use super::writing::WritingOptions;
 
 #[derive(Debug, Args)]
 #[command(
@@ -59,6 +60,8 @@ pub(crate) struct IdentifyArguments {
     /// Take readings as they are, however far from those of any arm
     #[arg(long)]
     pub trust_units: bool,
+    #[command(flatten)]
+    pub writing: WritingOptions,
     /// Print as JSON on stdout
     #[arg(long)]
     pub json: bool,

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::writing::WritingOptions;
+
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Pages that are there already are written anew.
@@ -13,4 +15,6 @@ Examples:
 pub(crate) struct ManArguments {
     /// Folder to write them into
     pub dir: PathBuf,
+    #[command(flatten)]
+    pub writing: WritingOptions,
 }

@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::ROBOT_HELP;
+use super::writing::WritingOptions;
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
@@ -23,6 +24,8 @@ pub(crate) struct NewArguments {
     /// r2000ic-measured
     #[arg(long, value_name = "NAME", conflicts_with = "robot")]
     pub example: Option<String>,
+    #[command(flatten)]
+    pub writing: WritingOptions,
     /// Print what was made as JSON on stdout
     #[arg(long)]
     pub json: bool,

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::writing::WritingOptions;
+
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Files have one row a point (x_mm, y_mm, z_mm), in the order of time and in the same axes; a column `run` parts several runs
@@ -25,6 +27,8 @@ pub(crate) struct PathAccuracyArguments {
     /// Draw both along the path to this file (.svg, .png)
     #[arg(long, value_name = "FILE")]
     pub drawing: Option<PathBuf>,
+    #[command(flatten)]
+    pub writing: WritingOptions,
     /// Print as JSON on stdout
     #[arg(long)]
     pub json: bool,

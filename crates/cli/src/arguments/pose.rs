@@ -10,6 +10,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::ROBOT_HELP;
+use super::writing::WritingOptions;
 
 #[derive(Debug, Args)]
 #[command(
@@ -123,6 +124,8 @@ pub(crate) struct PoseArguments {
     /// Frame that positions count from
     #[arg(long, value_name = "FRAME", default_value = armill_study::BASE_LINK)]
     pub base: String,
+    #[command(flatten)]
+    pub writing: WritingOptions,
     /// Print as JSON on stdout
     #[arg(long)]
     pub json: bool,

@@ -9,6 +9,7 @@ use armill_formats::robot::format::Format;
 use clap::{Args, Subcommand};
 
 use super::ROBOT_HELP;
+use super::writing::WritingOptions;
 
 #[derive(Debug, Args)]
 #[command(
@@ -29,6 +30,8 @@ pub(crate) struct RobotsArguments {
     /// Write a drawing of the arm to this file (.svg, .png)
     #[arg(long, value_name = "FILE", requires = "name")]
     pub drawing: Option<PathBuf>,
+    #[command(flatten)]
+    pub writing: WritingOptions,
     /// Print as JSON on stdout
     #[arg(long)]
     pub json: bool,
@@ -65,9 +68,8 @@ pub(crate) struct ImportArguments {
     /// Robot file to make (printed on stdout if left out)
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Overwrite the file if it is there
-    #[arg(long, requires = "out")]
-    pub force: bool,
+    #[command(flatten)]
+    pub writing: WritingOptions,
     /// Print what was made as JSON on stdout
     #[arg(long)]
     pub json: bool,

@@ -7,6 +7,8 @@ use std::path::PathBuf;
 use armill_formats::measurement::profile::LengthUnit;
 use clap::Args;
 
+use super::writing::WritingOptions;
+
 #[derive(Debug, Args)]
 #[command(
     allow_negative_numbers = true,
@@ -39,6 +41,8 @@ pub(crate) struct RoundnessArguments {
     /// Write table and picture into this folder
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    #[command(flatten)]
+    pub writing: WritingOptions,
     /// Print as JSON on stdout
     #[arg(long)]
     pub json: bool,

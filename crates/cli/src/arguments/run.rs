@@ -7,6 +7,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::writing::WritingOptions;
+
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -38,6 +40,8 @@ pub(crate) struct RunOptions {
     /// Exit with 1 unless every point holds the tolerance
     #[arg(long)]
     pub strict: bool,
+    #[command(flatten)]
+    pub writing: WritingOptions,
     /// Print the whole result as JSON on stdout
     #[arg(long)]
     pub json: bool,

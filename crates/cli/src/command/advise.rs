@@ -3,14 +3,13 @@
 //! `--out` (`advice` beside the study) takes the results of the path with all that is advised, as `armill run` writes them, and
 //! before them `advice.json`. Like `armill place` it goes on where it was stopped. Stdout has the advice in sentences.
 
-use armill_formats::file::write_atomically;
 use armill_study::advise::advise;
 use armill_study::output::Opening;
 use armill_study::place::{Journal, Placing};
 use armill_study::{StudyError, output, studies};
 
 use super::place::wanted;
-use super::run::{in_pool, results};
+use super::run::{folder, in_pool, results};
 use crate::Outcome;
 use crate::arguments::AdviseArguments;
 use crate::progress::Progress;
@@ -24,10 +23,8 @@ pub(crate) fn run(arguments: &AdviseArguments) -> Result<Outcome, StudyError> {
     let study = found.read()?;
     let seed = u64::from(arguments.place.seed);
     let placing = Placing::new(&study, wanted(&arguments.place)?, seed)?;
-    let beside = found.folder.join("advice");
-    let out = arguments.run.out.as_ref().unwrap_or(&beside);
-    output::prepare(out)?;
-    let mut journal = Journal::kept_in(out.join("place.rounds"));
+    let out = folder(("advise", "advice"), &found, &arguments.run)?;
+    let mut journal = Journal::kept_in(&out);
     let advice = in_pool(arguments.run.threads, || {
         let progress = Progress::of("places", placing.place_count());
         progress.watch(|watch| {
@@ -36,13 +33,13 @@ pub(crate) fn run(arguments: &AdviseArguments) -> Result<Outcome, StudyError> {
         })
     })??;
     let json = serde_json::to_string_pretty(&advice.answer)? + "\n";
-    write_atomically(out.join("advice.json"), json.as_bytes())?;
+    out.write("advice.json", json.as_bytes())?;
     let drawn = if arguments.run.no_pictures {
         &[][..]
     } else {
         &advice.pictures
     };
-    output::write_pictures("placement-", drawn, out)?;
+    output::write_pictures(drawn, &out)?;
     let sentences = advice.answer.advice.join("\n");
     let opening = Opening {
         heading: "What to do",
@@ -50,7 +47,7 @@ pub(crate) fn run(arguments: &AdviseArguments) -> Result<Outcome, StudyError> {
         pictures: advice.pictures,
     };
     let options = (&arguments.run, Some(&opening));
-    let outcome = results((&advice.study, beside.clone()), options, |_| sentences)?;
+    let outcome = results((&advice.study, &out), options, |_| sentences)?;
     journal.done();
     Ok(outcome)
 }

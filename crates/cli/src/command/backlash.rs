@@ -66,7 +66,7 @@ fn estimated(arguments: &BacklashArguments, study: &Study, noise: Option<f64>) -
     let progress = Progress::new(estimate::point_count(study)?);
     let (found, told) = progress.watch(|watch| estimate(study, &wanted, watch))?;
     if let Some(out) = &arguments.out {
-        output::write(&told, &found, out)?;
+        output::write(&told, &found, &arguments.writing.writer("backlash").folder(out)?)?;
         say(&format!("answer, table and pictures in {}", out.display()));
     }
     for warning in &told.warnings {
@@ -132,7 +132,8 @@ fn simulated(arguments: &BacklashArguments, study: &Study, noise: Option<f64>) -
     };
     let folder = arguments.simulate.as_deref().unwrap_or(".".as_ref());
     let points = simulate::point_count(study, &wanted.asks)?;
-    let told = Progress::new(points).watch(|watch| simulate(study, (&wanted, folder), watch))?;
+    let writer = arguments.writing.writer("backlash");
+    let told = Progress::new(points).watch(|watch| simulate(study, (&wanted, folder, &writer), watch))?;
     let line = |one: &Simulated| format!("{}: {} um at most, in {}", one.ask, um(one.largest_um), one.file);
     Ok(match arguments.json {
         true => serde_json::to_string_pretty(&told)?,

@@ -14,7 +14,6 @@
 
 use std::path::PathBuf;
 
-use armill_formats::file::write_atomically;
 use armill_formats::measurement::ballbar::{Told, direction_of};
 use armill_formats::robot_program::Written;
 use armill_study::StudyError;
@@ -65,17 +64,19 @@ pub(crate) fn run(arguments: &BallbarArguments) -> Result<Outcome, StudyError> {
             Some(circle.csv()?)
         }
     };
+    let writer = arguments.writing.writer("ballbar");
     if let Some(out) = &arguments.out {
-        output::write(&answer, (&measured, &found), (out, table.as_deref()))?;
-        say(&format!("tables, pictures and report in {}", out.display()));
+        let out = writer.folder(out)?;
+        output::write(&answer, (&measured, &found), (&out, table.as_deref()))?;
+        say(&format!("tables, pictures and report in {}", out.path().display()));
     }
     // Last, so that points stand nowhere if the folder cannot be written.
     if let (Some(file), Some(table)) = (&arguments.teach, &table) {
-        write_atomically(file, table)?;
+        writer.write(file, table)?;
         say(&format!("points to teach in {}", file.display()));
     }
     if let Some((_, _, Some((folder, written)))) = &taught {
-        save(folder, written)?;
+        save(&writer, folder, written)?;
     }
     for warning in &answer.warnings {
         say(&format!("warning: {warning}"));

@@ -30,7 +30,7 @@ pub(crate) fn run(arguments: &BudgetArguments) -> Result<Outcome, StudyError> {
     let progress = Progress::new(point_count(&study)?);
     let (combined, told) = progress.watch(|watch| budget(&study, watch))?;
     if let Some(out) = &arguments.out {
-        output::write(&told, &combined, out)?;
+        output::write(&told, &combined, &arguments.writing.writer("budget").folder(out)?)?;
         say(&format!("table and pictures in {}", out.display()));
     }
     print(&match arguments.json {

@@ -12,7 +12,6 @@
 //! ```
 
 use armill_core::calibrate::{Asked, Prior};
-use armill_formats::file::write_atomically;
 use armill_study::calibrate::answer::ParameterAnswer;
 use armill_study::calibrate::{
     CalibrateAnswer, HoldOut, SetAnswer, answer, calibrate, drawing, read, residuals, robot_file,
@@ -43,18 +42,19 @@ pub(crate) fn run(arguments: &CalibrateArguments) -> Result<Outcome, StudyError>
     let measured = read((&shown, &arguments.poses_file), &found.robot, &told, &question)?;
     let calibration = calibrate(&found.robot, (&shown, &measured), &question, (&hold_out, &told))?;
     let answer = answer(&found.robot, &calibration, &question);
+    let writer = arguments.writing.writer("calibrate");
     if let Some(file) = &arguments.out {
         let [path, text] = robots::text_of(&arguments.robot, &found)?;
         let written = robot_file(&found.robot, [&path, &text], &calibration)?;
-        write_atomically(file, written.as_bytes())?;
+        writer.write(file, written.as_bytes())?;
         say(&format!("calibrated robot in {}", file.display()));
     }
     if let Some(file) = &arguments.residuals {
-        write_atomically(file, residuals(&calibration).as_bytes())?;
+        writer.write(file, residuals(&calibration).as_bytes())?;
         say(&format!("residuals in {}", file.display()));
     }
     if let Some(file) = &arguments.drawing {
-        super::drawing::write(file, &drawing(&answer, &calibration))?;
+        super::drawing::write(&writer, file, &drawing(&answer, &calibration))?;
     }
     print(&match arguments.json {
         true => serde_json::to_string_pretty(&answer)?,

@@ -7,7 +7,7 @@ use armill_study::StudyError;
 use armill_study::compare::{
     CellNumbers, ComparedAnswer, ComparisonAnswer, cells, comparable, compare, write,
 };
-use armill_study::output::{self, Pictures};
+use armill_study::output::Pictures;
 use armill_study::studies;
 
 use super::run::in_pool;
@@ -27,7 +27,7 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<Outcome, StudyError> {
         (None, Some(first)) => studies::find(first)?.folder.join("compare"),
         (None, None) => "compare".into(),
     };
-    output::prepare(&out)?;
+    let out = arguments.writing.writer("compare").folder(&out)?;
     let wanted = if arguments.no_pictures {
         Pictures::None
     } else {
@@ -48,7 +48,7 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<Outcome, StudyError> {
     for warning in &answer.warnings {
         say(&format!("warning: {warning}"));
     }
-    say(&format!("results in {}", out.display()));
+    say(&format!("results in {}", out.path().display()));
     Ok(Outcome::Fine)
 }
 

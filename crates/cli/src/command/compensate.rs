@@ -7,11 +7,10 @@ use std::fmt::Write as _;
 
 use armill_core::optimize::Compensation;
 use armill_core::source::StiffnessModel;
-use armill_formats::file::write_atomically;
 use armill_study::compensate::{CompensatedPath, CompensationAnswer, compensate};
-use armill_study::in_place::check_folder;
+use armill_study::in_place::allow_programs;
 use armill_study::program_out::program;
-use armill_study::{StudyError, output, studies};
+use armill_study::{StudyError, studies};
 
 use super::program::{save, wanted};
 use crate::Outcome;
@@ -31,8 +30,9 @@ pub(crate) fn run(arguments: &CompensateArguments) -> Result<Outcome, StudyError
         .out
         .clone()
         .unwrap_or_else(|| found.folder.join("compensated"));
-    check_folder(&study, arguments.ask.as_deref(), &out)?;
-    output::prepare(&out)?;
+    let writer = arguments.writing.writer("compensate");
+    let folder = writer.folder(&out)?;
+    allow_programs(&study, arguments.ask.as_deref(), &folder)?;
     let progress = Progress::new(armill_study::compensate::point_count(
         &study,
         arguments.ask.as_deref(),
@@ -43,16 +43,21 @@ pub(crate) fn run(arguments: &CompensateArguments) -> Result<Outcome, StudyError
     };
     let name = arguments.ask.as_deref();
     let commanded = progress.watch(|watch| compensate(&study, name, compensation, watch))?;
+    let mut files: Vec<(String, &[u8])> = Vec::new();
     for one in &commanded {
-        write_atomically(out.join(&one.told.file), &one.csv)?;
-        let picture = one.told.file.replace(".commanded.csv", "-compensated.svg");
+        files.push((one.told.file.clone(), &one.csv));
         if one.told.rounds > 0 {
-            write_atomically(out.join(picture), one.picture.as_bytes())?;
+            let picture = one.told.file.replace(".commanded.csv", "-compensated.svg");
+            files.push((picture, one.picture.as_bytes()));
         }
-        for (name, bytes) in &one.program {
-            write_atomically(out.join(name), bytes)?;
-        }
+        files.extend(one.program.iter().map(|(name, bytes)| (name.clone(), &bytes[..])));
     }
+    folder.allow(files.iter().map(|(name, _)| name.as_str()))?;
+    for (name, bytes) in files {
+        folder.write(&name, bytes)?;
+    }
+    folder.finish()?;
+    drop(folder);
     if let Some((folder, wanted)) = &wanted {
         let [one] = &commanded[..] else {
             let message = format!(
@@ -62,7 +67,7 @@ pub(crate) fn run(arguments: &CompensateArguments) -> Result<Outcome, StudyError
             return Err(StudyError::value(message, "name it: --ask NAME"));
         };
         let written = program(&study, one.setting, (&one.path.0, &one.path.1), wanted)?;
-        save(folder, &written)?;
+        save(&writer, folder, &written)?;
     }
     let any = |known: fn(&StiffnessModel) -> bool| commanded.iter().any(|one| known(&one.setting.model));
     let answer = CompensationAnswer {

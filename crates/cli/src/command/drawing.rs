@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use armill_formats::file::write_atomically;
+use armill_formats::file::Writer;
 use armill_study::StudyError;
 
 /// Pixels of a PNG to one of an SVG, each way: sharp on paper.
@@ -13,7 +13,7 @@ const PIXELS: f64 = 2.0;
 ///
 /// # Errors
 /// Another ending; a picture that cannot become pixels; a place where nothing can be written.
-pub(super) fn write(file: &Path, svg: &str) -> Result<(), StudyError> {
+pub(super) fn write(writer: &Writer, file: &Path, svg: &str) -> Result<(), StudyError> {
     let ends_in = |wanted: &str| {
         let ending = file.extension();
         ending.is_some_and(|ending| ending.eq_ignore_ascii_case(wanted))
@@ -28,7 +28,7 @@ pub(super) fn write(file: &Path, svg: &str) -> Result<(), StudyError> {
             "a name that ends in .svg or .png",
         ));
     };
-    write_atomically(file, &bytes)?;
+    writer.write(file, &bytes)?;
     crate::terminal::say(&format!("drawing in {}", file.display()));
     Ok(())
 }

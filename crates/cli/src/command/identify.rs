@@ -16,10 +16,9 @@ use std::fmt::Write;
 use std::path::Path;
 
 use armill_core::nalgebra::Vector3;
-use armill_formats::file::write_atomically;
 use armill_formats::measurement::load_tests;
 use armill_formats::robot::RobotDescription;
-use armill_formats::whole;
+use armill_formats::input;
 use armill_study::identify::answer::{ErrorsAnswer, PointAnswer};
 use armill_study::identify::robot_file::robot_file;
 use armill_study::identify::{
@@ -95,7 +94,7 @@ fn plan_tests(
     )?;
     match &arguments.out {
         Some(file) => {
-            write_atomically(file, plan.table.as_bytes())?;
+            arguments.writing.writer("identify").write(file, plan.table.as_bytes())?;
             say(&format!("table in {}", file.display()));
         }
         None if !arguments.json => print(plan.table.trim_end())?,
@@ -139,7 +138,7 @@ fn from_tests(
     tests: &Path,
 ) -> Result<Outcome, StudyError> {
     let shown = tests.display().to_string();
-    let bytes = whole::read(tests).map_err(|error| {
+    let bytes = input::read(tests).map_err(|error| {
         StudyError::value(
             format!("cannot read {shown}: {error}"),
             "a table of load tests, CSV; `armill identify --plan 20 --robot ...` makes one to fill in",
@@ -150,7 +149,7 @@ fn from_tests(
     if let Some(file) = &arguments.out {
         let [path, text] = robots::text_of(&arguments.robot, found)?;
         let written = robot_file(&found.robot, [&path, &text], &answer, &shown)?;
-        write_atomically(file, written.as_bytes())?;
+        arguments.writing.writer("identify").write(file, written.as_bytes())?;
         say(&format!("robot with these compliances in {}", file.display()));
     }
     print(&if arguments.json {

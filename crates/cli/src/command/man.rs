@@ -1,6 +1,8 @@
 //! `armill man`: a manual page for `armill` and one for each of its commands, such as `armill-run.1`.
 
-use armill_formats::file::{FileError, create_folder, write_atomically};
+use std::path::PathBuf;
+
+use armill_formats::file::{FileError, create_folder};
 use armill_study::StudyError;
 use clap::{Command, CommandFactory};
 use clap_mangen::Man;
@@ -13,12 +15,11 @@ use crate::arguments::{Arguments, ManArguments};
 /// # Errors
 /// A place where nothing can be written; stdout takes no more.
 pub(crate) fn run(arguments: &ManArguments) -> Result<Outcome, StudyError> {
-    create_folder(&arguments.dir)?;
     // What `armill help` would repeat has a page.
     let mut armill = Arguments::command().disable_help_subcommand(true);
     // Names such as `armill-robots-import` are given here.
     armill.build();
-    let mut written = Vec::new();
+    let mut files = Vec::new();
     for page in pages(&armill) {
         let path = arguments.dir.join(page.get_filename());
         let mut text = Vec::new();
@@ -26,9 +27,12 @@ pub(crate) fn run(arguments: &ManArguments) -> Result<Outcome, StudyError> {
             path: path.clone(),
             source,
         })?;
-        write_atomically(&path, &text)?;
-        written.push(path.display().to_string());
+        files.push((path, text));
     }
+    let bytes: Vec<(PathBuf, &[u8])> = files.iter().map(|(path, text)| (path.clone(), &text[..])).collect();
+    create_folder(&arguments.dir)?;
+    arguments.writing.writer("man").write_all(&bytes)?;
+    let written: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();
     crate::terminal::print(&written.join("\n"))?;
     Ok(Outcome::Fine)
 }

@@ -1,12 +1,12 @@
 //! `armill new`: a commented study that runs.
 //!
 //! Its text comes from [`armill_study::new`] by `--robot`, or all files of an example from [`armill_study::library`]; here
-//! they go into `DIR`, never over one that is there. Stderr says what to do next; stdout is empty, or holds the paths as
+//! they go into `DIR`, all or none. Stderr says what to do next; stdout is empty, or holds the paths as
 //! JSON.
 
-use std::path::Path;
+use std::path::PathBuf;
 
-use armill_formats::file::{create_folder, write_atomically};
+use armill_formats::file::create_folder;
 use armill_study::new::{Compliances, MadeStudy, new_study};
 use armill_study::{StudyError, library};
 
@@ -34,7 +34,7 @@ pub(crate) fn run(arguments: &NewArguments) -> Result<Outcome, StudyError> {
             (vec![("study.toml", made.text)], first)
         }
     };
-    let mut made = written(&arguments.dir, files)?.into_iter();
+    let mut made = written(arguments, files)?.into_iter();
     let study = made.next().unwrap_or_default();
     let told = format!(
         "made {study}; {first}, then: armill run {}",
@@ -49,18 +49,11 @@ pub(crate) fn run(arguments: &NewArguments) -> Result<Outcome, StudyError> {
 }
 
 /// Writes these files, or none of them, and gives their paths.
-fn written(folder: &Path, files: Vec<(&str, String)>) -> Result<Vec<String>, StudyError> {
-    let paths: Vec<_> = files.iter().map(|(name, _)| folder.join(name)).collect();
-    if let Some(there) = paths.iter().find(|path| path.exists()) {
-        let message = format!("{} exists already", there.display());
-        return Err(StudyError::value(
-            message,
-            "choose another folder: armill never overwrites a study",
-        ));
-    }
-    create_folder(folder)?;
-    for (path, (_, text)) in paths.iter().zip(&files) {
-        write_atomically(path, text.as_bytes())?;
-    }
-    Ok(paths.iter().map(|path| path.display().to_string()).collect())
+fn written(arguments: &NewArguments, files: Vec<(&str, String)>) -> Result<Vec<String>, StudyError> {
+    let files: Vec<(PathBuf, &[u8])> = (files.iter())
+        .map(|(name, text)| (arguments.dir.join(name), text.as_bytes()))
+        .collect();
+    create_folder(&arguments.dir)?;
+    arguments.writing.writer("new").write_all(&files)?;
+    Ok(files.iter().map(|(path, _)| path.display().to_string()).collect())
 }

@@ -6,7 +6,6 @@
 //! RT     largest, where
 //! ```
 
-use armill_formats::file::write_atomically;
 use armill_study::StudyError;
 use armill_study::path_accuracy::{PathAccuracyAnswer, PlaceAnswer, answer, drawing, points, read};
 
@@ -21,12 +20,13 @@ use crate::terminal::{print, say};
 pub(crate) fn run(arguments: &PathAccuracyArguments) -> Result<Outcome, StudyError> {
     let measured = read(&arguments.commanded, &arguments.files)?;
     let (found, answer) = answer(&measured)?;
+    let writer = arguments.writing.writer("path-accuracy");
     if let Some(file) = &arguments.points {
-        write_atomically(file, &points(&measured, &found)?)?;
+        writer.write(file, &points(&measured, &found)?)?;
         say(&format!("points in {}", file.display()));
     }
     if let Some(file) = &arguments.drawing {
-        super::drawing::write(file, &drawing(&answer, &found))?;
+        super::drawing::write(&writer, file, &drawing(&answer, &found))?;
     }
     print(&match arguments.json {
         true => serde_json::to_string_pretty(&answer)?,

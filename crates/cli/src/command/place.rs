@@ -5,12 +5,11 @@
 //! started again after it was stopped, the search goes on from there. Stdout has the place in sentences, and the lines of a
 //! study that lay the path there.
 
-use armill_formats::file::write_atomically;
 use armill_study::file::placement::PlaceTable;
 use armill_study::place::{Journal, Placing};
 use armill_study::{StudyError, output, studies};
 
-use super::run::{in_pool, results};
+use super::run::{folder, in_pool, results};
 use crate::Outcome;
 use crate::arguments::{PlaceArguments, PlaceOptions};
 use crate::progress::Progress;
@@ -24,10 +23,8 @@ pub(crate) fn run(arguments: &PlaceArguments) -> Result<Outcome, StudyError> {
     let found = studies::find(&arguments.run.study)?;
     let study = found.read()?;
     let placing = Placing::new(&study, wanted(&arguments.place)?, u64::from(arguments.place.seed))?;
-    let beside = found.folder.join("place");
-    let out = arguments.run.out.as_ref().unwrap_or(&beside);
-    output::prepare(out)?;
-    let mut journal = Journal::kept_in(out.join("place.rounds"));
+    let out = folder(("place", "place"), &found, &arguments.run)?;
+    let mut journal = Journal::kept_in(&out);
     let placed = in_pool(arguments.run.threads, || {
         let progress = Progress::of("places", placing.place_count());
         progress.watch(|watch| placing.search(&mut journal, watch, &|best| progress.tell(best)))
@@ -39,16 +36,16 @@ pub(crate) fn run(arguments: &PlaceArguments) -> Result<Outcome, StudyError> {
         ));
     }
     let json = serde_json::to_string_pretty(&placed.answer)? + "\n";
-    write_atomically(out.join("placement.json"), json.as_bytes())?;
+    out.write("placement.json", json.as_bytes())?;
     let drawn = if arguments.run.no_pictures {
         &[][..]
     } else {
         &placed.pictures
     };
-    output::write_pictures("placement-", drawn, out)?;
+    output::write_pictures(drawn, &out)?;
     let there = placed.study(&found)?;
     let opening = placed.opening();
-    let outcome = results((&there, beside.clone()), (&arguments.run, Some(&opening)), |_| {
+    let outcome = results((&there, &out), (&arguments.run, Some(&opening)), |_| {
         let lines = placed.answer.sentences().join("\n");
         format!("{lines}\n\n{}", placed.answer.study_lines())
             .trim_end()

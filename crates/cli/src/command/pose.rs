@@ -55,7 +55,7 @@ pub(crate) fn run(arguments: &PoseArguments) -> Result<Outcome, StudyError> {
     let answer = answer(&found, &question)?;
     if let Some(file) = &arguments.drawing {
         let drawing = posture_drawing(&found.robot, &question.flange_from_tool, &answer);
-        super::drawing::write(file, &drawing)?;
+        super::drawing::write(&arguments.writing.writer("pose"), file, &drawing)?;
     }
     print(&if arguments.json {
         serde_json::to_string_pretty(&answer)?

@@ -7,7 +7,7 @@ use armill_study::answer::StudyAnswer;
 use armill_study::file::posture_search::{CountsName, GoalName, SearchTable};
 use armill_study::{StudyError, studies};
 
-use super::run::results;
+use super::run::{folder, results};
 use crate::Outcome;
 use crate::arguments::PostureArguments;
 
@@ -19,11 +19,8 @@ pub(crate) fn run(arguments: &PostureArguments) -> Result<Outcome, StudyError> {
     let found = studies::find(&arguments.run.study)?;
     let mut study = found.read()?;
     study.search_postures(wanted(arguments)?.as_ref())?;
-    results(
-        (&study, found.folder.join("posture")),
-        (&arguments.run, None),
-        summary,
-    )
+    let out = folder(("posture", "posture"), &found, &arguments.run)?;
+    results((&study, &out), (&arguments.run, None), summary)
 }
 
 /// What the options ask for; `None` where they leave all to the study.

@@ -1,8 +1,8 @@
 //! Options of a program of the robot in SI, for `compensate` and `ballbar`; and its files, written.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use armill_formats::file::{create_folder, write_atomically};
+use armill_formats::file::{Writer, create_folder};
 use armill_formats::robot_program::{Language, Written};
 use armill_study::StudyError;
 use armill_study::program_out::ProgramWanted;
@@ -69,14 +69,16 @@ fn within(option: &str, value: f64, [least, most]: [f64; 2]) -> Result<f64, Stud
 ///
 /// # Errors
 /// A folder or file that cannot be written.
-pub(super) fn save(folder: &std::path::Path, written: &Written) -> Result<(), StudyError> {
+pub(super) fn save(writer: &Writer, folder: &Path, written: &Written) -> Result<(), StudyError> {
     create_folder(folder)?;
-    for (name, bytes) in &written.files {
-        let path = folder.join(name);
-        write_atomically(&path, bytes)?;
+    let files: Vec<(PathBuf, &[u8])> = (written.files.iter())
+        .map(|(name, bytes)| (folder.join(name), &bytes[..]))
+        .collect();
+    writer.write_all(&files)?;
+    for (path, _) in &files {
         say(&format!(
             "program {}",
-            path.strip_prefix(".").unwrap_or(&path).display()
+            path.strip_prefix(".").unwrap_or(path).display()
         ));
     }
     written

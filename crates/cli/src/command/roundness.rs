@@ -55,7 +55,8 @@ pub(crate) fn run(arguments: &RoundnessArguments) -> Result<Outcome, StudyError>
     }
     if let Some(out) = &arguments.out {
         for (index, (answer, judged)) in answers.iter().zip(&judged).enumerate() {
-            output::write(answer, judged, &folder(out, arguments, index))?;
+            let folder = folder(out, arguments, index);
+            output::write(answer, judged, &arguments.writing.writer("roundness").folder(&folder)?)?;
         }
         say(&format!("tables and pictures in {}", out.display()));
     }

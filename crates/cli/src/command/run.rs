@@ -4,12 +4,12 @@
 //! Stdout holds the answer in words, or with `--json` all of `result.json`; warnings and progress go to stderr. `--strict`
 //! exits with 1 unless every point holds its limit.
 
-use std::path::{Path, PathBuf};
-
+use armill_formats::file::ResultFolder;
 use armill_study::answer::{StudyAnswer, answer};
 use armill_study::output::{self, Csv, Opening, Pictures, Wanted};
 use armill_study::run::{point_count, run as run_study};
-use armill_study::{Study, StudyError, studies};
+use armill_study::studies::{self, FoundStudy};
+use armill_study::{Study, StudyError};
 
 use crate::Outcome;
 use crate::arguments::{RunArguments, RunOptions};
@@ -24,26 +24,47 @@ use crate::terminal::{print, say};
 /// fault while results are written.
 pub(crate) fn run(arguments: &RunArguments) -> Result<Outcome, StudyError> {
     let found = studies::find(&arguments.run.study)?;
-    results(
-        (&found.read()?, found.folder.join("out")),
-        (&arguments.run, None),
-        summary,
-    )
+    let study = found.read()?;
+    let out = folder(("run", "out"), &found, &arguments.run)?;
+    results((&study, &out), (&arguments.run, None), summary)
 }
 
-/// Runs a study, writes all of its results into the folder that the options name, or that one, with `opening` before the
-/// report, and says what came out, in words those of `summary`.
+/// The folder for the results of the command `by`: the one that the options name, or `name` in the folder of the study.
 ///
 /// # Errors
-/// A folder where nothing can be written, told before any work is done; a fault while results are written.
+/// A folder where nothing can be written, or where another run writes.
+pub(super) fn folder(
+    (by, name): (&'static str, &str),
+    found: &FoundStudy,
+    options: &RunOptions,
+) -> Result<ResultFolder, StudyError> {
+    let usual = found.folder.join(name);
+    let out = options.out.as_ref().unwrap_or(&usual);
+    Ok(options.writing.writer(by).folder(out)?)
+}
+
+/// Runs a study, writes all of its results into the folder `out`, with `opening` before the report, and says what came out,
+/// in words those of `summary`.
+///
+/// # Errors
+/// Files that may not be replaced, before any work is done; a fault while results are written.
 pub(super) fn results(
-    (study, beside): (&Study, PathBuf),
+    (study, out): (&Study, &ResultFolder),
     (options, opening): (&RunOptions, Option<&Opening>),
     summary: impl FnOnce(&StudyAnswer) -> String,
 ) -> Result<Outcome, StudyError> {
-    let out = options.out.clone().unwrap_or(beside);
-    output::prepare(&out)?;
-    let answer = in_pool(options.threads, || work(study, &out, (options, opening)))??;
+    let mut wanted = Wanted {
+        opening,
+        ..Wanted::USUAL
+    };
+    if options.no_pictures {
+        wanted.pictures = Pictures::None;
+    }
+    if options.csv {
+        wanted.csv = Csv::Every;
+    }
+    output::allow(study, (out, wanted))?;
+    let answer = in_pool(options.threads, || work(study, (out, wanted)))??;
     if options.json {
         print(output::json(&answer)?.trim_end())?;
     } else {
@@ -52,7 +73,7 @@ pub(super) fn results(
     for warning in &answer.warnings {
         say(&format!("warning: {warning}"));
     }
-    say(&format!("results in {}", out.display()));
+    say(&format!("results in {}", out.path().display()));
     Ok(if options.strict && !answer.holds_everywhere() {
         Outcome::ToleranceNotHeld
     } else {
@@ -77,24 +98,10 @@ pub(super) fn in_pool<T: Send>(
 }
 
 /// From the study to its answer and its files, under a bar.
-fn work(
-    study: &Study,
-    out: &Path,
-    (options, opening): (&RunOptions, Option<&Opening>),
-) -> Result<StudyAnswer, StudyError> {
+fn work(study: &Study, (out, wanted): (&ResultFolder, Wanted<'_>)) -> Result<StudyAnswer, StudyError> {
     let progress = Progress::new(point_count(study));
     let found = progress.watch(|watch| run_study(study, watch))?;
     let answer = answer(study, &found);
-    let mut wanted = Wanted {
-        opening,
-        ..Wanted::USUAL
-    };
-    if options.no_pictures {
-        wanted.pictures = Pictures::None;
-    }
-    if options.csv {
-        wanted.csv = Csv::Every;
-    }
     output::write(study, &found, &answer, (out, wanted), &|name| {
         progress.tell(name);
     })?;

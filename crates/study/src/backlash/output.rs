@@ -6,12 +6,10 @@
 //! ASK.svg         the runs of a circle, what the gaps make of them, and rays where joints turn back; .png too
 //! ```
 
-use std::path::Path;
-
 use armill_core::measure::ballbar::joints::Followed;
 use armill_core::measure::ballbar::profile::{STATIONS, station};
 use armill_core::measure::ballbar::{Direction, Profile, Run, least_squares_centre};
-use armill_formats::file::write_atomically;
+use armill_formats::file::ResultFolder;
 use armill_formats::table::{Column, ColumnData, Table, csv};
 use armill_report::{BallbarPlot, BallbarTrace, Growth, RayMark, Sense};
 
@@ -19,23 +17,24 @@ use super::answer::{BacklashAnswer, CircleAnswer, ReversalAnswer};
 use super::estimate::Estimated;
 use crate::StudyError;
 use crate::file::circles::MeasuredCircle;
-use crate::output::{Picture, prepare, slug, write_pictures};
+use crate::output::{Picture, RESULT, picture_files, replace, save_pictures, slug};
+
+/// The table.
+const TABLE: &str = "reversals.csv";
 
 /// Writes the answer, its table and pictures into the folder `out`.
 ///
 /// # Errors
 /// The folder or a file cannot be written.
-pub fn write(told: &BacklashAnswer, found: &Estimated<'_>, out: &Path) -> Result<(), StudyError> {
-    prepare(out)?;
-    write_atomically(out.join("reversals.csv"), &csv::write(&table(told)?))?;
+pub fn write(told: &BacklashAnswer, found: &Estimated<'_>, out: &ResultFolder) -> Result<(), StudyError> {
     let pictures: Vec<Picture> = (found.circles.iter().zip(&told.circles))
         .map(|((measured, _, followed), circle)| picture(measured, followed, (circle, found)))
         .collect();
-    write_pictures("", &pictures, out)?;
-    write_atomically(
-        out.join("result.json"),
-        serde_json::to_string_pretty(told)?.as_bytes(),
-    )?;
+    let names = (pictures.iter().flat_map(picture_files)).chain([TABLE.to_owned(), RESULT.to_owned()]);
+    replace((out, &names.collect::<Vec<_>>()), (told, &|_| ()), |files| {
+        files.save(TABLE, &csv::write(&table(told)?))?;
+        save_pictures(&pictures, files)
+    })?;
     Ok(())
 }
 

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use armill_core::measure::ballbar::Direction;
 use armill_core::measure::ballbar::joints::Followed;
 use armill_core::watch::Watch;
-use armill_formats::file::write_atomically;
+use armill_formats::file::{Writer, create_folder};
 use serde::Serialize;
 
 use super::circles::{CircleAsk, circles, followed};
@@ -19,7 +19,7 @@ use super::noise::Noise;
 use crate::error::StudyError;
 use crate::file::resolve::Study;
 use crate::number::decimals;
-use crate::output::{prepare, slug};
+use crate::output::slug;
 
 /// How it is asked.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,7 +63,7 @@ pub fn point_count(study: &Study, asks: &[String]) -> Result<usize, StudyError> 
 /// See [`circles`]; a circle that the arm does not follow; a folder that takes no more.
 pub fn simulate(
     study: &Study,
-    (wanted, out): (&SimulationWanted, &Path),
+    (wanted, out, writer): (&SimulationWanted, &Path, &Writer),
     watch: Watch<'_>,
 ) -> Result<Vec<Simulated>, StudyError> {
     let mut noise = Noise::seeded(wanted.seed);
@@ -87,10 +87,11 @@ pub fn simulate(
         });
         files.push((path, text));
     }
-    prepare(out)?;
-    for (path, text) in &files {
-        write_atomically(path, text.as_bytes())?;
-    }
+    create_folder(out)?;
+    let bytes: Vec<(PathBuf, &[u8])> = (files.iter())
+        .map(|(path, text)| (path.clone(), text.as_bytes()))
+        .collect();
+    writer.write_all(&bytes)?;
     Ok(told)
 }
 

@@ -14,10 +14,11 @@
 //!
 //! Each picture is there as .png too.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use armill_core::measure::ballbar::profile::{STATIONS, station};
 use armill_core::measure::ballbar::{Difference, Direction, Profile};
+use armill_formats::file::ResultFolder;
 use armill_formats::table::{Column, ColumnData, Table, csv};
 use armill_report::html::{Report, Table as Rows};
 use armill_report::{BallbarPlot, BallbarTrace, Growth, PathPlot, Sense, Series};
@@ -27,7 +28,7 @@ use super::answer::{BallbarAnswer, ShownAnswer};
 use super::read::Measured;
 use crate::error::StudyError;
 use crate::output::report::cells::{columns, input, um};
-use crate::output::{Picture, REPORT, RESULT, picture_files, prepare, replace, save_pictures};
+use crate::output::{Picture, REPORT, RESULT, picture_files, replace, save_pictures};
 
 /// The points to teach.
 const TAUGHT: &str = "taught.csv";
@@ -41,9 +42,8 @@ const TABLES: [&str; 3] = ["runs.csv", "differences.csv", "parts.csv"];
 pub fn write(
     told: &BallbarAnswer,
     (measured, found): (&Measured, &Found),
-    (out, taught): (&Path, Option<&[u8]>),
+    (out, taught): (&ResultFolder, Option<&[u8]>),
 ) -> Result<Vec<PathBuf>, StudyError> {
-    prepare(out)?;
     let drawn = pictures(told, (measured, found));
     let names: Vec<String> = TABLES
         .map(str::to_owned)
@@ -52,7 +52,7 @@ pub fn write(
         .chain(drawn.iter().flat_map(picture_files))
         .chain([REPORT.to_owned(), RESULT.to_owned()])
         .collect();
-    replace((out, &names), &|_| (), |files| {
+    replace((out, &names), (told, &|_| ()), |files| {
         let tables = [
             runs(measured, found)?,
             differences(measured, found)?,
@@ -66,7 +66,7 @@ pub fn write(
         }
         save_pictures(&drawn, files)?;
         files.save(REPORT, html(told, &drawn).as_bytes())?;
-        Ok(serde_json::to_string(told)? + "\n")
+        Ok(())
     })
 }
 

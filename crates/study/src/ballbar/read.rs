@@ -1,11 +1,11 @@
 //! Files into one circle: runs of all of them, and results of the bar's own program beside.
 
-use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
 use armill_core::measure::ballbar::{CircularTest, Run, RunError};
 use armill_formats::document::{Problem, Problems};
+use armill_formats::input;
 use armill_formats::measurement::ballbar::{self, Held, Recorded, Results, Told};
 
 use crate::StudyError;
@@ -74,7 +74,7 @@ pub fn read(files: &[impl AsRef<Path>], wanted: &Wanted) -> Result<Measured, Stu
     let mut results = Vec::new();
     for path in files {
         let shown = path.as_ref().display().to_string();
-        let file = File::open(path.as_ref()).map_err(|error| {
+        let file = input::open(path.as_ref()).map_err(|error| {
             StudyError::value(
                 format!("cannot read {shown}: {error}"),
                 "a CSV with `angle_deg,radius_dev_um,direction,run`, or results of a ball-bar (.b5r)",

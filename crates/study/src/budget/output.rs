@@ -9,10 +9,10 @@
 //!
 //! `armill run` puts the pictures and `tables` into its report.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use armill_core::measure::ballbar::profile::is_gap;
-use armill_formats::file::write_atomically;
+use armill_formats::file::ResultFolder;
 use armill_formats::table::{Column, ColumnData, Table, csv};
 use armill_report::html;
 use armill_report::{BudgetBar, BudgetBars, BudgetGroup, Growth, PolarPlot, RadialSeries, WaveBar, WaveBars};
@@ -21,22 +21,29 @@ use super::answer::{BudgetAnswer, PartAnswer, WithoutLoadAnswer};
 use super::combine::Combined;
 use crate::StudyError;
 use crate::output::report::cells::columns;
-use crate::output::{Picture, prepare, slug, write_pictures};
+use crate::output::{Picture, picture_files, slug, write_pictures};
+
+/// The table.
+const TABLE: &str = "budget.csv";
 
 /// Writes table and pictures into the folder `out` and gives their paths.
 ///
 /// # Errors
 /// The folder or a file cannot be written.
-pub fn write(told: &BudgetAnswer, combined: &Combined, out: &Path) -> Result<Vec<PathBuf>, StudyError> {
-    prepare(out)?;
-    let table = out.join("budget.csv");
-    write_atomically(&table, &table_csv(told, combined)?)?;
+pub fn write(
+    told: &BudgetAnswer,
+    combined: &Combined,
+    out: &ResultFolder,
+) -> Result<Vec<PathBuf>, StudyError> {
     let pictures = pictures(told, combined);
-    write_pictures(&format!("{}-", slug(&told.ask)), &pictures, out)?;
-    let named = pictures
-        .iter()
-        .map(|picture| out.join(format!("{}.svg", picture.name)));
-    Ok(std::iter::once(table).chain(named).collect())
+    let files: Vec<String> = pictures.iter().flat_map(picture_files).collect();
+    out.allow(files.iter().map(String::as_str).chain([TABLE]))?;
+    out.write(TABLE, &table_csv(told, combined)?)?;
+    write_pictures(&pictures, out)?;
+    out.finish()?;
+    let named = pictures.iter().map(|picture| format!("{}.svg", picture.name));
+    let names = std::iter::once(TABLE.to_owned()).chain(named);
+    Ok(names.map(|name| out.path().join(name)).collect())
 }
 
 /// The table of all curves, a row an angle, as CSV.

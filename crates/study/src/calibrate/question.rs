@@ -1,6 +1,5 @@
 //! What is asked of measured poses, and where they are read from.
 
-use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
@@ -8,6 +7,7 @@ use armill_core::calibrate::{self, Asked, Prior};
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::Robot;
+use armill_formats::input;
 use armill_formats::measurement::poses::{self, Measured, Told};
 
 use crate::StudyError;
@@ -64,7 +64,7 @@ pub fn read(
     told: &Told,
     question: &Question,
 ) -> Result<Measured, StudyError> {
-    let file = File::open(path).map_err(|error| {
+    let file = input::open(path).map_err(|error| {
         StudyError::value(
             format!("cannot read {shown}: {error}"),
             "a table with joint positions and measured points: q1_deg, ..., x_mm, y_mm, z_mm",

@@ -8,8 +8,9 @@
 //! ASK-along.svg, .png      of a path the deviation of each cell along it
 //! ```
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
+use armill_formats::file::ResultFolder;
 use armill_formats::table::{Column, ColumnData, Table, csv};
 use armill_report::html::{Report, Table as Rows};
 use armill_report::{ComparedCell, Comparison, PathPlot, Series};
@@ -30,7 +31,7 @@ const TABLE: &str = "cells.csv";
 /// A file cannot be written.
 pub fn write(
     compared: &Compared,
-    (out, wanted): (&Path, Pictures),
+    (out, wanted): (&ResultFolder, Pictures),
     note: &(dyn Fn(&str) + Sync),
 ) -> Result<Vec<PathBuf>, StudyError> {
     let drawn = match wanted {
@@ -44,13 +45,13 @@ pub fn write(
         .chain(report)
         .chain([RESULT.to_owned()])
         .collect();
-    replace((out, &names), note, |files| {
+    replace((out, &names), (&compared.answer, note), |files| {
         files.save(TABLE, &csv::write(&table(&compared.answer)?))?;
         save_pictures(&drawn, files)?;
         if wanted == Pictures::Drawn {
             files.save(REPORT, html(&compared.answer, &drawn).as_bytes())?;
         }
-        Ok(serde_json::to_string(&compared.answer)? + "\n")
+        Ok(())
     })
 }
 

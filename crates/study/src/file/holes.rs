@@ -10,7 +10,6 @@
 //! A load told in axes of the feed (`load.frame = "feed"`) has z out of the hole and x where the tool has it unturned; thrust
 //! and torque of a `drill` are such a load.
 
-use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
@@ -20,6 +19,7 @@ use armill_core::nalgebra::{Point3, Unit, Vector3};
 use armill_core::optimize::PostureSearch;
 use armill_core::path::{Hole, Pace, Placing, SampledPath, Spin, Step, Track, drilled_holes, path_of_holes};
 use armill_core::robot::Robot;
+use armill_formats::input;
 use armill_formats::toolpath::format::{self, Format, Wanted};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -284,16 +284,8 @@ fn in_file(
 ) -> Result<Option<SampledPath>, StudyError> {
     let path = folder.join(file);
     let shown = path.display().to_string();
-    let opened = match File::open(&path) {
-        Ok(opened) if !path.is_dir() => opened,
-        Ok(_) => {
-            places.problem(
-                "holes.file",
-                format!("{shown} is a folder"),
-                "name the file in it",
-            );
-            return Ok(None);
-        }
+    let opened = match input::open(&path) {
+        Ok(opened) => opened,
         Err(error) => {
             let message = format!("cannot read {shown}: {error}");
             places.problem("holes.file", message, BESIDE_STUDY);

@@ -14,11 +14,11 @@ pub mod treat;
 pub use answer::{DriftAnswer, ForcesAnswer, RangeAnswer, SummaryAnswer, answer};
 pub use treat::{Air, Refusal, Treated, Treatment, treat};
 
-use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
 use armill_core::load::{ActsOn, Record};
+use armill_formats::input;
 use armill_formats::measurement::format::{self, Wanted};
 
 use crate::StudyError;
@@ -55,7 +55,7 @@ pub fn read(
     wanted: &Wanted,
     cycle: Option<usize>,
 ) -> Result<Measured, Unread> {
-    let file = File::open(path).map_err(|error| {
+    let file = input::open(path).map_err(|error| {
         Unread::Value(Refusal::new(
             "file",
             format!("cannot read {shown}: {error}"),

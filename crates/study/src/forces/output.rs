@@ -6,18 +6,18 @@
 //! forces.svg        each component and the size over time, before and after; forces.png is the same
 //! ```
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use armill_core::load::Record;
 use armill_core::load::record::revolutions::Revolution;
 use armill_core::nalgebra::Vector3;
-use armill_formats::file::write_atomically;
+use armill_formats::file::ResultFolder;
 use armill_formats::table::{Column, Table, csv};
 use armill_report::{Envelope, ForcePlot, ForceTrace};
 
 use super::{ForcesAnswer, Treated};
 use crate::StudyError;
-use crate::output::{column, prepare};
+use crate::output::column;
 
 /// Decimals of forces that mean something: a millionth of a newton.
 const FORCE_DECIMALS: u8 = 6;
@@ -31,8 +31,7 @@ const PNG_SCALE: f64 = 2.0;
 ///
 /// # Errors
 /// The folder or a file cannot be written.
-pub fn write(answer: &ForcesAnswer, treated: &Treated, out: &Path) -> Result<Vec<PathBuf>, StudyError> {
-    prepare(out)?;
+pub fn write(answer: &ForcesAnswer, treated: &Treated, out: &ResultFolder) -> Result<Vec<PathBuf>, StudyError> {
     let svg = plot(("measured force".to_owned(), subtitle(answer)), treated).to_svg();
     let mut files = vec![("forces.csv", csv::write(&forces(treated)?))];
     if let Some(turns) = &treated.turns {
@@ -41,11 +40,13 @@ pub fn write(answer: &ForcesAnswer, treated: &Treated, out: &Path) -> Result<Vec
     #[cfg(feature = "png")]
     files.push(("forces.png", armill_report::raster::png(&svg, PNG_SCALE)?));
     files.push(("forces.svg", svg.into_bytes()));
+    out.allow(files.iter().map(|(name, _)| *name))?;
     let mut written = Vec::new();
     for (name, bytes) in files {
-        write_atomically(out.join(name), &bytes)?;
-        written.push(out.join(name));
+        out.write(name, &bytes)?;
+        written.push(out.path().join(name));
     }
+    out.finish()?;
     Ok(written)
 }
 

@@ -31,7 +31,7 @@ pub enum FileKind {
 /// What the file at `path` seems to be, and the line of a study that names it as `name`.
 pub fn kind_of(path: &Path, name: &str) -> (FileKind, String) {
     let mut head = Vec::new();
-    let opened = std::fs::File::open(path).map(|file| file.take(HEAD_BYTES));
+    let opened = armill_formats::input::open(path).map(|file| file.take(HEAD_BYTES));
     // What cannot be read is told by its name alone.
     let _ = opened.and_then(|mut begin| begin.read_to_end(&mut head));
     let kind = guess(Path::new(name), &String::from_utf8_lossy(&head));

@@ -10,7 +10,7 @@ use armill_core::robot::Robot;
 use armill_formats::robot::format::Format;
 use armill_formats::robot::urdf::meshes::{Mesh, meshes};
 use armill_formats::robot::xacro;
-use armill_formats::whole;
+use armill_formats::input;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -75,7 +75,7 @@ pub fn mesh_bytes(text: Text<'_>, file: &str) -> Result<Vec<u8>, StudyError> {
     let robot = Parsed::of(text.shown, text.bytes)?.file.robot;
     let Shapes(shapes) = Shapes::of(&robot, text.folder);
     let named = shapes.into_iter().find(|(mesh, _)| mesh.file == file);
-    let bytes = named.and_then(|(_, path)| whole::read(&path).ok());
+    let bytes = named.and_then(|(_, path)| input::read(&path).ok());
     bytes.ok_or_else(|| {
         let message = format!("the robot shows no mesh `{file}`");
         StudyError::value(
@@ -90,7 +90,7 @@ fn found(robot: &str, folder: &Path) -> Option<Vec<(Mesh, PathBuf)>> {
     let path = folder.join(robot);
     let format = |text: &str| Format::of(Path::new(robot), text);
     // What is no file of its own, of the library say, names no meshes.
-    let bytes = path.is_file().then(|| whole::read(&path).ok()).flatten()?;
+    let bytes = path.is_file().then(|| input::read(&path).ok()).flatten()?;
     let text = String::from_utf8_lossy(&bytes);
     let urdf = match format(&text)? {
         Format::Urdf => text.into_owned(),

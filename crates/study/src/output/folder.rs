@@ -1,11 +1,9 @@
-//! Many files into one folder: made on all threads, forced to the disk meanwhile, and nothing left of earlier runs.
+//! Many files into one folder: made on all threads, forced to the disk meanwhile.
 
-use std::collections::BTreeSet;
-use std::path::Path;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::sync::{Mutex, PoisonError};
 
-use armill_formats::file::{FileError, PartFile, sync_folder, write_atomically};
+use armill_formats::file::{FileError, PartFile, ResultFolder, sync_folder};
 
 use crate::error::StudyError;
 
@@ -14,12 +12,9 @@ const WAITING: usize = 4;
 /// Files that are written and wait for their name at most: each is open, and systems allow some hundred.
 const QUEUE: usize = 64;
 
-/// The list of files that a run wrote, in its folder.
-const LIST: &str = ".armill-files";
-
 /// A folder that takes files from any thread.
 pub(crate) struct Folder<'a> {
-    out: &'a Path,
+    out: &'a ResultFolder,
     queue: SyncSender<(String, PartFile)>,
 }
 
@@ -29,7 +24,7 @@ impl Folder<'_> {
     /// # Errors
     /// The file cannot be written; one that cannot take its name is told by [`write_together`].
     pub(crate) fn save(&self, name: &str, bytes: &[u8]) -> Result<(), StudyError> {
-        let part = PartFile::write(self.out.join(name), bytes)?;
+        let part = self.out.part(name, bytes)?;
         // The other end is open as long as this one.
         let _ = self.queue.send((name.to_owned(), part));
         Ok(())
@@ -41,7 +36,7 @@ impl Folder<'_> {
 /// # Errors
 /// That of `work`; or of the first file, by name, that could not be written.
 pub(super) fn write_together(
-    out: &Path,
+    out: &ResultFolder,
     note: &(dyn Fn(&str) + Sync),
     work: impl FnOnce(&Folder<'_>) -> Result<(), StudyError>,
 ) -> Result<(), StudyError> {
@@ -57,7 +52,7 @@ pub(super) fn write_together(
             .flat_map(|thread| thread.join().unwrap_or_default());
         (worked, refused.min_by(|a, b| a.0.cmp(&b.0)))
     });
-    sync_folder(out);
+    sync_folder(out.path());
     worked?;
     refused.map_or(Ok(()), |(_, error)| Err(error.into()))
 }
@@ -78,44 +73,11 @@ fn name_all(
     }
 }
 
-/// The files in `out` that earlier runs say they wrote.
-pub(super) fn listed(out: &Path) -> BTreeSet<String> {
-    let text = std::fs::read_to_string(out.join(LIST)).unwrap_or_default();
-    // A name with a folder in it is none of ours, whoever wrote it there.
-    let ours = |name: &&str| Path::new(name).file_name().is_some_and(|file| file == *name);
-    text.lines().filter(ours).map(str::to_owned).collect()
-}
-
-/// Notes in `out` which files are of armill.
-///
-/// # Errors
-/// The list cannot be written.
-pub(super) fn list(out: &Path, names: &BTreeSet<String>) -> Result<(), StudyError> {
-    let text: String = names.iter().map(|name| format!("{name}\n")).collect();
-    Ok(write_atomically(out.join(LIST), text.as_bytes())?)
-}
-
-/// Removes files of `out`; one that cannot be removed stays listed by nobody and does no harm.
-pub(super) fn remove<'a>(out: &Path, names: impl Iterator<Item = &'a String>) {
-    for name in names {
-        let _ = std::fs::remove_file(out.join(name));
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use armill_formats::file::Writer;
 
-    #[test]
-    fn a_list_names_files_of_its_own_folder_only() {
-        let folder = tempfile::tempdir().unwrap();
-        let text = "plate.csv\n../study.toml\n/etc/passwd\n..\n\nsub/x\nreport.html\n";
-        std::fs::write(folder.path().join(LIST), text).unwrap();
-        let names = ["plate.csv", "report.html"].map(str::to_owned);
-        assert_eq!(listed(folder.path()), BTreeSet::from(names.clone()));
-        list(folder.path(), &BTreeSet::from(names.clone())).unwrap();
-        assert_eq!(listed(folder.path()), BTreeSet::from(names));
-    }
+    use super::*;
 
     #[test]
     fn of_files_that_cannot_be_written_the_first_by_name_is_told() {
@@ -126,7 +88,8 @@ mod tests {
             part
         };
         let (b, a) = (said("b"), said("a"));
-        let error = write_together(folder.path(), &|_| (), |files| {
+        let out = Writer::new("run", false).folder(folder.path()).unwrap();
+        let error = write_together(&out, &|_| (), |files| {
             let _ = files.queue.send(("b".to_owned(), b));
             let _ = files.queue.send(("a".to_owned(), a));
             files.save("c", b"whole")

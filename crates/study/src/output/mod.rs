@@ -1,8 +1,9 @@
 //! What a study leaves behind: `result.json`, tables, pictures and a report in one folder.
 //!
-//! Every file is written beside its place and renamed, and `result.json` comes last: a study that was killed leaves no
-//! half file, and a folder without `result.json` is not finished. Files of an earlier run that this one does not write
-//! are removed.
+//! Every file is written under another name and renamed, and `result.json` comes last: a study that was killed leaves no
+//! half file, and a folder without `result.json` is not finished. `result.json` names the files that belong to it, each with
+//! its SHA-256. Files of an earlier run of the same command are removed; what somebody changed, and what armill did not
+//! make, stays and is not replaced (see [`armill_formats::file`]).
 //!
 //! ```text
 //! result.json             the answer
@@ -10,7 +11,7 @@
 //! ASK.parquet, ASK.csv    a row a point; ASK.limits.csv: what a program permits
 //! ASK.vtp, ASK.vti        for ParaView: planes and paths, boxes
 //! ASK.svg, ASK-WHAT.svg   pictures, each as .png too
-//! .armill-files           the names of all these, for the next run
+//! .armill-files           which of these files armill made
 //! ```
 //!
 //! `ASK` is the `slug` of the ask's name. `folder`: which files; `rows`: the points; `tables`, `pictures`, `plates`,
@@ -32,12 +33,13 @@ mod tables;
 pub use arm::{arm_drawing, arm_posture, posture_drawing};
 pub use pictures::Picture;
 
-use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
 
-use armill_formats::file::{create_folder, remove_abandoned, write_atomically};
+use armill_formats::file::ResultFolder;
 use armill_formats::table::{Column, ColumnData, Table, csv};
 use rayon::prelude::*;
+use serde::Serialize;
 
 use crate::answer::StudyAnswer;
 use crate::error::StudyError;
@@ -130,18 +132,13 @@ pub fn slug(name: &str) -> String {
     slug.trim_matches('-').to_owned()
 }
 
-/// Makes the folder `out` and refuses it if nothing can be written there, before any work is done.
+/// Whether the tables, report and answer of this study may be written into `out`, before any work is done.
 ///
 /// # Errors
-/// The folder cannot be made or written to.
-pub fn prepare(out: &Path) -> Result<(), StudyError> {
-    create_folder(out)?;
-    remove_abandoned(out);
-    let probe = out.join(".armill-probe");
-    write_atomically(&probe, b"")?;
-    // A probe that cannot be removed again does no harm.
-    let _ = std::fs::remove_file(probe);
-    Ok(())
+/// Files there that may not be replaced.
+pub fn allow(study: &Study, (out, wanted): (&ResultFolder, Wanted<'_>)) -> Result<(), StudyError> {
+    let names = names(study, &[], wanted);
+    Ok(out.allow(names.iter().map(String::as_str))?)
 }
 
 /// Writes everything into `out` and gives the paths of the files; `note` hears each name as it comes, from any thread.
@@ -152,7 +149,7 @@ pub fn write(
     study: &Study,
     done: &[Done<'_>],
     answer: &StudyAnswer,
-    (out, wanted): (&Path, Wanted<'_>),
+    (out, wanted): (&ResultFolder, Wanted<'_>),
     note: &(dyn Fn(&str) + Sync),
 ) -> Result<Vec<PathBuf>, StudyError> {
     let drawn = match wanted.pictures {
@@ -160,7 +157,7 @@ pub fn write(
         Pictures::None => Vec::new(),
     };
     let names = names(study, &drawn, wanted);
-    replace((out, &names), note, |files| {
+    replace((out, &names), (answer, note), |files| {
         let tables = || {
             let asks = study.asks.par_iter().zip(done).with_max_len(1);
             asks.try_for_each(|(ask, done)| {
@@ -180,41 +177,42 @@ pub fn write(
             }
             Pictures::None => Ok(()),
         };
-        let (tables, (pictures, text)) = rayon::join(tables, || rayon::join(pictures, || json(answer)));
-        tables.and(pictures)?;
-        text
+        let (tables, pictures) = rayon::join(tables, pictures);
+        tables.and(pictures)
     })
 }
 
-/// Puts the files called `names`, the answer last, in the place of those of an earlier run, and gives their paths. `work`
-/// saves all but the answer, whose text it gives.
+/// Puts the files called `names`, `answer` last, in the place of those of an earlier run, and gives their paths. `work`
+/// saves all but the answer.
 ///
 /// # Errors
-/// That of `work`; a file cannot be written.
-pub(crate) fn replace(
-    (out, names): (&Path, &[String]),
-    note: &(dyn Fn(&str) + Sync),
-    work: impl FnOnce(&folder::Folder<'_>) -> Result<String, StudyError>,
+/// Files that may not be replaced, before anything is written; that of `work`; a file cannot be written.
+pub(crate) fn replace<T: Serialize>(
+    (out, names): (&ResultFolder, &[String]),
+    (answer, note): (&T, &(dyn Fn(&str) + Sync)),
+    work: impl FnOnce(&folder::Folder<'_>) -> Result<(), StudyError>,
 ) -> Result<Vec<PathBuf>, StudyError> {
-    // An older answer beside newer tables would pass for theirs if this run were killed; what cannot be removed
-    // cannot be replaced either, and writing it will say so.
-    let _ = std::fs::remove_file(out.join(RESULT));
-    let mine: BTreeSet<String> = names.iter().cloned().collect();
-    // What this run and those before it wrote, in case this one is killed.
-    let earlier = folder::listed(out);
-    folder::list(out, &earlier.union(&mine).cloned().collect())?;
-    let mut text = String::new();
-    folder::write_together(out, note, |files| {
-        text = work(files)?;
-        Ok(())
-    })?;
-    folder::remove(out, earlier.difference(&mine));
-    if earlier != mine {
-        folder::list(out, &mine)?;
-    }
-    write_atomically(out.join(RESULT), text.as_bytes())?;
+    out.allow(names.iter().map(String::as_str))?;
+    // An older answer next to newer tables would pass for theirs if this run were killed.
+    out.remove(RESULT);
+    folder::write_together(out, note, work)?;
+    let written = WrittenAnswer {
+        answer,
+        files: out.written(),
+    };
+    out.write(RESULT, (serde_json::to_string(&written)? + "\n").as_bytes())?;
+    out.finish()?;
     note(RESULT);
-    Ok(names.iter().map(|name| out.join(name)).collect())
+    Ok(names.iter().map(|name| out.path().join(name)).collect())
+}
+
+/// `result.json`: the answer, and the files that were written with it.
+#[derive(Serialize)]
+struct WrittenAnswer<'a, T> {
+    #[serde(flatten)]
+    answer: &'a T,
+    /// SHA-256 of each file by its name, hexadecimal.
+    files: BTreeMap<String, String>,
 }
 
 /// The answer, written last.
@@ -286,28 +284,15 @@ pub fn table_csv(study: &Study, done: &Done<'_>) -> Result<Vec<u8>, StudyError> 
     Ok(csv::write(&points_table(study, done)?))
 }
 
-/// Writes pictures that are not those of an ask into `out`, in place of all there whose names begin with `begin`.
+/// Writes pictures that are not those of an ask into `out`.
 ///
 /// # Errors
 /// A file cannot be written; a picture cannot be drawn in pixels.
-pub fn write_pictures(begin: &str, pictures: &[Picture], out: &Path) -> Result<(), StudyError> {
-    let names = std::fs::read_dir(out).into_iter().flatten().flatten();
-    for file in names.map(|entry| entry.path()) {
-        let is_picture = file.extension().is_some_and(|end| end == "svg" || end == "png");
-        let name = file
-            .file_name()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .into_owned();
-        if is_picture && name.starts_with(begin) {
-            // What cannot be removed is written over, or does no harm.
-            let _ = std::fs::remove_file(file);
-        }
-    }
+pub fn write_pictures(pictures: &[Picture], out: &ResultFolder) -> Result<(), StudyError> {
     for picture in pictures {
         #[cfg(feature = "png")]
-        write_atomically(out.join(format!("{}.png", picture.name)), &png(&picture.svg)?)?;
-        write_atomically(out.join(format!("{}.svg", picture.name)), picture.svg.as_bytes())?;
+        out.write(&format!("{}.png", picture.name), &png(&picture.svg)?)?;
+        out.write(&format!("{}.svg", picture.name), picture.svg.as_bytes())?;
     }
     Ok(())
 }

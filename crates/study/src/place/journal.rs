@@ -6,37 +6,40 @@
 //! ```
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use armill_formats::file::write_atomically;
+use armill_formats::file::ResultFolder;
 
 use crate::error::StudyError;
 
 /// Rounds that are done.
 #[derive(Clone, Debug)]
-pub struct Journal {
-    file: Option<PathBuf>,
+pub struct Journal<'a> {
+    kept_in: Option<&'a ResultFolder>,
     fingerprint: u64,
     rounds: BTreeMap<String, Vec<f64>>,
     /// Rounds that an earlier run had done.
     taken: usize,
 }
 
-impl Journal {
+/// The file.
+const ROUNDS: &str = "place.rounds";
+
+impl<'a> Journal<'a> {
     /// One that is kept nowhere.
-    pub fn none() -> Journal {
+    pub fn none() -> Journal<'a> {
         Journal {
-            file: None,
+            kept_in: None,
             fingerprint: 0,
             rounds: BTreeMap::new(),
             taken: 0,
         }
     }
 
-    /// One that is kept in `file`.
-    pub fn kept_in(file: PathBuf) -> Journal {
+    /// One that is kept in the file `place.rounds` of this folder.
+    pub fn kept_in(folder: &'a ResultFolder) -> Journal<'a> {
         Journal {
-            file: Some(file),
+            kept_in: Some(folder),
             ..Journal::none()
         }
     }
@@ -45,9 +48,8 @@ impl Journal {
     pub(super) fn take_up(&mut self, fingerprint: u64) {
         self.fingerprint = fingerprint;
         self.rounds = self
-            .file
-            .as_deref()
-            .and_then(|file| read(file, fingerprint))
+            .kept_in
+            .and_then(|folder| read(&folder.path().join(ROUNDS), fingerprint))
             .unwrap_or_default();
     }
 
@@ -71,17 +73,16 @@ impl Journal {
         }
         let at = work()?;
         self.rounds.insert(name.to_owned(), at.clone());
-        if let Some(file) = &self.file {
-            write_atomically(file, self.text().as_bytes())?;
+        if let Some(folder) = self.kept_in {
+            folder.write(ROUNDS, self.text().as_bytes())?;
         }
         Ok(at)
     }
 
     /// Takes the file away: the search is done.
     pub fn done(&self) {
-        if let Some(file) = &self.file {
-            // One that stays is of no other search.
-            let _ = std::fs::remove_file(file);
+        if let Some(folder) = self.kept_in {
+            folder.remove(ROUNDS);
         }
     }
 
@@ -100,7 +101,8 @@ impl Journal {
 
 /// The rounds in this file; `None` where it is not there, of another search, or not whole.
 fn read(file: &Path, fingerprint: u64) -> Option<BTreeMap<String, Vec<f64>>> {
-    let text = std::fs::read_to_string(file).ok()?;
+    let regular = file.symlink_metadata().is_ok_and(|found| found.is_file());
+    let text = regular.then(|| std::fs::read_to_string(file).ok()).flatten()?;
     let mut lines = text.lines();
     if lines.next() != Some(&format!("{fingerprint:016x}")) {
         return None;
@@ -142,32 +144,34 @@ impl Fingerprint {
 
 #[cfg(test)]
 mod tests {
+    use armill_formats::file::Writer;
+
     use super::*;
 
     #[test]
     fn a_round_that_is_done_is_not_done_again() {
         let folder = tempfile::tempdir().unwrap();
-        let file = folder.path().join("rounds");
-        let mut journal = Journal::kept_in(file.clone());
+        let out = Writer::new("place", false).folder(folder.path()).unwrap();
+        let mut journal = Journal::kept_in(&out);
         journal.take_up(7);
         let found = journal.round("valley 0", || Ok(vec![0.1 + 0.2, 1.0])).unwrap();
-        let mut again = Journal::kept_in(file.clone());
+        let mut again = Journal::kept_in(&out);
         again.take_up(7);
         let kept = again.round("valley 0", || panic!("it is kept")).unwrap();
         assert_eq!(kept, found);
         assert_eq!((journal.taken(), again.taken()), (0, 1));
         // Another search begins anew.
-        let mut other = Journal::kept_in(file.clone());
+        let mut other = Journal::kept_in(&out);
         other.take_up(8);
         assert_eq!(other.round("valley 0", || Ok(vec![0.5])).unwrap(), [0.5]);
         other.done();
-        assert!(!file.exists());
+        assert!(!folder.path().join(ROUNDS).exists());
     }
 
     #[test]
     fn a_file_that_is_not_whole_counts_for_nothing() {
         let folder = tempfile::tempdir().unwrap();
-        let file = folder.path().join("rounds");
+        let out = Writer::new("place", true).folder(folder.path()).unwrap();
         for text in [
             "",
             "0000000000000007\nvalley\t3fe",
@@ -175,8 +179,8 @@ mod tests {
             "seven",
             "0000000000000007\nvalley\t4024000000000000",
         ] {
-            std::fs::write(&file, text).unwrap();
-            let mut journal = Journal::kept_in(file.clone());
+            std::fs::write(folder.path().join(ROUNDS), text).unwrap();
+            let mut journal = Journal::kept_in(&out);
             journal.take_up(7);
             let at = journal.round("valley", || Ok(vec![0.25])).unwrap();
             assert_eq!(at, [0.25], "{text}");

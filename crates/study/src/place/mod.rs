@@ -156,7 +156,7 @@ impl<'a> Placing<'a> {
     /// A robot without compliance; a path that misses its stock; cancelled by the watch; a journal that cannot be written.
     pub fn search(
         &self,
-        journal: &mut Journal,
+        journal: &mut Journal<'_>,
         watch: Watch<'_>,
         told: &dyn Fn(&str),
     ) -> Result<Found, StudyError> {

@@ -63,7 +63,7 @@ impl Prepared<'_> {
         (goal, effort): (PlacementGoal, Effort),
         name: &str,
         also: Option<&Best>,
-        journal: &mut Journal,
+        journal: &mut Journal<'_>,
     ) -> Result<Best, StudyError> {
         let mut best: Option<Best> = None;
         for (site, of) in self.sites.iter().enumerate() {
@@ -128,7 +128,7 @@ impl Prepared<'_> {
         &self,
         mut best: Best,
         goal: PlacementGoal,
-        journal: &mut Journal,
+        journal: &mut Journal<'_>,
     ) -> Result<(Best, CertificateAnswer), StudyError> {
         let mut tried = 0;
         loop {
@@ -184,7 +184,7 @@ impl Prepared<'_> {
         &self,
         goal: PlacementGoal,
         best: &Best,
-        journal: &mut Journal,
+        journal: &mut Journal<'_>,
     ) -> Result<Vec<(f64, Best)>, StudyError> {
         let mut front: Vec<(f64, Best)> = Vec::new();
         if best.spot.merit.lost > 0 {

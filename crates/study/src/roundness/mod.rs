@@ -14,10 +14,10 @@ pub mod output;
 pub use answer::{CircleAnswer, RoundnessAnswer, ZoneAnswer, answer};
 pub use judge::{Judged, Question, judge};
 
-use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
+use armill_formats::input;
 use armill_formats::measurement::profile::{self, Measured, Wanted};
 
 use crate::StudyError;
@@ -27,7 +27,7 @@ use crate::StudyError;
 /// # Errors
 /// The file cannot be read; its problems.
 pub fn read((shown, path): (&str, &Path), wanted: &Wanted) -> Result<Measured, StudyError> {
-    let file = File::open(path).map_err(|error| {
+    let file = input::open(path).map_err(|error| {
         StudyError::value(
             format!("cannot read {shown}: {error}"),
             "a table with `x_mm,y_mm` or `angle_deg,radius_mm`, or rows of numbers with --unit",

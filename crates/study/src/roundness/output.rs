@@ -5,17 +5,17 @@
 //! roundness.svg     the profile, magnified, with its four circles and their centres; roundness.png is the same
 //! ```
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use armill_core::nalgebra::Point2;
 use armill_core::roundness::Polar;
-use armill_formats::file::write_atomically;
+use armill_formats::file::ResultFolder;
 use armill_formats::table::{Table, csv};
 use armill_report::{Growth, PolarPlot, RadialReference, RadialSeries};
 
 use super::{Judged, RoundnessAnswer};
 use crate::StudyError;
-use crate::output::{column, prepare};
+use crate::output::column;
 
 /// Pixels that a picture is drawn in for each of its own.
 #[cfg(feature = "png")]
@@ -31,18 +31,19 @@ const CIRCLE_STEPS: usize = 360;
 ///
 /// # Errors
 /// The folder or a file cannot be written.
-pub fn write(answer: &RoundnessAnswer, judged: &Judged, out: &Path) -> Result<Vec<PathBuf>, StudyError> {
-    prepare(out)?;
+pub fn write(answer: &RoundnessAnswer, judged: &Judged, out: &ResultFolder) -> Result<Vec<PathBuf>, StudyError> {
     let svg = plot(answer, judged).to_svg();
     let mut files = vec![("roundness.csv", csv::write(&table(judged)?))];
     #[cfg(feature = "png")]
     files.push(("roundness.png", armill_report::raster::png(&svg, PNG_SCALE)?));
     files.push(("roundness.svg", svg.into_bytes()));
+    out.allow(files.iter().map(|(name, _)| *name))?;
     let mut written = Vec::new();
     for (name, bytes) in files {
-        write_atomically(out.join(name), &bytes)?;
-        written.push(out.join(name));
+        out.write(name, &bytes)?;
+        written.push(out.path().join(name));
     }
+    out.finish()?;
     Ok(written)
 }
 

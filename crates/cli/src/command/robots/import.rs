@@ -5,7 +5,6 @@
 
 use std::path::Path;
 
-use armill_formats::file::write_atomically;
 use armill_formats::robot::RobotDescription;
 use armill_formats::robot::armill;
 use armill_formats::robot::format::Wanted;
@@ -19,17 +18,10 @@ use crate::terminal::{print, say};
 /// Reads the foreign file, writes it as ours, and reads that again before it is kept.
 ///
 /// # Errors
-/// A file that is there, without `--force`; a format that is not known; the problems of the file; a place where
+/// A file that may not be replaced; a format that is not known; the problems of the file; a place where
 /// nothing can be written.
 pub(super) fn run(arguments: &ImportArguments) -> Result<Outcome, StudyError> {
     let out = arguments.out.as_deref();
-    if let Some(path) = out.filter(|path| path.exists() && !arguments.force) {
-        let message = format!("{} exists already", path.display());
-        return Err(StudyError::value(
-            message,
-            "choose another name, or overwrite it with --force",
-        ));
-    }
     let (found, text) = source(arguments)?;
     let shown = out.map(|path| path.display().to_string());
     armill::read(
@@ -38,7 +30,7 @@ pub(super) fn run(arguments: &ImportArguments) -> Result<Outcome, StudyError> {
         &text,
     )?;
     if let Some(path) = out {
-        write_atomically(path, text.as_bytes())?;
+        arguments.writing.writer("robots import").write(path, text.as_bytes())?;
     }
     if arguments.json {
         let answer = ImportedRobot::of(&found, shown.clone(), &text);

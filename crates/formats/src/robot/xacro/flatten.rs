@@ -17,7 +17,7 @@ use roxmltree::Node;
 
 use super::{DIRECTIVES, packages};
 use crate::document::{Problem, Problems, Source};
-use crate::whole;
+use crate::input;
 use crate::xml;
 
 /// Files within files deeper than this are a circle.
@@ -245,7 +245,7 @@ impl Writer<'_> {
             self.problems.push(file.problem(place, message, None));
             return;
         }
-        let bytes = match whole::read(path) {
+        let bytes = match input::read(path) {
             Ok(bytes) => bytes,
             Err(error) => {
                 let message = format!("cannot read `{}`: {error}", path.display());

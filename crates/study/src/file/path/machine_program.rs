@@ -1,6 +1,5 @@
 //! A program of a machine tool, cutter locations or a table of points as a path: its reader and what the study tells it.
 
-use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
@@ -9,7 +8,7 @@ use armill_formats::toolpath::LengthUnit;
 use armill_formats::toolpath::apt::Dialect;
 use armill_formats::toolpath::format::{self, Wanted};
 use armill_formats::toolpath::gcode::ToolTable;
-use armill_formats::whole;
+use armill_formats::input;
 
 use super::program::{
     BESIDE_STUDY, DialectName, MOST_POINTS, ProgramFile, ProgramTable, ReadProgram, RotariesName, UnitName,
@@ -45,7 +44,7 @@ pub(super) fn read(
     if of_robots.iter().any(|(_, given, _)| *given) {
         return Ok(None);
     }
-    let opened = match File::open(&file.path) {
+    let opened = match input::open(&file.path) {
         Ok(opened) => opened,
         Err(error) => {
             let message = format!("cannot read {}: {error}", file.path.display());
@@ -76,7 +75,7 @@ pub(super) fn read(
     let subroutine = |name: &str| {
         let plain = name.chars().all(|c| c.is_alphanumeric() || "-_".contains(c));
         let path = beside.join(format!("{name}.ngc"));
-        plain.then(|| whole::read_text(&path).ok()).flatten()
+        plain.then(|| input::read_text(&path).ok()).flatten()
     };
     let wanted = Wanted {
         unit,
@@ -113,5 +112,5 @@ fn text_of(places: &mut Places<'_>, key: &str, path: &Path) -> Option<String> {
         let message = format!("cannot read {}: {error}", path.display());
         places.problem(key, message, BESIDE_STUDY);
     };
-    whole::read_text(path).map_err(tell).ok()
+    input::read_text(path).map_err(tell).ok()
 }

@@ -11,7 +11,6 @@
 //! Lines become points at most `step_mm` apart, arcs so many that no chord leaves them by more than `chord_error_mm`.
 //! The reader hands its steps on one by one; at most `MOST_POINTS` points are made of them.
 
-use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -19,6 +18,7 @@ use armill_core::frame::Isometry;
 use armill_core::nalgebra::Vector3;
 use armill_core::path::{Placing, SampledPath, Sampling, Spin, TooManyPoints};
 use armill_core::robot::Robot;
+use armill_formats::input;
 use armill_formats::robot_program::Language;
 use armill_formats::toolpath::Summary;
 use armill_formats::toolpath::format::{Format, HEAD_BYTES};
@@ -267,7 +267,7 @@ impl ProgramFile<'_> {
             return None;
         }
         let mut head = Vec::new();
-        let read = File::open(&self.path).and_then(|file| file.take(HEAD_BYTES).read_to_end(&mut head));
+        let read = input::open(&self.path).and_then(|file| file.take(HEAD_BYTES).read_to_end(&mut head));
         if let Err(error) = read {
             let message = format!("cannot read {}: {error}", self.path.display());
             places.problem("program.file", message, BESIDE_STUDY);

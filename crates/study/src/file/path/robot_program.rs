@@ -19,7 +19,7 @@ use armill_formats::robot_program::{
     Cell, FollowError, Followed, FollowedMove, Language, ProgramText, RobotProgram, follow,
 };
 use armill_formats::toolpath::Summary;
-use armill_formats::whole;
+use armill_formats::input;
 
 use super::program::{BESIDE_STUDY, MOST_POINTS, ProgramFile, ProgramTable, ReadProgram};
 use crate::StudyError;
@@ -174,7 +174,7 @@ fn texts(places: &mut Places<'_>, path: &Path, language: Language) -> Option<Vec
     }
     let mut texts = Vec::with_capacity(files.len());
     for file in &files {
-        match whole::read(file) {
+        match input::read(file) {
             Ok(bytes) => texts.push(ProgramText::new(&file.display().to_string(), &bytes)),
             Err(error) => {
                 let message = format!("cannot read {}: {error}", file.display());

@@ -1,11 +1,4 @@
-//! Files that are either written whole or not at all.
-//!
-//! The bytes go to a temporary file in the same folder, are forced to the disk, and then take the name of the file in
-//! one step: whoever reads it sees the old content or the new one, also after a power cut.
-//!
-//! [`write_atomically`] writes one file. Of many files [`PartFile`] does the same in two steps, since the disk is what
-//! one waits for: while some are forced to it, others can be made. A run that is killed leaves temporary files;
-//! [`remove_abandoned`] knows them by their name and by the lock that nobody holds any more.
+//! A file that is written whole or not at all.
 
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -13,123 +6,12 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
-/// Why a file or folder was not written: what failed, and what to try.
-#[derive(Debug, thiserror::Error)]
-pub enum FileError {
-    /// The path has no file name.
-    #[error("`{}` names no file: give a path that ends in a file name", path.display())]
-    NoFileName {
-        /// The path as it was given.
-        path: PathBuf,
-    },
-    /// A folder stands where the file should be.
-    #[error("cannot write `{}`: it is a folder; give the name of a file inside it", path.display())]
-    IsFolder {
-        /// The path as it was given.
-        path: PathBuf,
-    },
-    /// The folder the file should be in does not exist.
-    #[error("cannot write `{}`: the folder `{}` does not exist; create it first", path.display(), folder.display())]
-    FolderMissing {
-        /// The path as it was given.
-        path: PathBuf,
-        /// The folder that is missing.
-        folder: PathBuf,
-    },
-    /// A file stands where a folder is wanted.
-    #[error("cannot use `{}` as a folder: `{}` is a file; move it away or choose another folder",
-            path.display(), file.display())]
-    FileInTheWay {
-        /// The folder that is wanted.
-        path: PathBuf,
-        /// The file that stands in the way.
-        file: PathBuf,
-    },
-    /// The user may not write there.
-    #[error("cannot write `{}`: no permission in `{}`; change its permissions or choose another folder",
-            path.display(), folder.display())]
-    NotPermitted {
-        /// The path as it was given.
-        path: PathBuf,
-        /// The folder that refuses.
-        folder: PathBuf,
-    },
-    /// The file is there and may not be changed.
-    #[error("cannot write `{}`: it is write-protected; remove the protection or choose another name", path.display())]
-    WriteProtected {
-        /// The path as it was given.
-        path: PathBuf,
-    },
-    /// The file system is read-only.
-    #[error("cannot write `{}`: its file system is read-only; choose another folder", path.display())]
-    ReadOnly {
-        /// The path as it was given.
-        path: PathBuf,
-    },
-    /// The disk or the quota is full.
-    #[error("cannot write `{}`{}: no space left; free some or choose another disk", path.display(), in_brackets(*bytes))]
-    NoSpace {
-        /// The path as it was given.
-        path: PathBuf,
-        /// The size that was to be written; `None` for a folder.
-        bytes: Option<usize>,
-    },
-    /// Any other refusal of the operating system, in its own words.
-    #[error("cannot write `{}`: {source}", path.display())]
-    Other {
-        /// The path as it was given.
-        path: PathBuf,
-        /// What the operating system said.
-        source: io::Error,
-    },
-}
+use super::error::{FileError, file_in_the_way};
 
-impl FileError {
-    /// The path that could not be written, as it was given.
-    pub fn path(&self) -> &Path {
-        match self {
-            Self::NoFileName { path }
-            | Self::IsFolder { path }
-            | Self::FolderMissing { path, .. }
-            | Self::FileInTheWay { path, .. }
-            | Self::NotPermitted { path, .. }
-            | Self::WriteProtected { path }
-            | Self::ReadOnly { path }
-            | Self::NoSpace { path, .. }
-            | Self::Other { path, .. } => path,
-        }
-    }
-
-    /// The situation behind an error of the operating system.
-    fn of(path: &Path, bytes: Option<usize>, source: io::Error) -> Self {
-        let path = path.to_owned();
-        let folder = folder_of(&path);
-        match source.kind() {
-            io::ErrorKind::NotFound | io::ErrorKind::NotADirectory | io::ErrorKind::AlreadyExists => {
-                match file_in_the_way(&folder) {
-                    Some(file) => Self::FileInTheWay { path: folder, file },
-                    None if folder.exists() => Self::Other { path, source },
-                    None => Self::FolderMissing { path, folder },
-                }
-            }
-            io::ErrorKind::PermissionDenied => {
-                let refusing = folder.ancestors().find(|part| part.exists()).map(Path::to_owned);
-                Self::NotPermitted {
-                    path,
-                    folder: refusing.unwrap_or(folder),
-                }
-            }
-            io::ErrorKind::ReadOnlyFilesystem => Self::ReadOnly { path },
-            io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => Self::NoSpace { path, bytes },
-            _ => Self::Other { path, source },
-        }
-    }
-}
-
-/// Writes a file whole, in place of what may have been there.
+/// Writes a file whole, in place of what may have been there, which keeps its permissions. Whether it may be replaced is
+/// the question of [`super::Writer`].
 ///
-/// A link is followed: the file it leads to is replaced, and keeps its permissions. Devices and pipes (`/dev/stdout`)
-/// are written directly.
+/// A link is refused. Devices and pipes (`/dev/stdout`) are written directly.
 ///
 /// # Errors
 /// What stood in the way; then the old content is untouched and no temporary file remains.
@@ -245,11 +127,6 @@ impl From<io::Error> for Failure {
     }
 }
 
-/// A size behind the name of a file.
-fn in_brackets(bytes: Option<usize>) -> String {
-    bytes.map_or_else(String::new, |bytes| format!(" ({bytes} bytes)"))
-}
-
 /// What failed while so many bytes were written to `path`, as a situation with advice.
 fn told<T>(path: &Path, bytes: usize, result: Result<T, Failure>) -> Result<T, FileError> {
     result.map_err(|failure| match failure {
@@ -288,12 +165,12 @@ fn write_beside(
             path: path.to_owned(),
         }));
     }
-    let target = if path.is_symlink() {
-        fs::canonicalize(path)?
-    } else {
-        path.to_owned()
-    };
-    let folder = folder_of(&target);
+    if path.is_symlink() {
+        return Err(Failure::Named(FileError::IsLink {
+            path: path.to_owned(),
+        }));
+    }
+    let folder = folder_of(path);
     let mut builder = tempfile::Builder::new();
     builder.prefix(PART_PREFIX).suffix(PART_SUFFIX);
     // Without this the file would be readable by its owner alone; the user's mask still applies.
@@ -306,23 +183,15 @@ fn write_beside(
     if let Some(old) = old {
         part.as_file().set_permissions(old.permissions())?;
     }
-    Ok(Some((part, target)))
+    Ok(Some((part, path.to_owned())))
 }
 
-/// The folder that a path lies in; the current one for a bare name.
-fn folder_of(path: &Path) -> PathBuf {
+/// The folder of a path; the current one for a bare name.
+pub(super) fn folder_of(path: &Path) -> PathBuf {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder.to_owned(),
         _ => PathBuf::from("."),
     }
-}
-
-/// The nearest part of a path that exists, if it is not a folder.
-fn file_in_the_way(path: &Path) -> Option<PathBuf> {
-    path.ancestors()
-        .find(|part| part.exists())
-        .filter(|part| !part.is_dir())
-        .map(Path::to_owned)
 }
 
 #[cfg(test)]
@@ -533,15 +402,30 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn a_link_is_followed_and_permissions_are_kept() {
+    fn a_link_is_refused_wherever_it_leads() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("file");
+        fs::write(&file, "old").unwrap();
+        for (name, target) in [("link", "file"), ("loop", "loop"), ("nowhere", "no-such-file")] {
+            let link = folder.path().join(name);
+            std::os::unix::fs::symlink(target, &link).unwrap();
+            let error = write_atomically(&link, b"new").unwrap_err();
+            assert!(matches!(error, FileError::IsLink { .. }), "{error}");
+            assert!(link.is_symlink());
+        }
+        assert_eq!(fs::read(&file).unwrap(), b"old");
+        assert_eq!(names_in(folder.path()), ["file", "link", "loop", "nowhere"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_file_that_is_replaced_keeps_its_permissions() {
         use std::os::unix::fs::PermissionsExt;
         let folder = tempfile::tempdir().unwrap();
-        let (file, link) = (folder.path().join("file"), folder.path().join("link"));
+        let file = folder.path().join("file");
         fs::write(&file, "old").unwrap();
         fs::set_permissions(&file, PermissionsExt::from_mode(0o640)).unwrap();
-        std::os::unix::fs::symlink(&file, &link).unwrap();
-        write_atomically(&link, b"new").unwrap();
-        assert!(link.is_symlink());
+        write_atomically(&file, b"new").unwrap();
         assert_eq!(fs::read(&file).unwrap(), b"new");
         assert_eq!(fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o640);
     }

@@ -1,0 +1,26 @@
+//! Files that are written: whole or not at all, and never over what is not ours.
+//!
+//! | question | where |
+//! |---|---|
+//! | why a file was not written | `error`: [`FileError`] |
+//! | how a file is whole or not there, also after a power cut | `part`: [`write_atomically`], [`PartFile`] |
+//! | which files armill made, and whether they were changed since | `ledger`: `.armill-files` |
+//! | who is writing into a folder | `lock`: `.armill-lock` |
+//! | what a command may replace and remove | `writer`: [`Writer`], [`ResultFolder`] |
+//!
+//! The rules of [`Writer`], which every command writes through:
+//!
+//! - a file that exists is replaced if armill made it and it was not changed since, or with `--force`;
+//! - an input of the same command is never replaced;
+//! - only files that the same command made and nobody changed since are removed;
+//! - links are never followed.
+
+mod error;
+mod ledger;
+mod lock;
+mod part;
+mod writer;
+
+pub use error::FileError;
+pub use part::{PartFile, create_folder, remove_abandoned, sync_folder, write_atomically};
+pub use writer::{ResultFolder, Writer};

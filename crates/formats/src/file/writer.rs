@@ -1,0 +1,371 @@
+//! What a command may replace and remove: the one guard that everything written goes through.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use super::error::FileError;
+use super::ledger::{Ledger, Made, sum_of};
+use super::lock::Lock;
+use super::part::{PartFile, create_folder, folder_of, remove_abandoned, sync_folder, write_atomically};
+use crate::input::{Identity, Inputs};
+
+/// How long a file waits for another command that writes into the same folder.
+const PATIENCE: Duration = Duration::from_secs(30);
+
+/// The right of one command to write files.
+///
+/// It replaces a file that armill made and nobody changed since, with `force` any other file too, an input of the command
+/// never. The inputs are those of the thread that makes it, see [`Inputs::during`].
+#[derive(Clone, Debug)]
+pub struct Writer {
+    by: &'static str,
+    force: bool,
+    inputs: Inputs,
+}
+
+impl Writer {
+    /// That of the command `by`; `force`: replace files that are not ours.
+    pub fn new(by: &'static str, force: bool) -> Writer {
+        Writer {
+            by,
+            force,
+            inputs: Inputs::current(),
+        }
+    }
+
+    /// Writes one file. A device or pipe is written directly.
+    ///
+    /// # Errors
+    /// A file that may not be replaced; what stood in the way. Then the old content is untouched.
+    pub fn write(&self, path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), FileError> {
+        let path = path.as_ref();
+        let folder = folder_of(path);
+        let name = path.file_name().map(|name| name.to_string_lossy().into_owned());
+        let is_file = path.metadata().map_or(true, |found| found.is_file());
+        let (true, true, Some(name)) = (is_file, folder.is_dir(), name) else {
+            return write_atomically(path, bytes);
+        };
+        // Where no lock or list can be made, as in a folder of all users, the file itself may be possible: it is not listed.
+        let lock = match Lock::of(&folder, self.by, PATIENCE) {
+            Err(refused @ FileError::InUse { .. }) => return Err(refused),
+            lock => lock.ok(),
+        };
+        let mut ledger = Ledger::of(&folder);
+        self.allow(&ledger, &[(name.clone(), path.to_owned())])?;
+        let part = PartFile::write(path, bytes)?;
+        let listed = lock.is_some() && ledger.add(&name, self.made(bytes)).is_ok();
+        part.take_name()?;
+        if listed {
+            // The line is there already; it is one too many at worst.
+            let _ = ledger.tidy(&folder, &[]);
+        }
+        sync_folder(&folder);
+        Ok(())
+    }
+
+    /// Writes several files, or none of them where one may not be replaced.
+    ///
+    /// # Errors
+    /// As of [`Writer::write`]; all files that may not be replaced are named.
+    pub fn write_all(&self, files: &[(PathBuf, &[u8])]) -> Result<(), FileError> {
+        let mut refused = Vec::new();
+        for (path, _) in files {
+            let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            match self.allow(&Ledger::of(&folder_of(path)), &[(name, path.clone())]) {
+                Err(FileError::NotOurs { paths }) => refused.extend(paths),
+                other => other?,
+            }
+        }
+        if !refused.is_empty() {
+            return Err(FileError::NotOurs { paths: refused });
+        }
+        files.iter().try_for_each(|(path, bytes)| self.write(path, bytes))
+    }
+
+    /// Takes a folder for results, makes it where it is missing, and clears what a killed run left half-written.
+    ///
+    /// # Errors
+    /// A folder that another run writes into, or where nothing can be written.
+    pub fn folder(&self, out: &Path) -> Result<ResultFolder, FileError> {
+        create_folder(out)?;
+        let lock = Lock::of(out, self.by, Duration::ZERO)?;
+        remove_abandoned(out);
+        Ok(ResultFolder {
+            path: out.to_owned(),
+            writer: self.clone(),
+            state: Mutex::new(State {
+                ledger: Ledger::of(out),
+                allowed: BTreeSet::new(),
+                written: BTreeMap::new(),
+            }),
+            _lock: lock,
+        })
+    }
+
+    /// Whether these files, each with its name in the folder of the list, may be written.
+    fn allow(&self, ledger: &Ledger, files: &[(String, PathBuf)]) -> Result<(), FileError> {
+        let mut refused = Vec::new();
+        for (name, path) in files {
+            if path.is_symlink() && path.metadata().map_or(true, |found| found.is_file()) {
+                return Err(FileError::IsLink { path: path.clone() });
+            }
+            let Some(identity) = Identity::of(path) else {
+                continue;
+            };
+            if self.inputs.hold(&identity) {
+                return Err(FileError::IsInput { path: path.clone() });
+            }
+            if path.is_file() && !self.force && !ledger.is_ours(name, path) {
+                refused.push(path.clone());
+            }
+        }
+        match refused.is_empty() {
+            true => Ok(()),
+            false => Err(FileError::NotOurs { paths: refused }),
+        }
+    }
+
+    fn made(&self, bytes: &[u8]) -> Made {
+        Made {
+            sum: sum_of(bytes),
+            by: self.by.to_owned(),
+        }
+    }
+}
+
+/// A folder for the results of one run, which nobody else writes into until this is dropped.
+#[derive(Debug)]
+pub struct ResultFolder {
+    path: PathBuf,
+    writer: Writer,
+    state: Mutex<State>,
+    _lock: Lock,
+}
+
+#[derive(Debug)]
+struct State {
+    ledger: Ledger,
+    /// Files that may be replaced, as was found before.
+    allowed: BTreeSet<String>,
+    /// Files that were written, with their SHA-256.
+    written: BTreeMap<String, String>,
+}
+
+impl ResultFolder {
+    /// The folder.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Whether all files of these names may be written.
+    ///
+    /// # Errors
+    /// Files that may not be replaced, all together.
+    pub fn allow<'a>(&self, names: impl IntoIterator<Item = &'a str>) -> Result<(), FileError> {
+        let mut state = self.state();
+        let new: Vec<(String, PathBuf)> = names
+            .into_iter()
+            .filter(|name| !state.allowed.contains(*name))
+            .map(|name| (name.to_owned(), self.path.join(name)))
+            .collect();
+        self.writer.allow(&state.ledger, &new)?;
+        state.allowed.extend(new.into_iter().map(|(name, _)| name));
+        Ok(())
+    }
+
+    /// Writes a file.
+    ///
+    /// # Errors
+    /// One that may not be replaced, or that cannot be written.
+    pub fn write(&self, name: &str, bytes: &[u8]) -> Result<(), FileError> {
+        self.part(name, bytes)?.take_name()?;
+        sync_folder(&self.path);
+        Ok(())
+    }
+
+    /// Writes a file that takes its name later.
+    ///
+    /// # Errors
+    /// As of [`ResultFolder::write`].
+    pub fn part(&self, name: &str, bytes: &[u8]) -> Result<PartFile, FileError> {
+        self.allow([name])?;
+        let part = PartFile::write(self.path.join(name), bytes)?;
+        let made = self.writer.made(bytes);
+        let mut state = self.state();
+        state.written.insert(name.to_owned(), made.sum.clone());
+        state.ledger.add(name, made)?;
+        Ok(part)
+    }
+
+    /// The files that were written so far, by name, with their SHA-256.
+    pub fn written(&self) -> BTreeMap<String, String> {
+        self.state().written.clone()
+    }
+
+    /// Removes a file if this command made it and nobody changed it since. One that cannot be removed does no harm.
+    pub fn remove(&self, name: &str) {
+        let mut state = self.state();
+        state.written.remove(name);
+        let ours = state.ledger.unchanged(&self.path, self.writer.by);
+        if ours.iter().any(|one| one == name) {
+            let _ = std::fs::remove_file(self.path.join(name));
+        }
+    }
+
+    /// Removes what earlier runs of this command made and this one did not, and writes the list of files anew.
+    ///
+    /// # Errors
+    /// The list cannot be written.
+    pub fn finish(&self) -> Result<(), FileError> {
+        let mut state = self.state();
+        let mut stale = state.ledger.unchanged(&self.path, self.writer.by);
+        stale.retain(|name| !state.written.contains_key(name));
+        stale.retain(|name| std::fs::remove_file(self.path.join(name)).is_ok());
+        state.ledger.tidy(&self.path, &stale)
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+    use crate::input;
+
+    const RUN: &str = "run";
+
+    fn writer() -> Writer {
+        Writer::new(RUN, false)
+    }
+
+    fn is_not_ours(result: Result<(), FileError>) -> bool {
+        matches!(result, Err(FileError::NotOurs { .. }))
+    }
+
+    #[test]
+    fn a_file_of_the_user_is_replaced_by_force_alone() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.csv");
+        fs::write(&path, "mine").unwrap();
+        let error = writer().write(&path, b"x").unwrap_err();
+        assert!(error.to_string().contains("a.csv") && error.to_string().contains("--force"), "{error}");
+        assert_eq!(fs::read(&path).unwrap(), b"mine");
+        assert!(!folder.path().join(".armill-lock").exists());
+        Writer::new(RUN, true).write(&path, b"x").unwrap();
+        // Now it is ours, until somebody changes it.
+        writer().write(&path, b"y").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"y");
+        fs::write(&path, "filled in").unwrap();
+        assert!(is_not_ours(writer().write(&path, b"z")));
+    }
+
+    #[test]
+    fn an_input_of_the_command_is_not_replaced_even_by_force() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.csv");
+        writer().write(&path, b"x").unwrap();
+        Inputs::default().during(|| {
+            let writer = Writer::new(RUN, true);
+            writer.write(&path, b"y").unwrap();
+            input::read(&path).unwrap();
+            let error = writer.write(&path, b"z").unwrap_err();
+            assert!(matches!(error, FileError::IsInput { .. }), "{error}");
+            let folder = writer.folder(folder.path()).unwrap();
+            assert!(folder.write("a.csv", b"z").is_err());
+        });
+        assert_eq!(fs::read(&path).unwrap(), b"y");
+        // The next command may.
+        writer().write(&path, b"z").unwrap();
+    }
+
+    #[test]
+    fn of_several_files_none_is_written_where_one_may_not() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        fs::write(at("b"), "mine").unwrap();
+        fs::write(at("c"), "mine").unwrap();
+        let files = [(at("a"), &b"x"[..]), (at("b"), b"x"), (at("c"), b"x")];
+        match writer().write_all(&files).unwrap_err() {
+            FileError::NotOurs { paths } => assert_eq!(paths, [at("b"), at("c")]),
+            other => panic!("{other}"),
+        }
+        assert!(!at("a").exists());
+        Writer::new(RUN, true).write_all(&files).unwrap();
+        assert_eq!(fs::read(at("c")).unwrap(), b"x");
+    }
+
+    #[test]
+    fn a_run_removes_what_it_made_earlier_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        fs::write(at("photo.png"), "mine").unwrap();
+        Writer::new("place", false).write(at("other.csv"), b"other").unwrap();
+        let first = writer().folder(folder.path()).unwrap();
+        for name in ["a.csv", "b.csv", "c.csv"] {
+            first.write(name, b"first").unwrap();
+        }
+        first.finish().unwrap();
+        drop(first);
+        fs::write(at("b.csv"), "changed").unwrap();
+        let second = writer().folder(folder.path()).unwrap();
+        second.write("a.csv", b"second").unwrap();
+        second.finish().unwrap();
+        drop(second);
+        let mut names: Vec<String> = fs::read_dir(folder.path())
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect();
+        names.sort();
+        assert_eq!(names, [".armill-files", "a.csv", "b.csv", "other.csv", "photo.png"]);
+        let third = writer().folder(folder.path()).unwrap();
+        match third.allow(["a.csv", "b.csv", "other.csv", "photo.png", "new"]).unwrap_err() {
+            FileError::NotOurs { paths } => assert_eq!(paths, [at("b.csv"), at("photo.png")]),
+            other => panic!("{other}"),
+        }
+        third.remove("a.csv");
+        third.remove("other.csv");
+        third.remove("photo.png");
+        assert!(!at("a.csv").exists() && at("other.csv").exists() && at("photo.png").exists());
+    }
+
+    #[test]
+    fn a_second_run_into_the_same_folder_is_refused_while_the_first_writes() {
+        let folder = tempfile::tempdir().unwrap();
+        let out = folder.path().join("out");
+        let first = writer().folder(&out).unwrap();
+        let error = Writer::new("place", false).folder(&out).unwrap_err();
+        assert!(error.to_string().contains("armill run, process"), "{error}");
+        drop(first);
+        assert!(Writer::new("place", false).folder(&out).is_ok());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_are_never_followed_but_to_devices() {
+        use std::os::unix::fs::symlink;
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        fs::write(at("precious"), "mine").unwrap();
+        symlink("precious", at("link")).unwrap();
+        symlink("nowhere", at("dangling")).unwrap();
+        symlink("/dev/null", at("null")).unwrap();
+        for force in [false, true] {
+            let writer = Writer::new(RUN, force);
+            for name in ["link", "dangling"] {
+                let error = writer.write(at(name), b"x").unwrap_err();
+                assert!(matches!(error, FileError::IsLink { .. }), "{error}");
+                let results = writer.folder(folder.path()).unwrap();
+                assert!(matches!(results.write(name, b"x"), Err(FileError::IsLink { .. })));
+            }
+            writer.write(at("null"), b"x").unwrap();
+        }
+        assert_eq!(fs::read(at("precious")).unwrap(), b"mine");
+        assert!(!at("nowhere").exists() && at("null").is_symlink());
+    }
+}
