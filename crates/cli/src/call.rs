@@ -85,7 +85,9 @@ pub fn ask(call: &Call, listener: &Arc<Listener>) -> Result<Answer, Refused> {
     let inputs = inputs_of(&words);
     let arguments =
         Arguments::try_parse_from(words).map_err(|refused| Refused::Usage(bare(&refused.render())))?;
-    let outcome = heard_by(Some(Arc::clone(listener)), || inputs.during(|| run(&arguments.command)))?;
+    let outcome = heard_by(Some(Arc::clone(listener)), || {
+        inputs.during(|| run(&arguments.command))
+    })?;
     let (json, talk) = listener.heard();
     Ok(Answer {
         json,

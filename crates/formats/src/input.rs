@@ -84,12 +84,17 @@ impl Inputs {
         work()
     }
 
+    /// Whether the command line names the file that `path` leads to.
+    pub fn name(&self, path: &Path) -> bool {
+        Identity::of(path).is_some_and(|file| self.named.contains(&file))
+    }
+
     /// Those of this thread; none where nothing was set.
-    pub(crate) fn current() -> Inputs {
+    pub fn current() -> Inputs {
         CURRENT.with_borrow(Clone::clone).unwrap_or_default()
     }
 
-    /// Whether this file was opened, or named on the command line as one that is there.
+    /// Whether this file was opened.
     pub(crate) fn hold(&self, file: &Identity) -> bool {
         let opened = self.opened.lock().unwrap_or_else(PoisonError::into_inner);
         opened.contains(file)
@@ -124,7 +129,11 @@ pub fn open(path: &Path) -> io::Result<InputFile> {
     // A pipe without a writer would keep the one who opens it waiting: what it is comes first.
     let identity = Identity::with(path, &path.metadata()?);
     let named = identity.as_ref().is_some_and(|file| inputs.named.contains(file));
-    let file = if named { File::open(path)? } else { open_without_waiting(path)? };
+    let file = if named {
+        File::open(path)?
+    } else {
+        open_without_waiting(path)?
+    };
     let metadata = file.metadata()?;
     if metadata.is_dir() {
         return Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder"));
@@ -141,7 +150,11 @@ pub fn open(path: &Path) -> io::Result<InputFile> {
     let mut opened = inputs.opened.lock().unwrap_or_else(PoisonError::into_inner);
     opened.extend(Identity::with(path, &metadata));
     let endless = !metadata.is_file();
-    let limit = if endless { MOST_STREAM_BYTES } else { metadata.len() };
+    let limit = if endless {
+        MOST_STREAM_BYTES
+    } else {
+        metadata.len()
+    };
     Ok(InputFile {
         from: file.take(limit),
         endless,
@@ -240,7 +253,10 @@ mod tests {
             let refused = open(Path::new(device)).unwrap_err();
             assert!(refused.to_string().contains("not a regular file"), "{refused}");
         }
-        assert_eq!(open(Path::new("/")).unwrap_err().kind(), io::ErrorKind::IsADirectory);
+        assert_eq!(
+            open(Path::new("/")).unwrap_err().kind(),
+            io::ErrorKind::IsADirectory
+        );
     }
 
     #[cfg(target_os = "linux")]

@@ -4,11 +4,11 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
+use armill_formats::input::{self, Inputs};
 use armill_formats::robot::armill::{Identified, IdentifiedSpring, with_springs};
 use armill_formats::robot::format::{self, Format, Wanted};
 use armill_formats::robot::spring_tables::Yields;
 use armill_formats::robot::{RobotDescription, armill};
-use armill_formats::input::{self, Inputs};
 use armill_study::{library, robots};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -203,10 +203,12 @@ fn stem(path: &Path) -> String {
 }
 
 fn read(py: Python<'_>, path: &Path) -> PyResult<Vec<u8>> {
-    Inputs::naming([path]).during(|| input::read(path)).map_err(|error| {
-        let message = format!("cannot read robot file {}: {error}", path.display());
-        refused(py, message, "is the path right?")
-    })
+    Inputs::naming([path])
+        .during(|| input::read(path))
+        .map_err(|error| {
+            let message = format!("cannot read robot file {}: {error}", path.display());
+            refused(py, message, "is the path right?")
+        })
 }
 
 /// The Denavit-Hartenberg table of these rows.

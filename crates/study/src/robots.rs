@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use armill_formats::input;
 use armill_formats::robot::format::{self, Format, Wanted};
 use armill_formats::robot::{RobotDescription, armill};
-use armill_formats::input;
 
 use crate::error::StudyError;
 use crate::library;

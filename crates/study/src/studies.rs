@@ -5,8 +5,8 @@
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use armill_formats::toolpath::format::{Format, HEAD_BYTES};
 use armill_formats::input;
+use armill_formats::toolpath::format::{Format, HEAD_BYTES};
 
 use crate::error::StudyError;
 use crate::file::format::StudyFile;

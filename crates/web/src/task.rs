@@ -201,12 +201,7 @@ impl Job {
     }
 
     /// Runs a study and writes its results.
-    fn results(
-        &self,
-        study: &Study,
-        out: &ResultFolder,
-        wanted: Wanted<'_>,
-    ) -> Result<Outcome, StudyError> {
+    fn results(&self, study: &Study, out: &ResultFolder, wanted: Wanted<'_>) -> Result<Outcome, StudyError> {
         output::allow(study, (out, wanted))?;
         let done = self.counted(point_count(study), |watch| run(study, watch))?;
         let answer = answer(study, &done);

@@ -68,7 +68,10 @@ pub(crate) fn run(arguments: &BallbarArguments) -> Result<Outcome, StudyError> {
     if let Some(out) = &arguments.out {
         let out = writer.folder(out)?;
         output::write(&answer, (&measured, &found), (&out, table.as_deref()))?;
-        say(&format!("tables, pictures and report in {}", out.path().display()));
+        say(&format!(
+            "tables, pictures and report in {}",
+            out.path().display()
+        ));
     }
     // Last, so that points stand nowhere if the folder cannot be written.
     if let (Some(file), Some(table)) = (&arguments.teach, &table) {

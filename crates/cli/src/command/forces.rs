@@ -52,7 +52,11 @@ pub(crate) fn run(arguments: &ForcesArguments) -> Result<Outcome, StudyError> {
     let treated = treat(measured.record.clone(), &treatment).map_err(refused)?;
     let answer = answer(&shown, &measured, &treatment, &treated);
     if let Some(out) = &arguments.out {
-        output::write(&answer, &treated, &arguments.writing.writer("forces").folder(out)?)?;
+        output::write(
+            &answer,
+            &treated,
+            &arguments.writing.writer("forces").folder(out)?,
+        )?;
         say(&format!("tables and pictures in {}", out.display()));
     }
     print(&if arguments.json {

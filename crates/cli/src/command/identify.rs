@@ -16,9 +16,9 @@ use std::fmt::Write;
 use std::path::Path;
 
 use armill_core::nalgebra::Vector3;
+use armill_formats::input;
 use armill_formats::measurement::load_tests;
 use armill_formats::robot::RobotDescription;
-use armill_formats::input;
 use armill_study::identify::answer::{ErrorsAnswer, PointAnswer};
 use armill_study::identify::robot_file::robot_file;
 use armill_study::identify::{
@@ -94,7 +94,10 @@ fn plan_tests(
     )?;
     match &arguments.out {
         Some(file) => {
-            arguments.writing.writer("identify").write(file, plan.table.as_bytes())?;
+            arguments
+                .writing
+                .writer("identify")
+                .write(file, plan.table.as_bytes())?;
             say(&format!("table in {}", file.display()));
         }
         None if !arguments.json => print(plan.table.trim_end())?,
@@ -149,7 +152,10 @@ fn from_tests(
     if let Some(file) = &arguments.out {
         let [path, text] = robots::text_of(&arguments.robot, found)?;
         let written = robot_file(&found.robot, [&path, &text], &answer, &shown)?;
-        arguments.writing.writer("identify").write(file, written.as_bytes())?;
+        arguments
+            .writing
+            .writer("identify")
+            .write(file, written.as_bytes())?;
         say(&format!("robot with these compliances in {}", file.display()));
     }
     print(&if arguments.json {

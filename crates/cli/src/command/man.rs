@@ -29,7 +29,10 @@ pub(crate) fn run(arguments: &ManArguments) -> Result<Outcome, StudyError> {
         })?;
         files.push((path, text));
     }
-    let bytes: Vec<(PathBuf, &[u8])> = files.iter().map(|(path, text)| (path.clone(), &text[..])).collect();
+    let bytes: Vec<(PathBuf, &[u8])> = files
+        .iter()
+        .map(|(path, text)| (path.clone(), &text[..]))
+        .collect();
     create_folder(&arguments.dir)?;
     arguments.writing.writer("man").write_all(&bytes)?;
     let written: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();

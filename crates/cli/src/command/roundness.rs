@@ -56,7 +56,11 @@ pub(crate) fn run(arguments: &RoundnessArguments) -> Result<Outcome, StudyError>
     if let Some(out) = &arguments.out {
         for (index, (answer, judged)) in answers.iter().zip(&judged).enumerate() {
             let folder = folder(out, arguments, index);
-            output::write(answer, judged, &arguments.writing.writer("roundness").folder(&folder)?)?;
+            output::write(
+                answer,
+                judged,
+                &arguments.writing.writer("roundness").folder(&folder)?,
+            )?;
         }
         say(&format!("tables and pictures in {}", out.display()));
     }

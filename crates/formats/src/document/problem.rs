@@ -80,6 +80,22 @@ impl Problem {
         self
     }
 
+    /// What may be said where the file may not be quoted and has so many problems, of which this is the first.
+    fn withheld(self, count: usize) -> Problem {
+        let message = match count {
+            1 => "the file is not valid here".to_owned(),
+            _ => format!("the file has {count} problems, the first one here"),
+        };
+        let hint = "files outside the folder of the study are not quoted: name the file on the command line to see more";
+        Problem {
+            span: 0..0,
+            message,
+            hint: Some(hint.to_owned()),
+            excerpt: None,
+            ..self
+        }
+    }
+
     /// The path of the file, as it was given.
     pub fn file(&self) -> &str {
         &self.file
@@ -162,6 +178,29 @@ impl Problems {
     /// The problems themselves, if there is one.
     pub fn into_result(self) -> Result<(), Self> {
         if self.0.is_empty() { Ok(()) } else { Err(self) }
+    }
+
+    /// The same problems; of each file that may not be quoted one problem alone, which says how many there are and where the
+    /// first one is, and nothing of what the file holds.
+    #[must_use]
+    pub fn quoting_only(self, may_be_quoted: impl Fn(&str) -> bool) -> Problems {
+        let mut kept: Vec<Problem> = Vec::new();
+        let mut withheld: Option<(Problem, usize)> = None;
+        // Problems are sorted by file: those of one file follow each other.
+        for problem in self.0 {
+            match &mut withheld {
+                Some((first, count)) if first.file == problem.file => *count += 1,
+                _ => {
+                    kept.extend(withheld.take().map(|(first, count)| first.withheld(count)));
+                    match may_be_quoted(&problem.file) {
+                        true => kept.push(problem),
+                        false => withheld = Some((problem, 1)),
+                    }
+                }
+            }
+        }
+        kept.extend(withheld.map(|(first, count)| first.withheld(count)));
+        Problems(kept)
     }
 
     /// The text of `Display` with terminal colours.

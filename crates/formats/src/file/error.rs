@@ -159,7 +159,10 @@ fn in_brackets(bytes: Option<usize>) -> String {
 /// Paths for a message: the first few by name.
 fn listed(paths: &[PathBuf]) -> String {
     const MOST: usize = 3;
-    let named = paths.iter().take(MOST).map(|path| format!("`{}`", path.display()));
+    let named = paths
+        .iter()
+        .take(MOST)
+        .map(|path| format!("`{}`", path.display()));
     let named = named.collect::<Vec<_>>().join(", ");
     match paths.len().checked_sub(MOST) {
         Some(more) if more > 0 => format!("{named} and {more} more"),

@@ -62,7 +62,10 @@ impl Ledger {
 
     /// Names of files that `by` made and that are as it made them.
     pub(super) fn unchanged(&self, folder: &Path, by: &str) -> Vec<String> {
-        let of_command = self.made.iter().filter(|(_, made)| made.iter().any(|one| one.by == by));
+        let of_command = self
+            .made
+            .iter()
+            .filter(|(_, made)| made.iter().any(|one| one.by == by));
         of_command
             .map(|(name, _)| name)
             .filter(|name| self.is_ours(name, &folder.join(name)))
@@ -84,7 +87,11 @@ impl Ledger {
                 path: self.file.clone(),
             });
         }
-        let mut list = File::options().append(true).create(true).open(&self.file).map_err(told)?;
+        let mut list = File::options()
+            .append(true)
+            .create(true)
+            .open(&self.file)
+            .map_err(told)?;
         // A line that was cut off by a full disk must not take this one with it.
         let text = format!("\n{}\t{}\t{name}\n", one.sum, one.by);
         list.write_all(text.as_bytes()).map_err(told)?;
@@ -207,7 +214,12 @@ mod tests {
     fn a_tidy_list_has_a_line_a_file_that_is_there() {
         let folder = tempfile::tempdir().unwrap();
         let mut ledger = Ledger::of(folder.path());
-        for (name, text, by) in [("b", "old", "run"), ("gone", "x", "run"), ("b", "new", "run"), ("a", "y", "place")] {
+        for (name, text, by) in [
+            ("b", "old", "run"),
+            ("gone", "x", "run"),
+            ("b", "new", "run"),
+            ("a", "y", "place"),
+        ] {
             ledger.add(name, made(text, by)).unwrap();
         }
         for (name, text) in [("a", "y"), ("b", "new"), ("stale", "z")] {

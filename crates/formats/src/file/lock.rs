@@ -103,7 +103,11 @@ fn holder(file: &Path) -> String {
     let _ = File::open(file).and_then(|file| file.take(HOLDER_BYTES).read_to_end(&mut said));
     let said = String::from_utf8_lossy(&said);
     let said: String = said.chars().filter(|c| !c.is_control()).collect();
-    if said.is_empty() { "another run".to_owned() } else { said }
+    if said.is_empty() {
+        "another run".to_owned()
+    } else {
+        said
+    }
 }
 
 #[cfg(test)]
@@ -132,7 +136,11 @@ mod tests {
     #[test]
     fn a_lock_that_a_killed_run_left_keeps_nobody_out() {
         let folder = tempfile::tempdir().unwrap();
-        fs::write(folder.path().join(LOCK), "armill run, process 1, and more text than the next").unwrap();
+        fs::write(
+            folder.path().join(LOCK),
+            "armill run, process 1, and more text than the next",
+        )
+        .unwrap();
         let lock = Lock::of(folder.path(), "run", Duration::ZERO).unwrap();
         let text = fs::read_to_string(folder.path().join(LOCK)).unwrap();
         assert_eq!(text, format!("armill run, process {}", std::process::id()));

@@ -72,7 +72,11 @@ impl Writer {
     pub fn write_all(&self, files: &[(PathBuf, &[u8])]) -> Result<(), FileError> {
         let mut refused = Vec::new();
         for (path, _) in files {
-            let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            let name = path
+                .file_name()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .into_owned();
             match self.allow(&Ledger::of(&folder_of(path)), &[(name, path.clone())]) {
                 Err(FileError::NotOurs { paths }) => refused.extend(paths),
                 other => other?,
@@ -254,7 +258,10 @@ mod tests {
         let path = folder.path().join("a.csv");
         fs::write(&path, "mine").unwrap();
         let error = writer().write(&path, b"x").unwrap_err();
-        assert!(error.to_string().contains("a.csv") && error.to_string().contains("--force"), "{error}");
+        assert!(
+            error.to_string().contains("a.csv") && error.to_string().contains("--force"),
+            "{error}"
+        );
         assert_eq!(fs::read(&path).unwrap(), b"mine");
         assert!(!folder.path().join(".armill-lock").exists());
         Writer::new(RUN, true).write(&path, b"x").unwrap();
@@ -305,7 +312,9 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let at = |name: &str| folder.path().join(name);
         fs::write(at("photo.png"), "mine").unwrap();
-        Writer::new("place", false).write(at("other.csv"), b"other").unwrap();
+        Writer::new("place", false)
+            .write(at("other.csv"), b"other")
+            .unwrap();
         let first = writer().folder(folder.path()).unwrap();
         for name in ["a.csv", "b.csv", "c.csv"] {
             first.write(name, b"first").unwrap();
@@ -322,9 +331,15 @@ mod tests {
             .map(|entry| entry.unwrap().file_name().into_string().unwrap())
             .collect();
         names.sort();
-        assert_eq!(names, [".armill-files", "a.csv", "b.csv", "other.csv", "photo.png"]);
+        assert_eq!(
+            names,
+            [".armill-files", "a.csv", "b.csv", "other.csv", "photo.png"]
+        );
         let third = writer().folder(folder.path()).unwrap();
-        match third.allow(["a.csv", "b.csv", "other.csv", "photo.png", "new"]).unwrap_err() {
+        match third
+            .allow(["a.csv", "b.csv", "other.csv", "photo.png", "new"])
+            .unwrap_err()
+        {
             FileError::NotOurs { paths } => assert_eq!(paths, [at("b.csv"), at("photo.png")]),
             other => panic!("{other}"),
         }

@@ -17,6 +17,7 @@ use armill_core::source::{Arm, Standing, StiffnessModel};
 use armill_core::spatial::Wrench;
 use armill_core::workpiece::{Grid, Plane};
 use armill_formats::document::{Document, Problem, Problems};
+use armill_formats::input::Inputs;
 use armill_formats::robot::RobotDescription;
 
 use super::actual::find_actual;
@@ -250,6 +251,15 @@ impl Parsed {
     /// # Errors
     /// Every problem of the file, each with its place; no ask of that name.
     pub fn resolve(&self, folder: &Path, only: Option<&str>) -> Result<Study, StudyError> {
+        self.meaning(folder, only).map_err(|error| match error {
+            StudyError::Problems(problems) => {
+                StudyError::Problems(problems.quoting_only(|file| may_be_quoted(file, folder)))
+            }
+            other => other,
+        })
+    }
+
+    fn meaning(&self, folder: &Path, only: Option<&str>) -> Result<Study, StudyError> {
         let (document, file) = (&self.document, &self.file);
         let tables = self.ask_tables();
         let wanted = only.map(|name| self.index_of(name)).transpose()?;
@@ -328,6 +338,17 @@ impl Parsed {
             StudyError::value(format!("no ask is called `{name}`"), hint)
         })
     }
+}
+
+/// Whether problems may quote this file: one in the folder of the study, one that the command line names, and a text that is
+/// no file, as of the library. A study from elsewhere must not show what else is on this machine.
+fn may_be_quoted(file: &str, folder: &Path) -> bool {
+    let file = Path::new(file);
+    let Ok(real) = file.canonicalize() else {
+        return true;
+    };
+    let inside = folder.canonicalize().is_ok_and(|folder| real.starts_with(folder));
+    inside || Inputs::current().name(file)
 }
 
 /// Problems of where the part may lie.

@@ -31,7 +31,11 @@ const PNG_SCALE: f64 = 2.0;
 ///
 /// # Errors
 /// The folder or a file cannot be written.
-pub fn write(answer: &ForcesAnswer, treated: &Treated, out: &ResultFolder) -> Result<Vec<PathBuf>, StudyError> {
+pub fn write(
+    answer: &ForcesAnswer,
+    treated: &Treated,
+    out: &ResultFolder,
+) -> Result<Vec<PathBuf>, StudyError> {
     let svg = plot(("measured force".to_owned(), subtitle(answer)), treated).to_svg();
     let mut files = vec![("forces.csv", csv::write(&forces(treated)?))];
     if let Some(turns) = &treated.turns {

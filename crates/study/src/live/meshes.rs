@@ -7,10 +7,10 @@
 use std::path::{Component, Path, PathBuf};
 
 use armill_core::robot::Robot;
+use armill_formats::input;
 use armill_formats::robot::format::Format;
 use armill_formats::robot::urdf::meshes::{Mesh, meshes};
 use armill_formats::robot::xacro;
-use armill_formats::input;
 use schemars::JsonSchema;
 use serde::Serialize;
 

@@ -31,7 +31,11 @@ const CIRCLE_STEPS: usize = 360;
 ///
 /// # Errors
 /// The folder or a file cannot be written.
-pub fn write(answer: &RoundnessAnswer, judged: &Judged, out: &ResultFolder) -> Result<Vec<PathBuf>, StudyError> {
+pub fn write(
+    answer: &RoundnessAnswer,
+    judged: &Judged,
+    out: &ResultFolder,
+) -> Result<Vec<PathBuf>, StudyError> {
     let svg = plot(answer, judged).to_svg();
     let mut files = vec![("roundness.csv", csv::write(&table(judged)?))];
     #[cfg(feature = "png")]

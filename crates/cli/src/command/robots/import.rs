@@ -30,7 +30,10 @@ pub(super) fn run(arguments: &ImportArguments) -> Result<Outcome, StudyError> {
         &text,
     )?;
     if let Some(path) = out {
-        arguments.writing.writer("robots import").write(path, text.as_bytes())?;
+        arguments
+            .writing
+            .writer("robots import")
+            .write(path, text.as_bytes())?;
     }
     if arguments.json {
         let answer = ImportedRobot::of(&found, shown.clone(), &text);

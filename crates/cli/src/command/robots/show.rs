@@ -21,7 +21,11 @@ use crate::terminal::print;
 pub(super) fn run(name: &str, arguments: &RobotsArguments) -> Result<Outcome, StudyError> {
     let found = robots::find(name, ".".as_ref())?;
     if let Some(file) = &arguments.drawing {
-        drawing::write(&arguments.writing.writer("robots"), file, &arm_drawing(&found.robot, &found.title))?;
+        drawing::write(
+            &arguments.writing.writer("robots"),
+            file,
+            &arm_drawing(&found.robot, &found.title),
+        )?;
     }
     print(&if arguments.json {
         serde_json::to_string(&KnownRobot::of(&found))?

@@ -1,6 +1,6 @@
 //! How problems are placed and shown.
 
-use super::super::{Document, Problems, schema_json};
+use super::super::{Document, Problems, Source, schema_json};
 use super::{GOOD, Study, read};
 
 #[test]
@@ -34,6 +34,30 @@ error: study.toml:10:1: unknown field `plane.step`
    |
    = help: lengths carry their unit: write `step_mm`";
     assert_eq!(shown, expected);
+}
+
+#[test]
+fn of_a_file_that_may_not_be_quoted_only_the_number_of_problems_and_the_first_place_are_told() {
+    let source = |name: &str| Source::new(name, "one\nsecret\n");
+    let problems: Problems = [
+        source("a.toml").problem(0..3, "about one", None),
+        source("b.toml").problem(4..10, "`secret` is wrong", Some("not `secret`".to_owned())),
+        source("b.toml").problem(0..3, "another", None),
+        source("c.toml").problem(4..10, "`secret`", None),
+        source("d.toml").problem(0..3, "about d", None),
+    ]
+    .into_iter()
+    .collect();
+    let told = problems.quoting_only(|file| file == "a.toml" || file == "d.toml");
+    let lines: Vec<String> = told.as_slice().iter().map(ToString::to_string).collect();
+    let expected = [
+        "a.toml:1:1: about one",
+        "b.toml:1:1: the file has 2 problems, the first one here",
+        "c.toml:2:1: the file is not valid here",
+        "d.toml:1:1: about d",
+    ];
+    assert_eq!(lines, expected);
+    assert!(!told.to_string().contains("secret") && !told.to_json().to_string().contains("secret"));
 }
 
 #[test]

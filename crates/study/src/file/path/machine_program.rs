@@ -4,11 +4,11 @@ use std::io::BufReader;
 use std::path::Path;
 
 use armill_core::path::PathBuilder;
+use armill_formats::input;
 use armill_formats::toolpath::LengthUnit;
 use armill_formats::toolpath::apt::Dialect;
 use armill_formats::toolpath::format::{self, Wanted};
 use armill_formats::toolpath::gcode::ToolTable;
-use armill_formats::input;
 
 use super::program::{
     BESIDE_STUDY, DialectName, MOST_POINTS, ProgramFile, ProgramTable, ReadProgram, RotariesName, UnitName,

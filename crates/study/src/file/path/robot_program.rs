@@ -15,11 +15,11 @@ use std::path::{Path, PathBuf};
 use armill_core::kernel::BranchChoice;
 use armill_core::path::{Pace, PathBuilder, SampledPath, Sampling, Step, TooManyPoints};
 use armill_core::robot::{BranchPattern, Robot};
+use armill_formats::input;
 use armill_formats::robot_program::{
     Cell, FollowError, Followed, FollowedMove, Language, ProgramText, RobotProgram, follow,
 };
 use armill_formats::toolpath::Summary;
-use armill_formats::input;
 
 use super::program::{BESIDE_STUDY, MOST_POINTS, ProgramFile, ProgramTable, ReadProgram};
 use crate::StudyError;
