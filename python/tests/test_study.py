@@ -52,7 +52,8 @@ def test_what_is_written_is_what_the_command_writes(command, tmp_path):
     for name in names:
         assert (tmp_path / "here" / name).read_bytes() == (tmp_path / "there" / name).read_bytes(), name
     written = armill.Study.load(cell).run(tmp_path / "run", pictures=False)
-    assert (tmp_path / "run/result.json").read_text() == written.json
+    answer = written.json.rstrip().removesuffix("}")
+    assert (tmp_path / "run/result.json").read_text().startswith(f'{answer},"files":{{')
     assert not list((tmp_path / "run").glob("*.svg"))
     for name, svg in result.pictures.items():
         assert (tmp_path / "there" / f"{name}.svg").read_text() == svg

@@ -207,6 +207,7 @@ impl Study {
         let (finished, json) = found.map_err(|error| exception(py, &error))?;
         let answer = finished.answer();
         Ok(Outcome {
+            inputs: self.inputs.clone(),
             sentence: answer.answer.clone(),
             warnings: answer.warnings.clone(),
             asks: finished.asks().into_iter().map(str::to_owned).collect(),
@@ -236,6 +237,8 @@ impl Study {
 /// What came out of a study.
 #[pyclass(frozen, name = "Result", module = "armill")]
 pub(crate) struct Outcome {
+    /// Those of the study.
+    inputs: Inputs,
     json: String,
     sentence: String,
     warnings: Vec<String>,
@@ -328,9 +331,21 @@ impl Outcome {
     }
 
     /// folder -> list of paths: writes what `armill run` writes, `result.json` last.
-    #[pyo3(signature = (folder, *, pictures=true, csv=false))]
-    fn write(&self, py: Python<'_>, folder: PathBuf, pictures: bool, csv: bool) -> PyResult<Vec<PathBuf>> {
-        self.asked(py, |finished| finished.write(&folder, wanted(pictures, csv)))
+    ///
+    /// Files in `folder` that armill did not make, or that were changed since, are replaced with `force=True` alone.
+    #[pyo3(signature = (folder, *, pictures=true, csv=false, force=false))]
+    fn write(
+        &self,
+        py: Python<'_>,
+        folder: PathBuf,
+        pictures: bool,
+        csv: bool,
+        force: bool,
+    ) -> PyResult<Vec<PathBuf>> {
+        let writer = self.inputs.during(|| Writer::new("run", force));
+        self.asked(py, |finished| {
+            finished.write(&writer.folder(&folder)?, wanted(pictures, csv))
+        })
     }
 
     fn __repr__(&self) -> String {

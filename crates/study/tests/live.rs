@@ -6,6 +6,7 @@
 use std::path::Path;
 
 use armill_core::watch::Watch;
+use armill_formats::file::Writer;
 use armill_study::answer::answer;
 use armill_study::live::{
     ChangedValue, Follow, Place, PostureQuestion, Stand, Text, answer_json, changed, outline, pictures,
@@ -35,13 +36,13 @@ fn answer_table_and_pictures_are_the_files_of_a_run() {
     let done = run(&study, Watch::NONE).unwrap();
     let whole = answer(&study, &done);
     let folder = tempfile::tempdir().unwrap();
-    output::write(&study, &done, &whole, (folder.path(), Wanted::USUAL), &|_| ()).unwrap();
+    let out = Writer::new("run", false).folder(folder.path()).unwrap();
+    output::write(&study, &done, &whole, (&out, Wanted::USUAL), &|_| ()).unwrap();
     let file = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
 
-    assert_eq!(
-        answer_json(text(&found), None, Watch::NONE).unwrap(),
-        file("result.json")
-    );
+    let told = answer_json(text(&found), None, Watch::NONE).unwrap();
+    let told = told.trim_end().strip_suffix('}').unwrap();
+    assert!(file("result.json").starts_with(&format!("{told},\"files\":{{")));
     let drawn = pictures(text(&found), None, Watch::NONE).unwrap().pictures;
     assert!(!drawn.is_empty());
     for picture in &drawn {

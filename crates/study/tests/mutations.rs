@@ -6,6 +6,7 @@
 use std::path::Path;
 
 use armill_core::watch::Watch;
+use armill_formats::file::Writer;
 use armill_study::answer::answer;
 use armill_study::file::resolve::{Study, read};
 use armill_study::output::{self, Wanted};
@@ -305,7 +306,8 @@ proptest! {
         prop_assume!(point_count(&study) <= MOST_POINTS);
         let found = run(&study, Watch::NONE).unwrap();
         let folder = tempfile::tempdir().unwrap();
-        let written = output::write(&study, &found, &answer(&study, &found), (folder.path(), Wanted::TABLES), &|_| ());
+        let out = Writer::new("run", false).folder(folder.path()).unwrap();
+        let written = output::write(&study, &found, &answer(&study, &found), (&out, Wanted::TABLES), &|_| ());
         prop_assert!(written.is_ok(), "{}\n{}", written.unwrap_err(), text);
     }
 }
@@ -324,7 +326,8 @@ proptest! {
         study.asks.truncate(2);
         let found = run(&study, Watch::NONE).unwrap();
         let folder = tempfile::tempdir().unwrap();
-        let written = output::write(&study, &found, &answer(&study, &found), (folder.path(), Wanted::USUAL), &|_| ());
+        let out = Writer::new("run", false).folder(folder.path()).unwrap();
+        let written = output::write(&study, &found, &answer(&study, &found), (&out, Wanted::USUAL), &|_| ());
         prop_assert!(written.is_ok(), "{}\n{}", written.unwrap_err(), text);
     }
 }

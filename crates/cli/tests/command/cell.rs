@@ -165,6 +165,14 @@ impl Cell {
         serde_json::from_slice(&std::fs::read(path).expect("a result.json")).expect("JSON")
     }
 
+    /// `result.json` of the folder `out` without the list of its files: the answer on stdout.
+    pub fn answer(&self, out: &str) -> Value {
+        let mut result = self.result(out);
+        let files = result.as_object_mut().expect("an object").shift_remove("files");
+        assert!(files.is_some_and(|files| files.is_object()));
+        result
+    }
+
     /// Every file of the folder `out` by name, but for those that armill keeps for itself.
     pub fn files(&self, out: &str) -> BTreeMap<String, Vec<u8>> {
         let mut files = files_in(&self.at(out));

@@ -81,7 +81,7 @@ fn a_new_study_leaves_the_files_of_an_existing_folder_alone() {
     assert_eq!(cell.files("cell")["notes.txt"], b"mine");
     let before = cell.file("cell/study.toml", "mine too");
     cell.armill(&["new", "cell"])
-        .refused(&["cell/study.toml exists already", "another folder"]);
+        .refused(&["cell/study.toml", "--force"]);
     assert_eq!(std::fs::read(before).unwrap(), b"mine too");
     cell.armill(&["new", "cell/notes.txt"])
         .refused(&["notes.txt", "is a file"]);
@@ -299,10 +299,11 @@ fn an_example_comes_with_all_of_its_files_and_runs() {
         "{}",
         run.out
     );
-    // What is there stays, and nothing is half made.
+    // What was changed stays, and nothing is half made.
     std::fs::remove_file(cell.at("pocket/study.toml")).unwrap();
+    cell.file("pocket/pocket.ngc", "G21\nM2\n");
     cell.armill(&["new", "pocket", "--example", "r2000ic-pocket"])
-        .refused(&["pocket/pocket.ngc exists already"]);
+        .refused(&["pocket/pocket.ngc", "--force"]);
     assert!(!cell.at("pocket/study.toml").exists());
 }
 
