@@ -8,7 +8,7 @@ use armill_core::kernel::{BranchChoice, Question, evaluate, stand_at};
 use armill_core::load::Doubt;
 use armill_core::map::plane_map;
 use armill_core::nalgebra::{Matrix3, Point3, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
-use armill_core::predict::predict;
+use armill_core::source::elastic::predict;
 use armill_core::robot::inverse::{OrthoParallel, ToolAt, posture_at, postures};
 use armill_core::robot::joint::{JointCompliance, Sign};
 use armill_core::robot::{Amount, Axis, Branch, BranchPattern, Joint, Limits, Motion, Robot};

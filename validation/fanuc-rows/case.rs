@@ -6,8 +6,8 @@
 use nalgebra::Vector3;
 
 use armill_core::frame::Isometry;
-use armill_core::predict::predict;
 use armill_core::robot::inverse::posture_at;
+use armill_core::source::elastic::predict;
 use armill_core::spatial::Wrench;
 
 use crate::arms;

@@ -5,7 +5,7 @@
 
 use nalgebra::Vector3;
 
-use armill_core::predict::predict;
+use armill_core::source::elastic::predict;
 use armill_core::spatial::Wrench;
 
 use crate::arms;

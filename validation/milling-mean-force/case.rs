@@ -16,7 +16,7 @@ use nalgebra::Vector3;
 
 use armill_core::load::process::Advance;
 use armill_core::load::{Cutter, CuttingLaw, Engagement, Hand, Immersion, Mechanistic, Process};
-use armill_core::predict::predict;
+use armill_core::source::elastic::predict;
 use armill_core::spatial::Wrench;
 
 use crate::arms;

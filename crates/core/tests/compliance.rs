@@ -11,9 +11,9 @@ use armill_core::compliance::{
 };
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
 use armill_core::nalgebra::{Matrix3, Matrix6, Point3, Rotation3, Unit, Vector3};
-use armill_core::predict::predict;
 use armill_core::robot::inverse::{ToolAt, posture_at, postures};
 use armill_core::robot::{Amount, Axis, Motion, Posture, Robot};
+use armill_core::source::elastic::predict;
 use armill_core::spatial::{Wrench, adjoint};
 use proptest::prelude::*;
 

@@ -14,9 +14,9 @@ use armill_core::map::{
 };
 use armill_core::nalgebra::{Point2, Point3, Vector2, Vector3};
 use armill_core::path::{Placing, Shape, Track};
-use armill_core::predict::predict;
 use armill_core::robot::inverse::{ToolAt, posture_at, postures};
 use armill_core::robot::{JointCompliance, Robot, Unreachable};
+use armill_core::source::elastic::predict;
 use armill_core::source::{Arm, StiffnessModel};
 use armill_core::spatial::Wrench;
 use armill_core::watch::{Cancelled, Watch};

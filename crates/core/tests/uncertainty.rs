@@ -13,9 +13,9 @@ use armill_core::kernel::{BranchChoice, Held, Question, evaluate_on_path};
 use armill_core::load::Doubt;
 use armill_core::measure::pose_accuracy::{Attained, pose_accuracy};
 use armill_core::nalgebra::{Unit, Vector3};
-use armill_core::predict::predict_in_full;
+use armill_core::predict::predict;
 use armill_core::robot::{Backlash, Flank, JointCompliance, Robot};
-use armill_core::source::{Arm, Standing, StiffnessModel, repeatability};
+use armill_core::source::{Arm, Links, Standing, StiffnessModel, repeatability};
 use armill_core::spatial::Wrench;
 use arms::Stream;
 
@@ -118,7 +118,10 @@ impl Cell {
             let arm = self.arm(&compliance, &model, &tool);
             let mut standing = Standing::new(arm);
             standing.stand(joints);
-            let by_load = predict_in_full(&mut standing, &wrench).unwrap().twist.linear;
+            let by_load = predict(&mut standing, &wrench, &mut Links::Neglected)
+                .unwrap()
+                .twist
+                .linear;
             let by_gaps = standing.backlash(&dragged, &wrench).linear;
             let scatter = Vector3::from_fn(|_, _| stream.normal()) * model.structure.repeatability;
             let missed = by_load * (stream.normal() * model.structure.model_error);

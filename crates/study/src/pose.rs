@@ -11,15 +11,15 @@
 use armill_core::compliance::{
     by_force, permissible_force_in_worst_direction, principal_compliances, stiffness_at_tool,
 };
-use armill_core::frame::{Isometry, tool_orientation};
+use armill_core::frame::{Isometry, both_across, tool_orientation};
 use armill_core::kernel::AT_LIMIT;
 use armill_core::nalgebra::{DMatrix, Matrix6, Point3, Unit, Vector3};
-use armill_core::predict::{Deviation, predict_in_full};
+use armill_core::predict::{Deviation, predict};
 use armill_core::robot::inverse::{ToolAt, posture_at, postures};
 use armill_core::robot::jacobian::{condition_number, jacobian, manipulability};
 use armill_core::robot::{Posture, Robot, Unreachable};
 use armill_core::source::stiffness_model::FREE_FALL;
-use armill_core::source::{Arm, Gravity, Standing, StiffnessModel, Unstable};
+use armill_core::source::{Arm, Gravity, Links, Standing, StiffnessModel, Unstable};
 use armill_core::spatial::Wrench;
 use armill_formats::robot::RobotDescription;
 use armill_formats::sources::Source;
@@ -186,18 +186,38 @@ const WEIGHING_LENGTH: f64 = 1.0;
 /// # Errors
 /// A wrong number of joints, an unknown frame.
 pub fn answer(described: &RobotDescription, question: &PoseQuestion) -> Result<PoseAnswer, StudyError> {
-    answer_under(described, question, &stiffness_model(described, question)?)
+    let model = stiffness_model(described, question)?;
+    answer_in(
+        described,
+        question,
+        &Situation {
+            model: &model,
+            normal: None,
+            dragged: &|_| None,
+        },
+    )
 }
 
-/// [`answer`] with what yields and weighs as `model` has it, in place of what the question tells of it.
+/// What a posture is evaluated with besides the question.
+pub(crate) struct Situation<'a> {
+    /// What deflects and weighs.
+    pub model: &'a StiffnessModel,
+    /// Links of joints with backlash are where they move the tool farthest across this direction (base); its axis if `None`.
+    pub normal: Option<Unit<Vector3<f64>>>,
+    /// Where friction has dragged the links of the posture with these joint positions, as along a path, rad (m).
+    pub dragged: &'a dyn Fn(&[f64]) -> Option<&'a [f64]>,
+}
+
+/// [`answer`] in this situation, in place of what the question gives of it.
 ///
 /// # Errors
 /// As of [`answer`].
-pub(crate) fn answer_under(
+pub(crate) fn answer_in(
     described: &RobotDescription,
     question: &PoseQuestion,
-    model: &StiffnessModel,
+    situation: &Situation<'_>,
 ) -> Result<PoseAnswer, StudyError> {
+    let model = situation.model;
     let robot = &described.robot;
     let base_from_counted = crate::base_from_counted(robot, &question.base).map_err(|known| {
         StudyError::value(
@@ -255,7 +275,7 @@ pub(crate) fn answer_under(
             .map(|p| {
                 let yielding = standing
                     .as_mut()
-                    .map(|standing| yielding(standing, p, question.wrench));
+                    .map(|standing| yielding(standing, (p, situation), question.wrench));
                 posture_answer(robot, yielding, &base_from_counted, p)
             })
             .collect(),
@@ -294,14 +314,27 @@ struct Yielding {
 }
 
 /// What the arm says of this posture: its compliance, and under a load what that does, or that the arm finds no rest.
-fn yielding(standing: &mut Standing<'_>, posture: &Posture, wrench: Option<Wrench>) -> Yielding {
+fn yielding(
+    standing: &mut Standing<'_>,
+    (posture, situation): (&Posture, &Situation<'_>),
+    wrench: Option<Wrench>,
+) -> Yielding {
     standing.stand(&posture.joints);
     let mut found = Yielding {
         compliance: standing.compliance(),
         ..Yielding::default()
     };
     let Some(wrench) = wrench else { return found };
-    match predict_in_full(standing, &wrench) {
+    let mut positions = vec![0.0; posture.joints.len()];
+    let axis = || Unit::new_unchecked(posture.base_from_tool * Vector3::z());
+    let mut links = match (situation.dragged)(&posture.joints) {
+        Some(dragged) => Links::Dragged(dragged),
+        None => Links::Farthest(
+            both_across(&situation.normal.unwrap_or_else(axis)),
+            &mut positions,
+        ),
+    };
+    match predict(standing, &wrench, &mut links) {
         Ok(deviation) => {
             found.deviation = Some(deviation);
             found.loaded_compliance = standing.loaded_compliance();

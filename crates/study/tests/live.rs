@@ -308,6 +308,19 @@ fn worst_beside_stand(text: Text<'_>, ask: &str, part: &str) -> [(f64, f64, Vec<
     let here = held.unwrap().1[stands.case - 1].clone().unwrap();
     let length = here.deviation_um.iter().map(|um| um * um).sum::<f64>().sqrt();
     assert!((length - here.full_um).abs() < 1e-6 * length);
+    // One posture has one deviation, whichever part of the answer tells it.
+    for (posture, cases) in stands.pose.answer.postures.iter().zip(&stands.pose.in_plane) {
+        let (Some(total), Some(case)) = (posture.deviation_um, &cases[stands.case - 1]) else {
+            panic!("a deviation of {}", posture.branch)
+        };
+        for (a, b) in total.iter().zip(case.deviation_um) {
+            assert!(
+                (a - b).abs() < 1e-9 * length,
+                "{ask}, {}: {total:?}",
+                posture.branch
+            );
+        }
+    }
     // A place to ask for alone.
     let question = PostureQuestion {
         ask: Some(ask),

@@ -68,8 +68,7 @@ fn a_file_that_is_there_is_overwritten_by_force_only() {
     cell.file("arm.chain", CHAIN);
     cell.file("arm.toml", "mine");
     let import = ["robots", "import", "arm.chain", "--out", "arm.toml"];
-    cell.armill(&import)
-        .refused(&["arm.toml", "--force"]);
+    cell.armill(&import).refused(&["arm.toml", "--force"]);
     assert_eq!(std::fs::read(cell.at("arm.toml")).unwrap(), b"mine");
     cell.armill(&[&import[..], &["--force"]].concat()).fine();
     cell.armill(&["robots", "arm.toml"]).fine();

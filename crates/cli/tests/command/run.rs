@@ -200,7 +200,10 @@ fn json_on_stdout_is_the_answer_in_the_folder_and_talk_is_on_stderr() {
     // The same bytes, and behind them which files belong to the answer.
     let written = String::from_utf8(cell.files("out")["result.json"].clone()).unwrap();
     let answer = said.out.trim_end().strip_suffix('}').unwrap();
-    assert!(written.starts_with(&format!("{answer},\"files\":{{")), "{written}");
+    assert!(
+        written.starts_with(&format!("{answer},\"files\":{{")),
+        "{written}"
+    );
     assert!(said.err.contains("results in"), "{}", said.err);
 }
 

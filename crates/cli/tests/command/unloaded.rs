@@ -1,6 +1,6 @@
 //! What moves the tool along a path beside its load: a robot file with backlash, and the arm as it was measured.
 
-use crate::cell::{Cell, number};
+use crate::cell::{Cell, number, numbers, rows};
 use crate::documents::repository;
 
 const CELL: &str = r#"format = 1
@@ -121,6 +121,64 @@ fn maps_have_play_where_it_moves_the_tool_farthest_and_say_so() {
         .map(number)
         .sum::<f64>();
     assert!((shares - number(&worst(&with)["in_plane_um"])).abs() < 1e-3);
+}
+
+#[test]
+fn a_single_pose_has_the_deviation_of_the_map_with_backlash_in_it_and_its_shares() {
+    let map = CELL.split_once("[[ask]]").unwrap().0;
+    let cell = Cell::with_study(&map.replace("step_mm = 50", "step_mm = 100"));
+    cell.file("arm.toml", with_play());
+    let run = cell
+        .armill(&["run", "study.toml", "--no-pictures", "--json"])
+        .fine()
+        .json();
+    let worst = &run["maps"][0]["worst"];
+    let joints: Vec<String> = worst["joints_deg"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(ToString::to_string)
+        .collect();
+    let pose = |arm: &str| {
+        let joints = format!("--joints-deg={}", joints.join(","));
+        let said = cell.armill(&[
+            "pose",
+            arm,
+            &joints,
+            "--tool-mm",
+            "0,0,250",
+            "--wrench-n",
+            "3,-5,-5",
+            "--json",
+        ]);
+        said.fine().json()["postures"][0].clone()
+    };
+    let told = pose("arm.toml");
+    let deviation = numbers(&told["deviation_um"]);
+    // The plane stands upright: its normal, and the tool axis, is vertical.
+    let axis = 2;
+    let in_plane = (0..3)
+        .filter(|k| *k != axis)
+        .map(|k| deviation[k].powi(2))
+        .sum::<f64>()
+        .sqrt();
+    let of_map = number(&worst["in_plane_um"]);
+    assert!((in_plane - of_map).abs() < 1e-6 * of_map, "{in_plane} {of_map}");
+    let mut sum = [0.0; 3];
+    for share in rows(&told["joint_share_um"]) {
+        (0..3).for_each(|k| sum[k] += share[k]);
+    }
+    assert!(
+        (0..3).all(|k| (sum[k] - deviation[k]).abs() < 1e-6 * of_map),
+        "{sum:?} {deviation:?}"
+    );
+    cell.file("stiff.toml", mh12());
+    let without = numbers(&pose("stiff.toml")["deviation_um"]);
+    let length = |v: &[f64]| v.iter().map(|um| um * um).sum::<f64>().sqrt();
+    assert!(
+        length(&deviation) > length(&without) + 20.0,
+        "{deviation:?} {without:?}"
+    );
 }
 
 #[test]

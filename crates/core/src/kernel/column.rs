@@ -22,7 +22,7 @@ use crate::predict::deviation_of;
 use crate::robot::forward::{Frames, forward_into, joint_axis};
 use crate::robot::inverse::{Finder, Found, Wanted};
 use crate::robot::{Branch, Joint, PostureName, Robot, Singularity};
-use crate::source::{Arm, Standing};
+use crate::source::{Arm, Links, Standing};
 use crate::spatial::{Twist, Wrench};
 
 /// Postures a pose has room for; arms without names of branches keep the first so many that are found.
@@ -331,14 +331,13 @@ impl OneByOne<'_> {
             }
             let mut most = 0.0_f64;
             for wrench in push.cases {
-                match deviation_of(&mut self.standing, wrench) {
+                let mut links = match &mut self.lie {
+                    None => Links::Neglected,
+                    Some(lie) => Links::Farthest(push.along, lie),
+                };
+                match deviation_of(&mut self.standing, wrench, &mut links) {
                     Ok(twist) => {
-                        let mut moved = twist.linear;
-                        if let Some(lie) = &mut self.lie {
-                            let by_load = (&twist.linear, &push.along);
-                            moved += self.standing.farthest_beside_load(by_load, wrench, lie).linear;
-                        }
-                        let [a, b] = push.along.map(|along| along.dot(&moved));
+                        let [a, b] = push.along.map(|along| along.dot(&twist.linear));
                         most = most.max(a.hypot(b));
                     }
                     Err(_) => most = f64::INFINITY,

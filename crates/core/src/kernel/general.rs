@@ -8,12 +8,12 @@ use nalgebra::Vector3;
 use super::answer::{Held, Told};
 use super::question::{BranchChoice, Question};
 use crate::frame::{Isometry, both_across};
-use crate::predict::{beside_load, deviation_of};
+use crate::predict::deviation_of;
 use crate::robot::forward::{Frames, forward_into};
 use crate::robot::inverse::{Finder, Found, Wanted};
 use crate::robot::{Overrun, PostureName, Seat, Unreachable};
-use crate::source::Standing;
 use crate::source::standing::AsItStands;
+use crate::source::{Links, Standing};
 
 /// Envelopes that differ by less (relative) are equal, and the first posture stands: two flips without names differ by
 /// rounding, which would take one here and the other beside it.
@@ -189,20 +189,16 @@ impl<'q> General<'q> {
         };
         for (case, wrench) in question.cases.iter().enumerate() {
             let unstable = |_| Unreachable::Unstable { case };
-            self.deviations[case] = deviation_of(&mut self.standing, wrench).map_err(unstable)?.linear;
-            let deviation = &mut self.deviations[case];
-            match &mut self.beside {
-                Beside::Nothing => {}
-                Beside::Dragged(dragged) => *deviation += beside_load(&self.standing, dragged, wrench).linear,
+            let mut links = match &mut self.beside {
+                Beside::Nothing => Links::Neglected,
+                Beside::Dragged(dragged) => Links::Dragged(dragged),
                 Beside::Farthest(lie) => {
                     let lie = &mut lie[case * self.joints.len()..][..self.joints.len()];
-                    let across = both_across(&question.normal);
-                    *deviation += self
-                        .standing
-                        .farthest_beside_load((&*deviation, &across), wrench, lie)
-                        .linear;
+                    Links::Farthest(both_across(&question.normal), lie)
                 }
-            }
+            };
+            let deviation = deviation_of(&mut self.standing, wrench, &mut links);
+            self.deviations[case] = deviation.map_err(unstable)?.linear;
         }
         held.take_envelope(&self.deviations, question.normal);
         if !self.sharers.is_empty() {

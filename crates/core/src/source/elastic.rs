@@ -17,6 +17,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+use crate::predict::Deviation;
+use crate::robot::Posture;
 use crate::robot::joint::JointCompliance;
 use crate::spatial::{Twist, Wrench};
 
@@ -51,6 +53,31 @@ pub fn covariance(screws: &[Twist], joints: &[JointCompliance], wrench: &Wrench)
         a * a.transpose()
     });
     parts.sum()
+}
+
+/// The simple model by itself: the deviation of a tool held in `posture` by joints of these compliances, as many as it has, under `wrench`.
+///
+/// ```
+/// use armill_core::source::elastic::predict;
+/// use armill_core::robot::{Amount, Axis, Joint, JointCompliance, Motion, Robot, inverse::posture_at};
+/// use armill_core::{frame::Isometry, spatial::Wrench};
+///
+/// // One joint, a lever of 1 m, 2 urad/(N m), pushed sideways with 10 N: 20 um.
+/// let motions = vec![Motion::About(Axis::Z, Amount::Joint(0)), Motion::Along(Axis::X, Amount::Constant(1.0))];
+/// let lever = Robot::new("lever", motions, vec![Joint::plain("A")])?;
+/// let posture = posture_at(&lever, &[0.0], &Isometry::identity());
+/// let joint = JointCompliance { value: 2e-6, standard_uncertainty: 0.0 };
+/// let push = Wrench::from_force(nalgebra::Vector3::new(0.0, 10.0, 0.0));
+/// assert!((predict(&posture, &[joint], &push).twist.linear.y - 20e-6).abs() < 1e-18);
+/// # Ok::<(), armill_core::robot::RobotError>(())
+/// ```
+pub fn predict(posture: &Posture, joints: &[JointCompliance], wrench: &Wrench) -> Deviation {
+    let shares = shares(&posture.screws, joints, wrench);
+    Deviation {
+        twist: shares.iter().copied().sum(),
+        covariance: covariance(&posture.screws, joints, wrench),
+        shares,
+    }
 }
 
 #[cfg(test)]

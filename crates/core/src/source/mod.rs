@@ -19,5 +19,5 @@ pub mod standing;
 pub mod stiffness_model;
 
 pub use equilibrium::Unstable;
-pub use standing::Standing;
+pub use standing::{Links, Standing};
 pub use stiffness_model::{Arm, Gravity, StiffnessModel};

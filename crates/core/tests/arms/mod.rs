@@ -9,10 +9,10 @@ use std::sync::LazyLock;
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
 use armill_core::kernel::{Answers, Held};
 use armill_core::nalgebra::Vector3;
-use armill_core::predict::{Deviation, predict_in_full};
+use armill_core::predict::{Deviation, predict};
 use armill_core::robot::joint::Sign;
 use armill_core::robot::{Amount, Axis, Branch, Joint, JointCompliance, Limits, Motion, PostureName, Robot};
-use armill_core::source::{Arm, Standing, Unstable};
+use armill_core::source::{Arm, Links, Standing, Unstable};
 use armill_core::spatial::Wrench;
 
 use Amount::{Constant, Joint as Var};
@@ -320,7 +320,7 @@ pub static ALL: LazyLock<[Robot; 6]> =
 pub fn predicted(arm: &Arm<'_>, q: &[f64], wrench: &Wrench) -> Result<Deviation, Unstable> {
     let mut standing = Standing::new(*arm);
     standing.stand(q);
-    predict_in_full(&mut standing, wrench)
+    predict(&mut standing, wrench, &mut Links::Neglected)
 }
 
 /// A tool that is bent and turned against the flange.

@@ -3,9 +3,9 @@
 use armill_core::compliance::compliance_at_tool;
 use armill_core::kernel::lanes::{Arrays, Backend, Envelopes, Precision, flag};
 use armill_core::kernel::{AT_LIMIT, BranchChoice};
-use armill_core::predict::predict;
 use armill_core::robot::inverse::{ToolAt, postures};
 use armill_core::robot::{Branch, Posture, Robot};
+use armill_core::source::elastic::predict;
 use armill_core::workpiece::Split;
 
 use crate::{NEAR_SINGULAR, arms, ask, batch, cases, poses_of, some};

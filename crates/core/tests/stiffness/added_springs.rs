@@ -3,10 +3,10 @@
 use armill_core::compliance::compliance_at_tool;
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::{DMatrix, IsometryMatrix3, Matrix6, Point3, UnitQuaternion};
-use armill_core::predict::predict;
 use armill_core::robot::inverse::posture_at;
 use armill_core::robot::spring::springs_of;
 use armill_core::robot::{JointCompliance, Mass, Seat, Spring, Structure};
+use armill_core::source::elastic::predict;
 use armill_core::source::{Arm, Standing, StiffnessModel};
 use armill_core::spatial::adjoint;
 use proptest::prelude::*;

@@ -2,9 +2,9 @@
 
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::Vector3;
-use armill_core::predict::predict;
 use armill_core::robot::inverse::posture_at;
 use armill_core::robot::{Compensator, JointCurve, Mass, Structure, TorqueCurve};
+use armill_core::source::elastic::predict;
 use armill_core::source::{Standing, StiffnessModel, Unstable};
 use armill_core::spatial::Wrench;
 

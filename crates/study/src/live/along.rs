@@ -28,16 +28,8 @@ use crate::run::{Done, Found, runner};
 pub(super) struct Held {
     /// Joint positions (rad, m); none where the arm does not come there.
     pub joints: Option<Vec<f64>>,
-    /// What moves the tool beside the load; none where nothing does.
-    pub unloaded: Option<UnloadedHere>,
-}
-
-/// What moves the tool at a point beside the load.
-pub(super) struct UnloadedHere {
-    /// Where links were dragged to in their gaps, rad (m), one a joint.
-    pub dragged: Vec<f64>,
-    /// Displacement of the tool (m, base), one a case.
-    pub moved: Vec<Vector3<f64>>,
+    /// Where friction dragged the links in their gaps, rad (m), one a joint; none without backlash and geometry, and off paths.
+    pub dragged: Option<Vec<f64>>,
 }
 
 impl Held {
@@ -65,13 +57,10 @@ pub(super) fn on_path(
         }
     };
     let answers = &along.answers;
-    let unloaded = along.unloaded.as_ref().map(|unloaded| UnloadedHere {
-        dragged: unloaded.dragged_at(index, answers.joint_count).to_vec(),
-        moved: unloaded.moved[index * answers.case_count..][..answers.case_count].to_vec(),
-    });
+    let unloaded = along.unloaded.as_ref();
     let held = Held {
         joints: joints_at(answers, index),
-        unloaded,
+        dragged: unloaded.map(|unloaded| unloaded.dragged_at(index, answers.joint_count).to_vec()),
     };
     let spin = searched.map_or(0.0, |searched| searched.posture.spins[index]);
     Ok(turned((&path.track, &along.load), index, spin, held))
@@ -96,7 +85,7 @@ pub(super) fn at_hole(
     };
     let held = Held {
         joints: joints_at(&found.answers, index),
-        unloaded: None,
+        dragged: None,
     };
     Ok(turned(of, index, found.spins[index], held))
 }

@@ -10,11 +10,11 @@ use armill_core::compliance::{by_force, permissible_force, permissible_force_in_
 use armill_core::frame::{Isometry, both_across, tool_orientation};
 use armill_core::kernel::{BranchChoice, Question, evaluate, evaluate_on_path};
 use armill_core::nalgebra::{Point2, Point3, Unit, Vector3};
-use armill_core::predict::predict_in_full;
+use armill_core::predict::predict;
 use armill_core::robot::Robot;
 use armill_core::robot::forward::{forward, joint_axis};
 use armill_core::robot::inverse::tool_on;
-use armill_core::source::{Arm, Standing};
+use armill_core::source::{Arm, Links, Standing};
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
 use armill_core::workpiece::Split;
@@ -29,7 +29,7 @@ use crate::file::resolve::{Parsed, Setting, Study, Subject};
 use crate::joint_unit::JointUnit;
 use crate::number::without_rounding;
 use crate::output::arm_posture;
-use crate::pose::{At, PoseAnswer, PoseQuestion, answer_under, joint_positions};
+use crate::pose::{At, PoseAnswer, PoseQuestion, Situation, answer_in, joint_positions};
 use crate::run::Done;
 
 /// Where the tool is: one of these.
@@ -70,7 +70,7 @@ pub struct PostureQuestion<'a> {
 /// Every posture at one place, as `armill pose --json` tells it, and how each is drawn.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PosturesAnswer {
-    /// The postures under the load case asked for, without what moves the tool along a path beside the load.
+    /// The postures under the load case asked for, with every source: the same totals as `in_plane`.
     pub answer: PoseAnswer,
     /// The arm in each posture.
     pub drawings: Vec<DrawnPosture>,
@@ -213,7 +213,7 @@ pub(super) fn postures_of(
     // Joints to spare stand as they do in the answer.
     let held = asked.held.as_ref().and_then(|held| held.joints.as_ref());
     let home = held.or(setting.home.as_ref());
-    let answer = answer_under(
+    let answer = answer_in(
         &study.robot,
         &PoseQuestion {
             at: asked.at.clone(),
@@ -230,7 +230,11 @@ pub(super) fn postures_of(
                     .collect()
             }),
         },
-        &setting.model,
+        &Situation {
+            model: &setting.model,
+            normal: Some(asked.normal),
+            dragged: &|q| dragged_at(&asked, q),
+        },
     )?;
     let joints = answer
         .postures
@@ -345,6 +349,12 @@ fn point(
     }
 }
 
+/// Where the links of this posture are dragged to in their gaps, rad (m): known of the one that a path is followed in.
+fn dragged_at<'a>(asked: &'a Asked, q: &[f64]) -> Option<&'a [f64]> {
+    let held = asked.held.as_ref().filter(|held| held.is_in(q))?;
+    held.dragged.as_deref()
+}
+
 /// The deviation of this posture under each case; beside paths, and of another one than the path's, as a point by itself has it.
 fn deviations(
     robot: &Robot,
@@ -356,10 +366,7 @@ fn deviations(
     let Some(compliance) = robot.compliance() else {
         return vec![None; cases.len()];
     };
-    let held = asked.held.as_ref();
-    let unloaded = held
-        .filter(|held| held.is_in(q))
-        .and_then(|held| held.unloaded.as_ref());
+    let dragged = dragged_at(asked, q);
     let arm = Arm {
         robot,
         compliance,
@@ -368,17 +375,15 @@ fn deviations(
     };
     let mut standing = Standing::new(arm);
     standing.stand(q);
-    let mut lie = vec![0.0; q.len()];
+    let mut positions = vec![0.0; q.len()];
     let yields = by_force(&setting.compliance_at(robot, q));
     let any = permissible_force_in_worst_direction(&yields, normal, setting.limit).0;
-    let mut of = |(case, wrench): (usize, &Wrench)| {
-        let deviation = predict_in_full(&mut standing, wrench).ok()?;
-        let by_load = (&deviation.twist.linear, &both_across(&normal));
-        let moved = match unloaded {
-            Some(unloaded) => unloaded.moved[case],
-            None => standing.farthest_beside_load(by_load, wrench, &mut lie).linear,
+    let mut of = |wrench: &Wrench| {
+        let mut links = match dragged {
+            Some(dragged) => Links::Dragged(dragged),
+            None => Links::Farthest(both_across(&normal), &mut positions),
         };
-        let moved = deviation.twist.linear + moved;
+        let moved = predict(&mut standing, wrench, &mut links).ok()?.twist.linear;
         let split = Split::of(&moved, normal);
         let question = Question {
             arm,
@@ -388,7 +393,6 @@ fn deviations(
             normal,
             choice: BranchChoice::Best,
         };
-        let dragged = unloaded.map(|unloaded| unloaded.dragged.as_slice());
         let (u, shares) = in_plane_parts(&question, (q, branch), dragged).unzip();
         // A case that is a moment alone has no direction.
         let along =
@@ -404,7 +408,7 @@ fn deviations(
             permissible_any_direction_n: Some(any).filter(|n| n.is_finite()),
         })
     };
-    cases.iter().enumerate().map(&mut of).collect()
+    cases.iter().map(&mut of).collect()
 }
 
 /// Positions (rad, m) that are the same posture, whatever was computed on the way there.

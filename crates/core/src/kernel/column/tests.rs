@@ -115,7 +115,7 @@ fn a_posture_of_a_column_is_one_of_the_postures_of_its_pose_and_deviates_as_pred
         }
         held += 1;
         let deviates = |wrench: &Wrench| {
-            let delta = crate::predict::predict(posture, robot.compliance().unwrap(), wrench)
+            let delta = crate::source::elastic::predict(posture, robot.compliance().unwrap(), wrench)
                 .twist
                 .linear;
             along[0].dot(&delta).hypot(along[1].dot(&delta))

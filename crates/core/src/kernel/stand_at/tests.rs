@@ -10,7 +10,7 @@ use crate::arms::{self, Stream};
 use crate::predict::deviation_of;
 use crate::robot::Robot;
 use crate::robot::inverse::posture_at;
-use crate::source::StiffnessModel;
+use crate::source::{Links, StiffnessModel};
 use crate::spatial::Wrench;
 
 fn joints(robot: &Robot, count: usize) -> Vec<f64> {
@@ -36,7 +36,11 @@ fn every_chain_is_told_as_predicted_at_each_point() {
             };
             let tell = |standing: &mut Standing<'_>, out: &mut [f64]| {
                 for (wrench, out) in cases().iter().zip(out.chunks_mut(3)) {
-                    out.copy_from_slice(deviation_of(standing, wrench)?.linear.as_slice());
+                    out.copy_from_slice(
+                        deviation_of(standing, wrench, &mut Links::Neglected)?
+                            .linear
+                            .as_slice(),
+                    );
                 }
                 Ok(())
             };

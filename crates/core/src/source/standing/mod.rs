@@ -23,6 +23,7 @@ mod shares;
 mod unloaded;
 
 pub use doubt::AsItStands;
+pub use unloaded::Links;
 
 use nalgebra::{IsometryMatrix3, Matrix3, Matrix6, Point3, Rotation3, Vector3};
 

@@ -115,7 +115,7 @@ fn sensitivities_match_differences_with_every_part_at_once() {
         let arm = held(&model, &tool);
         let mut standing = Standing::new(arm);
         standing.stand(&q);
-        crate::predict::deviation_of(&mut standing, &w).unwrap();
+        crate::predict::deviation_of(&mut standing, &w, &mut Links::Neglected).unwrap();
         for k in 0..10_usize {
             // A curve stands in place of the compliance of joint 3.
             if k == 2 {
@@ -157,7 +157,8 @@ fn shares_add_up_and_those_along_a_direction_are_their_projections() {
     let sharers = model.sharers(6);
     for _ in 0..20 {
         standing.stand(&stream.joints(robot()));
-        let whole = crate::predict::deviation_of(&mut standing, &wrench(&mut stream)).unwrap();
+        let whole =
+            crate::predict::deviation_of(&mut standing, &wrench(&mut stream), &mut Links::Neglected).unwrap();
         let shares = standing.shares();
         let sum: Twist = shares.iter().copied().sum();
         // Some ten parts of some mm.
@@ -229,7 +230,9 @@ fn the_tip_yields_as_any_force_says_where_the_deviation_is_affine() {
             .into_owned();
         assert!((tip.by_force - block).norm() < 1e-14 * block.norm());
         let force = stream.vector(800.0);
-        let found = crate::predict::deviation_of(&mut standing, &Wrench::from_force(force)).unwrap();
+        let found =
+            crate::predict::deviation_of(&mut standing, &Wrench::from_force(force), &mut Links::Neglected)
+                .unwrap();
         assert!((tip.under(force) - found.linear).norm() < 1e-16);
     }
 }
@@ -276,7 +279,7 @@ fn standing_anew_leaves_nothing_of_the_posture_before() {
     for _ in 0..5 {
         let (q, w) = (stream.joints(robot()), wrench(&mut stream));
         used.stand(&q);
-        let again = crate::predict::predict_in_full(&mut used, &w).unwrap();
+        let again = crate::predict::predict(&mut used, &w, &mut Links::Neglected).unwrap();
         let anew = arms::predicted(&held(&model, &tool), &q, &w).unwrap();
         assert_eq!(again.twist, anew.twist);
         assert_eq!(again.shares, anew.shares);

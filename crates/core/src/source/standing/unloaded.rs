@@ -1,12 +1,35 @@
 //! What moves the tool of an arm beside its load: links in the gaps of their joints, and an arm that is not the one its
 //! controller reckons with.
 
-use nalgebra::{Vector2, Vector3};
+use nalgebra::{Matrix3, Vector2, Vector3};
 
 use super::Standing;
 use crate::robot::Seat;
 use crate::source::{backlash, geometric};
 use crate::spatial::{Twist, Wrench};
+
+/// What is known of where the links of joints with backlash are in their gaps.
+#[derive(Debug)]
+pub enum Links<'a> {
+    /// Neither backlash nor geometry is included: load and gravity alone.
+    Neglected,
+    /// Along a path: friction has dragged them here, one position a joint, rad (m).
+    Dragged(&'a [f64]),
+    /// At a single point it is unknown: each is where it moves the tool farthest, measured along these two directions (base).
+    /// The positions are written here, one a joint, rad (m).
+    Farthest([Vector3<f64>; 2], &'a mut [f64]),
+}
+
+impl Links<'_> {
+    /// One position a joint, rad (m); `None` where they are not included.
+    pub fn positions(&self) -> Option<&[f64]> {
+        match self {
+            Links::Neglected => None,
+            Links::Dragged(positions) => Some(positions),
+            Links::Farthest(_, positions) => Some(positions),
+        }
+    }
+}
 
 impl Standing<'_> {
     /// Displacement of the tool because links lie in their gaps: `dragged` there by friction, one a joint, rad (m), or held
@@ -25,20 +48,13 @@ impl Standing<'_> {
         })
     }
 
-    /// What comes on top of the displacement `by_load` (m, base) where nobody knows on which flanks links lie: geometry, and
-    /// links where they move the tool farthest, counted along two directions (base); writes where they `lie`, one a joint,
-    /// rad (m).
-    pub fn farthest_beside_load(
-        &self,
-        (by_load, along): (&Vector3<f64>, &[Vector3<f64>; 2]),
-        wrench: &Wrench,
-        lie: &mut [f64],
-    ) -> Twist {
-        lie.fill(0.0);
-        let geometric = self.geometric();
-        let known = geometric + self.backlash(lie, wrench);
-        self.lie_farthest((&(by_load + known.linear), along), wrench, lie);
-        geometric + self.backlash(lie, wrench)
+    /// Finds where links are that may be anywhere, where load and gravity move the tool by `by_load` (m, base).
+    pub(crate) fn settle(&self, links: &mut Links<'_>, by_load: &Vector3<f64>, wrench: &Wrench) {
+        if let Links::Farthest(along, positions) = links {
+            positions.fill(0.0);
+            let known = self.geometric() + self.backlash(positions, wrench);
+            self.lie_farthest((&(by_load + known.linear), along), wrench, positions);
+        }
     }
 
     /// Lets links lie on the flanks on which they move the tool farthest, counted along these two directions (base), that all
@@ -62,6 +78,25 @@ impl Standing<'_> {
         backlash::farthest(counted(from), &halves, &mut signs);
         for ((joint, half), sign) in joints.into_iter().zip(signs) {
             lies[joint] = half * sign;
+        }
+    }
+
+    /// Adds backlash to the shares of the joints and to the covariance (m^2) of the displacement: a gap is known in proportion.
+    pub(crate) fn add_backlash(
+        &self,
+        links: &Links<'_>,
+        wrench: &Wrench,
+        (shares, covariance): (&mut [Twist], &mut Matrix3<f64>),
+    ) {
+        let Some(positions) = links.positions() else {
+            return;
+        };
+        for (joint, gap) in self.arm.model.structure.gaps() {
+            let part = self.backlash_of(joint, positions, wrench);
+            // Joints come first among those who have shares.
+            shares[joint] = shares[joint] + part;
+            let u = part.linear * (gap.standard_uncertainty / gap.gap);
+            *covariance += u * u.transpose();
         }
     }
 
