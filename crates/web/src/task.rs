@@ -242,7 +242,6 @@ impl Job {
         let names = std::iter::once("placement.json".to_owned()).chain(pictures);
         files.extend(names.map(|name| out.path().join(name)));
         self.tell(&placed.answer.sentences().join(" "));
-        journal.done();
         Ok((json, files))
     }
 

@@ -47,7 +47,5 @@ pub(crate) fn run(arguments: &AdviseArguments) -> Result<Outcome, StudyError> {
         pictures: advice.pictures,
     };
     let options = (&arguments.run, Some(&opening));
-    let outcome = results((&advice.study, &out), options, |_| sentences)?;
-    journal.done();
-    Ok(outcome)
+    results((&advice.study, &out), options, |_| sentences)
 }

@@ -45,14 +45,12 @@ pub(crate) fn run(arguments: &PlaceArguments) -> Result<Outcome, StudyError> {
     output::write_pictures(drawn, &out)?;
     let there = placed.study(&found)?;
     let opening = placed.opening();
-    let outcome = results((&there, &out), (&arguments.run, Some(&opening)), |_| {
+    results((&there, &out), (&arguments.run, Some(&opening)), |_| {
         let lines = placed.answer.sentences().join("\n");
         format!("{lines}\n\n{}", placed.answer.study_lines())
             .trim_end()
             .to_owned()
-    })?;
-    journal.done();
-    Ok(outcome)
+    })
 }
 
 /// What the options ask for.

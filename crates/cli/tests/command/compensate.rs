@@ -288,7 +288,7 @@ fn a_program_of_a_robot_comes_back_with_its_targets_moved_and_nothing_else() {
     assert!(apart <= placed + 1.0, "{apart} um, {placed} um told");
     // Over itself it is not written.
     cell.armill(&["compensate", "study.toml", "--out", "."])
-        .refused(&["part.src is the program that was read"]);
+        .refused(&["part.src", "this command reads that file"]);
 }
 
 #[test]

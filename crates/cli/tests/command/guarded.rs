@@ -283,7 +283,8 @@ fn commands_that_write_into_a_folder_remove_and_replace_nothing_of_the_user() {
     let before = all_files(&cell);
     let place = ["place", ".", "--x-mm", "990,1010", "--no-pictures", "--out", "."];
     cell.armill(&place).refused(&["ring.csv", "--force"]);
-    cell.armill(&["ballbar", "ball.csv", "--out", "."]).fine();
+    cell.armill(&["ballbar", "ball.csv", "--out", "."])
+        .refused(&["runs.csv", "--force"]);
     cell.armill(&["backlash", ".", "--simulate", ".", "--runs", "1"])
         .refused(&["ring.csv", "--force"]);
     let after = all_files(&cell);

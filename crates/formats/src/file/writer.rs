@@ -203,7 +203,17 @@ impl ResultFolder {
         Ok(part)
     }
 
-    /// The files that were written so far, by name, with their SHA-256.
+    /// Writes a file that is kept until [`ResultFolder::finish`] alone, such as what a search has found so far.
+    ///
+    /// # Errors
+    /// As of [`ResultFolder::write`].
+    pub fn write_for_now(&self, name: &str, bytes: &[u8]) -> Result<(), FileError> {
+        self.write(name, bytes)?;
+        self.state().written.remove(name);
+        Ok(())
+    }
+
+    /// The files that were written so far and are to stay, by name, with their SHA-256.
     pub fn written(&self) -> BTreeMap<String, String> {
         self.state().written.clone()
     }
@@ -324,6 +334,9 @@ mod tests {
         fs::write(at("b.csv"), "changed").unwrap();
         let second = writer().folder(folder.path()).unwrap();
         second.write("a.csv", b"second").unwrap();
+        second.write_for_now("rounds", b"some").unwrap();
+        assert!(at("rounds").is_file());
+        assert_eq!(second.written().into_keys().collect::<Vec<_>>(), ["a.csv"]);
         second.finish().unwrap();
         drop(second);
         let mut names: Vec<String> = fs::read_dir(folder.path())

@@ -347,7 +347,9 @@ fn may_be_quoted(file: &str, folder: &Path) -> bool {
     let Ok(real) = file.canonicalize() else {
         return true;
     };
-    let inside = folder.canonicalize().is_ok_and(|folder| real.starts_with(folder));
+    // A study that is named alone is in the current folder.
+    let inside = Path::new(".").join(folder).canonicalize();
+    let inside = inside.is_ok_and(|folder| real.starts_with(folder));
     inside || Inputs::current().name(file)
 }
 

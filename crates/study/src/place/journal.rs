@@ -36,7 +36,7 @@ impl<'a> Journal<'a> {
         }
     }
 
-    /// One that is kept in the file `place.rounds` of this folder.
+    /// One that is kept in the file `place.rounds` of this folder until its results are finished.
     pub fn kept_in(folder: &'a ResultFolder) -> Journal<'a> {
         Journal {
             kept_in: Some(folder),
@@ -74,16 +74,9 @@ impl<'a> Journal<'a> {
         let at = work()?;
         self.rounds.insert(name.to_owned(), at.clone());
         if let Some(folder) = self.kept_in {
-            folder.write(ROUNDS, self.text().as_bytes())?;
+            folder.write_for_now(ROUNDS, self.text().as_bytes())?;
         }
         Ok(at)
-    }
-
-    /// Takes the file away: the search is done.
-    pub fn done(&self) {
-        if let Some(folder) = self.kept_in {
-            folder.remove(ROUNDS);
-        }
     }
 
     fn text(&self) -> String {
@@ -164,7 +157,7 @@ mod tests {
         let mut other = Journal::kept_in(&out);
         other.take_up(8);
         assert_eq!(other.round("valley 0", || Ok(vec![0.5])).unwrap(), [0.5]);
-        other.done();
+        out.finish().unwrap();
         assert!(!folder.path().join(ROUNDS).exists());
     }
 
