@@ -27,7 +27,7 @@ use armill_study::{Study, StudyError, robots};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::files::inside;
+use crate::files::{inside, results_folder};
 use crate::job::Job;
 
 /// What a job does.
@@ -172,14 +172,14 @@ impl Job {
                 } else {
                     Wanted::USUAL
                 };
-                self.results(&text.study(options.ask.as_deref())?, &root.join("out"), wanted)
+                self.results(&text.study(options.ask.as_deref())?, &results_folder(root, "out")?, wanted)
             }
             Task::Posture { text, options } => {
                 let mut study = found(text).read()?;
                 study.search_postures(options.as_ref())?;
-                self.results(&study, &root.join("posture"), Wanted::USUAL)
+                self.results(&study, &results_folder(root, "posture")?, Wanted::USUAL)
             }
-            Task::Place { text, options } => self.place(&found(text), options, &root.join("place")),
+            Task::Place { text, options } => self.place(&found(text), options, &results_folder(root, "place")?),
             Task::Identify { text, options } => self.identify(&found(text), options, root),
         }
     }
@@ -233,6 +233,7 @@ impl Job {
         options: &IdentifyOptions,
         root: &Path,
     ) -> Result<Outcome, StudyError> {
+        let out = results_folder(root, "identify")?;
         let name = Parsed::of(&found.shown, &found.bytes)?.file.robot;
         let robot = robots::find(&name, root)?;
         let point_u_mm = options.point_u_mm.unwrap_or(USUAL_POINT_U_MM);
@@ -281,7 +282,6 @@ impl Job {
         };
         let [path, text] = robots::text_of(&named, &robot)?;
         let written = robot_file(&robot.robot, [&path, &text], &answer, &options.tests)?;
-        let out = root.join("identify");
         output::prepare(&out)?;
         let file = out.join("robot.toml");
         write_atomically(&file, written.as_bytes())?;

@@ -3,7 +3,7 @@
 //! The first line on stdout is the address, with the token that it needs; all else is said on stderr.
 
 use armill_study::StudyError;
-use armill_web::{Options, Server, has_page, open_browser};
+use armill_web::{Options, Server, has_page};
 
 use crate::Outcome;
 use crate::arguments::ServeArguments;
@@ -25,7 +25,7 @@ pub(crate) fn run(arguments: &ServeArguments) -> Result<Outcome, StudyError> {
     }
     say("the page is open on this machine alone; Ctrl-C ends it");
     if !arguments.no_open {
-        open_browser(server.url());
+        server.open_browser();
     }
     server.run();
     Ok(Outcome::Fine)
