@@ -138,9 +138,16 @@ mod tests {
         let mut places = [0; 2].map(|_| now(&connections).unwrap());
         places.iter().for_each(|place| place.client.keep_place());
         assert!(now(&connections).is_none());
-        assert!(places.iter_mut().all(|place| place.is_wanted().now_or_never().is_none()));
+        assert!(
+            places
+                .iter_mut()
+                .all(|place| place.is_wanted().now_or_never().is_none())
+        );
         drop(places);
         assert!(now(&connections).is_some());
-        assert!(connections.with_unknown(|unknown| unknown.is_empty()), "nothing is left of those that ended");
+        assert!(
+            connections.with_unknown(|unknown| unknown.is_empty()),
+            "nothing is left of those that ended"
+        );
     }
 }

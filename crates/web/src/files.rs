@@ -174,8 +174,12 @@ pub(crate) fn results_folder(root: &Path, name: &str) -> Result<PathBuf, StudyEr
     match !is_there || is_inside() {
         true => Ok(folder),
         false => Err(StudyError::value(
-            format!("`{name}` is a link that leads out of the folder of the study: results are written inside it only"),
-            format!("remove the link `{name}`, or move the folder that it leads to into the folder of the study"),
+            format!(
+                "`{name}` is a link that leads out of the folder of the study: results are written inside it only"
+            ),
+            format!(
+                "remove the link `{name}`, or move the folder that it leads to into the folder of the study"
+            ),
         )),
     }
 }

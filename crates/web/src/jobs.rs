@@ -200,7 +200,11 @@ async fn events(Shared(state): Shared<Arc<State>>, InPath(id): InPath<String>) -
     let job = state.jobs.find(&id)?;
     let room = |streams: &Arc<Semaphore>, most: usize, of: &str| {
         let room = Arc::clone(streams).try_acquire_owned();
-        room.map_err(|_| ApiError::too_many(format!("{most} event streams of {of} are open already: close some")))
+        room.map_err(|_| {
+            ApiError::too_many(format!(
+                "{most} event streams of {of} are open already: close some"
+            ))
+        })
     };
     let of_job = room(&job.streams, MOST_STREAMS_OF_JOB, "this job")?;
     let of_all = room(&state.jobs.streams, MOST_STREAMS, "all jobs")?;
@@ -224,7 +228,10 @@ async fn events(Shared(state): Shared<Arc<State>>, InPath(id): InPath<String>) -
                 last = key;
                 let data = serde_json::to_string(&now).unwrap_or_default();
                 let event = Event::default().event("job").data(data);
-                return Some((Ok::<_, Infallible>(event), (job, time, last, now.state.is_last(), rooms)));
+                return Some((
+                    Ok::<_, Infallible>(event),
+                    (job, time, last, now.state.is_last(), rooms),
+                ));
             }
         },
     );

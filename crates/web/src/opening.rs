@@ -133,7 +133,10 @@ mod tests {
     #[test]
     fn an_address_stays_inside_its_quotes() {
         let text = page("http://h/?a=1&b=\"><script>");
-        assert!(text.contains("href=\"http://h/?a=1&amp;b=&quot;&gt;&lt;script&gt;\""), "{text}");
+        assert!(
+            text.contains("href=\"http://h/?a=1&amp;b=&quot;&gt;&lt;script&gt;\""),
+            "{text}"
+        );
         assert!(!text.contains("<script"), "{text}");
     }
 
@@ -143,7 +146,13 @@ mod tests {
         let parent = tempfile::tempdir().unwrap();
         let at = |name: &str| parent.path().join(name);
         let old = std::time::SystemTime::now() - 3 * PAGE_TIME;
-        for name in ["armill-open-own", "armill-open-old", "armill-open-young", "armill-other", "armill-open-full"] {
+        for name in [
+            "armill-open-own",
+            "armill-open-old",
+            "armill-open-young",
+            "armill-other",
+            "armill-open-full",
+        ] {
             fs::create_dir(at(name)).unwrap();
             fs::write(at(name).join(PAGE_NAME), "token").unwrap();
         }
@@ -151,15 +160,28 @@ mod tests {
         fs::create_dir(at("elsewhere")).unwrap();
         fs::write(at("elsewhere").join(PAGE_NAME), "mine").unwrap();
         std::os::unix::fs::symlink(at("elsewhere"), at("armill-open-link")).unwrap();
-        for name in ["armill-open-own", "armill-open-old", "armill-other", "armill-open-full", "elsewhere"] {
+        for name in [
+            "armill-open-own",
+            "armill-open-old",
+            "armill-other",
+            "armill-open-full",
+            "elsewhere",
+        ] {
             fs::File::open(at(name)).unwrap().set_modified(old).unwrap();
         }
         remove_abandoned_pages(parent.path(), &at("armill-open-own"));
         assert!(!at("armill-open-old").exists());
-        for name in ["armill-open-own", "armill-open-young", "armill-other", "elsewhere"] {
+        for name in [
+            "armill-open-own",
+            "armill-open-young",
+            "armill-other",
+            "elsewhere",
+        ] {
             assert!(at(name).join(PAGE_NAME).exists(), "{name}");
         }
-        assert!(at("armill-open-full").join("mine").exists() && !at("armill-open-full").join(PAGE_NAME).exists());
+        assert!(
+            at("armill-open-full").join("mine").exists() && !at("armill-open-full").join(PAGE_NAME).exists()
+        );
         assert!(at("armill-open-link").is_symlink());
     }
 }

@@ -33,11 +33,7 @@ pub(crate) fn routes() -> Router<Arc<State>> {
         .route("/{*path}", axum::routing::get(file))
 }
 
-async fn file(
-    Shared(state): Shared<Arc<State>>,
-    Extension(client): Extension<Client>,
-    uri: Uri,
-) -> Response {
+async fn file(Shared(state): Shared<Arc<State>>, Extension(client): Extension<Client>, uri: Uri) -> Response {
     if client.is_known() {
         // The browser has the address.
         state.opening.remove();

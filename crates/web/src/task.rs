@@ -172,14 +172,20 @@ impl Job {
                 } else {
                     Wanted::USUAL
                 };
-                self.results(&text.study(options.ask.as_deref())?, &results_folder(root, "out")?, wanted)
+                self.results(
+                    &text.study(options.ask.as_deref())?,
+                    &results_folder(root, "out")?,
+                    wanted,
+                )
             }
             Task::Posture { text, options } => {
                 let mut study = found(text).read()?;
                 study.search_postures(options.as_ref())?;
                 self.results(&study, &results_folder(root, "posture")?, Wanted::USUAL)
             }
-            Task::Place { text, options } => self.place(&found(text), options, &results_folder(root, "place")?),
+            Task::Place { text, options } => {
+                self.place(&found(text), options, &results_folder(root, "place")?)
+            }
             Task::Identify { text, options } => self.identify(&found(text), options, root),
         }
     }

@@ -116,7 +116,10 @@ fn no_command_line_holds_the_token_and_the_page_that_leads_to_it_is_private() {
         panic!("{noted}")
     };
     let (_, token) = server.1.split_once("token=").unwrap();
-    assert!(!arguments.contains(token) && arguments.starts_with(temporary.to_str().unwrap()), "{arguments}");
+    assert!(
+        !arguments.contains(token) && arguments.starts_with(temporary.to_str().unwrap()),
+        "{arguments}"
+    );
     assert_eq!((file, folder), ("600", "700"));
     assert!(text.contains(&format!("url={}", server.1)), "{text}");
     // It is there until the browser has the address, whatever others ask for.
@@ -124,7 +127,11 @@ fn no_command_line_holds_the_token_and_the_page_that_leads_to_it_is_private() {
     let (host, _) = server.1.strip_prefix("http://").unwrap().split_once('/').unwrap();
     let ask = |path: &str| {
         let mut stream = TcpStream::connect(host).unwrap();
-        write!(stream, "GET {path} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n").unwrap();
+        write!(
+            stream,
+            "GET {path} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n"
+        )
+        .unwrap();
         let mut answer = Vec::new();
         stream.read_to_end(&mut answer).unwrap();
         assert!(answer.starts_with(b"HTTP/1.1 200"), "{path}");
@@ -141,9 +148,18 @@ fn no_command_line_holds_the_token_and_the_page_that_leads_to_it_is_private() {
 fn the_page_of_a_killed_server_is_removed_by_a_later_one_and_that_of_an_ended_one_by_itself() {
     let cell = Cell::new();
     let pages = |temporary: &std::path::Path| {
-        let entries = std::fs::read_dir(temporary).unwrap().flatten().map(|entry| entry.path());
+        let entries = std::fs::read_dir(temporary)
+            .unwrap()
+            .flatten()
+            .map(|entry| entry.path());
         entries
-            .filter(|path| path.file_name().unwrap().to_str().unwrap().starts_with("armill-open-"))
+            .filter(|path| {
+                path.file_name()
+                    .unwrap()
+                    .to_str()
+                    .unwrap()
+                    .starts_with("armill-open-")
+            })
             .collect::<Vec<_>>()
     };
     let (killed, temporary) = with_browser(&cell);
@@ -158,7 +174,13 @@ fn the_page_of_a_killed_server_is_removed_by_a_later_one_and_that_of_an_ended_on
     wait_until("no browser was opened", || cell.at("noted").exists());
     assert!(!left[0].exists());
     assert_eq!(pages(&temporary).len(), 1);
-    assert!(Command::new("kill").arg(ended.0.id().to_string()).status().unwrap().success());
+    assert!(
+        Command::new("kill")
+            .arg(ended.0.id().to_string())
+            .status()
+            .unwrap()
+            .success()
+    );
     assert_eq!(ended.0.wait().unwrap().code(), Some(0));
     assert_eq!(pages(&temporary).len(), 0);
 }

@@ -57,7 +57,10 @@ fn a_client_that_reads_slowly_gets_the_whole_answer() {
     let mut stream = asked_for_large(&served, &folder);
     let begun = Instant::now();
     let read = read_slowly(&mut stream, Duration::from_millis(200));
-    assert!(begun.elapsed() > Duration::from_secs(12), "longer than the limit for each write");
+    assert!(
+        begun.elapsed() > Duration::from_secs(12),
+        "longer than the limit for each write"
+    );
     assert!(read > LARGE, "{read} bytes");
 }
 
@@ -98,7 +101,10 @@ fn a_head_of_the_limit_passes_and_one_byte_more_does_not() {
         1,
     );
     assert!(head.len() < LIMIT && head.len() + body.len() > LIMIT);
-    assert_eq!(served.raw(&[head.as_bytes(), body.as_bytes()].concat()).status, 200);
+    assert_eq!(
+        served.raw(&[head.as_bytes(), body.as_bytes()].concat()).status,
+        200
+    );
 }
 
 /// Asks what takes minutes, with these bytes behind the question.
@@ -122,6 +128,10 @@ fn the_work_of_clients_that_have_left_ends() {
         let begun = Instant::now();
         drop(asked);
         assert_eq!(served.get("/api/study").status, 200);
-        assert!(begun.elapsed() < Duration::from_secs(15), "{behind:?}: {:?}", begun.elapsed());
+        assert!(
+            begun.elapsed() < Duration::from_secs(15),
+            "{behind:?}: {:?}",
+            begun.elapsed()
+        );
     }
 }

@@ -309,7 +309,11 @@ fn it_stops_while_a_job_computes_and_a_page_listens() {
 fn listening(served: &Served, id: &str) -> (std::net::TcpStream, u16) {
     let mut stream = served.connect();
     let Served { port, token, .. } = served;
-    write!(stream, "GET /api/jobs/{id}/events?token={token} HTTP/1.1\r\nHost: localhost:{port}\r\n\r\n").unwrap();
+    write!(
+        stream,
+        "GET /api/jobs/{id}/events?token={token} HTTP/1.1\r\nHost: localhost:{port}\r\n\r\n"
+    )
+    .unwrap();
     let mut first = String::new();
     BufReader::new(stream.try_clone().unwrap())
         .read_line(&mut first)
@@ -327,7 +331,12 @@ fn event_streams_are_limited_and_room_comes_back() {
     assert!(open.iter().all(|(_, status)| *status == 200));
     let refused = |id: &str| {
         let answer = served.get(&format!("/api/jobs/{id}/events"));
-        assert_eq!((answer.status, answer.kind().as_str()), (429, "too-many"), "{}", answer.text());
+        assert_eq!(
+            (answer.status, answer.kind().as_str()),
+            (429, "too-many"),
+            "{}",
+            answer.text()
+        );
         answer.text()
     };
     assert!(refused(&ids[0]).contains("16 event streams of this job"));
@@ -365,9 +374,15 @@ fn results_are_written_inside_the_folder_only() {
         let job = link(&outer.path().join(to));
         assert_eq!(job["state"], "failed", "{to}: {job}");
         let message = job["error"]["message"].as_str().unwrap();
-        assert!(message.contains("`out` is a link that leads out of the folder"), "{message}");
+        assert!(
+            message.contains("`out` is a link that leads out of the folder"),
+            "{message}"
+        );
     }
-    assert_eq!(std::fs::read_dir(outer.path().join("elsewhere")).unwrap().count(), 0);
+    assert_eq!(
+        std::fs::read_dir(outer.path().join("elsewhere")).unwrap().count(),
+        0
+    );
     assert!(!outer.path().join("missing").exists());
     // A link inside the folder is fine, and a job does not choose its folder.
     assert_eq!(link(&cell.join("results"))["state"], "done");

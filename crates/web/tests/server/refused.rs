@@ -245,7 +245,10 @@ fn no_path_leads_out_of_the_folder() {
 
 /// Files that are not whole yet.
 fn unfinished(folder: &std::path::Path) -> Vec<std::path::PathBuf> {
-    let paths = std::fs::read_dir(folder).unwrap().flatten().map(|entry| entry.path());
+    let paths = std::fs::read_dir(folder)
+        .unwrap()
+        .flatten()
+        .map(|entry| entry.path());
     paths
         .filter(|path| path.extension().is_some_and(|ending| ending == "part"))
         .collect()
@@ -274,7 +277,10 @@ fn what_a_killed_upload_left_is_removed_at_the_next_start() {
     // The upload that is under way is not disturbed.
     stream.write_all(b"+end").unwrap();
     assert_eq!(read(&mut stream).status, 201);
-    assert_eq!(std::fs::read(folder.path().join("record.csv")).unwrap(), b"half+end");
+    assert_eq!(
+        std::fs::read(folder.path().join("record.csv")).unwrap(),
+        b"half+end"
+    );
     drop(another);
 }
 
