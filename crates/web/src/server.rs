@@ -56,6 +56,8 @@ pub struct Options {
     pub study: Option<PathBuf>,
     /// Port on 127.0.0.1; 0 is chosen by the system.
     pub port: u16,
+    /// Whether [`Server::run`] shows the page in the user's browser.
+    pub opens_browser: bool,
 }
 
 /// What handlers share.
@@ -70,6 +72,7 @@ pub(crate) struct State {
 pub struct Server {
     runtime: Runtime,
     url: String,
+    opens_browser: bool,
     stop: watch::Sender<bool>,
     listening: JoinHandle<()>,
     state: Arc<State>,
@@ -109,6 +112,7 @@ impl Server {
         Ok(Server {
             runtime,
             url,
+            opens_browser: options.opens_browser,
             stop,
             listening,
             state,
@@ -120,23 +124,31 @@ impl Server {
         &self.url
     }
 
+    /// Serves until the user interrupts (Ctrl-C) or the system asks it to end, then stops.
+    pub fn run(self) {
+        self.runtime.block_on(async {
+            // Before there is a file that an interrupt would leave.
+            let interrupted = interrupted();
+            if self.opens_browser {
+                self.open_browser();
+            }
+            interrupted.await;
+        });
+        self.stop();
+    }
+
     /// Shows the page in the user's browser; that there is none is no error.
-    pub fn open_browser(&self) {
+    fn open_browser(&self) {
         let Ok(page) = self.state.opening.write(&self.url) else {
             return;
         };
+        // It waits for the program that opens the browser.
+        self.runtime.spawn_blocking(move || open::that_detached(page));
         let state = Arc::clone(&self.state);
         self.runtime.spawn(async move {
             tokio::time::sleep(PAGE_TIME).await;
             state.opening.remove();
         });
-        let _ = open::that_detached(page);
-    }
-
-    /// Serves until the user interrupts (Ctrl-C) or the system asks it to end, then stops.
-    pub fn run(self) {
-        self.runtime.block_on(interrupted());
-        self.stop();
     }
 
     /// Takes no more connections, lets answers under way end, and cancels jobs.
@@ -228,18 +240,30 @@ async fn listen(listener: TcpListener, app: Router, mut stopped: watch::Receiver
     let _ = tokio::time::timeout(LAST_ANSWERS, graceful.shutdown()).await;
 }
 
-/// Ctrl-C, or the signal by which systems end programs.
-async fn interrupted() {
-    #[cfg(unix)]
-    {
-        use tokio::signal::unix::{SignalKind, signal};
-        if let Ok(mut ended) = signal(SignalKind::terminate()) {
-            tokio::select! {
-                _ = tokio::signal::ctrl_c() => (),
-                _ = ended.recv() => (),
+/// Ctrl-C, or the signal by which systems end programs; they are waited for from this call on.
+#[cfg(unix)]
+fn interrupted() -> impl Future<Output = ()> {
+    use tokio::signal::unix::{SignalKind, signal};
+    let (interrupt, terminate) = (signal(SignalKind::interrupt()), signal(SignalKind::terminate()));
+    async move {
+        match (interrupt, terminate) {
+            (Ok(mut interrupt), Ok(mut terminate)) => {
+                tokio::select! {
+                    _ = interrupt.recv() => (),
+                    _ = terminate.recv() => (),
+                }
             }
-            return;
+            (Ok(mut one), Err(_)) | (Err(_), Ok(mut one)) => {
+                one.recv().await;
+            }
+            // The system ends the program without asking.
+            (Err(_), Err(_)) => std::future::pending().await,
         }
     }
+}
+
+/// Ctrl-C.
+#[cfg(not(unix))]
+async fn interrupted() {
     let _ = tokio::signal::ctrl_c().await;
 }

@@ -17,6 +17,7 @@ pub(crate) fn run(arguments: &ServeArguments) -> Result<Outcome, StudyError> {
     let server = Server::start(&Options {
         study: arguments.study.clone(),
         port: arguments.port,
+        opens_browser: !arguments.no_open,
     })?;
     print(server.url())?;
     if !has_page() {
@@ -24,9 +25,6 @@ pub(crate) fn run(arguments: &ServeArguments) -> Result<Outcome, StudyError> {
         say("help: in the sources, with Node 20 or later installed: cargo xtask web, then build again");
     }
     say("the page is open on this machine alone; Ctrl-C ends it");
-    if !arguments.no_open {
-        server.open_browser();
-    }
     server.run();
     Ok(Outcome::Fine)
 }
