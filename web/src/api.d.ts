@@ -4040,8 +4040,8 @@ export interface components {
         /** @description What is wrong. */
         Wrong: {
             /**
-             * @description `invalid-input`, `cancelled`, `internal`, `unauthorised`, `forbidden`, `not-found`, `conflict`, `superseded` or
-             *     `too-large`.
+             * @description `invalid-input`, `cancelled`, `internal`, `unauthorised`, `forbidden`, `not-found`, `conflict`, `superseded`,
+             *     `too-large` or `too-many`.
              */
             kind: string;
             /** @description In words. */

@@ -8,7 +8,7 @@ use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use armill_formats::file::write_atomically;
+use armill_formats::file::{remove_abandoned, write_atomically};
 use armill_formats::input;
 use armill_study::live::Text;
 use armill_study::{StudyError, studies};
@@ -57,8 +57,7 @@ impl Cell {
         let (made, root) = match open {
             Some(folder) => (None, folder),
             None => {
-                let made = tempfile::Builder::new().prefix("armill-").tempdir();
-                let made = made.map_err(|error| {
+                let made = private_folder("armill-").map_err(|error| {
                     StudyError::value(format!("cannot make a folder for results: {error}"), "set TMPDIR")
                 })?;
                 let root = made
@@ -68,6 +67,8 @@ impl Cell {
                 (Some(made), root)
             }
         };
+        // What uploads left that were killed with their server.
+        remove_abandoned(&root);
         let locked = |file: &PathBuf| file.metadata().is_ok_and(|meta| meta.permissions().readonly());
         Ok(Cell {
             shown: found.shown,
@@ -128,6 +129,17 @@ impl Cell {
             bytes: text.as_bytes(),
         }
     }
+}
+
+/// A new folder for temporary files that no other user may look into.
+///
+/// # Errors
+/// It cannot be made.
+pub(crate) fn private_folder(prefix: &str) -> std::io::Result<TempDir> {
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
+    builder.prefix(prefix).tempdir()
 }
 
 /// What tells one state of the file from another.

@@ -19,8 +19,8 @@ pub(crate) struct ErrorBody {
 /// What is wrong.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub(crate) struct Wrong {
-    /// `invalid-input`, `cancelled`, `internal`, `unauthorised`, `forbidden`, `not-found`, `conflict`, `superseded` or
-    /// `too-large`.
+    /// `invalid-input`, `cancelled`, `internal`, `unauthorised`, `forbidden`, `not-found`, `conflict`, `superseded`,
+    /// `too-large` or `too-many`.
     pub kind: &'static str,
     /// In words.
     pub message: String,
@@ -82,6 +82,10 @@ impl ApiError {
     pub(crate) fn too_large(most: u64) -> ApiError {
         let message = format!("more than {} MiB", most >> 20);
         ApiError::new(StatusCode::PAYLOAD_TOO_LARGE, "too-large", message)
+    }
+
+    pub(crate) fn too_many(message: impl Into<String>) -> ApiError {
+        ApiError::new(StatusCode::TOO_MANY_REQUESTS, "too-many", message)
     }
 
     pub(crate) fn too_slow() -> ApiError {

@@ -12,6 +12,7 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, SystemTime};
 
+use armill_formats::file::new_part;
 use armill_study::StudyError;
 use armill_study::live::{FileKind, kind_of};
 use axum::Router;
@@ -161,6 +162,28 @@ pub(crate) fn inside(root: &Path, path: &str) -> Result<PathBuf, ApiError> {
     }
 }
 
+/// The folder for results of this name, which may be a link to another one inside `root`.
+///
+/// # Errors
+/// It leads out of `root`, or nowhere.
+pub(crate) fn results_folder(root: &Path, name: &str) -> Result<PathBuf, StudyError> {
+    let folder = root.join(name);
+    // A link that leads nowhere exists too.
+    let is_there = folder.symlink_metadata().is_ok();
+    let is_inside = || folder.canonicalize().is_ok_and(|real| real.starts_with(root));
+    match !is_there || is_inside() {
+        true => Ok(folder),
+        false => Err(StudyError::value(
+            format!(
+                "`{name}` is a link that leads out of the folder of the study: results are written inside it only"
+            ),
+            format!(
+                "remove the link `{name}`, or move the folder that it leads to into the folder of the study"
+            ),
+        )),
+    }
+}
+
 async fn read(Shared(state): Shared<Arc<State>>, InPath(path): InPath<String>) -> Answered {
     let shared = Arc::clone(&state);
     let asked = path.clone();
@@ -252,12 +275,9 @@ async fn take(
             "is there space?",
         ))
     };
-    // Beside its place and hidden until it is whole; gone if this ends early.
-    let part = tempfile::Builder::new()
-        .prefix(".armill-upload-")
-        .tempfile_in(&state.cell.root)
-        .map_err(failed)?;
-    let mut file = tokio::fs::File::from_std(part.reopen().map_err(failed)?);
+    // Hidden until it is whole, and removed if this ends early; after a kill the next start removes it.
+    let part = new_part(&state.cell.root).map_err(failed)?;
+    let mut file = tokio::fs::File::from_std(part.as_file().try_clone().map_err(failed)?);
     let mut bytes = 0;
     while let Some(piece) = pieces.next().await? {
         file.write_all(&piece).await.map_err(failed)?;

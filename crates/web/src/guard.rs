@@ -22,6 +22,7 @@ use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 use subtle::ConstantTimeEq;
 
+use crate::connections::Client;
 use crate::error::ApiError;
 
 /// Bytes of a token: 128 bits.
@@ -119,9 +120,14 @@ pub(crate) async fn check(State(guard): State<Arc<Guard>>, request: Request, nex
     let path = request.uri().path();
     let is_api = path == "/api" || path.starts_with("/api/");
     let begun = Instant::now();
-    let mut response = if !guard.is_for_us(&request) {
+    let is_for_us = guard.is_for_us(&request);
+    let has_token = is_for_us && guard.has_token(&request);
+    if let (true, Some(client)) = (has_token, request.extensions().get::<Client>()) {
+        client.keep_place();
+    }
+    let mut response = if !is_for_us {
         ApiError::forbidden("this server answers its own page on this machine alone").into_response()
-    } else if is_api && !guard.has_token(&request) {
+    } else if is_api && !has_token {
         ApiError::unauthorised().into_response()
     } else {
         next.run(request).await

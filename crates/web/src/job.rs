@@ -2,13 +2,14 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use armill_core::watch::Watch;
 use armill_study::{ErrorKind, StudyError};
 use schemars::JsonSchema;
 use serde::Serialize;
+use tokio::sync::Semaphore;
 
 use crate::error::{ApiError, Wrong};
 use crate::task::Task;
@@ -73,6 +74,8 @@ pub(crate) struct Job {
     title: String,
     asked: Instant,
     pub cancel: AtomicBool,
+    /// Room for event streams.
+    pub streams: Arc<Semaphore>,
     finished: AtomicUsize,
     all: AtomicUsize,
     inner: Mutex<Inner>,
@@ -90,14 +93,15 @@ struct Inner {
 }
 
 impl Job {
-    /// One that waits.
-    pub(crate) fn new(id: String, task: Task, title: String) -> Job {
+    /// One that waits, with room for so many event streams.
+    pub(crate) fn new(id: String, task: Task, title: String, most_streams: usize) -> Job {
         Job {
             id,
             task,
             title,
             asked: Instant::now(),
             cancel: AtomicBool::new(false),
+            streams: Arc::new(Semaphore::new(most_streams)),
             finished: AtomicUsize::new(0),
             all: AtomicUsize::new(0),
             inner: Mutex::new(Inner {

@@ -6,6 +6,8 @@
 //! | `GET /api/jobs`, `GET /api/jobs/ID` | all, newest first; one with its answer |
 //! | `GET /api/jobs/ID/events` | tells how it goes on, ten times a second at most, until it ends |
 //! | `DELETE /api/jobs/ID` | cancels it |
+//!
+//! At most 16 event streams of a job and 64 in all are open at a time; another one is answered 429.
 
 use std::convert::Infallible;
 use std::path::PathBuf;
@@ -24,6 +26,7 @@ use axum::routing::{get, post};
 use futures_util::stream;
 use schemars::JsonSchema;
 use serde::Serialize;
+use tokio::sync::Semaphore;
 
 use crate::body::{Asked, check_text, json};
 use crate::error::{Answered, ApiError};
@@ -37,6 +40,9 @@ const MOST_JOBS: usize = 50;
 const MOST_WAITING: usize = 20;
 /// Answers that are kept in memory; the files of older ones stay.
 const MOST_ANSWERS: usize = 10;
+/// Event streams open at a time: of one job, and of all jobs together.
+const MOST_STREAMS_OF_JOB: usize = 16;
+const MOST_STREAMS: usize = 64;
 /// Ten times a second.
 const EVENT_TIME: Duration = Duration::from_millis(100);
 
@@ -46,6 +52,8 @@ type Next = (Arc<Job>, String);
 /// All jobs of this start.
 pub(crate) struct Jobs {
     all: Mutex<Vec<Arc<Job>>>,
+    /// Room for event streams.
+    streams: Arc<Semaphore>,
     /// To the thread that computes; it ends with the last of these.
     next: Mutex<Option<Sender<Next>>>,
     count: std::sync::atomic::AtomicUsize,
@@ -74,6 +82,7 @@ impl Jobs {
         Jobs {
             computing: std::thread::spawn(move || compute(&waiting, &root)),
             all: Mutex::default(),
+            streams: Arc::new(Semaphore::new(MOST_STREAMS)),
             next: Mutex::new(Some(next)),
             count: std::sync::atomic::AtomicUsize::new(0),
         }
@@ -86,7 +95,7 @@ impl Jobs {
     /// Begins a job, or puts it behind those that wait.
     fn begin(&self, task: Task, title: String, shown: &str) -> Result<String, ApiError> {
         let number = 1 + self.count.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-        let job = Arc::new(Job::new(number.to_string(), task, title));
+        let job = Arc::new(Job::new(number.to_string(), task, title, MOST_STREAMS_OF_JOB));
         self.with(|all| {
             let waiting = all.iter().filter(|job| job.state() == JobState::Waiting).count();
             if waiting >= MOST_WAITING {
@@ -189,13 +198,23 @@ async fn cancel(Shared(state): Shared<Arc<State>>, InPath(id): InPath<String>) -
 
 async fn events(Shared(state): Shared<Arc<State>>, InPath(id): InPath<String>) -> Answered {
     let job = state.jobs.find(&id)?;
+    let room = |streams: &Arc<Semaphore>, most: usize, of: &str| {
+        let room = Arc::clone(streams).try_acquire_owned();
+        room.map_err(|_| {
+            ApiError::too_many(format!(
+                "{most} event streams of {of} are open already: close some"
+            ))
+        })
+    };
+    let of_job = room(&job.streams, MOST_STREAMS_OF_JOB, "this job")?;
+    let of_all = room(&state.jobs.streams, MOST_STREAMS, "all jobs")?;
     let mut time = tokio::time::interval(EVENT_TIME);
     time.set_missed_tick_behavior(tokio::time::MissedTickBehavior::Delay);
     // What was told last, without what only time changes.
     let last: Option<(JobState, usize, usize, Option<String>)> = None;
     let told = stream::unfold(
-        (job, time, last, false),
-        |(job, mut time, mut last, ended)| async move {
+        (job, time, last, false, (of_job, of_all)),
+        |(job, mut time, mut last, ended, rooms)| async move {
             if ended {
                 return None;
             }
@@ -209,7 +228,10 @@ async fn events(Shared(state): Shared<Arc<State>>, InPath(id): InPath<String>) -
                 last = key;
                 let data = serde_json::to_string(&now).unwrap_or_default();
                 let event = Event::default().event("job").data(data);
-                return Some((Ok::<_, Infallible>(event), (job, time, last, now.state.is_last())));
+                return Some((
+                    Ok::<_, Infallible>(event),
+                    (job, time, last, now.state.is_last(), rooms),
+                ));
             }
         },
     );

@@ -9,6 +9,7 @@
 //! | file | question |
 //! |---|---|
 //! | `server` | how does it start, listen, and stop? |
+//! | `connections`, `stream` | how many are connected, and which of them are given up? |
 //! | `guard` | who may ask, and what does every answer carry? |
 //! | `cell` | which study is it, and where do its files lie? |
 //! | `body`, `error` | what of a request is read, and how is told what is wrong? |
@@ -16,6 +17,7 @@
 //! | `study`, `answers`, `jobs`, `files` | what does each path under `/api` do? |
 //! | `job`, `task` | how far is one job, and what does each kind do? |
 //! | `page` | what is served to look at? |
+//! | `opening` | how does the browser learn the address? |
 //! | `openapi` | how is all that told to a program? |
 //!
 //! Nothing outside this machine is asked for anything, and the page loads nothing from elsewhere.
@@ -23,18 +25,21 @@
 mod answers;
 mod body;
 mod cell;
+mod connections;
 mod error;
 mod files;
 mod guard;
 mod job;
 mod jobs;
 mod openapi;
+mod opening;
 mod page;
 mod server;
+mod stream;
 mod study;
 mod task;
 mod work;
 
 pub use openapi::document as openapi_document;
 pub use page::has_page;
-pub use server::{Options, Server, open_browser};
+pub use server::{Options, Server};

@@ -4,11 +4,13 @@
 
 use std::sync::Arc;
 
-use axum::Router;
+use axum::extract::State as Shared;
 use axum::http::Uri;
 use axum::response::{IntoResponse, Response};
+use axum::{Extension, Router};
 
 use crate::body::typed;
+use crate::connections::Client;
 use crate::error::ApiError;
 use crate::server::State;
 
@@ -31,7 +33,11 @@ pub(crate) fn routes() -> Router<Arc<State>> {
         .route("/{*path}", axum::routing::get(file))
 }
 
-async fn file(uri: Uri) -> Response {
+async fn file(Shared(state): Shared<Arc<State>>, Extension(client): Extension<Client>, uri: Uri) -> Response {
+    if client.is_known() {
+        // The browser has the address.
+        state.opening.remove();
+    }
     let path = match uri.path().trim_start_matches('/') {
         "" => "index.html",
         path => path,

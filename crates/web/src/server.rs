@@ -2,8 +2,9 @@
 //!
 //! | bound | value |
 //! |---|---|
-//! | connections at a time | 512 |
-//! | head of a request | 10 s, 64 kB |
+//! | connections at a time | 512, of which those without the token give way: see `connections` |
+//! | head of a request | 10 s, 65536 bytes exactly |
+//! | an answer of which the client takes nothing | 10 s: see `stream` |
 //! | answers under way when it stops, a job to hear of it | 5 s each |
 //!
 //! A job under way is cancelled when it stops; what it wrote is whole or not there.
@@ -15,23 +16,28 @@ use std::time::Duration;
 
 use armill_study::StudyError;
 use axum::Router;
+use hyper::Request;
+use hyper::body::Incoming;
 use hyper::server::conn::http1;
+use hyper::service::{Service, service_fn};
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::server::graceful::GracefulShutdown;
 use hyper_util::service::TowerToHyperService;
 use tokio::net::TcpListener;
 use tokio::runtime::Runtime;
-use tokio::sync::{Semaphore, watch};
+use tokio::sync::watch;
 use tokio::task::JoinHandle;
 
 use crate::cell::Cell;
+use crate::connections::Connections;
 use crate::guard::{Guard, Token};
 use crate::jobs::Jobs;
+use crate::opening::{Opening, PAGE_TIME};
+use crate::stream::Stream;
 use crate::work::Work;
 use crate::{answers, error, files, guard, jobs, openapi, page, study};
 
-/// Connections at a time; more wait, up to [`HEAD_TIME`] where slow clients hold them. Half of the files that most systems
-/// let a process open.
+/// Connections at a time: half of the files that most systems let a process open.
 const MOST_CONNECTIONS: usize = 512;
 /// How long the head of a request may take.
 const HEAD_TIME: Duration = Duration::from_secs(10);
@@ -50,6 +56,8 @@ pub struct Options {
     pub study: Option<PathBuf>,
     /// Port on 127.0.0.1; 0 is chosen by the system.
     pub port: u16,
+    /// Whether [`Server::run`] shows the page in the user's browser.
+    pub opens_browser: bool,
 }
 
 /// What handlers share.
@@ -57,12 +65,14 @@ pub(crate) struct State {
     pub cell: Cell,
     pub jobs: Jobs,
     pub work: Work,
+    pub opening: Opening,
 }
 
 /// A server that listens.
 pub struct Server {
     runtime: Runtime,
     url: String,
+    opens_browser: bool,
     stop: watch::Sender<bool>,
     listening: JoinHandle<()>,
     state: Arc<State>,
@@ -94,6 +104,7 @@ impl Server {
             jobs: Jobs::start(cell.root.clone()),
             cell,
             work: Work::new(),
+            opening: Opening::default(),
         });
         let (stop, stopped) = watch::channel(false);
         let app = router(&state, Guard::new(port, token));
@@ -101,6 +112,7 @@ impl Server {
         Ok(Server {
             runtime,
             url,
+            opens_browser: options.opens_browser,
             stop,
             listening,
             state,
@@ -114,8 +126,29 @@ impl Server {
 
     /// Serves until the user interrupts (Ctrl-C) or the system asks it to end, then stops.
     pub fn run(self) {
-        self.runtime.block_on(interrupted());
+        self.runtime.block_on(async {
+            // Before there is a file that an interrupt would leave.
+            let interrupted = interrupted();
+            if self.opens_browser {
+                self.open_browser();
+            }
+            interrupted.await;
+        });
         self.stop();
+    }
+
+    /// Shows the page in the user's browser; that there is none is no error.
+    fn open_browser(&self) {
+        let Ok(page) = self.state.opening.write(&self.url) else {
+            return;
+        };
+        // It waits for the program that opens the browser.
+        self.runtime.spawn_blocking(move || open::that_detached(page));
+        let state = Arc::clone(&self.state);
+        self.runtime.spawn(async move {
+            tokio::time::sleep(PAGE_TIME).await;
+            state.opening.remove();
+        });
     }
 
     /// Takes no more connections, lets answers under way end, and cancels jobs.
@@ -132,13 +165,9 @@ impl Server {
         let _ = stop.send(true);
         let _ = runtime.block_on(listening);
         state.jobs.wait(LAST_ANSWERS);
+        state.opening.remove();
         runtime.shutdown_timeout(LAST_WORK);
     }
-}
-
-/// Shows the page in the user's browser; that there is none is no error.
-pub fn open_browser(url: &str) {
-    let _ = open::that_detached(url);
 }
 
 /// All paths.
@@ -164,53 +193,77 @@ fn router(state: &Arc<State>, guard: Guard) -> Router {
 
 /// Takes connections until it is stopped, then waits for answers under way.
 async fn listen(listener: TcpListener, app: Router, mut stopped: watch::Receiver<bool>) {
-    let open = Arc::new(Semaphore::new(MOST_CONNECTIONS));
+    let connections = Connections::new(MOST_CONNECTIONS);
     let graceful = GracefulShutdown::new();
     loop {
-        let Ok(permit) = Arc::clone(&open).acquire_owned().await else {
-            break;
+        let next = async {
+            let (socket, _) = listener.accept().await.ok()?;
+            Some((socket, connections.place().await?))
         };
         let is_stopped = async {
             let _ = stopped.wait_for(|stopped| *stopped).await;
         };
         let accepted = tokio::select! {
-            accepted = listener.accept() => accepted,
+            accepted = next => accepted,
             () = is_stopped => break,
         };
-        let Ok((stream, _)) = accepted else {
+        let Some((socket, mut place)) = accepted else {
             // Too many open files, say: others will close.
             tokio::time::sleep(Duration::from_millis(100)).await;
             continue;
         };
-        let _ = stream.set_nodelay(true);
+        let _ = socket.set_nodelay(true);
+        let stream = Stream::new(socket);
+        let left = stream.left();
+        let (client, app) = (place.client.clone(), TowerToHyperService::new(app.clone()));
+        let service = service_fn(move |mut request: Request<Incoming>| {
+            request.extensions_mut().insert(client.clone());
+            app.call(request)
+        });
         let connection = http1::Builder::new()
             .timer(TokioTimer::new())
             .header_read_timeout(HEAD_TIME)
+            .max_header_size(MOST_HEAD)
             .max_buf_size(MOST_HEAD)
-            .serve_connection(TokioIo::new(stream), TowerToHyperService::new(app.clone()));
+            .serve_connection(TokioIo::new(stream), service);
         let connection = graceful.watch(connection);
         tokio::spawn(async move {
-            // A client that went away, or sent no HTTP, is nobody's fault here.
-            let _ = connection.await;
-            drop(permit);
+            // A client that went away, or sent no HTTP, is no fault of the server.
+            tokio::select! {
+                _ = connection => (),
+                () = left => (),
+                () = place.is_wanted() => (),
+            }
         });
     }
     drop(listener);
     let _ = tokio::time::timeout(LAST_ANSWERS, graceful.shutdown()).await;
 }
 
-/// Ctrl-C, or the signal by which systems end programs.
-async fn interrupted() {
-    #[cfg(unix)]
-    {
-        use tokio::signal::unix::{SignalKind, signal};
-        if let Ok(mut ended) = signal(SignalKind::terminate()) {
-            tokio::select! {
-                _ = tokio::signal::ctrl_c() => (),
-                _ = ended.recv() => (),
+/// Ctrl-C, or the signal by which systems end programs; they are waited for from this call on.
+#[cfg(unix)]
+fn interrupted() -> impl Future<Output = ()> {
+    use tokio::signal::unix::{SignalKind, signal};
+    let (interrupt, terminate) = (signal(SignalKind::interrupt()), signal(SignalKind::terminate()));
+    async move {
+        match (interrupt, terminate) {
+            (Ok(mut interrupt), Ok(mut terminate)) => {
+                tokio::select! {
+                    _ = interrupt.recv() => (),
+                    _ = terminate.recv() => (),
+                }
             }
-            return;
+            (Ok(mut one), Err(_)) | (Err(_), Ok(mut one)) => {
+                one.recv().await;
+            }
+            // The system ends the program without asking.
+            (Err(_), Err(_)) => std::future::pending().await,
         }
     }
+}
+
+/// Ctrl-C.
+#[cfg(not(unix))]
+async fn interrupted() {
     let _ = tokio::signal::ctrl_c().await;
 }

@@ -28,7 +28,7 @@ use armill_study::{Study, StudyError, robots};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::files::inside;
+use crate::files::{inside, results_folder};
 use crate::job::Job;
 
 /// What a job does.
@@ -152,9 +152,9 @@ impl Task {
 /// The folder `name` of `root` for what this task writes.
 ///
 /// # Errors
-/// A folder where nothing can be written, or where another run writes.
+/// A folder where nothing can be written, where another run writes, or that is a link.
 fn folder(task: &Task, root: &Path, name: &str) -> Result<ResultFolder, StudyError> {
-    Ok(Writer::new(task.kind(), false).folder(&root.join(name))?)
+    Ok(Writer::new(task.kind(), false).folder(&results_folder(root, name)?)?)
 }
 
 impl Job {
@@ -252,6 +252,7 @@ impl Job {
         options: &IdentifyOptions,
         root: &Path,
     ) -> Result<Outcome, StudyError> {
+        let out = folder(self.task(), root, "identify")?;
         let name = Parsed::of(&found.shown, &found.bytes)?.file.robot;
         let robot = robots::find(&name, root)?;
         let point_u_mm = options.point_u_mm.unwrap_or(USUAL_POINT_U_MM);
@@ -300,7 +301,6 @@ impl Job {
         };
         let [path, text] = robots::text_of(&named, &robot)?;
         let written = robot_file(&robot.robot, [&path, &text], &answer, &options.tests)?;
-        let out = folder(self.task(), root, "identify")?;
         out.write("robot.toml", written.as_bytes())?;
         out.finish()?;
         Ok((

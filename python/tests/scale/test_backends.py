@@ -122,6 +122,25 @@ def test_a_part_that_kills_a_worker_is_done_by_another(tmp_path: Path, client: A
     assert (tmp_path / "diary").read_text() == "xx"
 
 
+def left_unfinished(folder: Path) -> list[str]:
+    return [path.name for path in folder.rglob(f".*{scale.files.UNFINISHED}")]
+
+
+def test_nothing_is_left_of_a_worker_of_dask_that_is_killed_while_it_writes(tmp_path: Path, client: Any) -> None:
+    done = scale.run(scale.Sweep({"i": 40}, works.DeadlyWriter(17, tmp_path / "diary")), tmp_path / "sweep", client, items_per_part=10)
+    assert done.read().to_table()["value"].to_pylist() == [i * i for i in range(40)]
+    assert (tmp_path / "diary").exists(), "a worker was killed"
+    assert left_unfinished(tmp_path) == []
+
+
+def test_nothing_is_left_of_a_worker_of_ray_that_is_killed_while_it_writes(tmp_path: Path, four_of_ray: Any) -> None:
+    sweep = scale.Sweep({"i": 40}, works.DeadlyWriter(17, tmp_path / "diary"))
+    done = scale.run(sweep, tmp_path / "sweep", "ray", items_per_part=10)
+    assert done.read().to_table()["value"].to_pylist() == [i * i for i in range(40)]
+    assert (tmp_path / "diary").exists() and four_of_ray.is_initialized(), "a worker was killed"
+    assert left_unfinished(tmp_path) == []
+
+
 def test_a_part_that_kills_every_worker_of_ray_is_told(tmp_path: Path, four_of_ray: Any) -> None:
     sweep = scale.Sweep({"i": 40}, works.Deadly(17, 99, tmp_path / "diary"))
     with pytest.raises(scale.SweepFailed, match=r"part 1 did not come back from 3 workers, the last time by .*\n  \d of 4 parts are kept"):

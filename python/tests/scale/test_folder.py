@@ -115,6 +115,38 @@ def test_two_runs_do_not_share_a_folder(tmp_path: Path) -> None:
         scale.run(works.waves(), tmp_path)
 
 
+@pytest.mark.skipif(os.name != "posix", reason="elsewhere the system keeps files that are open")
+def test_unfinished_files_of_others_stay_while_they_are_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    dead, other, part = tmp_path / ".part-000001.parquet.a-1.unfinished", tmp_path / "unfinished", tmp_path / "part-000002.parquet"
+    dead.touch()
+    other.touch()
+    real, seen = os.fsync, []
+
+    def fsync(number: int) -> None:
+        # Another run begins while this one writes, then this run ends.
+        files.remove_unfinished(tmp_path)
+        seen.append(sorted(path.name for path in tmp_path.iterdir()))
+        files.remove_unfinished(tmp_path, "another")
+        seen.append(sorted(path.name for path in tmp_path.iterdir()))
+        real(number)
+
+    monkeypatch.setattr(os, "fsync", fsync)
+    files.write_whole(part, b"whole", "mine")
+    assert part.read_bytes() == b"whole"
+    assert not dead.exists() and other.exists()
+    assert [len(names) for names in seen] == [2, 2] and seen[0][0].startswith(".part-000002.parquet.mine-")
+
+
+def test_unfinished_files_of_a_run_are_removed_when_it_ends(tmp_path: Path) -> None:
+    late = tmp_path / ".part-000001.parquet.mine-1.unfinished"
+    with late.open("xb") as file:
+        # A process that was killed may hold its lock for a moment more.
+        files._locked(file)
+        if os.name == "posix":
+            files.remove_unfinished(tmp_path, "mine")
+            assert not late.exists()
+
+
 @pytest.mark.parametrize(("also", "kept"), [((), 6), (range(10, 99), 0)], ids=["room for the manifest", "none"])
 def test_a_disk_that_gets_full_half_way_tells_what_is_kept(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, also: Container[int], kept: int

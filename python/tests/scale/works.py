@@ -52,6 +52,21 @@ class Deadly:
         return {"value": block["i"] ** 2}
 
 
+@dataclass(frozen=True)
+class DeadlyWriter:
+    """Has its own process killed while it writes the part with one item, the first time."""
+
+    item: int
+    diary: Path
+
+    def __call__(self, block: Block) -> dict[str, object]:
+        if block.first <= self.item < block.last and not self.diary.exists():
+            self.diary.touch()
+            # The bytes are in the file, which has not got its name yet.
+            os.fsync = lambda _: os.kill(os.getpid(), 9)
+        return {"value": block["i"] ** 2}
+
+
 def refuses(block: Block) -> dict[str, object]:
     """Fails at item 77."""
     if block.first <= 77 < block.last:

@@ -3,7 +3,7 @@
 //! The first line on stdout is the address, with the token that it needs; all else is said on stderr.
 
 use armill_study::StudyError;
-use armill_web::{Options, Server, has_page, open_browser};
+use armill_web::{Options, Server, has_page};
 
 use crate::Outcome;
 use crate::arguments::ServeArguments;
@@ -17,6 +17,7 @@ pub(crate) fn run(arguments: &ServeArguments) -> Result<Outcome, StudyError> {
     let server = Server::start(&Options {
         study: arguments.study.clone(),
         port: arguments.port,
+        opens_browser: !arguments.no_open,
     })?;
     print(server.url())?;
     if !has_page() {
@@ -24,9 +25,6 @@ pub(crate) fn run(arguments: &ServeArguments) -> Result<Outcome, StudyError> {
         say("help: in the sources, with Node 20 or later installed: cargo xtask web, then build again");
     }
     say("the page is open on this machine alone; Ctrl-C ends it");
-    if !arguments.no_open {
-        open_browser(server.url());
-    }
     server.run();
     Ok(Outcome::Fine)
 }

@@ -22,8 +22,13 @@ impl Drop for Served {
 }
 
 fn served(cell: &Cell) -> Served {
-    let mut child = Command::new(assert_cmd::cargo::cargo_bin!("armill"))
-        .args(["serve", "--no-open"])
+    started(cell, |serve| serve.arg("--no-open"))
+}
+
+/// The server with further arguments or variables.
+fn started(cell: &Cell, change: impl Fn(&mut Command) -> &mut Command) -> Served {
+    let mut serve = Command::new(assert_cmd::cargo::cargo_bin!("armill"));
+    let mut child = change(serve.arg("serve"))
         .current_dir(cell.path())
         .stdout(Stdio::piped())
         .stderr(Stdio::null())
@@ -68,6 +73,142 @@ fn the_first_line_is_the_address_and_a_signal_ends_it_with_zero() {
         };
         assert_eq!(ended.code(), Some(0));
     }
+}
+
+/// Waits until `happens`.
+#[cfg(unix)]
+fn wait_until(what: &str, happens: impl Fn() -> bool) {
+    let begun = Instant::now();
+    while !happens() {
+        assert!(begun.elapsed() < Duration::from_secs(30), "{what}");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+}
+
+/// A server that opens the browser, in whose place a script notes its arguments, the modes of what it is given, and then
+/// its text; with the folder for temporary files.
+#[cfg(target_os = "linux")]
+fn with_browser(cell: &Cell) -> (Served, std::path::PathBuf) {
+    use std::os::unix::fs::PermissionsExt;
+    let (programs, temporary) = (cell.at("programs"), cell.at("temporary"));
+    std::fs::create_dir_all(&programs).unwrap();
+    std::fs::create_dir_all(&temporary).unwrap();
+    let script = format!(
+        "#!/bin/sh\n{{ echo \"$@\"; stat -c %a \"$1\" \"$(dirname \"$1\")\"; cat \"$1\"; }} > {0}/noted.new\nmv {0}/noted.new {0}/noted\n",
+        cell.path().display()
+    );
+    let browser = programs.join("xdg-open");
+    std::fs::write(&browser, script).unwrap();
+    std::fs::set_permissions(&browser, std::fs::Permissions::from_mode(0o755)).unwrap();
+    let path = format!("{}:{}", programs.display(), std::env::var("PATH").unwrap());
+    let server = started(cell, |serve| serve.env("PATH", &path).env("TMPDIR", &temporary));
+    (server, temporary)
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn no_command_line_holds_the_token_and_the_page_that_leads_to_it_is_private() {
+    let cell = Cell::new();
+    let (server, temporary) = with_browser(&cell);
+    wait_until("no browser was opened", || cell.at("noted").exists());
+    let noted = std::fs::read_to_string(cell.at("noted")).unwrap();
+    let [arguments, file, folder, text] = noted.splitn(4, '\n').collect::<Vec<_>>()[..] else {
+        panic!("{noted}")
+    };
+    let (_, token) = server.1.split_once("token=").unwrap();
+    assert!(
+        !arguments.contains(token) && arguments.starts_with(temporary.to_str().unwrap()),
+        "{arguments}"
+    );
+    assert_eq!((file, folder), ("600", "700"));
+    assert!(text.contains(&format!("url={}", server.1)), "{text}");
+    // It is there until the browser has the address, whatever others ask for.
+    let page = std::path::Path::new(arguments);
+    let (host, _) = server.1.strip_prefix("http://").unwrap().split_once('/').unwrap();
+    let ask = |path: &str| {
+        let mut stream = TcpStream::connect(host).unwrap();
+        write!(
+            stream,
+            "GET {path} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n"
+        )
+        .unwrap();
+        let mut answer = Vec::new();
+        stream.read_to_end(&mut answer).unwrap();
+        assert!(answer.starts_with(b"HTTP/1.1 200"), "{path}");
+    };
+    ask("/");
+    ask("/?token=0123");
+    assert!(page.exists());
+    ask(&format!("/?token={token}"));
+    assert!(!page.exists() && !page.parent().unwrap().exists());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn the_page_of_a_killed_server_is_removed_by_a_later_one_and_that_of_an_ended_one_by_itself() {
+    let cell = Cell::new();
+    let pages = |temporary: &std::path::Path| {
+        let entries = std::fs::read_dir(temporary)
+            .unwrap()
+            .flatten()
+            .map(|entry| entry.path());
+        entries
+            .filter(|path| {
+                path.file_name()
+                    .unwrap()
+                    .to_str()
+                    .unwrap()
+                    .starts_with("armill-open-")
+            })
+            .collect::<Vec<_>>()
+    };
+    let (killed, temporary) = with_browser(&cell);
+    wait_until("no browser was opened", || cell.at("noted").exists());
+    drop(killed);
+    let left = pages(&temporary);
+    assert_eq!(left.len(), 1, "a kill leaves it");
+    let old = std::time::SystemTime::now() - Duration::from_secs(300);
+    std::fs::File::open(&left[0]).unwrap().set_modified(old).unwrap();
+    std::fs::remove_file(cell.at("noted")).unwrap();
+    let (mut ended, _) = with_browser(&cell);
+    wait_until("no browser was opened", || cell.at("noted").exists());
+    assert!(!left[0].exists());
+    assert_eq!(pages(&temporary).len(), 1);
+    assert!(
+        Command::new("kill")
+            .arg(ended.0.id().to_string())
+            .status()
+            .unwrap()
+            .success()
+    );
+    assert_eq!(ended.0.wait().unwrap().code(), Some(0));
+    assert_eq!(pages(&temporary).len(), 0);
+}
+
+/// The issue that was found: 520 clients without the token ask and never read. As many of them ask for nothing at all.
+#[cfg(unix)]
+#[test]
+fn clients_without_the_token_do_not_keep_out_one_that_has_it() {
+    let cell = Cell::new();
+    let server = served(&cell);
+    let (host, _) = server.1.strip_prefix("http://").unwrap().split_once('/').unwrap();
+    // So much that what answers it does not fit into what the system keeps.
+    let asked = format!("GET / HTTP/1.1\r\nHost: {host}\r\n\r\n").repeat(4000);
+    let mut strangers = Vec::new();
+    for number in 0..520 {
+        let mut stranger = TcpStream::connect(host).unwrap();
+        stranger.set_nonblocking(true).unwrap();
+        if number % 2 == 0 {
+            // What the system does not take is not sent.
+            let _ = stranger.write(asked.as_bytes());
+        }
+        strangers.push(stranger);
+    }
+    let begun = Instant::now();
+    assert_eq!(server.asked("GET", "/api/jobs", ""), json!({ "jobs": [] }));
+    // Before the time limits of the strangers end any of their connections.
+    assert!(begun.elapsed() < Duration::from_secs(8), "{:?}", begun.elapsed());
+    drop(strangers);
 }
 
 #[test]

@@ -22,5 +22,5 @@ mod part;
 mod writer;
 
 pub use error::FileError;
-pub use part::{PartFile, create_folder, remove_abandoned, sync_folder, write_atomically};
+pub use part::{PartFile, create_folder, new_part, remove_abandoned, sync_folder, write_atomically};
 pub use writer::{ResultFolder, Writer};

@@ -77,6 +77,24 @@ pub fn sync_folder(folder: &Path) {
     let _ = folder;
 }
 
+/// A temporary file in `folder`, locked while it is open; one that is left is found by [`remove_abandoned`].
+///
+/// Not checked: that it is written through this handle or a clone of it, which the lock requires on some systems.
+///
+/// # Errors
+/// It cannot be made.
+pub fn new_part(folder: &Path) -> io::Result<NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(PART_PREFIX).suffix(PART_SUFFIX);
+    // Without this the file would be readable by its owner alone; the user's mask still applies.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let part = builder.tempfile_in(folder)?;
+    // Tells others that it is being written; there are file systems without locks.
+    let _ = part.as_file().try_lock();
+    Ok(part)
+}
+
 /// Removes the temporary files in `folder` that nobody writes any more, as a killed run leaves them.
 ///
 /// What cannot be looked at, locked or removed stays: it does no harm.
@@ -170,15 +188,7 @@ fn write_beside(
             path: path.to_owned(),
         }));
     }
-    let folder = folder_of(path);
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(PART_PREFIX).suffix(PART_SUFFIX);
-    // Without this the file would be readable by its owner alone; the user's mask still applies.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut part = builder.tempfile_in(&folder)?;
-    // Says to others that somebody writes it; where there are no locks it stays untold.
-    let _ = part.as_file().try_lock();
+    let mut part = new_part(&folder_of(path))?;
     write(part.as_file_mut())?;
     if let Some(old) = old {
         part.as_file().set_permissions(old.permissions())?;

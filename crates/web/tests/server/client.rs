@@ -52,7 +52,7 @@ impl Answer {
 pub fn serve(study: &Path) -> Served {
     let server = Server::start(&Options {
         study: Some(study.to_owned()),
-        port: 0,
+        ..Options::default()
     })
     .unwrap();
     let rest = server.url().strip_prefix("http://127.0.0.1:").unwrap();

@@ -311,3 +311,91 @@ fn it_stops_while_a_job_computes_and_a_page_listens() {
         assert!(!entry.file_name().to_string_lossy().starts_with('.'));
     }
 }
+
+/// An open event stream of this job, and the status that it was answered with.
+fn listening(served: &Served, id: &str) -> (std::net::TcpStream, u16) {
+    let mut stream = served.connect();
+    let Served { port, token, .. } = served;
+    write!(
+        stream,
+        "GET /api/jobs/{id}/events?token={token} HTTP/1.1\r\nHost: localhost:{port}\r\n\r\n"
+    )
+    .unwrap();
+    let mut first = String::new();
+    BufReader::new(stream.try_clone().unwrap())
+        .read_line(&mut first)
+        .unwrap();
+    let status = first.split(' ').nth(1).unwrap().parse().unwrap();
+    (stream, status)
+}
+
+#[test]
+fn event_streams_are_limited_and_room_comes_back() {
+    let folder = folder(STUDY);
+    let served = serve(folder.path());
+    let ids: Vec<String> = (0..5).map(|_| begin(&served, long_search())).collect();
+    let mut open: Vec<_> = (0..16).map(|_| listening(&served, &ids[0])).collect();
+    assert!(open.iter().all(|(_, status)| *status == 200));
+    let refused = |id: &str| {
+        let answer = served.get(&format!("/api/jobs/{id}/events"));
+        assert_eq!(
+            (answer.status, answer.kind().as_str()),
+            (429, "too-many"),
+            "{}",
+            answer.text()
+        );
+        answer.text()
+    };
+    assert!(refused(&ids[0]).contains("16 event streams of this job"));
+    for id in &ids[1..4] {
+        open.extend((0..16).map(|_| listening(&served, id)));
+    }
+    assert!(open.iter().all(|(_, status)| *status == 200));
+    assert!(refused(&ids[4]).contains("64 event streams of all jobs"));
+    // Other questions are answered, and a stream that is closed makes room.
+    assert_eq!(served.get("/api/jobs").status, 200);
+    open.clear();
+    let begun = Instant::now();
+    while listening(&served, &ids[4]).1 != 200 {
+        assert!(begun.elapsed() < PATIENCE, "no room came back");
+        std::thread::sleep(Duration::from_millis(50));
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn results_are_written_inside_the_folder_only() {
+    let outer = tempfile::tempdir().unwrap();
+    let cell = outer.path().join("cell");
+    std::fs::create_dir_all(cell.join("results")).unwrap();
+    std::fs::create_dir(outer.path().join("elsewhere")).unwrap();
+    std::fs::write(cell.join("study.toml"), STUDY).unwrap();
+    let served = serve(&cell);
+    let link = |to: &std::path::Path| {
+        let _ = std::fs::remove_file(cell.join("out"));
+        std::os::unix::fs::symlink(to, cell.join("out")).unwrap();
+        let job = json!({ "kind": "run", "text": STUDY, "options": { "ask": "rim", "no_pictures": true } });
+        ended(&served, &begin(&served, job))
+    };
+    for to in ["elsewhere", "cell/../elsewhere", "missing"] {
+        let job = link(&outer.path().join(to));
+        assert_eq!(job["state"], "failed", "{to}: {job}");
+        let message = job["error"]["message"].as_str().unwrap();
+        assert!(
+            message.contains("`out` is a link that leads out of the folder"),
+            "{message}"
+        );
+    }
+    assert_eq!(
+        std::fs::read_dir(outer.path().join("elsewhere")).unwrap().count(),
+        0
+    );
+    assert!(!outer.path().join("missing").exists());
+    // A link inside the folder is fine, and a job does not choose its folder.
+    assert_eq!(link(&cell.join("results"))["state"], "done");
+    assert!(cell.join("results/result.json").exists());
+    for out in ["../elsewhere", "/tmp", "results"] {
+        let job = json!({ "kind": "run", "text": STUDY, "options": { "out": out } });
+        assert_eq!(served.post("/api/jobs", job).status, 400, "{out}");
+    }
+}

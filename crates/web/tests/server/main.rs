@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 mod client;
+mod connections;
 mod jobs;
 mod refused;
 mod study;

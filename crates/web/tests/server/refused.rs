@@ -243,6 +243,47 @@ fn no_path_leads_out_of_the_folder() {
     assert_eq!(saved.header("content-disposition").as_deref(), Some("attachment"));
 }
 
+/// Files that are not whole yet.
+fn unfinished(folder: &std::path::Path) -> Vec<std::path::PathBuf> {
+    let paths = std::fs::read_dir(folder)
+        .unwrap()
+        .flatten()
+        .map(|entry| entry.path());
+    paths
+        .filter(|path| path.extension().is_some_and(|ending| ending == "part"))
+        .collect()
+}
+
+#[test]
+fn what_a_killed_upload_left_is_removed_at_the_next_start() {
+    let folder = folder(STUDY);
+    let served = serve(folder.path());
+    let mut stream = served.connect();
+    let head = format!(
+        "PUT /api/files/record.csv HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nAuthorization: Bearer {}\r\nContent-Length: 8\r\nConnection: close\r\n\r\n",
+        served.port, served.token
+    );
+    stream.write_all(format!("{head}half").as_bytes()).unwrap();
+    let begun = Instant::now();
+    while unfinished(folder.path()).is_empty() {
+        assert!(begun.elapsed() < Duration::from_secs(9), "no upload began");
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    // As a kill leaves it: of the same form, and open nowhere.
+    let part = unfinished(folder.path()).remove(0);
+    std::fs::copy(&part, folder.path().join(".armill-k1LL3d.part")).unwrap();
+    let another = serve(folder.path());
+    assert_eq!(unfinished(folder.path()), [part]);
+    // The upload that is under way is not disturbed.
+    stream.write_all(b"+end").unwrap();
+    assert_eq!(read(&mut stream).status, 201);
+    assert_eq!(
+        std::fs::read(folder.path().join("record.csv")).unwrap(),
+        b"half+end"
+    );
+    drop(another);
+}
+
 #[test]
 fn files_are_taken_in_once_and_whole() {
     let (_outer, inner) = guarded();
@@ -266,12 +307,7 @@ fn files_are_taken_in_once_and_whole() {
     );
     stream.write_all(head.as_bytes()).unwrap();
     drop(stream);
-    let left = || {
-        let names = std::fs::read_dir(&inner).unwrap().flatten();
-        names
-            .filter(|entry| entry.file_name().to_string_lossy().contains("upload"))
-            .count()
-    };
+    let left = || unfinished(&inner).len();
     let begun = Instant::now();
     while left() > 0 && begun.elapsed() < Duration::from_secs(10) {
         std::thread::sleep(Duration::from_millis(20));

@@ -9,6 +9,7 @@ import os
 import uuid
 from collections.abc import Generator
 from pathlib import Path
+from typing import IO
 
 from armill.scale.errors import refused
 
@@ -18,11 +19,15 @@ UNFINISHED = ".unfinished"
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
-def write_whole(path: Path, data: bytes | memoryview) -> None:
-    """Writes beside, makes sure that it lies on the disk, and renames: whoever looks sees all of it or none."""
-    beside = path.with_name(f".{path.name}.{uuid.uuid4().hex}{UNFINISHED}")
+def write_whole(path: Path, data: bytes | memoryview, run: str = "") -> None:
+    """Writes to a file beside, makes sure that it is on the disk, and renames it: readers see all of it or nothing.
+
+    The file beside is locked while it is written, and its name tells which ``run`` it is of.
+    """
+    beside = path.with_name(f".{path.name}.{run}-{uuid.uuid4().hex}{UNFINISHED}")
     try:
         with beside.open("xb") as file:
+            _locked(file)
             file.write(data)
             file.flush()
             os.fsync(file.fileno())
@@ -53,24 +58,49 @@ def made(folder: Path) -> None:
         raise refused(f"cannot write into {folder}: {error.strerror}", hint) from error
 
 
-def tidied(folder: Path) -> None:
-    """Takes away what runs left unfinished that were killed."""
+def remove_unfinished(folder: Path, run: str | None = None) -> None:
+    """Removes what killed writers left: every unfinished file of ``run``, which has ended, and those of others that no process writes.
+
+    A file of another run stays where it is locked, or where the system cannot tell. A process of ``run`` that is still
+    writing only repeats a part that is done.
+    """
     for left in folder.glob(f".*{UNFINISHED}"):
-        left.unlink(missing_ok=True)
+        is_ours = run is not None and f".{run}-" in left.name
+        with contextlib.suppress(OSError):
+            if is_ours or _is_abandoned(left):
+                left.unlink()
+
+
+def _is_abandoned(path: Path) -> bool:
+    if os.name != "posix":
+        # A file that is open cannot be removed there.
+        return True
+    with path.open("r+b") as file:
+        return _locked(file) is True
+
+
+def _locked(file: IO[bytes]) -> bool | None:
+    """Locks the file as long as it is open: False where another process has locked it, None where there are no such locks."""
+    if os.name != "posix":
+        return None
+    import fcntl
+
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    except OSError:
+        return None
+    return True
 
 
 @contextlib.contextmanager
 def alone_in(folder: Path) -> Generator[None]:
-    """Keeps other runs out of the folder. The system lets go of it however this process ends."""
-    with (folder / ".lock").open("ab") as file:
-        if os.name == "posix":
-            import fcntl
+    """Keeps other runs out of the folder. The system lets go of it however this process ends.
 
-            try:
-                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except BlockingIOError as error:
-                raise refused(f"another run is at work in {folder}", "wait for it, or stop it first") from error
-            except OSError:
-                # Some shared disks know no locks; two runs there would write the same bytes.
-                pass
+    Some shared disks know no locks; two runs there would write the same bytes.
+    """
+    with (folder / ".lock").open("ab") as file:
+        if _locked(file) is False:
+            raise refused(f"another run is at work in {folder}", "wait for it, or stop it first")
         yield

@@ -13,6 +13,7 @@ from __future__ import annotations
 import functools
 import os
 import time
+import uuid
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -94,8 +95,8 @@ def run(
         for part in damaged:
             del manifest.done[part]
         files.made(place / PARTS)
-        files.tidied(place)
-        files.tidied(place / PARTS)
+        files.remove_unfinished(place)
+        files.remove_unfinished(place / PARTS)
         task_seconds = 0.0
         if not manifest.is_complete:
             shown = Progress(progress, manifest.evaluation_count, _evaluations(ready, manifest))
@@ -170,9 +171,10 @@ def _parts(ready: Plan, place: Path, keeper: _Keeper, wanted: Wanted, shown: Pro
     seconds = 0.0
     manifest = keeper.manifest
     keeper.write()
+    run_name = uuid.uuid4().hex
     to_do = [part for part in range(manifest.part_count) if part not in manifest.done]
     try:
-        backend = opened(wanted, task(ready, place, manifest.fingerprint, wanted.threads_per_worker))
+        backend = opened(wanted, task(ready, place, manifest.fingerprint, wanted.threads_per_worker, run_name))
         shown.begin()
         try:
             for done in worked(backend, to_do):
@@ -184,6 +186,8 @@ def _parts(ready: Plan, place: Path, keeper: _Keeper, wanted: Wanted, shown: Pro
             backend.close()
     finally:
         forgotten(place)
+        # A worker that was killed while it wrote.
+        files.remove_unfinished(place / PARTS, run_name)
     return seconds
 
 

@@ -42,6 +42,7 @@ class Task:
     version: str
     arithmetic: str
     threads: int
+    run: str
 
     def __call__(self, part: int) -> Done | Failed:
         """part -> Done or Failed."""
@@ -75,7 +76,7 @@ class Task:
         table = table_of(plan.sweep, *plan.span(part), self.threads)
         table = table.replace_schema_metadata({"armill.sweep": self.fingerprint})
         data = _parquet(table)
-        write_whole(part_path(Path(self.folder), part), data)
+        write_whole(part_path(Path(self.folder), part), data, self.run)
         columns = tuple((column.name, str(column.type)) for column in table.schema)
         took = time.perf_counter() - before
         return Done(part, table.num_rows, len(data), hashlib.sha256(data).hexdigest(), columns, took)
@@ -106,13 +107,13 @@ def pickle_name(data: bytes) -> str:
     return f".sweep-{hashlib.sha256(data).hexdigest()[:32]}.pickle"
 
 
-def task(plan: Plan, folder: Path, fingerprint: str, threads: int) -> Task:
-    """The task that makes the parts of this plan in this folder, and writes the pickle that it reads."""
+def task(plan: Plan, folder: Path, fingerprint: str, threads: int, run: str) -> Task:
+    """The task that makes the parts of this plan in this folder for this run, and writes the pickle that it reads."""
     data = _pickled(plan)
     name = pickle_name(data)
     forgotten(folder)
     write_whole(folder / name, data)
-    return Task(str(folder), name, fingerprint, armill.__version__, _armill.arithmetic(), threads)
+    return Task(str(folder), name, fingerprint, armill.__version__, _armill.arithmetic(), threads, run)
 
 
 def forgotten(folder: Path) -> None:
