@@ -162,28 +162,6 @@ pub(crate) fn inside(root: &Path, path: &str) -> Result<PathBuf, ApiError> {
     }
 }
 
-/// The folder for results of this name, which may be a link to another one inside `root`.
-///
-/// # Errors
-/// It leads out of `root`, or nowhere.
-pub(crate) fn results_folder(root: &Path, name: &str) -> Result<PathBuf, StudyError> {
-    let folder = root.join(name);
-    // A link that leads nowhere exists too.
-    let is_there = folder.symlink_metadata().is_ok();
-    let is_inside = || folder.canonicalize().is_ok_and(|real| real.starts_with(root));
-    match !is_there || is_inside() {
-        true => Ok(folder),
-        false => Err(StudyError::value(
-            format!(
-                "`{name}` is a link that leads out of the folder of the study: results are written inside it only"
-            ),
-            format!(
-                "remove the link `{name}`, or move the folder that it leads to into the folder of the study"
-            ),
-        )),
-    }
-}
-
 async fn read(Shared(state): Shared<Arc<State>>, InPath(path): InPath<String>) -> Answered {
     let shared = Arc::clone(&state);
     let asked = path.clone();

@@ -28,7 +28,7 @@ use armill_study::{Study, StudyError, robots};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::files::{inside, results_folder};
+use crate::files::inside;
 use crate::job::Job;
 
 /// What a job does.
@@ -152,9 +152,9 @@ impl Task {
 /// The folder `name` of `root` for what this task writes.
 ///
 /// # Errors
-/// A folder where nothing can be written, where another run writes, or that is a link.
+/// A folder where nothing can be written, where another run writes, or that leads out of `root`.
 fn folder(task: &Task, root: &Path, name: &str) -> Result<ResultFolder, StudyError> {
-    Ok(Writer::new(task.kind(), false).folder(&results_folder(root, name)?)?)
+    Ok(Writer::new(task.kind(), false).folder_in(root, name)?)
 }
 
 impl Job {

@@ -22,12 +22,12 @@ use crate::terminal::{Align, columns, print, say};
 /// No study there, its problems, or nothing to compare; a folder where nothing can be written, told before any work is done.
 pub(crate) fn run(arguments: &CompareArguments) -> Result<Outcome, StudyError> {
     let of = comparable(cells(&arguments.studies, &arguments.robots)?)?;
+    let writer = arguments.writing.writer("compare");
     let out = match (&arguments.out, arguments.studies.first()) {
-        (Some(out), _) => out.clone(),
-        (None, Some(first)) => studies::find(first)?.folder.join("compare"),
-        (None, None) => "compare".into(),
+        (Some(out), _) => writer.folder(out)?,
+        (None, Some(first)) => writer.folder_in(&studies::find(first)?.folder, "compare")?,
+        (None, None) => writer.folder_in(".".as_ref(), "compare")?,
     };
-    let out = arguments.writing.writer("compare").folder(&out)?;
     let wanted = if arguments.no_pictures {
         Pictures::None
     } else {

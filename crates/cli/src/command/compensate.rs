@@ -26,12 +26,12 @@ pub(crate) fn run(arguments: &CompensateArguments) -> Result<Outcome, StudyError
     let found = studies::find(&arguments.study)?;
     let study = found.read()?;
     let wanted = wanted(&arguments.program, arguments.feed_mm_per_min)?;
-    let out = arguments
-        .out
-        .clone()
-        .unwrap_or_else(|| found.folder.join("compensated"));
     let writer = arguments.writing.writer("compensate");
-    let folder = writer.folder(&out)?;
+    let folder = match &arguments.out {
+        Some(out) => writer.folder(out)?,
+        None => writer.folder_in(&found.folder, "compensated")?,
+    };
+    let out = folder.path().to_owned();
     allow_programs(&study, arguments.ask.as_deref(), &folder)?;
     let progress = Progress::new(armill_study::compensate::point_count(
         &study,

@@ -38,9 +38,11 @@ pub(super) fn folder(
     found: &FoundStudy,
     options: &RunOptions,
 ) -> Result<ResultFolder, StudyError> {
-    let usual = found.folder.join(name);
-    let out = options.out.as_ref().unwrap_or(&usual);
-    Ok(options.writing.writer(by).folder(out)?)
+    let writer = options.writing.writer(by);
+    Ok(match &options.out {
+        Some(out) => writer.folder(out)?,
+        None => writer.folder_in(&found.folder, name)?,
+    })
 }
 
 /// Runs a study, writes all of its results into the folder `out`, with `opening` before the report, and says what came out,

@@ -58,6 +58,13 @@ pub enum FileError {
         /// The path as it was given.
         path: PathBuf,
     },
+    /// The folder for results that was not chosen by the user is a link to somewhere else.
+    #[error("cannot write into `{}`: it is a link that leads out of the folder of the study; remove it, or name the folder that it leads to",
+            path.display())]
+    LeadsOut {
+        /// The link.
+        path: PathBuf,
+    },
     /// Another run writes into the folder.
     #[error("cannot write into `{}`: {holder} is writing there; wait for it or choose another folder", folder.display())]
     InUse {
@@ -114,6 +121,7 @@ impl FileError {
             | Self::FolderMissing { path, .. }
             | Self::IsInput { path }
             | Self::IsLink { path }
+            | Self::LeadsOut { path }
             | Self::FileInTheWay { path, .. }
             | Self::NotPermitted { path, .. }
             | Self::WriteProtected { path }

@@ -108,6 +108,22 @@ impl Writer {
         })
     }
 
+    /// [`Writer::folder`] for the folder `name` of the study folder `root`, where the user did not choose one: a study from
+    /// elsewhere must not choose where on this machine its results go.
+    ///
+    /// # Errors
+    /// As of [`Writer::folder`]; a link that leads out of `root`, or nowhere.
+    pub fn folder_in(&self, root: &Path, name: &str) -> Result<ResultFolder, FileError> {
+        let path = root.join(name);
+        let root = Path::new(".").join(root).canonicalize();
+        let is_inside = || Some(path.canonicalize().ok()?.starts_with(root.ok()?)) == Some(true);
+        // A link that leads nowhere is there too.
+        if path.is_symlink() && !is_inside() {
+            return Err(FileError::LeadsOut { path });
+        }
+        self.folder(&path)
+    }
+
     /// Whether these files, each with its name in the folder of the list, may be written.
     fn allow(&self, ledger: &Ledger, files: &[(String, PathBuf)]) -> Result<(), FileError> {
         let mut refused = Vec::new();
@@ -371,6 +387,28 @@ mod tests {
         assert!(error.to_string().contains("armill run, process"), "{error}");
         drop(first);
         assert!(Writer::new("place", false).folder(&out).is_ok());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn the_usual_folder_does_not_lead_out_of_that_of_the_study() {
+        use std::os::unix::fs::symlink;
+        let (study, outer) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+        let root = study.path();
+        symlink(outer.path(), root.join("out")).unwrap();
+        symlink("nowhere", root.join("place")).unwrap();
+        fs::create_dir(root.join("results")).unwrap();
+        symlink("results", root.join("posture")).unwrap();
+        for name in ["out", "place"] {
+            let error = writer().folder_in(root, name).unwrap_err();
+            assert!(matches!(error, FileError::LeadsOut { .. }), "{error}");
+        }
+        for name in ["posture", "advice"] {
+            writer().folder_in(root, name).unwrap().write("a", b"x").unwrap();
+        }
+        assert!(root.join("results/a").is_file() && fs::read_dir(outer.path()).unwrap().next().is_none());
+        // Named by the user it is followed.
+        assert!(writer().folder(&root.join("out")).is_ok());
     }
 
     #[cfg(unix)]

@@ -382,7 +382,7 @@ fn results_are_written_inside_the_folder_only() {
         assert_eq!(job["state"], "failed", "{to}: {job}");
         let message = job["error"]["message"].as_str().unwrap();
         assert!(
-            message.contains("`out` is a link that leads out of the folder"),
+            message.contains("is a link that leads out of the folder"),
             "{message}"
         );
     }
