@@ -5,6 +5,7 @@
 //! | a regular file is read to the length that it had when it was opened | a file that grows, or that the kernel invents while it is read (`/proc`), ends |
 //! | a pipe or device is opened only where the command line names it | a study from elsewhere must not make the program wait for ever |
 //! | a file that is read as a whole has at most [`MOST_BYTES`], any other at most [`MOST_STREAM_BYTES`] | a wrong file must not take all memory |
+//! | reading ends where the command is cancelled | work whose client has left must not go on |
 //! | every file that was opened is remembered for the time of a command | no command may replace its own input, see [`crate::file::Writer`] |
 //!
 //! [`Inputs`] are the inputs of one command: set for the thread that runs it, for the time that it runs. Without them files
@@ -15,6 +16,7 @@ use std::collections::BTreeSet;
 use std::fs::{File, Metadata, OpenOptions};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// A file that is read as a whole may have so many bytes: studies, robots, programs of robots, tables that were typed have
@@ -57,6 +59,7 @@ impl Identity {
 pub struct Inputs {
     named: Arc<BTreeSet<Identity>>,
     opened: Arc<Mutex<BTreeSet<Identity>>>,
+    cancel: Arc<AtomicBool>,
 }
 
 thread_local! {
@@ -68,6 +71,14 @@ impl Inputs {
     pub fn naming<'a>(words: impl IntoIterator<Item = &'a Path>) -> Inputs {
         Inputs {
             named: Arc::new(words.into_iter().filter_map(Identity::of).collect()),
+            ..Inputs::default()
+        }
+    }
+
+    /// Those of work that this flag cancels: files that are being read then end with an error.
+    pub fn cancelled_by(cancel: Arc<AtomicBool>) -> Inputs {
+        Inputs {
+            cancel,
             ..Inputs::default()
         }
     }
@@ -107,10 +118,14 @@ pub struct InputFile {
     from: io::Take<File>,
     /// Whether an end at the limit is one too early.
     endless: bool,
+    cancel: Arc<AtomicBool>,
 }
 
 impl Read for InputFile {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        if self.cancel.load(Ordering::Relaxed) {
+            return Err(io::Error::other("reading was cancelled"));
+        }
         let count = self.from.read(buffer)?;
         if count == 0 && !buffer.is_empty() && self.endless && self.from.limit() == 0 {
             return Err(too_large(MOST_STREAM_BYTES));
@@ -158,6 +173,7 @@ pub fn open(path: &Path) -> io::Result<InputFile> {
     Ok(InputFile {
         from: file.take(limit),
         endless,
+        cancel: Arc::clone(&inputs.cancel),
     })
 }
 
@@ -275,6 +291,25 @@ mod tests {
         file.from.set_limit(3);
         let cut = file.read_to_end(&mut Vec::new()).unwrap_err();
         assert_eq!(cut.kind(), io::ErrorKind::FileTooLarge);
+    }
+
+    #[test]
+    fn reading_ends_where_the_work_is_cancelled() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("log");
+        std::fs::write(&path, "one\ntwo\n").unwrap();
+        let cancel = Arc::new(AtomicBool::new(false));
+        let mut file = Inputs::cancelled_by(Arc::clone(&cancel))
+            .during(|| open(&path))
+            .unwrap();
+        let mut line = [0; 4];
+        file.read_exact(&mut line).unwrap();
+        cancel.store(true, Ordering::Relaxed);
+        let error = file.read_to_end(&mut Vec::new()).unwrap_err();
+        assert_eq!(
+            (&line, error.to_string()),
+            (b"one\n", "reading was cancelled".to_owned())
+        );
     }
 
     #[test]

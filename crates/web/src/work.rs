@@ -9,6 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use armill_core::watch::Watch;
+use armill_formats::input::Inputs;
 use armill_study::StudyError;
 use axum::http::HeaderMap;
 use tokio::sync::{OwnedSemaphorePermit, Semaphore, watch};
@@ -66,9 +67,11 @@ impl Work {
         let task = tokio::task::spawn_blocking(move || {
             // Held until the work has really ended, also where nobody waits for it.
             let _place = place;
-            work(Watch {
-                finished: &|_| (),
-                cancel: &cancel,
+            Inputs::cancelled_by(Arc::clone(&cancel)).during(|| {
+                work(Watch {
+                    finished: &|_| (),
+                    cancel: &cancel,
+                })
             })
         });
         let result = task.await;
