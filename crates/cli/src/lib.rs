@@ -22,6 +22,7 @@ mod terminal;
 
 use std::ffi::OsString;
 
+use armill_formats::visible::visible;
 use armill_study::{ErrorKind, StudyError};
 use clap::Parser;
 
@@ -33,9 +34,15 @@ pub use terminal::problems_json;
 
 /// Does what these words say, the first of which is the name of the program, on the terminal, and gives the exit code.
 pub fn command(words: impl IntoIterator<Item = OsString>) -> u8 {
-    let arguments = match Arguments::try_parse_from(words) {
+    let words: Vec<OsString> = words.into_iter().collect();
+    let arguments = match Arguments::try_parse_from(&words) {
         Ok(arguments) => arguments,
         Err(refused) => {
+            // The refusal quotes words: they are shown as all text is.
+            let shown = words
+                .iter()
+                .map(|word| visible(&word.to_string_lossy()).into_owned());
+            let refused = Arguments::try_parse_from(shown).err().unwrap_or(refused);
             // Nobody is left to tell where this cannot be printed.
             let _ = refused.print();
             return u8::try_from(refused.exit_code()).unwrap_or(2);

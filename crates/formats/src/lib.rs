@@ -11,6 +11,7 @@
 //! - [`robot_program`]: programs of robot controllers, in and out.
 //! - [`measurement`]: records of forces, tables of load tests, points of round profiles and circular tests in.
 //! - [`file`](mod@file): files that are either written whole or not at all.
+//! - [`visible`](mod@visible): text for a terminal, without characters that control it.
 //! - [`whole`]: files that are read as a whole, and how large they may be.
 //!
 //! `xml` is the ground of all that is XML.
@@ -28,6 +29,7 @@ pub mod robot_program;
 pub mod sources;
 pub mod table;
 pub mod toolpath;
+pub mod visible;
 pub mod whole;
 
 mod xml;
