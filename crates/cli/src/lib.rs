@@ -24,6 +24,7 @@ use std::ffi::OsString;
 use std::path::Path;
 
 use armill_formats::input::Inputs;
+use armill_formats::visible::visible;
 use armill_study::{ErrorKind, StudyError};
 use clap::Parser;
 
@@ -37,9 +38,14 @@ pub use terminal::problems_json;
 pub fn command(words: impl IntoIterator<Item = OsString>) -> u8 {
     let words: Vec<OsString> = words.into_iter().collect();
     let inputs = inputs_of(&words);
-    let arguments = match Arguments::try_parse_from(words) {
+    let arguments = match Arguments::try_parse_from(&words) {
         Ok(arguments) => arguments,
         Err(refused) => {
+            // The refusal quotes words: they are shown as all text is.
+            let shown = words
+                .iter()
+                .map(|word| visible(&word.to_string_lossy()).into_owned());
+            let refused = Arguments::try_parse_from(shown).err().unwrap_or(refused);
             // Nobody is left to tell where this cannot be printed.
             let _ = refused.print();
             return u8::try_from(refused.exit_code()).unwrap_or(2);

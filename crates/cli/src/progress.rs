@@ -12,6 +12,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use armill_core::watch::Watch;
+use armill_formats::visible::visible;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::listener::{self, Listener};
@@ -66,7 +67,7 @@ impl Progress {
 
     /// Shows what is being done besides counting, such as the file that is being written.
     pub(crate) fn tell(&self, what: &str) {
-        self.bar.set_message(what.to_owned());
+        self.bar.set_message(visible(what).into_owned());
     }
 }
 

@@ -6,12 +6,15 @@
 //! | warnings, what was written, what to do next | stderr | one line end |
 //! | problems | stderr, in colour on a terminal unless `NO_COLOR` is set; with `--json` on stdout too | - |
 //!
+//! Characters of the input that would control a terminal are shown as escapes ([`visible`]), in JSON too.
+//!
 //! JSON of problems is `{"problems": [...]}`: those of a file with their places, else one with a `message` and,
 //! where there is one, a `hint`.
 
 use std::io::{ErrorKind, IsTerminal, Write};
 
 use armill_formats::file::FileError;
+use armill_formats::visible::visible;
 use armill_study::StudyError;
 
 use crate::listener;
@@ -21,6 +24,7 @@ use crate::listener;
 /// # Errors
 /// Stdout leads to a file that takes no more.
 pub(crate) fn print(text: &str) -> Result<(), StudyError> {
+    let text = &*visible(text);
     if let Some(listener) = listener::current() {
         listener.hear_data(text);
         return Ok(());
@@ -42,6 +46,11 @@ pub(crate) fn print(text: &str) -> Result<(), StudyError> {
 
 /// Says `text` on stderr, with a line end. That nobody can hear it stops no work.
 pub(crate) fn say(text: &str) {
+    say_as_it_is(&visible(text));
+}
+
+/// Says `text`, which may have colours and nothing else that controls a terminal.
+fn say_as_it_is(text: &str) {
     match listener::current() {
         Some(listener) => listener.hear_talk(text),
         None => {
@@ -62,7 +71,7 @@ pub(crate) fn show_error(error: &StudyError, json: bool) {
         let _ = print(&serde_json::json!({ "problems": problems_of(error) }).to_string());
     }
     match error {
-        StudyError::Problems(problems) if coloured() => say(&problems.in_colour()),
+        StudyError::Problems(problems) if coloured() => say_as_it_is(&problems.in_colour()),
         StudyError::Problems(problems) => say(&problems.to_string()),
         other => say(&format!("error: {other}")),
     }

@@ -12,6 +12,7 @@
 //! - [`measurement`]: records of forces, tables of load tests, points of round profiles and circular tests in.
 //! - [`file`](mod@file): files that are written: whole or not at all, never over what is not ours.
 //! - [`input`]: files that are read: which ones, how far.
+//! - [`visible`](mod@visible): text for a terminal, without characters that control it.
 //!
 //! `xml` is the ground of all that is XML.
 //!
@@ -29,5 +30,6 @@ pub mod robot_program;
 pub mod sources;
 pub mod table;
 pub mod toolpath;
+pub mod visible;
 
 mod xml;

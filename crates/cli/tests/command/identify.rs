@@ -305,6 +305,41 @@ fn options_that_cannot_be_are_refused() {
     }
 }
 
+#[test]
+fn uncertainties_of_points_give_numbers_up_to_their_limits_and_are_refused_beyond() {
+    let folder = tempfile::tempdir().unwrap();
+    filled_in(folder.path());
+    let with = |points: &str, u: &str| {
+        let words = "identify tests.csv --robot yaskawa/mh12 --tool-mm 0,60,150 --unknowns drives --points";
+        let arguments: Vec<&str> = words.split(' ').chain([points, "--point-u-mm", u]).collect();
+        armill(folder.path(), &arguments)
+    };
+    for points in ["common", "separate"] {
+        for u in ["1e-160", "0.0009", "2e6"] {
+            let (code, _, stderr) = with(points, u);
+            assert_eq!(code, 2, "{stderr}");
+            assert!(
+                stderr.contains("--point-u-mm") && stderr.contains("is not from 0.001 to 1000000 mm"),
+                "{stderr}"
+            );
+        }
+        for u in ["0.001", "1e6"] {
+            let (code, stdout, stderr) = with(points, u);
+            assert_eq!(code, 0, "{stderr}");
+            assert!(!format!("{stdout}{stderr}").contains("NaN"), "{stdout}{stderr}");
+        }
+    }
+    for (flag, value) in [("--pull-n", "1e-200"), ("--gauge-um", "1e-200")] {
+        let arguments = ["identify", "--plan", "5", "--robot", "yaskawa/mh12", flag, value];
+        let (code, stdout, stderr) = armill(folder.path(), &arguments);
+        assert_eq!(code, 2, "{stdout}{stderr}");
+        assert!(
+            stderr.contains(flag) && stderr.contains("is not from 0.001 to 1000000"),
+            "{stderr}"
+        );
+    }
+}
+
 /// The 43 published tests as a table in the format of this program.
 fn fanuc_table() -> Option<String> {
     let Some(samples) = std::env::var_os("ARMILL_SAMPLES") else {

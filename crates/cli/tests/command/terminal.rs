@@ -39,6 +39,62 @@ fn a_reader_that_goes_away_is_no_error() {
     }
 }
 
+#[test]
+fn characters_of_the_input_that_control_a_terminal_are_shown_as_escapes() {
+    // TOML takes C1 and marks of direction as they are, all others by their escape.
+    let hostile = "a\u{9b}31m\u{202e}b\u{2066}";
+    let named = SMALL.replace("\"Small\"", &format!("\"{hostile}\\u001b]0;x\\u0007\""));
+    let is_safe = |text: &[u8]| {
+        let text = std::str::from_utf8(text).unwrap();
+        !text.contains(|c: char| (c.is_control() && c != '\n') || ('\u{202a}'..='\u{2069}').contains(&c))
+    };
+    let cell = Cell::with_study(&named);
+    let file = format!("{hostile}\u{1b}[31m.toml");
+    for (text, arguments, code) in [
+        (named.clone(), &["check", "study.toml"][..], 0),
+        (named.clone(), &["check", "study.toml", "--json"], 0),
+        // An excerpt, a message and a file name.
+        (named.replace("limit_um", "limit"), &["check", "study.toml"], 2),
+        (
+            named.replace("limit_um", "limit"),
+            &["check", "study.toml", "--json"],
+            2,
+        ),
+        (
+            named.replace("yaskawa/mh12", &format!("{hostile}\\u001b[2J")),
+            &["check", "study.toml"],
+            2,
+        ),
+        (
+            named.replace("limit_um", &format!("\"{hostile}\"")),
+            &["check", "study.toml"],
+            2,
+        ),
+        (SMALL.to_owned(), &["check", &file], 2),
+        // A word that the options do not take.
+        (SMALL.to_owned(), &["check", "study.toml", &file], 2),
+        (SMALL.to_owned(), &[&file], 2),
+    ] {
+        std::fs::write(cell.path().join("study.toml"), text).unwrap();
+        let output = Command::new(ARMILL)
+            .args(arguments)
+            .current_dir(cell.path())
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {said}");
+        assert!(
+            is_safe(&output.stdout),
+            "{arguments:?}: {:?}",
+            String::from_utf8_lossy(&output.stdout)
+        );
+        assert!(is_safe(&output.stderr), "{arguments:?}: {said:?}");
+        if arguments.contains(&"--json") {
+            serde_json::from_slice::<serde_json::Value>(&output.stdout).unwrap();
+        }
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn the_first_line_of_a_long_answer_can_be_taken_alone() {

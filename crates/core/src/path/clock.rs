@@ -114,7 +114,8 @@ impl Clock {
             return Err(RecordError::TooManySamples { count, most });
         }
         if count.is_nan() || count < 2.0 {
-            return Err(RecordError::TooShort(count.clamp(0.0, 1.0) as usize));
+            let count = count.clamp(0.0, 1.0) as usize;
+            return Err(RecordError::TooShort { count, least: 2 });
         }
         let instants: Vec<f64> = (0..count as usize).map(|k| (k as f64 - lead) * step).collect();
         let mut next = 0;
@@ -248,9 +249,16 @@ mod tests {
             told,
             "a record of 4.1e12 instants is longer than the 5e7 that are kept: take longer steps"
         );
-        assert_eq!(of_step(f64::INFINITY), RecordError::TooShort(1));
+        assert_eq!(
+            of_step(f64::INFINITY),
+            RecordError::TooShort { count: 1, least: 2 }
+        );
         for step in [-1.0, 0.0, f64::NAN] {
-            assert_eq!(of_step(step), RecordError::TooShort(0), "{step}");
+            assert_eq!(
+                of_step(step),
+                RecordError::TooShort { count: 0, least: 2 },
+                "{step}"
+            );
         }
         let endless = clock.record(|_| Vector3::x() * f64::INFINITY, 0.1, 0.5);
         // Half a second of nothing first.

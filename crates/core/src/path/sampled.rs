@@ -224,6 +224,18 @@ mod tests {
     }
 
     #[test]
+    fn a_step_that_gives_points_beyond_counting_is_refused_before_any_is_made() {
+        let sampling = Sampling {
+            chord_error: 1e-5,
+            step: 1e-33,
+        };
+        let mut builder = PathBuilder::new(sampling, 1000);
+        steps().into_iter().for_each(|step| builder.take(step));
+        assert_eq!(builder.point_count(), 0);
+        assert_eq!(builder.finish(), Err(TooManyPoints { most: 1000 }));
+    }
+
+    #[test]
     fn a_path_without_points_has_no_stretch_and_no_length() {
         let path = SampledPath::default();
         assert_eq!((path.stretches().count(), path.length()), (0, 0.0));

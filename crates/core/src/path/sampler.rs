@@ -67,14 +67,14 @@ impl Sampler {
         }
     }
 
-    /// How many points [`Sampler::points`] would give of `next`.
+    /// How many points [`Sampler::points`] would give of `next`; the largest number where they are beyond counting.
     pub fn count(&self, next: &Move) -> usize {
         let axis = next.axis.or(self.stands.and_then(|stands| stands.axis));
         let from = self.stands.filter(|_| next.pace.cuts());
         from.map_or(0, |from| {
             match Way::of(&from, next, axis).pieces(&self.sampling) {
                 0 => 0,
-                pieces => pieces + usize::from(!from.cutting),
+                pieces => pieces.saturating_add(usize::from(!from.cutting)),
             }
         })
     }
@@ -334,6 +334,16 @@ mod tests {
         assert!((points[15].along - 0.0145).abs() < 1e-15);
         assert_eq!(points[10].direction, Vector3::x_axis());
         assert_eq!(points[11].direction, Vector3::y_axis());
+    }
+
+    #[test]
+    fn points_beyond_counting_are_as_many_as_can_be_told() {
+        let moves = [start([0.05, 0.0, 0.0]), half_turn([-0.05, 0.0, 0.01])];
+        for (chord_error, step) in [(1e-6, 1e-33), (1e-33, 1.0), (1e-33, f64::MIN_POSITIVE)] {
+            let mut sampler = Sampler::new(Sampling { chord_error, step });
+            sampler.points(&moves[0], |_| ());
+            assert_eq!(sampler.count(&moves[1]), usize::MAX);
+        }
     }
 
     #[test]

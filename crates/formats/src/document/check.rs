@@ -78,9 +78,9 @@ struct Place<'a> {
 }
 
 impl Place<'_> {
-    /// The unit in the field's name, as people read it.
+    /// The unit of the value, as people read it.
     fn unit(&self) -> Option<String> {
-        unit::split(self.field).map(|(_, unit)| unit.shown)
+        unit::of_value(self.field, self.path)
     }
 }
 

@@ -20,6 +20,8 @@ use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet}
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::visible::visible;
+
 /// More problems of one file than this are not looked for, where a file of any length is read.
 pub(crate) const MOST_PROBLEMS: usize = 200;
 
@@ -127,25 +129,41 @@ impl Problem {
     }
 
     /// The title, the line with its caret, the hint; where no line can be shown, its place alone.
+    ///
+    /// Characters that would control a terminal are escaped before colours are added.
     fn rendered(&self, renderer: &Renderer) -> String {
-        let title = Level::ERROR.primary_title(self.to_string());
-        let mut group = match &self.excerpt {
+        let title = Level::ERROR.primary_title(visible(&self.to_string()).into_owned());
+        let file = visible(&self.file);
+        let excerpt = self.excerpt.as_ref().map(Excerpt::visible);
+        let mut group = match &excerpt {
             Some(excerpt) => Group::with_title(title).element(
                 Snippet::source(excerpt.text.as_str())
                     .line_start(self.line)
-                    .path(self.file.as_str())
+                    .path(&*file)
                     .annotation(AnnotationKind::Primary.span(excerpt.span.clone())),
             ),
-            None => Group::with_title(title).element(
-                Origin::path(self.file.as_str())
-                    .line(self.line)
-                    .char_column(self.column),
-            ),
+            None => Group::with_title(title)
+                .element(Origin::path(&*file).line(self.line).char_column(self.column)),
         };
-        if let Some(hint) = &self.hint {
-            group = group.element(Level::HELP.message(hint.as_str()));
+        let hint = self.hint.as_deref().map(visible);
+        if let Some(hint) = &hint {
+            group = group.element(Level::HELP.message(&**hint));
         }
         renderer.render(&[group])
+    }
+}
+
+impl Excerpt {
+    /// The same with escapes for characters that would control a terminal; the span moves with its text.
+    fn visible(&self) -> Excerpt {
+        let shown = |text: Option<&str>| visible(text.unwrap_or_default()).into_owned();
+        let before = shown(self.text.get(..self.span.start));
+        let marked = shown(self.text.get(self.span.clone()));
+        let after = shown(self.text.get(self.span.end..));
+        Excerpt {
+            span: before.len()..before.len() + marked.len(),
+            text: before + &marked + &after,
+        }
     }
 }
 

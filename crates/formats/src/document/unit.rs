@@ -9,6 +9,13 @@
 //!
 //! Suffixes and their meaning: `docs/notation.md`.
 
+/// What the name of a pose ends with: three lengths and three angles.
+const POSE_SUFFIX: &str = "mm_deg";
+/// Its units together.
+const POSE: &str = "mm and deg";
+/// How many of its numbers are lengths.
+const POSE_LENGTHS: usize = 3;
+
 /// A unit as names carry it and as people read it.
 ///
 /// | name ends with | shown | kind of quantity |
@@ -19,6 +26,7 @@
 ///
 /// The first that fits counts, so units of several words come first.
 const ATOMS: &[(&str, &str, Option<&str>)] = &[
+    (POSE_SUFFIX, POSE, None),
     ("n_m", "N m", Some("torques")),
     ("m", "m", Some("lengths")),
     ("mm", "mm", Some("lengths")),
@@ -91,6 +99,20 @@ pub(super) fn split(name: &str) -> Option<(&str, Unit)> {
     })
 }
 
+/// The unit of the value at `path` in a field of this name, as people read it: of a number of a pose its own.
+pub(super) fn of_value(field: &str, path: &str) -> Option<String> {
+    let (_, unit) = split(field)?;
+    let index = path.strip_suffix(']').and_then(|path| path.rsplit_once('['));
+    let index = index.and_then(|(_, index)| index.parse::<usize>().ok());
+    Some(match index {
+        Some(index) if unit.shown == POSE => {
+            let is_length = index < POSE_LENGTHS;
+            if is_length { "mm" } else { "deg" }.to_owned()
+        }
+        _ => unit.shown,
+    })
+}
+
 /// What to write instead of an unknown field, if one of the known ones comes close: its name and the advice.
 ///
 /// First the same quantity, given without its unit (`step` for `step_mm`) or in another (`step_m`); then a slip of the
@@ -131,6 +153,15 @@ mod tests {
 
     fn shown(name: &str) -> Option<(&str, String)> {
         split(name).map(|(base, unit)| (base, unit.shown))
+    }
+
+    #[test]
+    fn a_number_of_a_pose_has_the_unit_of_its_place() {
+        let unit = |path: &str| of_value("flange_from_tool_mm_deg", path).unwrap();
+        let place = |index: usize| unit(&format!("ask[4].tool.flange_from_tool_mm_deg[{index}]"));
+        assert_eq!([0, 2, 3, 5].map(place), ["mm", "mm", "deg", "deg"]);
+        assert_eq!(unit("ask[4].tool.flange_from_tool_mm_deg"), "mm and deg");
+        assert_eq!(of_value("x_mm", "ask[4].x_mm[5]").unwrap(), "mm");
     }
 
     #[test]

@@ -6,8 +6,12 @@
 //! | missing | empty; `""` where the table has a single column, since readers skip empty lines |
 //! | flag | `true`, `false` |
 //! | category | its label |
+//! | text that begins with `=`, `+`, `-`, `@`, a tab or a line end | in quotes, behind an apostrophe: `"'=1+1"` |
 //!
-//! Source: RFC 4180; lines end with CR LF. Units are in the header; descriptions have no place here.
+//! A spreadsheet would run the last as a formula, whoever named a robot or joint so. Our readers take the apostrophe off
+//! again.
+//!
+//! Source: RFC 4180; OWASP, CSV injection. Lines end with CR LF. Units are in the header; descriptions have no place here.
 
 use std::io::Write;
 
@@ -15,7 +19,7 @@ use super::{Column, ColumnData, Table};
 
 /// The table as UTF-8 text, a header and one line for each row.
 ///
-/// Lines end with CR LF, the last one too. Not checked: texts that a spreadsheet would take for a formula.
+/// Lines end with CR LF, the last one too.
 pub fn write(table: &Table) -> Vec<u8> {
     let columns = table.columns();
     let mut out = Vec::with_capacity((table.row_count() + 1) * columns.len() * BYTES_PER_CELL);
@@ -67,13 +71,30 @@ fn cell(out: &mut Vec<u8>, column: &Column, row: usize) {
     }
 }
 
-/// Text in quotes where a reader would take it apart otherwise.
+/// A text as a cell, for tables that are not made of columns.
+pub fn text_cell(cell: &str) -> String {
+    let mut out = Vec::with_capacity(cell.len());
+    text(&mut out, cell);
+    String::from_utf8(out).expect("quotes and apostrophes are added to text")
+}
+
+/// Whether a spreadsheet would run the text; one with apostrophes before it counts too, so that it reads back equal.
+pub(super) fn is_formula(text: &str) -> bool {
+    text.trim_start_matches('\'')
+        .starts_with(['=', '+', '-', '@', '\t', '\r', '\n'])
+}
+
+/// Text in quotes where a reader would take it apart or a spreadsheet run it otherwise.
 fn text(out: &mut Vec<u8>, text: &str) {
     let parts = |c: u8| matches!(c, b',' | b'"' | b'\r' | b'\n');
-    if !text.bytes().any(parts) {
+    let formula = is_formula(text);
+    if !formula && !text.bytes().any(parts) {
         return out.extend_from_slice(text.as_bytes());
     }
     out.push(b'"');
+    if formula {
+        out.push(b'\'');
+    }
     for byte in text.bytes() {
         if byte == b'"' {
             out.push(b'"');
@@ -198,6 +219,42 @@ mod tests {
     fn text_with_commas_quotes_and_line_breaks_reads_back_equal() {
         let table = sample();
         assert_eq!(ColumnData::Text(read_back(&table, 4)), table.columns()[4].data);
+    }
+
+    #[test]
+    fn text_that_a_spreadsheet_would_run_is_behind_an_apostrophe_and_our_reader_takes_it_off() {
+        for (text, expected) in [
+            ("=cmd|' /C calc'!A0", "\"'=cmd|' /C calc'!A0\""),
+            ("+1", "\"'+1\""),
+            ("-2+3", "\"'-2+3\""),
+            ("@SUM(1,2)", "\"'@SUM(1,2)\""),
+            ("\t=1", "\"'\t=1\""),
+            ("'=1", "\"''=1\""),
+            ("'plain", "'plain"),
+            ("a=1", "a=1"),
+            ("", ""),
+        ] {
+            let cell = text_cell(text);
+            assert_eq!(cell, expected);
+            let line = format!("x,{cell},y");
+            let read = super::super::sheet::cells(&line, ',');
+            assert_eq!(read[1].text, text, "{line}");
+        }
+        // Names of columns as well; numbers stay numbers.
+        let column = |name: &str, data| Column {
+            name: name.to_owned(),
+            unit: None,
+            description: String::new(),
+            decimals: None,
+            data,
+        };
+        let note = ColumnData::Text(vec!["=1+1".to_owned()]);
+        let columns = vec![column("-a", ColumnData::Float(vec![-5.0])), column("note", note)];
+        let written = write(&Table::new("t", columns).unwrap());
+        assert_eq!(
+            String::from_utf8(written).unwrap(),
+            "\"'-a\",note\r\n-5,\"'=1+1\"\r\n"
+        );
     }
 
     #[test]

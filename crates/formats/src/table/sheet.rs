@@ -6,10 +6,12 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
+use super::csv::is_formula;
+
 /// One cell: what it says, and where in its line, bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Cell<'a> {
-    /// Without blanks and quotes round it.
+    /// Without blanks and quotes round it, and without the apostrophe that keeps a spreadsheet from running it.
     pub text: Cow<'a, str>,
     /// With its quotes, without the blanks.
     pub span: Range<usize>,
@@ -59,7 +61,7 @@ pub(crate) fn cells(line: &str, separator: char) -> Vec<Cell<'_>> {
             let start = from + content.len() - content.trim_start().len();
             let trimmed = content.trim();
             cells.push(Cell {
-                text: without_quotes(trimmed),
+                text: without_apostrophe(without_quotes(trimmed)),
                 span: start..start + trimmed.len(),
             });
             from = at + c.len_utf8();
@@ -76,6 +78,14 @@ fn without_quotes(cell: &str) -> Cow<'_, str> {
     let inner = cell.strip_prefix('"').unwrap_or(cell);
     let inner = inner.strip_suffix('"').unwrap_or(inner);
     Cow::Owned(inner.replace("\"\"", "\"").trim().to_owned())
+}
+
+/// A text as it was before `csv::write` put an apostrophe before it.
+fn without_apostrophe(text: Cow<'_, str>) -> Cow<'_, str> {
+    match text.strip_prefix('\'') {
+        Some(rest) if is_formula(rest) => Cow::Owned(rest.to_owned()),
+        _ => text,
+    }
 }
 
 #[cfg(test)]

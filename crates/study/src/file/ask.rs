@@ -27,7 +27,7 @@ use super::memory;
 use super::path::{self, Push};
 use super::places::Places;
 use super::posture_search::{CountsName, SearchTable};
-use super::quantities::{grid, load_cases, plane_at, pose_mm_deg, positive, sizes};
+use super::quantities::{grid, load_cases, plane_at, pose_mm_deg, sizes};
 use super::resolve::{Setting, Sheet, Subject};
 use super::stiffness;
 use crate::StudyError;
@@ -111,7 +111,8 @@ impl Resolver<'_> {
                 let path = path::resolve(places, table, cell, (setting, push))?;
                 path.and_then(|path| {
                     let of = (self.robot?, &path.setting, path.load.case_count());
-                    memory::check_points(places, "step_mm", path.track.len() as f64, of)?;
+                    let points = (AskKind::Path, path.track.len() as f64);
+                    memory::check_points(places, "step_mm", points, of)?;
                     Some(Subject::Path(Box::new(path)))
                 })
             }
@@ -124,7 +125,8 @@ impl Resolver<'_> {
                 holes.and_then(|holes| {
                     let path = &holes.path;
                     let of = (self.robot?, &path.setting, path.load.case_count());
-                    memory::check_points(places, "holes", path.track.len() as f64, of)?;
+                    let points = (AskKind::Holes, path.track.len() as f64);
+                    memory::check_points(places, "holes", points, of)?;
                     Some(Subject::Holes(Box::new(holes)))
                 })
             }
@@ -416,8 +418,8 @@ impl Resolver<'_> {
             return None;
         };
         let half_size = sizes(places, "box.half_size_mm", &table.half_size_mm);
-        let step = positive(places, "box.step_mm", table.step_mm);
-        let (half_size, step, setting) = (half_size?, step?, setting?);
+        let step = table.step_mm * 1e-3;
+        let (half_size, setting) = (half_size?, setting?);
         let centre = table.centre_mm.unwrap_or_else(|| self.plane_table().centre_mm);
         // The sides of the box go along the axes that its centre is told in.
         let base_from_centre = setting.base_from_counted * Translation3::from(Vector3::from(centre) * 1e-3);
@@ -442,6 +444,7 @@ impl Resolver<'_> {
         points: f64,
         setting: &Setting,
     ) -> Option<()> {
-        memory::check_points(places, path, points, (self.robot?, setting, setting.cases.len()))
+        let of = (self.robot?, setting, setting.cases.len());
+        memory::check_points(places, path, (self.table.kind, points), of)
     }
 }

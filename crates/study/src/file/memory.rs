@@ -1,12 +1,27 @@
 //! What the answers of a study take in memory: known, and refused where it is too much, before anything is allocated.
 //!
-//! `bytes = sum over asks of points (answers of a point + 256)`, at most 4 GiB for each plane, box or path, and for all
-//! together. The answers of a point grow with joints, shares and load cases. Points are counted in floating point: a
-//! grid that is too large may overflow an index.
+//! ```text
+//! bytes = sum over asks of  points (answers of a point + tables and fields of a point) + cases (columns of a case)
+//! ```
+//!
+//! At most 4 GiB for each plane, box or path, and for all together. Both parts of a point grow with joints, shares and load
+//! cases; what they are made of is written beside the constants. Measured (MH12, resident at its peak, without pictures)
+//! and estimated, bytes a point:
+//!
+//! | | 1 case | 8 cases |
+//! |---|---|---|
+//! | volume of 531 441 points | 721, estimated 826 | 1657, estimated 1778 |
+//! | map of 361 201 points | 1135, estimated 1162 | 2102, estimated 2366 |
+//! | path of 314 160 points | 1165, estimated 1224 | 2416, estimated 2512 |
+//!
+//! Points are counted in floating point: a grid that is too large may overflow an index. Not included: `--csv` of boxes
+//! and sections.
 
 use armill_core::kernel::Answers;
 use armill_formats::robot::RobotDescription;
 
+use super::format::AskKind;
+use super::path::PathAsk;
 use super::places::Places;
 use super::resolve::{Ask, Setting, Subject};
 
@@ -14,47 +29,83 @@ use super::resolve::{Ask, Setting, Subject};
 pub(super) const GIB: f64 = 1024.0 * 1024.0 * 1024.0;
 /// Most memory that the answers of a study may take: what a laptop can spare.
 pub(super) const MOST_BYTES: f64 = 4.0 * GIB;
-/// What tables and pictures take beside the answers, bytes a point.
-pub(super) const BYTES_BESIDE: usize = 256;
+/// What a point takes at least beside its answers, bytes.
+pub(super) const LEAST_BYTES_BESIDE: usize = OF_FIELD.point;
+
+/// What tables and fields take beside the answers, bytes: of a point, of each of its joints and shares, of each of its
+/// load cases. A number is 16 in a column that may lack some, about 11 in a field's file and 12 in CSV.
+struct Beside {
+    point: usize,
+    joint_or_share: usize,
+    case: usize,
+}
+
+/// Boxes and sections: position (24) and 13 columns in the table (148), four numbers in the field and its file (107), and what
+/// is copied on the way (50).
+/// Of a case three columns (48), a vector in the field (32) and in its file (32).
+const OF_FIELD: Beside = Beside {
+    point: 330,
+    joint_or_share: 16,
+    case: 112,
+};
+/// Maps: also CSV.
+const OF_MAP: Beside = Beside {
+    point: 330 + 13 * 12,
+    joint_or_share: 16 + 12,
+    case: 112 + 36,
+};
+/// Paths and holes: also the points of the path and their columns, and the load at each.
+const OF_PATH: Beside = Beside {
+    point: 330 + 350,
+    joint_or_share: 16,
+    case: 112 + 48,
+};
+/// Names, descriptions and buffers of the columns of one load case, whatever the points; measured 13 kB.
+const BYTES_PER_CASE: usize = 16 << 10;
 
 /// What to do where one ask is too large.
-const HINT: &str = "a larger step, or a smaller plane";
+const HINT: &str = "a larger step, a smaller plane, or fewer load cases";
 
 /// Whether `points` of this setting under so many load cases fit; a problem at `path` if not.
 pub(super) fn check_points(
     places: &mut Places<'_>,
     path: &str,
-    points: f64,
+    (kind, points): (AskKind, f64),
     (robot, setting, cases): (&RobotDescription, &Setting, usize),
 ) -> Option<()> {
-    let bytes = points * bytes_per_point(robot, setting, cases);
+    let bytes = bytes(kind, points, (robot, setting, cases));
     if bytes <= MOST_BYTES {
         return Some(());
     }
     let (gib, most) = (bytes / GIB, MOST_BYTES / GIB);
-    let message = format!("{points:.0} points would take {gib:.1} GiB of memory, more than {most:.0} GiB");
+    let under = match cases {
+        1 => String::new(),
+        cases => format!(" under {cases} load cases"),
+    };
+    let message =
+        format!("{points:.0} points{under} would take {gib:.1} GiB of memory, more than {most:.0} GiB");
     places.problem(path, message, HINT);
     None
 }
 
 /// A problem if all asks do not fit together: their answers are held at once.
 pub(super) fn check_asks(places: &mut Places<'_>, robot: &RobotDescription, asks: &[Ask]) {
-    let of = |setting: &Setting, points: f64| points * bytes_per_point(robot, setting, setting.cases.len());
+    let of = |kind: AskKind, setting: &Setting, points: usize| {
+        bytes(kind, points as f64, (robot, setting, setting.cases.len()))
+    };
+    let of_path = |kind: AskKind, path: &PathAsk| {
+        let cases = path.load.case_count();
+        bytes(kind, path.track.len() as f64, (robot, &path.setting, cases))
+    };
     let of_ask = |ask: &Ask| match &ask.subject {
-        Subject::Map(sheet) => of(&sheet.setting, sheet.grid.len() as f64),
+        Subject::Map(sheet) => of(AskKind::Map, &sheet.setting, sheet.grid.len()),
         Subject::Sections(all) => all
             .iter()
-            .map(|(_, sheet)| of(&sheet.setting, sheet.grid.len() as f64))
+            .map(|(_, sheet)| of(AskKind::Sections, &sheet.setting, sheet.grid.len()))
             .sum(),
-        Subject::Volume(setting, grid) => of(setting, grid.len() as f64),
-        Subject::Holes(holes) => {
-            let (path, cases) = (&holes.path, holes.path.load.case_count());
-            path.track.len() as f64 * bytes_per_point(robot, &path.setting, cases)
-        }
-        Subject::Path(path) => {
-            let cases = path.load.case_count();
-            path.track.len() as f64 * bytes_per_point(robot, &path.setting, cases)
-        }
+        Subject::Volume(setting, grid) => of(AskKind::Volume, setting, grid.len()),
+        Subject::Holes(holes) => of_path(AskKind::Holes, &holes.path),
+        Subject::Path(path) => of_path(AskKind::Path, path),
     };
     let bytes: f64 = asks.iter().map(of_ask).sum();
     if bytes > MOST_BYTES {
@@ -64,9 +115,18 @@ pub(super) fn check_asks(places: &mut Places<'_>, robot: &RobotDescription, asks
     }
 }
 
-/// What one point takes: its answers in the core, and tables and pictures beside them.
-fn bytes_per_point(robot: &RobotDescription, setting: &Setting, cases: usize) -> f64 {
+/// What so many points take: their answers in the core, tables and fields beside them.
+fn bytes(kind: AskKind, points: f64, (robot, setting, cases): (&RobotDescription, &Setting, usize)) -> f64 {
+    let beside = match kind {
+        AskKind::Map => OF_MAP,
+        AskKind::Sections | AskKind::Volume => OF_FIELD,
+        AskKind::Path | AskKind::Holes => OF_PATH,
+    };
     let joints = robot.robot.joints().len();
     let shares = setting.model.sharers(joints).len();
-    (Answers::bytes_per_point(joints, shares, cases) + BYTES_BESIDE) as f64
+    let point = Answers::bytes_per_point(joints, shares, cases)
+        + beside.point
+        + beside.joint_or_share * (joints + shares)
+        + beside.case * cases;
+    points * point as f64 + (cases * BYTES_PER_CASE) as f64
 }

@@ -10,7 +10,7 @@ use armill_core::spatial::Wrench;
 use armill_core::workpiece::{Grid, Plane};
 
 use super::format::{HalfSize, LoadFrameName, LoadTable, PlaneTable};
-use super::memory::{BYTES_BESIDE, GIB, MOST_BYTES};
+use super::memory::{GIB, LEAST_BYTES_BESIDE, MOST_BYTES};
 use super::places::Places;
 
 /// A length above 0, m.
@@ -47,13 +47,12 @@ pub(super) fn sizes(places: &mut Places<'_>, path: &str, half_size_mm: &[f64]) -
 /// Points lie at whole steps from its centre, as far as the half sizes go; a problem where they are more than memory
 /// holds.
 pub(super) fn grid(places: &mut Places<'_>, plane: &PlaneTable) -> Option<Grid> {
-    let step = positive(places, "plane.step_mm", plane.step_mm);
+    let step = plane.step_mm * 1e-3;
     let half_mm = match plane.half_size_mm {
         HalfSize::Square(half) => [half, half],
         HalfSize::Oblong(halves) => halves,
     };
-    let half = sizes(places, "plane.half_size_mm", &half_mm);
-    let (step, half) = (step?, half?);
+    let half = sizes(places, "plane.half_size_mm", &half_mm)?;
     // Counted as numbers first: a grid too large for memory must not overflow an index.
     if half.iter().any(|h| h / step > 1e8) {
         // Bounded so that it can still be told; at least what a point takes beside its answers.
@@ -62,7 +61,7 @@ pub(super) fn grid(places: &mut Places<'_>, plane: &PlaneTable) -> Option<Grid> 
             .map(|h| 2.0 * h / step + 1.0)
             .product::<f64>()
             .min(1e300);
-        let (gib, most) = (points * BYTES_BESIDE as f64 / GIB, MOST_BYTES / GIB);
+        let (gib, most) = (points * LEAST_BYTES_BESIDE as f64 / GIB, MOST_BYTES / GIB);
         let message =
             format!("{points:.0e} points would take {gib:.0e} GiB of memory, more than {most:.0} GiB");
         places.problem("plane.step_mm", message, "a larger step, or a smaller plane");

@@ -15,10 +15,11 @@ use armill_core::robot::Robot;
 use armill_core::robot::inverse::posture_at;
 use armill_core::source::elastic::displacement;
 use armill_core::spatial::Wrench;
+use armill_formats::table::csv;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::question::{Question, spring_name};
+use super::question::{Question, spring_name, within};
 use crate::StudyError;
 
 /// A plan, as JSON has it and as a table.
@@ -61,6 +62,10 @@ pub struct ExpectedSpring {
 
 /// Fewest and most tests of a plan.
 const TESTS: std::ops::RangeInclusive<usize> = 1..=500;
+/// Least and greatest pull, N.
+const PULL_N: [f64; 2] = [1e-3, 1e6];
+/// Least and greatest uncertainty of a gauge, um.
+const GAUGE_UM: [f64; 2] = [1e-3, 1e6];
 
 /// A plan of `count` tests with pulls of `pull` (N): down, and level along base x and y. `gauge` (m) is the standard
 /// uncertainty of a reading.
@@ -79,6 +84,8 @@ pub fn plan(
             "20 to 40 tests take an afternoon",
         ));
     }
+    within("--pull-n", pull, PULL_N, "N")?;
+    within("--gauge-um", gauge * 1e6, GAUGE_UM, "um")?;
     let unknowns = question.unknowns(robot, &[])?;
     let asked = PlanQuestion {
         tests: count,
@@ -168,7 +175,7 @@ fn table(robot: &Robot, tests: &[PlannedTestAnswer]) -> String {
     let mut header = vec!["test".to_owned()];
     header.extend(robot.joints().iter().enumerate().map(|(i, joint)| {
         let unit = if robot.slides(i) { "mm" } else { "deg" };
-        format!("{}_{unit}", joint.name)
+        csv::text_cell(&format!("{}_{unit}", joint.name))
     }));
     header.extend(["fx_n", "fy_n", "fz_n", "dx_mm", "dy_mm", "dz_mm"].map(str::to_owned));
     header.extend(["expected_dx_mm", "expected_dy_mm", "expected_dz_mm"].map(str::to_owned));

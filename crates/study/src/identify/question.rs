@@ -89,8 +89,9 @@ impl Question {
     /// taken up.
     ///
     /// # Errors
-    /// A word that names no group; a list without drives.
+    /// A word that names no group; a list without drives; an uncertainty of points that no gauge has.
     pub fn unknowns(&self, robot: &Robot, tests: &[LoadTest]) -> Result<Vec<Unknown>, StudyError> {
+        within("--point-u-mm", self.point_u * 1e3, POINT_U_MM, "mm")?;
         let groups: Vec<&str> = self.unknowns.split('+').map(str::trim).collect();
         if let Some(unknown) = groups.iter().find(|group| !GROUPS.contains(group)) {
             let message = format!("--unknowns: `{unknown}` is no group of springs");
@@ -128,6 +129,20 @@ impl Question {
         }
         Ok(unknowns)
     }
+}
+
+/// Uncertainties of points that tests can have, mm: squares of far smaller ones are 0.
+const POINT_U_MM: [f64; 2] = [1e-3, 1e6];
+
+/// A problem where `value` is outside of these limits.
+pub(super) fn within(flag: &str, value: f64, [low, high]: [f64; 2], unit: &str) -> Result<(), StudyError> {
+    if (low..=high).contains(&value) {
+        return Ok(());
+    }
+    Err(StudyError::value(
+        format!("{flag}: {value:?} {unit} is not from {low} to {high} {unit}"),
+        "is the unit right?",
+    ))
 }
 
 /// What a robot file calls the seat of an unknown.

@@ -28,9 +28,14 @@ fn what_is_wrong_is_told_at_its_place() {
             &["ring.ngc:3:1", "G99.5"],
         ),
         (
-            format!("{CELL}{LOAD}{}", ask("file = \"ring.ngc\"\nstep_mm = 1e-6")),
-            RING,
+            format!("{CELL}{LOAD}{}", ask("file = \"ring.ngc\"\nstep_mm = 0.001")),
+            "G21\nG0 X0\nG1 X10000 F100\nM2\n",
             &["more than", "points"],
+        ),
+        (
+            format!("{CELL}{LOAD}{}", ask("file = \"ring.ngc\"\nstep_mm = 1e-30")),
+            RING,
+            &["step_mm` is 1e-30 mm: must be at least 0.001 mm"],
         ),
         (
             format!(

@@ -45,6 +45,10 @@ fn a_number_beyond_all_reason_is_told_with_its_limit_and_unit() {
         "1e308 N",
         "at most 1000000000 N",
     ]);
+    let tool = |pose: &str| check_text(format!("{SMALL}[tool]\nflange_from_tool_mm_deg = {pose}\n"));
+    tool("[0, 0, 1e9, 0, 0, 0]").refused(&["1e9 mm", "must be at most"]);
+    tool("[0, 0, 1, 0, 0, 1e9]").refused(&["1e9 deg", "must be at most"]);
+    tool("\"x\"").refused(&["6 numbers in mm and deg"]);
     check("[1000, 0, 800]", "[1e305, 0, 800]").refused(&["study.toml:7:14", "1e305 mm", "at most 1000000"]);
 }
 
@@ -53,7 +57,7 @@ fn lengths_that_must_be_above_0_say_so() {
     check("step_mm = 50", "step_mm = 0").refused(&[
         "study.toml:10:11",
         "`plane.step_mm` is 0 mm",
-        "above 0 mm",
+        "at least 0.001 mm",
     ]);
     check("step_mm = 50", "step_mm = -5").refused(&["`plane.step_mm` is -5 mm"]);
     check("half_size_mm = 100", "half_size_mm = -1").refused(&[
@@ -166,9 +170,21 @@ fn a_frame_or_branch_that_is_none_is_told_with_those_that_are() {
 #[test]
 fn a_grid_of_a_billion_points_is_refused_at_once_with_its_memory() {
     for (step, words) in [
-        ("0.0063", ["points would take", "GiB of memory, more than 4 GiB"]),
-        ("1e-8", ["points would take", "GiB of memory, more than 4 GiB"]),
-        ("1e-300", ["points would take", "GiB of memory, more than 4 GiB"]),
+        (
+            "0.0063",
+            [
+                "points under 2 load cases would take",
+                "GiB of memory, more than 4 GiB",
+            ],
+        ),
+        (
+            "1e-8",
+            ["`plane.step_mm` is 1e-8 mm", "must be at least 0.001 mm"],
+        ),
+        (
+            "1e-300",
+            ["`plane.step_mm` is 1e-300 mm", "must be at least 0.001 mm"],
+        ),
     ] {
         let start = Instant::now();
         check("step_mm = 50", &format!("step_mm = {step}"))
@@ -182,24 +198,98 @@ fn a_grid_of_a_billion_points_is_refused_at_once_with_its_memory() {
 #[test]
 fn boxes_paths_and_sections_are_measured_before_they_are_made() {
     let ask = |ask: &str, words: &[&str]| check_text(format!("{SMALL}[[ask]]\n{ask}\n")).refused(words);
-    let memory = ["points would take", "GiB", "study.toml:"];
+    let memory = ["points under 2 load cases would take", "GiB", "study.toml:"];
     ask(
         "kind = \"volume\"\nbox = { half_size_mm = [500, 500, 500], step_mm = 1 }",
         &memory,
     );
     let count = ["points, more than 8000000", "study.toml:"];
-    ask("kind = \"path\"\ncircle.radius_mm = 100\nstep_mm = 1e-7", &count);
+    ask("kind = \"path\"\ncircle.radius_mm = 1e4\nstep_mm = 0.001", &count);
     ask(
-        "kind = \"path\"\nline = { from_mm = [0, 0], to_mm = [100, 0] }\nstep_mm = 1e-300",
+        "kind = \"path\"\nline = { from_mm = [0, 0], to_mm = [1e4, 0] }\nstep_mm = 0.001",
         &count,
+    );
+    let least = ["step_mm` is 1e-30 mm: must be at least 0.001 mm", "study.toml:"];
+    ask("kind = \"path\"\ncircle.radius_mm = 100\nstep_mm = 1e-30", &least);
+    ask(
+        "kind = \"volume\"\nbox = { half_size_mm = [1, 1, 1], step_mm = 1e-30 }",
+        &least,
+    );
+    ask("kind = \"map\"\nplane.step_mm = 1e-30", &least);
+    ask(
+        "kind = \"path\"\nprogram = { file = \"a.ngc\", step_mm = 1e-30 }",
+        &least,
+    );
+    let chord = ["chord_error_mm` is 1e-30 mm: must be at least 0.000001 mm"];
+    ask(
+        "kind = \"path\"\nprogram = { file = \"a.ngc\", chord_error_mm = 1e-30 }",
+        &chord,
     );
 }
 
 #[test]
 fn asks_that_fit_one_by_one_but_not_together_are_refused() {
-    // 7 million points a section, some 2.9 GiB; three of them are held at once.
-    let sections = "[[ask]]\nkind = \"sections\"\ndistances_mm = [900, 1000, 1100]\nplane.step_mm = 0.0756\n";
+    // 2.4 million points a section, some 2.1 GiB; three of them are held at once.
+    let sections = "[[ask]]\nkind = \"sections\"\ndistances_mm = [900, 1000, 1100]\nplane.step_mm = 0.13\n";
     check_text(format!("{SMALL}{sections}")).refused(&["all asks together", "GiB", "more than 4 GiB"]);
+}
+
+#[test]
+fn load_cases_are_part_of_the_memory_that_is_bounded() {
+    let cases = |count: usize| SMALL.replace("[3, 5, 5], [3, -5, 5]", &vec!["[3, 5, 5]"; count].join(", "));
+    // 441 points take 172 bytes a case and more.
+    let fits = cases(2000).replace("step_mm = 50", "step_mm = 10");
+    Cell::with_study(&fits).armill(&["check", "study.toml"]).fine();
+    let too_many = cases(100_000).replace("step_mm = 50", "step_mm = 10");
+    check_text(too_many).refused(&[
+        "441 points under 100000 load cases would take",
+        "GiB of memory, more than 4 GiB",
+    ]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn what_a_study_takes_is_no_more_than_was_estimated() {
+    let study = |step: f64| {
+        let cases = vec!["[3, 5, 5]"; 8].join(", ");
+        let small = SMALL.replace("[3, 5, 5], [3, -5, 5]", &cases);
+        format!(
+            "{small}[[ask]]\nkind = \"volume\"\nbox = {{ half_size_mm = [100, 100, 100], step_mm = {step} }}\n"
+        )
+    };
+    // Too many points tell what one of them takes.
+    let refused = check_text(study(0.5)).err;
+    let number = |before: &str| -> f64 {
+        let (text, _) = refused.split_once(before).unwrap();
+        text.rsplit(' ').next().unwrap().parse().unwrap()
+    };
+    let bytes_per_point = number(" GiB of memory") * f64::from(1 << 30) / number(" points under 8");
+    let points = f64::from(61_u32.pow(3));
+    let cell = Cell::with_study(&study(3.33));
+    // One thread, one arena: what the program takes beside is some 100 MB of addresses.
+    let fits_in = |bytes: f64| {
+        let kib = (bytes / 1024.0) as u64;
+        let run = format!(
+            "ulimit -v {kib}; exec '{}' run study.toml --no-pictures",
+            crate::cell::ARMILL
+        );
+        let mut command = std::process::Command::new("sh");
+        command
+            .args(["-c", &run])
+            .env("RAYON_NUM_THREADS", "1")
+            .env("MALLOC_ARENA_MAX", "1")
+            .current_dir(cell.path());
+        command.output().unwrap().status.success()
+    };
+    let estimated = bytes_per_point * points;
+    assert!(
+        fits_in(200e6 + estimated),
+        "{bytes_per_point} bytes a point are too few"
+    );
+    assert!(
+        !fits_in(60e6 + 0.4 * estimated),
+        "{bytes_per_point} bytes a point are far too many"
+    );
 }
 
 #[cfg(target_os = "linux")]
@@ -229,14 +319,12 @@ fn a_grid_too_large_is_refused_without_allocating_it() {
 fn every_problem_of_a_file_is_told_at_once() {
     let broken = SMALL
         .replace("yaskawa/mh12", "yaskawa/mh21")
-        .replace("step_mm = 50", "step_mm = 0")
         .replace("half_size_mm = 100", "half_size_mm = -1")
         .replace("[[3, 5, 5], [3, -5, 5]]", "[]");
     let asks = "[posture]\nbranch = \"sideways\"\n[[ask]]\nkind = \"volume\"\n[[ask]]\nkind = \"path\"\n\
                 [[ask]]\nkind = \"sections\"\n[[ask]]\nkind = \"map\"\ncircle.radius_mm = 3\n";
     check_text(format!("{broken}{asks}")).refused(&[
         "did you mean `yaskawa/mh12`?",
-        "`plane.step_mm` is 0 mm",
         "-1 mm",
         "the load has no case",
         "`sideways`",

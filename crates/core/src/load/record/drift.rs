@@ -41,6 +41,8 @@ pub struct Drift {
 const BLOCKS: usize = 64;
 /// No block has fewer samples: less tell no scatter.
 const LEAST_SAMPLES: usize = 8;
+/// Two blocks in each half, so that one can be quieter than the other.
+const LEAST_BLOCKS: usize = 4;
 /// A neighbour up to so many times as loud belongs to the air cut.
 const AS_QUIET: f64 = 2.0;
 /// Air cut is at least so many times quieter than half of all blocks.
@@ -125,8 +127,9 @@ fn quiet_stretches(record: &Record) -> Result<Vec<[f64; 2]>, RecordError> {
     let count = record.time.len();
     let size = (count / BLOCKS).max(LEAST_SAMPLES);
     let scatters: Vec<f64> = record.force.chunks_exact(size).map(scatter).collect();
-    if scatters.len() < 4 {
-        return Err(RecordError::TooShort(count));
+    if scatters.len() < LEAST_BLOCKS {
+        let least = LEAST_BLOCKS * LEAST_SAMPLES;
+        return Err(RecordError::TooShort { count, least });
     }
     let mut sorted = scatters.clone();
     sorted.sort_by(f64::total_cmp);
@@ -273,10 +276,19 @@ mod tests {
             remove(&steady, AirCut::Found),
             Err(RecordError::NoQuietStretch { .. })
         ));
-        let short = Record::new(vec![0.0, 1.0], vec![OFFSET; 2], None, ActsOn::Tool).unwrap();
+        // As many as are too few by one, and as many as are needed.
+        let of = |count: usize| {
+            let time = (0..count).map(|k| k as f64).collect();
+            Record::new(time, vec![OFFSET; count], None, ActsOn::Tool).unwrap()
+        };
+        let least = LEAST_BLOCKS * LEAST_SAMPLES;
         assert_eq!(
-            remove(&short, AirCut::Found).unwrap_err(),
-            RecordError::TooShort(2)
+            remove(&of(least - 1), AirCut::Found).unwrap_err(),
+            RecordError::TooShort {
+                count: least - 1,
+                least
+            }
         );
+        assert!(remove(&of(least), AirCut::Found).is_ok());
     }
 }

@@ -39,9 +39,14 @@ pub struct Record {
 /// Why a record is none, or cannot be treated as asked.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RecordError {
-    /// Less than two instants.
-    #[error("a record of {0} instants is shorter than the 2 it needs")]
-    TooShort(usize),
+    /// Too few instants: two make a record, and to find air cut in it takes more.
+    #[error("a record of {count} instants is too short: at least {least} are needed")]
+    TooShort {
+        /// How many there are.
+        count: usize,
+        /// How many are needed.
+        least: usize,
+    },
     /// Lists of different lengths.
     #[error("{time} instants but {force} forces or moments")]
     Lengths {
@@ -150,7 +155,7 @@ impl Record {
     ) -> Result<Record, RecordError> {
         let count = time.len();
         if count < 2 {
-            return Err(RecordError::TooShort(count));
+            return Err(RecordError::TooShort { count, least: 2 });
         }
         let other = std::iter::once(&force)
             .chain(&moment)
@@ -281,7 +286,7 @@ mod tests {
 
     #[test]
     fn what_is_no_record_is_refused() {
-        assert_eq!(plain(&[0.0]), Err(RecordError::TooShort(1)));
+        assert_eq!(plain(&[0.0]), Err(RecordError::TooShort { count: 1, least: 2 }));
         assert_eq!(plain(&[0.0, 1.0, 1.0]), Err(RecordError::TimeStands(2)));
         assert_eq!(plain(&[0.0, f64::NAN]), Err(RecordError::NotFinite(1)));
         let two = vec![Vector3::zeros(); 2];
@@ -345,8 +350,8 @@ mod tests {
     fn every_refusal_tells_what_is_wrong_with_the_record() {
         let told = [
             (
-                RecordError::TooShort(1),
-                "a record of 1 instants is shorter than the 2 it needs",
+                RecordError::TooShort { count: 1, least: 2 },
+                "a record of 1 instants is too short: at least 2 are needed",
             ),
             (
                 RecordError::Lengths { time: 3, force: 2 },

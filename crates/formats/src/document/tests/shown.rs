@@ -119,3 +119,34 @@ fn the_schema_is_text_for_editors() {
     assert!(schema.ends_with("}\n") && schema.contains("\"step_mm\""));
     assert!(serde_json::from_str::<serde_json::Value>(&schema).is_ok());
 }
+
+#[test]
+fn characters_that_control_a_terminal_are_escaped_in_message_excerpt_and_hint_and_colours_stay() {
+    let name = "a\u{9b}31m\u{202e}";
+    let text = format!("{GOOD}\n\"{name}\" = 3 # \u{1b}[2J\u{7}\n")
+        .replace('\u{1b}', "\u{85}")
+        .replace('\u{7}', "");
+    let problems = Document::parse(&format!("{name}.toml"), &text)
+        .map(|document| Problems::from(document.problem("speed", format!("`{name}`\u{1b}[2J"), Some(name))))
+        .unwrap();
+    let plain = problems.to_string();
+    assert!(
+        !plain.contains(|c: char| (c.is_control() && c != '\n') || c == '\u{202e}'),
+        "{plain:?}"
+    );
+    assert!(plain.contains("`a\\u009b31m\\u202e`\\u001b[2J"), "{plain}");
+    assert!(plain.contains("= help: a\\u009b31m\\u202e"), "{plain}");
+    let coloured = problems.in_colour();
+    assert!(
+        coloured.contains("\u{1b}[") && !coloured.contains("\u{1b}[2J"),
+        "{coloured:?}"
+    );
+    // The caret stands under the name as it is shown.
+    let shown = read(&GOOD.replace("step_mm = 5", &format!("\"{name}\" = 5")))
+        .unwrap_err()
+        .to_string();
+    let lines: Vec<&str> = shown.lines().collect();
+    let marked = lines.iter().position(|line| line.contains("= 5")).unwrap();
+    let width = |of: &str| lines[marked + 1].matches(of).count();
+    assert_eq!(width("^"), "\"a\\u009b31m\\u202e\"".len(), "{shown}");
+}

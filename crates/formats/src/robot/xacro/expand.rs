@@ -10,7 +10,8 @@ use std::path::{Path, PathBuf};
 use xacro_rs::extensions::ExtensionHandler;
 use xacro_rs::{XacroError, XacroProcessor};
 
-use super::{growth, packages};
+use super::flatten::{Flat, escaped};
+use super::{growth, load_yaml, packages};
 use crate::document::{Problem, Problems, Source};
 use crate::xml;
 
@@ -26,13 +27,9 @@ const LONGEST_BYTES: usize = 4 << 20;
 /// The expanded text.
 ///
 /// # Errors
-/// The expression or macro that cannot be worked out, where it stands in `main` or in one of `included`.
-pub(super) fn expand(
-    main: &Source,
-    included: &[Source],
-    path: &Path,
-    xml: String,
-) -> Result<String, Problems> {
+/// The expression or macro that cannot be worked out, where it stands in `main` or in a file that it includes.
+pub(super) fn expand(main: &Source, path: &Path, flat: &Flat) -> Result<String, Problems> {
+    let (xml, included) = (&flat.xml, &flat.sources[..]);
     if xml.len() > LONGEST_BYTES {
         let message = format!("{} bytes with all included files are no robot", xml.len());
         return Err(main.problem(0..0, message, None).into());
@@ -42,10 +39,24 @@ pub(super) fn expand(
             return Err(problem.into());
         }
     }
-    let flat = Source::new(main.name(), &xml);
-    if let Some(message) = growth::refusal(xml::parse(&flat)?.root_element()) {
+    let source = Source::new(main.name(), xml);
+    let document = xml::parse(&source)?;
+    let root = document.root_element();
+    let at_call = |message: String| Problems::from(placed(main, included, &message));
+    let data = load_yaml::data(&flat.calls, &growth::values(root)).map_err(at_call)?;
+    if let Some(message) = growth::refusal(root, &data) {
         return Err(placed(main, included, &message).into());
     }
+    let properties: String = data
+        .iter()
+        .map(|data| {
+            let value = escaped(&data.value);
+            format!("<xacro:property name=\"{}\" value=\"{value}\"/>", data.property)
+        })
+        .collect();
+    // They are defined before all else. A `>` in an attribute is escaped: the first one ends the tag of the root.
+    let (head, rest) = xml.split_once('>').unwrap_or((xml, ""));
+    let xml = format!("{head}>{properties}{rest}");
     let folder = path.parent().unwrap_or(Path::new(".")).to_owned();
     // A thread of its own has the stack that the evaluator needs, and keeps a fault of it from ending the program.
     let worker = std::thread::Builder::new()

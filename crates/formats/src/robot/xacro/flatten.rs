@@ -15,14 +15,15 @@ use std::path::{Path, PathBuf};
 
 use roxmltree::Node;
 
+use super::load_yaml::{self, Call};
 use super::{DIRECTIVES, packages};
 use crate::document::{Problem, Problems, Source};
 use crate::input;
 use crate::xml;
 
-/// Files within files deeper than this are a circle.
+/// Files within files deeper than this are no robot.
 const DEEPEST: usize = 16;
-/// More files than this are no robot.
+/// More includes than this are no robot.
 const MOST_FILES: usize = 100;
 
 /// A file of colours, materials or simulation is not missed.
@@ -49,6 +50,8 @@ pub(super) struct Flat {
     pub sources: Vec<Source>,
     /// Files that were not found and are not needed.
     pub remarks: Vec<String>,
+    /// Calls of `load_yaml`, in the order of the properties that stand for their data.
+    pub calls: Vec<Call>,
 }
 
 /// Writes one text while it walks through all files.
@@ -60,8 +63,11 @@ struct Writer<'a> {
     /// The files included so far.
     sources: Vec<Source>,
     remarks: Vec<String>,
+    calls: Vec<Call>,
     /// Of all files; the walk goes on behind each.
     problems: Vec<Problem>,
+    /// More includes than are read.
+    too_many: bool,
     /// The files that include the one at hand, outermost first.
     inside: Vec<PathBuf>,
     /// In the order of the text.
@@ -105,7 +111,9 @@ pub(super) fn flatten(main: &Source, path: &Path) -> Result<Flat, Problems> {
         xml: String::new(),
         sources: Vec::new(),
         remarks: Vec::new(),
+        calls: Vec::new(),
         problems: Vec::new(),
+        too_many: false,
         inside: vec![path.to_owned()],
         macros: Vec::new(),
         macros_around: 0,
@@ -128,6 +136,7 @@ pub(super) fn flatten(main: &Source, path: &Path) -> Result<Flat, Problems> {
         ),
         sources: writer.sources,
         remarks: writer.remarks,
+        calls: writer.calls,
     })
 }
 
@@ -179,15 +188,14 @@ impl Writer<'_> {
         let name = node.tag_name().name();
         let prefix = if is_xacro(node) { "xacro:" } else { "" };
         self.xml.push_str(&format!("<{prefix}{name}"));
+        let folder = self.folder();
         for attribute in node
             .attributes()
             .filter(|attribute| attribute.namespace().is_none())
         {
-            self.xml.push_str(&format!(
-                " {}=\"{}\"",
-                attribute.name(),
-                escaped(attribute.value())
-            ));
+            let value = load_yaml::replaced(attribute.value(), &folder, &mut self.calls);
+            self.xml
+                .push_str(&format!(" {}=\"{}\"", attribute.name(), escaped(&value)));
         }
         self.xml.push('>');
         if !is_plain(node, "link") {
@@ -196,6 +204,15 @@ impl Writer<'_> {
             }
         }
         self.xml.push_str(&format!("</{prefix}{name}>"));
+    }
+
+    /// The folder of the file at hand.
+    fn folder(&self) -> PathBuf {
+        let folder = self.inside.last().and_then(|path| path.parent());
+        match folder {
+            Some(folder) if folder != Path::new("") => folder.to_owned(),
+            _ => PathBuf::from("."),
+        }
     }
 
     /// The contents of an included file in place of the element.
@@ -209,12 +226,7 @@ impl Writer<'_> {
                 .push(file.problem(place, "<xacro:include> names no file", None));
             return;
         };
-        let folder = self
-            .inside
-            .last()
-            .and_then(|path| path.parent())
-            .unwrap_or(Path::new("."));
-        let Some(candidates) = packages::candidates(folder, filename) else {
+        let Some(candidates) = packages::candidates(&self.folder(), filename) else {
             let message = format!("cannot tell which file `{filename}` is");
             let hint =
                 "includes are found by `$(find package)/...` or a plain path, not by other expressions"
@@ -240,8 +252,22 @@ impl Writer<'_> {
             }
             return;
         };
-        if self.inside.contains(path) || self.inside.len() >= DEEPEST || self.sources.len() >= MOST_FILES {
-            let message = format!("the file `{filename}` includes itself, or files go too deep");
+        if self.sources.len() >= MOST_FILES {
+            // Reported once, however many follow.
+            if !std::mem::replace(&mut self.too_many, true) {
+                let message = format!("more than {MOST_FILES} includes");
+                self.problems.push(file.problem(place, message, None));
+            }
+            return;
+        }
+        let same = |outer: &PathBuf| outer == path || outer.canonicalize().ok() == path.canonicalize().ok();
+        if self.inside.iter().any(same) {
+            let message = format!("the file `{filename}` includes itself");
+            self.problems.push(file.problem(place, message, None));
+            return;
+        }
+        if self.inside.len() >= DEEPEST {
+            let message = format!("includes are nested deeper than {DEEPEST} files");
             self.problems.push(file.problem(place, message, None));
             return;
         }
@@ -328,7 +354,7 @@ fn is_plain(node: Node<'_, '_>, name: &str) -> bool {
 }
 
 /// Text for an attribute or between tags.
-fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;")
         .replace('<', "&lt;")
         .replace('>', "&gt;")

@@ -25,11 +25,12 @@ use roxmltree::Node;
 
 use super::DIRECTIVES;
 use super::flatten::is_xacro;
+use super::load_yaml::Data;
 
 /// More text than this is no robot: what a macro of ROS-Industrial expands to has 10 kB without meshes.
 const MOST_BYTES: u64 = 1 << 20;
 /// A longer value is no name and no list of numbers.
-const LONGEST_VALUE: u64 = 64 << 10;
+pub(super) const LONGEST_VALUE: u64 = 64 << 10;
 /// A longer expression is none that a person wrote; the evaluator calls itself for each sign.
 const LONGEST_EXPRESSION: usize = 2000;
 /// Digits of a number, sign and exponent included.
@@ -51,8 +52,8 @@ const REFUSED: [&str; 11] = [
     "zfill",
 ];
 
-/// What stands against expanding the document, if anything does; names stand in quotes.
-pub(super) fn refusal(root: Node<'_, '_>) -> Option<String> {
+/// What stands against expanding the document with this data, if anything does; names stand in quotes.
+pub(super) fn refusal<'a>(root: Node<'a, '_>, data: &'a [Data]) -> Option<String> {
     let texts = root.descendants().flat_map(|node| {
         let attributes = node.attributes().map(|attribute| attribute.value());
         attributes.chain(node.is_text().then(|| node.text().unwrap_or_default()))
@@ -60,7 +61,7 @@ pub(super) fn refusal(root: Node<'_, '_>) -> Option<String> {
     texts
         .into_iter()
         .find_map(refused_expression)
-        .or_else(|| too_long(root).err())
+        .or_else(|| too_long(root, data).err())
 }
 
 /// An expression in `text` that is not worked out whatever its values are.
@@ -94,8 +95,8 @@ fn refused_expression(text: &str) -> Option<String> {
 /// Refuses values and macros that could grow beyond all need.
 ///
 /// Sizes are followed level by level until they stay as they are, at most 100 deep.
-fn too_long(root: Node<'_, '_>) -> Result<(), String> {
-    let lengths = Lengths::of(root)?;
+fn too_long<'a>(root: Node<'a, '_>, data: &'a [Data]) -> Result<(), String> {
+    let lengths = Lengths::of(root, data)?;
     let mut sizes = Sizes::default();
     for _ in 0..LEVELS {
         let next = sizes.one_level_deeper(root, &lengths);
@@ -126,6 +127,41 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
         .filter(|word| !word.is_empty())
 }
 
+/// All texts that the files give each property, argument and parameter, by its name.
+pub(super) type Values<'a> = BTreeMap<&'a str, Vec<&'a str>>;
+
+/// The texts that each name is given anywhere; an empty one for a parameter without default.
+pub(super) fn values<'a>(root: Node<'a, '_>) -> Values<'a> {
+    let mut values: Values<'_> = BTreeMap::new();
+    for node in root.descendants().filter(|node| is_xacro(*node)) {
+        match node.tag_name().name() {
+            "property" | "arg" => {
+                let given = ["value", "default"].into_iter();
+                let given = given.filter_map(|of| node.attribute(of));
+                values
+                    .entry(node.attribute("name").unwrap_or_default())
+                    .or_default()
+                    .extend(given);
+            }
+            "macro" => {
+                for (name, default) in parameters(node.attribute("params").unwrap_or_default()) {
+                    values.entry(name).or_default().push(default);
+                }
+            }
+            name if DIRECTIVES.contains(&name) => {}
+            _ => {
+                for attribute in node.attributes() {
+                    values
+                        .entry(attribute.name())
+                        .or_default()
+                        .push(attribute.value());
+                }
+            }
+        }
+    }
+    values
+}
+
 /// How long a value can be, by the name of its property, argument or parameter.
 struct Lengths<'a>(BTreeMap<&'a str, u64>);
 
@@ -134,34 +170,12 @@ impl<'a> Lengths<'a> {
     ///
     /// # Errors
     /// The name whose value may grow too long.
-    fn of(root: Node<'a, '_>) -> Result<Lengths<'a>, String> {
-        let mut values: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
-        for node in root.descendants().filter(|node| is_xacro(*node)) {
-            match node.tag_name().name() {
-                "property" | "arg" => {
-                    let given = ["value", "default"].into_iter();
-                    let given = given.filter_map(|of| node.attribute(of));
-                    values
-                        .entry(node.attribute("name").unwrap_or_default())
-                        .or_default()
-                        .extend(given);
-                }
-                "macro" => {
-                    for (name, default) in parameters(node.attribute("params").unwrap_or_default()) {
-                        values.entry(name).or_default().push(default);
-                    }
-                }
-                name if DIRECTIVES.contains(&name) => {}
-                _ => {
-                    for attribute in node.attributes() {
-                        values
-                            .entry(attribute.name())
-                            .or_default()
-                            .push(attribute.value());
-                    }
-                }
-            }
-        }
+    fn of(root: Node<'a, '_>, data: &'a [Data]) -> Result<Lengths<'a>, String> {
+        let mut values = values(root);
+        values.extend(
+            data.iter()
+                .map(|data| (data.property.as_str(), vec![data.value.as_str()])),
+        );
         let mut lengths = Lengths(BTreeMap::new());
         for _ in 0..LEVELS {
             let longest = |texts: &Vec<&str>| texts.iter().map(|text| lengths.of_text(text)).max();

@@ -5,18 +5,18 @@
 //! and simulation are remarks. `$(env ...)` is not worked out.
 //!
 //! In reading order: `packages` (where included files may lie), `flatten` (one text of all files; what links look like
-//! and weigh is dropped, so that nothing of it can fail), `growth` (refuses macros that could grow without bound),
-//! `expand` (macros and expressions, worked out by the crate `xacro-rs`).
+//! and weigh is dropped, so that nothing of it can fail), `load_yaml` (data of YAML files, checked before it is used),
+//! `growth` (refuses macros that could grow without bound), `expand` (macros and expressions, worked out by the crate `xacro-rs`).
 
 mod expand;
 mod flatten;
 mod growth;
+mod load_yaml;
 mod packages;
 
 use std::path::Path;
 
 pub use self::expand::EXPANDER;
-use self::flatten::Flat;
 use super::description::RobotDescription;
 use super::urdf;
 use crate::document::{Problems, Source};
@@ -85,13 +85,12 @@ pub struct Expanded {
 /// worked out.
 pub fn expand(path: &Path, text: &str) -> Result<Expanded, Problems> {
     let main = Source::new(&path.display().to_string(), text);
-    let Flat {
-        xml,
-        sources,
-        remarks,
-    } = flatten::flatten(&main, path)?;
-    let urdf = expand::expand(&main, &sources, path, xml)?;
-    Ok(Expanded { urdf, remarks })
+    let flat = flatten::flatten(&main, path)?;
+    let urdf = expand::expand(&main, path, &flat)?;
+    Ok(Expanded {
+        urdf,
+        remarks: flat.remarks,
+    })
 }
 
 #[cfg(test)]

@@ -40,3 +40,12 @@ pub(super) fn homes(folder: &Path, package: &str) -> impl Iterator<Item = PathBu
         itself.into_iter().chain([folder.join(&package)])
     })
 }
+
+/// The ROS package of this name that `folder` is in: a folder around it of that name with a `package.xml`.
+pub(super) fn own(folder: &Path, package: &str) -> Option<PathBuf> {
+    let whole = folder.canonicalize().ok()?;
+    let mut around = whole.ancestors();
+    around
+        .find(|folder| folder.ends_with(package) && folder.join("package.xml").is_file())
+        .map(Path::to_owned)
+}

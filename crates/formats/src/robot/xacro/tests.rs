@@ -1,4 +1,5 @@
 use std::fs;
+use std::path::PathBuf;
 
 use super::*;
 
@@ -270,4 +271,142 @@ fn expressions_that_make_much_of_little_are_refused() {
     let long = format!("${{1{}}}", " + 1".repeat(1000));
     let text = refusal(&with(&format!("<link name=\"{long}\"/><joint name=\"{long}\"/>")));
     assert!(text.contains("longer than 2000 bytes"), "{text}");
+}
+
+/// A folder with `arm.xacro`, whose joint 1 is as fast as `expression` says, and these other files.
+fn folder_with(expression: &str, files: &[(&str, &str)]) -> (tempfile::TempDir, PathBuf, String) {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text) in files {
+        let path = folder.path().join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, text).unwrap();
+    }
+    let text = MACRO.replace("${radians(220)}", expression);
+    let path = folder.path().join("robot/arm.xacro");
+    fs::create_dir_all(path.parent().unwrap()).unwrap();
+    fs::write(&path, &text).unwrap();
+    (folder, path, text)
+}
+
+#[test]
+fn data_of_yaml_files_is_found_from_the_folder_of_the_xacro_that_names_it() {
+    let speeds = ("robot/config/speeds.yaml", "joint_1:\n  speed: !degrees 220\n");
+    let value = "['joint_1']['speed']";
+    for expression in [
+        format!("${{xacro.load_yaml('config/speeds.yaml'){value}}}"),
+        format!("${{2 * load_yaml( 'config/speeds.yaml' ){value} / 2}}"),
+    ] {
+        let (_folder, path, text) = folder_with(&expression, &[speeds]);
+        let urdf = expand(&path, &text).unwrap().urdf;
+        assert!(urdf.contains("velocity=\"3.839"), "{expression}: {urdf}");
+    }
+    // By the names that packages of ROS hand the file through: argument, parameter, property.
+    let (_folder, path, _) = folder_with("", &[speeds, ("robot/package.xml", "<package/>")]);
+    let text = with(
+        "<xacro:arg name=\"kind\" default=\"speeds\"/>
+         <xacro:arg name=\"file\" default=\"$(find robot)/config/$(arg kind).yaml\"/>
+         <xacro:macro name=\"inner\" params=\"file\"><xacro:property name=\"data\" value=\"${xacro.load_yaml(file)}\"/>
+           <link name=\"v${data['joint_1']['speed']}\"/></xacro:macro>
+         <xacro:macro name=\"outer\" params=\"file\"><xacro:inner file=\"${file}\"/></xacro:macro>
+         <xacro:outer file=\"$(arg file)\"/>",
+    );
+    let urdf = expand(&path, &text).unwrap().urdf;
+    assert!(urdf.contains("\"v3.839"), "{urdf}");
+}
+
+#[test]
+fn data_of_yaml_files_that_are_not_the_robots_own_is_refused() {
+    let refused = |name: &str, files: &[(&str, &str)], words: &str| {
+        let (_folder, path, text) = folder_with(&format!("${{load_yaml({name})['s']}}"), files);
+        let error = expand(&path, &text).unwrap_err().to_string();
+        assert!(
+            error.contains("load_yaml") && error.contains(words),
+            "no `{words}` in {error}"
+        );
+        assert!(!error.contains("secret-value"), "{error}");
+        assert!(error.contains("arm.xacro:18:86"), "{error}");
+    };
+    let secret = ("secret.yaml", "s: secret-value");
+    refused("'../secret.yaml'", &[secret], "is outside the folder");
+    refused("'/etc/passwd'", &[], "is outside the folder");
+    refused("'none.yaml'", &[], "cannot read");
+    refused("'.'", &[], "it is a folder");
+    refused(
+        "'a' + '.yaml'",
+        &[("robot/a.yaml", "s: 1")],
+        "is not known before",
+    );
+    refused(
+        "prefix + '.yaml'",
+        &[("robot/.yaml", "s: 1")],
+        "is not known before",
+    );
+    refused("'$(find etc)/passwd'", &[], "not in a ROS package `etc`");
+    let large = format!("s: 1\n#{}", "x".repeat(1 << 20));
+    refused("'a.yaml'", &[("robot/a.yaml", &large)], "larger than 1 MiB");
+    refused(
+        "'a.yaml'",
+        &[("robot/a.yaml", &"[".repeat(100))],
+        "nested deeper than 16",
+    );
+    refused(
+        "'a.yaml'",
+        &[("robot/a.yaml", &"[".repeat(3000))],
+        "not valid YAML",
+    );
+    refused("'a.yaml'", &[("robot/a.yaml", "s: [")], "not valid YAML");
+    // Two calls with a file each: which one the name means depends on the call.
+    let (_folder, path, _) = folder_with("", &[("robot/a.yaml", "s: 1"), ("robot/b.yaml", "s: 2")]);
+    let text = with(
+        "<xacro:macro name=\"one\" params=\"f\"><link name=\"${load_yaml(f)['s']}\"/></xacro:macro>
+         <xacro:one f=\"a.yaml\"/><xacro:one f=\"b.yaml\"/>",
+    );
+    assert!(
+        expand(&path, &text)
+            .unwrap_err()
+            .to_string()
+            .contains("is not known before")
+    );
+    // A name that is made of parts is no call that is replaced, and the evaluator has no reader of its own.
+    let text =
+        with("<xacro:property name=\"p\" value=\"load_ya\"/><link name=\"${${p}ml('a.yaml')['s']}\"/>");
+    assert!(expand(&path, &text).is_err());
+    let text = with("<x>${load_yaml('a.yaml')['s']}</x>");
+    assert!(expand(&path, &text).is_err());
+}
+
+#[cfg(unix)]
+#[test]
+fn links_and_pipes_are_no_way_to_other_files() {
+    let (folder, path, text) = folder_with(
+        "${load_yaml('a.yaml')['s']}",
+        &[("secret.yaml", "s: secret-value")],
+    );
+    let named = path.with_file_name("a.yaml");
+    std::os::unix::fs::symlink(folder.path().join("secret.yaml"), &named).unwrap();
+    let error = expand(&path, &text).unwrap_err().to_string();
+    assert!(
+        error.contains("is outside the folder") && !error.contains("secret-value"),
+        "{error}"
+    );
+    fs::remove_file(&named).unwrap();
+    let made = std::process::Command::new("mkfifo").arg(&named).status().unwrap();
+    assert!(made.success());
+    let error = expand(&path, &text).unwrap_err().to_string();
+    assert!(error.contains("is not a regular file"), "{error}");
+}
+
+#[test]
+fn many_includes_of_one_file_are_told_from_a_circle() {
+    let include = |name: &str| format!("<xacro:include filename=\"{name}\"/>");
+    let empty = "<robot xmlns:xacro=\"http://ros.org/wiki/xacro\"></robot>";
+    let (_folder, path, _) = folder_with("", &[("robot/other.xacro", empty)]);
+    assert!(expand(&path, &with(&include("other.xacro").repeat(100))).is_ok());
+    let error = expand(&path, &with(&include("other.xacro").repeat(1000))).unwrap_err();
+    assert_eq!(error.as_slice().len(), 1);
+    assert!(error.to_string().contains("more than 100 includes"), "{error}");
+    let text = with(&include("../robot/arm.xacro"));
+    fs::write(&path, &text).unwrap();
+    let error = expand(&path, &text).unwrap_err().to_string();
+    assert!(error.contains("includes itself"), "{error}");
 }

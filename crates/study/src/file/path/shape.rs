@@ -43,9 +43,9 @@ pub(super) fn resolve(
         return None;
     }
     let (key, step) = match (table.step_mm, &shape) {
-        (Some(step), _) => ("step_mm", positive(places, "step_mm", step)?),
+        (Some(step), _) => ("step_mm", step * 1e-3),
         (None, Shape::Circle { .. }) => ("step_mm", length / CIRCLE_SAMPLES),
-        (None, Shape::Polyline(_)) => ("plane.step_mm", positive(places, "plane.step_mm", step_mm)?),
+        (None, Shape::Polyline(_)) => ("plane.step_mm", step_mm * 1e-3),
     };
     let points = length / step;
     if points > MOST_POINTS as f64 {
