@@ -115,9 +115,13 @@ impl Writer {
     /// As of [`Writer::folder`]; a link that leads out of `root`, or nowhere.
     pub fn folder_in(&self, root: &Path, name: &str) -> Result<ResultFolder, FileError> {
         let path = root.join(name);
-        let root = Path::new(".").join(root).canonicalize();
-        let is_inside = || Some(path.canonicalize().ok()?.starts_with(root.ok()?)) == Some(true);
-        // A link that leads nowhere is there too.
+        let real = |path: &Path| Path::new(".").join(path).canonicalize().ok();
+        // A link that leads nowhere is a link too.
+        let is_inside = || {
+            real(&path)
+                .zip(real(root))
+                .is_some_and(|(path, root)| path.starts_with(root))
+        };
         if path.is_symlink() && !is_inside() {
             return Err(FileError::LeadsOut { path });
         }
