@@ -27,7 +27,7 @@ use super::memory;
 use super::path::{self, Push};
 use super::places::Places;
 use super::posture_search::{CountsName, SearchTable};
-use super::quantities::{grid, load_cases, plane_at, pose_mm_deg, sizes};
+use super::quantities::{grid, load_cases, plane_at, pose_mm_deg, sizes, step};
 use super::resolve::{Setting, Sheet, Subject};
 use super::stiffness;
 use crate::StudyError;
@@ -418,8 +418,8 @@ impl Resolver<'_> {
             return None;
         };
         let half_size = sizes(places, "box.half_size_mm", &table.half_size_mm);
-        let step = table.step_mm * 1e-3;
-        let (half_size, setting) = (half_size?, setting?);
+        let step = step(places, "box.step_mm", table.step_mm);
+        let (half_size, step, setting) = (half_size?, step?, setting?);
         let centre = table.centre_mm.unwrap_or_else(|| self.plane_table().centre_mm);
         // The sides of the box go along the axes that its centre is told in.
         let base_from_centre = setting.base_from_counted * Translation3::from(Vector3::from(centre) * 1e-3);

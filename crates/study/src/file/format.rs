@@ -175,7 +175,7 @@ pub struct PlaneTable {
     /// Half the side of the plane, or both along y' and z'.
     pub half_size_mm: HalfSize,
     /// Pitch of the grid.
-    #[schemars(range(min = 1e-3, max = 1e6))]
+    #[schemars(range(max = 1e6))]
     pub step_mm: f64,
 }
 
@@ -204,7 +204,7 @@ pub struct PlaneChange {
     /// See `plane.half_size_mm`.
     pub half_size_mm: Option<HalfSize>,
     /// See `plane.step_mm`.
-    #[schemars(range(min = 1e-3, max = 1e6))]
+    #[schemars(range(max = 1e6))]
     pub step_mm: Option<f64>,
 }
 
@@ -334,7 +334,7 @@ pub struct AskTable {
     /// Path: a rectangle.
     pub rectangle: Option<RectangleTable>,
     /// Path: greatest distance between points along it.
-    #[schemars(range(min = 1e-3, max = 1e6))]
+    #[schemars(range(max = 1e6))]
     pub step_mm: Option<f64>,
     /// Path: another cut.
     pub cut: Option<CutTable>,
@@ -358,7 +358,7 @@ pub struct BoxTable {
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub half_size_mm: [f64; 3],
     /// Pitch.
-    #[schemars(range(min = 1e-3, max = 1e6))]
+    #[schemars(range(max = 1e6))]
     pub step_mm: f64,
 }
 

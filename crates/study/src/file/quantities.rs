@@ -26,6 +26,29 @@ pub(super) fn positive(places: &mut Places<'_>, path: &str, value_mm: f64) -> Op
     None
 }
 
+/// Least distance of points, mm: far below what any machine keeps.
+const LEAST_STEP_MM: f64 = 1e-3;
+
+/// A distance of points that is not too small to be counted, m.
+pub(super) fn step(places: &mut Places<'_>, path: &str, value_mm: f64) -> Option<f64> {
+    at_least(places, path, value_mm, LEAST_STEP_MM)
+}
+
+/// A length of at least `least_mm`, m.
+pub(super) fn at_least(places: &mut Places<'_>, path: &str, value_mm: f64, least_mm: f64) -> Option<f64> {
+    if value_mm >= least_mm {
+        return Some(value_mm * 1e-3);
+    }
+    // As short as it can be told: 1e-30 has 30 zeros otherwise.
+    let value = match value_mm.abs() {
+        0.0 | 1e-6.. => format!("{value_mm}"),
+        _ => format!("{value_mm:e}"),
+    };
+    let message = format!("`{path}` is {value} mm: must be at least {least_mm} mm");
+    places.problem(path, message, "a larger length");
+    None
+}
+
 /// Largest half size, mm: 1 km.
 const LARGEST_MM: f64 = 1e6;
 
@@ -47,12 +70,13 @@ pub(super) fn sizes(places: &mut Places<'_>, path: &str, half_size_mm: &[f64]) -
 /// Points lie at whole steps from its centre, as far as the half sizes go; a problem where they are more than memory
 /// holds.
 pub(super) fn grid(places: &mut Places<'_>, plane: &PlaneTable) -> Option<Grid> {
-    let step = plane.step_mm * 1e-3;
+    let step = step(places, "plane.step_mm", plane.step_mm);
     let half_mm = match plane.half_size_mm {
         HalfSize::Square(half) => [half, half],
         HalfSize::Oblong(halves) => halves,
     };
-    let half = sizes(places, "plane.half_size_mm", &half_mm)?;
+    let half = sizes(places, "plane.half_size_mm", &half_mm);
+    let (step, half) = (step?, half?);
     // Counted as numbers first: a grid too large for memory must not overflow an index.
     if half.iter().any(|h| h / step > 1e8) {
         // Bounded so that it can still be told; at least what a point takes beside its answers.

@@ -251,7 +251,7 @@ fn load_cases_are_part_of_the_memory_that_is_bounded() {
 #[test]
 fn what_a_study_takes_is_no_more_than_was_estimated() {
     let study = |step: f64| {
-        let cases = vec!["[3, 5, 5]"; 8].join(", ");
+        let cases = ["[3, 5, 5]"; 8].join(", ");
         let small = SMALL.replace("[3, 5, 5], [3, -5, 5]", &cases);
         format!(
             "{small}[[ask]]\nkind = \"volume\"\nbox = {{ half_size_mm = [100, 100, 100], step_mm = {step} }}\n"
@@ -319,12 +319,14 @@ fn a_grid_too_large_is_refused_without_allocating_it() {
 fn every_problem_of_a_file_is_told_at_once() {
     let broken = SMALL
         .replace("yaskawa/mh12", "yaskawa/mh21")
+        .replace("step_mm = 50", "step_mm = 0")
         .replace("half_size_mm = 100", "half_size_mm = -1")
         .replace("[[3, 5, 5], [3, -5, 5]]", "[]");
     let asks = "[posture]\nbranch = \"sideways\"\n[[ask]]\nkind = \"volume\"\n[[ask]]\nkind = \"path\"\n\
                 [[ask]]\nkind = \"sections\"\n[[ask]]\nkind = \"map\"\ncircle.radius_mm = 3\n";
     check_text(format!("{broken}{asks}")).refused(&[
         "did you mean `yaskawa/mh12`?",
+        "`plane.step_mm` is 0 mm",
         "-1 mm",
         "the load has no case",
         "`sideways`",

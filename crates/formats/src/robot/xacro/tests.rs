@@ -341,7 +341,12 @@ fn data_of_yaml_files_that_are_not_the_robots_own_is_refused() {
         &[("robot/.yaml", "s: 1")],
         "is not known before",
     );
-    refused("'$(find etc)/passwd'", &[], "not in a ROS package `etc`");
+    refused("'$(find etc)/passwd'", &[], "is not known before");
+    let (_folder, path, _) = folder_with("", &[]);
+    let text =
+        with("<xacro:property name=\"f\" value=\"$(find etc)/passwd\"/><link name=\"${load_yaml(f)}\"/>");
+    let error = expand(&path, &text).unwrap_err().to_string();
+    assert!(error.contains("not in a ROS package `etc`"), "{error}");
     let large = format!("s: 1\n#{}", "x".repeat(1 << 20));
     refused("'a.yaml'", &[("robot/a.yaml", &large)], "larger than 1 MiB");
     refused(

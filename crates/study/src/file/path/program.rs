@@ -33,7 +33,7 @@ use super::measured::MeasuredTable;
 use super::robot_program::{self, RobotPath};
 use crate::StudyError;
 use crate::file::places::Places;
-use crate::file::quantities::pose_mm_deg;
+use crate::file::quantities::{at_least, pose_mm_deg, step};
 use crate::file::resolve::Setting;
 
 /// A program that the tool follows.
@@ -70,10 +70,10 @@ pub struct ProgramTable {
     #[schemars(range(min = -360.0, max = 360.0))]
     pub spin_deg: Option<f64>,
     /// Farthest that a chord may leave its arc; 0.01 if left out.
-    #[schemars(range(min = 1e-6, max = 1e3))]
+    #[schemars(range(max = 1e3))]
     pub chord_error_mm: Option<f64>,
     /// Longest distance between points; 1 if left out.
-    #[schemars(range(min = 1e-3, max = 1e6))]
+    #[schemars(range(max = 1e6))]
     pub step_mm: Option<f64>,
     /// Whether force, depth, width and feed that keep the tolerance are told; so if left out.
     pub limits: Option<bool>,
@@ -160,6 +160,8 @@ pub(super) const MOST_POINTS: usize = 8_000_000;
 pub(in crate::file) const BESIDE_STUDY: &str = "the path counts from the folder of the study";
 /// Greatest distance of a chord from its arc where the study says nothing, mm.
 const CHORD_ERROR_MM: f64 = 0.01;
+/// Least distance of a chord from its arc, mm: far below what any machine keeps.
+const LEAST_CHORD_ERROR_MM: f64 = 1e-6;
 /// Greatest distance of points where the study says nothing, mm.
 const STEP_MM: f64 = 1.0;
 
@@ -183,10 +185,14 @@ pub(in crate::file) fn read(
     table: &ProgramTable,
     (folder, cell): (&Path, Option<(&Robot, &Setting)>),
 ) -> Result<Option<ReadProgram>, StudyError> {
-    let sampling = Sampling {
-        chord_error: table.chord_error_mm.unwrap_or(CHORD_ERROR_MM) * 1e-3,
-        step: table.step_mm.unwrap_or(STEP_MM) * 1e-3,
-    };
+    let chord_error_mm = table.chord_error_mm.unwrap_or(CHORD_ERROR_MM);
+    let chord_error = at_least(
+        places,
+        "program.chord_error_mm",
+        chord_error_mm,
+        LEAST_CHORD_ERROR_MM,
+    );
+    let step = step(places, "program.step_mm", table.step_mm.unwrap_or(STEP_MM));
     for (index, feature) in table.feature.iter().enumerate() {
         let [first, last] = feature.lines;
         if first == 0 || last < first {
@@ -195,10 +201,13 @@ pub(in crate::file) fn read(
             places.problem(&format!("program.feature[{index}].lines"), message, hint);
         }
     }
+    let (Some(chord_error), Some(step)) = (chord_error, step) else {
+        return Ok(None);
+    };
     let file = ProgramFile {
         path: folder.join(&table.file),
         folder,
-        sampling,
+        sampling: Sampling { chord_error, step },
     };
     let shown = file.path.display().to_string();
     let found = match file.robot_language(places) {

@@ -9,7 +9,7 @@ use armill_core::path::{SampledPath, Shape};
 use super::program::MOST_POINTS;
 use crate::file::format::AskTable;
 use crate::file::places::Places;
-use crate::file::quantities::positive;
+use crate::file::quantities::{self, positive};
 
 /// A circle is sampled every degree where the ask says nothing.
 const CIRCLE_SAMPLES: f64 = 360.0;
@@ -43,9 +43,12 @@ pub(super) fn resolve(
         return None;
     }
     let (key, step) = match (table.step_mm, &shape) {
-        (Some(step), _) => ("step_mm", step * 1e-3),
+        (Some(step), _) => ("step_mm", quantities::step(places, "step_mm", step)?),
         (None, Shape::Circle { .. }) => ("step_mm", length / CIRCLE_SAMPLES),
-        (None, Shape::Polyline(_)) => ("plane.step_mm", step_mm * 1e-3),
+        (None, Shape::Polyline(_)) => (
+            "plane.step_mm",
+            quantities::step(places, "plane.step_mm", step_mm)?,
+        ),
     };
     let points = length / step;
     if points > MOST_POINTS as f64 {
