@@ -54,6 +54,7 @@ fn written(arguments: &NewArguments, files: Vec<(&str, String)>) -> Result<Vec<S
         .map(|(name, text)| (arguments.dir.join(name), text.as_bytes()))
         .collect();
     create_folder(&arguments.dir)?;
-    arguments.writing.writer("new").write_all(&files)?;
+    let writer = arguments.writing.writer("new").for_the_user();
+    writer.write_all(&files)?;
     Ok(files.iter().map(|(path, _)| path.display().to_string()).collect())
 }

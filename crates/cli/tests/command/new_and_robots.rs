@@ -299,9 +299,8 @@ fn an_example_comes_with_all_of_its_files_and_runs() {
         "{}",
         run.out
     );
-    // What was changed stays, and nothing is half made.
+    // What is there stays, and nothing is half made.
     std::fs::remove_file(cell.at("pocket/study.toml")).unwrap();
-    cell.file("pocket/pocket.ngc", "G21\nM2\n");
     cell.armill(&["new", "pocket", "--example", "r2000ic-pocket"])
         .refused(&["pocket/pocket.ngc", "--force"]);
     assert!(!cell.at("pocket/study.toml").exists());

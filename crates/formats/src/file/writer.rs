@@ -22,6 +22,8 @@ const PATIENCE: Duration = Duration::from_secs(30);
 pub struct Writer {
     by: &'static str,
     force: bool,
+    /// Whether what is written is armill's, to be replaced by later commands.
+    lists: bool,
     inputs: Inputs,
 }
 
@@ -31,8 +33,15 @@ impl Writer {
         Writer {
             by,
             force,
+            lists: true,
             inputs: Inputs::current(),
         }
+    }
+
+    /// One whose files belong to the user from the beginning, such as a new study: they are not listed as armill's.
+    #[must_use]
+    pub fn for_the_user(self) -> Writer {
+        Writer { lists: false, ..self }
     }
 
     /// Writes one file. A device or pipe is written directly.
@@ -55,7 +64,7 @@ impl Writer {
         let mut ledger = Ledger::of(&folder);
         self.allow(&ledger, &[(name.clone(), path.to_owned())])?;
         let part = PartFile::write(path, bytes)?;
-        let listed = lock.is_some() && ledger.add(&name, self.made(bytes)).is_ok();
+        let listed = self.lists && lock.is_some() && ledger.add(&name, self.made(bytes)).is_ok();
         part.take_name()?;
         if listed {
             // The line is there already; it is one too many at worst.
@@ -300,6 +309,16 @@ mod tests {
         assert_eq!(fs::read(&path).unwrap(), b"y");
         fs::write(&path, "filled in").unwrap();
         assert!(is_not_ours(writer().write(&path, b"z")));
+    }
+
+    #[test]
+    fn a_file_that_is_made_for_the_user_is_the_users() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("study.toml");
+        let new = Writer::new("new", false).for_the_user();
+        new.write(&path, b"x").unwrap();
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+        assert!(is_not_ours(new.write(&path, b"x")) && is_not_ours(writer().write(&path, b"x")));
     }
 
     #[test]
