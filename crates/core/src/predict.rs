@@ -12,21 +12,9 @@
 //! drags links from point to point. [`elastic::predict`](crate::source::elastic::predict) is the simple model by itself.
 //! Reference point: TCP. Basis: base. Deviation = where the tool is minus where it was asked to be.
 
-use nalgebra::Matrix3;
-
+pub use crate::source::Deviation;
 use crate::source::{Links, Standing, Unstable, repeatability};
 use crate::spatial::{Twist, Wrench};
-
-/// How far the tool is from where it was asked to be, and why.
-#[derive(Clone, Debug)]
-pub struct Deviation {
-    /// Displacement (m) and rotation (rad) of the tool.
-    pub twist: Twist,
-    /// Share of each joint, base to flange, then of base, flange and tool where springs sit; with `geometric` they add up.
-    pub shares: Vec<Twist>,
-    /// Covariance of the displacement, m^2: of compliances, backlash, model error and repeatability.
-    pub covariance: Matrix3<f64>,
-}
 
 /// The deviation of the tool of an arm in its posture, under `wrench`, from every source.
 ///

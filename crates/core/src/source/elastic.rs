@@ -17,7 +17,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::predict::Deviation;
+use super::deviation::Deviation;
 use crate::robot::Posture;
 use crate::robot::joint::JointCompliance;
 use crate::spatial::{Twist, Wrench};

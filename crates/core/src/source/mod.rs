@@ -6,9 +6,10 @@
 //! reckons with. [`repeatability`]: how it scatters from time to time.
 //! [`standing`]: one arm in one posture, and what each of these moves there; `predict.rs` adds them in a visible row.
 //!
-//! `linear_system`: small systems of equations, in room that is reused.
+//! `deviation`: what they give together. `linear_system`: small systems of equations, in room that is reused.
 
 pub mod backlash;
+mod deviation;
 pub mod elastic;
 pub mod equilibrium;
 pub mod geometric;
@@ -18,6 +19,7 @@ pub mod repeatability;
 pub mod standing;
 pub mod stiffness_model;
 
+pub use deviation::Deviation;
 pub use equilibrium::Unstable;
 pub use standing::{Links, Standing};
 pub use stiffness_model::{Arm, Gravity, StiffnessModel};

@@ -33,9 +33,10 @@ pub(super) struct Held {
 }
 
 impl Held {
-    /// Whether the answer holds the tool in this posture (rad, m).
-    pub fn is_in(&self, q: &[f64]) -> bool {
-        self.joints.as_ref().is_some_and(|joints| is_same(joints, q))
+    /// Where the links of this posture (rad, m) are dragged to in their gaps: known of the one that a path is followed in.
+    pub fn dragged_in(&self, q: &[f64]) -> Option<&[f64]> {
+        let joints = self.joints.as_ref()?;
+        self.dragged.as_deref().filter(|_| is_same(joints, q))
     }
 }
 

@@ -233,7 +233,7 @@ pub(super) fn postures_of(
         &Situation {
             model: &setting.model,
             normal: Some(asked.normal),
-            dragged: &|q| dragged_at(&asked, q),
+            dragged: &|q| asked.held.as_ref()?.dragged_in(q),
         },
     )?;
     let joints = answer
@@ -349,12 +349,6 @@ fn point(
     }
 }
 
-/// Where the links of this posture are dragged to in their gaps, rad (m): known of the one that a path is followed in.
-fn dragged_at<'a>(asked: &'a Asked, q: &[f64]) -> Option<&'a [f64]> {
-    let held = asked.held.as_ref().filter(|held| held.is_in(q))?;
-    held.dragged.as_deref()
-}
-
 /// The deviation of this posture under each case; beside paths, and of another one than the path's, as a point by itself has it.
 fn deviations(
     robot: &Robot,
@@ -366,7 +360,7 @@ fn deviations(
     let Some(compliance) = robot.compliance() else {
         return vec![None; cases.len()];
     };
-    let dragged = dragged_at(asked, q);
+    let dragged = asked.held.as_ref().and_then(|held| held.dragged_in(q));
     let arm = Arm {
         robot,
         compliance,

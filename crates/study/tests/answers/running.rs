@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 use armill_core::watch::Watch;
+use armill_formats::file::Writer;
 use armill_study::answer::answer;
 use armill_study::file::resolve::read;
 use armill_study::output::{Wanted, write};
@@ -87,14 +88,9 @@ fn the_same_study_gives_the_same_files() {
     let folders = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
     for folder in &folders {
         let found = found(&study);
-        write(
-            &study,
-            &found,
-            &answer(&study, &found),
-            (folder.path(), Wanted::TABLES),
-            &|_| (),
-        )
-        .unwrap();
+        let out = Writer::new("run", false).folder(folder.path()).unwrap();
+        let wanted = (&out, Wanted::TABLES);
+        write(&study, &found, &answer(&study, &found), wanted, &|_| ()).unwrap();
     }
     let mut names: Vec<_> = std::fs::read_dir(folders[0].path())
         .unwrap()
