@@ -176,10 +176,16 @@ fn a_search_killed_again_and_again_ends_at_the_same_place() {
     let found = |out: &str| {
         let mut files = finished_files(&cell.at(out));
         for (name, bytes) in &mut files {
-            if name == "placement.json" {
+            let mut change = |key: &str| {
                 let mut answer: serde_json::Value = serde_json::from_slice(bytes).unwrap();
-                answer["rounds_taken_up"] = 0.into();
+                *answer.pointer_mut(key).unwrap() = 0.into();
                 *bytes = answer.to_string().into_bytes();
+            };
+            match name.as_str() {
+                "placement.json" => change("/rounds_taken_up"),
+                // Its sum.
+                "result.json" => change("/files/placement.json"),
+                _ => {}
             }
         }
         files

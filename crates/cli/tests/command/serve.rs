@@ -284,16 +284,18 @@ impl Served {
     }
 }
 
-/// The placement without what tells that it was stopped, and every other file.
-fn placed(cell: &Cell) -> (Value, Vec<(String, Vec<u8>)>) {
+/// Placement and result without what tells that it was stopped, and every other file.
+fn placed(cell: &Cell) -> ([Value; 2], Vec<(String, Vec<u8>)>) {
     let mut files = files_in(&cell.at("place"));
-    let mut placement: Value = serde_json::from_slice(&files.remove("placement.json").unwrap()).unwrap();
+    let mut json = |name: &str| -> Value { serde_json::from_slice(&files.remove(name).unwrap()).unwrap() };
+    let [mut placement, mut result] = [json("placement.json"), json("result.json")];
     placement["rounds_taken_up"] = 0.into();
+    result["files"]["placement.json"] = 0.into();
     // What a kill leaves of a file under way is known by its name.
     let whole = files
         .into_iter()
         .filter(|(name, _)| !name.starts_with(".armill-"));
-    (placement, whole.collect())
+    ([placement, result], whole.collect())
 }
 
 #[test]
