@@ -3467,7 +3467,7 @@ export interface components {
         };
         /** @description Every posture at one place, as `armill pose --json` tells it, and how each is drawn. */
         PosturesAnswer: {
-            /** @description The postures under the load case asked for, without what moves the tool along a path beside the load. */
+            /** @description The postures under the load case asked for, with every source: the same totals as `in_plane`. */
             answer: components["schemas"]["PoseAnswer"];
             /** @description The arm in each posture. */
             drawings: components["schemas"]["DrawnPosture"][];
