@@ -8,7 +8,7 @@
 //! deviation = elastic(s_i, c_i, w) + gravity(s_i, c_i, masses) + geometric + backlash(s_i, u_i)
 //! ```
 //!
-//! Maps, holes, searches and single poses take this sum. Along a path [`beside_load`] comes in a second step, since friction
+//! Maps, holes, searches and single poses take this sum. Along a path geometry and backlash come in a second step: friction
 //! drags links from point to point. [`elastic::predict`](crate::source::elastic::predict) is the simple model by itself.
 //! Reference point: TCP. Basis: base. Deviation = where the tool is minus where it was asked to be.
 
