@@ -8,7 +8,8 @@ use serde_json::Value;
 
 use crate::cell::armill;
 
-const ROBOT: &str = r#"format = 1
+/// A lever of two arms.
+pub const ROBOT: &str = r#"format = 1
 name = "lever"
 
 [chain]

@@ -3,32 +3,10 @@
 use std::fmt::Write;
 use std::process::{Command, Stdio};
 
+use crate::calibrate::ROBOT as LEVER;
 use crate::cell::{ARMILL, Cell, SMALL, armill};
 
 const PRECIOUS: &str = "precious\n";
-const LEVER: &str = r#"format = 1
-name = "lever"
-[chain]
-source = "drawing"
-motions = [
-  { about = "z", joint = "A" },
-  { along = "x", length_mm = 300 },
-  { about = "z", joint = "B" },
-  { along = "x", length_mm = 200 },
-]
-[[joint]]
-name = "A"
-sign = 1
-source = "drawing"
-[[joint]]
-name = "B"
-sign = 1
-source = "drawing"
-[sources.drawing]
-what = "a lever of two arms"
-where = "this test"
-licence = "ours"
-"#;
 const KRL: &str = "DEF A()\n$BASE={X 1000,Y 0,Z 500,A 0,B 0,C 0}\n$TOOL={X 0,Y 0,Z 150,A 0,B 0,C 0}\n\
     PTP {X 0,Y 0,Z 10,A 0,B 180,C 0,S 2,T 35}\n$VEL.CP=0.01\nLIN {X 20.125 ,Y -.5E1,Z 0,A 0,B 180,C 0}\nEND\n";
 const PROGRAM: &str = r#"
