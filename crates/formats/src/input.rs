@@ -2,7 +2,7 @@
 //!
 //! | rule | reason |
 //! |---|---|
-//! | a regular file is read to the length that it had when it was opened | a file that grows, or that the kernel invents while it is read (`/proc`), ends |
+//! | a regular file is read to the length that it had when it was opened | a file that grows, or that the kernel makes while it is read (`/proc`), ends |
 //! | a pipe or device is opened only where the command line names it | a study from elsewhere must not make the program wait for ever |
 //! | a file that is read as a whole has at most [`MOST_BYTES`], any other at most [`MOST_STREAM_BYTES`] | a wrong file must not take all memory |
 //! | reading ends where the command is cancelled | work whose client has left must not go on |
@@ -25,7 +25,7 @@ pub const MOST_BYTES: u64 = 64 << 20;
 /// Any other may have so many: a record of a dynamometer has some 100 MB.
 pub const MOST_STREAM_BYTES: u64 = 16 << 30;
 
-/// What tells one file from another, whatever it is called.
+/// Identifies a file, whatever its name.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Identity {
     /// Device and number on it.
@@ -263,7 +263,7 @@ mod tests {
 
     #[cfg(target_os = "linux")]
     #[test]
-    fn what_the_kernel_invents_gives_nothing_and_devices_are_refused() {
+    fn files_that_the_kernel_makes_are_empty_and_devices_are_refused() {
         assert_eq!(read(Path::new("/proc/self/environ")).unwrap(), b"");
         for device in ["/dev/zero", "/dev/null"] {
             let refused = open(Path::new(device)).unwrap_err();

@@ -1,4 +1,4 @@
-//! Nothing of the user's is lost: what a command may replace, remove, follow and read.
+//! Files of the user are kept: what a command may replace, remove, follow and read.
 
 use std::fmt::Write;
 use std::process::{Command, Stdio};
@@ -235,7 +235,7 @@ fn no_command_replaces_a_file_that_it_did_not_make_without_force() {
 }
 
 #[test]
-fn a_plan_is_made_again_until_somebody_fills_it_in() {
+fn a_plan_is_made_again_until_it_is_filled_in() {
     let cell = Cell::new();
     let plan = [
         "identify",
@@ -363,9 +363,9 @@ fn an_input_is_recognised_behind_links_and_other_names() {
 }
 
 #[test]
-fn a_second_run_into_a_folder_is_told_who_writes_there() {
+fn a_second_run_into_a_folder_is_refused_with_the_name_of_the_first() {
     let cell = Cell::with_study(&format!("{SMALL}{RING}"));
-    // Another run holds the folder: the test itself, as the lock has it.
+    // Another run writes into the folder: the test itself.
     let writer = armill_formats::file::Writer::new("place", false);
     let held = writer.folder(&cell.at("out")).unwrap();
     let own = format!("armill place, process {}", std::process::id());
@@ -441,7 +441,7 @@ fn only_files_of_the_study_and_of_the_command_line_are_quoted() {
     cell.file("cell/own.toml", secret);
     cell.file("cell/study.toml", study("own.toml"));
     cell.armill(&["check", "cell"]).refused(&["CANARY-SECRET"]);
-    // What the kernel makes up holds nothing.
+    // A file that the kernel makes is empty.
     cell.file("cell/study.toml", study("/proc/self/environ"));
     let said = Command::new(ARMILL)
         .args(["check", "cell"])

@@ -199,7 +199,7 @@ impl Problems {
     }
 
     /// The same problems; of each file that may not be quoted one problem alone, which says how many there are and where the
-    /// first one is, and nothing of what the file holds.
+    /// first one is, and nothing of the content of the file.
     #[must_use]
     pub fn quoting_only(self, may_be_quoted: impl Fn(&str) -> bool) -> Problems {
         let mut kept: Vec<Problem> = Vec::new();

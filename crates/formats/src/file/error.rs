@@ -14,7 +14,7 @@ pub enum FileError {
         /// The path as it was given.
         path: PathBuf,
     },
-    /// A folder stands where the file should be.
+    /// A folder has the name of the file.
     #[error("cannot write `{}`: it is a folder; give the name of a file inside it", path.display())]
     IsFolder {
         /// The path as it was given.
@@ -28,13 +28,13 @@ pub enum FileError {
         /// The folder that is missing.
         folder: PathBuf,
     },
-    /// A file stands where a folder is wanted.
+    /// A file has the name of the folder.
     #[error("cannot use `{}` as a folder: `{}` is a file; move it away or choose another folder",
             path.display(), file.display())]
     FileInTheWay {
         /// The folder that is wanted.
         path: PathBuf,
-        /// The file that stands in the way.
+        /// The file of that name.
         file: PathBuf,
     },
     /// Files that armill did not make, or that were changed since.
@@ -51,7 +51,7 @@ pub enum FileError {
         /// The path as it was given.
         path: PathBuf,
     },
-    /// A link stands where the file should be.
+    /// A link has the name of the file.
     #[error("cannot write `{}`: it is a link, and links are not followed; remove it or choose another name",
             path.display())]
     IsLink {

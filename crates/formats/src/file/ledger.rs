@@ -5,8 +5,8 @@
 //! ```
 //!
 //! A line is added before its file takes its name, so that a run that is killed leaves no file that its next run does not
-//! know. A name may have several lines until the list is written anew: the file is ours if it is as one of them says.
-//! Lines that are none do no harm.
+//! know. A name may have several lines until the list is rewritten: the file is ours if it agrees with one of them.
+//! Lines of another form are passed over.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -60,20 +60,14 @@ impl Ledger {
         sum_of_file(path).is_ok_and(|sum| made.iter().any(|one| one.sum == sum))
     }
 
-    /// Names of files that `by` made and that are as it made them.
-    pub(super) fn unchanged(&self, folder: &Path, by: &str) -> Vec<String> {
-        let of_command = self
-            .made
-            .iter()
-            .filter(|(_, made)| made.iter().any(|one| one.by == by));
-        of_command
-            .map(|(name, _)| name)
-            .filter(|name| self.is_ours(name, &folder.join(name)))
-            .cloned()
-            .collect()
+    /// Names of the files that `by` made, whether they were changed since or not.
+    pub(super) fn made_by(&self, by: &str) -> Vec<String> {
+        let of_command = |made: &[Made]| made.iter().any(|one| one.by == by);
+        let found = self.made.iter().filter(|(_, made)| of_command(made));
+        found.map(|(name, _)| name.clone()).collect()
     }
 
-    /// Adds a file that is about to take its name. A name that cannot stand in a line stays unlisted.
+    /// Adds a file that is about to take its name. A name that does not fit a line is not listed.
     ///
     /// # Errors
     /// The list cannot be written.
@@ -99,7 +93,7 @@ impl Ledger {
         Ok(())
     }
 
-    /// Writes the list anew: of each file that is there its last line, and none of the files `gone`.
+    /// Rewrites the list: the last line of each file that exists, without the files `gone`.
     ///
     /// # Errors
     /// The list cannot be written.
@@ -117,7 +111,7 @@ impl Ledger {
     }
 }
 
-/// Name and origin of a line; `None` of one that is none.
+/// Name and origin of a line; `None` of a line of another form.
 fn line(text: &str) -> Option<(String, Made)> {
     let mut parts = text.splitn(3, '\t');
     let (sum, by, name) = (parts.next()?, parts.next()?, parts.next()?);
@@ -181,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_is_ours_as_long_as_nobody_changes_it() {
+    fn a_file_is_ours_until_it_is_changed() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.csv");
         let mut ledger = Ledger::of(folder.path());
@@ -204,14 +198,14 @@ mod tests {
         let ledger = Ledger::of(folder.path());
         let names: Vec<&String> = ledger.made.keys().collect();
         assert_eq!(names, ["cut\u{fffd}", "plate.csv"]);
-        // What cannot stand on a line is not listed.
+        // A name that does not fit a line is not listed.
         let mut ledger = Ledger::of(folder.path());
         ledger.add("a\nb", made("x", "run")).unwrap();
         assert_eq!(Ledger::of(folder.path()).made.len(), 2);
     }
 
     #[test]
-    fn a_tidy_list_has_a_line_a_file_that_is_there() {
+    fn a_tidy_list_has_one_line_for_each_file_that_exists() {
         let folder = tempfile::tempdir().unwrap();
         let mut ledger = Ledger::of(folder.path());
         for (name, text, by) in [
@@ -226,7 +220,7 @@ mod tests {
             fs::write(folder.path().join(name), text).unwrap();
         }
         ledger.add("stale", made("z", "run")).unwrap();
-        assert_eq!(ledger.unchanged(folder.path(), "run"), ["b", "stale"]);
+        assert_eq!(ledger.made_by("run"), ["b", "gone", "stale"]);
         ledger.tidy(folder.path(), &["stale".to_owned()]).unwrap();
         let text = fs::read_to_string(folder.path().join(LIST)).unwrap();
         let expected = format!("{}\tplace\ta\n{}\trun\tb\n", sum_of(b"y"), sum_of(b"new"));

@@ -1,7 +1,7 @@
 //! One writer a folder: `.armill-lock`, locked as long as it writes and removed at its end.
 //!
-//! The lock is the system's and goes with its process: a run that was killed leaves a file without a lock, which the next
-//! run takes. Where a file system has no locks, nobody is kept out.
+//! The lock is that of the operating system and ends with its process: a run that was killed leaves a file without a lock,
+//! which the next run takes. Where a file system has no locks, a second run is not refused.
 
 use std::fs::{self, File, TryLockError};
 use std::io::{Read, Seek, Write};
@@ -13,9 +13,9 @@ use crate::input::Identity;
 
 /// The name of the lock.
 const LOCK: &str = ".armill-lock";
-/// How often one that waits looks again.
+/// Time between attempts.
 const AGAIN: Duration = Duration::from_millis(20);
-/// Bytes of the words about who holds it.
+/// Most bytes of the holder's name.
 const HOLDER_BYTES: u64 = 200;
 
 /// A folder that this process alone writes into, until this is dropped.
@@ -30,7 +30,7 @@ impl Lock {
     /// Locks `folder` for the command `by`, waiting no longer than `patience`.
     ///
     /// # Errors
-    /// Somebody else writes there; a folder that takes no files; a link in place of the lock.
+    /// Another run writes there; a folder that takes no files; a link in place of the lock.
     pub(super) fn of(folder: &Path, by: &str, patience: Duration) -> Result<Lock, FileError> {
         let file = folder.join(LOCK);
         let give_up = Instant::now() + patience;
@@ -48,10 +48,10 @@ impl Lock {
         }
     }
 
-    /// Says in the file who holds it.
+    /// Writes the holder into the file.
     fn with(file: PathBuf, mut held: Option<File>, by: &str) -> Lock {
         if let Some(held) = &mut held {
-            // Who reads it learns less where this cannot be written; the lock holds all the same.
+            // Only the message to a second run depends on this.
             let _ = held.set_len(0);
             let _ = held.rewind();
             let _ = write!(held, "armill {by}, process {}", std::process::id());
@@ -62,12 +62,12 @@ impl Lock {
 
 impl Drop for Lock {
     fn drop(&mut self) {
-        // While it is locked: nobody else can have taken it.
+        // While it is locked: no other run can have taken it.
         let _ = fs::remove_file(&self.file);
     }
 }
 
-/// The locked file, `Some(None)` where there are no locks; `None` while somebody else holds it.
+/// The locked file, `Some(None)` where there are no locks; `None` while another run has locked it.
 fn attempt(file: &Path) -> Result<Option<Option<File>>, FileError> {
     if file.is_symlink() {
         return Err(FileError::IsLink {
@@ -83,7 +83,7 @@ fn attempt(file: &Path) -> Result<Option<Option<File>>, FileError> {
         .map_err(|source| FileError::of(file, None, source))?;
     match opened.try_lock() {
         Ok(()) if is_called(&opened, file) => Ok(Some(Some(opened))),
-        // The one who held it removed it between opening and locking.
+        // Its holder removed it between opening and locking.
         Ok(()) | Err(TryLockError::WouldBlock) => Ok(None),
         Err(TryLockError::Error(_)) => Ok(Some(None)),
     }
@@ -97,7 +97,7 @@ fn is_called(opened: &File, file: &Path) -> bool {
     Identity::with(file, &metadata) == Some(there)
 }
 
-/// Who holds the lock, as the file says.
+/// The holder of the lock, as the file names it.
 fn holder(file: &Path) -> String {
     let mut said = Vec::new();
     let _ = File::open(file).and_then(|file| file.take(HOLDER_BYTES).read_to_end(&mut said));
@@ -115,7 +115,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_second_is_told_who_holds_the_folder_and_comes_in_when_it_is_free() {
+    fn a_second_run_is_refused_with_the_holder_and_admitted_when_the_folder_is_free() {
         let folder = tempfile::tempdir().unwrap();
         let first = Lock::of(folder.path(), "run", Duration::ZERO).unwrap();
         let refused = Lock::of(folder.path(), "place", Duration::ZERO).unwrap_err();
@@ -134,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lock_that_a_killed_run_left_keeps_nobody_out() {
+    fn a_lock_that_a_killed_run_left_is_taken() {
         let folder = tempfile::tempdir().unwrap();
         fs::write(
             folder.path().join(LOCK),

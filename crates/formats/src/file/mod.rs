@@ -5,14 +5,14 @@
 //! | why a file was not written | `error`: [`FileError`] |
 //! | how a file is whole or not there, also after a power cut | `part`: [`write_atomically`], [`PartFile`] |
 //! | which files armill made, and whether they were changed since | `ledger`: `.armill-files` |
-//! | who is writing into a folder | `lock`: `.armill-lock` |
+//! | which run writes into a folder | `lock`: `.armill-lock` |
 //! | what a command may replace and remove | `writer`: [`Writer`], [`ResultFolder`] |
 //!
 //! The rules of [`Writer`], which every command writes through:
 //!
 //! - a file that exists is replaced if armill made it and it was not changed since, or with `--force`;
 //! - an input of the same command is never replaced;
-//! - only files that the same command made and nobody changed since are removed;
+//! - only files that the same command made and that were not changed since are removed;
 //! - links are never followed.
 
 mod error;

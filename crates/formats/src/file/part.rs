@@ -90,7 +90,7 @@ pub fn new_part(folder: &Path) -> io::Result<NamedTempFile> {
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     let part = builder.tempfile_in(folder)?;
-    // Tells others that it is being written; there are file systems without locks.
+    // Shows other runs that it is being written; some file systems have no locks.
     let _ = part.as_file().try_lock();
     Ok(part)
 }

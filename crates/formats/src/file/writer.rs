@@ -16,8 +16,8 @@ const PATIENCE: Duration = Duration::from_secs(30);
 
 /// The right of one command to write files.
 ///
-/// It replaces a file that armill made and nobody changed since, with `force` any other file too, an input of the command
-/// never. The inputs are those of the thread that makes it, see [`Inputs::during`].
+/// It replaces a file that armill made and that was not changed since, with `force` any other file too, an input of the
+/// command never. The inputs are those of the thread that makes it, see [`Inputs::during`].
 #[derive(Clone, Debug)]
 pub struct Writer {
     by: &'static str,
@@ -168,7 +168,7 @@ impl Writer {
     }
 }
 
-/// A folder for the results of one run, which nobody else writes into until this is dropped.
+/// A folder for the results of one run, which no other run writes into until this is dropped.
 #[derive(Debug)]
 pub struct ResultFolder {
     path: PathBuf,
@@ -247,25 +247,29 @@ impl ResultFolder {
         self.state().written.clone()
     }
 
-    /// Removes a file if this command made it and nobody changed it since. One that cannot be removed does no harm.
+    /// Removes a file if this command made it and it was not changed since.
     pub fn remove(&self, name: &str) {
         let mut state = self.state();
         state.written.remove(name);
-        let ours = state.ledger.unchanged(&self.path, self.writer.by);
-        if ours.iter().any(|one| one == name) {
-            let _ = std::fs::remove_file(self.path.join(name));
+        if state.ledger.made_by(self.writer.by).iter().any(|one| one == name) {
+            self.remove_unchanged(&state.ledger, name);
         }
     }
 
-    /// Removes what earlier runs of this command made and this one did not, and writes the list of files anew.
+    /// Removes a file that was not changed since it was made; whether it is gone.
+    fn remove_unchanged(&self, ledger: &Ledger, name: &str) -> bool {
+        let path = self.path.join(name);
+        ledger.is_ours(name, &path) && std::fs::remove_file(path).is_ok()
+    }
+
+    /// Removes what earlier runs of this command made and this one did not, and rewrites the list of files.
     ///
     /// # Errors
     /// The list cannot be written.
     pub fn finish(&self) -> Result<(), FileError> {
         let mut state = self.state();
-        let mut stale = state.ledger.unchanged(&self.path, self.writer.by);
-        stale.retain(|name| !state.written.contains_key(name));
-        stale.retain(|name| std::fs::remove_file(self.path.join(name)).is_ok());
+        let mut stale = state.ledger.made_by(self.writer.by);
+        stale.retain(|name| !state.written.contains_key(name) && self.remove_unchanged(&state.ledger, name));
         state.ledger.tidy(&self.path, &stale)
     }
 
@@ -304,7 +308,7 @@ mod tests {
         assert_eq!(fs::read(&path).unwrap(), b"mine");
         assert!(!folder.path().join(".armill-lock").exists());
         Writer::new(RUN, true).write(&path, b"x").unwrap();
-        // Now it is ours, until somebody changes it.
+        // Now it is ours, until it is changed.
         writer().write(&path, b"y").unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"y");
         fs::write(&path, "filled in").unwrap();

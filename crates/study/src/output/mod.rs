@@ -2,8 +2,8 @@
 //!
 //! Every file is written under another name and renamed, and `result.json` comes last: a study that was killed leaves no
 //! half file, and a folder without `result.json` is not finished. `result.json` names the files that belong to it, each with
-//! its SHA-256. Files of an earlier run of the same command are removed; what somebody changed, and what armill did not
-//! make, stays and is not replaced (see [`armill_formats::file`]).
+//! its SHA-256. Files of an earlier run of the same command are removed; files that were changed, and files that armill
+//! did not make, are neither removed nor replaced (see [`armill_formats::file`]).
 //!
 //! ```text
 //! result.json             the answer
