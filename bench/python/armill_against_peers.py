@@ -6,7 +6,7 @@ A witness first: all must agree within 1e-9 of the largest compliance. Then rate
 for a single pose. Numpy goes along the drawing of the arm, with nothing of armill; pinocchio and the toolbox hold the arm that
 `armill.interop` gave them. It wants a wheel that was built for release, with its extras: `pip install 'armill[interop]'`.
 
-`--rust` is the rate of `armill stand_at, dev from angles` that `cargo xtask bench --only rust` prints on this machine, in million
+`--rust` is the rate of `armill evaluate_at_joints, dev from angles` that `cargo xtask bench --only rust` prints on this machine, in million
 poses a second: then it is told what of it the package keeps.
 """
 

@@ -82,7 +82,7 @@ fn deviations(arm: &Arm, poses: &[Pose]) -> f64 {
     let answers = evaluate(&question, poses.len(), |i| isometry(&poses[i]), Watch::NONE);
     let Ok(answers) = answers else { return f64::NAN };
     let each = poses.iter().zip(&answers.points).map(|(pose, point)| {
-        let ours = point.as_ref().map_or(f64::NAN, |held| held.in_plane);
+        let ours = point.as_ref().map_or(f64::NAN, |evaluation| evaluation.in_plane);
         relative(&[ours], &[yardstick::dev(pose)])
     });
     worst(each)

@@ -4,15 +4,15 @@ use std::hint::black_box;
 
 use armill_core::compliance::compliance_at_tool;
 use armill_core::frame::Isometry;
-use armill_core::kernel::{BranchChoice, Question, evaluate, stand_at};
-use armill_core::load::Doubt;
+use armill_core::kernel::{BranchChoice, Question, evaluate, evaluate_at_joints};
+use armill_core::load::InputUncertainty;
 use armill_core::map::plane_map;
 use armill_core::nalgebra::{Matrix3, Point3, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
 use armill_core::source::elastic::predict;
 use armill_core::robot::inverse::{OrthoParallel, ToolAt, posture_at, postures};
 use armill_core::robot::joint::{JointCompliance, Sign};
 use armill_core::robot::{Amount, Axis, Branch, BranchPattern, Joint, Limits, Motion, Robot};
-use armill_core::source::{Standing, StiffnessModel};
+use armill_core::source::{ArmState, StiffnessModel};
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
 use armill_core::workpiece::{Grid, Plane};
@@ -60,7 +60,7 @@ impl Arm {
                 model: StiffnessModel::DRIVES,
                 flange_from_tool: &self.tool,
             },
-            doubt: Doubt::NONE,
+            uncertainty: InputUncertainty::NONE,
             home: None,
             cases: &self.cases,
             normal: Unit::new_unchecked(NORMAL.into()),
@@ -201,7 +201,7 @@ fn known_joints<'a>(arm: &'a Arm, one_thread: &'a ThreadPool) -> Candidate<'a> {
         .map(|k| ((k / 6 + 1) as f64 * 2.399_963 * ((k % 6) as f64 + 1.0)).sin())
         .collect();
     let run = move || {
-        let held = armill_core::source::Arm {
+        let evaluation = armill_core::source::Arm {
             robot: &arm.robot,
             compliance: arm.compliance(),
             model: StiffnessModel::DRIVES,
@@ -209,18 +209,18 @@ fn known_joints<'a>(arm: &'a Arm, one_thread: &'a ThreadPool) -> Candidate<'a> {
         };
         let width = 3 * arm.cases.len();
         let mut out = vec![0.0; FEW * width];
-        let tell = |standing: &mut Standing<'_>, out: &mut [f64]| {
+        let tell = |arm_state: &mut ArmState<'_>, out: &mut [f64]| {
             for (wrench, out) in arm.cases.iter().zip(out.chunks_mut(3)) {
-                out.copy_from_slice(standing.elastic(wrench)?.linear.as_slice());
+                out.copy_from_slice(arm_state.elastic(wrench)?.linear.as_slice());
             }
             Ok(())
         };
         one_thread
-            .install(|| stand_at(&held, &joints, (&mut out, width), tell, Watch::NONE))
+            .install(|| evaluate_at_joints(&evaluation, &joints, (&mut out, width), tell, Watch::NONE))
             .ok();
         black_box(&out);
     };
-    Candidate::new("armill stand_at", DEV_AT, FEW, run)
+    Candidate::new("armill evaluate_at_joints", DEV_AT, FEW, run)
         .note("any chain, read motion by motion; other postures")
 }
 

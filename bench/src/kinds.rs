@@ -14,7 +14,7 @@ use std::hint::black_box;
 
 use armill_core::frame::Isometry;
 use armill_core::kernel::{BranchChoice, Question};
-use armill_core::load::Doubt;
+use armill_core::load::InputUncertainty;
 use armill_core::map::plane_map;
 use armill_core::nalgebra::{Point3, Unit};
 use armill_core::robot::inverse::{Inverse, ToolAt, posture_at, postures};
@@ -134,7 +134,7 @@ impl Other {
                 cases: &self.cases,
                 normal: Unit::new_unchecked(NORMAL.into()),
                 choice,
-                doubt: Doubt::NONE,
+                uncertainty: InputUncertainty::NONE,
             };
             Candidate::new(self.who, name, grid.len(), move || {
                 one_thread

@@ -31,14 +31,14 @@ const BLOCK: usize = 256;
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = env::args().skip(1).collect();
-    let asked = |name: &str| arguments.iter().skip(1).any(|argument| argument == name);
+    let requested = |name: &str| arguments.iter().skip(1).any(|argument| argument == name);
     let known = |argument: &String| ["--quick", "--paths"].contains(&argument.as_str());
     let (Some(folder), true) = (arguments.first(), arguments.iter().skip(1).all(known)) else {
         eprintln!("usage: armill-bench FOLDER [--quick] [--paths]");
         return ExitCode::from(2);
     };
-    let rounds = if asked("--quick") { QUICK_ROUNDS } else { ROUNDS };
-    match run(Path::new(folder), rounds, asked("--paths")) {
+    let rounds = if requested("--quick") { QUICK_ROUNDS } else { ROUNDS };
+    match run(Path::new(folder), rounds, requested("--paths")) {
         Ok(()) => ExitCode::SUCCESS,
         Err(problem) => {
             eprintln!("{problem}");

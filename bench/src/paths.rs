@@ -158,16 +158,16 @@ fn readers(paths: &Paths) -> Vec<Candidate<'_>> {
         black_box(&step);
     };
     let of_gcode = move || {
-        let wanted = gcode::Wanted::default();
-        let read = gcode::read("part.ngc", paths.gcode.as_bytes(), &wanted, &mut take);
+        let requested = gcode::Wanted::default();
+        let read = gcode::read("part.ngc", paths.gcode.as_bytes(), &requested, &mut take);
         assert_eq!(read.expect("what was written here").cuts, POINTS as u64);
     };
     let of_apt = move || {
-        let wanted = apt::Wanted {
+        let requested = apt::Wanted {
             unit: None,
             dialect: None,
         };
-        let read = apt::read("part.apt", paths.apt.as_bytes(), &wanted, &mut take);
+        let read = apt::read("part.apt", paths.apt.as_bytes(), &requested, &mut take);
         black_box(read.expect("what was written here"));
     };
     let of_csv = move || {
@@ -196,7 +196,7 @@ fn predictions<'a>(arm: &'a Arm, paths: &'a Paths) -> Vec<Candidate<'a>> {
     };
     let along = move || {
         let answer = along_path(&question, &track, load.clone(), Watch::NONE).expect("nobody cancels");
-        assert_eq!(answer.answers.held().count(), POINTS);
+        assert_eq!(answer.answers.evaluation().count(), POINTS);
         black_box(answer);
     };
     let cutting = cutting();

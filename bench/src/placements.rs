@@ -13,11 +13,11 @@ use std::f64::consts::TAU;
 use std::hint::black_box;
 
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
-use armill_core::kernel::{Lie, PlacedPath, Question};
+use armill_core::kernel::{PartPlacement, PlacedPath, Question};
 use armill_core::load::{LoadCases, LoadFrame, PathLoad};
 use armill_core::nalgebra::{Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
 use armill_core::optimize::{
-    Counts, Goal, Holding, Merit, Placeable, PlacementGoal, Sure, ToolTurn, on_part,
+    Component, Objective, Holding, Score, Placeable, PlacementObjective, RankBy, ToolTurn, on_part,
 };
 use armill_core::path::{Pace, PathPoint, Placing, SampledPath, Spin, Track};
 use armill_core::robot::BranchPattern;
@@ -48,7 +48,7 @@ const SEARCHED: usize = 480;
 pub struct Places {
     path: PlacedPath,
     /// The first [`PLACES`] and all others of a search.
-    lies: Vec<Lie>,
+    placements: Vec<PartPlacement>,
 }
 
 impl Places {
@@ -72,14 +72,14 @@ impl Places {
         let turn = ToolTurn::of(&track);
         let part = |k: usize| (k as f64 * 0.618).fract() - 0.5;
         // All six degrees, near enough that every point is held.
-        let lies = (0..SEARCHED).map(|k| {
+        let placements = (0..SEARCHED).map(|k| {
             let at = Vector3::new(part(k), part(3 * k), part(7 * k)) * 0.1;
             let turned = Vector3::new(part(5 * k), part(11 * k), part(13 * k)) * 0.2;
-            turn.lie(track.base_from_part * from_xyz_and_fixed_angles(at, turned), 0.0)
+            turn.placement(track.base_from_part * from_xyz_and_fixed_angles(at, turned), 0.0)
         });
         Places {
-            lies: lies.collect(),
-            path: on_part((&track, &load), Counts::InPlane, &all),
+            placements: placements.collect(),
+            path: on_part((&track, &load), Component::InPlane, &all),
         }
     }
 }
@@ -126,29 +126,29 @@ pub fn candidates<'a>(
     one_thread: &'a ThreadPool,
 ) -> Vec<Candidate<'a>> {
     const WHO: &str = "armill placement";
-    let judged = move |lies: &[Lie], path: &PlacedPath, search: Option<Goal>| {
+    let judged = move |placements: &[PartPlacement], path: &PlacedPath, search: Option<Objective>| {
         let question: Question<'_> = arm.question(ONE_POSTURE);
         let placeable = Placeable {
             question: &question,
             path,
-            goal: PlacementGoal {
-                counts: Counts::InPlane,
-                goal: search.unwrap_or(Goal::Worst),
+            objective: PlacementObjective {
+                component: Component::InPlane,
+                objective: search.unwrap_or(Objective::Worst),
                 branches: BranchPattern::FRONT_ELBOW_UP,
                 margin: 0.0,
                 wrist: 0.0,
-                sure: Sure::Nominal,
+                rank_by: RankBy::Nominal,
                 holding: Holding::InOneBranch,
             },
         };
-        let mut best = Merit::NONE;
-        for chunk in lies.chunks(4) {
+        let mut best = Score::NONE;
+        for chunk in placements.chunks(4) {
             let bar = search.is_some().then_some(&best);
-            let merits = one_thread.install(|| placeable.merits(chunk, bar, Watch::NONE));
-            for merit in merits.expect("nobody cancels").into_iter().flatten() {
-                assert!(search.is_some() || merit.lost == 0, "{} points lost", merit.lost);
-                if merit.beats(&best) {
-                    best = merit;
+            let scores = one_thread.install(|| placeable.scores(chunk, bar, Watch::NONE));
+            for score in scores.expect("nobody cancels").into_iter().flatten() {
+                assert!(search.is_some() || score.lost == 0, "{} points lost", score.lost);
+                if score.beats(&best) {
+                    best = score;
                 }
             }
         }
@@ -157,19 +157,19 @@ pub fn candidates<'a>(
     let count = |places: usize| places * POINTS * steady.path.case_count();
     vec![
         Candidate::new(WHO, STEADY, count(PLACES), move || {
-            judged(&steady.lies[..PLACES], &steady.path, None);
+            judged(&steady.placements[..PLACES], &steady.path, None);
         })
         .note("MH12, 20 000 points, four cases; six free degrees"),
         Candidate::new(WHO, LEANING, count(PLACES), move || {
-            judged(&leaning.lies[..PLACES], &leaning.path, None);
+            judged(&leaning.placements[..PLACES], &leaning.path, None);
         })
         .note("the same, with a rotation, directions and wrenches of its own at each point"),
         Candidate::new(WHO, SEARCH_WORST, count(SEARCHED), move || {
-            judged(&steady.lies, &steady.path, Some(Goal::Worst));
+            judged(&steady.placements, &steady.path, Some(Objective::Worst));
         })
         .note("480 places; one no better than the best so far is given up, seen in single precision first"),
         Candidate::new(WHO, SEARCH_MEAN, count(SEARCHED), move || {
-            judged(&steady.lies, &steady.path, Some(Goal::Mean));
+            judged(&steady.placements, &steady.path, Some(Objective::Mean));
         })
         .note("the same, where the mean counts"),
     ]

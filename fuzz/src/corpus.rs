@@ -45,15 +45,15 @@ fn collect(folder: &Path, endings: &[&str], levels: usize, found: &mut Vec<PathB
             collect(&path, endings, levels - 1, found)?;
         }
         let ending = path.extension().and_then(|ending| ending.to_str());
-        let wanted = ending.is_some_and(|ending| endings.contains(&ending.to_lowercase().as_str()));
-        if kind.is_file() && wanted && entry.metadata()?.len() <= LONGEST_BYTES {
+        let requested = ending.is_some_and(|ending| endings.contains(&ending.to_lowercase().as_str()));
+        if kind.is_file() && requested && entry.metadata()?.len() <= LONGEST_BYTES {
             found.push(path);
         }
     }
     Ok(())
 }
 
-/// A word as libFuzzer reads it: in quotes, whatever is no plain character as `\xAB`.
+/// A word as libFuzzer reads it: in quotes, whatever is not a plain character as `\xAB`.
 fn line(word: &str) -> String {
     let mut line = String::from("\"");
     for byte in word.bytes() {

@@ -26,7 +26,7 @@ pub fn of_schema(schema: &str) -> Vec<String> {
 pub const STUDY: &[&str] = &[
     "format = 1\n", "robot = \"yaskawa/mh12\"\n", "robot = \"kuka/lbr-iiwa-14-r820\"\n", "base = \"controller\"\n", "material = \"aluminium-6061-t6\"\n",
     "[compliance]\n", "[tool]\n", "[plane]\n", "[load]\n", "[posture]\n", "[positioner]\n", "[gravity]\n", "[cut]\n", "[cut.cutter]\n", "[cut.stock]\n",
-    "[[ask]]\n", "[[statement]]\n", "[ask.program]\n", "[[ask.program.feature]]\n", "[ask.program.measured]\n", "[ask.program.drill]\n",
+    "[[analysis]]\n", "[[statement]]\n", "[analysis.program]\n", "[[analysis.program.feature]]\n", "[analysis.program.measured]\n", "[analysis.program.drill]\n",
     "cases_n = [[", "polyline_mm = [[", "{ ", " }", "true", "false", "best", "nominal", "flip", "rear", "front elbow-up",
     "nan", "inf", "1e308", "1e-320", "-0.0", "'''", "\"\"\"", "\\u0000", "0x7fffffffffffffff", "{}", "[]", "[[", "]]",
 ];

@@ -33,20 +33,20 @@ pub fn studies() -> Vec<Vec<u8>> {
 
 /// Values that are changed, made, taken away and refused, in texts with comments, tables on a line and lists of tables.
 pub fn edits() -> Vec<Vec<u8>> {
-    const TEXT: &str = "# mine\nlimit_um = 100 # of the drawing\n[plane]\ncentre_mm = [1000, 0, 500] # mm\n\n[[ask]]\nkind = \"map\"\n\n\
-                        [[ask]]\nkind = \"path\"\nplane = { tilt_deg = 90 }\n";
+    const TEXT: &str = "# mine\ntolerance_um = 100 # of the drawing\n[plane]\ncentre_mm = [1000, 0, 500] # mm\n\n[[analysis]]\nkind = \"map\"\n\n\
+                        [[analysis]]\nkind = \"path\"\nplane = { tilt_deg = 90 }\n";
     let changes = [
         ("plane.centre_mm", "[900, 0.5, 500]"),
         ("plane.centre_mm[2]", "600"),
-        ("ask[1].plane.tilt_deg", "null"),
-        ("ask[0].load.cases_n", "[[1, 2, 3]]"),
+        ("analysis[1].plane.tilt_deg", "null"),
+        ("analysis[0].load.cases_n", "[[1, 2, 3]]"),
         ("place.\"x y\"", "{\"a\": [true, \"b\"]}"),
-        ("ask", "null"),
-        ("ask[7].limit_um", "1e300"),
-        ("ask[2]", "{\"kind\": \"map\"}"),
-        ("ask[0]", "null"),
+        ("analysis", "null"),
+        ("analysis[7].tolerance_um", "1e300"),
+        ("analysis[2]", "{\"kind\": \"map\"}"),
+        ("analysis[0]", "null"),
         ("ballbar[0]", "{\"files\": []}"),
-        ("ask[1].tool.spring[0]", "{\"at\": \"tool\"}"),
+        ("analysis[1].tool.spring[0]", "{\"at\": \"tool\"}"),
         ("plane.centre_mm[1]", "null"),
         ("", "plain"),
     ];
@@ -296,7 +296,7 @@ title = "Everything"
 question = "Does it hold?"
 robot = "yaskawa/mh12"
 base = "base_link"
-limit_um = 60
+tolerance_um = 60
 [compliance]
 rad_per_n_m = [1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 1e-6]
 u_rad_per_n_m = [1e-7, 1e-7, 1e-7, 1e-7, 1e-7, 1e-7]
@@ -325,34 +325,34 @@ source = "none"
 [posture]
 branch = "front elbow-up"
 home_deg = [0, 0, 0, 0, 0, 0]
-[[ask]]
+[[analysis]]
 kind = "map"
 name = "plate"
 plane.rotation_deg = [90, 0, 90]
 plane.half_size_mm = 80
-[[ask]]
+[[analysis]]
 kind = "sections"
 name = "tilts"
 tilts_deg = [0, 30]
 posture.branch = "best"
-[[ask]]
+[[analysis]]
 kind = "sections"
 distances_mm = [800, 900]
-[[ask]]
+[[analysis]]
 kind = "volume"
 box = { centre_mm = [900, 0, 800], half_size_mm = [50, 50, 50], step_mm = 50 }
-[[ask]]
+[[analysis]]
 kind = "path"
 name = "circle"
 circle = { centre_mm = [0, 20], radius_mm = 40 }
 step_mm = 20
-[[ask]]
+[[analysis]]
 kind = "path"
 line = { from_mm = [0, 0], to_mm = [50, 0] }
-[[ask]]
+[[analysis]]
 kind = "path"
 polyline_mm = [[0, 0], [50, 0], [50, 50]]
-[[ask]]
+[[analysis]]
 kind = "path"
 rectangle = { centre_mm = [0, 0], size_mm = [60, 40] }
 [[statement]]
@@ -364,7 +364,7 @@ of = ["plate", "circle"]
 
 const EVERY_PROGRAM: &str = r#"format = 1
 robot = "yaskawa/mh12"
-limit_um = 60
+tolerance_um = 60
 load_dependent = true
 [tool]
 flange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0]
@@ -397,10 +397,10 @@ runout_um = 10
 from_mm = [-50, -50, -20]
 to_mm = [50, 50, 0]
 cell_mm = 1
-[[ask]]
+[[analysis]]
 kind = "path"
 name = "part"
-[ask.program]
+[analysis.program]
 file = "part.ngc"
 unit = "mm"
 dialect = "nx"
@@ -413,14 +413,14 @@ spin_deg = 10
 chord_error_mm = 0.01
 step_mm = 1
 limits = false
-[[ask.program.feature]]
+[[analysis.program.feature]]
 name = "slot"
 lines = [10, 20]
-[[ask]]
+[[analysis]]
 kind = "path"
-[ask.program]
+[analysis.program]
 file = "forces.csv"
-[ask.program.measured]
+[analysis.program.measured]
 file = "cut.txt"
 acts_on = "part"
 frame = "part"
@@ -433,11 +433,11 @@ value = "mean"
 start_s = 0.5
 rapid_mm_per_min = 10000
 channels = ["Fx", "Fy", "Fz"]
-[[ask]]
+[[analysis]]
 kind = "path"
-[ask.program]
+[analysis.program]
 file = "holes.apt"
-[ask.program.drill]
+[analysis.program.drill]
 material = "aluminium-6061-t6"
 diameter_mm = 6
 point_deg = 118

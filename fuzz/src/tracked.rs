@@ -18,13 +18,13 @@ pub fn poses(bytes: &[u8]) {
         let found = library::robot("yaskawa/mh12").expect("it is in the library");
         found.expect("every robot of the library reads").robot
     });
-    let found = match poses::read("poses.csv", bytes, robot, &poses::Told::default()) {
+    let found = match poses::read("poses.csv", bytes, robot, &poses::PoseReadOptions::default()) {
         Err(problems) => return refused(&problems),
         Ok(found) => found,
     };
     assert_eq!(found.poses.len(), found.lines.len());
     let question = calibrate::Question {
-        asked: calibrate::Asked::Geometry,
+        requested: calibrate::Asked::Geometry,
         flange_from_point: Isometry::identity(),
         turn_length: 0.25,
         prior: None,

@@ -15,7 +15,7 @@ use armill_formats::convention::Convention;
 use armill_formats::document::Problems;
 use armill_formats::material;
 use armill_formats::measurement::ballbar;
-use armill_formats::measurement::format::{self as forces, Measured};
+use armill_formats::measurement::format::{self as forces, ForceRecords};
 use armill_formats::measurement::{csv as force_csv, dynoware, load_tests as tests, profile};
 use armill_formats::robot::format::{self, Format, Wanted};
 use armill_formats::robot::pendant;
@@ -138,12 +138,12 @@ const MOST_REPEATED_LINES: usize = 20_000;
 
 /// G-code of a machine with a tilting table.
 pub fn gcode(bytes: &[u8]) {
-    let wanted = gcode::Wanted {
+    let requested = gcode::Wanted {
         rotaries: Some(gcode::Rotaries::table_ac()),
         most_repeated_lines: Some(MOST_REPEATED_LINES),
         ..gcode::Wanted::default()
     };
-    judge_program(gcode::read("part.ngc", bytes, &wanted, &mut judge_step));
+    judge_program(gcode::read("part.ngc", bytes, &requested, &mut judge_step));
 }
 
 /// A tool table, in the unit of the machine.
@@ -163,11 +163,11 @@ pub fn tool_table(bytes: &[u8]) {
 
 /// Cutter locations.
 pub fn apt(bytes: &[u8]) {
-    let wanted = apt::Wanted {
+    let requested = apt::Wanted {
         unit: Some(LengthUnit::Millimetre),
         dialect: None,
     };
-    judge_program(apt::read("part.apt", bytes, &wanted, &mut judge_step));
+    judge_program(apt::read("part.apt", bytes, &requested, &mut judge_step));
 }
 
 /// A path as a table.
@@ -177,11 +177,11 @@ pub fn path_csv(bytes: &[u8]) {
 
 /// A tool path program whose format is to be found out.
 pub fn program(bytes: &[u8]) {
-    let wanted = program::Wanted {
+    let requested = program::Wanted {
         most_repeated_lines: Some(MOST_REPEATED_LINES),
         ..program::Wanted::default()
     };
-    judge_program(program::read("part", bytes, &wanted, &mut judge_step));
+    judge_program(program::read("part", bytes, &requested, &mut judge_step));
 }
 
 /// Half of the last digit that controllers keep, m and rad, in every direction, with angles that add up.
@@ -302,18 +302,18 @@ pub fn dynoware(bytes: &[u8]) {
         "cut.txt",
         bytes,
         ActsOn::Part,
-        &forces::Wanted::default(),
+        &forces::ForceReadOptions::default(),
     ));
 }
 
 /// Forces as a table, with a column of time and without.
 pub fn force_csv(bytes: &[u8]) {
     for rate_hz in [None, Some(1e4)] {
-        let wanted = forces::Wanted {
+        let requested = forces::ForceReadOptions {
             rate_hz,
-            ..forces::Wanted::default()
+            ..forces::ForceReadOptions::default()
         };
-        judge_forces(force_csv::read("cut.csv", bytes, ActsOn::Tool, &wanted));
+        judge_forces(force_csv::read("cut.csv", bytes, ActsOn::Tool, &requested));
     }
 }
 
@@ -323,22 +323,22 @@ pub fn forces(bytes: &[u8]) {
         "cut",
         bytes,
         ActsOn::Tool,
-        &forces::Wanted::default(),
+        &forces::ForceReadOptions::default(),
     ));
 }
 
 /// Points of a profile, with and without what a file does not tell; what can be read is judged too.
 pub fn profile(bytes: &[u8]) {
-    let plain = profile::Wanted {
+    let plain = profile::ProfileReadOptions {
         unit: Some(profile::LengthUnit::Millimetre),
-        ..profile::Wanted::default()
+        ..profile::ProfileReadOptions::default()
     };
-    let by_deviation = profile::Wanted {
+    let by_deviation = profile::ProfileReadOptions {
         radius_mm: Some(25.0),
-        ..profile::Wanted::default()
+        ..profile::ProfileReadOptions::default()
     };
-    for wanted in [profile::Wanted::default(), plain, by_deviation] {
-        let found = match profile::read("bore", bytes, &wanted) {
+    for requested in [profile::ProfileReadOptions::default(), plain, by_deviation] {
+        let found = match profile::read("bore", bytes, &requested) {
             Err(problems) => {
                 refused(&problems);
                 continue;
@@ -366,7 +366,7 @@ pub fn profile(bytes: &[u8]) {
 }
 
 /// Records hold numbers that are numbers, and their time goes on.
-fn judge_forces(read: Result<Measured, Problems>) {
+fn judge_forces(read: Result<ForceRecords, Problems>) {
     let found = match read {
         Err(problems) => return refused(&problems),
         Ok(found) => found,
@@ -382,12 +382,12 @@ fn judge_forces(read: Result<Measured, Problems>) {
 /// Runs of a circular test: angles and radii are numbers.
 pub fn ballbar_csv(bytes: &[u8]) {
     for start in [None, Some(0.0)] {
-        let told = ballbar::Told {
+        let given = ballbar::BallbarReadOptions {
             direction: start.map(|_| Direction::Clockwise),
             start,
             radius: None,
         };
-        match ballbar::csv::read("bar.csv", bytes, &told) {
+        match ballbar::csv::read("bar.csv", bytes, &given) {
             Err(problems) => refused(&problems),
             Ok(found) => {
                 assert_eq!(found.runs.len(), found.names.len());
@@ -418,11 +418,11 @@ pub fn material(bytes: &[u8]) {
 }
 
 fn read_as(bytes: &[u8], path: &Path, format: Format) -> Result<RobotDescription, Problems> {
-    let wanted = Wanted {
+    let requested = Wanted {
         format: Some(format),
         tip: None,
     };
-    format::read(path, "arm", bytes, &wanted)
+    format::read(path, "arm", bytes, &requested)
 }
 
 /// A robot of ours can be posed.

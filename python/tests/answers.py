@@ -13,25 +13,25 @@ import armill
 PATHS = """
 format = 1
 robot = "yaskawa/mh12"
-limit_um = 300
+tolerance_um = 300
 tool = { flange_from_tool_mm_deg = [60, 0, 150, 0, 35, 0] }
 plane = { centre_mm = [900, 100, 500], tilt_deg = 60, half_size_mm = 150, step_mm = 75 }
 load = { cases_n = [[30, 0, -20], [0, 30, -20]] }
 
-[[ask]]
+[[analysis]]
 kind = "path"
 name = "groove"
 circle = { radius_mm = 100 }
 step_mm = 10
 
-[[ask]]
+[[analysis]]
 kind = "path"
 name = "turned"
 circle = { radius_mm = 100 }
 step_mm = 10
 posture.search = { step_deg = 20 }
 
-[[ask]]
+[[analysis]]
 kind = "path"
 name = "pocket"
 rectangle = { size_mm = [160, 100] }
@@ -40,15 +40,15 @@ step_mm = 8
 FAR = """
 format = 1
 robot = "yaskawa/mh12"
-limit_um = 50
+tolerance_um = 50
 plane = { centre_mm = [1150, 200, 700], rotation_deg = [0, 40, 20], half_size_mm = 500, step_mm = 50 }
 load = { cases_n = [[3, 5, 5]] }
 
-[[ask]]
+[[analysis]]
 kind = "map"
 name = "far plate"
 
-[[ask]]
+[[analysis]]
 kind = "path"
 name = "round"
 circle = { radius_mm = 60 }
@@ -56,7 +56,7 @@ circle = { radius_mm = 60 }
 PLACE = """
 format = 1
 robot = "yaskawa/mh12"
-limit_um = 50
+tolerance_um = 50
 plane = { centre_mm = [1000, 0, 800], half_size_mm = 200, step_mm = 10 }
 load = { cases_n = [[3, -5, -5], [3, -5, 5], [3, 5, -5], [3, 5, 5]] }
 posture.branch = "front elbow-up"
@@ -65,7 +65,7 @@ posture.branch = "front elbow-up"
 x_mm = [700, 1300]
 tilt_deg = [-60, 90]
 
-[[ask]]
+[[analysis]]
 kind = "path"
 name = "groove"
 circle = { radius_mm = 100 }
@@ -74,13 +74,13 @@ step_mm = 40
 MEASURED = """
 format = 1
 robot = "yaskawa/mh12"
-limit_um = 200
+tolerance_um = 200
 tool = { flange_from_tool_mm_deg = [0, 0, 100, 0, 0, 0] }
 plane = { centre_mm = [1000, 0, 800], half_size_mm = 150, step_mm = 75 }
 load = { cases_n = [[3, 5, 5]] }
 measured = { part = "cmm.csv", ballbar = ["ballbar.csv"] }
 
-[[ask]]
+[[analysis]]
 kind = "path"
 name = "groove"
 circle = { radius_mm = 100 }

@@ -64,6 +64,6 @@ def test_what_takes_arrays_tells_their_shapes_in_its_first_line():
 
 def test_everything_of_the_native_part_is_offered_or_used():
     own = {name for name in vars(_armill) if not name.startswith("_")}
-    assert own - set(armill.__all__) == {"arithmetic", "ask", "command", "options"}
+    assert own - set(armill.__all__) == {"arithmetic", "analysis", "command", "options"}
     assert armill.__version__ == _armill.__version__
     assert (Path(inspect.getfile(armill)).parent / "py.typed").is_file()

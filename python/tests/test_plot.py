@@ -34,7 +34,7 @@ DIGITS_UM = 0.0011
 
 def drawn_placement(ax=None):
     tilts = np.linspace(60, 90, 7)
-    return plot.placement(answers.placed(), {"tilt_deg": (tilts, 12 + 0.1 * (90 - tilts))}, limit_um=50, ax=ax)
+    return plot.placement(answers.placed(), {"tilt_deg": (tilts, 12 + 0.1 * (90 - tilts))}, tolerance_um=50, ax=ax)
 
 
 PICTURES = {
@@ -262,7 +262,7 @@ def test_a_plane_given_by_angles_has_its_own_axes():
 
 def test_cuts_that_lie_apart_are_not_joined(tmp_path):
     (tmp_path / "part.nc").write_text("G21 G90 G94\nG0 X0 Y0 Z5\nG1 Z0 F200\nG1 X80 F600\nG0 Z5\nG0 X0 Y40\nG1 Z0\nG1 X80\nM30\n")
-    study = answers.PATHS.split("[[ask]]")[0] + '[[ask]]\nkind = "path"\nname = "part"\n[ask.program]\nfile = "part.nc"\n'
+    study = answers.PATHS.split("[[analysis]]")[0] + '[[analysis]]\nkind = "path"\nname = "part"\n[analysis.program]\nfile = "part.nc"\n'
     result = armill.Study.from_text(study, tmp_path).run()
     points = columns(result, "part")
     apart = plot._setting.breaks(points)
@@ -287,7 +287,7 @@ def test_along_a_path_stand_the_numbers_of_the_table():
 def test_shares_add_up_to_the_deviation():
     answer = answers.paths().answer["paths"][2]
     ax = plot.shares(answers.paths(), "pocket")
-    assert [bars.get_label() for bars in ax.containers] == answer["setting"]["shares_of"]
+    assert [bars.get_label() for bars in ax.containers] == answer["setting"]["contributors"]
     sums = np.sum([[bar.get_width() for bar in bars] for bars in ax.containers], axis=0)
     assert np.allclose(sums, [each["point"]["in_plane_um"] for each in answer["worst_points"]], rtol=1e-9)
     plane = plot.shares(answers.paper(), "Fig. 6")
@@ -337,8 +337,8 @@ def test_at_the_turn_that_was_chosen_the_lattice_has_the_deviation_of_the_path()
 
 
 def test_a_turn_beyond_half_a_turn_comes_in_from_the_other_side():
-    study = answers.PATHS.split("[[ask]]")[0].replace("[900, 100, 500]", "[1250, 100, 500]")
-    study += '[[ask]]\nkind = "path"\nname = "slot"\nrectangle = { size_mm = [300, 500] }\nstep_mm = 5\n'
+    study = answers.PATHS.split("[[analysis]]")[0].replace("[900, 100, 500]", "[1250, 100, 500]")
+    study += '[[analysis]]\nkind = "path"\nname = "slot"\nrectangle = { size_mm = [300, 500] }\nstep_mm = 5\n'
     result = armill.Study.from_text(study + "posture.search = { step_deg = 10 }\n").run()
     told = columns(result, "slot")["turn_deg"]
     assert told.max() > 180, "the path no longer turns so far: take another"
@@ -349,8 +349,8 @@ def test_a_turn_beyond_half_a_turn_comes_in_from_the_other_side():
 
 
 def test_what_is_nowhere_reached_is_drawn_so_or_told():
-    study = answers.PATHS.split("[[ask]]")[0].replace("[900, 100, 500]", "[3000, 100, 500]")
-    study += '[[ask]]\nkind = "map"\nname = "far"\n[[ask]]\nkind = "path"\nname = "away"\nrectangle = { size_mm = [160, 100] }\n'
+    study = answers.PATHS.split("[[analysis]]")[0].replace("[900, 100, 500]", "[3000, 100, 500]")
+    study += '[[analysis]]\nkind = "map"\nname = "far"\n[[analysis]]\nkind = "path"\nname = "away"\nrectangle = { size_mm = [160, 100] }\n'
     result = armill.Study.from_text(study).run()
     assert legend(plot.map(result)) == ["too far (25 points)"]
     assert not [patch for patch in plot.region(result).patches if patch.get_label().startswith("circle")]
@@ -402,7 +402,7 @@ def test_a_placement_shows_its_front_and_the_costs_that_are_given():
     front, tilt = drawn_placement()
     line = lines(front)["least, by margin"]
     assert line.get_xydata().tolist() == [[each["margin_deg"], each["cost_um"]] for each in found["by_margin"]]
-    assert f"as drawn {plot._style.number(found['as_drawn']['cost_um'])} µm" in legend(front)
+    assert f"as drawn {plot._style.number(found['nominal']['cost_um'])} µm" in legend(front)
     assert lines(tilt)["all else as found"].get_xdata()[0] == 60 and tilt.get_xlabel() == "tilt of the part (deg)"
     assert plot.placement(found)[0].get_ylabel() == "largest in-plane deviation (µm)"
     with pytest.raises(plot.Missing, match="no degree is called tilt"):

@@ -56,7 +56,7 @@ def test_deviation_is_compliance_times_wrench_and_its_shares_add_up(mh12, joints
     assert deviation.shape == (300, 2, 3)
     assert np.abs(deviation - witness).max() <= 1e-12 * np.abs(witness).max()
     shares = mh12.shares(joints, FORCES, tool)
-    assert shares.shape == (300, 2, len(mh12.sharers), 3) and mh12.sharers == mh12.joint_names
+    assert shares.shape == (300, 2, len(mh12.contributors), 3) and mh12.contributors == mh12.joint_names
     assert np.abs(shares.sum(axis=2) - deviation).max() <= 1e-12 * np.abs(deviation).max()
 
 

@@ -131,7 +131,7 @@ def test_an_ask_that_is_not_there_is_told_with_those_there_are(result):
 
 
 def test_every_problem_of_a_study_is_told_as_the_command_tells_it(command, tmp_path):
-    text = (GROOVE / "study.toml").read_text() + '\n[[ask]]\nkind = "map"\nlimit = 3\nname = 7\n'
+    text = (GROOVE / "study.toml").read_text() + '\n[[analysis]]\nkind = "map"\nlimit = 3\nname = 7\n'
     (tmp_path / "study.toml").write_text(text)
     study = armill.Study.load(tmp_path)
     assert len(study.problems) >= 2

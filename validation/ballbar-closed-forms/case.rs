@@ -97,12 +97,12 @@ pub fn checks() -> Vec<Check> {
             [0.0, 0.0].map(|_: f64| random.between(1e-6, 50e-6)),
         );
         let made = machine(sigma, gap);
-        let asked = Asked {
+        let requested = Asked {
             reversals: of_axes(["X", "Y"]),
             most_lobes: 2,
             period: None,
         };
-        let found: Option<Parts> = parts(&made, &asked);
+        let found: Option<Parts> = parts(&made, &requested);
         let value = |term: Term| {
             found
                 .as_ref()

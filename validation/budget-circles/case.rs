@@ -116,17 +116,17 @@ pub fn checks() -> Vec<Check> {
             ],
             Some(&part),
         );
-        let Some(told) = whole.comparison else {
+        let Some(given) = whole.comparison else {
             shares.push(f64::NAN);
             continue;
         };
         let square = |wave: &Wave| wave.amplitude.powi(2);
         let measured = both * both + square(&of_part);
         let predicted = both * both + square(&of_load);
-        shares.push(told.together.explained - (1.0 - (square(&of_part) + square(&of_load)) / measured));
+        shares.push(given.together.explained - (1.0 - (square(&of_part) + square(&of_load)) / measured));
         let alike = both * both / (measured * predicted).sqrt();
-        likeness.push(told.together.likeness.map_or(f64::NAN, |found| found - alike));
-        let at = |number: f64| told.waves[number as usize - 1];
+        likeness.push(given.together.likeness.map_or(f64::NAN, |found| found - alike));
+        let at = |number: f64| given.waves[number as usize - 1];
         amplitudes.extend([
             at(n).measured.amplitude - both,
             at(n).predicted.amplitude - both,

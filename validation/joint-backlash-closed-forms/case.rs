@@ -145,12 +145,12 @@ pub fn checks() -> Vec<Check> {
                 let speed = Vector2::new(phi.sin(), -phi.cos()) * way.sign();
                 let [rates, levers] = two_bars(rho, centre.z);
                 let lag = |rate: f64| -0.5 * rate.signum();
-                let mut told = vec![(0, lag(about.dot(&speed)) * rho * outwards.dot(&about))];
+                let mut given = vec![(0, lag(about.dot(&speed)) * rho * outwards.dot(&about))];
                 for (k, joint) in [1, 2, 4].into_iter().enumerate() {
                     let rate = rates[k] * away.dot(&speed);
-                    told.push((joint, lag(rate) * levers[k] * outwards.dot(&away)));
+                    given.push((joint, lag(rate) * levers[k] * outwards.dot(&away)));
                 }
-                for (joint, expected) in told {
+                for (joint, expected) in given {
                     effects.push(along.slope((joint, 0.0), way, &[angle])[0] - expected);
                 }
             }

@@ -142,7 +142,7 @@ pub fn checks() -> Vec<Check> {
     ));
     let uneven = READINGS
         .iter()
-        .filter(|r| of(r).points != 72 || of(r).unreached > 0)
+        .filter(|r| of(r).points != 72 || of(r).unreachable > 0)
         .count();
     checks.push(Check::none_wrong(
         "readings without 72 reached points",
@@ -167,13 +167,13 @@ fn deviations(reading: &Reading, path: &PathAnswer) -> Check {
         tolerance: 0.05,
         unit: "um",
     };
-    let told = match (least, reading.full) {
+    let given = match (least, reading.full) {
         (Some(least), Some(full)) => format!("in-plane {least:.1} to {greatest:.1}, full {full:.1} um"),
         (Some(least), None) => format!("in-plane {least:.1} to {greatest:.1} um"),
         (None, Some(full)) => format!("in-plane at most {greatest:.1}, full {full:.1} um"),
         (None, None) => format!("in-plane at most {greatest:.1} um"),
     };
-    Check::printed(format!("{}: {told}", reading.name), WITNESS, gap, 3)
+    Check::printed(format!("{}: {given}", reading.name), WITNESS, gap, 3)
 }
 
 /// Whether every point of the path keeps inside the joint limits.

@@ -111,17 +111,17 @@ fn full_circles_have_the_zone_and_radii_that_were_computed() {
         let Some(points) = points(*set) else { return };
         let (plane, profile) = profile(&points);
         let zone = profile.minimum_zone().unwrap();
-        let near = |ours: f64, told: f64| (ours - told).abs() < PRINTED;
-        let told = profile.least_squares().peak_to_valley;
-        assert!((told - lsci).abs() < TWICE_COMPUTED, "{set}: {told} {lsci}");
+        let near = |ours: f64, given: f64| (ours - given).abs() < PRINTED;
+        let given = profile.least_squares().peak_to_valley;
+        assert!((given - lsci).abs() < TWICE_COMPUTED, "{set}: {given} {lsci}");
         assert!(near(zone.peak_to_valley(), *mzci), "{set}: {zone:?}");
         assert!(near(profile.minimum_circumscribed().radius, *mcci), "{set}");
         assert!(near(profile.maximum_inscribed().unwrap().radius, *mici), "{set}");
         let centre = plane.at(&zone.centre);
         let mut across = (0..3).filter(|axis| *axis != plane.normal.iamax());
-        for told in [first, second] {
+        for given in [first, second] {
             let axis = across.next().unwrap();
-            assert!((centre[axis] - told).abs() < PRINTED_CENTRE, "{set}: {centre}");
+            assert!((centre[axis] - given).abs() < PRINTED_CENTRE, "{set}: {centre}");
         }
     }
 }

@@ -76,8 +76,8 @@ pub fn checks() -> Vec<Check> {
         };
         Check::printed(what, COMPUTED, gap, 5)
     };
-    let value = |told: Option<(usize, f64)>| told.map_or(f64::NAN, |(_, value)| value);
-    let places = [at, rt].map(|told| told.map(|(index, _)| 5 * index));
+    let value = |given: Option<(usize, f64)>| given.map_or(f64::NAN, |(_, value)| value);
+    let places = [at, rt].map(|given| given.map(|(index, _)| 5 * index));
     let [line_at, line_rt] = line().unwrap_or([f64::NAN; 2]);
     vec![
         computed("AT of five runs round an arc: 32.9154 um", value(at) - 32.9154),

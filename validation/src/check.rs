@@ -146,14 +146,14 @@ mod tests {
 
     #[test]
     fn rounding_is_told_as_a_power_of_ten_above_three_times_the_error() {
-        let told = |error| Check::computed("", "", gap(error)).reached;
-        assert_eq!(told(3.1e-14), "below 1e-13 m");
-        assert_eq!(told(3.5e-14), "below 1e-12 m");
+        let given = |error| Check::computed("", "", gap(error)).reached;
+        assert_eq!(given(3.1e-14), "below 1e-13 m");
+        assert_eq!(given(3.5e-14), "below 1e-12 m");
         assert_eq!(
-            (told(0.0), told(1e-17)),
+            (given(0.0), given(1e-17)),
             ("below 1e-14 m".to_owned(), "below 1e-14 m".to_owned())
         );
-        assert_eq!(told(f64::INFINITY), "below infinity m");
+        assert_eq!(given(f64::INFINITY), "below infinity m");
     }
 
     #[test]

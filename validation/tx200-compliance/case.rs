@@ -15,9 +15,9 @@ use nalgebra::{Matrix3, Point3, Vector3};
 use armill_core::compliance::compliance_at_tool;
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
 use armill_core::robot::inverse::{ToolAt, posture_at, postures};
-use armill_core::robot::{Amount, JointCompliance, Mass, Posture, Robot, Seat, Spring, Structure};
+use armill_core::robot::{Amount, JointCompliance, Mass, Posture, Robot, Attachment, Spring, Structure};
 use armill_core::source::stiffness_model::FREE_FALL;
-use armill_core::source::{Arm, Gravity, Standing, StiffnessModel};
+use armill_core::source::{Arm, Gravity, ArmState, StiffnessModel};
 
 use crate::arms;
 use crate::check::{Check, Gap, worst_difference};
@@ -202,7 +202,7 @@ fn with_bending(robot: &Robot) -> Matrix3<f64> {
                 value: 1.0 / k[axis],
                 standard_uncertainty: 0.0,
             };
-            Spring::about(Seat::Joint(joint), axes[axis], compliance)
+            Spring::about(Attachment::Joint(joint), axes[axis], compliance)
         };
         [spring(0), spring(1)]
     };
@@ -215,14 +215,14 @@ fn with_bending(robot: &Robot) -> Matrix3<f64> {
         ..StiffnessModel::DRIVES.clone()
     };
     let tool = flange_from_tool();
-    let mut standing = Standing::new(held(robot, &model, &tool));
-    standing.stand(&SECOND_JOINTS_DEG.map(f64::to_radians));
-    let compliance = standing.compliance().expect("there is no compensator");
+    let mut arm_state = ArmState::new(evaluation(robot, &model, &tool));
+    arm_state.set_joints(&SECOND_JOINTS_DEG.map(f64::to_radians));
+    let compliance = arm_state.compliance().expect("there is no compensator");
     compliance.fixed_view::<3, 3>(0, 0) * 1e6
 }
 
 /// The arm as the sources of deviation see it.
-fn held<'a>(robot: &'a Robot, model: &'a StiffnessModel, tool: &'a Isometry) -> Arm<'a> {
+fn evaluation<'a>(robot: &'a Robot, model: &'a StiffnessModel, tool: &'a Isometry) -> Arm<'a> {
     Arm {
         robot,
         compliance: robot.compliance().expect("the arm was made with springs"),
@@ -246,10 +246,10 @@ const MASSES: [(f64, [f64; 3]); 7] = [
 /// by central differences with a step of 1e-5 rad.
 fn gravity_gap(robot: &Robot) -> f64 {
     let mass = |(index, (mass, centre)): (usize, &(f64, [f64; 3]))| Mass {
-        seat: if index < 6 {
-            Seat::Joint(index)
+        attachment: if index < 6 {
+            Attachment::Joint(index)
         } else {
-            Seat::Flange
+            Attachment::Flange
         },
         mass: *mass,
         centre: (*centre).into(),
@@ -268,12 +268,12 @@ fn gravity_gap(robot: &Robot) -> f64 {
         actual: None,
     };
     let tool = flange_from_tool();
-    let mut standing = Standing::new(held(robot, &model, &tool));
+    let mut arm_state = ArmState::new(evaluation(robot, &model, &tool));
     let mut gap = 0.0_f64;
     for posture in 0..10 {
         let q = [0, 1, 2, 3, 4, 5].map(|i| 0.3 * f64::from(posture) - 0.4 * f64::from(i) + 0.5);
-        standing.stand(&q);
-        for (joint, torque) in standing.gravity_torques().iter().enumerate() {
+        arm_state.set_joints(&q);
+        for (joint, torque) in arm_state.gravity_torques().iter().enumerate() {
             let at = |by: f64| {
                 let mut q = q;
                 q[joint] += by;

@@ -78,7 +78,7 @@ fn missed(rows: &[Row]) -> [f64; 3] {
         })
         .collect();
     let question = Question {
-        asked: Asked::BaseAndTool,
+        requested: Asked::BaseAndTool,
         flange_from_point: Isometry::identity(),
         turn_length: 1.0,
         prior: None,

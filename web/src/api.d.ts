@@ -391,7 +391,7 @@ export interface paths {
             };
             requestBody: {
                 content: {
-                    "application/json": components["schemas"]["OfAsk"];
+                    "application/json": components["schemas"]["OfAnalysis"];
                 };
             };
             responses: {
@@ -440,7 +440,7 @@ export interface paths {
             };
             requestBody: {
                 content: {
-                    "application/json": components["schemas"]["OfAsk"];
+                    "application/json": components["schemas"]["OfAnalysis"];
                 };
             };
             responses: {
@@ -538,7 +538,7 @@ export interface paths {
             };
             requestBody: {
                 content: {
-                    "application/json": components["schemas"]["OfAsk"];
+                    "application/json": components["schemas"]["OfAnalysis"];
                 };
             };
             responses: {
@@ -636,7 +636,7 @@ export interface paths {
             };
             requestBody: {
                 content: {
-                    "application/json": components["schemas"]["OfAsk"];
+                    "application/json": components["schemas"]["OfAnalysis"];
                 };
             };
             responses: {
@@ -1238,7 +1238,7 @@ export interface components {
             file: string;
         };
         /** @description An ask of a text. */
-        OfAsk: {
+        OfAnalysis: {
             /** @description The text of the study. */
             text: string;
             /** @description Its ask; all of them, or the first, where none is named. */
@@ -1337,9 +1337,9 @@ export interface components {
              */
             step_deg?: number | null;
             /** @description Which part of the deviation counts; `in-plane` if left out. */
-            counts?: components["schemas"]["CountsName"] | null;
+            counts?: components["schemas"]["ComponentName"] | null;
             /** @description What shall be least; `worst` if left out. */
-            goal?: components["schemas"]["GoalName"] | null;
+            goal?: components["schemas"]["ObjectiveName"] | null;
             /**
              * Format: double
              * @description How much the tool may turn along the path; 1 if left out.
@@ -1357,9 +1357,9 @@ export interface components {
             reversal_um_mm?: number | null;
         };
         /** @description Which part of the deviation counts. */
-        CountsName: "in-plane" | "cross-track" | "axial";
+        ComponentName: "in-plane" | "cross-track" | "axial";
         /** @description What shall be least. */
-        GoalName: "worst" | "mean" | "above-limit";
+        ObjectiveName: "worst" | "mean" | "above-tolerance";
         /** @description What may move. */
         PlaceOptions: {
             /** @description As `[place]` of a study; what it leaves out the study says. */
@@ -1419,14 +1419,14 @@ export interface components {
             /** @description Branches that may be taken: words of a branch, or `any`; those that the study leaves open if left out. */
             branch?: string | null;
             /** @description Which part of the deviation counts; `in-plane` if left out. */
-            counts?: components["schemas"]["CountsName"] | null;
+            counts?: components["schemas"]["ComponentName"] | null;
             /** @description What shall be least; `worst` if left out. */
-            goal?: components["schemas"]["GoalName"] | null;
+            goal?: components["schemas"]["ObjectiveName"] | null;
             /**
              * @description What places are compared by: the goal as if all were known, with two standard uncertainties more, or how probably it
              *     keeps the limit; `nominal` if left out.
              */
-            sure?: components["schemas"]["SureName"] | null;
+            sure?: components["schemas"]["RankByName"] | null;
             /**
              * Format: double
              * @description How far every joint stays from its limits, the elbow from stretched and the wrist from straight; 0 if left out.
@@ -1461,7 +1461,7 @@ export interface components {
             ] | null;
         };
         /** @description What places are compared by. */
-        SureName: "nominal" | "plus-two-sigma" | "within-limit";
+        RankByName: "nominal" | "plus-two-sigma" | "within-limit";
         /** @description Which tests springs are found from. */
         IdentifyOptions: {
             /** @description The table of tests, a file of the folder. */
@@ -1501,14 +1501,14 @@ export interface components {
             /** @description The robot, as the study names it. */
             robot: string | null;
             /** @description Its asks, in order. */
-            asks: components["schemas"]["OutlinedAsk"][];
+            asks: components["schemas"]["OutlinedAnalysis"][];
             /** @description Everything that is wrong. */
             problems: components["schemas"]["Problem"][];
             /** @description Version of armill. */
             armill: string;
         };
         /** @description One ask. */
-        OutlinedAsk: {
+        OutlinedAnalysis: {
             /** @description Its name. */
             name: string;
             /** @description `map`, `sections`, `volume`, `path` or `holes`. */
@@ -1555,7 +1555,7 @@ export interface components {
             /** @description The robot, as the study names it. */
             robot: string | null;
             /** @description Its asks, in order; one map where it has none. */
-            asks: components["schemas"]["OutlinedAsk"][];
+            asks: components["schemas"]["OutlinedAnalysis"][];
             /** @description Everything that is wrong, as `armill check --json` tells it. */
             problems: components["schemas"]["Problem"][];
         };
@@ -1564,7 +1564,7 @@ export interface components {
             /** @description The text. */
             text: string;
             /** @description Its asks. */
-            asks: components["schemas"]["OutlinedAsk"][];
+            asks: components["schemas"]["OutlinedAnalysis"][];
             /** @description Everything that is wrong with it. */
             problems: components["schemas"]["Problem"][];
         };
@@ -1579,7 +1579,7 @@ export interface components {
         };
         /** @description Where a value stands. */
         ValuePlace: {
-            /** @description Which: `place.x_mm`, `ask[1].circle.radius_mm`; a list is one value, but for lists of tables. */
+            /** @description Which: `place.x_mm`, `analysis[1].circle.radius_mm`; a list is one value, but for lists of tables. */
             path: string;
             /** @description Its bytes in the text: the first, and the one behind the last. */
             bytes: [
@@ -1592,7 +1592,7 @@ export interface components {
             /** @description The text with the changes made in it. */
             text: string;
             /** @description Its asks. */
-            asks: components["schemas"]["OutlinedAsk"][];
+            asks: components["schemas"]["OutlinedAnalysis"][];
             /** @description The settings that the ask resolves to. */
             values: components["schemas"]["ValuesAnswer"];
             /** @description What of it can be drawn in space. */
@@ -1669,7 +1669,7 @@ export interface components {
              * Format: double
              * @description The tolerance.
              */
-            limit_um: number;
+            tolerance_um: number;
             /** @description Posture as the file asks for it: words of a branch, `nominal` or `best`. */
             branch: string;
             /** @description The branch that this means. */
@@ -1986,7 +1986,7 @@ export interface components {
              * Format: uint
              * @description In-plane deviation over the limit.
              */
-            over_limit: number;
+            above_tolerance: number;
             /**
              * Format: uint
              * @description No posture reaches.
@@ -2060,8 +2060,8 @@ export interface components {
              */
             full_um: number;
             /**
-             * @description Share of each of `shares_of` in the in-plane deviation; they add up to it (load-dependent: nearly; the
-             *     geometry of an `actual_robot` is in none).
+             * @description Share of each of `contributors` in the in-plane deviation; they add up to it (load-dependent: nearly; the
+             *     geometry of an `calibrated_robot` is in none).
              */
             joint_share_um: number[];
             /**
@@ -2121,7 +2121,7 @@ export interface components {
              * Format: double
              * @description Points that hold the limit with so much to spare, over all points.
              */
-            fraction_surely_within: number;
+            fraction_robustly_within: number;
             /**
              * Format: double
              * @description Points that would hold it with so much taken away, over all points.
@@ -2136,9 +2136,9 @@ export interface components {
              * Format: double
              * @description Area that surely holds the limit.
              */
-            area_surely_mm2: number;
+            area_robust_mm2: number;
             /** @description Its boundary. */
-            boundary_surely_mm: [
+            boundary_robust_mm: [
                 number,
                 number
             ][][];
@@ -2237,11 +2237,11 @@ export interface components {
              * Format: double
              * @description The tolerance.
              */
-            limit_um: number;
+            tolerance_um: number;
             /** @description Parts of the stiffness model that were on. */
             model: string[];
             /** @description Whom shares are told for: the joints, then base, flange and tool where springs sit. */
-            shares_of: string[];
+            contributors: string[];
         };
         /** @description The points of a map, row by row along z', in each row along y'. */
         GridAnswer: {
@@ -2291,7 +2291,7 @@ export interface components {
              * Format: uint
              * @description Points without posture.
              */
-            unreached: number;
+            unreachable: number;
             /**
              * Format: uint
              * @description Points with a posture that stands outside joint limits.
@@ -2556,7 +2556,7 @@ export interface components {
              * Format: double
              * @description Largest deviation across the tool if the force stayed as drawn.
              */
-            max_in_plane_if_drawn_um: number;
+            nominal_max_in_plane_um: number;
             /**
              * Format: uint
              * @description Points at which force and tool do not rest: the cut draws the tool in.
@@ -2752,7 +2752,7 @@ export interface components {
         SearchAnswer: {
             /** @description Which part of the deviation counted: `in-plane`, `cross-track`, `axial`. */
             counts: string;
-            /** @description What was to be least: `worst`, `mean`, `above-limit`. */
+            /** @description What was to be least: `worst`, `mean`, `above-tolerance`. */
             goal: string;
             /**
              * Format: uint
@@ -2794,7 +2794,7 @@ export interface components {
              * Format: uint
              * @description Points without posture.
              */
-            unreached: number;
+            unreachable: number;
             /**
              * Format: uint
              * @description Points with a posture outside joint limits.
@@ -2927,7 +2927,7 @@ export interface components {
              * Format: uint
              * @description Holes without posture inside joint limits.
              */
-            unreached: number;
+            unreachable: number;
             /** @description Holes by reason; they add up to all. */
             counts: components["schemas"]["CountsAnswer"];
             /**
@@ -3013,7 +3013,7 @@ export interface components {
                 number,
                 number
             ];
-            /** @description `within`, `over_limit`, or why there is no posture. */
+            /** @description `within`, `above_tolerance`, or why there is no posture. */
             state: string;
             /** @description Why no posture stands, in words; none where one does. */
             reason: string | null;
@@ -3021,7 +3021,7 @@ export interface components {
              * @description What is against the posture that is told where no turn and branch stands: `singular`, `outside_joint_limits`; none
              *     where one does.
              */
-            in_the_way: string | null;
+            blocked_by: string | null;
             /** @description Branch of the posture. */
             branch: string | null;
             /**
@@ -3496,7 +3496,7 @@ export interface components {
             /** @description Parts of the stiffness model that were on. */
             model: string[];
             /** @description Whom shares are told for: the joints, then base, flange and tool where springs sit. */
-            shares_of: string[];
+            contributors: string[];
             /** @description Every posture; empty where unreachable. */
             postures: components["schemas"]["PostureAnswer"][];
             /** @description Why there is no posture. */
@@ -3655,7 +3655,7 @@ export interface components {
                 number,
                 number
             ] | null;
-            /** @description Share of each of `shares_of` in the displacement. */
+            /** @description Share of each of `contributors` in the displacement. */
             joint_share_um: [
                 number,
                 number,
@@ -3936,7 +3936,7 @@ export interface components {
                 number,
                 number
             ];
-            /** @description Share of each of `answer.shares_of` in the in-plane deviation; they add up to it. Of postures with a name. */
+            /** @description Share of each of `answer.contributors` in the in-plane deviation; they add up to it. Of postures with a name. */
             share_um: number[] | null;
             /**
              * Format: double

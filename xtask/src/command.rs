@@ -64,7 +64,7 @@ pub fn run_in_place(mut command: Command) -> ExitCode {
 /// Says what runs and gives what it printed; its talk goes to our stderr.
 ///
 /// # Errors
-/// In a line: it does not start, it failed, or what it printed is no text.
+/// In a line: it does not start, it failed, or what it printed is not a text.
 pub fn printed(command: &mut Command) -> Result<String, String> {
     let line = command_line(command);
     eprintln!("+ {line}");

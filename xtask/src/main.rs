@@ -134,7 +134,7 @@ fn list_of_chores() -> String {
 /// # Errors
 /// There is no `Cargo.toml` where the root should be, or the folder cannot be entered.
 fn go_to_repository_root() -> Result<(), String> {
-    // Cargo sets the variable for `cargo run`; without it the caller stands in the root.
+    // Cargo sets the variable for `cargo run`; without it the caller is in the root.
     let xtask = env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
     let root = xtask
         .and_then(|folder| folder.parent().map(PathBuf::from))

@@ -27,22 +27,22 @@ pub fn npm(arguments: &[&str]) -> Command {
 /// Why the page cannot be built here; `None` if it can.
 pub fn missing() -> Option<String> {
     let [major, minor] = OLDEST;
-    let wanted = format!(
+    let requested = format!(
         "the page is built with Node {major}.{minor} or later and its npm, https://nodejs.org; or: \
          python3 -m venv {FOLDER} && {FOLDER}/bin/pip install {WHEEL}"
     );
     let Some(version) = said("node") else {
-        return Some(format!("node is not installed: {wanted}"));
+        return Some(format!("node is not installed: {requested}"));
     };
     if !is_new_enough(&version) {
-        return Some(format!("node is {}: {wanted}", version.trim()));
+        return Some(format!("node is {}: {requested}", version.trim()));
     }
     said(NPM)
         .is_none()
-        .then(|| format!("npm is not installed: {wanted}"))
+        .then(|| format!("npm is not installed: {requested}"))
 }
 
-/// Installs both into `target/node`, and says so; what fails is told by the programs themselves.
+/// Installs both into `target/node`, and says so; what fails is reported by the programs themselves.
 pub fn install() {
     eprintln!("installing for the tests: {WHEEL} into {FOLDER}");
     let python = PathBuf::from(FOLDER).join("bin/python");
@@ -60,10 +60,10 @@ pub fn install() {
 /// What `program --version` says, if it starts.
 fn said(program: &str) -> Option<String> {
     let mut command = with_path(program);
-    let told = command.arg("--version").stderr(Stdio::null()).output().ok()?;
-    told.status
+    let given = command.arg("--version").stderr(Stdio::null()).output().ok()?;
+    given.status
         .success()
-        .then(|| String::from_utf8_lossy(&told.stdout).into_owned())
+        .then(|| String::from_utf8_lossy(&given.stdout).into_owned())
 }
 
 /// A program that finds what was installed before what the machine has.
@@ -81,7 +81,7 @@ fn with_path(program: &str) -> Command {
     command
 }
 
-/// Whether `v20.19.1` is no older than what is asked for.
+/// Whether `v20.19.1` is not an older than what is requested.
 fn is_new_enough(version: &str) -> bool {
     let mut parts = version.trim().trim_start_matches('v').split('.').map(str::parse);
     match (parts.next(), parts.next()) {

@@ -29,7 +29,7 @@ const KEPT_MIB: u64 = 1024;
 /// A case of the example, whether it must be read to its end, and its limit.
 struct Case {
     name: &'static str,
-    /// Length as a share of what is asked for, percent.
+    /// Length as a share of what is requested, percent.
     percent: u64,
     /// Whether it is read to its end; else it must be refused.
     read: bool,
@@ -119,8 +119,8 @@ fn measured(case: &Case, megabytes: u64) -> Result<Row, String> {
         case.name,
         &bytes,
     ]);
-    let told = printed(&mut command)?;
-    Row::read(&told).ok_or_else(|| format!("{} printed no row: {told}", case.name))
+    let given = printed(&mut command)?;
+    Row::read(&given).ok_or_else(|| format!("{} printed no row: {given}", case.name))
 }
 
 impl Row {
@@ -173,7 +173,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn memory_beyond_the_limit_and_a_wrong_end_are_told() {
+    fn memory_beyond_the_limit_and_a_wrong_end_are_reported() {
         let row =
             |kib: u64, said: &str| Row::read(&format!("gcode\t2000\t10\t0.5\t{kib}\t{said}\n")).unwrap();
         let must_read = case("gcode", 100, true, 64);

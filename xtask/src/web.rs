@@ -16,7 +16,7 @@ use std::process::ExitCode;
 /// What `--help` says.
 pub const ABOUT: &str = "Builds the page of `armill serve` into web/dist; needs Node and npm.";
 
-/// Where the description of the server stands for the page.
+/// Where the description of the server represents the page.
 const DESCRIPTION: &str = "web/openapi.json";
 
 /// Builds the page, or says what is missing.

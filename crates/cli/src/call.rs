@@ -80,7 +80,7 @@ pub struct OptionOf {
 ///
 /// # Errors
 /// What the command line would refuse; what stops the command.
-pub fn ask(call: &Call, listener: &Arc<Listener>) -> Result<Answer, Refused> {
+pub fn analysis(call: &Call, listener: &Arc<Listener>) -> Result<Answer, Refused> {
     let words = words(call)?;
     let inputs = inputs_of(&words);
     let arguments =
@@ -101,7 +101,7 @@ pub fn ask(call: &Call, listener: &Arc<Listener>) -> Result<Answer, Refused> {
 pub fn options_of(name: &str) -> Option<(String, Vec<OptionOf>)> {
     let command = command(name)?;
     let help = |text: Option<&StyledStr>| text.map(ToString::to_string).unwrap_or_default();
-    let told = command
+    let given = command
         .get_arguments()
         .filter(|arg| is_told(arg))
         .map(|arg| OptionOf {
@@ -109,7 +109,7 @@ pub fn options_of(name: &str) -> Option<(String, Vec<OptionOf>)> {
             is_operand: arg.is_positional(),
             help: help(arg.get_help()),
         });
-    Some((help(command.get_about()), told.collect()))
+    Some((help(command.get_about()), given.collect()))
 }
 
 /// A command that answers in JSON.
@@ -153,7 +153,7 @@ fn words(call: &Call) -> Result<Vec<OsString>, Refused> {
         .filter(|arg| is_told(arg) && !arg.is_positional())
         .map(|arg| (name_of(arg), arg))
         .collect();
-    for (name, told) in &call.options {
+    for (name, given) in &call.options {
         let Some((_, arg)) = named.iter().find(|(known, _)| known == name) else {
             let known: Vec<&str> = named.iter().map(|(name, _)| name.as_str()).collect();
             return usage(format!(
@@ -163,21 +163,21 @@ fn words(call: &Call) -> Result<Vec<OsString>, Refused> {
             ));
         };
         let long = name.replace('_', "-");
-        match (arg.get_action(), told) {
+        match (arg.get_action(), given) {
             (ArgAction::SetTrue, Told::Flag(true)) => words.push(format!("--{long}")),
             (ArgAction::SetTrue, Told::Flag(false)) => {}
             (ArgAction::SetTrue, _) | (_, Told::Flag(_)) => {
-                let wanted = if matches!(arg.get_action(), ArgAction::SetTrue) {
+                let requested = if matches!(arg.get_action(), ArgAction::SetTrue) {
                     "True or False"
                 } else {
                     "a value"
                 };
-                return usage(format!("`{}`: option `{name}` takes {wanted}", call.command));
+                return usage(format!("`{}`: option `{name}` takes {requested}", call.command));
             }
             (ArgAction::Append, Told::List(each)) if arg.get_value_delimiter().is_none() => {
                 words.extend(each.iter().map(|one| format!("--{long}={}", one.typed())));
             }
-            (_, told) => words.push(format!("--{long}={}", told.typed())),
+            (_, given) => words.push(format!("--{long}={}", given.typed())),
         }
     }
     // A file may begin with a hyphen.
@@ -207,10 +207,10 @@ mod tests {
             operands: vec!["yaskawa/mh12".to_owned()],
             options: options
                 .iter()
-                .map(|(name, told)| ((*name).to_owned(), told.clone()))
+                .map(|(name, given)| ((*name).to_owned(), given.clone()))
                 .collect(),
         };
-        ask(&call, &Arc::default())
+        analysis(&call, &Arc::default())
     }
 
     fn numbers(values: &[f64]) -> Told {
@@ -253,13 +253,13 @@ mod tests {
     fn every_command_but_those_without_json_tells_its_options() {
         for command in Arguments::command().get_subcommands() {
             let name = command.get_name();
-            let told = options_of(name);
+            let given = options_of(name);
             assert_eq!(
-                told.is_none(),
+                given.is_none(),
                 ["serve", "completions", "man"].contains(&name),
                 "{name}"
             );
-            for option in told.map(|(_, options)| options).unwrap_or_default() {
+            for option in given.map(|(_, options)| options).unwrap_or_default() {
                 assert!(!option.help.is_empty(), "{name}: {}", option.name);
             }
         }

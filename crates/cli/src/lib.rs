@@ -1,4 +1,4 @@
-//! The command `armill`, for its terminal ([`command`]) and for programs that ask the same ([`ask`]).
+//! The command `armill`, for its terminal ([`command`]) and for programs that ask the same ([`analysis`]).
 //!
 //! Results go to stdout, progress and talk to stderr. Exit code 0: fine; 1: the tolerance is not held and `--strict`
 //! was given; 2: bad input; 3: a fault of armill; 130: interrupted.
@@ -30,7 +30,7 @@ use clap::Parser;
 
 use arguments::{Arguments, Command};
 
-pub use call::{Answer, Call, OptionOf, Refused, Told, ask, options_of};
+pub use call::{Answer, Call, OptionOf, Refused, Told, analysis, options_of};
 pub use listener::Listener;
 pub use terminal::problems_json;
 

@@ -13,7 +13,7 @@
 //! Reference point: TCP. Basis: base. Deviation = where the tool is minus where it was asked to be.
 
 pub use crate::source::Deviation;
-use crate::source::{Links, Standing, Unstable, repeatability};
+use crate::source::{Links, ArmState, Unstable, repeatability};
 use crate::spatial::{Twist, Wrench};
 
 /// The deviation of the tool of an arm in its posture, under `wrench`, from every source.
@@ -21,36 +21,36 @@ use crate::spatial::{Twist, Wrench};
 /// # Errors
 /// [`Unstable`] where the arm finds no stable rest under the load.
 pub fn predict(
-    standing: &mut Standing<'_>,
+    arm_state: &mut ArmState<'_>,
     wrench: &Wrench,
     links: &mut Links<'_>,
 ) -> Result<Deviation, Unstable> {
-    let twist = deviation_of(standing, wrench, links)?;
-    let (mut shares, mut covariance) = (standing.shares(), standing.covariance());
-    standing.add_backlash(links, wrench, (&mut shares, &mut covariance));
+    let twist = deviation_of(arm_state, wrench, links)?;
+    let (mut shares, mut covariance) = (arm_state.shares(), arm_state.covariance());
+    arm_state.add_backlash(links, wrench, (&mut shares, &mut covariance));
     Ok(Deviation {
         twist,
         shares,
-        covariance: covariance + repeatability::covariance(standing.scatter()),
+        covariance: covariance + repeatability::covariance(arm_state.scatter()),
     })
 }
 
 /// The sources in their row.
 pub(crate) fn deviation_of(
-    standing: &mut Standing<'_>,
+    arm_state: &mut ArmState<'_>,
     wrench: &Wrench,
     links: &mut Links<'_>,
 ) -> Result<Twist, Unstable> {
-    let (elastic, gravity) = (standing.elastic(wrench)?, standing.gravity()?);
+    let (elastic, gravity) = (arm_state.elastic(wrench)?, arm_state.gravity()?);
     let by_load = gravity.map_or(elastic, |gravity| elastic + gravity);
-    standing.settle(links, &by_load.linear, wrench);
+    arm_state.settle(links, &by_load.linear, wrench);
     Ok(match links.positions() {
         None => by_load,
-        Some(links) => by_load + beside_load(standing, links, wrench),
+        Some(links) => by_load + geometry_and_backlash(arm_state, links, wrench),
     })
 }
 
 /// Geometry and backlash, with the `links` of the joints at these positions in their gaps, rad (m).
-pub(crate) fn beside_load(standing: &Standing<'_>, links: &[f64], wrench: &Wrench) -> Twist {
-    standing.geometric() + standing.backlash(links, wrench)
+pub(crate) fn geometry_and_backlash(arm_state: &ArmState<'_>, links: &[f64], wrench: &Wrench) -> Twist {
+    arm_state.geometric() + arm_state.backlash(links, wrench)
 }

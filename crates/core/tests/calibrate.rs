@@ -60,9 +60,9 @@ fn measured(robot: &Robot, count: usize, turns: bool, stream: &mut arms::Stream)
         .collect()
 }
 
-fn question(asked: Asked) -> Question {
+fn question(requested: Asked) -> Question {
     Question {
-        asked,
+        requested,
         flange_from_point: Isometry::translation(0.0, 0.0, 0.1),
         turn_length: 0.3,
         prior: None,
@@ -221,32 +221,32 @@ fn what_cannot_be_a_measurement_is_refused() {
     let robot = arms::mh12();
     let mut stream = arms::Stream(10);
     let poses = measured(&robot, 12, true, &mut stream);
-    let asked = question(Asked::Geometry);
+    let requested = question(Asked::Geometry);
     assert!(matches!(
-        fit(&robot, &poses[..3], &asked),
+        fit(&robot, &poses[..3], &requested),
         Err(Refusal::TooFew { poses: 3, .. })
     ));
     let mut wrong = poses.clone();
     wrong[4].position.x = f64::NAN;
     assert!(matches!(
-        fit(&robot, &wrong, &asked),
+        fit(&robot, &wrong, &requested),
         Err(Refusal::Pose { index: 4, .. })
     ));
     wrong = poses.clone();
     wrong[2].joints.pop();
     assert!(matches!(
-        fit(&robot, &wrong, &asked),
+        fit(&robot, &wrong, &requested),
         Err(Refusal::Pose { index: 2, .. })
     ));
     wrong = poses.clone();
     wrong[7].rotation = None;
     assert_eq!(
-        fit(&robot, &wrong, &asked),
+        fit(&robot, &wrong, &requested),
         Err(Refusal::TurnsMissing { with: 11, poses: 12 })
     );
     let no_length = Question {
         turn_length: 0.0,
-        ..asked
+        ..requested
     };
     assert_eq!(fit(&robot, &poses, &no_length), Err(Refusal::TurnLength(0.0)));
 }
@@ -260,7 +260,7 @@ fn an_arm_that_stood_still_tells_nothing_of_itself() {
     assert!(found.errors.of_position().unwrap().largest < 1e-12);
 }
 
-fn held(length: f64, angle: f64) -> Question {
+fn evaluation(length: f64, angle: f64) -> Question {
     Question {
         prior: Some(Prior { length, angle }),
         ..question(Asked::Geometry)
@@ -290,20 +290,20 @@ fn a_wide_prior_changes_nothing_and_a_narrow_one_keeps_the_drawing() {
     let robot = arms::other::ur10();
     let poses = rough(&bent(&robot, &mut stream), 80, [1e-4, 0.0], &mut stream);
     let free = fit(&robot, &poses, &question(Asked::Geometry)).unwrap();
-    let wide = fit(&robot, &poses, &held(1e3, 1e3)).unwrap();
-    assert_eq!(free.told, free.estimates.len() as f64);
-    assert!((wide.told - free.told).abs() < 1e-6);
+    let wide = fit(&robot, &poses, &evaluation(1e3, 1e3)).unwrap();
+    assert_eq!(free.given, free.estimates.len() as f64);
+    assert!((wide.given - free.given).abs() < 1e-6);
     for (a, b) in free.estimates.iter().zip(&wide.estimates) {
         assert!((a.value - b.value).abs() < 1e-9, "{:?}", a.unknown);
         let ratio = a.standard_uncertainty / b.standard_uncertainty;
         assert!((ratio - 1.0).abs() < 1e-6, "{:?} {ratio}", a.unknown);
     }
-    let narrow = fit(&robot, &poses, &held(1e-9, 1e-9)).unwrap();
+    let narrow = fit(&robot, &poses, &evaluation(1e-9, 1e-9)).unwrap();
     let plain = fit(&robot, &poses, &question(Asked::BaseAndTool)).unwrap();
     assert!(
-        (narrow.told - plain.estimates.len() as f64).abs() < 1e-3,
+        (narrow.given - plain.estimates.len() as f64).abs() < 1e-3,
         "{}",
-        narrow.told
+        narrow.given
     );
     for (a, b) in narrow.errors.position.iter().zip(&plain.errors.position) {
         assert!((a - b).norm() < 1e-7);
@@ -324,13 +324,13 @@ fn the_scatter_is_that_of_the_readings_that_the_unknowns_leave() {
     let mut stream = arms::Stream(33);
     let robot = arms::other::ur10();
     let poses = rough(&bent(&robot, &mut stream), 300, [1e-4, 0.0], &mut stream);
-    let found = fit(&robot, &poses, &held(1e-3, 2e-3)).unwrap();
+    let found = fit(&robot, &poses, &evaluation(1e-3, 2e-3)).unwrap();
     let squares: f64 = found.errors.position.iter().map(Vector3::norm_squared).sum();
-    let s = (squares / (900.0 - found.told)).sqrt();
+    let s = (squares / (900.0 - found.given)).sqrt();
     assert!((found.standard_deviation / s - 1.0).abs() < 1e-9);
     // 870 degrees of freedom tell a standard deviation to 2.4 %.
     assert!((s / 1e-4 - 1.0).abs() < 0.08, "{s}");
-    assert!(found.told < found.estimates.len() as f64 && found.told > 9.0);
+    assert!(found.given < found.estimates.len() as f64 && found.given > 9.0);
 }
 
 #[test]
@@ -349,17 +349,17 @@ fn few_poses_with_a_prior_meet_others_better_than_without() {
             errors.of_position().unwrap().rms
         };
         // Small motions of `bent` are even to 1 mm and 2 mrad: 0.58 of that is their standard deviation.
-        let asked = [
+        let requested = [
             question(Asked::BaseAndTool),
             question(Asked::Geometry),
-            held(0.58e-3, 1.16e-3),
+            evaluation(0.58e-3, 1.16e-3),
         ];
-        for (sum, question) in sums.iter_mut().zip(&asked) {
+        for (sum, question) in sums.iter_mut().zip(&requested) {
             *sum += of(question) / 10.0;
         }
     }
-    let [plain, free, held] = sums;
-    assert!(held < 0.9 * free && held < 0.5 * plain, "{plain} {free} {held}");
+    let [plain, free, evaluation] = sums;
+    assert!(evaluation < 0.9 * free && evaluation < 0.5 * plain, "{plain} {free} {evaluation}");
 }
 
 #[test]
@@ -368,10 +368,10 @@ fn a_prior_that_holds_nothing_or_all_is_refused() {
     let robot = arms::other::ur10();
     let poses = measured(&robot, 40, false, &mut stream);
     for (length, angle) in [(0.0, 1.0), (1.0, -1.0), (f64::NAN, 1.0), (1.0, f64::INFINITY)] {
-        let refused = fit(&robot, &poses, &held(length, angle)).unwrap_err();
+        let refused = fit(&robot, &poses, &evaluation(length, angle)).unwrap_err();
         assert!(matches!(refused, Refusal::Prior(_)), "{refused}");
     }
     // Perfect poses leave no scatter, and nothing is held.
-    let found = fit(&robot, &poses, &held(1e-3, 1e-3)).unwrap();
+    let found = fit(&robot, &poses, &evaluation(1e-3, 1e-3)).unwrap();
     assert!(found.estimates.iter().all(|one| one.value.abs() < 1e-9));
 }

@@ -56,10 +56,10 @@ proptest! {
     fn deviation_is_compliance_times_wrench((arm, unit) in arm(), load in wrench()) {
         let robot = &arms::ALL[arm];
         let posture = stand(robot, &unit);
-        let told = predict(&posture, robot.compliance().unwrap(), &load).twist.to_vector();
+        let given = predict(&posture, robot.compliance().unwrap(), &load).twist.to_vector();
         let c = compliance(robot, &posture);
         let product = c * load.to_vector();
-        prop_assert!((told - product).norm() <= ROUNDING * c.norm() * load.to_vector().norm());
+        prop_assert!((given - product).norm() <= ROUNDING * c.norm() * load.to_vector().norm());
     }
 
     #[test]
@@ -82,26 +82,26 @@ proptest! {
     #[test]
     fn shares_of_the_joints_add_up_to_the_deviation((arm, unit) in arm(), load in wrench()) {
         let robot = &arms::ALL[arm];
-        let told = predict(&stand(robot, &unit), robot.compliance().unwrap(), &load);
-        let sum: armill_core::spatial::Twist = told.shares.iter().copied().sum();
-        prop_assert_eq!(sum, told.twist);
+        let given = predict(&stand(robot, &unit), robot.compliance().unwrap(), &load);
+        let sum: armill_core::spatial::Twist = given.shares.iter().copied().sum();
+        prop_assert_eq!(sum, given.twist);
     }
 
     #[test]
     fn uncertainty_agrees_with_moving_each_compliance_by_its_own((arm, unit) in arm(), load in wrench()) {
         let robot = &arms::ALL[arm];
         let (posture, joints) = (stand(robot, &unit), robot.compliance().unwrap());
-        let told = predict(&posture, joints, &load);
+        let given = predict(&posture, joints, &load);
         let mut variance = Vector3::zeros();
         for i in 0..joints.len() {
             let mut moved = joints.to_vec();
             moved[i].value += moved[i].standard_uncertainty;
-            let by = predict(&posture, &moved, &load).twist.linear - told.twist.linear;
+            let by = predict(&posture, &moved, &load).twist.linear - given.twist.linear;
             variance += by.component_mul(&by);
         }
-        let size: f64 = told.shares.iter().map(|s| s.linear.norm_squared()).sum();
+        let size: f64 = given.shares.iter().map(|s| s.linear.norm_squared()).sum();
         // The difference of two nearly equal numbers keeps half the digits that matter here.
-        prop_assert!((variance - told.covariance.diagonal()).amax() <= 1e-9 * size);
+        prop_assert!((variance - given.covariance.diagonal()).amax() <= 1e-9 * size);
     }
 
     /// Turning and moving the whole cell changes nothing but the names of the axes.
@@ -154,11 +154,11 @@ proptest! {
         for (i, joint) in joints.iter_mut().enumerate() {
             joint.value = if i == soft { 1e-6 } else { 0.0 };
         }
-        let told = predict(&posture, &joints, &load);
+        let given = predict(&posture, &joints, &load);
         let stiffness = stiffness_at_tool(&compliance_at_tool(&posture.screws, &joints), 1.0);
         prop_assert!(stiffness.rank <= 1);
         let along = posture.screws[soft] * (1e-6 * posture.screws[soft].dot(&load));
-        let away = told.twist.to_vector() - along.to_vector();
+        let away = given.twist.to_vector() - along.to_vector();
         prop_assert!(away.norm() <= ROUNDING * along.to_vector().norm());
     }
 }
@@ -236,7 +236,7 @@ fn the_force_block_tells_the_displacement_of_a_pure_force() {
         let posture = posture_at(robot, &stream.joints(robot), &arms::bent_tool());
         let c = compliance(robot, &posture);
         let force = stream.vector(100.0);
-        let told = predict(&posture, robot.compliance().unwrap(), &Wrench::from_force(force)).twist;
-        assert!((by_force(&c) * force - told.linear).norm() < ROUNDING * c.norm() * force.norm());
+        let given = predict(&posture, robot.compliance().unwrap(), &Wrench::from_force(force)).twist;
+        assert!((by_force(&c) * force - given.linear).norm() < ROUNDING * c.norm() * force.norm());
     }
 }

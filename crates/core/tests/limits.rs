@@ -9,7 +9,7 @@ use std::sync::atomic::AtomicBool;
 
 use armill_core::frame::Isometry;
 use armill_core::kernel::{BranchChoice, Question};
-use armill_core::load::{Cutter, CuttingLaw, Doubt, Greatest, Immersion, Mechanistic, PathLoad};
+use armill_core::load::{Cutter, CuttingLaw, InputUncertainty, Greatest, Immersion, Mechanistic, PathLoad};
 use armill_core::map::{Counts, Permitted, ProgramLimits, along_path, plane_map, program_limits};
 use armill_core::nalgebra::{Point3, Vector3};
 use armill_core::path::{
@@ -90,7 +90,7 @@ fn limits(
         },
         home: None,
         cases: &[],
-        doubt: Doubt::NONE,
+        uncertainty: InputUncertainty::NONE,
         normal: Vector3::z_axis(),
         choice: FRONT,
     };
@@ -204,7 +204,7 @@ fn a_load_for_fewer_points_than_the_track_has_is_no_load() {
         },
         home: None,
         cases: &[],
-        doubt: Doubt::NONE,
+        uncertainty: InputUncertainty::NONE,
         normal: Vector3::z_axis(),
         choice: FRONT,
     };
@@ -232,19 +232,19 @@ fn counts_of_a_plane_that_is_partly_out_of_reach_add_up_to_its_points() {
         },
         home: None,
         cases: &cases,
-        doubt: Doubt::NONE,
+        uncertainty: InputUncertainty::NONE,
         normal: plane.normal(),
         choice: FRONT,
     };
     let map = plane_map(&question, plane, grid, Watch::NONE).unwrap();
-    let held = map.answers.held().count();
-    assert!(held > 100 && held < grid.len() - 100, "{held}");
+    let evaluation = map.answers.evaluation().count();
+    assert!(evaluation > 100 && evaluation < grid.len() - 100, "{evaluation}");
     let worst = map.answers.worst().unwrap().1.in_plane;
     let mut before = 0;
     for part in [0.0, 0.2, 0.5, 0.9, 1.0] {
         let counts = Counts::of(&map.answers, part * worst);
         assert_eq!(counts.points(), grid.len());
-        assert_eq!(counts.within + counts.over_limit, held);
+        assert_eq!(counts.within + counts.above_tolerance, evaluation);
         assert!(counts.within >= before && counts.within_and_inside_joint_limits <= counts.within);
         assert!((counts.fraction_within() - counts.within as f64 / grid.len() as f64).abs() < 1e-15);
         // Of points within a region at most four cells each.
@@ -252,6 +252,6 @@ fn counts_of_a_plane_that_is_partly_out_of_reach_add_up_to_its_points() {
         assert!(area <= counts.within as f64 * 4.0 * grid.step.powi(2));
         before = counts.within;
     }
-    assert_eq!(before, held);
+    assert_eq!(before, evaluation);
     assert_eq!(Counts::default().fraction_within(), 0.0);
 }

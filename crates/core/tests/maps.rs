@@ -8,7 +8,7 @@ mod arms;
 use armill_core::compliance::compliance_at_tool;
 use armill_core::frame::Isometry;
 use armill_core::kernel::{BranchChoice, Question, evaluate, evaluate_in_order};
-use armill_core::load::{Doubt, LoadCases, LoadFrame, PathLoad};
+use armill_core::load::{InputUncertainty, LoadCases, LoadFrame, PathLoad};
 use armill_core::map::{
     BoxGrid, Counts, along_path, plane_map, probability_within, radial_deviations, volume_map,
 };
@@ -32,7 +32,7 @@ fn cases() -> Vec<Wrench> {
     ]
 }
 
-fn ask<T>(robot: &Robot, plane: &Plane, choice: BranchChoice, then: impl FnOnce(&Question<'_>) -> T) -> T {
+fn analysis<T>(robot: &Robot, plane: &Plane, choice: BranchChoice, then: impl FnOnce(&Question<'_>) -> T) -> T {
     let (tool, cases) = (Isometry::translation(0.0, 0.0, 0.1), cases());
     then(&Question {
         arm: Arm {
@@ -41,7 +41,7 @@ fn ask<T>(robot: &Robot, plane: &Plane, choice: BranchChoice, then: impl FnOnce(
             model: StiffnessModel::DRIVES,
             flange_from_tool: &tool,
         },
-        doubt: Doubt::NONE,
+        uncertainty: InputUncertainty::NONE,
         home: None,
         cases: &cases,
         normal: plane.normal(),
@@ -82,7 +82,7 @@ fn probability_and_sure_region_are_those_of_arms_with_drawn_compliances() {
                     flange_from_tool: &Isometry::translation(0.0, 0.0, 0.1),
                 },
                 home: None,
-                doubt: Doubt::NONE,
+                uncertainty: InputUncertainty::NONE,
                 cases,
                 normal: plane.normal(),
                 choice: branch("front elbow-up"),
@@ -97,18 +97,18 @@ fn probability_and_sure_region_are_those_of_arms_with_drawn_compliances() {
                 value: (c.value + n * c.standard_uncertainty).max(0.0),
                 standard_uncertainty: 0.0,
             });
-            for (index, held) in map_of(&compliances.collect::<Vec<_>>()).answers.held() {
-                within[index] += usize::from(held.in_plane <= limit);
+            for (index, evaluation) in map_of(&compliances.collect::<Vec<_>>()).answers.evaluation() {
+                within[index] += usize::from(evaluation.in_plane <= limit);
             }
         }
-        for (index, held) in map.answers.held() {
+        for (index, evaluation) in map.answers.evaluation() {
             let counted = within[index] as f64 / DRAWS as f64;
-            let told = probability_within(held, limit);
+            let given = probability_within(evaluation, limit);
             // Standard deviation of the count: at most 0.011. Other cases can only take away.
-            let (least, most) = (told - if cases.len() == 1 { 0.03 } else { 0.15 }, told + 0.03);
+            let (least, most) = (given - if cases.len() == 1 { 0.03 } else { 0.15 }, given + 0.03);
             assert!(
                 (least..most).contains(&counted),
-                "point {index}: {counted} counted, {told} told"
+                "point {index}: {counted} counted, {given} told"
             );
         }
         let certainty = map.certainty(limit);
@@ -130,26 +130,26 @@ fn doubt_about_load_and_tool_adds_what_a_wrong_load_and_a_wrong_tool_would_do() 
     let tool = Isometry::translation(0.0, 0.0, 0.1);
     let one = &cases()[..1];
     let (part, u) = (plane.base_from_part, [0.4, 0.3, 0.2]);
-    let components = Doubt::NONE.of_components(u, LoadFrame::Part, &part).unwrap();
-    let doubts = [
-        Doubt {
+    let components = InputUncertainty::NONE.of_components(u, LoadFrame::Part, &part).unwrap();
+    let uncertainties = [
+        InputUncertainty {
             relative: 0.1,
-            ..Doubt::NONE
+            ..InputUncertainty::NONE
         },
         components,
-        Doubt {
+        InputUncertainty {
             tool_length: 1e-4,
-            ..Doubt::NONE
+            ..InputUncertainty::NONE
         },
-        Doubt {
+        InputUncertainty {
             relative: 0.1,
             tool_length: 1e-4,
             ..components
         },
     ];
-    let told: Vec<Vec<f64>> = doubts
+    let given: Vec<Vec<f64>> = uncertainties
         .iter()
-        .map(|doubt| {
+        .map(|uncertainty| {
             let question = Question {
                 arm: Arm {
                     robot: &robot,
@@ -159,12 +159,12 @@ fn doubt_about_load_and_tool_adds_what_a_wrong_load_and_a_wrong_tool_would_do() 
                 },
                 home: None,
                 cases: one,
-                doubt: *doubt,
+                uncertainty: *uncertainty,
                 normal: plane.normal(),
                 choice: branch("front elbow-up"),
             };
             let map = plane_map(&question, plane, Grid::within([0.3, 0.3], 0.1), Watch::NONE).unwrap();
-            let answers = map.answers.held().map(|(index, held)| {
+            let answers = map.answers.evaluation().map(|(index, evaluation)| {
                 let q = map.answers.joints_at(index).to_vec();
                 let posture = posture_at(&robot, &q, &tool);
                 let c = compliance_at_tool(&posture.screws, &compliance);
@@ -189,9 +189,9 @@ fn doubt_about_load_and_tool_adds_what_a_wrong_load_and_a_wrong_tool_would_do() 
                     by_length.abs(),
                     by_size.hypot(by_force.sqrt()).hypot(by_length),
                 ];
-                (held.in_plane_uncertainty, expected)
+                (evaluation.in_plane_uncertainty, expected)
             });
-            let which = doubts.iter().position(|other| other == doubt).unwrap();
+            let which = uncertainties.iter().position(|other| other == uncertainty).unwrap();
             answers
                 .map(|(u, expected)| {
                     // Differences of deviations of 1e-4 m.
@@ -206,7 +206,7 @@ fn doubt_about_load_and_tool_adds_what_a_wrong_load_and_a_wrong_tool_would_do() 
         })
         .collect();
     assert!(
-        told.iter()
+        given.iter()
             .all(|of_one| of_one.len() > 20 && of_one.iter().all(|u| *u > 0.0))
     );
 }
@@ -215,35 +215,35 @@ fn doubt_about_load_and_tool_adds_what_a_wrong_load_and_a_wrong_tool_would_do() 
 fn every_point_of_a_map_is_what_predict_says_of_its_posture() {
     for robot in arms::all() {
         let plane = Plane::tilted(Point3::new(1.0, 0.1, 0.9), 0.5);
-        let map = ask(&robot, &plane, branch("front elbow-up"), |question| {
+        let map = analysis(&robot, &plane, branch("front elbow-up"), |question| {
             plane_map(question, plane, Grid::within([0.4, 0.3], 0.05), Watch::NONE).unwrap()
         });
         let tool = Isometry::translation(0.0, 0.0, 0.1);
-        for (index, held) in map.answers.held() {
+        for (index, evaluation) in map.answers.evaluation() {
             let posture = posture_at(&robot, map.answers.joints_at(index), &tool);
-            let told: Vec<_> = cases()
+            let given: Vec<_> = cases()
                 .iter()
                 .map(|w| predict(&posture, robot.compliance().unwrap(), w))
                 .collect();
-            let splits: Vec<_> = told
+            let splits: Vec<_> = given
                 .iter()
                 .map(|d| Split::of(&d.twist.linear, plane.normal()))
                 .collect();
             let worst = splits.iter().map(|s| s.in_plane).fold(0.0, f64::max);
-            assert!((held.in_plane - worst).abs() < 1e-15, "{}", robot.name());
-            assert!((splits[held.deciding_case].in_plane - worst).abs() < 1e-15);
+            assert!((evaluation.in_plane - worst).abs() < 1e-15, "{}", robot.name());
+            assert!((splits[evaluation.deciding_case].in_plane - worst).abs() < 1e-15);
             let full = splits.iter().map(|s| s.full).fold(0.0, f64::max);
-            assert!((held.full - full).abs() < 1e-15);
+            assert!((evaluation.full - full).abs() < 1e-15);
             let shares: f64 = map.answers.shares_at(index).iter().sum();
-            assert!((shares - held.in_plane).abs() < 1e-15);
+            assert!((shares - evaluation.in_plane).abs() < 1e-15);
             // Uncertainty along the deviation that decides.
-            let deviation = told[held.deciding_case].twist.linear;
+            let deviation = given[evaluation.deciding_case].twist.linear;
             let in_plane = deviation - plane.normal().into_inner() * deviation.dot(&plane.normal());
             let along = in_plane.normalize();
-            let u = (along.transpose() * told[held.deciding_case].covariance * along)[0].sqrt();
-            assert!((u - held.in_plane_uncertainty).abs() < 1e-15);
+            let u = (along.transpose() * given[evaluation.deciding_case].covariance * along)[0].sqrt();
+            assert!((u - evaluation.in_plane_uncertainty).abs() < 1e-15);
         }
-        assert!(map.answers.held().count() > 50, "{}", robot.name());
+        assert!(map.answers.evaluation().count() > 50, "{}", robot.name());
     }
 }
 
@@ -252,7 +252,7 @@ fn best_is_the_least_of_all_branches_inside_limits() {
     let robot = arms::mh12();
     let plane = Plane::tilted(Point3::new(0.8, 0.0, 0.8), 0.4);
     let grid = Grid::within([0.4, 0.4], 0.1);
-    let map = ask(&robot, &plane, BranchChoice::Best, |q| {
+    let map = analysis(&robot, &plane, BranchChoice::Best, |q| {
         plane_map(q, plane, grid, Watch::NONE).unwrap()
     });
     let tool = Isometry::translation(0.0, 0.0, 0.1);
@@ -272,7 +272,7 @@ fn best_is_the_least_of_all_branches_inside_limits() {
         };
         let least = inside.map(envelope).min_by(f64::total_cmp);
         match (point, least) {
-            (Ok(held), Some(least)) => assert!((held.in_plane - least).abs() < 1e-15 && held.within_limits()),
+            (Ok(evaluation), Some(least)) => assert!((evaluation.in_plane - least).abs() < 1e-15 && evaluation.within_limits()),
             (Err(_), None) => {}
             (point, least) => panic!("point {index}: {point:?} against {least:?}"),
         }
@@ -289,7 +289,7 @@ fn any_number_of_threads_gives_the_same_bits() {
             .build()
             .unwrap();
         pool.install(|| {
-            ask(&robot, &plane, BranchChoice::Best, |q| {
+            analysis(&robot, &plane, BranchChoice::Best, |q| {
                 plane_map(q, plane, Grid::within([0.5, 0.5], 0.02), Watch::NONE)
                     .unwrap()
                     .answers
@@ -306,7 +306,7 @@ fn any_number_of_threads_gives_the_same_bits() {
 fn a_plane_out_of_reach_is_a_result_with_a_reason() {
     let robot = arms::mh12();
     let plane = Plane::tilted(Point3::new(5.0, 0.0, 0.8), 0.0);
-    let map = ask(&robot, &plane, BranchChoice::Best, |q| {
+    let map = analysis(&robot, &plane, BranchChoice::Best, |q| {
         plane_map(q, plane, Grid::within([0.1, 0.1], 0.1), Watch::NONE).unwrap()
     });
     assert!(
@@ -324,7 +324,7 @@ fn a_plane_out_of_reach_is_a_result_with_a_reason() {
 fn a_volume_and_a_plane_agree_where_they_share_points() {
     let robot = arms::mh12();
     let plane = Plane::tilted(Point3::new(0.8, 0.0, 0.8), 0.0);
-    let (map, volume) = ask(&robot, &plane, branch("front elbow-up"), |q| {
+    let (map, volume) = analysis(&robot, &plane, branch("front elbow-up"), |q| {
         let map = plane_map(q, plane, Grid::within([0.2, 0.2], 0.1), Watch::NONE).unwrap();
         let grid = BoxGrid::within(&Isometry::translation(0.8, 0.0, 0.8), [0.1, 0.2, 0.2], 0.1);
         (map, volume_map(q, plane, grid, Watch::NONE).unwrap())
@@ -346,7 +346,7 @@ fn a_volume_and_a_plane_agree_where_they_share_points() {
 fn in_order_and_at_once_agree_away_from_singularities() {
     let robot = arms::mh12();
     let plane = Plane::tilted(Point3::new(1.0, 0.0, 0.8), 0.3);
-    ask(&robot, &plane, branch("front elbow-up"), |question| {
+    analysis(&robot, &plane, branch("front elbow-up"), |question| {
         let pose = |i: usize| plane.base_from_tool(Point2::new(0.01 * i as f64, 0.1), 0.0);
         let at_once = evaluate(question, 30, pose, Watch::NONE).unwrap();
         let in_order = evaluate_in_order(question, 30, pose, Watch::NONE).unwrap();
@@ -372,7 +372,7 @@ fn a_circle_under_constant_load_shifts_and_goes_out_of_round() {
         frame: LoadFrame::Base,
         cases: cases(),
     });
-    let path = ask(&robot, &plane, branch("front elbow-up"), |q| {
+    let path = analysis(&robot, &plane, branch("front elbow-up"), |q| {
         along_path(q, &track, load, Watch::NONE).unwrap()
     });
     let radial = radial_deviations(&track, &path.answers, Point2::origin());
@@ -416,13 +416,13 @@ fn a_steady_load_gives_the_same_deviation_whichever_way_it_is_worked_out() {
         cases: cases(),
     });
     let [steady, of_each] = [steady, of_each].map(|load| {
-        ask(&robot, &plane, branch("front elbow-up"), |q| {
+        analysis(&robot, &plane, branch("front elbow-up"), |q| {
             along_path(q, &track, load, Watch::NONE).unwrap().answers
         })
     });
     assert_eq!((steady.share_count, of_each.share_count), (6, 0));
     // Four cases at once against seven unit loads put together: some tens of roundings.
-    for ((i, steady), (_, of_each)) in steady.held().zip(of_each.held()) {
+    for ((i, steady), (_, of_each)) in steady.evaluation().zip(of_each.evaluation()) {
         assert!(
             (steady.in_plane - of_each.in_plane).abs() < 1e-12 * steady.in_plane,
             "{i}"
@@ -444,7 +444,7 @@ fn work_stops_when_it_is_cancelled() {
         finished: &|_| (),
         cancel: &cancel,
     };
-    let outcome = ask(&robot, &plane, BranchChoice::Best, |q| {
+    let outcome = analysis(&robot, &plane, BranchChoice::Best, |q| {
         plane_map(q, plane, Grid::within([0.1, 0.1], 0.01), watch).map(|_| ())
     });
     assert_eq!(outcome, Err(Cancelled));
@@ -464,7 +464,7 @@ fn progress_counts_every_point_once() {
         cancel: &cancel,
     };
     let grid = Grid::within([0.2, 0.2], 0.01);
-    ask(&robot, &plane, BranchChoice::Best, |q| {
+    analysis(&robot, &plane, BranchChoice::Best, |q| {
         plane_map(q, plane, grid, watch).map(|_| ())
     })
     .unwrap();
@@ -475,12 +475,12 @@ fn progress_counts_every_point_once() {
 fn of_a_point_and_its_mirror_image_the_first_is_the_worst() {
     let (robot, plane) = (arms::mh12(), Plane::tilted(Point3::new(1.0, 0.0, 0.8), 0.0));
     let grid = Grid::within([0.2, 0.2], 0.1);
-    ask(&robot, &plane, branch("front elbow-up"), |question| {
+    analysis(&robot, &plane, branch("front elbow-up"), |question| {
         let map = plane_map(question, plane, grid, Watch::NONE).unwrap();
-        let (worst, held) = map.answers.worst().unwrap();
+        let (worst, evaluation) = map.answers.worst().unwrap();
         let (row, column) = (worst / grid.columns, worst % grid.columns);
         let mirrored = row * grid.columns + grid.columns - 1 - column;
         let other = map.answers.points[mirrored].as_ref().unwrap().in_plane;
-        assert!((held.in_plane - other).abs() < 1e-12 * other && worst < mirrored);
+        assert!((evaluation.in_plane - other).abs() < 1e-12 * other && worst < mirrored);
     });
 }

@@ -86,7 +86,7 @@ fn largest_by_trying_all(points: &[Point2<f64>]) -> [f64; 2] {
     let through_three = pairs
         .iter()
         .flat_map(|[a, b]| points.iter().filter_map(move |c| equally_far([*a, *b], [*a, *c])));
-    let held = through_three.filter(|c| is_within(points, c)).map(|c| inner(&c));
+    let evaluation = through_three.filter(|c| is_within(points, c)).map(|c| inner(&c));
     let on_sides = pairs.iter().flat_map(|[a, b]| {
         let side = b - a;
         pairs.iter().filter_map(move |[c, d]| {
@@ -110,7 +110,7 @@ fn largest_by_trying_all(points: &[Point2<f64>]) -> [f64; 2] {
             })
         })
         .map(|c| inner(&c));
-    [held.fold(0.0, f64::max), on_hull.fold(0.0, f64::max)]
+    [evaluation.fold(0.0, f64::max), on_hull.fold(0.0, f64::max)]
 }
 
 /// Points about a circle of one metre, each off it by up to `noise`.
@@ -171,15 +171,15 @@ proptest! {
     #[test]
     fn no_candidate_makes_a_larger_circle_between(points in any_profile()) {
         let Ok(profile) = Profile::new(points.clone()) else { return Ok(()) };
-        let [held, on_hull] = largest_by_trying_all(&points);
+        let [evaluation, on_hull] = largest_by_trying_all(&points);
         match profile.maximum_inscribed() {
             Ok(circle) => {
                 prop_assert!((nearest_and_farthest(&points, &circle.centre)[0] - circle.radius).abs() < 1e-14);
                 prop_assert!(is_within(&points, &circle.centre));
-                prop_assert!((circle.radius - held).abs() < 1e-12, "{} not {held}", circle.radius);
+                prop_assert!((circle.radius - evaluation).abs() < 1e-12, "{} not {evaluation}", circle.radius);
                 prop_assert!(on_hull < circle.radius + 1e-12);
             }
-            Err(RoundnessError::NotHeld) => prop_assert!(on_hull > held - 1e-9, "{on_hull} {held}"),
+            Err(RoundnessError::NotHeld) => prop_assert!(on_hull > evaluation - 1e-9, "{on_hull} {evaluation}"),
             Err(RoundnessError::Open { gap_deg, .. }) => prop_assert!(gap_deg >= 179.0),
             Err(error) => prop_assert!(false, "{error}"),
         }
@@ -304,8 +304,8 @@ fn arcs_have_a_zone_and_no_inscribed_circle() {
             Point2::new(angle.cos(), angle.sin()) * (0.05 + 4e-6 * (5.0 * PI * along).cos())
         };
         let profile = Profile::new((0..=500).map(at).collect()).unwrap();
-        let told = profile.minimum_zone().unwrap().peak_to_valley();
-        assert!((told - 8e-6).abs() < 1e-9, "{sweep}: {told}");
+        let given = profile.minimum_zone().unwrap().peak_to_valley();
+        assert!((given - 8e-6).abs() < 1e-9, "{sweep}: {given}");
         let refused = profile.maximum_inscribed().unwrap_err();
         assert!(
             matches!(refused, RoundnessError::Open { gap_deg, .. } if (gap_deg - (360.0 - sweep)).abs() < 0.01),

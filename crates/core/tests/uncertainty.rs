@@ -10,12 +10,12 @@ mod arms;
 
 use armill_core::frame::Isometry;
 use armill_core::kernel::{BranchChoice, Held, Question, evaluate_on_path};
-use armill_core::load::Doubt;
+use armill_core::load::InputUncertainty;
 use armill_core::measure::pose_accuracy::{Attained, pose_accuracy};
 use armill_core::nalgebra::{Unit, Vector3};
 use armill_core::predict::predict;
-use armill_core::robot::{Backlash, Flank, JointCompliance, Robot};
-use armill_core::source::{Arm, Links, Standing, StiffnessModel, repeatability};
+use armill_core::robot::{Backlash, BacklashSide, JointCompliance, Robot};
+use armill_core::source::{Arm, Links, ArmState, StiffnessModel, repeatability};
 use armill_core::spatial::Wrench;
 use arms::Stream;
 
@@ -27,7 +27,7 @@ struct Cell {
     robot: Robot,
     compliance: Vec<JointCompliance>,
     model: StiffnessModel,
-    doubt: Doubt,
+    uncertainty: InputUncertainty,
     wrench: Wrench,
     normal: Unit<Vector3<f64>>,
     dragged: Vec<f64>,
@@ -45,7 +45,7 @@ impl Cell {
             compliance: robot.compliance().unwrap().iter().map(unsure).collect(),
             robot,
             model: StiffnessModel::DRIVES.clone(),
-            doubt: Doubt::NONE,
+            uncertainty: InputUncertainty::NONE,
             wrench: Wrench::from_force(Vector3::new(60.0, -90.0, -40.0)),
             normal: Unit::new_normalize(Vector3::new(-0.8, 0.3, 0.5)),
             dragged: vec![0.0; 6],
@@ -58,12 +58,12 @@ impl Cell {
     }
 
     /// What is told, and the joint positions.
-    fn told(&self) -> (Held, Vec<f64>) {
+    fn reported(&self) -> (Held, Vec<f64>) {
         let tool = arms::bent_tool();
         let cases = [self.wrench];
         let question = Question {
             cases: &cases,
-            doubt: self.doubt,
+            uncertainty: self.uncertainty,
             normal: self.normal,
             choice: BranchChoice::Of(self.robot.nominal_branch()),
             ..Question::unloaded(self.arm(&self.compliance, &self.model, &tool), None)
@@ -109,20 +109,20 @@ impl Cell {
                 gap.gap *= other;
                 dragged[joint] *= other;
             }
-            let mut wrench = self.wrench * (1.0 + stream.normal() * self.doubt.relative);
-            for u in self.doubt.forces {
+            let mut wrench = self.wrench * (1.0 + stream.normal() * self.uncertainty.relative);
+            for u in self.uncertainty.forces {
                 wrench.force += u * stream.normal();
             }
             let tool =
-                arms::bent_tool() * Isometry::translation(0.0, 0.0, stream.normal() * self.doubt.tool_length);
+                arms::bent_tool() * Isometry::translation(0.0, 0.0, stream.normal() * self.uncertainty.tool_length);
             let arm = self.arm(&compliance, &model, &tool);
-            let mut standing = Standing::new(arm);
-            standing.stand(joints);
-            let by_load = predict(&mut standing, &wrench, &mut Links::Neglected)
+            let mut arm_state = ArmState::new(arm);
+            arm_state.set_joints(joints);
+            let by_load = predict(&mut arm_state, &wrench, &mut Links::Neglected)
                 .unwrap()
                 .twist
                 .linear;
-            let by_gaps = standing.backlash(&dragged, &wrench).linear;
+            let by_gaps = arm_state.backlash(&dragged, &wrench).linear;
             let scatter = Vector3::from_fn(|_, _| stream.normal()) * model.structure.repeatability;
             let missed = by_load * (stream.normal() * model.structure.model_error);
             let moved = by_load + missed + by_gaps + scatter;
@@ -147,7 +147,7 @@ fn log_normal(stream: &mut Stream, relative: f64) -> f64 {
 #[test]
 fn all_that_is_not_known_scatters_the_deviation_as_it_is_told() {
     let mut cell = Cell::new(0.1);
-    cell.doubt = Doubt {
+    cell.uncertainty = InputUncertainty {
         relative: 0.1,
         forces: [Vector3::x() * 3.0, Vector3::y() * 2.0, Vector3::z() * 5.0],
         tool_length: 2e-3,
@@ -155,50 +155,50 @@ fn all_that_is_not_known_scatters_the_deviation_as_it_is_told() {
     let gap = |gap: f64| Backlash {
         gap,
         standard_uncertainty: 0.3 * gap,
-        flank: Flank::Motion,
+        side: BacklashSide::Motion,
     };
     cell.model.structure.backlash = vec![Some(gap(7e-4)), Some(gap(2e-4)), None, Some(gap(5e-4))];
     cell.dragged = vec![3.5e-4, -1e-4, 0.0, 2.5e-4, 0.0, 0.0];
     cell.model.structure.repeatability = repeatability::deviation_of(160e-6);
     cell.model.structure.model_error = 0.08;
-    let (held, joints) = cell.told();
+    let (evaluation, joints) = cell.reported();
     let (mean, spread) = cell.drawn(&joints, normal);
     // The draws know a standard deviation to 0.5 %; the rest is the second order of unknowns of a quarter.
     assert!(
-        (held.in_plane_uncertainty - spread).abs() < 0.02 * spread,
-        "{held:?} {spread}"
+        (evaluation.in_plane_uncertainty - spread).abs() < 0.02 * spread,
+        "{evaluation:?} {spread}"
     );
-    assert!((held.in_plane - mean).abs() < 0.02 * mean, "{held:?} {mean}");
+    assert!((evaluation.in_plane - mean).abs() < 0.02 * mean, "{evaluation:?} {mean}");
     // Each of them counts: without it something else would be told.
-    let told = held.in_plane_uncertainty;
+    let reported = evaluation.in_plane_uncertainty;
     let without = |change: &dyn Fn(&mut Cell)| {
         let mut other = cell.clone();
         change(&mut other);
-        other.told().0.in_plane_uncertainty
+        other.reported().0.in_plane_uncertainty
     };
-    assert!(without(&|cell| cell.doubt.relative = 0.0) < 0.99 * told);
-    assert!(without(&|cell| cell.model.structure.repeatability = 0.0) < 0.99 * told);
-    assert!(without(&|cell| cell.model.structure.model_error = 0.0) < 0.99 * told);
+    assert!(without(&|cell| cell.uncertainty.relative = 0.0) < 0.99 * reported);
+    assert!(without(&|cell| cell.model.structure.repeatability = 0.0) < 0.99 * reported);
+    assert!(without(&|cell| cell.model.structure.model_error = 0.0) < 0.99 * reported);
     let known = |cell: &mut Cell| {
         let gaps = cell.model.structure.backlash.iter_mut().flatten();
         gaps.for_each(|gap| gap.standard_uncertainty = 0.0);
     };
-    assert!(without(&known) < 0.995 * told);
+    assert!(without(&known) < 0.995 * reported);
 }
 
 /// Compliances of a class are known to a factor: their uncertainty is as large as they are.
 #[test]
 fn of_compliances_known_to_a_factor_the_spread_is_told_and_its_shape_is_not() {
     let cell = Cell::new(1.0);
-    let (held, joints) = cell.told();
+    let (evaluation, joints) = cell.reported();
     let (mean, spread) = cell.drawn(&joints, log_normal);
     // Measured 0.99 and 1.12, told in docs/theory/deviation.md: a length is longer on the mean than that of the mean vector,
     // and what is across adds to its spread.
     assert!(
-        (held.in_plane_uncertainty / spread - 1.0).abs() < 0.05,
-        "{held:?} {spread}"
+        (evaluation.in_plane_uncertainty / spread - 1.0).abs() < 0.05,
+        "{evaluation:?} {spread}"
     );
-    assert!((1.0..1.2).contains(&(mean / held.in_plane)), "{mean} {held:?}");
+    assert!((1.0..1.2).contains(&(mean / evaluation.in_plane)), "{mean} {evaluation:?}");
 }
 
 /// `RP` of places that are drawn, as the standard's formula has it.
@@ -210,7 +210,7 @@ fn an_arm_that_scatters_by_it_has_the_pose_repeatability_of_its_data_sheet() {
     let reached: Vec<Attained> = (0..DRAWS)
         .map(|_| at(Vector3::from_fn(|_, _| sigma * stream.normal())))
         .collect();
-    let told = pose_accuracy(&at(Vector3::zeros()), &reached).unwrap();
+    let reported = pose_accuracy(&at(Vector3::zeros()), &reached).unwrap();
     // Three deviations of 20 000 distances are known to 1 %.
-    assert!((told.repeatability.unwrap() - 80e-6).abs() < 1e-6, "{told:?}");
+    assert!((reported.repeatability.unwrap() - 80e-6).abs() < 1e-6, "{reported:?}");
 }

@@ -31,12 +31,12 @@ fn main() -> ExitCode {
         return usage();
     };
     let mut text = Text::new(kind, bytes);
-    let wanted = Wanted {
+    let requested = Wanted {
         unit: Some(LengthUnit::Millimetre),
         ..Wanted::default()
     };
     let (start, mut steps) = (Instant::now(), 0_u64);
-    let read = format::read(kind.path(), BufReader::new(&mut text), &wanted, &mut |_| {
+    let read = format::read(kind.path(), BufReader::new(&mut text), &requested, &mut |_| {
         steps += 1;
     });
     let seconds = start.elapsed().as_secs_f64();

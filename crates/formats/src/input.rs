@@ -106,7 +106,7 @@ impl Inputs {
     }
 
     /// Whether this file was opened.
-    pub(crate) fn hold(&self, file: &Identity) -> bool {
+    pub(crate) fn contains(&self, file: &Identity) -> bool {
         let opened = self.opened.lock().unwrap_or_else(PoisonError::into_inner);
         opened.contains(file)
     }
@@ -321,16 +321,16 @@ mod tests {
         let inputs = Inputs::default();
         inputs.during(|| read(&path)).unwrap();
         let same = folder.path().join(".").join("a");
-        assert!(inputs.hold(&Identity::of(&same).unwrap()));
-        assert!(!inputs.hold(&Identity::of(&other).unwrap()));
+        assert!(inputs.contains(&Identity::of(&same).unwrap()));
+        assert!(!inputs.contains(&Identity::of(&other).unwrap()));
         #[cfg(unix)]
         {
             let link = folder.path().join("link");
             std::os::unix::fs::symlink(&path, &link).unwrap();
-            assert!(inputs.hold(&Identity::of(&link).unwrap()));
+            assert!(inputs.contains(&Identity::of(&link).unwrap()));
             let hard = folder.path().join("hard");
             std::fs::hard_link(&path, &hard).unwrap();
-            assert!(inputs.hold(&Identity::of(&hard).unwrap()));
+            assert!(inputs.contains(&Identity::of(&hard).unwrap()));
         }
     }
 }

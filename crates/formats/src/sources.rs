@@ -1,6 +1,6 @@
 //! Where numbers come from: the table `[sources]` of our robot and material files, and the keys that name its entries.
 //!
-//! A field called `source`, or ending in `_source`, names a source by its key, wherever it stands. No number without a
+//! A field called `source`, or ending in `_source`, names a source by its key, anywhere. No number without a
 //! source, no source without a number.
 
 use std::collections::BTreeMap;
@@ -17,20 +17,20 @@ pub struct Source {
     pub key: String,
     /// What was taken.
     pub what: String,
-    /// Where it stands.
+    /// Its position.
     #[serde(rename = "where")]
     pub place: String,
     /// Under which licence, or that it is a fact.
     pub licence: String,
 }
 
-/// A source as it stands in a file, below its key.
+/// A source unchanged in a file, below its key.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SourceEntry {
     /// What was taken.
     pub what: String,
-    /// Where it stands.
+    /// Its position.
     #[serde(rename = "where")]
     pub place: String,
     /// Under which licence, or that it is a fact.
@@ -62,7 +62,7 @@ pub(crate) fn named(document: &Document) -> Vec<(String, &str)> {
     texts
 }
 
-/// Keys that are named and do not stand in the table, and keys of the table that nothing names.
+/// Keys that are named and do not are in the table, and keys of the table that nothing names.
 pub(crate) fn problems(document: &Document, table: &SourceTable) -> Vec<Problem> {
     let named = named(document);
     let missing = named.iter().filter(|(_, key)| !table.contains_key(*key));
@@ -94,7 +94,7 @@ mod tests {
 
     const ENTRY: &str = "what = \"\"\nwhere = \"\"\nlicence = \"\"\n";
 
-    fn told(fields: &str, keys: &[&str]) -> Vec<String> {
+    fn reported(fields: &str, keys: &[&str]) -> Vec<String> {
         let tables = keys.iter().map(|key| format!("[sources.{key}]\n{ENTRY}"));
         let text = format!("{fields}\n{}", tables.collect::<String>());
         let document = Document::parse("a.toml", &text).unwrap();
@@ -106,13 +106,13 @@ mod tests {
     #[test]
     fn sources_are_named_in_lists_and_tables_of_any_depth() {
         let fields = "source = \"a\"\nlist = [{ u_source = \"b\", inner = { source = \"c d\" } }]\nresource = \"none\"";
-        assert_eq!(told(fields, &["a", "b", "\"c d\""]), [""; 0]);
+        assert_eq!(reported(fields, &["a", "b", "\"c d\""]), [""; 0]);
     }
 
     #[test]
-    fn a_source_that_is_missing_and_one_without_number_are_told_where_they_stand() {
+    fn a_source_that_is_missing_and_one_without_number_are_reported_where_they_stand() {
         assert_eq!(
-            told("source = \"a\"\nlist = [{ u_source = \"b\" }]", &["a", "\"c d\""]),
+            reported("source = \"a\"\nlist = [{ u_source = \"b\" }]", &["a", "\"c d\""]),
             [
                 "a.toml:2:22: source `b` is not among the sources",
                 "a.toml:7:1: source `c d` is used by no number",
@@ -124,7 +124,7 @@ mod tests {
     fn a_key_of_the_list_itself_names_nothing() {
         let entry = "[sources.source]\nwhat = \"source\"\nwhere = \"\"\nlicence = \"\"\n";
         assert_eq!(
-            told(entry, &[]),
+            reported(entry, &[]),
             ["a.toml:1:1: source `source` is used by no number"]
         );
     }

@@ -42,7 +42,7 @@ pub(crate) fn parse(source: &Source) -> Result<Document<'_>, Problems> {
     };
     let document = Document::parse_with_options(source.text(), options).map_err(|error| {
         let at = offset(source.text(), error.pos().row, error.pos().col);
-        // The place stands before the message already.
+        // The place precedes the message already.
         let text = error.to_string();
         let message = text
             .rsplit_once(" at ")
@@ -144,7 +144,7 @@ pub(crate) fn required<'a>(
 /// The numbers of an attribute, or `default` where it is left out.
 ///
 /// # Errors
-/// Another count of numbers than wanted, or what is no finite number.
+/// Another count of numbers than wanted, or what is not a finite number.
 pub(crate) fn numbers<const N: usize>(
     source: &Source,
     node: Node<'_, '_>,

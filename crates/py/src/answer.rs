@@ -16,7 +16,7 @@ use crate::threads::{Beats, watched};
 /// `progress` is called now and then with the number of points finished.
 #[pyfunction]
 #[pyo3(signature = (command, operands, options, threads=None, progress=None))]
-pub(crate) fn ask(
+pub(crate) fn analysis(
     py: Python<'_>,
     command: String,
     operands: Vec<PathBuf>,
@@ -27,8 +27,8 @@ pub(crate) fn ask(
     let mut named = Vec::new();
     for (name, value) in options.iter() {
         let name: String = name.extract()?;
-        if let Some(told) = told(&name, &value)? {
-            named.push((name, told));
+        if let Some(reported) = reported(&name, &value)? {
+            named.push((name, reported));
         }
     }
     let shown = |path: &PathBuf| path.to_string_lossy().into_owned();
@@ -44,7 +44,7 @@ pub(crate) fn ask(
     };
     let tell = progress.map(|progress| move |count: usize| progress.call1((count,)).map(|_| ()));
     let tell = tell.as_ref().map(|tell| tell as &dyn Fn(usize) -> PyResult<()>);
-    let answer = watched(py, threads, (beats, tell), || armill_cli::ask(&call, &listener))?;
+    let answer = watched(py, threads, (beats, tell), || armill_cli::analysis(&call, &listener))?;
     match answer {
         Ok(answer) => Ok((answer.json, answer.talk, answer.holds)),
         Err(Refused::Usage(text)) => Err(usage(py, text)),
@@ -53,7 +53,7 @@ pub(crate) fn ask(
 }
 
 /// What is told of an option; nothing where it is None.
-fn told(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Option<Told>> {
+fn reported(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Option<Told>> {
     if value.is_none() {
         return Ok(None);
     }
@@ -65,7 +65,7 @@ fn told(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Option<Told>> {
     }
     // Arrays and numbers of numpy.
     if value.hasattr("tolist")? {
-        return told(name, &value.call_method0("tolist")?);
+        return reported(name, &value.call_method0("tolist")?);
     }
     if value.hasattr("__fspath__")? {
         return Ok(Some(Told::Text(
@@ -80,7 +80,7 @@ fn told(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Option<Told>> {
     };
     let mut all = Vec::new();
     for item in items {
-        all.extend(told(name, &item?)?);
+        all.extend(reported(name, &item?)?);
     }
     Ok(Some(Told::List(all)))
 }

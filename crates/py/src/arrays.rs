@@ -20,11 +20,11 @@ pub(crate) struct Given<'py> {
 
 impl<'py> Given<'py> {
     /// The numbers of `value`, in one piece. `wanted` tells the shape, in words.
-    pub(crate) fn of(value: &Bound<'py, PyAny>, name: &str, wanted: &dyn Display) -> PyResult<Given<'py>> {
+    pub(crate) fn of(value: &Bound<'py, PyAny>, name: &str, requested: &dyn Display) -> PyResult<Given<'py>> {
         let fits = |array: &Bound<'py, PyArrayDyn<f64>>| array.is_c_contiguous() && array.is_aligned();
         let array = match value.cast::<PyArrayDyn<f64>>() {
             Ok(array) if fits(array) => array.clone(),
-            _ => copied(value, name, wanted)?,
+            _ => copied(value, name, requested)?,
         };
         Ok(Given {
             numbers: array.try_readonly().map_err(PyErr::from)?,
@@ -68,7 +68,7 @@ impl<'py> Given<'py> {
 fn copied<'py>(
     value: &Bound<'py, PyAny>,
     name: &str,
-    wanted: &dyn Display,
+    requested: &dyn Display,
 ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     let py = value.py();
     let numpy = py.import("numpy")?;
@@ -82,7 +82,7 @@ fn copied<'py>(
             .name()
             .map_or_else(|_| "?".to_owned(), |name| name.to_string());
         wrong_type(format!(
-            "{name}: expected real numbers of shape {wanted}, given a {kind} that is no array ({})",
+            "{name}: expected real numbers of shape {requested}, given a {kind} that is no array ({})",
             error.value(py)
         ))
     })?;
@@ -91,7 +91,7 @@ fn copied<'py>(
     if !["f", "i", "u"].contains(&kind.as_str()) {
         let shape = array.getattr("shape")?;
         return Err(wrong_type(format!(
-            "{name}: expected real numbers of shape {wanted}, given {dtype} of shape {shape}"
+            "{name}: expected real numbers of shape {requested}, given {dtype} of shape {shape}"
         )));
     }
     let whole = numpy.call_method1("require", (array, "float64", ["C", "A"]))?;
@@ -114,12 +114,12 @@ impl<'py> Batch<'py> {
     /// # Errors
     /// Another shape; no numbers.
     pub(crate) fn of(value: &Bound<'py, PyAny>, name: &str, item: &[usize]) -> PyResult<Batch<'py>> {
-        let wanted = ManyOf(item);
-        let given = Given::of(value, name, &wanted)?;
+        let requested = ManyOf(item);
+        let given = Given::of(value, name, &requested)?;
         let (count, single) = match given.shape() {
             shape if shape == item => (1, true),
             [count, rest @ ..] if rest == item => (*count, false),
-            _ => return Err(wrong_shape(value.py(), name, &wanted, given.shape())),
+            _ => return Err(wrong_shape(value.py(), name, &requested, given.shape())),
         };
         Ok(Batch { given, count, single })
     }
@@ -143,11 +143,11 @@ impl Display for ManyOf<'_> {
 }
 
 /// A shape that is not the one wanted.
-pub(crate) fn wrong_shape(py: Python<'_>, name: &str, wanted: &dyn Display, given: &[usize]) -> PyErr {
+pub(crate) fn wrong_shape(py: Python<'_>, name: &str, requested: &dyn Display, given: &[usize]) -> PyErr {
     let lengths: Vec<String> = given.iter().map(usize::to_string).collect();
     let comma = if given.len() == 1 { "," } else { "" };
     let message = format!(
-        "{name}: expected shape {wanted}, given ({}{comma})",
+        "{name}: expected shape {requested}, given ({}{comma})",
         lengths.join(", ")
     );
     refused(py, message, "the last axis runs over the numbers of one item")

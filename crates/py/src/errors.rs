@@ -43,8 +43,8 @@ pub(crate) fn refused(py: Python<'_>, message: impl Into<String>, hint: impl Int
 
 /// The exception of options that no command takes.
 pub(crate) fn usage(py: Python<'_>, text: String) -> PyErr {
-    let told = StudyError::value(text.as_str(), "see `armill.command_help`");
-    with_problems(py, text, &armill_cli::problems_json(&told))
+    let given = StudyError::value(text.as_str(), "see `armill.command_help`");
+    with_problems(py, text, &armill_cli::problems_json(&given))
 }
 
 /// The exception of a value of another type than is wanted.

@@ -1,7 +1,7 @@
 //! The class `Held`: one posture for each of many poses, and how far the tool deviates there.
 
 use armill_core::kernel::{Answers, BranchChoice, Question, evaluate};
-use armill_core::load::Doubt;
+use armill_core::load::InputUncertainty;
 use armill_core::nalgebra::{Unit, Vector3};
 use armill_core::source::Arm;
 use armill_core::workpiece::normal_across;
@@ -46,7 +46,7 @@ pub(crate) fn hold(
         arm,
         home: home.as_deref(),
         cases: &forces.cases,
-        doubt: Doubt::NONE,
+        uncertainty: InputUncertainty::NONE,
         normal: match normal {
             Some(normal) => direction(normal)?,
             None => against_tool(py, &poses)?,
@@ -116,8 +116,8 @@ impl Held {
 impl Held {
     /// -> (n,) bool: whether the arm holds the tool at each pose.
     #[getter]
-    fn held<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<bool>>> {
-        self.each(py, |held| held.is_some())
+    fn evaluation<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<bool>>> {
+        self.each(py, |evaluation| evaluation.is_some())
     }
 
     /// -> (n, dof) joint positions, rad (m).
@@ -142,42 +142,42 @@ impl Held {
     /// -> (n,) largest in-plane deviation of all cases, m.
     #[getter]
     fn in_plane<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.each(py, |held| held.map_or(0.0, |held| held.in_plane))
+        self.each(py, |evaluation| evaluation.map_or(0.0, |evaluation| evaluation.in_plane))
     }
 
     /// -> (n,) standard uncertainty of the in-plane deviation from the compliances, m.
     #[getter]
     fn in_plane_uncertainty<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.each(py, |held| held.map_or(0.0, |held| held.in_plane_uncertainty))
+        self.each(py, |evaluation| evaluation.map_or(0.0, |evaluation| evaluation.in_plane_uncertainty))
     }
 
     /// -> (n,) deviation along the outward normal, of the case where it is largest in size, m.
     #[getter]
     fn normal<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.each(py, |held| held.map_or(0.0, |held| held.normal))
+        self.each(py, |evaluation| evaluation.map_or(0.0, |evaluation| evaluation.normal))
     }
 
     /// -> (n,) largest length of the deviation of all cases, m.
     #[getter]
     fn full<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.each(py, |held| held.map_or(0.0, |held| held.full))
+        self.each(py, |evaluation| evaluation.map_or(0.0, |evaluation| evaluation.full))
     }
 
     /// -> (n,) index of the case with the largest in-plane deviation.
     #[getter]
     fn deciding_case<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<i64>>> {
-        self.each(py, |held| held.map_or(0, |held| held.deciding_case as i64))
+        self.each(py, |evaluation| evaluation.map_or(0, |evaluation| evaluation.deciding_case as i64))
     }
 
     /// -> (n,) bool: whether every joint stands inside its limits.
     #[getter]
     fn within_limits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<bool>>> {
-        self.each(py, |held| {
-            held.is_some_and(armill_core::kernel::Held::within_limits)
+        self.each(py, |evaluation| {
+            evaluation.is_some_and(armill_core::kernel::Held::within_limits)
         })
     }
 
-    /// -> (n, sharers) share of each joint, then of base, flange and tool where springs sit, in `in_plane`, m.
+    /// -> (n, contributors) share of each joint, then of base, flange and tool where springs sit, in `in_plane`, m.
     #[getter]
     fn shares<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         array_of(py, &self.shape(&[self.answers.share_count]), &self.answers.shares)
@@ -189,7 +189,7 @@ impl Held {
         let name = |point: &Result<armill_core::kernel::Held, _>| {
             point
                 .as_ref()
-                .map_or_else(|_| String::new(), |held| held.name.to_string())
+                .map_or_else(|_| String::new(), |evaluation| evaluation.name.to_string())
         };
         self.answers.points.iter().map(name).collect()
     }
@@ -198,7 +198,7 @@ impl Held {
     #[getter]
     fn singularity(&self) -> Vec<&'static str> {
         let word = |point: &Result<armill_core::kernel::Held, _>| {
-            let singularity = point.as_ref().ok().and_then(|held| held.singularity);
+            let singularity = point.as_ref().ok().and_then(|evaluation| evaluation.singularity);
             singularity.map_or("", |singularity| singularity.word())
         };
         self.answers.points.iter().map(word).collect()
@@ -217,7 +217,7 @@ impl Held {
     }
 
     fn __repr__(&self) -> String {
-        let held = self.answers.held().count();
-        format!("<armill.Held: {held} of {} poses>", self.answers.points.len())
+        let evaluation = self.answers.evaluation().count();
+        format!("<armill.Held: {evaluation} of {} poses>", self.answers.points.len())
     }
 }

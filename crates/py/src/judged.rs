@@ -1,6 +1,6 @@
 //! The class `Judged`: what a path costs wherever its part lies.
 
-use armill_core::optimize::Merit;
+use armill_core::optimize::Score;
 use armill_study::Study;
 use armill_study::file::placement::PlaceTable;
 use armill_study::place::{PartPlace, Placing, Worth};
@@ -25,9 +25,9 @@ const NUMBERS: std::ops::RangeInclusive<usize> = 6..=8;
 pub(crate) fn drawn<'py>(
     py: Python<'py>,
     study: &Study,
-    ask: Option<String>,
+    analysis: Option<String>,
 ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-    let place = placing(study, ask)
+    let place = placing(study, analysis)
         .map_err(|error| exception(py, &error))?
         .drawn();
     let numbers = place.part.into_iter().chain([place.spin]).chain(place.rail);
@@ -38,15 +38,15 @@ pub(crate) fn drawn<'py>(
 /// Judges places.
 pub(crate) fn judge(
     study: &Study,
-    (places, ask): (&Bound<'_, PyAny>, Option<String>),
+    (places, analysis): (&Bound<'_, PyAny>, Option<String>),
     threads: Option<usize>,
 ) -> PyResult<Judged> {
     let py = places.py();
-    let wanted = "(n, 6), (n, 7) or (n, 8), or one without the first axis";
-    let given = Given::of(places, "places", &wanted)?;
+    let requested = "(n, 6), (n, 7) or (n, 8), or one without the first axis";
+    let given = Given::of(places, "places", &requested)?;
     let length = given.shape().last().copied().unwrap_or(0);
     if !NUMBERS.contains(&length) || given.shape().len() > 2 {
-        return Err(wrong_shape(py, "places", &wanted, given.shape()));
+        return Err(wrong_shape(py, "places", &requested, given.shape()));
     }
     given.finite(py, "places")?;
     let batch = Batch::of(places, "places", &[length])?;
@@ -57,7 +57,7 @@ pub(crate) fn judge(
     };
     let places: Vec<PartPlace> = given.values().chunks(length).map(place).collect();
     let worth = work(py, threads, Effort::Long, |watch| {
-        placing(study, ask)?.judge(&places, watch)
+        placing(study, analysis)?.judge(&places, watch)
     })?;
     Ok(Judged {
         worth: worth.map_err(|error| exception(py, &error))?,
@@ -65,24 +65,24 @@ pub(crate) fn judge(
     })
 }
 
-fn placing(study: &Study, ask: Option<String>) -> Result<Placing<'_>, armill_study::StudyError> {
-    let wanted = PlaceTable {
-        ask,
+fn placing(study: &Study, analysis: Option<String>) -> Result<Placing<'_>, armill_study::StudyError> {
+    let requested = PlaceTable {
+        analysis,
         ..PlaceTable::default()
     };
-    Placing::new(study, wanted, 0)
+    Placing::new(study, requested, 0)
 }
 
 impl Judged {
     fn each<'py, T: numpy::Element>(
         &self,
         py: Python<'py>,
-        of: impl Fn(&Merit) -> T,
+        of: impl Fn(&Score) -> T,
     ) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
-        let merits = &self.worth.merits;
-        let count = [merits.len()];
+        let scores = &self.worth.scores;
+        let count = [scores.len()];
         let shape = if self.single { &[][..] } else { &count[..] };
-        array(py, shape, merits.iter().map(of).collect())
+        array(py, shape, scores.iter().map(of).collect())
     }
 }
 
@@ -91,20 +91,20 @@ impl Judged {
     /// -> (n,) int: points of the path that the best branch does not hold.
     #[getter]
     fn lost<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<i64>>> {
-        self.each(py, |merit| merit.lost as i64)
+        self.each(py, |score| score.lost as i64)
     }
 
     /// -> (n,) cost of the points that it holds, as the goal has it, m; 0 where it holds none.
     #[getter]
     fn cost<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.each(py, |merit| merit.cost)
+        self.each(py, |score| score.cost)
     }
 
     /// -> list of n str: that branch; empty of an arm whose branches have no names, and of holes.
     #[getter]
     fn branch(&self) -> Vec<String> {
-        let name = |merit: &Merit| merit.branch.map_or_else(String::new, |branch| branch.to_string());
-        self.worth.merits.iter().map(name).collect()
+        let name = |score: &Score| score.branch.map_or_else(String::new, |branch| branch.to_string());
+        self.worth.scores.iter().map(name).collect()
     }
 
     /// -> int: points of the path.
@@ -120,13 +120,13 @@ impl Judged {
     }
 
     fn __len__(&self) -> usize {
-        self.worth.merits.len()
+        self.worth.scores.len()
     }
 
     fn __repr__(&self) -> String {
         format!(
             "<armill.Judged: {} places of {} points>",
-            self.worth.merits.len(),
+            self.worth.scores.len(),
             self.worth.points
         )
     }

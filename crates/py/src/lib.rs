@@ -22,7 +22,7 @@ mod answer;
 mod arithmetic;
 mod arrays;
 mod errors;
-mod held;
+mod evaluation;
 mod judged;
 mod poses;
 mod postures;
@@ -42,13 +42,13 @@ mod _armill {
     #[pymodule_export]
     const __version__: &str = env!("CARGO_PKG_VERSION");
     #[pymodule_export]
-    use crate::answer::{ask, command, options};
+    use crate::answer::{analysis, command, options};
     #[pymodule_export]
     use crate::arithmetic::arithmetic;
     #[pymodule_export]
     use crate::errors::{Cancelled, Fault, InputError};
     #[pymodule_export]
-    use crate::held::Held;
+    use crate::evaluation::Held;
     #[pymodule_export]
     use crate::judged::Judged;
     #[pymodule_export]

@@ -17,7 +17,7 @@ use pyo3::types::PyBytes;
 
 use crate::arrays::{Given, array, wrong_shape};
 use crate::errors::refused;
-use crate::held::{self, Held};
+use crate::evaluation::{self, Held};
 use crate::postures::{self, Postures};
 use crate::source::{self, RobotSource};
 use crate::stands;
@@ -76,10 +76,10 @@ impl Robot {
 
     /// A number for each joint.
     fn one_a_joint(&self, value: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<f64>> {
-        let wanted = format!("({},)", self.dof());
-        let given = Given::of(value, name, &wanted)?;
+        let requested = format!("({},)", self.dof());
+        let given = Given::of(value, name, &requested)?;
         if given.shape() != [self.dof()] {
-            return Err(wrong_shape(value.py(), name, &wanted, given.shape()));
+            return Err(wrong_shape(value.py(), name, &requested, given.shape()));
         }
         given.finite(value.py(), name)?;
         Ok(given.values().to_vec())
@@ -191,8 +191,8 @@ impl Robot {
 
     /// -> list of str: whom shares are told for: the joints, then `base`, `flange`, `tool` where springs sit.
     #[getter]
-    fn sharers(&self) -> Vec<String> {
-        self.model.sharer_names(self.arm().joints())
+    fn contributors(&self) -> Vec<String> {
+        self.model.contributor_names(self.arm().joints())
     }
 
     /// -> (dof, 2) least and greatest position, rad (m): minus and plus infinity where a joint has no limits.
@@ -224,19 +224,19 @@ impl Robot {
         standard_uncertainty: Optional<'_, '_>,
     ) -> PyResult<Robot> {
         let values = self.one_a_joint(compliance, "compliance")?;
-        let doubts = match standard_uncertainty {
-            Some(doubts) => self.one_a_joint(doubts, "standard_uncertainty")?,
+        let uncertainties = match standard_uncertainty {
+            Some(uncertainties) => self.one_a_joint(uncertainties, "standard_uncertainty")?,
             None => vec![0.0; values.len()],
         };
-        let given = values.iter().zip(&doubts).map(|(value, doubt)| JointCompliance {
+        let given = values.iter().zip(&uncertainties).map(|(value, uncertainty)| JointCompliance {
             value: *value,
-            standard_uncertainty: *doubt,
+            standard_uncertainty: *uncertainty,
         });
         let mut description = self.description.clone();
         let robot = description.robot.with_other_compliance(given.collect());
         description.robot =
             robot.map_err(|error| refused(py, error.to_string(), "rad/(N m), one a joint, 0 or more"))?;
-        let source = self.source.with_compliance(values, doubts);
+        let source = self.source.with_compliance(values, uncertainties);
         Ok(Robot::of(source, description))
     }
 
@@ -297,9 +297,9 @@ impl Robot {
         stands::deviation(self, (joints, forces), tool, threads)
     }
 
-    /// (n, dof) joints, (cases, 3) forces -> (n, cases, sharers, 3) shares of the deviation, m, base axes.
+    /// (n, dof) joints, (cases, 3) forces -> (n, cases, contributors, 3) shares of the deviation, m, base axes.
     ///
-    /// They add up to the deviation. `Robot.sharers` names them: the joints, then base, flange and tool where springs sit.
+    /// They add up to the deviation. `Robot.contributors` names them: the joints, then base, flange and tool where springs sit.
     #[pyo3(signature = (joints, forces, tool=None, *, threads=None))]
     fn shares<'py>(
         &self,
@@ -365,7 +365,7 @@ impl Robot {
         home: Optional<'_, '_>,
         threads: Option<usize>,
     ) -> PyResult<Held> {
-        held::hold(self, (poses, forces, tool), (branch, normal, home), threads)
+        evaluation::hold(self, (poses, forces, tool), (branch, normal, home), threads)
     }
 
     fn __repr__(&self) -> String {
@@ -383,16 +383,16 @@ impl Robot {
     fn _again(
         py: Python<'_>,
         file: (PathBuf, String, Bound<'_, PyBytes>),
-        wanted: (String, Option<String>),
+        requested: (String, Option<String>),
         compliance: Option<(Vec<f64>, Vec<f64>)>,
     ) -> PyResult<Robot> {
-        let robot = Robot::read(py, RobotSource::again(py, file, wanted)?)?;
-        let Some((values, doubts)) = compliance else {
+        let robot = Robot::read(py, RobotSource::again(py, file, requested)?)?;
+        let Some((values, uncertainties)) = compliance else {
             return Ok(robot);
         };
         let count = [values.len()];
         let values = array(py, &count, values)?;
-        let doubts = array(py, &count, doubts)?;
-        robot.with_compliance(py, values.as_any(), Some(doubts.as_any()))
+        let uncertainties = array(py, &count, uncertainties)?;
+        robot.with_compliance(py, values.as_any(), Some(uncertainties.as_any()))
     }
 }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use armill_formats::input::{self, Inputs};
 use armill_formats::robot::armill::{Identified, IdentifiedSpring, with_springs};
 use armill_formats::robot::format::{self, Format, Wanted};
-use armill_formats::robot::spring_tables::Yields;
+use armill_formats::robot::spring_tables::SpringKind;
 use armill_formats::robot::{RobotDescription, armill};
 use armill_study::{library, robots};
 use pyo3::prelude::*;
@@ -60,11 +60,11 @@ impl RobotSource {
     pub(crate) fn urdf(py: Python<'_>, path: &Path, tip: Option<String>) -> PyResult<RobotSource> {
         let bytes = read(py, path)?;
         let macros = String::from_utf8_lossy(&bytes).contains("xmlns:xacro");
-        let wanted = Wanted {
+        let requested = Wanted {
             format: Some(if macros { Format::Xacro } else { Format::Urdf }),
             tip: tip.clone(),
         };
-        let found = format::read(path, &stem(path), &bytes, &wanted);
+        let found = format::read(path, &stem(path), &bytes, &requested);
         let found = found.map_err(|problems| exception(py, &problems.into()))?;
         RobotSource::file(py, path, (&found, tip))
     }
@@ -101,9 +101,9 @@ impl RobotSource {
     }
 
     /// The same with other joint compliances.
-    pub(crate) fn with_compliance(&self, values: Vec<f64>, doubts: Vec<f64>) -> RobotSource {
+    pub(crate) fn with_compliance(&self, values: Vec<f64>, uncertainties: Vec<f64>) -> RobotSource {
         RobotSource {
-            compliance: Some((values, doubts)),
+            compliance: Some((values, uncertainties)),
             ..self.clone()
         }
     }
@@ -113,11 +113,11 @@ impl RobotSource {
     /// # Errors
     /// The problems of the text.
     pub(crate) fn read(&self, py: Python<'_>) -> PyResult<RobotDescription> {
-        let wanted = Wanted {
+        let requested = Wanted {
             format: Some(self.format),
             tip: self.tip.clone(),
         };
-        let found = format::read(&self.path, &self.name, &self.bytes, &wanted);
+        let found = format::read(&self.path, &self.name, &self.bytes, &requested);
         found.map_err(|problems| exception(py, &problems.into()))
     }
 
@@ -131,7 +131,7 @@ impl RobotSource {
             Format::Armill => String::from_utf8_lossy(&self.bytes).into_owned(),
             _ => armill::write(&found),
         };
-        let Some((values, doubts)) = &self.compliance else {
+        let Some((values, uncertainties)) = &self.compliance else {
             return Ok(text);
         };
         if !found.robot.structure().springs.is_empty() {
@@ -140,15 +140,15 @@ impl RobotSource {
         }
         let joints = found.robot.joints().iter().enumerate();
         let springs = joints
-            .zip(values.iter().zip(doubts))
-            .map(|((index, joint), (value, doubt))| IdentifiedSpring {
+            .zip(values.iter().zip(uncertainties))
+            .map(|((index, joint), (value, uncertainty))| IdentifiedSpring {
                 at: joint.name.clone(),
                 yields: match found.robot.slides(index) {
-                    true => Yields::SlidingDrive,
-                    false => Yields::Drive,
+                    true => SpringKind::PrismaticDrive,
+                    false => SpringKind::Drive,
                 },
                 compliance: *value,
-                standard_uncertainty: *doubt,
+                standard_uncertainty: *uncertainty,
             });
         let identified = Identified {
             springs: springs.collect(),
@@ -270,14 +270,14 @@ fn table(
     (value, name): (&Bound<'_, PyAny>, &str),
     (count, width): (Option<usize>, usize),
 ) -> PyResult<Vec<Vec<f64>>> {
-    let wanted = match count {
+    let requested = match count {
         Some(count) => format!("({count}, {width})"),
         None => format!("(dof, {width})"),
     };
-    let given = Given::of(value, name, &wanted)?;
+    let given = Given::of(value, name, &requested)?;
     match given.shape() {
         [rows, columns] if *columns == width && count.is_none_or(|count| count == *rows) => {}
-        shape => return Err(wrong_shape(py, name, &wanted, shape)),
+        shape => return Err(wrong_shape(py, name, &requested, shape)),
     }
     given.finite(py, name)?;
     Ok(given.values().chunks(width).map(<[f64]>::to_vec).collect())

@@ -3,11 +3,11 @@
 //! Each takes joints, a tool and a number of threads, and writes what the core tells of each stand into one array.
 
 use armill_core::frame::Isometry;
-use armill_core::kernel::{Untold, stand_at};
+use armill_core::kernel::{EvaluateError, evaluate_at_joints};
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::JointCompliance;
 use armill_core::robot::jacobian::jacobian as jacobian_of;
-use armill_core::source::{Arm, Gravity, Standing, StiffnessModel, Unstable};
+use armill_core::source::{Arm, Gravity, ArmState, StiffnessModel, Unstable};
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 
@@ -28,8 +28,8 @@ pub(crate) fn forward<'py>(
     threads: Option<usize>,
 ) -> Floats<'py> {
     let stands = Stands::rigid(robot, joints, tool)?;
-    stands.told(threads, &[4, 4], |standing, out| {
-        let pose = standing.base_from_tool().to_homogeneous();
+    stands.reported(threads, &[4, 4], |arm_state, out| {
+        let pose = arm_state.base_from_tool().to_homogeneous();
         // The transpose of a matrix by columns is the matrix by rows.
         out.copy_from_slice(pose.transpose().as_slice());
         Ok(())
@@ -45,8 +45,8 @@ pub(crate) fn jacobian<'py>(
 ) -> Floats<'py> {
     let stands = Stands::rigid(robot, joints, tool)?;
     let dof = robot.dof();
-    stands.told(threads, &[6, dof], |standing, out| {
-        let jacobian = jacobian_of(robot.arm(), &standing.screws()[..dof]);
+    stands.reported(threads, &[6, dof], |arm_state, out| {
+        let jacobian = jacobian_of(robot.arm(), &arm_state.screws()[..dof]);
         out.copy_from_slice(jacobian.transpose().as_slice());
         Ok(())
     })
@@ -60,8 +60,8 @@ pub(crate) fn compliance<'py>(
     threads: Option<usize>,
 ) -> Floats<'py> {
     let stands = Stands::yielding(robot, joints, tool)?;
-    stands.told(threads, &[6, 6], |standing, out| {
-        let compliance = standing.compliance().ok_or(Unstable::Buckles)?;
+    stands.reported(threads, &[6, 6], |arm_state, out| {
+        let compliance = arm_state.compliance().ok_or(Unstable::Buckles)?;
         out.copy_from_slice(compliance.transpose().as_slice());
         Ok(())
     })
@@ -77,9 +77,9 @@ pub(crate) fn deviation<'py>(
     let stands = Stands::yielding(robot, joints, tool)?;
     let forces = Forces::of(forces)?;
     let shape: Vec<usize> = forces.axis().into_iter().chain([3]).collect();
-    stands.told(threads, &shape, |standing, out| {
+    stands.reported(threads, &shape, |arm_state, out| {
         for (wrench, out) in forces.cases.iter().zip(out.chunks_mut(3)) {
-            out.copy_from_slice(standing.elastic(wrench)?.linear.as_slice());
+            out.copy_from_slice(arm_state.elastic(wrench)?.linear.as_slice());
         }
         Ok(())
     })
@@ -94,12 +94,12 @@ pub(crate) fn shares<'py>(
 ) -> Floats<'py> {
     let stands = Stands::yielding(robot, joints, tool)?;
     let forces = Forces::of(forces)?;
-    let sharers = robot.model.sharers(robot.dof()).len();
-    let shape: Vec<usize> = forces.axis().into_iter().chain([sharers, 3]).collect();
-    stands.told(threads, &shape, |standing, out| {
-        for (wrench, out) in forces.cases.iter().zip(out.chunks_mut(3 * sharers)) {
-            standing.elastic(wrench)?;
-            for (share, out) in standing.shares().iter().zip(out.chunks_mut(3)) {
+    let contributors = robot.model.contributors(robot.dof()).len();
+    let shape: Vec<usize> = forces.axis().into_iter().chain([contributors, 3]).collect();
+    stands.reported(threads, &shape, |arm_state, out| {
+        for (wrench, out) in forces.cases.iter().zip(out.chunks_mut(3 * contributors)) {
+            arm_state.elastic(wrench)?;
+            for (share, out) in arm_state.shares().iter().zip(out.chunks_mut(3)) {
                 out.copy_from_slice(share.linear.as_slice());
             }
         }
@@ -140,8 +140,8 @@ pub(crate) fn gravity<'py>(
         model: &model,
         ..Stands::yielding(robot, joints, tool)?
     };
-    stands.told(threads, &[3], |standing, out| {
-        let sag = standing
+    stands.reported(threads, &[3], |arm_state, out| {
+        let sag = arm_state
             .gravity()?
             .map_or_else(Vector3::zeros, |twist| twist.linear);
         out.copy_from_slice(sag.as_slice());
@@ -193,11 +193,11 @@ impl<'a, 'py> Stands<'a, 'py> {
     }
 
     /// An array of `item` for each stand, which `tell` writes.
-    fn told(
+    fn reported(
         &self,
         threads: Option<usize>,
         item: &[usize],
-        tell: impl Fn(&mut Standing<'_>, &mut [f64]) -> Result<(), Unstable> + Sync,
+        tell: impl Fn(&mut ArmState<'_>, &mut [f64]) -> Result<(), Unstable> + Sync,
     ) -> Floats<'py> {
         let arm = Arm {
             robot: self.robot.arm(),
@@ -208,13 +208,13 @@ impl<'a, 'py> Stands<'a, 'py> {
         let (joints, count) = (self.joints.given.values(), self.joints.count);
         let width = item.iter().product();
         let tell = &tell;
-        let told = work(self.py, threads, Effort::Points(count), move |watch| {
+        let reported = work(self.py, threads, Effort::Points(count), move |watch| {
             let mut out = vec![0.0; count * width];
-            stand_at(&arm, joints, (&mut out, width), tell, watch).map(|()| out)
+            evaluate_at_joints(&arm, joints, (&mut out, width), tell, watch).map(|()| out)
         })?;
-        let out = told.map_err(|why| match why {
-            Untold::Cancelled(cancelled) => exception(self.py, &cancelled.into()),
-            Untold::Unstable { point, why } => {
+        let out = reported.map_err(|why| match why {
+            EvaluateError::Cancelled(cancelled) => exception(self.py, &cancelled.into()),
+            EvaluateError::Unstable { point, why } => {
                 refused(self.py, format!("joints[{point}]: {why}"), "is the load right?")
             }
         })?;

@@ -53,7 +53,7 @@ impl Study {
 type Parts<'py> = (String, PathBuf, Bound<'py, PyBytes>);
 
 /// What is written beside `result.json`.
-fn wanted(pictures: bool, csv: bool) -> Wanted<'static> {
+fn expected(pictures: bool, csv: bool) -> Wanted<'static> {
     Wanted {
         pictures: if pictures { Pictures::Drawn } else { Pictures::None },
         csv: if csv { Csv::Every } else { Csv::MapsAndPaths },
@@ -105,9 +105,9 @@ impl Study {
 
     /// -> list of str: the names of its asks.
     #[getter]
-    fn asks(&self, py: Python<'_>) -> PyResult<Vec<String>> {
+    fn analyses(&self, py: Python<'_>) -> PyResult<Vec<String>> {
         let study = self.checked(py).map_err(|error| exception(py, error))?;
-        Ok(study.asks.iter().map(|ask| ask.name.clone()).collect())
+        Ok(study.analyses.iter().map(|analysis| analysis.name.clone()).collect())
     }
 
     /// -> int: how many points it asks for.
@@ -133,31 +133,31 @@ impl Study {
     /// ask name or None -> (8,) x, y, z, heading, tilt, roll, spin, rail: where the study has the part of a path, m and rad.
     ///
     /// Without the rail, (7,), where the arm stands on none.
-    #[pyo3(signature = (ask=None))]
+    #[pyo3(signature = (analysis=None))]
     fn drawn_place<'py>(
         &self,
         py: Python<'py>,
-        ask: Option<String>,
+        analysis: Option<String>,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let study = self.checked(py).map_err(|error| exception(py, error))?;
-        judged::drawn(py, &study, ask)
+        judged::drawn(py, &study, analysis)
     }
 
     /// (n, 6) places -> Judged: what the path costs wherever its part lies.
     ///
     /// A place is x, y, z of the plane's centre (m, in the frame that the study counts from), heading, tilt and roll of the
     /// plane (rad); (n, 7) has the turn of the tool beside the one it has (rad), (n, 8) the rail (m). Goal, branches and margin
-    /// are those of the study's `[place]`. `ask` names the path where there are several.
-    #[pyo3(signature = (places, *, ask=None, threads=None))]
+    /// are those of the study's `[place]`. `analysis` names the path where there are several.
+    #[pyo3(signature = (places, *, analysis=None, threads=None))]
     fn judge(
         &self,
         py: Python<'_>,
         places: &Bound<'_, PyAny>,
-        ask: Option<String>,
+        analysis: Option<String>,
         threads: Option<usize>,
     ) -> PyResult<Judged> {
         let study = self.checked(py).map_err(|error| exception(py, error))?;
-        judged::judge(&study, (places, ask), threads)
+        judged::judge(&study, (places, analysis), threads)
     }
 
     /// folder or None -> Result: runs every ask, and writes what `armill run` writes where a folder `out` is given.
@@ -192,14 +192,14 @@ impl Study {
         let tell = progress.map(|progress| move |count: usize| progress.call1((count,)).map(|_| ()));
         let tell = tell.as_ref().map(|tell| tell as &dyn Fn(usize) -> PyResult<()>);
         let found = watched(py, threads, (beats, tell), || {
-            let wanted = wanted(pictures, csv);
+            let expected = expected(pictures, csv);
             let out = out.map(|out| writer.folder(&out)).transpose()?;
             if let Some(out) = &out {
-                output::allow(&study, (out, wanted))?;
+                output::allow(&study, (out, expected))?;
             }
             let mut finished = Finished::run(study, watch)?;
             if let Some(out) = &out {
-                finished.write(out, wanted)?;
+                finished.write(out, expected)?;
             }
             let json = output::json(finished.answer())?;
             Ok::<_, StudyError>((finished, json))
@@ -210,7 +210,7 @@ impl Study {
             inputs: self.inputs.clone(),
             sentence: answer.answer.clone(),
             warnings: answer.warnings.clone(),
-            asks: finished.asks().into_iter().map(str::to_owned).collect(),
+            analyses: finished.analyses().into_iter().map(str::to_owned).collect(),
             finished: Mutex::new(finished),
             json,
         })
@@ -242,7 +242,7 @@ pub(crate) struct Outcome {
     json: String,
     sentence: String,
     warnings: Vec<String>,
-    asks: Vec<String>,
+    analyses: Vec<String>,
     finished: Mutex<Finished>,
 }
 
@@ -251,7 +251,7 @@ impl Outcome {
     ///
     /// The thread that asks holds what came out, not the pool: a thread of the pool that waits for its own work may take up
     /// that of another question, and would wait for itself.
-    fn asked<T: Send>(
+    fn requested<T: Send>(
         &self,
         py: Python<'_>,
         job: impl FnOnce(&mut Finished) -> Result<T, StudyError> + Send,
@@ -303,27 +303,27 @@ impl Outcome {
 
     /// -> list of str: the names of the asks.
     #[getter]
-    fn asks(&self) -> Vec<String> {
-        self.asks.clone()
+    fn analyses(&self) -> Vec<String> {
+        self.analyses.clone()
     }
 
     /// ask name or None -> Table: a row a point, the columns of its Parquet file; of the first ask where none is named.
-    #[pyo3(signature = (ask=None))]
-    fn table(&self, py: Python<'_>, ask: Option<&str>) -> PyResult<Table> {
-        let index = match ask {
+    #[pyo3(signature = (analysis=None))]
+    fn table(&self, py: Python<'_>, analysis: Option<&str>) -> PyResult<Table> {
+        let index = match analysis {
             None => 0,
-            Some(name) => self.asks.iter().position(|ask| ask == name).ok_or_else(|| {
+            Some(name) => self.analyses.iter().position(|analysis| analysis == name).ok_or_else(|| {
                 let message = format!("no ask is called `{name}`");
-                refused(py, message, format!("there are: {}", self.asks.join(", ")))
+                refused(py, message, format!("there are: {}", self.analyses.join(", ")))
             })?,
         };
-        Table::of(self.asked(py, |finished| finished.table(index))?)
+        Table::of(self.requested(py, |finished| finished.table(index))?)
     }
 
     /// -> dict of str to str: every picture as SVG, by its name.
     #[getter]
     fn pictures(&self, py: Python<'_>) -> PyResult<std::collections::BTreeMap<String, String>> {
-        let drawn = self.asked(py, |finished| Ok(finished.pictures()))?;
+        let drawn = self.requested(py, |finished| Ok(finished.pictures()))?;
         Ok(drawn
             .into_iter()
             .map(|picture| (picture.name, picture.svg))
@@ -343,8 +343,8 @@ impl Outcome {
         force: bool,
     ) -> PyResult<Vec<PathBuf>> {
         let writer = self.inputs.during(|| Writer::new("run", force));
-        self.asked(py, |finished| {
-            finished.write(&writer.folder(&folder)?, wanted(pictures, csv))
+        self.requested(py, |finished| {
+            finished.write(&writer.folder(&folder)?, expected(pictures, csv))
         })
     }
 

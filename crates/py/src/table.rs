@@ -52,12 +52,12 @@ impl Table {
         } in columns
         {
             let array = array_of(data).map_err(broken)?;
-            let told = [("description", Some(description)), ("unit", unit)];
-            let told = told
+            let given = [("description", Some(description)), ("unit", unit)];
+            let given = given
                 .into_iter()
                 .filter_map(|(key, value)| Some((key.to_owned(), value?)));
             let field = Field::new(name, array.data_type().clone(), array.null_count() > 0);
-            fields.push(field.with_metadata(told.collect::<HashMap<_, _>>()));
+            fields.push(field.with_metadata(given.collect::<HashMap<_, _>>()));
             arrays.push(array);
         }
         let rows = RecordBatch::try_new(Arc::new(Schema::new(fields)), arrays);

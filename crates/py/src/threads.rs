@@ -108,9 +108,9 @@ pub(crate) fn watched<T: Send>(
             found.is_some()
         };
         while !py.detach(is_ready) {
-            let told = || progress.map_or(Ok(()), |tell| tell(beats.counted.load(Ordering::Relaxed)));
+            let given = || progress.map_or(Ok(()), |tell| tell(beats.counted.load(Ordering::Relaxed)));
             if stopped.is_none()
-                && let Err(why) = py.check_signals().and_then(|()| told())
+                && let Err(why) = py.check_signals().and_then(|()| given())
             {
                 beats.cancel.store(true, Ordering::Relaxed);
                 stopped = Some(why);

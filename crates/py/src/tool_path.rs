@@ -66,15 +66,15 @@ pub(crate) fn read_path(
         .map_err(|error| refused(py, format!("cannot read {shown}: {error}"), "is the path right?"))?;
     let found = work(py, Some(1), Effort::Long, |_| {
         let (mut moves, mut operation, mut operations) = (Vec::new(), Vec::new(), Vec::new());
-        let wanted = Wanted {
+        let requested = Wanted {
             unit,
             dialect,
             ..Wanted::default()
         };
-        let summary = read(&shown, BufReader::new(opened), &wanted, &mut |step| match step {
+        let summary = read(&shown, BufReader::new(opened), &requested, &mut |step| match step {
             Step::Operation(begun) => operations.push(begun),
-            Step::Move(told) => {
-                moves.push(told);
+            Step::Move(given) => {
+                moves.push(given);
                 operation.push(operations.len() as i64 - 1);
             }
         })?;
@@ -104,7 +104,7 @@ impl ToolPath {
         py: Python<'py>,
         of: impl Fn(&Move) -> Vector3<f64>,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let values = self.moves.iter().flat_map(|told| of(told).data.0[0]);
+        let values = self.moves.iter().flat_map(|given| of(given).data.0[0]);
         array(py, &[self.moves.len(), 3], values.collect())
     }
 }
@@ -114,34 +114,34 @@ impl ToolPath {
     /// -> (n, 3) where each move ends, m.
     #[getter]
     fn points<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.vectors(py, |told| told.end.coords)
+        self.vectors(py, |given| given.end.coords)
     }
 
     /// -> (n, 3) tool axes at the ends, from the tip towards the spindle; zeros where the program tells none.
     #[getter]
     fn axes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.vectors(py, |told| told.axis.map_or_else(Vector3::zeros, Unit::into_inner))
+        self.vectors(py, |given| given.axis.map_or_else(Vector3::zeros, Unit::into_inner))
     }
 
     /// -> (n,) bool: whether the tool cuts on the way.
     #[getter]
     fn cuts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<bool>>> {
-        self.each(py, |told| told.pace.cuts())
+        self.each(py, |given| given.pace.cuts())
     }
 
     /// -> (n,) speed of each move, m/s; 0 of rapids, and where the program tells none.
     #[getter]
     fn feed<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.each(py, |told| match told.pace {
+        self.each(py, |given| match given.pace {
             Pace::Feed(speed) => speed,
-            Pace::Rapid | Pace::Untold => 0.0,
+            Pace::Rapid | Pace::EvaluateError => 0.0,
         })
     }
 
     /// -> (n,) angle of each arc, rad, full turns included; 0 of straight moves.
     #[getter]
     fn sweep<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.each(py, |told| match told.course {
+        self.each(py, |given| match given.course {
             Course::Arc(arc) => arc.sweep,
             Course::Line => 0.0,
         })
@@ -150,7 +150,7 @@ impl ToolPath {
     /// -> (n, 3) a point on the axis of each arc, m; zeros of straight moves.
     #[getter]
     fn arc_centre<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.vectors(py, |told| match told.course {
+        self.vectors(py, |given| match given.course {
             Course::Arc(arc) => arc.centre.coords,
             Course::Line => Vector3::zeros(),
         })
@@ -159,7 +159,7 @@ impl ToolPath {
     /// -> (n, 3) the axis of each arc, which it turns about by the right hand; zeros of straight moves.
     #[getter]
     fn arc_axis<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.vectors(py, |told| match told.course {
+        self.vectors(py, |given| match given.course {
             Course::Arc(arc) => arc.axis.into_inner(),
             Course::Line => Vector3::zeros(),
         })
@@ -168,7 +168,7 @@ impl ToolPath {
     /// -> (n,) line of each move in the program, from 1.
     #[getter]
     fn line<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<i64>>> {
-        self.each(py, |told| i64::from(told.line))
+        self.each(py, |given| i64::from(given.line))
     }
 
     /// -> (n,) index of each move's operation in `operations`; -1 before the first.
@@ -180,7 +180,7 @@ impl ToolPath {
     /// -> list of dict: `name`, `tool`, `diameter` (m), `corner_radius` (m), `spindle` (rad/s), `line`; None where not told.
     #[getter]
     fn operations<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
-        let told = |operation: &Operation| {
+        let given = |operation: &Operation| {
             let dict = PyDict::new(py);
             dict.set_item("name", operation.name.as_deref())?;
             dict.set_item("tool", operation.tool)?;
@@ -190,7 +190,7 @@ impl ToolPath {
             dict.set_item("line", operation.line)?;
             Ok(dict)
         };
-        self.operations.iter().map(told).collect()
+        self.operations.iter().map(given).collect()
     }
 
     /// -> str: the format of the file: `gcode`, `apt` or `csv`.

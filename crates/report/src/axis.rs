@@ -154,7 +154,7 @@ mod tests {
 
     #[test]
     fn three_digits_mean_something_on_every_scale() {
-        let told = [1234.4, 123.4, 12.34, 1.234, 0.4, 0.0456, 0.001234, -0.05, 0.0].map(three_digits);
+        let given = [1234.4, 123.4, 12.34, 1.234, 0.4, 0.0456, 0.001234, -0.05, 0.0].map(three_digits);
         let expected = [
             "1234",
             "123",
@@ -166,7 +166,7 @@ mod tests {
             "\u{2212}0.0500",
             "0",
         ];
-        assert_eq!(told, expected);
+        assert_eq!(given, expected);
         assert_eq!(three_digits(f64::NAN), "–");
     }
 

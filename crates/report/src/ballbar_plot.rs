@@ -275,7 +275,7 @@ mod tests {
     }
 
     #[test]
-    fn the_division_is_told_and_a_start_is_marked_where_it_is() {
+    fn the_division_is_reported_and_a_start_is_marked_where_it_is() {
         let plot = |start_deg| BallbarPlot {
             subtitle: "radius 100 mm".to_owned(),
             traces: vec![trace(Sense::Clockwise, start_deg)],

@@ -131,7 +131,7 @@ impl BudgetBars {
                 rows.draw_whisker(&mut page.svg, [largest, end_um(bar)], (middle, 4.5));
             }
             let number = [rows.area.right() + 8.0, middle + 4.0];
-            page.svg.text(number, &told(bar), &Text::new(SMALL_PX).bold());
+            page.svg.text(number, &reported(bar), &Text::new(SMALL_PX).bold());
         }
         let zero = rows.x(0.0);
         let ends = [[zero, rows.area.y], [zero, rows.area.bottom()]];
@@ -158,13 +158,13 @@ fn end_um(bar: &BudgetBar) -> f64 {
     finite(bar.largest_um) + 2.0 * finite(bar.scatter_um)
 }
 
-/// 0 of what is no size.
+/// 0 of what is not a size.
 fn finite(um: f64) -> f64 {
     if um.is_finite() { um.max(0.0) } else { 0.0 }
 }
 
 /// The bar in numbers.
-fn told(bar: &BudgetBar) -> String {
+fn reported(bar: &BudgetBar) -> String {
     match finite(bar.scatter_um) > 0.0 {
         true => format!(
             "{:.1}, s {:.1} µm",

@@ -1,4 +1,4 @@
-//! A quantity over two others, cell by cell: coloured where it is known, grey where something stands in the way, with a curve
+//! A quantity over two others, cell by cell: coloured where it is known, grey where something is in the way, with a curve
 //! that was chosen and places that are marked.
 //!
 //! ```text
@@ -73,7 +73,7 @@ pub struct CellMap {
     /// Marked places, in the units of the axes.
     pub marks: Vec<Marker>,
     /// Permissible deviation in um, where there is one.
-    pub limit_um: Option<f64>,
+    pub tolerance_um: Option<f64>,
 }
 
 /// What cells that do not stand look like, with their words.
@@ -101,7 +101,7 @@ impl CellMap {
             levels: &levels,
             scale: ColourScale::default(),
             quantity: &self.quantity,
-            limit_um: self.limit_um,
+            tolerance_um: self.tolerance_um,
         };
         let chart = Chart::beside_axis(AREA_PX, across.into(), up.into());
         let mut page = heading.page(bar.beside(chart.area).right() + BORDER_PX);
@@ -147,7 +147,7 @@ impl CellMap {
 
     /// Values as they are coloured: none where nothing stands, large ones as four times the limit.
     fn shown(&self) -> Vec<Option<f64>> {
-        let most = self.limit_um.filter(|limit| *limit > 0.0);
+        let most = self.tolerance_um.filter(|limit| *limit > 0.0);
         let most = most.map_or(f64::INFINITY, |limit| MOST_LIMITS * limit);
         let of = |cell: &Cell| match cell {
             Cell::Holds(um) if um.is_finite() => Some(um.min(most)),
@@ -260,7 +260,7 @@ mod tests {
             chosen: across.iter().map(|along| -140.0 - along).collect(),
             across,
             up,
-            limit_um: Some(60.0),
+            tolerance_um: Some(60.0),
             labels: AxisLabels {
                 horizontal: "along the path (mm)".to_owned(),
                 vertical: "turn of the tool (deg)".to_owned(),

@@ -56,7 +56,7 @@ impl Chart {
         Self { area, ..self }
     }
 
-    /// Where a pair of values (across, up) stands on the picture; values beyond the ends stand outside the
+    /// Where a pair of values (across, up) is on the picture; values beyond the ends stand outside the
     /// area.
     pub(crate) fn at(&self, v: [f64; 2]) -> Point {
         let t = |k: usize| (v[k] - self.low[k]) / (self.high[k] - self.low[k]);

@@ -35,7 +35,7 @@ pub(crate) struct ColourBar<'a> {
     /// What the colours mean, with its unit.
     pub(crate) quantity: &'a str,
     /// The limit in um, marked where it lies within the bands.
-    pub(crate) limit_um: Option<f64>,
+    pub(crate) tolerance_um: Option<f64>,
 }
 
 impl ColourBar<'_> {
@@ -127,11 +127,11 @@ impl ColourBar<'_> {
     /// The limit, if it lies within the bands.
     fn limit_inside(&self) -> Option<f64> {
         let (low, high) = (self.levels.edge_um.first()?, self.levels.edge_um.last()?);
-        self.limit_um.filter(|l| l >= low && l <= high)
+        self.tolerance_um.filter(|l| l >= low && l <= high)
     }
 }
 
-/// The limit among the numbers of the bar, whose unit stands in its quantity.
-fn limit_number(limit_um: f64) -> String {
-    format!("limit {}", plain(limit_um))
+/// The limit among the numbers of the bar, whose unit is in its quantity.
+fn limit_number(tolerance_um: f64) -> String {
+    format!("limit {}", plain(tolerance_um))
 }

@@ -7,7 +7,7 @@
 //!         0     quantity (µm)
 //! ```
 //!
-//! A limit more than three times the largest value of all is told in words: drawn, it would press the rows to the axis.
+//! A limit more than three times the largest value of all is reported in words: drawn, it would press the rows to the axis.
 //! Cells have the colours that series of the same number have on a [`crate::PathPlot`].
 
 use crate::colour::{INK, MUTED, category};
@@ -27,7 +27,7 @@ const NUMBER_PX: f64 = 92.0;
 const MARK_PX: f64 = 8.0;
 /// The range from mean to largest.
 const RANGE_PX: f64 = 5.0;
-/// A limit so many times the largest value is told in words.
+/// A limit so many times the largest value is reported in words.
 const FAR: f64 = 3.0;
 
 /// One cell of a comparison.
@@ -46,7 +46,7 @@ pub struct ComparedCell {
     /// Standard uncertainty of the largest, drawn as a whisker to both sides.
     pub largest_uncertainty_um: Option<f64>,
     /// Permissible deviation.
-    pub limit_um: Option<f64>,
+    pub tolerance_um: Option<f64>,
     /// What came out, written at the right: `93.0 %`.
     pub result: String,
 }
@@ -76,7 +76,7 @@ impl Comparison {
                 .notice("There is nothing to draw: no cell reaches any point, or nothing deviates.");
         }
         let near = |limit: &f64| *limit <= FAR * most;
-        let limits = self.cells.iter().filter_map(|cell| finite(cell.limit_um));
+        let limits = self.cells.iter().filter_map(|cell| finite(cell.tolerance_um));
         let right = limits.filter(near).fold(most, f64::max);
         let left = left_px(self.cells.iter().map(|cell| cell.label.as_str()));
         let mut page = heading.page(left + AREA_WIDTH_PX + NUMBER_PX + BORDER_PX);
@@ -95,7 +95,7 @@ impl Comparison {
             .text(head, &self.result, &Text::new(SMALL_PX).colour(MUTED));
         let top = |k: usize| rows.area.y + ROW_PX * k as f64;
         for (k, cell) in self.cells.iter().enumerate() {
-            if let Some(limit) = finite(cell.limit_um).filter(near) {
+            if let Some(limit) = finite(cell.tolerance_um).filter(near) {
                 let x = rows.x(limit);
                 page.svg.line([x, top(k)], [x, top(k) + ROW_PX], &limit::style());
             }
@@ -125,7 +125,7 @@ impl Comparison {
         let mut limits: Vec<f64> = self
             .cells
             .iter()
-            .filter_map(|cell| finite(cell.limit_um))
+            .filter_map(|cell| finite(cell.tolerance_um))
             .collect();
         limits.dedup();
         match limits[..] {
@@ -209,7 +209,7 @@ mod tests {
             mean_um: Some(0.5 * largest),
             p95_um: Some(0.9 * largest),
             largest_um: Some(largest),
-            limit_um: Some(limit),
+            tolerance_um: Some(limit),
             result: "50.0 %".to_owned(),
             ..ComparedCell::default()
         }

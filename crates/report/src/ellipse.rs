@@ -26,7 +26,7 @@ use crate::svg::{Anchor, Point, Rect, Style, Svg, Text};
 const MOST_PX: [f64; 2] = [380.0, 380.0];
 /// Half the side of the drawing, in the softest compliance.
 const ROOM: f64 = 1.45;
-/// Corners of the polygon that stands for the ellipse.
+/// Corners of the polygon that represents the ellipse.
 const CORNERS: u32 = 180;
 /// Colour of the stiffest direction.
 const STIFF: &str = category(2);
@@ -47,7 +47,7 @@ pub struct StiffnessEllipse {
 }
 
 impl StiffnessEllipse {
-    /// The picture as a complete SVG document; a compliance that is no number, or not positive in any
+    /// The picture as a complete SVG document; a compliance that is not a number, or not positive in any
     /// direction, gives a picture that says so.
     pub fn to_svg(&self) -> String {
         let heading = Heading::new(&self.title, &self.subtitle);

@@ -45,9 +45,9 @@ pub(crate) struct Look<'a> {
     pub(crate) paint: Paint,
     pub(crate) iso_lines: IsoLines,
     /// The limit; a line where the field crosses it.
-    pub(crate) limit_um: Option<f64>,
+    pub(crate) tolerance_um: Option<f64>,
     /// The least and the greatest that each value may be, where a region tells what is doubtful.
-    pub(crate) doubt: Option<&'a [Grid; 2]>,
+    pub(crate) uncertainty: Option<&'a [Grid; 2]>,
     /// Points that labels keep clear of: what is drawn on top afterwards.
     pub(crate) obstacles: &'a [Point],
 }
@@ -63,7 +63,7 @@ pub(crate) fn draw_field(svg: &mut Svg, plane: &Plane, grid: &Grid, look: &Look<
         at: &at,
         area: plane.area,
     };
-    let lines = LevelLines::of(&placed, look.levels, look.limit_um);
+    let lines = LevelLines::of(&placed, look.levels, look.tolerance_um);
     svg.clipped(plane.area, |svg| {
         match look.paint {
             Paint::Bands(scale) => placed.draw_bands(svg, look.levels, scale),
@@ -107,17 +107,17 @@ pub(crate) fn draw_field(svg: &mut Svg, plane: &Plane, grid: &Grid, look: &Look<
 /// One colour within the limit, another over it, and a third where the uncertainty does not tell.
 fn draw_region(svg: &mut Svg, values: &Placed<'_>, look: &Look<'_>, steps: usize) {
     svg.rect(values.area, &Style::fill(WITHIN));
-    let Some(limit_um) = look.limit_um.filter(|limit| limit.is_finite()) else {
+    let Some(tolerance_um) = look.tolerance_um.filter(|limit| limit.is_finite()) else {
         return;
     };
-    match look.doubt {
+    match look.uncertainty {
         Some([least, greatest]) => {
             for (grid, colour) in [(greatest, DOUBTFUL), (least, OVER)] {
                 let surface = Surface::refine(grid, steps);
-                values.with(surface.lattice()).fill_from(svg, limit_um, colour);
+                values.with(surface.lattice()).fill_from(svg, tolerance_um, colour);
             }
         }
-        None => values.fill_from(svg, limit_um, OVER),
+        None => values.fill_from(svg, tolerance_um, OVER),
     }
 }
 
@@ -167,7 +167,7 @@ pub(crate) fn zone_entries<'a>(
     entries
 }
 
-/// Rising lines on near white: what lies under them is no value.
+/// Rising lines on near white: what lies under them is not a value.
 fn unreachable_hatch() -> Hatch {
     Hatch {
         turn_deg: 45.0,
@@ -178,7 +178,7 @@ fn unreachable_hatch() -> Hatch {
     }
 }
 
-/// Falling lines, over the bands where they stay visible, over grey where a region is told.
+/// Falling lines, over the bands where they stay visible, over grey where a region is reported.
 fn outside_hatch(paint: Paint) -> Hatch {
     let ground = match paint {
         Paint::Bands(_) => None,

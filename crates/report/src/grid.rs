@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! vertical_mm[ny-1]  p[(ny-1) nx] ...        p[ny nx - 1]
-//!       ...                                                  drawn as it stands here: row 0 at the bottom
+//!       ...                                                  drawn unchanged here: row 0 at the bottom
 //! vertical_mm[0]     p[0]         p[1] ...   p[nx - 1]
 //!               horizontal_mm[0]  [1]  ...   [nx - 1]
 //! ```

@@ -48,7 +48,7 @@ pub struct HoleMap {
     /// What the colours mean, with unit.
     pub quantity: String,
     /// Permissible deviation; one that is not finite counts as none.
-    pub limit_um: Option<f64>,
+    pub tolerance_um: Option<f64>,
     /// Colours.
     pub scale: ColourScale,
     /// The holes.
@@ -69,7 +69,7 @@ impl HoleMap {
             levels: &levels,
             scale: self.scale,
             quantity: &self.quantity,
-            limit_um: self.limit_um,
+            tolerance_um: self.tolerance_um,
         };
         let plane = Plane::beside_axis(window, MOST_PX);
         let width = bar.beside(plane.area).right() + BORDER_PX;
@@ -154,13 +154,13 @@ impl HoleMap {
     }
 
     fn is_over(&self, um: f64) -> bool {
-        self.limit_um.is_some_and(|limit| limit.is_finite() && um > limit)
+        self.tolerance_um.is_some_and(|limit| limit.is_finite() && um > limit)
     }
 
     fn entries(&self) -> Vec<Entry> {
         let mut entries = Vec::new();
         let over = self.holes.iter().filter_map(value).any(|um| self.is_over(um));
-        match self.limit_um.filter(|limit| limit.is_finite()) {
+        match self.tolerance_um.filter(|limit| limit.is_finite()) {
             Some(limit) if over => {
                 let ring = Key::Dot(Style::line(LIMIT, 1.8));
                 entries.push(Entry::new(ring, format!("over the {}", limit::label(limit))));
@@ -196,10 +196,10 @@ mod tests {
     }
 
     #[test]
-    fn what_is_over_the_limit_or_out_of_reach_is_told_in_the_legend_only_where_there_is_such() {
+    fn what_is_over_the_limit_or_out_of_reach_is_reported_in_the_legend_only_where_there_is_such() {
         let of = |holes: Vec<HoleMark>| {
             HoleMap {
-                limit_um: Some(50.0),
+                tolerance_um: Some(50.0),
                 holes,
                 ..HoleMap::default()
             }
@@ -217,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn a_single_hole_is_drawn_and_none_is_told() {
+    fn a_single_hole_is_drawn_and_none_is_reported() {
         let one = HoleMap {
             holes: vec![hole(0.0, Some(20.0))],
             ..HoleMap::default()

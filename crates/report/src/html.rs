@@ -28,7 +28,7 @@ pub enum Align {
 /// One column of a table: its head reads `name (unit)`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Column {
-    /// What stands in it.
+    /// What is in it.
     pub name: String,
     /// Its unit; empty for a column of words or pure numbers.
     pub unit: String,
@@ -139,7 +139,7 @@ impl Report {
         self
     }
 
-    /// A paragraph of plain text; what stands between backticks is code.
+    /// A paragraph of plain text; what is between backticks is code.
     #[must_use]
     pub fn paragraph(mut self, text: &str) -> Self {
         self.body.push_str(&format!("<p>{}</p>\n", prose(text)));
@@ -155,7 +155,7 @@ impl Report {
         self
     }
 
-    /// A picture of this crate with its caption. Not checked: that `svg` is one of ours; it is put in as it stands.
+    /// A picture of this crate with its caption. Not checked: that `svg` is one of ours; it is put in unchanged.
     #[must_use]
     pub fn picture(mut self, svg: &str, caption: &str) -> Self {
         self.figures += 1;

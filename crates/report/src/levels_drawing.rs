@@ -1,4 +1,4 @@
-//! A field drawn by its levels, wherever its lattice stands on the picture: bands, iso-lines, the line of the limit, and
+//! A field drawn by its levels, wherever its lattice is on the picture: bands, iso-lines, the line of the limit, and
 //! the labels of these lines.
 //!
 //! What knows the lattice (`crate::contours`) thinks in its values, what draws thinks in pixels: here the two
@@ -15,11 +15,11 @@ use crate::svg::{Ends, Point, Rect, Style, Svg, Text, trace};
 /// A line that coincides with the limit, within this part of a step, carries the limit's label alone.
 const COINCIDES: f64 = 0.05;
 
-/// A lattice of samples, and where it stands on the picture.
+/// A lattice of samples, and where it is on the picture.
 #[derive(Clone, Copy)]
 pub(crate) struct Placed<'a> {
     pub(crate) lattice: Lattice<'a>,
-    /// Where a point of the lattice, in the values of its axes, stands on the picture.
+    /// Where a point of the lattice, in the values of its axes, is on the picture.
     pub(crate) at: &'a dyn Fn([f64; 2]) -> Point,
     /// What the lattice covers, px.
     pub(crate) area: Rect,
@@ -73,7 +73,7 @@ impl<'a> Placed<'a> {
 /// The lines between the bands, and the line of the limit.
 pub(crate) struct LevelLines<'a> {
     levels: &'a Levels,
-    limit_um: Option<f64>,
+    tolerance_um: Option<f64>,
     /// One list of lines for each inner level, px.
     iso: Vec<Vec<Vec<Point>>>,
     /// The lines of the limit, px; none where the field does not cross it.
@@ -81,13 +81,13 @@ pub(crate) struct LevelLines<'a> {
 }
 
 impl<'a> LevelLines<'a> {
-    /// The lines of a field. No line stands for a limit that is not finite.
-    pub(crate) fn of(placed: &Placed<'_>, levels: &'a Levels, limit_um: Option<f64>) -> Self {
-        let limit_um = limit_um.filter(|limit| limit.is_finite());
-        let limit: Vec<f64> = limit_um.into_iter().collect();
+    /// The lines of a field. No line represents a limit that is not finite.
+    pub(crate) fn of(placed: &Placed<'_>, levels: &'a Levels, tolerance_um: Option<f64>) -> Self {
+        let tolerance_um = tolerance_um.filter(|limit| limit.is_finite());
+        let limit: Vec<f64> = tolerance_um.into_iter().collect();
         Self {
             levels,
-            limit_um,
+            tolerance_um,
             iso: placed.lines_at(levels.inner_um()),
             limit: placed.lines_at(&limit).into_iter().flatten().collect(),
         }
@@ -114,12 +114,12 @@ impl<'a> LevelLines<'a> {
     pub(crate) fn labels(&self) -> Vec<Labelled> {
         let on_limit = self.limit.iter().map(|points| Labelled {
             points: points.clone(),
-            text: self.limit_um.map(limit::label).unwrap_or_default(),
+            text: self.tolerance_um.map(limit::label).unwrap_or_default(),
             look: limit::text(),
         });
         let step_um = self.levels.step_um;
         let is_apart = |level: f64| {
-            self.limit_um
+            self.tolerance_um
                 .is_none_or(|limit| (level - limit).abs() >= COINCIDES * step_um)
         };
         let iso = self.iso.iter().zip(self.levels.inner_um());

@@ -25,19 +25,19 @@ pub(crate) fn text() -> Text {
 }
 
 /// `limit 50 µm`.
-pub(crate) fn label(limit_um: f64) -> String {
-    format!("limit {} µm", plain(limit_um))
+pub(crate) fn label(tolerance_um: f64) -> String {
+    format!("limit {} µm", plain(tolerance_um))
 }
 
-/// The legend's entry: the line, its label, and a remark that follows the label as it stands, its blank or
+/// The legend's entry: the line, its label, and a remark that follows the label unchanged, its blank or
 /// colon included.
-pub(crate) fn entry(limit_um: f64, remark: &str) -> Entry {
-    Entry::line(style(), format!("{}{remark}", label(limit_um)))
+pub(crate) fn entry(tolerance_um: f64, remark: &str) -> Entry {
+    Entry::line(style(), format!("{}{remark}", label(tolerance_um)))
 }
 
-/// The entry of a limit over these values, with a remark where no line shows it; none for a limit that is no number.
-pub(crate) fn entry_over(limit_um: Option<f64>, values_um: impl Iterator<Item = f64>) -> Option<Entry> {
-    let limit = limit_um.filter(|limit| limit.is_finite())?;
+/// The entry of a limit over these values, with a remark where no line shows it; none for a limit that is not a number.
+pub(crate) fn entry_over(tolerance_um: Option<f64>, values_um: impl Iterator<Item = f64>) -> Option<Entry> {
+    let limit = tolerance_um.filter(|limit| limit.is_finite())?;
     let remark = match extent(values_um) {
         Some((low, _)) if limit <= low => " (exceeded everywhere)",
         Some((_, high)) if limit > high => " (kept everywhere)",
@@ -52,17 +52,17 @@ mod tests {
 
     #[test]
     fn a_limit_outside_the_values_says_so_and_one_that_is_no_number_says_nothing() {
-        let told = |limit| entry_over(limit, [10.0, f64::NAN, 20.0].into_iter()).map(|entry| entry.label);
+        let given = |limit| entry_over(limit, [10.0, f64::NAN, 20.0].into_iter()).map(|entry| entry.label);
         assert_eq!(
-            told(Some(10.0)).as_deref(),
+            given(Some(10.0)).as_deref(),
             Some("limit 10 µm (exceeded everywhere)")
         );
-        assert_eq!(told(Some(15.0)).as_deref(), Some("limit 15 µm"));
+        assert_eq!(given(Some(15.0)).as_deref(), Some("limit 15 µm"));
         assert_eq!(
-            told(Some(20.5)).as_deref(),
+            given(Some(20.5)).as_deref(),
             Some("limit 20.5 µm (kept everywhere)")
         );
-        assert_eq!(told(Some(f64::INFINITY)), None);
-        assert_eq!(told(None), None);
+        assert_eq!(given(Some(f64::INFINITY)), None);
+        assert_eq!(given(None), None);
     }
 }

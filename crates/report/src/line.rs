@@ -9,7 +9,7 @@ use crate::svg::Point;
 const SEEN_PX: f64 = 0.1;
 
 /// A line without the points that nobody would miss: each kept point is joined to the farthest one for which
-/// all points between lie in a cone about the line. The first and the last point stay. No point that is left
+/// all points between are in a cone about the line. The first and the last point stay. No point that is left
 /// out lies farther than 0.1 px from the line drawn; a line that turns back is kept at its turn.
 pub(crate) fn without_straight(line: &[Point]) -> Vec<Point> {
     let mut kept: Vec<Point> = line.first().copied().into_iter().collect();
@@ -67,7 +67,7 @@ pub(crate) fn points_along(line: &[Point]) -> Vec<Point> {
     points
 }
 
-/// A line with the way from its start to each of its points, so that a place on it can be asked for by its way.
+/// A line with the way from its start to each of its points, so that a place on it can be requested by its way.
 pub(crate) struct Stations<'a> {
     /// The corners of the line, as given.
     pub(crate) points: &'a [Point],
@@ -91,7 +91,7 @@ impl<'a> Stations<'a> {
         Self { points, way, length }
     }
 
-    /// The point `s` px from the start; the ends stand for what lies beyond them. Not checked: that there are two points.
+    /// The point `s` px from the start; the ends represent what lies beyond them. Not checked: that there are two points.
     pub(crate) fn at(&self, s: f64) -> Point {
         let k = self
             .way

@@ -16,7 +16,7 @@ use crate::svg::{Anchor, Point, Rect, Style, Svg, Text};
 
 /// Distance of trial places along a line.
 const TRIAL_STEP_PX: f64 = 6.0;
-/// Length of line that each label stands for.
+/// Length of line that each label represents.
 const LINE_PER_LABEL_PX: f64 = 560.0;
 /// Least distance of two labels of the same line.
 const SAME_LINE_PX: f64 = 190.0;
@@ -45,7 +45,7 @@ pub(crate) struct Labelled {
     pub(crate) look: Text,
 }
 
-/// Where labels may stand.
+/// Where labels may be.
 pub(crate) struct Room<'a> {
     /// The drawing; labels stay 4 px inside it.
     pub(crate) area: Rect,
@@ -112,7 +112,7 @@ pub(crate) fn write_labels(svg: &mut Svg, lines: &[Labelled], room: &Room<'_>) {
                 });
                 svg.polygon(&plate, &Style::fill("#fff").opacity(0.9));
             }
-            // The text stands on its baseline: a third of the size below the middle.
+            // The text is on its baseline: a third of the size below the middle.
             let down = line.look.size_px * 0.36;
             svg.text(
                 [at[0] - down * sin, at[1] + down * cos],
@@ -133,7 +133,7 @@ struct Wish<'a> {
     others: &'a [Point],
 }
 
-/// Where a label may stand: its middle, and the direction along the line.
+/// Where a label may be: its middle, and the direction along the line.
 #[derive(Clone, Copy)]
 struct Place {
     at: Point,
@@ -204,7 +204,7 @@ impl Wish<'_> {
         })
     }
 
-    /// Whether the label lies inside the drawing, where it may stand, and clear of other labels.
+    /// Whether the label lies inside the drawing, where it may be, and clear of other labels.
     fn is_free(&self, place: &Place, taken: &[(Point, f64)]) -> bool {
         const OUTLINE: [[f64; 2]; 6] = [
             [-1.0, -1.0],

@@ -42,7 +42,7 @@ pub struct Overlay {
 ///         points: [31.0, 44.0, 35.0, 52.0, 40.0, 61.0].map(PointState::Reached).to_vec(),
 ///     },
 ///     quantity: "in-plane deviation (µm)".to_owned(),
-///     limit_um: Some(50.0),
+///     tolerance_um: Some(50.0),
 ///     ..DeviationMap::default()
 /// };
 /// assert!(map.to_svg().starts_with("<svg "));
@@ -59,9 +59,9 @@ pub struct DeviationMap {
     pub axes: AxisLabels,
     /// What is drawn, with its unit: `in-plane deviation (µm)`.
     pub quantity: String,
-    /// Permissible deviation in um, drawn as an emphasised line. A limit below or above all values is told in
+    /// Permissible deviation in um, drawn as an emphasised line. A limit below or above all values is reported in
     /// the legend; one that is not finite counts as none.
-    pub limit_um: Option<f64>,
+    pub tolerance_um: Option<f64>,
     /// Colours of the bands.
     pub scale: ColourScale,
     /// Lines drawn on top; labels of iso-lines keep clear of them.
@@ -86,7 +86,7 @@ impl DeviationMap {
             levels: &levels,
             scale: self.scale,
             quantity: &self.quantity,
-            limit_um: self.limit_um,
+            tolerance_um: self.tolerance_um,
         };
         let plane = Plane::beside_axis(window_of(&self.grid), MOST_PX);
         let width = bar.beside(plane.area).right() + BORDER_PX;
@@ -98,12 +98,12 @@ impl DeviationMap {
             levels: &levels,
             paint,
             iso_lines: IsoLines::Labelled,
-            limit_um: self.limit_um,
-            doubt: None,
+            tolerance_um: self.tolerance_um,
+            uncertainty: None,
             obstacles: &self.obstacles(&plane),
         };
         draw_field(&mut page.svg, &plane, &self.grid, &look);
-        let limit = limit::entry_over(self.limit_um, self.grid.values_um());
+        let limit = limit::entry_over(self.tolerance_um, self.grid.values_um());
         let mut entries: Vec<Entry> = limit.into_iter().collect();
         entries.extend(zone_entries(&mut page.svg, std::iter::once(&self.grid), paint));
         entries.extend(self.entries_on_top());

@@ -64,7 +64,7 @@ pub struct MapSeries {
     pub subtitle: String,
     /// The maps in reading order.
     pub panels: Vec<Panel>,
-    /// Panels in a row, 1 to 8; any other number stands for the nearer of the two. Fewer panels take fewer
+    /// Panels in a row, 1 to 8; any other number represents the nearer of the two. Fewer panels take fewer
     /// columns.
     pub columns: usize,
     /// Axis labels with units, shared by all panels.
@@ -72,7 +72,7 @@ pub struct MapSeries {
     /// What is drawn, with its unit: `in-plane deviation (µm)`.
     pub quantity: String,
     /// Permissible deviation in um.
-    pub limit_um: Option<f64>,
+    pub tolerance_um: Option<f64>,
     /// Colours of the bands.
     pub scale: ColourScale,
     /// Whether the permissible region stands under each map; needs a limit that is finite.
@@ -99,7 +99,7 @@ impl MapSeries {
             levels: &levels,
             scale: self.scale,
             quantity: &self.quantity,
-            limit_um: self.limit_um,
+            tolerance_um: self.tolerance_um,
         };
         let bar_height = layout.height_px.min(MOST_BAR_PX);
         let bar_x = layout.left_px + layout.width_px + BAR_GAP_PX;
@@ -137,7 +137,7 @@ impl MapSeries {
 
     /// Whether each panel has a region under its map.
     fn has_regions(&self) -> bool {
-        self.show_regions && self.limit_um.is_some_and(f64::is_finite)
+        self.show_regions && self.tolerance_um.is_some_and(f64::is_finite)
     }
 
     /// Title, note, map and region of one panel.
@@ -162,8 +162,8 @@ impl MapSeries {
                     levels,
                     paint,
                     iso_lines: IsoLines::Thin,
-                    limit_um: self.limit_um,
-                    doubt: None,
+                    tolerance_um: self.tolerance_um,
+                    uncertainty: None,
                     obstacles: &[],
                 };
                 draw_field(svg, plane, &panel.grid, &look);
@@ -175,7 +175,7 @@ impl MapSeries {
     /// The limit, the colours of regions, and the zones that some panel has.
     fn entries(&self, svg: &mut Svg, drawable: &[&Grid]) -> Vec<Entry> {
         let mut entries = Vec::new();
-        if let Some(limit) = self.limit_um.filter(|l| l.is_finite()) {
+        if let Some(limit) = self.tolerance_um.filter(|l| l.is_finite()) {
             entries.push(limit::entry(limit, ""));
             if self.has_regions() {
                 let limit = crate::axis::plain(limit);

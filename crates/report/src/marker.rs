@@ -11,7 +11,7 @@ use crate::svg::{Point, Style, Svg, Text};
 /// From a point up to the baseline of its name.
 const NAME_ABOVE_PX: f64 = 8.0;
 
-/// What a marked point stands for; decides its sign.
+/// What a marked point represents; decides its sign.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MarkerKind {
     /// A point of interest: a ring.

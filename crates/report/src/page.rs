@@ -110,7 +110,7 @@ impl<'a> Heading<'a> {
 }
 
 impl Page<'_> {
-    /// The complete document, with a legend whose top left corner stands at `at` and which runs to the right border.
+    /// The complete document, with a legend whose top left corner is at `at` and which runs to the right border.
     pub(crate) fn finish_with_legend(mut self, entries: &[Entry], at: Point) -> String {
         let width = self.width_px - at[0] - BORDER_PX;
         let bottom = draw_legend(&mut self.svg, entries, at, width);
@@ -157,7 +157,7 @@ mod tests {
         assert!((boxes[0].x - 100.0).abs() < 1e-9);
         assert!((boxes[1].centre()[0] - 100.0).abs() < 1e-9);
         assert!((boxes[2].right() - 100.0).abs() < 1e-9);
-        // Letters stand on the baseline, their tails below it.
+        // Letters are on the baseline, their tails below it.
         assert!(boxes.iter().all(|b| b.y < 50.0 && b.bottom() > 50.0));
     }
 

@@ -1,7 +1,7 @@
 //! The deviation along a path: one line a load case, their envelope, and the limit.
 //!
 //! The chart shows zero and, unless it is more than three times the largest value, the limit; values that are
-//! all positive stand on the axis. A far limit is told in words at the upper edge.
+//! all positive are on the axis. A far limit is reported in words at the upper edge.
 
 use crate::chart::{Chart, range, runs};
 use crate::colour::{INK, category};
@@ -36,7 +36,7 @@ impl Series {
     }
 }
 
-/// A limit so many times the largest value is told in words: drawn, it would press the lines to the axis.
+/// A limit so many times the largest value is reported in words: drawn, it would press the lines to the axis.
 const FAR: f64 = 3.0;
 
 /// What a path plot shows.
@@ -56,7 +56,7 @@ pub struct PathPlot {
     /// Not checked: that it is the largest.
     pub envelope: Option<Series>,
     /// Permissible deviation in um; one that is not finite counts as none.
-    pub limit_um: Option<f64>,
+    pub tolerance_um: Option<f64>,
 }
 
 impl PathPlot {
@@ -64,7 +64,7 @@ impl PathPlot {
     pub fn to_svg(&self) -> String {
         let heading = Heading::new(&self.title, &self.subtitle);
         let finite = || self.points().filter(|p| p.iter().all(|v| v.is_finite()));
-        let limit = self.limit_um.filter(|l| l.is_finite());
+        let limit = self.tolerance_um.filter(|l| l.is_finite());
         let largest = finite().map(|p| p[1].abs()).fold(0.0, f64::max);
         let (limit, far_limit) = match limit {
             Some(limit) if largest > 0.0 && limit > FAR * largest => (None, Some(limit)),
@@ -75,7 +75,7 @@ impl PathPlot {
         let (Some(x), Some([low, high]), Some(_)) = (x, y, finite().next()) else {
             return heading.notice("There is nothing to draw: the path has no values.");
         };
-        // Values that are all positive stand on the axis.
+        // Values that are all positive are on the axis.
         let lowest = if finite().all(|p| p[1] >= 0.0) { 0.0 } else { low };
         let chart = Chart::beside_axis(AREA_PX, x, [lowest, high]);
         let mut page = heading.page(chart.area.right() + BORDER_PX + 8.0);
@@ -175,14 +175,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_limit_far_above_the_values_is_told_in_words_and_does_not_press_them_down() {
-        let plot = |limit_um| PathPlot {
+    fn a_limit_far_above_the_values_is_reported_in_words_and_does_not_press_them_down() {
+        let plot = |tolerance_um| PathPlot {
             series: vec![Series {
                 name: "case 1".to_owned(),
                 position: vec![0.0, 1.0, 2.0],
                 deviation_um: vec![10.0, -20.0, 15.0],
             }],
-            limit_um: Some(limit_um),
+            tolerance_um: Some(tolerance_um),
             ..PathPlot::default()
         };
         let (near, far) = (plot(60.0).to_svg(), plot(61.0).to_svg());

@@ -109,7 +109,7 @@ pub(crate) const LABEL_LEFT_PX: f64 = 14.0;
 const THINNEST_PX: f64 = 70.0;
 
 impl Plane {
-    /// The window inside a box of `most` (width, height) pixels whose top left corner stands at `at`. The area
+    /// The window inside a box of `most` (width, height) pixels whose top left corner is at `at`. The area
     /// fills the box in one direction and stays below it in the other; a side thinner than 70 px is widened
     /// with more of the plane to both sides.
     pub(crate) fn fit(window: Window, at: Point, most: [f64; 2]) -> Self {
@@ -154,7 +154,7 @@ impl Plane {
         Self { area, ..self }
     }
 
-    /// Where a point of the plane stands on the picture.
+    /// Where a point of the plane is on the picture.
     pub(crate) fn at(&self, mm: [f64; 2]) -> Point {
         let [across, up] = self.px_per_mm_signed();
         [
@@ -163,7 +163,7 @@ impl Plane {
         ]
     }
 
-    /// The point of the plane that stands at a point of the picture: `at` backwards.
+    /// The point of the plane that is at a point of the picture: `at` backwards.
     pub(crate) fn mm(&self, at: Point) -> [f64; 2] {
         let [across, up] = self.px_per_mm_signed();
         [

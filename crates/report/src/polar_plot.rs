@@ -1,9 +1,9 @@
 //! How round a circle comes out: the radial deviation, magnified, around the nominal circle or a reference circle.
 //!
-//! `radius = hole + (um - first) / (last - first) (rim - hole)`: the deviation of the innermost ring stands at
+//! `radius = hole + (um - first) / (last - first) (rim - hole)`: the deviation of the innermost ring is at
 //! 0.22 of the rim's radius, that of the outermost at the rim. The circle of deviation 0 is the dashed
 //! ring between. Lengths along the radius are true to scale among each other; shapes are not, since the hole
-//! stands for no deviation. Circles about another centre are drawn as they are seen from this one, and their centres
+//! represents no deviation. Circles about another centre are drawn as they are seen from this one, and their centres
 //! marked in the same scale.
 
 use crate::axis::{extent, nice_step};
@@ -355,7 +355,7 @@ mod tests {
     }
 
     #[test]
-    fn references_are_told_apart_and_their_centres_stand_where_they_are() {
+    fn references_are_reported_apart_and_their_centres_stand_where_they_are() {
         let seen = |name: &str| RadialSeries {
             name: name.to_owned(),
             angle_deg: vec![0.0, 90.0, 180.0, 270.0, 360.0],

@@ -1,4 +1,4 @@
-//! What a cut may be: the deviation over two of its quantities, with the line of the tolerance and the cut as it stands.
+//! What a cut may be: the deviation over two of its quantities, with the line of the tolerance and the cut unchanged.
 //!
 //! The quantities may be any two of a cut, such as depth and feed, each in its own unit. Values go straight
 //! between the points of the lattice, not in curves as on a map.
@@ -43,8 +43,8 @@ pub struct ProcessMap {
     /// held at all.
     pub deviation_um: Vec<f64>,
     /// Permissible deviation in um.
-    pub limit_um: f64,
-    /// The cut as it stands: horizontal and vertical value, in the units of the axes; one that is not finite is
+    pub tolerance_um: f64,
+    /// The cut unchanged: horizontal and vertical value, in the units of the axes; one that is not finite is
     /// not drawn.
     pub drawn: Option<[f64; 2]>,
 }
@@ -56,7 +56,7 @@ impl ProcessMap {
         if let Some(reason) = self.obstacle() {
             return heading.notice(reason);
         }
-        let most = MOST_LIMITS * self.limit_um;
+        let most = MOST_LIMITS * self.tolerance_um;
         let shown: Vec<f64> = self.deviation_um.iter().map(|um| um.min(most)).collect();
         let levels = Levels::covering(shown.iter().copied());
         let ranges = extent(self.horizontal.iter().copied()).zip(extent(self.vertical.iter().copied()));
@@ -67,7 +67,7 @@ impl ProcessMap {
             levels: &levels,
             scale: ColourScale::default(),
             quantity: &self.quantity,
-            limit_um: Some(self.limit_um),
+            tolerance_um: Some(self.tolerance_um),
         };
         let chart = Chart::beside_axis(AREA_PX, across.into(), up.into());
         let mut page = heading.page(bar.beside(chart.area).right() + BORDER_PX);
@@ -77,7 +77,7 @@ impl ProcessMap {
             .clipped(chart.area, |svg| self.draw_field(svg, &chart, &levels, &shown));
         page.svg.rect(chart.area, &Style::line(INK, 1.0));
         bar.draw(&mut page.svg, bar.beside(chart.area));
-        let mut entries = vec![limit::entry(self.limit_um, ": cuts below hold it")];
+        let mut entries = vec![limit::entry(self.tolerance_um, ": cuts below hold it")];
         if let Some(at) = self.drawn.filter(|at| at.iter().all(|v| v.is_finite())) {
             let style = Style::fill("#ffffff").outlined(INK, 1.6);
             page.svg.polygon(&diamond(chart.at(at), 6.0), &style);
@@ -98,7 +98,7 @@ impl ProcessMap {
         if self.deviation_um.iter().any(|um| um.is_nan()) {
             return Some("A deviation is not a number.");
         }
-        let limit = self.limit_um.is_finite() && self.limit_um > 0.0;
+        let limit = self.tolerance_um.is_finite() && self.tolerance_um > 0.0;
         (!limit).then_some("The limit is not a number above zero.")
     }
 
@@ -115,7 +115,7 @@ impl ProcessMap {
             area: chart.area,
         };
         placed.draw_bands(svg, levels, ColourScale::default());
-        let lines = LevelLines::of(&placed, levels, Some(self.limit_um));
+        let lines = LevelLines::of(&placed, levels, Some(self.tolerance_um));
         lines.draw_iso(svg, &Style::line(INK, 0.6).opacity(0.55));
         lines.draw_limit(svg, &[limit::style()]);
         let room = Room {
@@ -147,7 +147,7 @@ mod tests {
                 .collect(),
             horizontal: axis.clone(),
             vertical: axis,
-            limit_um: 100.0,
+            tolerance_um: 100.0,
             drawn: Some([0.05, 0.06]),
             ..ProcessMap::default()
         }
@@ -199,7 +199,7 @@ mod tests {
             assert!(odd.to_svg().contains("neither rise steadily nor fall"));
         }
         let limitless = ProcessMap {
-            limit_um: f64::NAN,
+            tolerance_um: f64::NAN,
             ..map()
         };
         assert!(limitless.to_svg().contains("The limit is not a number"));

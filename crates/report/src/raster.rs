@@ -21,7 +21,7 @@ const LARGEST_PX: u32 = 10_000;
 ///
 /// # Errors
 /// The text is no SVG (`UnreadableSvg`); the picture has less than one pixel or more than 10 000 a side, or
-/// `scale` is no number (`Size`); the PNG cannot be written (`Encoding`).
+/// `scale` is not a number (`Size`); the PNG cannot be written (`Encoding`).
 pub fn png(svg: &str, scale: f64) -> Result<Vec<u8>, ReportError> {
     let tree = read(svg)?;
     let (width_px, height_px) = (
@@ -100,11 +100,11 @@ mod tests {
                 // Ten times the text between two bars: what the second bar ends at grows by their widths alone.
                 let bar = |times: usize| right_px(&format!("|{}|", content.repeat(times)), &text);
                 let drawn = (bar(10) - bar(0)) / 10.0;
-                let told = text_width_px(content, SIZE_PX, weight);
+                let given = text_width_px(content, SIZE_PX, weight);
                 // Kerning of a few pairs is left out.
                 assert!(
-                    (drawn - told).abs() < 0.02 * told,
-                    "{content} {weight:?}: {drawn} {told}"
+                    (drawn - given).abs() < 0.02 * given,
+                    "{content} {weight:?}: {drawn} {given}"
                 );
             }
         }

@@ -52,13 +52,13 @@ pub struct RegionMap {
     /// The points and their values in um.
     pub grid: Grid,
     /// How far each value may stray to either side, in um, by point, to a confidence of 95 % as the legend
-    /// says; empty where that is not known. Where the limit lies in between is painted as doubtful. A list of
+    /// says; empty where that is not known. Where the limit is in between is painted as doubtful. A list of
     /// another length than the points, or with a number that is not finite, counts as empty.
     pub spread_um: Vec<f64>,
     /// Axis labels with units.
     pub axes: AxisLabels,
     /// Permissible deviation in um; a limit that is not finite gives a picture that says so.
-    pub limit_um: f64,
+    pub tolerance_um: f64,
     /// Whether iso-lines of the deviation are drawn.
     pub show_iso_lines: bool,
     /// Largest rectangle inside the region; its size is written on it.
@@ -74,7 +74,7 @@ impl RegionMap {
         if let Some(reason) = self.grid.obstacle() {
             return heading.notice(&reason);
         }
-        let levels = Levels::covering(self.grid.values_um()).filter(|_| self.limit_um.is_finite());
+        let levels = Levels::covering(self.grid.values_um()).filter(|_| self.tolerance_um.is_finite());
         let Some(levels) = levels else {
             return heading.notice("The limit is not a number.");
         };
@@ -85,7 +85,7 @@ impl RegionMap {
         let sizes = self.size_labels(&plane);
         let under = |(at, text): &(Point, String)| points_under(*at, text, SMALL_PX);
         let obstacles: Vec<_> = sizes.iter().flat_map(under).collect();
-        let doubt = self
+        let uncertainty = self
             .is_doubtful()
             .then(|| [-1.0, 1.0].map(|times| self.grid.raised(&self.spread_um, times)));
         let look = Look {
@@ -96,8 +96,8 @@ impl RegionMap {
             } else {
                 IsoLines::Off
             },
-            limit_um: Some(self.limit_um),
-            doubt: doubt.as_ref(),
+            tolerance_um: Some(self.tolerance_um),
+            uncertainty: uncertainty.as_ref(),
             obstacles: &obstacles,
         };
         draw_field(&mut page.svg, &plane, &self.grid, &look);
@@ -121,7 +121,7 @@ impl RegionMap {
     }
 
     fn entries(&self) -> Vec<Entry> {
-        let limit = plain(self.limit_um);
+        let limit = plain(self.tolerance_um);
         let doubtful = self.is_doubtful();
         let within = if doubtful { "surely within" } else { "within" };
         let mut entries = vec![Entry::new(Key::field(WITHIN), format!("{within} {limit} µm"))];
@@ -130,7 +130,7 @@ impl RegionMap {
         }
         entries.extend([
             Entry::new(Key::field(OVER), format!("over {limit} µm")),
-            limit::entry(self.limit_um, ""),
+            limit::entry(self.tolerance_um, ""),
         ]);
         let (rectangle, circle) = self.fits();
         if rectangle.is_some() {

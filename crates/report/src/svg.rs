@@ -2,7 +2,7 @@
 //!
 //! Everything is in pixels with y downwards; angles are in degrees, clockwise.
 //!
-//! Identifiers (clips, gradients, hatches) carry a prefix made from the picture's own content, so that several pictures can stand in one HTML page.
+//! Identifiers (clips, gradients, hatches) carry a prefix made from the picture's own content, so that several pictures can are in one HTML page.
 //!
 //! | written | rule |
 //! |---|---|
@@ -137,7 +137,7 @@ impl Style {
     }
 }
 
-/// Which point of a text's baseline stands at its position.
+/// Which point of a text's baseline is at its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Anchor {
     Start,
@@ -206,7 +206,7 @@ impl Text {
     }
 }
 
-/// A picture being written: what is drawn later lies on top.
+/// A picture being written: what is drawn later is on top.
 pub(crate) struct Svg {
     defs: String,
     body: String,
@@ -278,7 +278,7 @@ impl Svg {
         self.path(&trace(points, Ends::Closed), style);
     }
 
-    /// Path data as it stands; overlapping rings cut holes (even-odd rule).
+    /// Path data unchanged; overlapping rings cut holes (even-odd rule).
     pub(crate) fn path(&mut self, data: &str, style: &Style) {
         if !data.is_empty() {
             let _ = writeln!(

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! A number left of a drawing ends before its tick, a number below is centred under it. Values are in the unit
-//! of the axis; where they stand on the picture is asked from the caller, so that charts, planes and bars share
+//! of the axis; where they are on the picture is asked from the caller, so that charts, planes and bars share
 //! this.
 
 use crate::axis::{multiples, nice_step, tick_label};

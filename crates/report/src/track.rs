@@ -43,7 +43,7 @@ pub struct TrackMap {
     pub quantity: String,
     /// Permissible deviation in um: a line across the colour bar and an entry of the legend; the path itself
     /// has no line for it.
-    pub limit_um: Option<f64>,
+    pub tolerance_um: Option<f64>,
     /// Colours of the bands.
     pub scale: ColourScale,
     /// The path, in the order of the cut.
@@ -67,7 +67,7 @@ impl TrackMap {
             levels: &levels,
             scale: self.scale,
             quantity: &self.quantity,
-            limit_um: self.limit_um,
+            tolerance_um: self.tolerance_um,
         };
         let plane = Plane::beside_axis(window, MOST_PX);
         let width = bar.beside(plane.area).right() + BORDER_PX;
@@ -120,7 +120,7 @@ impl TrackMap {
         }
     }
 
-    /// The pieces of the path whose larger end lies in this band; for no band those that have an end without a
+    /// The pieces of the path whose larger end is in this band; for no band those that have an end without a
     /// value. Neighbouring pieces are joined.
     fn pieces(&self, band: Option<usize>, levels: &Levels) -> Vec<Vec<[f64; 2]>> {
         let band_of = |a: f64, b: f64| {
@@ -146,7 +146,7 @@ impl TrackMap {
     }
 
     fn entries(&self) -> Vec<Entry> {
-        let mut entries: Vec<Entry> = limit::entry_over(self.limit_um, self.values_um())
+        let mut entries: Vec<Entry> = limit::entry_over(self.tolerance_um, self.values_um())
             .into_iter()
             .collect();
         if self.values_um().any(|value| !value.is_finite()) {
@@ -170,7 +170,7 @@ mod tests {
     fn track(values: [f64; 5]) -> TrackMap {
         TrackMap {
             title: "part".to_owned(),
-            limit_um: Some(30.0),
+            tolerance_um: Some(30.0),
             stretches: vec![Stretch {
                 points_mm: (0..5).map(|i| [f64::from(i) * 10.0, f64::from(i % 2)]).collect(),
                 deviation_um: values.to_vec(),

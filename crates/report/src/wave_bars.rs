@@ -7,7 +7,7 @@
 //!                   5°  -80°       phase of the second beyond the first
 //! ```
 //!
-//! Where either amplitude is less than a twentieth of the largest, or no phase is told, it is left out.
+//! Where either amplitude is less than a twentieth of the largest, or no phase is reported, it is left out.
 
 use crate::colour::{GRID, INK, MUTED, category};
 use crate::legend::{Entry, Key};
@@ -103,10 +103,10 @@ impl WaveBars {
                 &Text::new(SMALL_PX).middle(),
             );
             let least = LITTLE * most;
-            let told = wave
+            let given = wave
                 .phase_difference_deg
                 .filter(|deg| deg.is_finite() && wave.measured_um > least && wave.predicted_um > least);
-            if let Some(deg) = told {
+            if let Some(deg) = given {
                 let phase = format!("{deg:+.0}°");
                 let text = Text::new(SMALL_PX).middle().colour(MUTED);
                 page.svg.text(under(31.0), &phase, &text);

@@ -13,7 +13,7 @@ use serde::Serialize;
 use crate::answer::{LimitsAnswer, PathAnswer, SearchAnswer, StatisticsAnswer, culprit, micrometres};
 use crate::compensate::{ErrorAnswer, compensate};
 use crate::error::StudyError;
-use crate::file::path::PathAsk;
+use crate::file::path::PathAnalysis;
 use crate::file::resolve::Study;
 use crate::output::Picture;
 use crate::place::{Journal, PlacementAnswer, Placing};
@@ -26,13 +26,13 @@ pub struct AdviceAnswer {
     /// Version of this format.
     pub format: u32,
     /// The path.
-    pub ask: String,
+    pub analysis: String,
     /// What to do, in sentences.
     pub advice: Vec<String>,
     /// The tolerance.
-    pub limit_um: f64,
+    pub tolerance_um: f64,
     /// The path as the study has it.
-    pub as_drawn: StatisticsAnswer,
+    pub nominal: StatisticsAnswer,
     /// With all that is advised but compensation.
     pub as_advised: StatisticsAnswer,
     /// The search for a place.
@@ -69,7 +69,7 @@ pub struct StretchAnswer {
     /// How many points.
     pub points: usize,
     /// Points of them without posture.
-    pub unreached: usize,
+    pub unreachable: usize,
     /// Largest in-plane deviation.
     pub max_in_plane_um: f64,
     /// What yields most at the worst of them; none where that is not among the worst of the path.
@@ -97,7 +97,7 @@ pub fn advise(
     (found, study): (&FoundStudy, &Study),
     placing: &Placing<'_>,
     journal: &mut Journal<'_>,
-    (watch, told): (Watch<'_>, &dyn Fn(&str)),
+    (watch, given): (Watch<'_>, &dyn Fn(&str)),
 ) -> Result<Advice, StudyError> {
     let quiet = Watch {
         finished: &|_| (),
@@ -112,14 +112,14 @@ pub fn advise(
     }
     let name = placing.name();
     let drawn = alone(study.clone(), name);
-    let as_drawn = statistics(&drawn, &run(&drawn, quiet)?);
-    let placed = placing.search(journal, watch, told)?;
+    let nominal = statistics(&drawn, &run(&drawn, quiet)?);
+    let placed = placing.search(journal, watch, given)?;
     let moves = placed.is_better();
     let there = match moves {
         true => placed.study(found)?,
         false => drawn,
     };
-    told("turns of the tool");
+    given("turns of the tool");
     let mut turned = there.clone();
     turned.search_postures(None)?;
     let (still, with) = (run(&there, quiet)?, run(&turned, quiet)?);
@@ -128,33 +128,33 @@ pub fn advise(
         true => (&turned, with),
         false => (&there, still),
     };
-    told("compensation");
+    given("compensation");
     let commanded = compensate(advised, Some(name), Compensation::USUAL, quiet)?;
-    let compensated = commanded.first().map(|path| path.told.after);
+    let compensated = commanded.first().map(|path| path.given.after);
     let answer = crate::answer::answer(advised, &done);
     let path = answer.paths.into_iter().next();
     let of_path = done.first().and_then(path_of);
-    let (Some(path), Some((ask, of_path)), Some(compensated)) = (path, of_path, compensated) else {
+    let (Some(path), Some((analysis, of_path)), Some(compensated)) = (path, of_path, compensated) else {
         return Err(StudyError::value(
             "the study asks for no path",
-            "[[ask]] kind = \"path\"",
+            "[[analysis]] kind = \"path\"",
         ));
     };
-    let as_advised = StatisticsAnswer::of(ask, &of_path.along.answers);
+    let as_advised = StatisticsAnswer::of(analysis, &of_path.along.answers);
     let mut answer = AdviceAnswer {
         format: 1,
-        ask: name.to_owned(),
+        analysis: name.to_owned(),
         advice: Vec::new(),
-        limit_um: ask.setting.limit * 1e6,
+        tolerance_um: analysis.setting.limit * 1e6,
         force_factor: as_advised
             .max_in_plane_um
-            .filter(|um| *um > 0.0 && ask.setting.model.is_drives_alone())
-            .map(|um| ask.setting.limit * 1e6 / um),
-        as_drawn,
+            .filter(|um| *um > 0.0 && analysis.setting.model.is_drives_alone())
+            .map(|um| analysis.setting.limit * 1e6 / um),
+        nominal,
         as_advised,
         placement: placed.answer,
         moves,
-        not_held: not_held(advised, (ask, of_path), &path),
+        not_held: not_held(advised, (analysis, of_path), &path),
         turns: path.search.filter(|_| turns),
         compensated,
         compensated_u_um: path.worst.map_or(0.0, |worst| worst.in_plane_u_um),
@@ -171,14 +171,14 @@ pub fn advise(
 
 /// The study with this path alone.
 fn alone(mut study: Study, name: &str) -> Study {
-    study.asks.retain(|ask| ask.name == name);
+    study.analyses.retain(|analysis| analysis.name == name);
     study.statements.clear();
     study
 }
 
-fn path_of<'d>(done: &'d Done<'_>) -> Option<(&'d PathAsk, &'d PathFound)> {
+fn path_of<'d>(done: &'d Done<'_>) -> Option<(&'d PathAnalysis, &'d PathFound)> {
     match &done.found {
-        Found::Path(ask, found) => Some((ask, found)),
+        Found::Path(analysis, found) => Some((analysis, found)),
         _ => None,
     }
 }
@@ -189,19 +189,19 @@ fn statistics(study: &Study, done: &[Done<'_>]) -> StatisticsAnswer {
         max_in_plane_um: None,
         mean_in_plane_um: None,
         fraction_within: 0.0,
-        unreached: study.asks.len(),
+        unreachable: study.analyses.len(),
         outside_joint_limits: 0,
         near_singularity: 0,
         reversals: Vec::new(),
     };
-    done.first().and_then(path_of).map_or(nothing, |(ask, found)| {
-        StatisticsAnswer::of(ask, &found.along.answers)
+    done.first().and_then(path_of).map_or(nothing, |(analysis, found)| {
+        StatisticsAnswer::of(analysis, &found.along.answers)
     })
 }
 
 /// Whether a path is better so than as the other: reached, inside limits, within the tolerance, least at its worst.
 fn is_better(one: &StatisticsAnswer, other: &StatisticsAnswer) -> bool {
-    let lost = |of: &StatisticsAnswer| of.unreached + of.outside_joint_limits;
+    let lost = |of: &StatisticsAnswer| of.unreachable + of.outside_joint_limits;
     let worst = |of: &StatisticsAnswer| of.max_in_plane_um.unwrap_or(f64::INFINITY);
     let by_lost = lost(one).cmp(&lost(other));
     let by_share = other.fraction_within.total_cmp(&one.fraction_within);
@@ -212,19 +212,19 @@ fn is_better(one: &StatisticsAnswer, other: &StatisticsAnswer) -> bool {
 }
 
 /// Stretches of the path that do not hold the tolerance, the worst first.
-fn not_held(study: &Study, (ask, found): (&PathAsk, &PathFound), path: &PathAnswer) -> Vec<StretchAnswer> {
-    let points = &ask.track.path.points;
+fn not_held(study: &Study, (analysis, found): (&PathAnalysis, &PathFound), path: &PathAnswer) -> Vec<StretchAnswer> {
+    let points = &analysis.track.path.points;
     let answers = &found.along.answers.points;
     let holds = |index: usize| {
         answers[index]
             .as_ref()
-            .is_ok_and(|held| held.in_plane <= ask.setting.limit && held.within_limits())
+            .is_ok_and(|evaluation| evaluation.in_plane <= analysis.setting.limit && evaluation.within_limits())
     };
     let indices: Vec<usize> = (0..points.len()).collect();
     let stretches = indices.chunk_by(|a, b| holds(*a) == holds(*b));
-    let told = |stretch: &[usize]| {
+    let given = |stretch: &[usize]| {
         let (first, last) = (*stretch.first()?, *stretch.last()?);
-        let held = stretch.iter().filter_map(|index| answers[*index].as_ref().ok());
+        let evaluation = stretch.iter().filter_map(|index| answers[*index].as_ref().ok());
         let inside = |index: usize| (first..=last).contains(&index);
         let worst = found
             .worst
@@ -237,17 +237,17 @@ fn not_held(study: &Study, (ask, found): (&PathAsk, &PathFound), path: &PathAnsw
             from_mm: points[first].along * 1e3,
             to_mm: points[last].along * 1e3,
             points: stretch.len(),
-            unreached: stretch.iter().filter(|index| answers[**index].is_err()).count(),
-            max_in_plane_um: held.map(|held| held.in_plane * 1e6).fold(0.0, f64::max),
-            mostly_by: worst.map(|(_, worst)| culprit(study, &worst.point, &path.setting.shares_of)),
+            unreachable: stretch.iter().filter(|index| answers[**index].is_err()).count(),
+            max_in_plane_um: evaluation.map(|evaluation| evaluation.in_plane * 1e6).fold(0.0, f64::max),
+            mostly_by: worst.map(|(_, worst)| culprit(study, &worst.point, &path.setting.contributors)),
         })
     };
     let mut all: Vec<StretchAnswer> = stretches
         .filter(|stretch| !holds(stretch[0]))
-        .filter_map(told)
+        .filter_map(given)
         .collect();
     all.sort_by(|a, b| {
-        let order = b.unreached.cmp(&a.unreached);
+        let order = b.unreachable.cmp(&a.unreachable);
         order.then(b.max_in_plane_um.total_cmp(&a.max_in_plane_um))
     });
     all.truncate(MOST_STRETCHES);
@@ -262,7 +262,7 @@ impl AdviceAnswer {
                 .map_or("nothing".to_owned(), |um| format!("{} µm", micrometres(um)))
         };
         let share = |of: &StatisticsAnswer| format!("{:.1} %", 100.0 * of.fraction_within);
-        let limit = micrometres(self.limit_um);
+        let limit = micrometres(self.tolerance_um);
         let mut steps = Vec::new();
         if self.moves {
             steps.push(format!("lay the part at {}", self.placement.place_in_words()));
@@ -278,12 +278,12 @@ impl AdviceAnswer {
         }
         let mut lines = vec![format!(
             "{}: {}; {} of the path then holds {limit} µm, at most {} ({}, {} as drawn).",
-            self.ask,
+            self.analysis,
             steps.join(" and "),
             share(&self.as_advised),
             um(&self.as_advised),
-            share(&self.as_drawn),
-            um(&self.as_drawn),
+            share(&self.nominal),
+            um(&self.nominal),
         )];
         lines.extend(self.weak_in_words());
         lines.push(format!(
@@ -306,13 +306,13 @@ impl AdviceAnswer {
 
     /// What does not hold, and why.
     fn weak_in_words(&self) -> Option<String> {
-        let told: Vec<String> = self
+        let given: Vec<String> = self
             .not_held
             .iter()
             .take(3)
             .map(|stretch| {
-                let why = match (stretch.unreached, &stretch.mostly_by) {
-                    (unreached, _) if unreached > 0 => format!("no posture at {unreached} points"),
+                let why = match (stretch.unreachable, &stretch.mostly_by) {
+                    (unreachable, _) if unreachable > 0 => format!("no posture at {unreachable} points"),
                     (_, Some(by)) => format!(
                         "up to {} µm, mostly by {by}",
                         micrometres(stretch.max_in_plane_um)
@@ -324,15 +324,15 @@ impl AdviceAnswer {
             .collect();
         let more = match self.not_held.len() {
             0 => return None,
-            count if count > told.len() => " and others",
+            count if count > given.len() => " and others",
             _ => "",
         };
-        Some(format!("It does not hold from {}{more}.", told.join(", from ")))
+        Some(format!("It does not hold from {}{more}.", given.join(", from ")))
     }
 
     /// What may be cut, or how strong forces may be.
     fn permitted_in_words(&self) -> Option<String> {
-        let limit = micrometres(self.limit_um);
+        let limit = micrometres(self.tolerance_um);
         let cut = self
             .limits
             .as_ref()

@@ -25,7 +25,7 @@ use armill_report::{PathPlot, Series};
 use serde::Serialize;
 
 use crate::error::StudyError;
-use crate::file::path::PathAsk;
+use crate::file::path::PathAnalysis;
 use crate::file::resolve::{Setting, Study, Subject};
 use crate::in_place::{InPlace, InPlaceAnswer, in_place};
 use crate::run::{Runner, passes, runner};
@@ -63,7 +63,7 @@ pub struct CompensatedPath {
     /// What that was of the one before; none after one round.
     pub contraction_ratio: Option<f64>,
     /// Points without posture, which stay where they are.
-    pub unreached: usize,
+    pub unreachable: usize,
     /// Points that stand outside joint limits once they are moved.
     pub outside_joint_limits: usize,
     /// File of the commanded path.
@@ -97,7 +97,7 @@ pub struct Commanded<'a> {
     /// The path to command, and its postures.
     pub path: (Track, Answers),
     /// In numbers.
-    pub told: CompensatedPath,
+    pub given: CompensatedPath,
     /// The table, as CSV.
     pub csv: Vec<u8>,
     /// Before and after along the path, as SVG.
@@ -128,7 +128,7 @@ pub fn compensate<'a>(
         };
         return Err(StudyError::value(
             message,
-            "[[ask]] kind = \"path\" with a program or a shape",
+            "[[analysis]] kind = \"path\" with a program or a shape",
         ));
     }
     Ok(all)
@@ -137,7 +137,7 @@ pub fn compensate<'a>(
 /// Points that the progress of [`compensate`] ends at: a path is followed, and about
 /// three times more on the way to the one that is commanded.
 pub fn point_count(study: &Study, name: Option<&str>) -> usize {
-    let of = |(_, path): (&str, &PathAsk)| {
+    let of = |(_, path): (&str, &PathAnalysis)| {
         let again = usize::from(path.source.robot().is_some());
         (passes(path) + 3 + again) * path.track.len()
     };
@@ -148,22 +148,22 @@ pub fn point_count(study: &Study, name: Option<&str>) -> usize {
 pub(crate) fn paths<'a>(
     study: &'a Study,
     name: Option<&str>,
-) -> impl Iterator<Item = (&'a str, &'a PathAsk)> {
-    study.asks.iter().filter_map(move |ask| match &ask.subject {
-        Subject::Path(path) if name.is_none_or(|name| name == ask.name) => Some((ask.name.as_str(), &**path)),
+) -> impl Iterator<Item = (&'a str, &'a PathAnalysis)> {
+    study.analyses.iter().filter_map(move |analysis| match &analysis.subject {
+        Subject::Path(path) if name.is_none_or(|name| name == analysis.name) => Some((analysis.name.as_str(), &**path)),
         _ => None,
     })
 }
 
 fn of_path<'a>(
     runner: &Runner<'_>,
-    (name, path): (&str, &'a PathAsk),
+    (name, path): (&str, &'a PathAnalysis),
     compensation: Compensation,
 ) -> Result<Commanded<'a>, StudyError> {
     let closed;
-    let ask = match path.shape() {
+    let analysis = match path.shape() {
         Some(Shape::Circle { .. }) => {
-            closed = PathAsk {
+            closed = PathAnalysis {
                 track: path.track.closed(path.length()),
                 load: path.load.closed(),
                 ..path.clone()
@@ -172,10 +172,10 @@ fn of_path<'a>(
         }
         _ => path,
     };
-    let (load, _) = runner.pushed(ask)?;
-    let followed = runner.follow(ask, load.clone())?;
-    let drawn = followed.turned.as_ref().unwrap_or(&ask.track);
-    let question = runner.question(&ask.setting);
+    let (load, _) = runner.pushed(analysis)?;
+    let followed = runner.follow(analysis, load.clone())?;
+    let drawn = followed.turned.as_ref().unwrap_or(&analysis.track);
+    let question = runner.question(&analysis.setting);
     let found = compensated(
         &question,
         (drawn, &load),
@@ -183,7 +183,7 @@ fn of_path<'a>(
         compensation,
         runner.watch,
     )?;
-    let rewritten = in_place(runner, ask, (&followed, &load), &found.track)?;
+    let rewritten = in_place(runner, analysis, (&followed, &load), &found.track)?;
     let (in_place, notes) = match rewritten {
         None => (None, Vec::new()),
         Some(Ok(written)) => (Some(written), Vec::new()),
@@ -191,7 +191,7 @@ fn of_path<'a>(
             None,
             vec![format!(
                 "{}: the program itself is not written again: {why}",
-                ask.shown()
+                analysis.shown()
             )],
         ),
     };
@@ -201,7 +201,7 @@ fn of_path<'a>(
         let moved = found.track.path.points[index].at - drawn.path.points[index].at;
         moved.norm() * 1e6
     };
-    let told = CompensatedPath {
+    let given = CompensatedPath {
         name: name.to_owned(),
         points: drawn.len(),
         before: ErrorAnswer::of(drawn, &before.deviations, before.case_count),
@@ -210,15 +210,15 @@ fn of_path<'a>(
         rounds: found.rounds,
         last_round_um: found.last_move * 1e6,
         contraction_ratio: found.contraction,
-        unreached: found.unmoved,
+        unreachable: found.unmoved,
         outside_joint_limits: found
             .along
             .answers
-            .held()
-            .filter(|(_, held)| !held.within_limits())
+            .evaluation()
+            .filter(|(_, evaluation)| !evaluation.within_limits())
             .count(),
         file,
-        in_place: in_place.as_ref().map(|written| written.told.clone()),
+        in_place: in_place.as_ref().map(|written| written.given.clone()),
         notes,
     };
     Ok(Commanded {
@@ -231,7 +231,7 @@ fn of_path<'a>(
         csv: csv::write(&table(name, &found.track)?),
         setting: &path.setting,
         path: (found.track, found.along.answers),
-        told,
+        given,
         program: in_place.map_or_else(Vec::new, |written| written.files),
     })
 }
@@ -287,7 +287,7 @@ fn table(name: &str, track: &Track) -> Result<Table, StudyError> {
     columns.push(column("spin_deg", Some("deg"), (6, ColumnData::Float(spins))));
     let feed = |pace: Pace| match pace {
         Pace::Feed(speed) => Some(speed * 60e3),
-        Pace::Rapid | Pace::Untold => None,
+        Pace::Rapid | Pace::EvaluateError => None,
     };
     let feeds = points.iter().map(|point| feed(point.pace)).collect();
     columns.push(column(
@@ -349,7 +349,7 @@ fn picture(
         quantity: "distance from the drawn path (µm)".to_owned(),
         series: all,
         envelope: None,
-        limit_um: None,
+        tolerance_um: None,
     }
     .to_svg()
 }

@@ -55,8 +55,8 @@ impl Finished {
     }
 
     /// The names of the asks, in the order of the study.
-    pub fn asks(&self) -> Vec<&str> {
-        self.study.asks.iter().map(|ask| ask.name.as_str()).collect()
+    pub fn analyses(&self) -> Vec<&str> {
+        self.study.analyses.iter().map(|analysis| analysis.name.as_str()).collect()
     }
 
     /// The points of ask `index` with their columns.
@@ -76,15 +76,15 @@ impl Finished {
     ///
     /// # Errors
     /// A file cannot be written.
-    pub fn write(&mut self, out: &ResultFolder, wanted: Wanted<'_>) -> Result<Vec<PathBuf>, StudyError> {
-        self.with(|study, done, answer| output::write(study, done, answer, (out, wanted), &|_| ()))
+    pub fn write(&mut self, out: &ResultFolder, requested: Wanted<'_>) -> Result<Vec<PathBuf>, StudyError> {
+        self.with(|study, done, answer| output::write(study, done, answer, (out, requested), &|_| ()))
     }
 
     /// Puts both side by side for `work`.
     fn with<T>(&mut self, work: impl FnOnce(&Study, &[Done<'_>], &StudyAnswer) -> T) -> T {
         let study = Arc::clone(&self.study);
         let kept = std::mem::take(&mut self.kept).into_iter();
-        let done: Vec<Done<'_>> = study.asks.iter().zip(kept).filter_map(beside).collect();
+        let done: Vec<Done<'_>> = study.analyses.iter().zip(kept).filter_map(beside).collect();
         let gives = work(&study, &done, &self.answer);
         self.kept = done.into_iter().map(|done| Kept::of(done.found)).collect();
         gives
@@ -106,8 +106,8 @@ impl Kept {
 }
 
 /// What came out beside what was asked; always both of one kind.
-fn beside((ask, kept): (&Ask, Kept)) -> Option<Done<'_>> {
-    let found = match (&ask.subject, kept) {
+fn beside((analysis, kept): (&Ask, Kept)) -> Option<Done<'_>> {
+    let found = match (&analysis.subject, kept) {
         (Subject::Map(sheet), Kept::Map(map)) => Found::Map(sheet, map),
         (Subject::Sections(sheets), Kept::Sections(maps)) => {
             let sections = sheets.iter().zip(maps);
@@ -123,7 +123,7 @@ fn beside((ask, kept): (&Ask, Kept)) -> Option<Done<'_>> {
         _ => return None,
     };
     Some(Done {
-        name: &ask.name,
+        name: &analysis.name,
         found,
     })
 }
@@ -161,6 +161,6 @@ mod tests {
         let out = Writer::new("run", false).folder(folder.path()).unwrap();
         let files = finished.write(&out, Wanted::TABLES).unwrap();
         assert!(files.iter().all(|file| file.is_file()));
-        assert_eq!(finished.asks().len(), done.len());
+        assert_eq!(finished.analyses().len(), done.len());
     }
 }

@@ -24,7 +24,7 @@ use serde::Serialize;
 use crate::compensate::{ErrorAnswer, paths};
 use crate::error::StudyError;
 use crate::file::path::robot_program::Span;
-use crate::file::path::{PathAsk, RobotPath};
+use crate::file::path::{PathAnalysis, RobotPath};
 use crate::file::resolve::Study;
 use crate::run::{Followed, Runner};
 
@@ -36,7 +36,7 @@ pub struct InPlace {
     /// What the tool leaves of the drawn path along it, under each load case, m, base.
     pub residual: Vec<Vector3<f64>>,
     /// In numbers.
-    pub told: InPlaceAnswer,
+    pub given: InPlaceAnswer,
 }
 
 /// A program that was written again in place.
@@ -57,7 +57,7 @@ pub struct InPlaceAnswer {
 /// Two places that one target is asked to are told where they lie farther apart, m.
 const ONE_PLACE: f64 = 1e-6;
 
-/// The program of `ask` along the commanded track.
+/// The program of `analysis` along the commanded track.
 ///
 /// `Err` with a sentence where it cannot be written.
 ///
@@ -65,21 +65,21 @@ const ONE_PLACE: f64 = 1e-6;
 /// Cancelled by the watch.
 pub(crate) fn in_place(
     runner: &Runner<'_>,
-    ask: &PathAsk,
+    analysis: &PathAnalysis,
     (followed, load): (&Followed, &PathLoad),
     commanded: &Track,
 ) -> Result<Option<Result<InPlace, String>>, StudyError> {
-    let Some(robot) = ask.source.robot() else {
+    let Some(robot) = analysis.source.robot() else {
         return Ok(None);
     };
-    let placing = &ask.track.placing;
+    let placing = &analysis.track.placing;
     if followed.turned.is_some() || placing.keeps_axis || placing.spin != Spin::Given(0.0) {
         let why = "the study turns the tool otherwise than the program does (`posture.search`, `program.spin`, `program.tool_axis`)";
         return Ok(Some(Err(why.to_owned())));
     }
     let writer = Writer {
         robot,
-        ask,
+        analysis,
         commanded,
     };
     let (written, wishes) = match writer.written() {
@@ -90,24 +90,24 @@ pub(crate) fn in_place(
         let why = "what was written is no longer the path that was drawn";
         return Ok(Some(Err(why.to_owned())));
     };
-    let question = runner.question(&ask.setting);
+    let question = runner.question(&analysis.setting);
     let forces = (load, followed.along.choices.as_slice());
-    let (along, residual) = left_by(&question, (&ask.track, &track), forces, runner.watch)?;
+    let (along, residual) = left_by(&question, (&analysis.track, &track), forces, runner.watch)?;
     let files: Files = written
         .into_iter()
         .map(|(name, bytes)| (name_of(&name), bytes))
         .collect();
-    let told = InPlaceAnswer {
+    let given = InPlaceAnswer {
         language: robot.program.language.name(),
         files: files.iter().map(|(name, _)| name.clone()).collect(),
         moved_targets: wishes.targets.len(),
-        after: ErrorAnswer::of(&ask.track, &residual, along.answers.case_count),
+        after: ErrorAnswer::of(&analysis.track, &residual, along.answers.case_count),
         notes: writer.notes(&wishes),
     };
     Ok(Some(Ok(InPlace {
         files,
         residual,
-        told,
+        given,
     })))
 }
 
@@ -124,7 +124,7 @@ pub fn allow_programs(study: &Study, name: Option<&str>, out: &ResultFolder) -> 
             let message = format!("two programs have a file `{name}`, and one folder holds one");
             return Err(StudyError::value(
                 message,
-                "one path at a time: --ask NAME --out DIR",
+                "one path at a time: --analysis NAME --out DIR",
             ));
         }
         names.push(name);
@@ -140,7 +140,7 @@ fn name_of(path: &str) -> String {
 
 struct Writer<'a> {
     robot: &'a RobotPath,
-    ask: &'a PathAsk,
+    analysis: &'a PathAnalysis,
     commanded: &'a Track,
 }
 
@@ -163,7 +163,7 @@ struct Wish {
     /// Path to the frame that it counts in.
     path_from_frame: Isometry,
     /// Every move that goes there: its line, and what it alone asks for, m, path.
-    asked: Vec<(u32, Vector3<f64>)>,
+    requested: Vec<(u32, Vector3<f64>)>,
     /// What all points ask for together, m, path.
     by: Vector3<f64>,
 }
@@ -184,7 +184,7 @@ impl Wishes {
     }
 
     /// The node of a target that a cut touches, which asks for `by` there; none of one told in joints.
-    fn ask(
+    fn analysis(
         &mut self,
         (target, line): (&Target, u32),
         path_from_frame: Option<Isometry>,
@@ -196,10 +196,10 @@ impl Wishes {
                 let wish = self.targets.entry(key(spelled)).or_insert_with(|| Wish {
                     node,
                     path_from_frame,
-                    asked: Vec::new(),
+                    requested: Vec::new(),
                     by,
                 });
-                wish.asked.push((line, by));
+                wish.requested.push((line, by));
                 Some(wish.node)
             }
             _ => {
@@ -262,22 +262,22 @@ impl Writer<'_> {
     /// By how much each target is to be moved.
     fn wishes(&self) -> Wishes {
         let mut wishes = Wishes::default();
-        let (mut shares, mut wanted) = (Vec::new(), Vec::new());
+        let (mut shares, mut expected) = (Vec::new(), Vec::new());
         // The node at which the tip stands.
         let mut from = None;
         for (of, span) in self.robot.followed.moves.iter().zip(&self.robot.spans) {
-            let told = &self.robot.program.moves[of.index];
+            let given = &self.robot.program.moves[of.index];
             let end = span.end.and_then(|end| {
-                wishes.ask(
-                    (&told.target, told.line),
+                wishes.analysis(
+                    (&given.target, given.line),
                     of.path_from_frame,
                     self.correction(end),
                 )
             });
-            let passed = via(told).zip(of.via).and_then(|(via, at)| {
+            let passed = via(given).zip(of.via).and_then(|(via, at)| {
                 let (nearest, part) = self.nearest(span, &at)?;
                 // At an end of the arc it would say nothing of its middle.
-                let node = wishes.ask((via, told.line), of.path_from_frame, self.correction(nearest))?;
+                let node = wishes.analysis((via, given.line), of.path_from_frame, self.correction(nearest))?;
                 ((0.0..1.0).contains(&part) && part > 0.0).then_some((node, part))
             });
             for (index, t) in parts(span) {
@@ -285,7 +285,7 @@ impl Writer<'_> {
                     Some((via, part)) => Shares::bent([from, Some(via), end], part, t),
                     None => Shares::straight(from, end, t),
                 });
-                wanted.push(self.correction(index));
+                expected.push(self.correction(index));
             }
             from = end;
         }
@@ -293,7 +293,7 @@ impl Writer<'_> {
         for wish in wishes.targets.values() {
             start[wish.node] = wish.by;
         }
-        let found = fitted(start, &shares, &wanted);
+        let found = fitted(start, &shares, &expected);
         for wish in wishes.targets.values_mut() {
             wish.by = found[wish.node];
         }
@@ -302,13 +302,13 @@ impl Writer<'_> {
 
     /// What a point of the path is to be moved by, m, path.
     fn correction(&self, point: usize) -> Vector3<f64> {
-        let [drawn, commanded] = [&self.ask.track, self.commanded].map(|track| track.path.points[point].at);
+        let [drawn, commanded] = [&self.analysis.track, self.commanded].map(|track| track.path.points[point].at);
         commanded - drawn
     }
 
     /// The point of a move that is nearest to a place, and the part of the way there.
     fn nearest(&self, span: &Span, at: &Point3<f64>) -> Option<(usize, f64)> {
-        let away = |point: usize| (self.ask.track.path.points[point].at - at).norm_squared();
+        let away = |point: usize| (self.analysis.track.path.points[point].at - at).norm_squared();
         parts(span).min_by(|a, b| away(a.0).total_cmp(&away(b.0)))
     }
 
@@ -325,7 +325,7 @@ impl Writer<'_> {
             chord_error: f64::INFINITY,
             step: f64::INFINITY,
         });
-        let mut places = Vec::with_capacity(self.ask.track.len());
+        let mut places = Vec::with_capacity(self.analysis.track.len());
         let moves = found
             .moves
             .iter()
@@ -338,7 +338,7 @@ impl Writer<'_> {
             };
             sampler.points_in(&next, span.pieces, |point| places.push(point.at));
         }
-        let mut track = self.ask.track.clone();
+        let mut track = self.analysis.track.clone();
         if places.len() != track.len() {
             return None;
         }
@@ -350,11 +350,11 @@ impl Writer<'_> {
 
     fn notes(&self, wishes: &Wishes) -> Vec<String> {
         let mut notes = Vec::new();
-        for wish in wishes.targets.values().filter(|wish| wish.asked.len() > 1) {
-            let away = wish.asked.iter().map(|(_, alone)| (alone - wish.by).norm());
+        for wish in wishes.targets.values().filter(|wish| wish.requested.len() > 1) {
+            let away = wish.requested.iter().map(|(_, alone)| (alone - wish.by).norm());
             let farthest = away.fold(0.0, f64::max);
             if farthest > ONE_PLACE {
-                let lines: Vec<String> = wish.asked.iter().map(|(line, _)| line.to_string()).collect();
+                let lines: Vec<String> = wish.requested.iter().map(|(line, _)| line.to_string()).collect();
                 notes.push(format!(
                     "the moves of lines {} go to one target, which lies up to {:.1} µm from where each would have it: a target of its own for each would do \
                      better",

@@ -55,7 +55,7 @@ pub mod studies;
 pub use compliance_class::ComplianceClass;
 pub use error::{ErrorKind, StudyError};
 pub use file::resolve::Study;
-pub use naming::{BASE_LINK, base_from_counted, branch_choice_of};
+pub use naming::{BASE_LINK, base_from_reference, branch_choice_of};
 
 /// Joints that hold a tool at any pose.
 pub const ENOUGH_JOINTS: usize = 6;

@@ -201,10 +201,10 @@ pub fn most_like(name: &str) -> Option<&'static str> {
         .iter()
         .find(|robot| robot.name.split('/').any(|word| word == lower));
     // A maker alone begins the names of many.
-    let told = |name: &str| name.rsplit('/').next().is_some_and(|kind| kind.len() >= BEGUN);
+    let given = |name: &str| name.rsplit('/').next().is_some_and(|kind| kind.len() >= BEGUN);
     let begins = |robot: &&Embedded| {
         let kind = robot.name.split('/').nth(1).unwrap_or_default();
-        told(&lower) && (robot.name.starts_with(&lower) || kind.starts_with(&lower))
+        given(&lower) && (robot.name.starts_with(&lower) || kind.starts_with(&lower))
     };
     part.or_else(|| ROBOTS.iter().find(begins))
         .map(|robot| robot.name)

@@ -180,14 +180,14 @@ impl KnownMaterial {
 impl KnownMechanistic {
     /// A set as its file tells it.
     fn of(set: &MechanisticSet) -> KnownMechanistic {
-        let told = |i: usize| set.coefficients[i].map(|value| without_rounding(value / MECHANISTIC[i]));
+        let given = |i: usize| set.coefficients[i].map(|value| without_rounding(value / MECHANISTIC[i]));
         KnownMechanistic {
-            ktc_n_per_mm2: told(0),
-            krc_n_per_mm2: told(1),
-            kac_n_per_mm2: told(2),
-            kte_n_per_mm: told(3),
-            kre_n_per_mm: told(4),
-            kae_n_per_mm: told(5),
+            ktc_n_per_mm2: given(0),
+            krc_n_per_mm2: given(1),
+            kac_n_per_mm2: given(2),
+            kte_n_per_mm: given(3),
+            kre_n_per_mm: given(4),
+            kae_n_per_mm: given(5),
             tool: set.tool.clone(),
             source: set.source.clone(),
             note: set.note.clone(),

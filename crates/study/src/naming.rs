@@ -11,7 +11,7 @@ pub const BASE_LINK: &str = "base_link";
 ///
 /// # Errors
 /// The names that the robot knows.
-pub fn base_from_counted(robot: &Robot, name: &str) -> Result<Isometry, String> {
+pub fn base_from_reference(robot: &Robot, name: &str) -> Result<Isometry, String> {
     if name == BASE_LINK {
         return Ok(Isometry::identity());
     }
@@ -27,7 +27,7 @@ const CONTROLLER: &str = "controller";
 
 /// Where the controller of this robot counts from, in base.
 pub(crate) fn base_from_controller(robot: &Robot) -> Isometry {
-    base_from_counted(robot, CONTROLLER).unwrap_or_else(|_| Isometry::identity())
+    base_from_reference(robot, CONTROLLER).unwrap_or_else(|_| Isometry::identity())
 }
 
 /// The posture that `words` ask for: a branch completed by the nominal one, `nominal`, or `best`.

@@ -148,16 +148,16 @@ pub fn answer(measured: &Measured) -> Result<(PathAccuracy, PathAccuracyAnswer),
     let (at, most) = found.accuracy().ok_or_else(|| refused(nothing))?;
     let repeated = found.repeatability();
     let sum: f64 = found.points.iter().map(|point| point.offset.norm()).sum();
-    let told = PathAccuracyAnswer {
+    let reported = PathAccuracyAnswer {
         commanded: measured.commanded_file.clone(),
         files: measured.files.clone(),
         cycles: found.cycles,
         points: found.points.len(),
         not_passed: found.not_passed,
-        at_mm: told(most * 1e3),
+        at_mm: reported(most * 1e3),
         at_worst: place(&found.points[at]),
-        at_mean_mm: told(sum / found.points.len() as f64 * 1e3),
-        rt_mm: repeated.map(|(_, rt)| told(rt * 1e3)),
+        at_mean_mm: reported(sum / found.points.len() as f64 * 1e3),
+        rt_mm: repeated.map(|(_, rt)| reported(rt * 1e3)),
         rt_worst: repeated.map(|(at, _)| place(&found.points[at])),
         unused: measured.unused.clone(),
         notes: notes(&found),
@@ -165,7 +165,7 @@ pub fn answer(measured: &Measured) -> Result<(PathAccuracy, PathAccuracyAnswer),
             "ISO 9283:1998, definitions from memory: compare with the standard before claiming conformity",
         ],
     };
-    Ok((found, told))
+    Ok((found, reported))
 }
 
 fn notes(found: &PathAccuracy) -> Vec<String> {
@@ -224,7 +224,7 @@ pub fn points(measured: &Measured, found: &PathAccuracy) -> Result<Vec<u8>, Stud
 }
 
 /// AT and RT along the path, as SVG.
-pub fn drawing(told: &PathAccuracyAnswer, found: &PathAccuracy) -> String {
+pub fn drawing(reported: &PathAccuracyAnswer, found: &PathAccuracy) -> String {
     let mut along = 0.0;
     let mut before: Option<Vector3<f64>> = None;
     let position: Vec<f64> = found
@@ -250,25 +250,25 @@ pub fn drawing(told: &PathAccuracyAnswer, found: &PathAccuracy) -> String {
             &|point| point.repeatability.unwrap_or_default(),
         ));
     }
-    let rt = told.rt_mm.map_or(String::new(), |rt| format!(", RT {rt:.3} mm"));
-    let runs = if told.cycles == 1 { "run" } else { "runs" };
+    let rt = reported.rt_mm.map_or(String::new(), |rt| format!(", RT {rt:.3} mm"));
+    let runs = if reported.cycles == 1 { "run" } else { "runs" };
     PathPlot {
         title: "Path accuracy".to_owned(),
-        subtitle: format!("{} {runs}: AT {:.3} mm{rt}", told.cycles, told.at_mm),
+        subtitle: format!("{} {runs}: AT {:.3} mm{rt}", reported.cycles, reported.at_mm),
         position_label: "along the path (mm)".to_owned(),
         quantity: "distance (µm)".to_owned(),
         series: all,
         envelope: None,
-        limit_um: None,
+        tolerance_um: None,
     }
     .to_svg()
 }
 
 fn mm(vector: Vector3<f64>) -> [f64; 3] {
-    [0, 1, 2].map(|axis| told(vector[axis] * 1e3))
+    [0, 1, 2].map(|axis| reported(vector[axis] * 1e3))
 }
 
 /// To a nanometre.
-fn told(value: f64) -> f64 {
+fn reported(value: f64) -> f64 {
     decimals(value, 6)
 }

@@ -20,7 +20,7 @@ use armill_formats::robot::RobotDescription;
 use serde::Serialize;
 
 use crate::error::StudyError;
-use crate::{BASE_LINK, base_from_counted};
+use crate::{BASE_LINK, base_from_reference};
 
 /// What was read, and how.
 #[derive(Clone, Debug)]
@@ -81,7 +81,7 @@ pub fn check(
     watch: Watch<'_>,
 ) -> Result<PendantAnswer, StudyError> {
     let robot = &described.robot;
-    let counted = base_from_counted(robot, &question.base).map_err(|known| {
+    let counted = base_from_reference(robot, &question.base).map_err(|known| {
         StudyError::value(
             format!("`{}` is no frame of `{}`", question.base, robot.name()),
             format!("it knows {known}"),
@@ -101,7 +101,7 @@ pub fn check(
     }
     let comparison = Comparison {
         robot,
-        base_from_counted: &counted,
+        base_from_reference: &counted,
         flange_from_tool: &question.flange_from_tool,
         readings: &readings,
         within: question.within,
@@ -166,7 +166,7 @@ fn reading(robot: &Robot, index: usize, joints: &[f64], pose: &Isometry) -> Resu
     };
     Ok(Reading {
         joints: joints.iter().enumerate().map(to_si).collect(),
-        counted_from_tool: *pose,
+        reference_from_tool: *pose,
     })
 }
 

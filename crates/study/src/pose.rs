@@ -19,7 +19,7 @@ use armill_core::robot::inverse::{ToolAt, posture_at, postures};
 use armill_core::robot::jacobian::{condition_number, jacobian, manipulability};
 use armill_core::robot::{Posture, Robot, Unreachable};
 use armill_core::source::stiffness_model::FREE_FALL;
-use armill_core::source::{Arm, Gravity, Links, Standing, StiffnessModel, Unstable};
+use armill_core::source::{Arm, Gravity, Links, ArmState, StiffnessModel, Unstable};
 use armill_core::spatial::Wrench;
 use armill_formats::robot::RobotDescription;
 use armill_formats::sources::Source;
@@ -86,7 +86,7 @@ pub struct PoseAnswer {
     /// Parts of the stiffness model that were on.
     pub model: Vec<String>,
     /// Whom shares are told for: the joints, then base, flange and tool where springs sit.
-    pub shares_of: Vec<String>,
+    pub contributors: Vec<String>,
     /// Every posture; empty where unreachable.
     pub postures: Vec<PostureAnswer>,
     /// Why there is no posture.
@@ -133,7 +133,7 @@ pub struct PostureAnswer {
     pub deviation_um: Option<[f64; 3]>,
     /// Rotation of the tool under the load.
     pub rotation_urad: Option<[f64; 3]>,
-    /// Share of each of `shares_of` in the displacement.
+    /// Share of each of `contributors` in the displacement.
     pub joint_share_um: Option<Vec<[f64; 3]>>,
     /// Standard uncertainty of the displacement, from those of the compliances, the repeatability of the arm and the error of its model.
     pub deviation_u_um: Option<[f64; 3]>,
@@ -219,7 +219,7 @@ pub(crate) fn answer_in(
 ) -> Result<PoseAnswer, StudyError> {
     let model = situation.model;
     let robot = &described.robot;
-    let base_from_counted = crate::base_from_counted(robot, &question.base).map_err(|known| {
+    let base_from_reference = crate::base_from_reference(robot, &question.base).map_err(|known| {
         StudyError::value(
             format!("robot `{}` has no frame `{}`", robot.name(), question.base),
             format!("it has: {known}"),
@@ -247,13 +247,13 @@ pub(crate) fn answer_in(
             &question.flange_from_tool,
         )],
         At::Tool { tcp, axis, spin } => {
-            let counted_from_tool = Isometry::from_parts(tcp.coords.into(), tool_orientation(*axis, *spin));
-            holding(&(base_from_counted * counted_from_tool))?
+            let reference_from_tool = Isometry::from_parts(tcp.coords.into(), tool_orientation(*axis, *spin));
+            holding(&(base_from_reference * reference_from_tool))?
         }
         At::Pose(base_from_tool) => holding(base_from_tool)?,
     };
-    let mut standing = robot.compliance().map(|compliance| {
-        Standing::new(Arm {
+    let mut arm_state = robot.compliance().map(|compliance| {
+        ArmState::new(Arm {
             robot,
             compliance,
             model,
@@ -269,14 +269,14 @@ pub(crate) fn answer_in(
             .collect(),
         compliance_assumed: question.caution.is_some(),
         model: parts(robot, model),
-        shares_of: model.sharer_names(robot.joints()),
+        contributors: model.contributor_names(robot.joints()),
         postures: found
             .iter()
             .map(|p| {
-                let yielding = standing
+                let yielding = arm_state
                     .as_mut()
-                    .map(|standing| yielding(standing, (p, situation), question.wrench));
-                posture_answer(robot, yielding, &base_from_counted, p)
+                    .map(|arm_state| yielding(arm_state, (p, situation), question.wrench));
+                posture_answer(robot, yielding, &base_from_reference, p)
             })
             .collect(),
         unreachable,
@@ -315,29 +315,29 @@ struct Yielding {
 
 /// What the arm says of this posture: its compliance, and under a load what that does, or that the arm finds no rest.
 fn yielding(
-    standing: &mut Standing<'_>,
+    arm_state: &mut ArmState<'_>,
     (posture, situation): (&Posture, &Situation<'_>),
     wrench: Option<Wrench>,
 ) -> Yielding {
-    standing.stand(&posture.joints);
+    arm_state.set_joints(&posture.joints);
     let mut found = Yielding {
-        compliance: standing.compliance(),
+        compliance: arm_state.compliance(),
         ..Yielding::default()
     };
     let Some(wrench) = wrench else { return found };
     let mut positions = vec![0.0; posture.joints.len()];
     let axis = || Unit::new_unchecked(posture.base_from_tool * Vector3::z());
     let mut links = match (situation.dragged)(&posture.joints) {
-        Some(dragged) => Links::Dragged(dragged),
+        Some(dragged) => Links::KeptByFriction(dragged),
         None => Links::Farthest(
             both_across(&situation.normal.unwrap_or_else(axis)),
             &mut positions,
         ),
     };
-    match predict(standing, &wrench, &mut links) {
+    match predict(arm_state, &wrench, &mut links) {
         Ok(deviation) => {
             found.deviation = Some(deviation);
-            found.loaded_compliance = standing.loaded_compliance();
+            found.loaded_compliance = arm_state.loaded_compliance();
         }
         Err(unstable) => found.unstable = Some(unstable),
     }
@@ -377,7 +377,7 @@ pub(crate) fn joint_positions(described: &RobotDescription, given: &[f64]) -> Re
 fn posture_answer(
     robot: &Robot,
     yielding: Option<Yielding>,
-    base_from_counted: &Isometry,
+    base_from_reference: &Isometry,
     posture: &Posture,
 ) -> PostureAnswer {
     let Yielding {
@@ -389,9 +389,9 @@ fn posture_answer(
     let from_si = |i: usize, value: f64| value * JointUnit::of(robot, i).scale;
     let margin = robot.limit_margin(&posture.joints);
     let j = jacobian(robot, &posture.screws);
-    let counted_from_tool = base_from_counted.inv_mul(&posture.base_from_tool);
+    let reference_from_tool = base_from_reference.inv_mul(&posture.base_from_tool);
     let axis = Unit::new_unchecked(posture.base_from_tool * Vector3::z());
-    let rotation = counted_from_tool.rotation.quaternion();
+    let rotation = reference_from_tool.rotation.quaternion();
     let um = |v: Vector3<f64>| [v.x * 1e6, v.y * 1e6, v.z * 1e6];
     PostureAnswer {
         branch: posture.name.to_string(),
@@ -405,7 +405,7 @@ fn posture_answer(
         limit_margin_deg: margin.map(|(i, margin)| from_si(i, margin)),
         limit_joint: margin.map(|(i, _)| robot.joints()[i].name.clone()),
         tool: ToolAnswer {
-            xyz_mm: (counted_from_tool.translation.vector * 1e3).into(),
+            xyz_mm: (reference_from_tool.translation.vector * 1e3).into(),
             quaternion_wxyz: [rotation.w, rotation.i, rotation.j, rotation.k],
         },
         singularity: posture.singularity.map(|s| s.to_string()),

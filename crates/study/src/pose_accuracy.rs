@@ -13,11 +13,11 @@ use armill_core::measure::pose_accuracy::{
 };
 use armill_core::nalgebra::{UnitQuaternion, Vector3};
 use armill_core::robot::Robot;
-use armill_formats::measurement::poses::Measured;
+use armill_formats::measurement::poses::MeasuredPoses;
 use serde::Serialize;
 
 use crate::StudyError;
-use crate::calibrate::answer::{ErrorsAnswer, FrameAnswer, errors_answer, frame_answer, told};
+use crate::calibrate::answer::{ErrorsAnswer, FrameAnswer, errors_answer, frame_answer, given};
 use crate::calibrate::calibration::refused;
 use crate::calibrate::question::Question;
 
@@ -98,7 +98,7 @@ pub struct PoseAnswer {
 /// Poses that tell too little or belong to another arm.
 pub fn answer(
     robot: &Robot,
-    (shown, measured): (&str, &Measured),
+    (shown, measured): (&str, &MeasuredPoses),
     question: &Question,
 ) -> Result<PoseAccuracyAnswer, StudyError> {
     let found = fit(robot, &measured.poses, &question.for_core(Asked::BaseAndTool))
@@ -154,7 +154,7 @@ const SAME_POSTURE: f64 = 1e-2;
 const CELL: f64 = 16.0 * SAME_POSTURE;
 
 /// Visits of the same pose, in the order of their first one.
-fn groups(measured: &Measured) -> Vec<Vec<usize>> {
+fn groups(measured: &MeasuredPoses) -> Vec<Vec<usize>> {
     let bits = |numbers: &[f64]| {
         numbers
             .iter()
@@ -218,7 +218,7 @@ fn cells_around(joints: &[f64], reach: f64) -> Vec<Vec<i64>> {
 }
 
 /// Where a visit was to be and where it was, m, axes of the base.
-fn visit(measured: &Measured, found: &Calibrated, place: usize) -> [Attained; 2] {
+fn visit(measured: &MeasuredPoses, found: &Calibrated, place: usize) -> [Attained; 2] {
     let pose = &measured.poses[place];
     let base_from_tracker = found.tracker_from_base.inverse();
     let turned = |rotation: UnitQuaternion<f64>| base_from_tracker.rotation * rotation;
@@ -228,11 +228,11 @@ fn visit(measured: &Measured, found: &Calibrated, place: usize) -> [Attained; 2]
         position: base_from_tracker.transform_point(&position.into()).coords,
         turn: rotation.map(turned),
     };
-    let told = rotation.map(|(rotation, turn)| UnitQuaternion::from_scaled_axis(-turn) * rotation);
-    [at(commanded, told), at(pose.position, pose.rotation)]
+    let given = rotation.map(|(rotation, turn)| UnitQuaternion::from_scaled_axis(-turn) * rotation);
+    [at(commanded, given), at(pose.position, pose.rotation)]
 }
 
-fn of_pose(measured: &Measured, visits: &[[Attained; 2]], places: &[usize]) -> Option<PoseAnswer> {
+fn of_pose(measured: &MeasuredPoses, visits: &[[Attained; 2]], places: &[usize]) -> Option<PoseAnswer> {
     let commanded: Vec<Attained> = places.iter().map(|place| visits[*place][0]).collect();
     let attained: Vec<Attained> = places.iter().map(|place| visits[*place][1]).collect();
     // Joint positions of cycles differ by what encoders tell: their mean is the commanded place.
@@ -245,25 +245,25 @@ fn of_pose(measured: &Measured, visits: &[[Attained; 2]], places: &[usize]) -> O
             .map(|(turn, offset)| UnitQuaternion::from_scaled_axis(offset) * turn),
     };
     let found: PoseAccuracy = pose_accuracy(&meant, &attained)?;
-    let mm = |vector: Vector3<f64>| [0, 1, 2].map(|axis| told(vector[axis] * 1e3));
-    let deg = |vector: Vector3<f64>| [0, 1, 2].map(|axis| told(vector[axis].to_degrees()));
+    let mm = |vector: Vector3<f64>| [0, 1, 2].map(|axis| given(vector[axis] * 1e3));
+    let deg = |vector: Vector3<f64>| [0, 1, 2].map(|axis| given(vector[axis].to_degrees()));
     Some(PoseAnswer {
         name: match &measured.names {
             Some(names) => names[places[0]].clone(),
             None => format!("line {}", measured.lines[places[0]]),
         },
         cycles: found.cycles,
-        ap_mm: told(found.accuracy() * 1e3),
+        ap_mm: given(found.accuracy() * 1e3),
         ap_xyz_mm: mm(found.offset),
-        rp_mm: told(found.repeatability? * 1e3),
+        rp_mm: given(found.repeatability? * 1e3),
         ap_turn_deg: found.turn_offset.map(deg),
         rp_turn_deg: found.turn_repeatability.map(deg),
-        vap_mm: variation(measured, visits, places).map(|vap| told(vap * 1e3)),
+        vap_mm: variation(measured, visits, places).map(|vap| given(vap * 1e3)),
     })
 }
 
 /// vAP (m) of a pose; `None` of one direction.
-fn variation(measured: &Measured, visits: &[[Attained; 2]], places: &[usize]) -> Option<f64> {
+fn variation(measured: &MeasuredPoses, visits: &[[Attained; 2]], places: &[usize]) -> Option<f64> {
     let directions = measured.directions.as_ref()?;
     let mut by_direction: BTreeMap<&str, Vec<Attained>> = BTreeMap::new();
     for place in places {
@@ -282,7 +282,7 @@ fn variation(measured: &Measured, visits: &[[Attained; 2]], places: &[usize]) ->
 
 fn repeated(by_pose: &[PoseAnswer]) -> Option<RepeatedAnswer> {
     let fewest_cycles = by_pose.iter().map(|pose| pose.cycles).min()?;
-    let mean = |of: fn(&PoseAnswer) -> f64| told(by_pose.iter().map(of).sum::<f64>() / by_pose.len() as f64);
+    let mean = |of: fn(&PoseAnswer) -> f64| given(by_pose.iter().map(of).sum::<f64>() / by_pose.len() as f64);
     let largest = |of: fn(&PoseAnswer) -> f64| by_pose.iter().map(of).fold(0.0, f64::max);
     Some(RepeatedAnswer {
         poses: by_pose.len(),

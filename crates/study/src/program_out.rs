@@ -56,32 +56,32 @@ pub fn program(
     study: &Study,
     setting: &Setting,
     (track, answers): (&Track, &Answers),
-    wanted: &ProgramWanted,
+    requested: &ProgramWanted,
 ) -> Result<Written, StudyError> {
     let maker = Maker {
         study,
         setting,
         track,
         answers,
-        wanted,
+        requested,
     };
     let mut points = Vec::new();
     for stretch in track.path.stretches() {
         maker.stretch(stretch, &mut points)?;
     }
     let draft = Draft {
-        name: wanted.name.clone(),
+        name: requested.name.clone(),
         remarks: vec![
             format!("armill {}: {}", env!("CARGO_PKG_VERSION"), study.title),
             format!("robot {}", study.robot.robot.name()),
         ],
         base_from_frame: base_from_controller(&study.robot.robot).inverse() * track.placing.base_from_path,
-        frame_number: wanted.frame_number,
+        frame_number: requested.frame_number,
         flange_from_tool: setting.flange_from_tool,
-        tool_number: wanted.tool_number,
+        tool_number: requested.tool_number,
         points,
     };
-    write(wanted.language, &draft).map_err(|error| StudyError::value(error.to_string(), HINT))
+    write(requested.language, &draft).map_err(|error| StudyError::value(error.to_string(), HINT))
 }
 
 /// What to do where a language refuses a program.
@@ -94,7 +94,7 @@ struct Maker<'a> {
     setting: &'a Setting,
     track: &'a Track,
     answers: &'a Answers,
-    wanted: &'a ProgramWanted,
+    requested: &'a ProgramWanted,
 }
 
 impl Maker<'_> {
@@ -118,7 +118,7 @@ impl Maker<'_> {
                 branch: self.branch(index),
                 speed: Some(self.feed(index)?),
                 // A cut begins and ends where it is drawn.
-                blend: if at_end { 0.0 } else { self.wanted.blend },
+                blend: if at_end { 0.0 } else { self.requested.blend },
             });
         }
         points.push(self.above(last)?);
@@ -129,7 +129,7 @@ impl Maker<'_> {
     fn kept(&self, stretch: Range<usize>) -> Vec<usize> {
         let points = &self.track.path.points;
         let within = Thinning {
-            place: self.wanted.within,
+            place: self.requested.within,
             turn: TURN,
         };
         let changes = (stretch.start + 1..stretch.end).filter(|i| points[*i].pace != points[i - 1].pace);
@@ -166,8 +166,8 @@ impl Maker<'_> {
                 "no posture ({})",
                 reason.word().replace('_', " ")
             ))),
-            Ok(held) if !held.within_limits() => {
-                let joint = &self.study.robot.robot.joints()[held.limit_joint].name;
+            Ok(evaluation) if !evaluation.within_limits() => {
+                let joint = &self.study.robot.robot.joints()[evaluation.limit_joint].name;
                 Err(refused(format!("joint {joint} is outside its limits")))
             }
             Ok(_) => Ok(()),
@@ -178,7 +178,7 @@ impl Maker<'_> {
     fn above(&self, index: usize) -> Result<DraftPoint, StudyError> {
         let robot = &self.study.robot.robot;
         let near = self.answers.joints_at(index);
-        let lift = Translation3::new(0.0, 0.0, -self.wanted.retract);
+        let lift = Translation3::new(0.0, 0.0, -self.requested.retract);
         let pose = self.track.stop(index).base_from_tool * lift;
         let tool = ToolAt {
             flange_from_tool: &self.setting.flange_from_tool,
@@ -202,7 +202,7 @@ impl Maker<'_> {
             .min_by(|a, b| away(a).total_cmp(&away(b)));
         let joints = nearest.filter(|joints| away(joints) < FARTHEST).ok_or_else(|| {
             let line = self.track.path.points[index].line;
-            let mm = self.wanted.retract * 1e3;
+            let mm = self.requested.retract * 1e3;
             let message = format!("line {line}: the arm cannot go {mm} mm up from here as it stands");
             StudyError::value(message, "a shorter --retract-mm")
         })?;
@@ -224,11 +224,11 @@ impl Maker<'_> {
     }
 
     fn feed(&self, index: usize) -> Result<f64, StudyError> {
-        let told = match self.track.path.points[index].pace {
+        let given = match self.track.path.points[index].pace {
             Pace::Feed(speed) => Some(speed),
-            Pace::Rapid | Pace::Untold => None,
+            Pace::Rapid | Pace::EvaluateError => None,
         };
-        told.or(self.wanted.feed).ok_or_else(|| {
+        given.or(self.requested.feed).ok_or_else(|| {
             let line = self.track.path.points[index].line;
             StudyError::value(
                 format!("line {line}: the path tells no feed"),

@@ -2,7 +2,7 @@
 //!
 //! A joint that turns is told in deg and rad/(N m), one that slides in mm and µm/N, under keys that say so.
 
-use armill_core::robot::{Amount, Axis, Joint, Motion, Robot, Seat, TorqueCurve, reach};
+use armill_core::robot::{Amount, Axis, Joint, Motion, Robot, Attachment, TorqueCurve, reach};
 use armill_formats::robot::RobotDescription;
 use armill_formats::sources::Source;
 use schemars::JsonSchema;
@@ -308,15 +308,15 @@ impl KnownJoint {
         let robot = &found.robot;
         let (joint, note) = (&robot.joints()[index], &found.joint_notes[index]);
         let unit = JointUnit::of(robot, index);
-        let told = |value: f64| without_rounding(value * unit.scale);
+        let given = |value: f64| without_rounding(value * unit.scale);
         let compliance = robot.compliance().map(|all| all[index]);
         let value = compliance.map(|c| c.value * unit.compliance_scale);
         let u = compliance.map(|c| c.standard_uncertainty * unit.compliance_scale);
-        let zero_offset = told(joint.zero_offset);
+        let zero_offset = given(joint.zero_offset);
         let limits = joint
             .limits
-            .map(|limits| [told(limits.lower), told(limits.upper)]);
-        let max_speed = joint.max_speed.map(told);
+            .map(|limits| [given(limits.lower), given(limits.upper)]);
+        let max_speed = joint.max_speed.map(given);
         let numbers = if robot.slides(index) {
             JointNumbers::Sliding {
                 compliance_um_per_n: value,
@@ -354,7 +354,7 @@ impl KnownStructure {
             let (value, u) = (spring.compliance.value, spring.compliance.standard_uncertainty);
             let turns = spring.direction.linear.norm() == 0.0;
             KnownSpring {
-                at: seat_name(robot, spring.seat),
+                at: attachment_name(robot, spring.attachment),
                 direction: spring.direction.to_vector().into(),
                 compliance: if turns {
                     SpringCompliance::Turning {
@@ -370,7 +370,7 @@ impl KnownStructure {
             }
         });
         let masses = structure.masses.iter().map(|mass| KnownMass {
-            at: seat_name(robot, mass.seat),
+            at: attachment_name(robot, mass.attachment),
             mass_kg: mass.mass,
             centre_mm: (mass.centre.coords * 1e3).into(),
         });
@@ -403,12 +403,12 @@ impl KnownStructure {
 }
 
 /// What a seat is called in files and answers.
-pub fn seat_name(robot: &Robot, seat: Seat) -> String {
-    match seat {
-        Seat::Base => "base".to_owned(),
-        Seat::Joint(joint) => robot.joints()[joint].name.clone(),
-        Seat::Flange => "flange".to_owned(),
-        Seat::Tool => "tool".to_owned(),
+pub fn attachment_name(robot: &Robot, attachment: Attachment) -> String {
+    match attachment {
+        Attachment::Base => "base".to_owned(),
+        Attachment::Joint(joint) => robot.joints()[joint].name.clone(),
+        Attachment::Flange => "flange".to_owned(),
+        Attachment::Tool => "tool".to_owned(),
     }
 }
 

@@ -41,11 +41,11 @@ pub fn find(name: &str, folder: &Path) -> Result<RobotDescription, StudyError> {
 ///
 /// # Errors
 /// As [`find`] of a file; a file that is ours already.
-pub fn import(path: &Path, wanted: &Wanted) -> Result<RobotDescription, StudyError> {
+pub fn import(path: &Path, requested: &Wanted) -> Result<RobotDescription, StudyError> {
     let ours = path
         .extension()
         .is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
-    if wanted.format == Some(Format::Armill) || (ours && wanted.format.is_none()) {
+    if requested.format == Some(Format::Armill) || (ours && requested.format.is_none()) {
         let message = format!(
             "{} is a robot file of armill already: nothing to import",
             path.display()
@@ -55,11 +55,11 @@ pub fn import(path: &Path, wanted: &Wanted) -> Result<RobotDescription, StudyErr
             "use it as it is: `armill robots FILE`, `armill pose FILE`",
         ));
     }
-    read(path, wanted)
+    read(path, requested)
 }
 
 /// The robot of the file at `path`, called after it.
-fn read(path: &Path, wanted: &Wanted) -> Result<RobotDescription, StudyError> {
+fn read(path: &Path, requested: &Wanted) -> Result<RobotDescription, StudyError> {
     let shown = path.display();
     let bytes = input::read(path).map_err(|error| {
         let hint = "in a study, paths count from the folder of the study file";
@@ -68,7 +68,7 @@ fn read(path: &Path, wanted: &Wanted) -> Result<RobotDescription, StudyError> {
     let id = path
         .file_stem()
         .map_or_else(|| shown.to_string(), |stem| stem.to_string_lossy().into_owned());
-    Ok(format::read(path, &id, &bytes, wanted)?)
+    Ok(format::read(path, &id, &bytes, requested)?)
 }
 
 /// Path and text of the armill robot file behind `name`: of the library, a `.toml` file, or what `found`, read from a

@@ -27,8 +27,8 @@ use armill_core::watch::{Cancelled, Watch};
 use armill_core::workpiece::Plane;
 
 use crate::error::StudyError;
-use crate::file::holes::HolesAsk;
-use crate::file::path::PathAsk;
+use crate::file::holes::HolesAnalysis;
+use crate::file::path::PathAnalysis;
 use crate::file::resolve::{Ask, Setting, Sheet, Study, Subject};
 
 /// One ask, done.
@@ -50,9 +50,9 @@ pub enum Found<'a> {
     /// A box of points.
     Volume(&'a Setting, VolumeMap),
     /// A path.
-    Path(&'a PathAsk, Box<PathFound>),
+    Path(&'a PathAnalysis, Box<PathFound>),
     /// Holes.
-    Holes(&'a HolesAsk, Box<HolesFound>),
+    Holes(&'a HolesAnalysis, Box<HolesFound>),
 }
 
 /// One plane of a series.
@@ -115,22 +115,22 @@ pub(crate) const MOST_JUMPS: usize = 10;
 /// The points that the progress of `run` ends at: those of a path in a stock count twice, since the stock is cut in a
 /// pass of its own.
 pub fn point_count(study: &Study) -> usize {
-    let of = |ask: &Ask| match &ask.subject {
+    let of = |analysis: &Ask| match &analysis.subject {
         Subject::Map(sheet) => sheet.grid.len(),
         Subject::Sections(sections) => sections.iter().map(|(_, sheet)| sheet.grid.len()).sum(),
         Subject::Volume(_, grid) => grid.len(),
         Subject::Path(path) => path.track.len() * passes(path),
         Subject::Holes(holes) => holes.path.track.len(),
     };
-    study.asks.iter().map(of).sum()
+    study.analyses.iter().map(of).sum()
 }
 
 /// How often a path is passed over until it is followed: a stock is cut in a pass of its own, and a search answers the path
 /// without it too and passes over the lattice once or twice; where turning back has a price once more, and answers two
 /// chains.
-pub(crate) fn passes(path: &PathAsk) -> usize {
+pub(crate) fn passes(path: &PathAnalysis) -> usize {
     let searched = path.setting.search.map_or(0, |search| {
-        let worst = usize::from(search.goal == Goal::Worst);
+        let worst = usize::from(search.objective == Goal::Worst);
         2 + worst + if search.back_price > 0.0 { 3 } else { 0 }
     });
     1 + searched + usize::from(path.has_stock())
@@ -144,14 +144,14 @@ pub(crate) fn passes(path: &PathAsk) -> usize {
 /// `watch` hears of every point and may cancel. The same study gives the same values on any number of threads.
 pub fn run<'a>(study: &'a Study, watch: Watch<'_>) -> Result<Vec<Done<'a>>, StudyError> {
     let runner = runner(study, watch)?;
-    let done = |ask: &'a Ask| {
-        let found = runner.find(ask)?;
+    let done = |analysis: &'a Ask| {
+        let found = runner.find(analysis)?;
         Ok(Done {
-            name: &ask.name,
+            name: &analysis.name,
             found,
         })
     };
-    study.asks.iter().map(done).collect()
+    study.analyses.iter().map(done).collect()
 }
 
 /// What asks of this study are done with.
@@ -175,7 +175,7 @@ pub(crate) fn runner<'a>(study: &'a Study, watch: Watch<'a>) -> Result<Runner<'a
 const BESIDE_STOCK: &str = "is the stock where the program cuts?";
 
 /// A path that misses its stock would hold any tolerance.
-fn nothing_cut(ask: &PathAsk, stock: &Stock) -> StudyError {
+fn nothing_cut(analysis: &PathAnalysis, stock: &Stock) -> StudyError {
     let mm = |corners: [Point3<f64>; 2]| {
         let [low, high] =
             corners.map(|at| format!("({:.1}, {:.1}, {:.1})", at.x * 1e3, at.y * 1e3, at.z * 1e3));
@@ -183,8 +183,8 @@ fn nothing_cut(ask: &PathAsk, stock: &Stock) -> StudyError {
     };
     let message = format!(
         "{}: the program cuts nothing of its stock: the cuts go from {}, the stock from {}",
-        ask.shown(),
-        mm(ask.track.path.corners()),
+        analysis.shown(),
+        mm(analysis.track.path.corners()),
         mm(stock.corners())
     );
     StudyError::value(message, BESIDE_STOCK)
@@ -211,8 +211,8 @@ pub(crate) struct Followed {
 
 impl Runner<'_> {
     /// What comes out of one ask.
-    fn find<'s>(&self, ask: &'s Ask) -> Result<Found<'s>, StudyError> {
-        Ok(match &ask.subject {
+    fn find<'s>(&self, analysis: &'s Ask) -> Result<Found<'s>, StudyError> {
+        Ok(match &analysis.subject {
             Subject::Map(sheet) => Found::Map(sheet, self.map(sheet)?),
             Subject::Sections(sections) => {
                 let section = |(label, sheet): &'s (String, Sheet)| {
@@ -242,30 +242,30 @@ impl Runner<'_> {
     }
 
     /// The answers along a path, and all that follows from them in the branch that was followed.
-    pub(crate) fn path(&self, ask: &PathAsk) -> Result<PathFound, StudyError> {
-        let (load, forces) = self.pushed(ask)?;
-        let question = self.question(&ask.setting);
+    pub(crate) fn path(&self, analysis: &PathAnalysis) -> Result<PathFound, StudyError> {
+        let (load, forces) = self.pushed(analysis)?;
+        let question = self.question(&analysis.setting);
         let Followed {
             turned,
             along,
             searched,
-        } = self.follow(ask, load)?;
-        let track = turned.as_ref().unwrap_or(&ask.track);
-        let limits = match ask.tells_limits() {
-            true => program_limits(&question, &ask.track, &along, ask.setting.limit, self.watch)?,
+        } = self.follow(analysis, load)?;
+        let track = turned.as_ref().unwrap_or(&analysis.track);
+        let limits = match analysis.tells_limits() {
+            true => program_limits(&question, &analysis.track, &along, analysis.setting.limit, self.watch)?,
             false => None,
         };
-        let worst = worst_points(&ask.track, &along.answers, WORST);
+        let worst = worst_points(&analysis.track, &along.answers, WORST);
         Ok(PathFound {
             worst: worst
                 .into_iter()
-                .map(|index| self.in_full((ask, track), &along, index))
+                .map(|index| self.in_full((analysis, track), &along, index))
                 .collect::<Result<_, Cancelled>>()?,
-            jumps: jumps(self.robot, &ask.track.path, &along.answers)
+            jumps: jumps(self.robot, &analysis.track.path, &along.answers)
                 .take(MOST_JUMPS + 1)
                 .collect(),
-            radial: match ask.shape() {
-                Some(Shape::Circle { centre, .. }) => radial_deviations(&ask.track, &along.answers, *centre),
+            radial: match analysis.shape() {
+                Some(Shape::Circle { centre, .. }) => radial_deviations(&analysis.track, &along.answers, *centre),
                 _ => Vec::new(),
             },
             along,
@@ -276,18 +276,18 @@ impl Runner<'_> {
     }
 
     /// The path under this load, turned as a search finds it where one is asked for.
-    pub(crate) fn follow(&self, ask: &PathAsk, load: PathLoad) -> Result<Followed, StudyError> {
-        let question = self.question(&ask.setting);
-        let Some(search) = &ask.setting.search else {
-            let along = along_path(&question, &ask.track, load, self.watch)?;
+    pub(crate) fn follow(&self, analysis: &PathAnalysis, load: PathLoad) -> Result<Followed, StudyError> {
+        let question = self.question(&analysis.setting);
+        let Some(search) = &analysis.setting.search else {
+            let along = along_path(&question, &analysis.track, load, self.watch)?;
             return Ok(Followed {
                 turned: None,
                 along,
                 searched: None,
             });
         };
-        let searched = self.search(ask, &load, search)?;
-        let turned = searched.posture.turned(&ask.track);
+        let searched = self.search(analysis, &load, search)?;
+        let turned = searched.posture.turned(&analysis.track);
         let choices = searched.posture.choices();
         Ok(Followed {
             along: along_postures(&question, (&turned, load), choices, self.watch)?,
@@ -297,38 +297,38 @@ impl Runner<'_> {
     }
 
     /// The best turns and branches along a path, and the path as it is without them.
-    fn search(&self, ask: &PathAsk, load: &PathLoad, search: &PostureSearch) -> Result<Searched, StudyError> {
-        let question = self.question(&ask.setting);
-        let as_asked = along_path(&question, &ask.track, load.clone(), self.watch)?;
+    fn search(&self, analysis: &PathAnalysis, load: &PathLoad, search: &PostureSearch) -> Result<Searched, StudyError> {
+        let question = self.question(&analysis.setting);
+        let as_asked = along_path(&question, &analysis.track, load.clone(), self.watch)?;
         Ok(Searched {
             as_asked: as_asked.answers,
-            posture: postures_along(&question, (&ask.track, load), search, self.watch)?,
+            posture: postures_along(&question, (&analysis.track, load), search, self.watch)?,
         })
     }
 
     /// What pushes along a path: of a cut in a stock what the tool meets there.
-    pub(crate) fn pushed(&self, ask: &PathAsk) -> Result<(PathLoad, Option<ForcesTold>), StudyError> {
-        let in_stock = ask.cut.as_ref().and_then(|cut| Some((cut, cut.stock.clone()?)));
+    pub(crate) fn pushed(&self, analysis: &PathAnalysis) -> Result<(PathLoad, Option<ForcesTold>), StudyError> {
+        let in_stock = analysis.cut.as_ref().and_then(|cut| Some((cut, cut.stock.clone()?)));
         let Some((cut, mut stock)) = in_stock else {
-            return Ok((ask.load.clone(), ask.forces));
+            return Ok((analysis.load.clone(), analysis.forces));
         };
-        let (path, placing) = (&ask.track.path, &ask.track.placing);
+        let (path, placing) = (&analysis.track.path, &analysis.track.placing);
         let found = cut.cutting.along(path, placing, Some(&mut stock), self.watch);
         let found = found.map_err(|error| match error {
             NoForces::Cancelled => StudyError::Cancelled(Cancelled),
-            error => StudyError::value(format!("{}: {error}", ask.shown()), BESIDE_STOCK),
+            error => StudyError::value(format!("{}: {error}", analysis.shown()), BESIDE_STOCK),
         })?;
         if found.cuts.points.iter().all(|here| here.cut.is_none()) {
-            return Err(nothing_cut(ask, &stock));
+            return Err(nothing_cut(analysis, &stock));
         }
-        Ok((PathLoad::Cuts(found.cuts), Some(found.told)))
+        Ok((PathLoad::Cuts(found.cuts), Some(found.given)))
     }
 
     /// One point of a path asked by itself: under the forces found there, in the branch that was followed, on a plane
     /// through the TCP across the tool, so that shares and uncertainty are told.
     fn in_full(
         &self,
-        (ask, track): (&PathAsk, &Track),
+        (analysis, track): (&PathAnalysis, &Track),
         along: &AlongPath,
         index: usize,
     ) -> Result<InFull, Cancelled> {
@@ -348,7 +348,7 @@ impl Runner<'_> {
             choice: along.choice_at(index),
             // The arm stands as it does on the path, whatever its joints to spare.
             home: Some(along.answers.joints_at(index).to_vec()),
-            ..ask.setting.clone()
+            ..analysis.setting.clone()
         };
         let question = self.question(&setting);
         let answers = match &along.unloaded {
@@ -376,7 +376,7 @@ impl Runner<'_> {
             },
             home: setting.home.as_deref(),
             cases: &setting.cases,
-            doubt: setting.doubt,
+            uncertainty: setting.uncertainty,
             normal: setting.plane.normal(),
             choice: setting.choice,
         }

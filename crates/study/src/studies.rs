@@ -69,11 +69,11 @@ const SMALLEST: &str = r#"a program tells neither its robot nor what pushes on t
 
     format = 1
     robot = "yaskawa/mh12"            # `armill robots` lists them
-    limit_um = 100
+    tolerance_um = 100
     tool = { flange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0] }
     plane = { centre_mm = [1000, 0, 500], tilt_deg = 90, half_size_mm = 100, step_mm = 50 }
     load = { frame = "feed", cases_n = [[-60, 40, 25]] }
-    [[ask]]
+    [[analysis]]
     kind = "path"
     program = { file = "FILE" }
 

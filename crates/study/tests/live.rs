@@ -40,18 +40,18 @@ fn answer_table_and_pictures_are_the_files_of_a_run() {
     output::write(&study, &done, &whole, (&out, Wanted::USUAL), &|_| ()).unwrap();
     let file = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
 
-    let told = answer_json(text(&found), None, Watch::NONE).unwrap();
-    let told = told.trim_end().strip_suffix('}').unwrap();
-    assert!(file("result.json").starts_with(&format!("{told},\"files\":{{")));
+    let given = answer_json(text(&found), None, Watch::NONE).unwrap();
+    let given = given.trim_end().strip_suffix('}').unwrap();
+    assert!(file("result.json").starts_with(&format!("{given},\"files\":{{")));
     let drawn = pictures(text(&found), None, Watch::NONE).unwrap().pictures;
     assert!(!drawn.is_empty());
     for picture in &drawn {
         assert_eq!(picture.svg, file(&format!("{}.svg", picture.name)));
     }
-    let map = study.asks.iter().find(|ask| {
+    let map = study.analyses.iter().find(|analysis| {
         folder
             .path()
-            .join(format!("{}.csv", output::slug(&ask.name)))
+            .join(format!("{}.csv", output::slug(&analysis.name)))
             .is_file()
     });
     let name = &map.unwrap().name;
@@ -70,12 +70,12 @@ fn one_ask_alone_answers_as_among_the_others() {
         for of_ask in whole[kind].as_array().unwrap() {
             let name = of_ask["name"].as_str().unwrap();
             // A section is no ask.
-            let ask = name
+            let analysis = name
                 .split(": x = ")
                 .next()
                 .and_then(|name| name.split(": tilt").next())
                 .unwrap();
-            let alone = answer_json(text(&found), Some(ask), Watch::NONE).unwrap();
+            let alone = answer_json(text(&found), Some(analysis), Watch::NONE).unwrap();
             let alone: Value = serde_json::from_str(&alone).unwrap();
             assert!(alone[kind].as_array().unwrap().contains(of_ask), "{name}");
         }
@@ -87,7 +87,7 @@ fn one_ask_alone_answers_as_among_the_others() {
     );
 }
 
-const BROKEN: &str = "format = 1\nrobot = \"yaskawa/mh12\"\nlimit_um = 100\nload = { cases_n = [[3, 5, 5]] }\nplane = { centre_mm = [1000, 0, 800], half_size_mm = 100, step_mm = 50 }\n[[ask]]\nkind = \"map\"\nname = \"good\"\n[[ask]]\nkind = \"map\"\nname = \"bad\"\nplane = { step_mm = -1 }\n";
+const BROKEN: &str = "format = 1\nrobot = \"yaskawa/mh12\"\ntolerance_um = 100\nload = { cases_n = [[3, 5, 5]] }\nplane = { centre_mm = [1000, 0, 800], half_size_mm = 100, step_mm = 50 }\n[[analysis]]\nkind = \"map\"\nname = \"good\"\n[[analysis]]\nkind = \"map\"\nname = \"bad\"\nplane = { step_mm = -1 }\n";
 
 fn of(bytes: &str) -> Text<'_> {
     Text {
@@ -99,35 +99,35 @@ fn of(bytes: &str) -> Text<'_> {
 
 #[test]
 fn a_broken_ask_is_told_and_leaves_the_others_alone() {
-    let told = outline(of(BROKEN));
-    let names: Vec<&str> = told.asks.iter().map(|ask| ask.name.as_str()).collect();
+    let given = outline(of(BROKEN));
+    let names: Vec<&str> = given.analyses.iter().map(|analysis| analysis.name.as_str()).collect();
     assert_eq!(names, ["good", "bad"]);
-    assert_eq!(told.asks[1].keys, ["kind", "name", "plane.step_mm"]);
-    assert_eq!((told.problems.len(), told.problems[0].line()), (1, 12));
+    assert_eq!(given.analyses[1].keys, ["kind", "name", "plane.step_mm"]);
+    assert_eq!((given.problems.len(), given.problems[0].line()), (1, 12));
     assert!(answer_json(of(BROKEN), Some("good"), Watch::NONE).is_ok());
     assert!(answer_json(of(BROKEN), Some("bad"), Watch::NONE).is_err());
     assert!(answer_json(of(BROKEN), None, Watch::NONE).is_err());
 
     let no_toml = outline(of("robot = = 3\n"));
-    assert_eq!((no_toml.problems[0].line(), no_toml.asks.len()), (1, 0));
+    assert_eq!((no_toml.problems[0].line(), no_toml.analyses.len()), (1, 0));
 }
 
 #[test]
 fn a_change_in_an_ask_mends_it_and_comments_stay() {
-    let commented = BROKEN.replace("limit_um = 100", "limit_um = 100 # of the drawing");
+    let commented = BROKEN.replace("tolerance_um = 100", "tolerance_um = 100 # of the drawing");
     let change = ChangedValue {
         key: "plane.step_mm".to_owned(),
         value: json!(25),
         whole: false,
     };
-    let told = changed(of(&commented), Some("bad"), &[change]).unwrap();
-    assert_eq!(told.text, commented.replace("step_mm = -1", "step_mm = 25"));
-    assert!(told.problems.is_empty());
+    let given = changed(of(&commented), Some("bad"), &[change]).unwrap();
+    assert_eq!(given.text, commented.replace("step_mm = -1", "step_mm = 25"));
+    assert!(given.problems.is_empty());
 }
 
 #[test]
 fn asks_and_lists_inside_of_them_are_added_and_taken_away_with_comments_kept() {
-    let text = "format = 1\nrobot = \"yaskawa/mh12\"\nlimit_um = 100\nload = { cases_n = [[3, 5, 5]] }\nplane = { centre_mm = [1000, 0, 800], half_size_mm = 100, step_mm = 50 }\n\n# what is asked\n\n# the plate\n[[ask]]\nkind = \"map\" # all of it\n# a remark\n";
+    let text = "format = 1\nrobot = \"yaskawa/mh12\"\ntolerance_um = 100\nload = { cases_n = [[3, 5, 5]] }\nplane = { centre_mm = [1000, 0, 800], half_size_mm = 100, step_mm = 50 }\n\n# what is asked\n\n# the plate\n[[analysis]]\nkind = \"map\" # all of it\n# a remark\n";
     let with = |text: &str, key: &str, value: Value| {
         let change = ChangedValue {
             key: key.to_owned(),
@@ -136,21 +136,21 @@ fn asks_and_lists_inside_of_them_are_added_and_taken_away_with_comments_kept() {
         };
         changed(of(text), None, &[change]).unwrap()
     };
-    let more = with(text, "ask[1]", json!({"kind": "path"}));
-    assert_eq!(more.text, format!("{text}\n[[ask]]\nkind = \"path\"\n"));
+    let more = with(text, "analysis[1]", json!({"kind": "path"}));
+    assert_eq!(more.text, format!("{text}\n[[analysis]]\nkind = \"path\"\n"));
     // What a path needs is told where it is missing.
     assert_eq!(
-        (more.asks.len(), more.problems[0].line()),
+        (more.analyses.len(), more.problems[0].line()),
         (2, 14),
         "{:?}",
         more.problems
     );
-    let round = with(&more.text, "ask[1].circle.radius_mm", json!(50));
+    let round = with(&more.text, "analysis[1].circle.radius_mm", json!(50));
     assert!(round.problems.is_empty(), "{:?}", round.problems);
-    assert!(answer_json(of(&round.text), Some(&round.asks[1].name), Watch::NONE).is_ok());
+    assert!(answer_json(of(&round.text), Some(&round.analyses[1].name), Watch::NONE).is_ok());
     let spring = with(
         &round.text,
-        "ask[1].tool.spring[0]",
+        "analysis[1].tool.spring[0]",
         json!({"at": "tool", "source": ""}),
     );
     assert!(
@@ -159,28 +159,28 @@ fn asks_and_lists_inside_of_them_are_added_and_taken_away_with_comments_kept() {
         )
     );
     assert!(!spring.problems.is_empty());
-    let back = with(&spring.text, "ask[1].tool.spring[0]", Value::Null);
+    let back = with(&spring.text, "analysis[1].tool.spring[0]", Value::Null);
     assert_eq!(back.text, round.text);
-    assert_eq!(with(&back.text, "ask[1]", Value::Null).text, text);
+    assert_eq!(with(&back.text, "analysis[1]", Value::Null).text, text);
     // The first goes with what is said of it alone; a study without asks means a map.
-    let none = with(text, "ask[0]", Value::Null);
+    let none = with(text, "analysis[0]", Value::Null);
     assert!(none.text.contains("# what is asked") && !none.text.contains("# the plate"));
-    assert!(none.problems.is_empty() && none.asks.len() == 1);
+    assert!(none.problems.is_empty() && none.analyses.len() == 1);
 }
 
 #[test]
 fn the_values_of_an_ask_are_its_own_or_those_of_the_study() {
     let study = BROKEN.replace("step_mm = -1", "tilt_deg = 30");
-    let told = values(of(&study), Some("bad")).unwrap();
+    let given = values(of(&study), Some("bad")).unwrap();
     assert_eq!(
-        (told.tilt_deg, told.step_mm, told.limit_um),
+        (given.tilt_deg, given.step_mm, given.tolerance_um),
         (Some(30.0), 50.0, 100.0)
     );
     assert_eq!(
-        (told.kind, told.branch.as_str(), told.branches.len()),
+        (given.kind, given.branch.as_str(), given.branches.len()),
         ("map", "nominal", 8)
     );
-    let [a, _, c, _] = told.plane_corners_mm;
+    let [a, _, c, _] = given.plane_corners_mm;
     let middle: Vec<f64> = (0..3).map(|k| 0.5 * (a[k] + c[k])).collect();
     for (k, centre) in [1000.0, 0.0, 800.0].into_iter().enumerate() {
         assert!((middle[k] - centre).abs() < 1e-9);
@@ -190,8 +190,8 @@ fn the_values_of_an_ask_are_its_own_or_those_of_the_study() {
 #[test]
 fn a_posture_in_the_plane_deviates_as_the_map_says_there() {
     let found = example("mh12-groove");
-    let map = found.read().unwrap().asks.iter().find_map(|ask| {
-        matches!(ask.subject, armill_study::file::resolve::Subject::Map(_)).then(|| ask.name.clone())
+    let map = found.read().unwrap().analyses.iter().find_map(|analysis| {
+        matches!(analysis.subject, armill_study::file::resolve::Subject::Map(_)).then(|| analysis.name.clone())
     });
     let map = map.unwrap();
     let whole: Value =
@@ -204,18 +204,18 @@ fn a_posture_in_the_plane_deviates_as_the_map_says_there() {
     };
     let case = worst["deciding_case"].as_u64().unwrap() as usize;
     let question = PostureQuestion {
-        ask: Some(&map),
+        analysis: Some(&map),
         at,
         case,
     };
-    let told = postures(text(&found), &question, Watch::NONE).unwrap();
-    let held = told
+    let given = postures(text(&found), &question, Watch::NONE).unwrap();
+    let evaluation = given
         .answer
         .postures
         .iter()
         .position(|posture| posture.branch == worst["branch"])
         .unwrap();
-    let here = told.in_plane[held][case - 1].as_ref().unwrap();
+    let here = given.in_plane[evaluation][case - 1].as_ref().unwrap();
     assert!((here.in_plane_um - worst["in_plane_um"].as_f64().unwrap()).abs() < 1e-6);
     // So do its uncertainty, its shares and what may act.
     let number = |key: &str| worst[key].as_f64().unwrap();
@@ -225,29 +225,29 @@ fn a_posture_in_the_plane_deviates_as_the_map_says_there() {
         assert!((share - worst["joint_share_um"][k].as_f64().unwrap()).abs() < 1e-6);
     }
     assert!((shares.iter().sum::<f64>() - here.in_plane_um).abs() < 1e-6);
-    for (told, key) in [
+    for (given, key) in [
         (here.permissible_along_load_n, "permissible_along_load_n"),
         (here.permissible_any_direction_n, "permissible_any_direction_n"),
     ] {
-        assert!((told.unwrap() / number(key) - 1.0).abs() < 1e-9, "{key}");
+        assert!((given.unwrap() / number(key) - 1.0).abs() < 1e-9, "{key}");
     }
     // The drawing ends where the tool is.
-    let tcp = told.drawings[held].tool_mm;
-    assert_eq!(told.drawings[held].links_mm.last(), Some(&tcp));
-    for (drawn, limits) in told.drawings[held].joints.iter().zip(&told.limits) {
+    let tcp = given.drawings[evaluation].tool_mm;
+    assert_eq!(given.drawings[evaluation].links_mm.last(), Some(&tcp));
+    for (drawn, limits) in given.drawings[evaluation].joints.iter().zip(&given.limits) {
         assert_eq!(drawn.name, limits.name);
     }
 }
 
-const CIRCLE: &str = "format = 1\nrobot = \"yaskawa/mh12\"\nlimit_um = 100\nload = { cases_n = [[3, 5, 5], [-40, 0, 20]] }\ntool = { flange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0] }\nplane = { centre_mm = [1000, 50, 800], tilt_deg = 20, half_size_mm = [100, 60], step_mm = 20 }\n[[ask]]\nkind = \"path\"\nname = \"rim\"\ncircle = { radius_mm = 50 }\n[[ask]]\nkind = \"volume\"\nname = \"box\"\nbox = { half_size_mm = [100, 50, 50], step_mm = 50 }\n[[ask]]\nkind = \"sections\"\nname = \"far\"\ndistances_mm = [900, 1000]\n";
+const CIRCLE: &str = "format = 1\nrobot = \"yaskawa/mh12\"\ntolerance_um = 100\nload = { cases_n = [[3, 5, 5], [-40, 0, 20]] }\ntool = { flange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0] }\nplane = { centre_mm = [1000, 50, 800], tilt_deg = 20, half_size_mm = [100, 60], step_mm = 20 }\n[[analysis]]\nkind = \"path\"\nname = \"rim\"\ncircle = { radius_mm = 50 }\n[[analysis]]\nkind = \"volume\"\nname = \"box\"\nbox = { half_size_mm = [100, 50, 50], step_mm = 50 }\n[[analysis]]\nkind = \"sections\"\nname = \"far\"\ndistances_mm = [900, 1000]\n";
 
 #[test]
 fn points_of_a_path_lie_on_its_plate_and_deviate_as_its_table_says() {
-    let told = scene(of(CIRCLE), Some("rim"), Watch::NONE).unwrap();
-    let points = told.points.unwrap();
+    let given = scene(of(CIRCLE), Some("rim"), Watch::NONE).unwrap();
+    let points = given.points.unwrap();
     assert_eq!(points.xyz_mm.len(), 360);
     let dot = |a: [f64; 3], b: [f64; 3]| -> f64 { (0..3).map(|k| a[k] * b[k]).sum() };
-    let plate = &told.plate;
+    let plate = &given.plate;
     for (index, at) in points.xyz_mm.iter().enumerate() {
         let from_centre = std::array::from_fn(|k| at[k] - plate.centre_mm[k]);
         assert!(dot(from_centre, plate.normal_axis).abs() < 1e-5);
@@ -255,13 +255,13 @@ fn points_of_a_path_lie_on_its_plate_and_deviate_as_its_table_says() {
         let by = points.deviation_um[index].unwrap();
         let normal = dot(by, plate.normal_axis);
         let across = (dot(by, by) - normal * normal).sqrt();
-        let told = points.columns["in_plane_um"][index].as_f64().unwrap();
-        assert!((across - told).abs() < 0.01, "{index}: {across} {told}");
+        let given = points.columns["in_plane_um"][index].as_f64().unwrap();
+        assert!((across - given).abs() < 0.01, "{index}: {across} {given}");
     }
     assert!(points.columns["branch"][0].is_string());
     // The posture at a point of the path is the one of its table.
     let question = PostureQuestion {
-        ask: Some("rim"),
+        analysis: Some("rim"),
         at: Place {
             point: Some(7),
             ..Place::default()
@@ -272,12 +272,12 @@ fn points_of_a_path_lie_on_its_plate_and_deviate_as_its_table_says() {
     for (k, mm) in points.xyz_mm[7].iter().enumerate() {
         assert!((there.drawings[0].tool_mm[k] - mm).abs() < 1e-5);
     }
-    let held = there
+    let evaluation = there
         .answer
         .postures
         .iter()
         .position(|posture| points.columns["branch"][7] == posture.branch);
-    let most = there.in_plane[held.unwrap()]
+    let most = there.in_plane[evaluation.unwrap()]
         .iter()
         .flatten()
         .map(|case| case.in_plane_um)
@@ -290,22 +290,22 @@ const POCKET: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../studies/r2000ic
 
 /// The in-plane deviation, its uncertainty and its shares that the answer has at the worst point of this ask, beside those
 /// that an arm standing there has in the same posture.
-fn worst_beside_stand(text: Text<'_>, ask: &str, part: &str) -> [(f64, f64, Vec<f64>); 2] {
+fn worst_beside_stand(text: Text<'_>, analysis: &str, part: &str) -> [(f64, f64, Vec<f64>); 2] {
     let stand = Stand {
         follow: Follow::Worst,
         at: None,
         section: 0,
         case: None,
     };
-    let told = view(text, Some(ask), (&[], Some(&stand)), Watch::NONE).unwrap();
-    let answer = serde_json::to_value(&told.answer).unwrap();
+    let given = view(text, Some(analysis), (&[], Some(&stand)), Watch::NONE).unwrap();
+    let answer = serde_json::to_value(&given.answer).unwrap();
     let point = answer.pointer(part).unwrap();
-    let stands = told.stands.unwrap();
+    let stands = given.stands.unwrap();
     let branches = stands.pose.answer.postures.iter().map(|posture| &posture.branch);
-    let held = branches
+    let evaluation = branches
         .zip(&stands.pose.in_plane)
         .find(|(branch, _)| json!(branch) == point["branch"]);
-    let here = held.unwrap().1[stands.case - 1].clone().unwrap();
+    let here = evaluation.unwrap().1[stands.case - 1].clone().unwrap();
     let length = here.deviation_um.iter().map(|um| um * um).sum::<f64>().sqrt();
     assert!((length - here.full_um).abs() < 1e-6 * length);
     // One posture has one deviation, whichever part of the answer tells it.
@@ -316,14 +316,14 @@ fn worst_beside_stand(text: Text<'_>, ask: &str, part: &str) -> [(f64, f64, Vec<
         for (a, b) in total.iter().zip(case.deviation_um) {
             assert!(
                 (a - b).abs() < 1e-9 * length,
-                "{ask}, {}: {total:?}",
+                "{analysis}, {}: {total:?}",
                 posture.branch
             );
         }
     }
     // A place to ask for alone.
     let question = PostureQuestion {
-        ask: Some(ask),
+        analysis: Some(analysis),
         at: stands.at,
         case: stands.case,
     };
@@ -331,7 +331,7 @@ fn worst_beside_stand(text: Text<'_>, ask: &str, part: &str) -> [(f64, f64, Vec<
     assert_eq!(
         serde_json::to_value(&alone).unwrap(),
         serde_json::to_value(&stands.pose).unwrap(),
-        "{ask}"
+        "{analysis}"
     );
     let number = |key: &str| point[key].as_f64().unwrap();
     let shares = point["joint_share_um"].as_array().unwrap();
@@ -353,11 +353,11 @@ fn an_arm_at_the_worst_point_deviates_as_the_answer_says_on_a_cut_or_searched_pa
     let bent = CIRCLE.replace("[0, 0, 150, 0, 0, 0]", "[60, 0, 150, 0, 30, 0]");
     let searched = "posture = { search = { turns_deg = [-60, 60], step_deg = 20 } }\n";
     let holes = format!(
-        "{bent}[[ask]]\nkind = \"holes\"\nname = \"rivets\"\nholes = {{ at_mm = [[0, 0, 0], [40, 20, 0]] }}\n{searched}"
+        "{bent}[[analysis]]\nkind = \"holes\"\nname = \"rivets\"\nholes = {{ at_mm = [[0, 0, 0], [40, 20, 0]] }}\n{searched}"
     );
     let turned = bent.replace("name = \"rim\"\n", &format!("name = \"rim\"\n{searched}"));
     let mut found = Vec::new();
-    for (text, ask, part) in [
+    for (text, analysis, part) in [
         (text(&pocket), "pocket", "/paths/0/worst"),
         (of(&bent), "rim", "/paths/0/worst"),
         (of(&turned), "rim", "/paths/0/worst"),
@@ -365,11 +365,11 @@ fn an_arm_at_the_worst_point_deviates_as_the_answer_says_on_a_cut_or_searched_pa
         (of(&bent), "box", "/volumes/0/worst"),
         (of(&holes), "rivets", "/holes/0/worst_holes/0/point"),
     ] {
-        let [answer, stand] = worst_beside_stand(text, ask, part);
+        let [answer, stand] = worst_beside_stand(text, analysis, part);
         let close = |a: f64, b: f64| (a - b).abs() < 1e-6 * a.abs().max(1.0);
-        assert!(close(answer.0, stand.0), "{ask}: {} {}", answer.0, stand.0);
-        assert!(close(answer.1, stand.1), "{ask}: {} {}", answer.1, stand.1);
-        assert!(answer.2.iter().zip(&stand.2).all(|(a, b)| close(*a, *b)), "{ask}");
+        assert!(close(answer.0, stand.0), "{analysis}: {} {}", answer.0, stand.0);
+        assert!(close(answer.1, stand.1), "{analysis}: {} {}", answer.1, stand.1);
+        assert!(answer.2.iter().zip(&stand.2).all(|(a, b)| close(*a, *b)), "{analysis}");
         found.push(answer.0);
     }
     assert!(found[1] > found[2] + 1.0, "the search finds turns: {found:?}");
@@ -389,68 +389,68 @@ fn what_moves_the_tool_without_load_is_in_the_posture_that_the_answer_has() {
         folder: folder.path(),
         ..of(&loose)
     };
-    for (ask, part) in [
+    for (analysis, part) in [
         ("rim", "/paths/0/worst"),
         ("far", "/maps/0/worst"),
         ("box", "/volumes/0/worst"),
     ] {
-        let [answer, stand] = worst_beside_stand(text, ask, part);
+        let [answer, stand] = worst_beside_stand(text, analysis, part);
         assert!(
             (answer.0 - stand.0).abs() < 1e-3,
-            "{ask}: {} {}",
+            "{analysis}: {} {}",
             answer.0,
             stand.0
         );
         assert!(
             (answer.1 - stand.1).abs() < 1e-3,
-            "{ask}: {} {}",
+            "{analysis}: {} {}",
             answer.1,
             stand.1
         );
-        let [without, _] = worst_beside_stand(of(CIRCLE), ask, part);
-        assert!(answer.0 > without.0 + 1.0, "{ask}: {} {}", answer.0, without.0);
+        let [without, _] = worst_beside_stand(of(CIRCLE), analysis, part);
+        assert!(answer.0 > without.0 + 1.0, "{analysis}: {} {}", answer.0, without.0);
     }
 }
 
 #[test]
 fn the_arm_of_a_view_stands_where_the_answer_says() {
-    let holes = "[[ask]]\nkind = \"holes\"\nname = \"rivets\"\nholes = { at_mm = [[0, 0, 0], [40, 20, 0]] }\nposture = { search = { turns_deg = [0, 0] } }\n";
+    let holes = "[[analysis]]\nkind = \"holes\"\nname = \"rivets\"\nholes = { at_mm = [[0, 0, 0], [40, 20, 0]] }\nposture = { search = { turns_deg = [0, 0] } }\n";
     let study = format!("{CIRCLE}{holes}");
-    let shown = |ask: &str, follow: Follow, section: usize| {
+    let shown = |analysis: &str, follow: Follow, section: usize| {
         let stand = Stand {
             follow,
             at: None,
             section,
             case: None,
         };
-        view(of(&study), Some(ask), (&[], Some(&stand)), Watch::NONE).unwrap()
+        view(of(&study), Some(analysis), (&[], Some(&stand)), Watch::NONE).unwrap()
     };
-    for (ask, follow, section, part) in [
+    for (analysis, follow, section, part) in [
         ("far", Follow::Worst, 1, "/maps/1/worst"),
         ("far", Follow::Best, 0, "/maps/0/best"),
         ("rim", Follow::Worst, 0, "/paths/0/worst"),
         ("box", Follow::Best, 0, "/volumes/0/best"),
         ("rivets", Follow::Worst, 0, "/holes/0/worst_holes/0/point"),
     ] {
-        let told = shown(ask, follow, section);
-        let answer = serde_json::to_value(&told.answer).unwrap();
+        let given = shown(analysis, follow, section);
+        let answer = serde_json::to_value(&given.answer).unwrap();
         let point = answer.pointer(part).unwrap();
-        let stands = told.stands.unwrap();
-        assert_eq!(json!(stands.case), point["deciding_case"], "{ask}");
+        let stands = given.stands.unwrap();
+        assert_eq!(json!(stands.case), point["deciding_case"], "{analysis}");
         // Whose posture is that, and does it deviate as the answer says there?
         let near = stands.pose.answer.postures.iter().zip(&stands.pose.in_plane);
         let most = |cases: &[Option<armill_study::live::CaseAnswer>]| {
-            let told = cases.iter().flatten().map(|case| case.in_plane_um);
-            told.fold(0.0, f64::max)
+            let given = cases.iter().flatten().map(|case| case.in_plane_um);
+            given.fold(0.0, f64::max)
         };
         let off = near
             .filter(|(posture, _)| json!(posture.branch) == point["branch"])
             .map(|(_, cases)| (most(cases) - point["in_plane_um"].as_f64().unwrap()).abs())
             .fold(f64::INFINITY, f64::min);
-        assert!(off < 2e-3, "{ask}: {off}");
+        assert!(off < 2e-3, "{analysis}: {off}");
         // A place to ask for alone.
         let question = PostureQuestion {
-            ask: Some(ask),
+            analysis: Some(analysis),
             at: stands.at,
             case: stands.case,
         };
@@ -471,28 +471,28 @@ fn the_arm_of_a_view_stands_where_the_answer_says() {
         section: 0,
         case: None,
     };
-    let told = view(of(CIRCLE), Some("rim"), (&[], Some(&gone)), Watch::NONE).unwrap();
-    assert!(told.stands.is_none() && told.extremes[0].worst.is_some());
+    let given = view(of(CIRCLE), Some("rim"), (&[], Some(&gone)), Watch::NONE).unwrap();
+    assert!(given.stands.is_none() && given.extremes[0].worst.is_some());
 }
 
 #[test]
 fn boxes_and_sections_have_theirs() {
-    let told = scene(of(CIRCLE), Some("box"), Watch::NONE).unwrap();
-    let counts = told.in_box.unwrap().counts;
+    let given = scene(of(CIRCLE), Some("box"), Watch::NONE).unwrap();
+    let counts = given.in_box.unwrap().counts;
     assert_eq!(
         counts.iter().product::<usize>(),
-        told.points.unwrap().xyz_mm.len()
+        given.points.unwrap().xyz_mm.len()
     );
-    let told = scene(of(CIRCLE), Some("far"), Watch::NONE).unwrap();
-    assert_eq!(told.sections.len(), 2);
-    assert!((told.sections[0].plate.centre_mm[0] - 900.0).abs() < 1e-9 && told.points.is_none());
+    let given = scene(of(CIRCLE), Some("far"), Watch::NONE).unwrap();
+    assert_eq!(given.sections.len(), 2);
+    assert!((given.sections[0].plate.centre_mm[0] - 900.0).abs() < 1e-9 && given.points.is_none());
 }
 
 #[test]
 fn places_that_are_none_are_refused_in_words() {
-    let refused = |at: Place, ask: &str| {
+    let refused = |at: Place, analysis: &str| {
         let question = PostureQuestion {
-            ask: Some(ask),
+            analysis: Some(analysis),
             at,
             case: 1,
         };

@@ -13,14 +13,14 @@ use armill_core::nalgebra::{Rotation3, Vector3};
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
 use armill_study::answer::{MeasuredAnswer, StudyAnswer, answer};
-use armill_study::file::path::PathAsk;
+use armill_study::file::path::PathAnalysis;
 use armill_study::file::resolve::{Study, read};
 use armill_study::run::{Found, run};
 
 /// A horizontal plate in front of an MH12.
 const CELL: &str = r#"format = 1
 robot = "yaskawa/mh12"
-limit_um = 60
+tolerance_um = 60
 plane = { centre_mm = [1000, 50, 500], tilt_deg = 90, half_size_mm = 100, step_mm = 50 }
 tool = { flange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0] }
 posture = { branch = "front elbow-up no-flip" }
@@ -47,33 +47,33 @@ fn study_of(program: &str, beside: &str, record: &str) -> Result<Study, String> 
     fs::write(folder.path().join("part.ngc"), program).unwrap();
     fs::write(folder.path().join("record.csv"), record).unwrap();
     let text = format!(
-        "{CELL}{CUT}\n[[ask]]\nkind = \"path\"\nname = \"part\"\n[ask.program]\nfile = \"part.ngc\"\n{beside}"
+        "{CELL}{CUT}\n[[analysis]]\nkind = \"path\"\nname = \"part\"\n[analysis.program]\nfile = \"part.ngc\"\n{beside}"
     );
     read("study.toml", folder.path(), text.as_bytes()).map_err(|error| error.to_string())
 }
 
-fn program(study: &Study) -> (&PathAsk, AlongPath) {
+fn program(study: &Study) -> (&PathAnalysis, AlongPath) {
     match run(study, Watch::NONE).unwrap().remove(0).found {
-        Found::Path(ask, found) => (ask, found.along),
+        Found::Path(analysis, found) => (analysis, found.along),
         _ => panic!("no path"),
     }
 }
 
-fn told(study: &Study) -> (StudyAnswer, MeasuredAnswer) {
+fn reported(study: &Study) -> (StudyAnswer, MeasuredAnswer) {
     let answer = answer(study, &run(study, Watch::NONE).unwrap());
     let measured = answer.paths[0].measured.clone().unwrap();
     (answer, measured)
 }
 
 /// When the tip is at each point, told from the text of the program.
-fn times(ask: &PathAsk) -> Vec<f64> {
+fn times(analysis: &PathAnalysis) -> Vec<f64> {
     let time = |point: &armill_core::path::PathPoint| match point.line {
         5 => point.along / 0.01,
         6 => 4.0 + (point.along - 0.04) / 0.005,
         10 => 8.5 + (point.along - 0.06) / 0.01,
         line => panic!("line {line}"),
     };
-    ask.track.path.points.iter().map(time).collect()
+    analysis.track.path.points.iter().map(time).collect()
 }
 
 /// Forces of the cut at the points where tool and cut rest, base axes, and the deviations that they make.
@@ -88,18 +88,18 @@ struct Witness {
 impl Witness {
     fn new() -> Witness {
         let of_cut = study("", "").unwrap();
-        let (ask, found) = program(&of_cut);
-        let count = ask.track.len();
+        let (analysis, found) = program(&of_cut);
+        let count = analysis.track.len();
         let force = |i: usize| {
             let mut out = [Wrench::ZERO];
-            ask.track.wrenches(&found.load, i, &mut out);
+            analysis.track.wrenches(&found.load, i, &mut out);
             out[0].force
         };
         Witness {
-            times: times(ask),
+            times: times(analysis),
             forces: (0..count).map(force).collect(),
-            feeds: (0..count).map(|i| ask.track.base_from_feed(i)).collect(),
-            part: ask.track.base_from_part.rotation.to_rotation_matrix(),
+            feeds: (0..count).map(|i| analysis.track.base_from_feed(i)).collect(),
+            part: analysis.track.base_from_part.rotation.to_rotation_matrix(),
             deviations: (0..count).map(|i| found.answers.deviations_at(i)[0]).collect(),
         }
     }
@@ -151,7 +151,7 @@ impl Witness {
 }
 
 const START_S: f64 = 1.2345;
-const MEASURED: &str = "[ask.program.measured]\nfile = \"record.csv\"\nrapid_mm_per_min = 6000\n";
+const MEASURED: &str = "[analysis.program.measured]\nfile = \"record.csv\"\nrapid_mm_per_min = 6000\n";
 const AIR: &str = "air_s = [[0, 1], [12, 13]]\n";
 
 /// A number without pattern from -1 to 1.
@@ -178,10 +178,10 @@ fn the_force_of_the_cut_as_a_drifting_record_deviates_as_the_cut() {
         "{MEASURED}{AIR}acts_on = \"part\"\nframe = \"base\"\nsensor_turned_deg = 30\nstart_s = {START_S}\n"
     );
     let ran = study(&beside, &record).unwrap();
-    let (ask, found) = program(&ran);
+    let (analysis, found) = program(&ran);
     let differs = witness.differs(&found, 0, 0.002, 1.0);
     assert!(differs < EXACT, "{differs}");
-    let (_, measured) = told(&ran);
+    let (_, measured) = reported(&ran);
     assert!((measured.start_s - START_S).abs() < 1e-12 && (measured.end_s - START_S - CUTS_S).abs() < 1e-9);
     // 10.5 s at 1 kHz.
     assert!(
@@ -197,7 +197,7 @@ fn the_force_of_the_cut_as_a_drifting_record_deviates_as_the_cut() {
         (rate + turn * Vector3::new(0.5, 0.2, -0.7)).norm() < 1e-5,
         "{rate}"
     );
-    assert!(ask.cut.is_none() && ask.forces.is_none());
+    assert!(analysis.cut.is_none() && analysis.forces.is_none());
 }
 
 #[test]
@@ -212,7 +212,7 @@ fn a_prediction_finds_a_noisy_record_to_a_sample() {
         "{MEASURED}air_s = [[0, 5], [17, 20]]\nacts_on = \"tool\"\nframe = \"base\"\nsynchronise = \"predicted\"\nlow_pass_hz = 10\n"
     );
     let ran = study(&beside, &record).unwrap();
-    let (answer, measured) = told(&ran);
+    let (answer, measured) = reported(&ran);
     assert!((measured.start_s - 5.4321).abs() < 1e-3, "{}", measured.start_s);
     assert!(
         measured.likeness.unwrap() > 0.9 && measured.confidence.unwrap() > 0.3,
@@ -233,7 +233,7 @@ fn the_first_crossing_of_a_threshold_is_the_begin() {
         "{MEASURED}drift = false\nacts_on = \"tool\"\nframe = \"base\"\nsynchronise = \"threshold\"\nthreshold_n = 1\n"
     );
     let ran = study(&beside, &record).unwrap();
-    let (_, measured) = told(&ran);
+    let (_, measured) = reported(&ran);
     assert!(
         (measured.start_s - START_S).abs() < 1e-3 && measured.drift.is_none(),
         "{measured:?}"
@@ -286,7 +286,7 @@ fn kilonewtons_and_an_export_with_tabs_are_the_same_force() {
         format!("{MEASURED}start_s = {START_S}\ndrift = false\nacts_on = \"tool\"\nframe = \"base\"\n");
     for (text, format) in [(record, "CSV"), (export, "DynoWare")] {
         let ran = study(&beside, &text).unwrap();
-        assert_eq!(told(&ran).1.format, format);
+        assert_eq!(reported(&ran).1.format, format);
         // Seven decimals of kN: a thousandth of what is left otherwise.
         let differs = witness.differs(&program(&ran).1, 0, 0.002, 1.0);
         assert!(differs < 1e3 * EXACT, "{differs}");
@@ -303,7 +303,7 @@ fn teeth_leave_the_mean_of_a_turn_and_make_its_extreme() {
         "{MEASURED}start_s = {START_S}\ndrift = false\nacts_on = \"tool\"\nframe = \"base\"\nspindle_rpm = 9000\npeak = true\nu_percent = 20\n"
     );
     let ran = study(&beside, &record).unwrap();
-    let (ask, found) = program(&ran);
+    let (analysis, found) = program(&ran);
     assert_eq!(found.answers.case_count, 2);
     // A turn takes 6.7 ms; two waves of ten samples each have no mean.
     let differs = witness.differs(&found, 0, 0.02, 1.0);
@@ -314,8 +314,8 @@ fn teeth_leave_the_mean_of_a_turn_and_make_its_extreme() {
         let ratio = found.answers.deviations_at(i)[1].norm() / witness.deviations[i].norm();
         assert!((1.45..1.51).contains(&ratio), "{i}: {ratio}");
     }
-    assert!((ask.setting.doubt.relative - 0.2).abs() < 1e-15);
-    let (answer, measured) = told(&ran);
+    assert!((analysis.setting.uncertainty.relative - 0.2).abs() < 1e-15);
+    let (answer, measured) = reported(&ran);
     let (mean, most) = (measured.largest_n, measured.largest_peak_n.unwrap());
     assert!((1.4..1.51).contains(&(most / mean)), "{mean} {most}");
     let worst = answer.paths[0].worst.as_ref().unwrap();
@@ -335,7 +335,7 @@ fn a_cut_that_fits_twice_is_warned_of() {
         "{MEASURED}drift = false\nacts_on = \"tool\"\nframe = \"base\"\nsynchronise = \"predicted\"\n"
     );
     let ran = study_of(once, &beside, &twice).unwrap();
-    let (answer, measured) = told(&ran);
+    let (answer, measured) = reported(&ran);
     assert!(measured.confidence.unwrap() < 0.05, "{measured:?}");
     assert!(
         answer
@@ -438,7 +438,7 @@ fn what_is_wrong_is_told_at_its_place() {
             &["holds 1 cycles, not a cycle 2"],
         ),
         (
-            format!("{base}{axes}{start}\n[ask.load]\ncases_n = [[1, 2, 3]]\n"),
+            format!("{base}{axes}{start}\n[analysis.load]\ncases_n = [[1, 2, 3]]\n"),
             &good,
             &["a load and measured forces"],
         ),
@@ -458,20 +458,20 @@ fn a_prediction_needs_its_cut_and_a_program_its_feed() {
     let witness = Witness::new();
     let good = witness.record((13.0, 100.0, START_S), |force, _, _| force);
     fs::write(folder.path().join("record.csv"), good).unwrap();
-    let ask = "\n[[ask]]\nkind = \"path\"\n[ask.program]\nfile = \"part.csv\"\n";
+    let analysis = "\n[[analysis]]\nkind = \"path\"\n[analysis.program]\nfile = \"part.csv\"\n";
     let axes = "drift = false\nacts_on = \"tool\"\nframe = \"base\"\n";
-    let told = |last: &str| {
-        let text = format!("{CELL}{ask}{MEASURED}{axes}{last}\n");
+    let reported = |last: &str| {
+        let text = format!("{CELL}{analysis}{MEASURED}{axes}{last}\n");
         let read = read("study.toml", folder.path(), text.as_bytes());
         read.map(|_| ()).map_err(|error| error.to_string())
     };
-    let message = told("synchronise = \"predicted\"\nfeed_mm_per_min = 600").unwrap_err();
+    let message = reported("synchronise = \"predicted\"\nfeed_mm_per_min = 600").unwrap_err();
     assert!(message.contains("no `cut` predicts the force"), "{message}");
-    let message = told("start_s = 1").unwrap_err();
+    let message = reported("start_s = 1").unwrap_err();
     assert!(
         message.contains("feed") && message.contains("feed_mm_per_min = 600"),
         "{message}"
     );
     // 60 mm at 10 mm/s: the record is long enough.
-    assert_eq!(told("start_s = 1\nfeed_mm_per_min = 600"), Ok(()));
+    assert_eq!(reported("start_s = 1\nfeed_mm_per_min = 600"), Ok(()));
 }

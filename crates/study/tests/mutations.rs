@@ -21,7 +21,7 @@ title = "Everything"
 question = "Does it hold?"
 robot = "yaskawa/mh12"
 base = "base_link"
-limit_um = 60
+tolerance_um = 60
 [compliance]
 rad_per_n_m = [1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 1e-6]
 u_rad_per_n_m = [1e-7, 1e-7, 1e-7, 1e-7, 1e-7, 1e-7]
@@ -41,37 +41,37 @@ moments_n_m = [[0, 0, 1], [0, 0, 2]]
 source = "none"
 [posture]
 branch = "front elbow-up"
-[[ask]]
+[[analysis]]
 kind = "map"
 name = "plate"
 plane.rotation_deg = [90, 0, 90]
 plane.half_size_mm = 80
-[[ask]]
+[[analysis]]
 kind = "sections"
 name = "tilts"
 tilts_deg = [0, 30]
 posture.branch = "best"
-[[ask]]
+[[analysis]]
 kind = "sections"
 distances_mm = [800, 900]
-[[ask]]
+[[analysis]]
 kind = "volume"
 box = { centre_mm = [900, 0, 800], half_size_mm = [50, 50, 50], step_mm = 50 }
-[[ask]]
+[[analysis]]
 kind = "path"
 name = "circle"
 circle = { centre_mm = [0, 20], radius_mm = 40 }
 step_mm = 20
-[[ask]]
+[[analysis]]
 kind = "path"
 line = { from_mm = [0, 0], to_mm = [50, 0] }
-[[ask]]
+[[analysis]]
 kind = "path"
 polyline_mm = [[0, 0], [50, 0], [50, 50]]
-[[ask]]
+[[analysis]]
 kind = "path"
 rectangle = { centre_mm = [0, 0], size_mm = [60, 40] }
-[[ask]]
+[[analysis]]
 kind = "holes"
 posture.search = { turns_deg = [-90, 90], step_deg = 30, counts = "in-plane", least_wrist_deg = 3 }
 holes = { at_mm = [[0, 0, 0], [20, 0, 5]], normals = [[0, 0, 1]], part_from_holes_mm_deg = [0, 0, 0, 0, 0, 0] }
@@ -210,7 +210,7 @@ fn outcome(text: &[u8]) -> Result<(), TestCaseError> {
     for map in &answer.maps {
         let c = map.counts;
         let points = c.within
-            + c.over_limit
+            + c.above_tolerance
             + c.out_of_reach
             + c.no_posture_inside_limits
             + c.not_found
@@ -229,7 +229,7 @@ fn outcome(text: &[u8]) -> Result<(), TestCaseError> {
 #[test]
 fn the_text_that_is_mutated_is_good() {
     let study = study(GOOD.as_bytes()).unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!(study.asks.len(), 9);
+    assert_eq!(study.analyses.len(), 9);
     assert!(numbers(GOOD).len() > 60, "{:?}", numbers(GOOD));
     outcome(GOOD.as_bytes()).unwrap();
 }
@@ -239,16 +239,16 @@ fn lists_longer_than_a_person_writes_are_refused() {
     let tilts: String = (0..1001)
         .map(|index| format!("{}, ", f64::from(index) * 0.1))
         .collect();
-    let asks = "[[ask]]\nkind = \"map\"\n".repeat(201);
+    let analyses = "[[analysis]]\nkind = \"map\"\n".repeat(201);
     for (text, most) in [
         (
             GOOD.replace("tilts_deg = [0, 30]", &format!("tilts_deg = [{tilts}]")),
             "1000",
         ),
-        (format!("{GOOD}{asks}"), "200"),
+        (format!("{GOOD}{analyses}"), "200"),
     ] {
-        let told = study(text.as_bytes()).unwrap_err().to_string();
-        assert!(told.contains(most) && told.contains("entries"), "{told}");
+        let given = study(text.as_bytes()).unwrap_err().to_string();
+        assert!(given.contains(most) && given.contains("entries"), "{given}");
     }
 }
 
@@ -323,7 +323,7 @@ proptest! {
         let Ok(mut study) = study(text.as_bytes()) else { return Ok(()) };
         prop_assume!(point_count(&study) <= MOST_POINTS);
         // One of each kind is enough to draw.
-        study.asks.truncate(2);
+        study.analyses.truncate(2);
         let found = run(&study, Watch::NONE).unwrap();
         let folder = tempfile::tempdir().unwrap();
         let out = Writer::new("run", false).folder(folder.path()).unwrap();

@@ -45,19 +45,19 @@ fn flip(joint: &mut Joint) {
 
 /// Poses of `real` as its pendant shows them, counted from a base this high, tool 0.
 fn read(real: &Robot, poses_deg: &[[f64; 6]], base_height: f64) -> Vec<(Vec<f64>, Isometry)> {
-    let base_from_counted = Isometry::translation(0.0, 0.0, base_height);
+    let base_from_reference = Isometry::translation(0.0, 0.0, base_height);
     let one = |deg: &[f64; 6]| {
         let q = deg.map(f64::to_radians);
         let pose = posture_at(real, &q, &Isometry::identity()).base_from_tool;
         // A pendant rounds to 0.01 mm.
-        let mut shown = base_from_counted.inverse() * pose;
+        let mut shown = base_from_reference.inverse() * pose;
         shown.translation.vector.apply(|m| *m = (*m * 1e5).round() / 1e5);
         (deg.to_vec(), shown)
     };
     poses_deg.iter().map(one).collect()
 }
 
-fn asked(file: &RobotDescription, readings: Vec<(Vec<f64>, Isometry)>) -> PendantAnswer {
+fn requested(file: &RobotDescription, readings: Vec<(Vec<f64>, Isometry)>) -> PendantAnswer {
     let question = PendantQuestion {
         readings,
         flange_from_tool: Isometry::identity(),
@@ -85,7 +85,7 @@ fn a_file_that_fits_agrees_and_nothing_is_unseen() {
         "abb/irb6640-185-280",
     ] {
         let arm = arm(name);
-        let answer = asked(&arm, read(&arm.robot, &POSES_DEG, 0.0));
+        let answer = requested(&arm, read(&arm.robot, &POSES_DEG, 0.0));
         assert_eq!(answer.verdict, "agrees", "{name}");
         assert!(answer.unseen.is_empty(), "{name}: {:?}", answer.unseen);
         assert!(answer.readings.iter().all(|reading| reading.apart_mm < 0.02));
@@ -98,7 +98,7 @@ fn the_joint_whose_sign_was_turned_is_named() {
     for joint in 0..6 {
         let file = with_joints(&real, |joints| flip(&mut joints[joint]));
         let sign = real.robot.joints()[joint].sign.factor();
-        let answer = asked(&file, read(&real.robot, &POSES_DEG, 0.0));
+        let answer = requested(&file, read(&real.robot, &POSES_DEG, 0.0));
         let expected = format!(
             "joint A{} counts the other way: sign = {sign} in place of {}",
             joint + 1,
@@ -112,7 +112,7 @@ fn the_joint_whose_sign_was_turned_is_named() {
 fn a_zero_off_by_a_quarter_turn_is_named_with_the_value_of_the_file() {
     let real = arm("kuka/kr120r2500pro");
     let file = with_joints(&real, |joints| joints[1].zero_offset += 90_f64.to_radians());
-    let answer = asked(&file, read(&real.robot, &POSES_DEG, 0.0));
+    let answer = requested(&file, read(&real.robot, &POSES_DEG, 0.0));
     assert_explained(
         &answer,
         &["joint A2 has its zero elsewhere: zero_offset_deg = 0 in place of 90"],
@@ -123,7 +123,7 @@ fn a_zero_off_by_a_quarter_turn_is_named_with_the_value_of_the_file() {
 fn a_zero_off_by_any_angle_is_found() {
     let real = arm("yaskawa/gp25");
     let file = with_joints(&real, |joints| joints[2].zero_offset -= 12.34_f64.to_radians());
-    let answer = asked(&file, read(&real.robot, &POSES_DEG, 0.0));
+    let answer = requested(&file, read(&real.robot, &POSES_DEG, 0.0));
     assert_eq!(answer.verdict, "explained", "{answer:?}");
     let words = &answer.explanations[0].changes[0];
     assert!(
@@ -143,19 +143,19 @@ fn the_coupling_of_a_fanuc_pendant_is_named_either_way() {
     };
     let file = arm("fanuc/m20ia");
     let pendant = with_joints(&file, coupled);
-    let answer = asked(&file, read(&pendant.robot, &POSES_DEG, 0.0));
+    let answer = requested(&file, read(&pendant.robot, &POSES_DEG, 0.0));
     assert_explained(
         &answer,
         &["joint J3 counts J2 in: coupling = [{ joint = \"J2\", factor = 1 }]"],
     );
-    let answer = asked(&pendant, read(&file.robot, &POSES_DEG, 0.0));
+    let answer = requested(&pendant, read(&file.robot, &POSES_DEG, 0.0));
     assert_explained(&answer, &["joint J3 does not count J2 in: take out its coupling"]);
 }
 
 #[test]
 fn a_pendant_that_counts_from_its_controller_frame_is_named() {
     let arm = arm("yaskawa/mh12");
-    let answer = asked(&arm, read(&arm.robot, &POSES_DEG, 0.45));
+    let answer = requested(&arm, read(&arm.robot, &POSES_DEG, 0.45));
     assert_explained(
         &answer,
         &["the pendant counts from a base 450.00 mm above base_link, its frame `controller`"],
@@ -172,7 +172,7 @@ fn a_sign_a_coupling_and_a_base_together_are_told_apart() {
             factor: 1.0,
         }];
     });
-    let answer = asked(&file, read(&real.robot, &POSES_DEG, 0.565));
+    let answer = requested(&file, read(&real.robot, &POSES_DEG, 0.565));
     assert_explained(
         &answer,
         &[
@@ -192,7 +192,7 @@ fn a_flange_frame_left_parallel_to_the_last_link_is_named() {
         .into_iter()
         .map(|(joints, pose)| (joints, pose * flange_from_other))
         .collect();
-    let answer = asked(&real, readings);
+    let answer = requested(&real, readings);
     assert_explained(
         &answer,
         &[
@@ -212,7 +212,7 @@ fn positions_in_inches_are_named() {
         })
         .collect();
     assert_explained(
-        &asked(&arm, readings),
+        &requested(&arm, readings),
         &["positions were read in inches, not in mm"],
     );
 }
@@ -220,7 +220,7 @@ fn positions_in_inches_are_named() {
 #[test]
 fn joints_at_zero_determine_no_sign() {
     let arm = arm("yaskawa/mh12");
-    let answer = asked(&arm, read(&arm.robot, &[[0.0; 6]], 0.0));
+    let answer = requested(&arm, read(&arm.robot, &[[0.0; 6]], 0.0));
     assert_eq!(answer.verdict, "agrees");
     for joint in ["S", "L", "U", "R", "B", "T"] {
         let sign = format!("joint {joint} counts the other way");
@@ -247,7 +247,7 @@ fn readings_that_two_changes_explain_are_undecided() {
         [10.0, 90.0, 25.0, 40.0, -55.0, 65.0],
         [-20.0, 90.0, 50.0, -30.0, 35.0, -115.0],
     ];
-    let answer = asked(&file, read(&pendant.robot, &poses, 0.0));
+    let answer = requested(&file, read(&pendant.robot, &poses, 0.0));
     assert_eq!(answer.verdict, "undecided", "{answer:?}");
     let all: Vec<&String> = answer.explanations.iter().flat_map(|e| &e.changes).collect();
     assert!(all.iter().any(|words| words.contains("coupling")), "{all:?}");
@@ -261,7 +261,7 @@ fn readings_that_two_changes_explain_are_undecided() {
 #[test]
 fn another_length_of_a_link_is_explained_by_nothing() {
     let real = arm("kuka/kr150-2");
-    let answer = asked(&arm("kuka/kr150r3100-2"), read(&real.robot, &POSES_DEG, 0.0));
+    let answer = requested(&arm("kuka/kr150r3100-2"), read(&real.robot, &POSES_DEG, 0.0));
     assert_eq!(answer.verdict, "unexplained", "{answer:?}");
 }
 

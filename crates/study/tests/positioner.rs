@@ -43,7 +43,7 @@ licence = "none needed"
 
 const STUDY: &str = r#"format = 1
 robot = "yaskawa/mh12"
-limit_um = 60
+tolerance_um = 60
 BASE
 plane = { centre_mm = CENTRE, rotation_deg = ROTATION, half_size_mm = 100, step_mm = 50 }
 load = { cases_n = [[3, -5, 5], [3, 5, 5]] }
@@ -107,7 +107,7 @@ fn a_part_on_the_table_lies_where_its_joints_put_it() {
         "",
     );
     let (a, b) = (answered(&folder, &on_table), answered(&folder, &in_base));
-    assert!(a.maps[0].counts.within + a.maps[0].counts.over_limit > 10);
+    assert!(a.maps[0].counts.within + a.maps[0].counts.above_tolerance > 10);
     assert_eq!(a.maps[0].setting.base, "table");
     for (a, b) in a.maps[0].grid.in_plane_um.iter().zip(&b.maps[0].grid.in_plane_um) {
         // Both are rounded to 0.1 nm.
@@ -121,16 +121,16 @@ fn a_part_on_the_table_lies_where_its_joints_put_it() {
 #[test]
 fn a_box_stands_along_the_axes_of_the_table() {
     let folder = cell("positioner-box", "", "");
-    let ask = "[[ask]]\nkind = \"volume\"\nname = \"box\"\nbox = { half_size_mm = [100, 100, 100], step_mm = 50 }\n";
+    let analysis = "[[analysis]]\nkind = \"volume\"\nname = \"box\"\nbox = { half_size_mm = [100, 100, 100], step_mm = 50 }\n";
     let text = study(
         "base = \"table\"",
         "[50, 0, 200]",
         "[0, 0, 0]",
-        &format!("{}{ask}", positioner("[30, 40]")),
+        &format!("{}{analysis}", positioner("[30, 40]")),
     );
     let answer = answered(&folder, &text);
     let of_box = &answer.volumes[0];
-    assert!(of_box.counts.within + of_box.counts.over_limit > 30);
+    assert!(of_box.counts.within + of_box.counts.above_tolerance > 30);
     for (corner, expected) in of_box.origin_mm.iter().zip([-50.0, -100.0, 100.0]) {
         assert!((corner - expected).abs() < 1e-9);
     }
@@ -156,7 +156,7 @@ fn a_box_stands_along_the_axes_of_the_table() {
 fn what_the_table_yields_adds_to_what_the_arm_yields() {
     // The tilt axis runs along x through (1000, 0, 400); a force of 5 N along y at height z turns it by c 5 N (z - 0.4 m).
     let plane = ("[1000, 0, 900]", "[0, -90, 0]");
-    let load = "[[ask]]\nkind = \"map\"\nname = \"m\"\nload = { cases_n = [[0, 5, 0]] }\n";
+    let load = "[[analysis]]\nkind = \"map\"\nname = \"m\"\nload = { cases_n = [[0, 5, 0]] }\n";
     let text = |more: &str| {
         // The centre alone.
         study("", plane.0, plane.1, &format!("{more}{load}"))
@@ -187,7 +187,7 @@ fn what_the_table_yields_adds_to_what_the_arm_yields() {
 #[test]
 fn what_is_wrong_with_a_positioner_is_told_at_its_place() {
     let folder = cell("positioner-wrong", "", "");
-    for (positioner_text, at, told) in [
+    for (positioner_text, at, given) in [
         (
             positioner("[30]"),
             "joints_deg",
@@ -208,7 +208,7 @@ fn what_is_wrong_with_a_positioner_is_told_at_its_place() {
         let error = read("study.toml", &folder, text.as_bytes())
             .unwrap_err()
             .to_string();
-        assert!(error.contains(told), "{error}");
+        assert!(error.contains(given), "{error}");
         assert!(error.contains("study.toml:") && error.contains(at), "{error}");
     }
     // The frame is there only with a positioner.

@@ -15,7 +15,7 @@ use armill_study::run::{Found, run};
 /// 5 x 5 points in front of an MH12; tool along base x, tables can be appended.
 const PLATE: &str = r#"format = 1
 robot = "yaskawa/mh12"
-limit_um = 60
+tolerance_um = 60
 load_dependent = false
 plane = { centre_mm = [900, 0, 800], tilt_deg = 0, half_size_mm = 200, step_mm = 100 }
 load = { cases_n = [[3, 5, -5]] }
@@ -70,7 +70,7 @@ fn a_cutter_adds_its_bending_across_the_tool_axis() {
 fn the_answer_says_which_parts_were_on_and_whom_shares_are_of() {
     let plain = answered(&study(PLATE));
     assert_eq!(plain.maps[0].setting.model, ["drive springs"]);
-    assert_eq!(plain.maps[0].setting.shares_of, ["S", "L", "U", "R", "B", "T"]);
+    assert_eq!(plain.maps[0].setting.contributors, ["S", "L", "U", "R", "B", "T"]);
     let flange = "[[tool.spring]]\nat = \"flange\"\nabout = \"x\"\ncompliance_rad_per_n_m = 1e-6\nsource = \"guess\"\n";
     let reference = "[gravity]\nreference_joints_deg = [0, 0, 0, 0, 0, 0]\n";
     let text = format!("{PLATE}{CUTTER}{flange}{SPINDLE}{reference}")
@@ -78,7 +78,7 @@ fn the_answer_says_which_parts_were_on_and_whom_shares_are_of() {
     let full = answered(&study(&text));
     let setting = &full.maps[0].setting;
     assert_eq!(
-        setting.shares_of,
+        setting.contributors,
         ["S", "L", "U", "R", "B", "T", "flange", "tool"]
     );
     assert_eq!(
@@ -119,9 +119,9 @@ fn gravity_is_nothing_where_the_tool_was_set() {
 
 #[test]
 fn known_masses_without_gravity_are_told_and_change_nothing() {
-    let told = answered(&study(&format!("{PLATE}{SPINDLE}")));
+    let given = answered(&study(&format!("{PLATE}{SPINDLE}")));
     assert!(
-        told.warnings
+        given.warnings
             .iter()
             .any(|w| w.contains("1 mass is known, but gravity is left out"))
     );
@@ -144,8 +144,8 @@ fn a_load_that_no_arm_stands_is_counted_by_its_reason() {
     let text = PLATE
         .replace("load_dependent = false", "load_dependent = true")
         .replace("[3, 5, -5]", "[-1e6, 0, -1e6]");
-    let told = answered(&study(&text));
-    let (map, counts) = (&told.maps[0], told.maps[0].counts);
+    let given = answered(&study(&text));
+    let (map, counts) = (&given.maps[0], given.maps[0].counts);
     assert_eq!(counts.unstable, 25);
     assert!(map.worst.is_none() && map.grid.in_plane_um.iter().all(Option::is_none));
     assert_eq!(

@@ -1,6 +1,6 @@
-//! Prints how the server is told to a program; `cargo xtask web` makes the types of the page from it.
+//! Prints how the server is reported to a program; `cargo xtask web` makes the types of the page from it.
 
-// An example prints what it is asked for.
+// An example prints what it is requested.
 #![allow(clippy::print_stdout)]
 
 fn main() {

@@ -3,7 +3,7 @@
 //! | path | answers |
 //! |---|---|
 //! | `POST /api/answer` | as `armill run --json` of one ask, or of all |
-//! | `POST /api/view` | answer, values, scene of an ask and how the arm stands in it at once, after values are changed |
+//! | `POST /api/view` | answer, values, scene of an ask and how the arm is in it at once, after values are changed |
 //! | `POST /api/values` | the settings that an ask resolves to |
 //! | `POST /api/pose` | the arm at one place of an ask |
 //! | `POST /api/scene` | what of an ask can be drawn in space |
@@ -39,11 +39,11 @@ const JSON: &str = "application/json";
 /// An ask of a text.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct OfAsk {
+pub(crate) struct OfAnalysis {
     /// The text of the study.
     pub text: String,
     /// Its ask; all of them, or the first, where none is named.
-    pub ask: Option<String>,
+    pub analysis: Option<String>,
 }
 
 /// An ask of a text in which values are changed first.
@@ -53,11 +53,11 @@ pub(crate) struct OfView {
     /// The text of the study.
     pub text: String,
     /// Its ask, whose values they are; the first where none is named.
-    pub ask: Option<String>,
+    pub analysis: Option<String>,
     /// What changes; nothing if left out.
     #[serde(default)]
     pub changes: Vec<ChangedValue>,
-    /// Where the arm is to stand in it; nowhere if left out.
+    /// Where the arm is to are in it; nowhere if left out.
     pub stand: Option<Stand>,
 }
 
@@ -78,7 +78,7 @@ pub(crate) struct OfPlace {
     /// The text of the study.
     pub text: String,
     /// Its ask; the first where none is named.
-    pub ask: Option<String>,
+    pub analysis: Option<String>,
     /// Where the tool is.
     pub at: Place,
     /// Load case, from 1.
@@ -97,7 +97,7 @@ pub(crate) struct OfTable {
     /// The text of the study.
     pub text: String,
     /// Its ask; the first where none is named.
-    pub ask: Option<String>,
+    pub analysis: Option<String>,
     /// How it is written.
     #[serde(default)]
     pub format: TableFormat,
@@ -122,7 +122,7 @@ pub(crate) struct OfPicture {
     /// The text of the study.
     pub text: String,
     /// Its ask; all of them where none is named.
-    pub ask: Option<String>,
+    pub analysis: Option<String>,
     /// The name of the picture.
     pub name: String,
 }
@@ -160,9 +160,9 @@ fn as_json(value: &impl Serialize) -> Result<Vec<u8>, StudyError> {
     Ok(serde_json::to_vec(value)?)
 }
 
-async fn answer(Shared(state): Shared<Arc<State>>, headers: HeaderMap, Asked(of): Asked<OfAsk>) -> Answered {
+async fn answer(Shared(state): Shared<Arc<State>>, headers: HeaderMap, Asked(of): Asked<OfAnalysis>) -> Answered {
     answered(state, (of.text, headers, JSON), move |text, watch| {
-        answer_json(text, of.ask.as_deref(), watch)
+        answer_json(text, of.analysis.as_deref(), watch)
     })
     .await
 }
@@ -176,7 +176,7 @@ async fn of_view(
     answered(state, (of.text, headers, JSON), move |text, watch| {
         as_json(&view(
             text,
-            of.ask.as_deref(),
+            of.analysis.as_deref(),
             (&of.changes, of.stand.as_ref()),
             watch,
         )?)
@@ -191,9 +191,9 @@ async fn mesh(Shared(state): Shared<Arc<State>>, Asked(of): Asked<OfMesh>) -> An
     .await
 }
 
-async fn of_values(Shared(state): Shared<Arc<State>>, Asked(of): Asked<OfAsk>) -> Answered {
+async fn of_values(Shared(state): Shared<Arc<State>>, Asked(of): Asked<OfAnalysis>) -> Answered {
     answered(state, (of.text, HeaderMap::new(), JSON), move |text, _| {
-        as_json(&values(text, of.ask.as_deref())?)
+        as_json(&values(text, of.analysis.as_deref())?)
     })
     .await
 }
@@ -202,7 +202,7 @@ async fn pose(Shared(state): Shared<Arc<State>>, headers: HeaderMap, Asked(of): 
     let headers = for_itself(&headers, "pose");
     answered(state, (of.text, headers, JSON), move |text, watch| {
         let question = PostureQuestion {
-            ask: of.ask.as_deref(),
+            analysis: of.analysis.as_deref(),
             at: of.at,
             case: of.case,
         };
@@ -214,11 +214,11 @@ async fn pose(Shared(state): Shared<Arc<State>>, headers: HeaderMap, Asked(of): 
 async fn of_scene(
     Shared(state): Shared<Arc<State>>,
     headers: HeaderMap,
-    Asked(of): Asked<OfAsk>,
+    Asked(of): Asked<OfAnalysis>,
 ) -> Answered {
     let headers = for_itself(&headers, "scene");
     answered(state, (of.text, headers, JSON), move |text, watch| {
-        as_json(&scene(text, of.ask.as_deref(), watch)?)
+        as_json(&scene(text, of.analysis.as_deref(), watch)?)
     })
     .await
 }
@@ -230,7 +230,7 @@ async fn table(Shared(state): Shared<Arc<State>>, Asked(of): Asked<OfTable>) -> 
         (of.text, HeaderMap::new(), "text/csv; charset=utf-8"),
         move |text, watch| match of.measured {
             true => measured_csv(text, watch),
-            false => table_csv(text, of.ask.as_deref(), watch),
+            false => table_csv(text, of.analysis.as_deref(), watch),
         },
     )
     .await
@@ -239,11 +239,11 @@ async fn table(Shared(state): Shared<Arc<State>>, Asked(of): Asked<OfTable>) -> 
 async fn of_pictures(
     Shared(state): Shared<Arc<State>>,
     headers: HeaderMap,
-    Asked(of): Asked<OfAsk>,
+    Asked(of): Asked<OfAnalysis>,
 ) -> Answered {
     let headers = for_itself(&headers, "pictures");
     answered(state, (of.text, headers, JSON), move |text, watch| {
-        as_json(&pictures(text, of.ask.as_deref(), watch)?)
+        as_json(&pictures(text, of.analysis.as_deref(), watch)?)
     })
     .await
 }
@@ -252,7 +252,7 @@ async fn picture_png(Shared(state): Shared<Arc<State>>, Asked(of): Asked<OfPictu
     answered(
         state,
         (of.text, HeaderMap::new(), "image/png"),
-        move |text, watch| output::png(&picture_svg(text, of.ask.as_deref(), &of.name, watch)?),
+        move |text, watch| output::png(&picture_svg(text, of.analysis.as_deref(), &of.name, watch)?),
     )
     .await
 }

@@ -33,10 +33,10 @@ impl Pieces {
     /// # Errors
     /// A body that says itself that it is too large.
     pub(crate) fn of(headers: &HeaderMap, body: Body, most: u64) -> Result<Pieces, ApiError> {
-        let told = headers
+        let given = headers
             .get(CONTENT_LENGTH)
             .and_then(|length| length.to_str().ok()?.parse().ok());
-        if told.is_some_and(|length: u64| length > most) {
+        if given.is_some_and(|length: u64| length > most) {
             return Err(ApiError::too_large(most));
         }
         Ok(Pieces {
@@ -85,8 +85,8 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for Asked<T> {
         let bytes = tokio::time::timeout(JSON_TIME, read)
             .await
             .map_err(|_| ApiError::too_slow())??;
-        let asked = serde_json::from_slice(&bytes);
-        asked
+        let requested = serde_json::from_slice(&bytes);
+        requested
             .map(Asked)
             .map_err(|error| ApiError::invalid(format!("the question: {error}")))
     }

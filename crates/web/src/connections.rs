@@ -75,7 +75,7 @@ impl Connections {
 }
 
 impl Place {
-    /// Waits until the place is wanted for another connection.
+    /// Waits until the place is required for another connection.
     pub(crate) async fn is_wanted(&mut self) {
         if (&mut self.closed).await.is_err() {
             // The token was shown: the place is kept.

@@ -1,4 +1,4 @@
-//! How is told what is wrong: `{"error": {"kind", "message", "hint", "problems"}}`, and the status that goes with it.
+//! How is reported what is wrong: `{"error": {"kind", "message", "hint", "problems"}}`, and the status that goes with it.
 
 use armill_formats::document::Problem;
 use armill_study::{ErrorKind, StudyError};
@@ -111,18 +111,18 @@ impl From<StudyError> for ApiError {
         let kind = error.kind();
         match (error, kind) {
             (StudyError::Problems(problems), _) => {
-                let mut told = ApiError::new(
+                let mut given = ApiError::new(
                     StatusCode::UNPROCESSABLE_ENTITY,
                     "invalid-input",
                     "the study has problems",
                 );
-                told.wrong.problems = problems.as_slice().to_vec();
-                told
+                given.wrong.problems = problems.as_slice().to_vec();
+                given
             }
             (StudyError::Value { message, hint }, _) => {
-                let mut told = ApiError::invalid(message);
-                told.wrong.hint = Some(hint);
-                told
+                let mut given = ApiError::invalid(message);
+                given.wrong.hint = Some(hint);
+                given
             }
             (error, ErrorKind::InvalidInput) => ApiError::invalid(error.to_string()),
             (error, ErrorKind::Cancelled) => {

@@ -42,11 +42,11 @@ const LONGEST_NAME: usize = 100;
 const PIECE: usize = 256 << 10;
 /// Endings that a browser shows.
 const SHOWN: [&str; 5] = ["svg", "png", "csv", "json", "html"];
-/// What a file may do that is shown: lie in a frame of the page, with its own styles and pictures, and no scripts.
+/// What a file may do that is shown: are in a frame of the page, with its own styles and pictures, and no scripts.
 const SHOWN_POLICY: &str =
     "sandbox; default-src 'none'; img-src 'self' data:; style-src 'unsafe-inline'; frame-ancestors 'self'";
 
-/// What lies in the folder.
+/// What is in the folder.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub(crate) struct Files {
     /// By name; at most 2000.
@@ -104,7 +104,7 @@ fn listed(root: &Path) -> Vec<FileRow> {
     files
 }
 
-/// Adds what lies in `folder`, so many folders deep.
+/// Adds what is in `folder`, so many folders deep.
 fn add(folder: &Path, before: &str, files: &mut Vec<FileRow>, depth: usize) {
     let Ok(entries) = std::fs::read_dir(folder) else {
         return;
@@ -164,15 +164,15 @@ pub(crate) fn inside(root: &Path, path: &str) -> Result<PathBuf, ApiError> {
 
 async fn read(Shared(state): Shared<Arc<State>>, InPath(path): InPath<String>) -> Answered {
     let shared = Arc::clone(&state);
-    let asked = path.clone();
+    let requested = path.clone();
     let real = state
         .work
-        .done(move |_| Ok(inside(&shared.cell.root, &asked)))
+        .done(move |_| Ok(inside(&shared.cell.root, &requested)))
         .await??;
     let none = |_| ApiError::not_found("there is no such file");
     let file = tokio::fs::File::open(&real).await.map_err(none)?;
     let length = file.metadata().await.map_err(none)?.len();
-    // No more than was told, should the file grow meanwhile.
+    // No more than was reported, should the file grow meanwhile.
     let pieces = stream::unfold((file, length), |(mut file, left)| async move {
         if left == 0 {
             return None;

@@ -101,12 +101,12 @@ impl Guard {
             .iter()
             .filter_map(|header| (*header)?.strip_prefix("Bearer "));
         let query = request.uri().query().unwrap_or_default();
-        let mut asked = query.split('&').filter_map(|pair| pair.strip_prefix("token="));
-        borne.any(|token| self.token.is(token)) || asked.any(|token| self.token.is(token))
+        let mut requested = query.split('&').filter_map(|pair| pair.strip_prefix("token="));
+        borne.any(|token| self.token.is(token)) || requested.any(|token| self.token.is(token))
     }
 }
 
-/// Every value of a header; `None` for one that is no text.
+/// Every value of a header; `None` for one that is not a text.
 fn all<'a>(headers: &'a HeaderMap, name: &HeaderName) -> Vec<Option<&'a str>> {
     headers
         .get_all(name)

@@ -37,7 +37,7 @@ impl JobState {
     }
 }
 
-/// A job, as it is told.
+/// A job, as it is reported.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub(crate) struct JobAnswer {
     /// What it is called.
@@ -54,13 +54,13 @@ pub(crate) struct JobAnswer {
     pub of: usize,
     /// The best so far, or what is being written.
     pub best: Option<String>,
-    /// Since it was asked for.
+    /// Since it was requested.
     pub started_s_ago: f64,
     /// How long it has computed.
     pub seconds: f64,
     /// Why it failed.
     pub error: Option<Wrong>,
-    /// Its answer, as the command's JSON; only where one job is asked for.
+    /// Its answer, as the command's JSON; only where one job is requested.
     #[schemars(with = "Option<serde_json::Value>")]
     pub answer: Option<Box<serde_json::value::RawValue>>,
     /// Files that it wrote, in the folder.
@@ -72,7 +72,7 @@ pub(crate) struct Job {
     pub id: String,
     task: Task,
     title: String,
-    asked: Instant,
+    requested: Instant,
     pub cancel: AtomicBool,
     /// Room for event streams.
     pub streams: Arc<Semaphore>,
@@ -99,7 +99,7 @@ impl Job {
             id,
             task,
             title,
-            asked: Instant::now(),
+            requested: Instant::now(),
             cancel: AtomicBool::new(false),
             streams: Arc::new(Semaphore::new(most_streams)),
             finished: AtomicUsize::new(0),
@@ -145,8 +145,8 @@ impl Job {
         self.change(|inner| inner.answer = None);
     }
 
-    /// As it is told.
-    pub(crate) fn told(&self, with_answer: bool) -> JobAnswer {
+    /// As it is reported.
+    pub(crate) fn reported(&self, with_answer: bool) -> JobAnswer {
         self.change(|inner| {
             let end = inner.ended.unwrap_or_else(Instant::now);
             JobAnswer {
@@ -157,7 +157,7 @@ impl Job {
                 done: self.finished.load(Ordering::Relaxed),
                 of: self.all.load(Ordering::Relaxed),
                 best: inner.best.clone(),
-                started_s_ago: self.asked.elapsed().as_secs_f64(),
+                started_s_ago: self.requested.elapsed().as_secs_f64(),
                 seconds: inner.begun.map_or(0.0, |begun| (end - begun).as_secs_f64()),
                 error: inner.error.clone(),
                 answer: inner.answer.clone().filter(|_| with_answer),

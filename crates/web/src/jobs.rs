@@ -169,31 +169,31 @@ async fn begin(Shared(state): Shared<Arc<State>>, Asked(task): Asked<Task>) -> A
     check_text(task.text())?;
     let (shared, text) = (Arc::clone(&state), task.text().to_owned());
     // A study with problems becomes a job that fails, and tells them.
-    let told = state
+    let given = state
         .work
         .done(move |_| Ok(outline(shared.cell.text(&text))))
         .await?;
     let id = state
         .jobs
-        .begin(task, told.title.unwrap_or_default(), &state.cell.shown)?;
+        .begin(task, given.title.unwrap_or_default(), &state.cell.shown)?;
     Ok(json(StatusCode::ACCEPTED, &JobBegun { id }))
 }
 
 async fn list(Shared(state): Shared<Arc<State>>) -> Response {
     let jobs = state
         .jobs
-        .with(|all| all.iter().rev().map(|job| job.told(false)).collect());
+        .with(|all| all.iter().rev().map(|job| job.given(false)).collect());
     json(StatusCode::OK, &JobList { jobs })
 }
 
 async fn one(Shared(state): Shared<Arc<State>>, InPath(id): InPath<String>) -> Answered {
-    Ok(json(StatusCode::OK, &state.jobs.find(&id)?.told(true)))
+    Ok(json(StatusCode::OK, &state.jobs.find(&id)?.given(true)))
 }
 
 async fn cancel(Shared(state): Shared<Arc<State>>, InPath(id): InPath<String>) -> Answered {
     let job = state.jobs.find(&id)?;
     job.stop();
-    Ok(json(StatusCode::OK, &job.told(false)))
+    Ok(json(StatusCode::OK, &job.given(false)))
 }
 
 async fn events(Shared(state): Shared<Arc<State>>, InPath(id): InPath<String>) -> Answered {
@@ -210,9 +210,9 @@ async fn events(Shared(state): Shared<Arc<State>>, InPath(id): InPath<String>) -
     let of_all = room(&state.jobs.streams, MOST_STREAMS, "all jobs")?;
     let mut time = tokio::time::interval(EVENT_TIME);
     time.set_missed_tick_behavior(tokio::time::MissedTickBehavior::Delay);
-    // What was told last, without what only time changes.
+    // What was reported last, without what only time changes.
     let last: Option<(JobState, usize, usize, Option<String>)> = None;
-    let told = stream::unfold(
+    let given = stream::unfold(
         (job, time, last, false, (of_job, of_all)),
         |(job, mut time, mut last, ended, rooms)| async move {
             if ended {
@@ -220,7 +220,7 @@ async fn events(Shared(state): Shared<Arc<State>>, InPath(id): InPath<String>) -
             }
             loop {
                 time.tick().await;
-                let now = job.told(false);
+                let now = job.given(false);
                 let key = Some((now.state, now.done, now.of, now.best.clone()));
                 if key == last {
                     continue;
@@ -235,5 +235,5 @@ async fn events(Shared(state): Shared<Arc<State>>, InPath(id): InPath<String>) -
             }
         },
     );
-    Ok(Sse::new(told).keep_alive(KeepAlive::default()).into_response())
+    Ok(Sse::new(given).keep_alive(KeepAlive::default()).into_response())
 }

@@ -12,7 +12,7 @@
 //! | `connections`, `stream` | how many are connected, and which of them are given up? |
 //! | `guard` | who may ask, and what does every answer carry? |
 //! | `cell` | which study is it, and where do its files lie? |
-//! | `body`, `error` | what of a request is read, and how is told what is wrong? |
+//! | `body`, `error` | what of a request is read, and how is reported what is wrong? |
 //! | `work` | where does computing happen, and who still waits for it? |
 //! | `study`, `answers`, `jobs`, `files` | what does each path under `/api` do? |
 //! | `job`, `task` | how far is one job, and what does each kind do? |
@@ -20,7 +20,7 @@
 //! | `opening` | how does the browser learn the address? |
 //! | `openapi` | how is all that told to a program? |
 //!
-//! Nothing outside this machine is asked for anything, and the page loads nothing from elsewhere.
+//! Nothing outside this machine is requested anything, and the page loads nothing from elsewhere.
 
 mod answers;
 mod body;

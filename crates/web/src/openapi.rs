@@ -1,4 +1,4 @@
-//! How everything under `/api` is told to a program: OpenAPI 3.1, its schemas made from the types themselves.
+//! How everything under `/api` is reported to a program: OpenAPI 3.1, its schemas made from the types themselves.
 //!
 //! The page's own types come from it, so that none is typed by hand.
 
@@ -18,7 +18,7 @@ use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::{Map, Value, json};
 
-use crate::answers::{OfAsk, OfMesh, OfPicture, OfPlace, OfTable, OfView};
+use crate::answers::{OfAnalysis, OfMesh, OfPicture, OfPlace, OfTable, OfView};
 use crate::error::ErrorBody;
 use crate::files::{Files, TakenIn};
 use crate::job::JobAnswer;
@@ -27,7 +27,7 @@ use crate::server::State;
 use crate::study::{Changes, Checked, StudyOnDisk, Written};
 use crate::task::Task;
 
-/// Where schemas stand in the document.
+/// Where schemas are in the document.
 const SCHEMAS: &str = "/components/schemas";
 
 /// One path with one method.
@@ -36,14 +36,14 @@ struct Operation {
     path: &'static str,
     /// What it does.
     about: &'static str,
-    asked: Option<Value>,
+    requested: Option<Value>,
     /// Status of success, its type and its schema.
     answered: (u16, &'static str, Value),
 }
 
 /// Schemas of what is asked and of what is answered; they tell apart what may be left out.
 struct Schemas {
-    asked: SchemaGenerator,
+    requested: SchemaGenerator,
     answered: SchemaGenerator,
 }
 
@@ -56,13 +56,13 @@ impl Schemas {
             })
         };
         Schemas {
-            asked: settings().into_generator(),
+            requested: settings().into_generator(),
             answered: settings().for_serialize().into_generator(),
         }
     }
 
-    fn asked<T: JsonSchema>(&mut self) -> Option<Value> {
-        Some(self.asked.subschema_for::<T>().to_value())
+    fn requested<T: JsonSchema>(&mut self) -> Option<Value> {
+        Some(self.requested.subschema_for::<T>().to_value())
     }
 
     fn answered<T: JsonSchema>(&mut self, status: u16) -> (u16, &'static str, Value) {
@@ -75,13 +75,13 @@ impl Schemas {
 }
 
 pub(crate) fn routes() -> Router<Arc<State>> {
-    Router::new().route("/openapi.json", get(told))
+    Router::new().route("/openapi.json", get(reported))
 }
 
 /// The document as it is sent: made once.
 static TOLD: LazyLock<Bytes> = LazyLock::new(|| document().to_string().into());
 
-async fn told() -> Response {
+async fn reported() -> Response {
     crate::body::typed("application/json", TOLD.clone())
 }
 
@@ -95,29 +95,29 @@ pub fn document() -> Value {
         method,
         path,
         about,
-        asked,
+        requested,
         answered: (status, kind, schema),
     } in operations
     {
-        let mut told = json!({
+        let mut reported = json!({
             "summary": about,
             "responses": {
                 status.to_string(): { "description": "as asked", "content": { kind: { "schema": schema } } },
                 "default": { "description": "what is wrong", "content": { "application/json": { "schema": error } } },
             },
         });
-        if let Some(schema) = asked {
-            told["requestBody"] =
+        if let Some(schema) = requested {
+            reported["requestBody"] =
                 json!({ "required": true, "content": { "application/json": { "schema": schema } } });
         }
         let parameters = parameters(path);
         if !parameters.is_empty() {
-            told["parameters"] = Value::from(parameters);
+            reported["parameters"] = Value::from(parameters);
         }
         let of_path = paths.entry(path).or_insert_with(|| json!({}));
-        of_path[method] = told;
+        of_path[method] = reported;
     }
-    let mut all = schemas.asked.take_definitions(true);
+    let mut all = schemas.requested.take_definitions(true);
     all.append(&mut schemas.answered.take_definitions(true));
     json!({
         "openapi": "3.1.0",
@@ -138,22 +138,22 @@ pub fn document() -> Value {
     })
 }
 
-/// The parameters that stand in a path.
+/// The parameters that are in a path.
 fn parameters(path: &str) -> Vec<Value> {
     let names = path
         .split('/')
         .filter_map(|part| part.strip_prefix('{')?.strip_suffix('}'));
-    let told = |name| json!({ "name": name, "in": "path", "required": true, "schema": { "type": "string" } });
-    names.map(told).collect()
+    let reported = |name| json!({ "name": name, "in": "path", "required": true, "schema": { "type": "string" } });
+    names.map(reported).collect()
 }
 
 /// Every path, in the order of the files that answer them.
 fn operations(s: &mut Schemas) -> Vec<Operation> {
-    let of = |method, path, about, asked, answered| Operation {
+    let of = |method, path, about, requested, answered| Operation {
         method,
         path,
         about,
-        asked,
+        requested,
         answered,
     };
     let bytes = |status, kind| (status, kind, json!({ "type": "string", "format": "binary" }));
@@ -169,28 +169,28 @@ fn operations(s: &mut Schemas) -> Vec<Operation> {
             "put",
             "/api/study",
             "Writes the study",
-            s.asked::<Written>(),
+            s.requested::<Written>(),
             s.answered::<StudyOnDisk>(200),
         ),
         of(
             "post",
             "/api/check",
             "What is in a text",
-            s.asked::<Checked>(),
+            s.requested::<Checked>(),
             s.answered::<OutlineAnswer>(200),
         ),
         of(
             "post",
             "/api/change",
             "A text with values changed",
-            s.asked::<Changes>(),
+            s.requested::<Changes>(),
             s.answered::<ChangedAnswer>(200),
         ),
         of(
             "post",
             "/api/tables",
             "The values of a text, each with its place",
-            s.asked::<Checked>(),
+            s.requested::<Checked>(),
             s.answered::<TablesAnswer>(200),
         ),
         of(
@@ -204,63 +204,63 @@ fn operations(s: &mut Schemas) -> Vec<Operation> {
             "post",
             "/api/view",
             "Answer, values and scene of an ask after values are changed",
-            s.asked::<OfView>(),
+            s.requested::<OfView>(),
             s.answered::<ViewAnswer>(200),
         ),
         of(
             "post",
             "/api/mesh",
             "A shape of the robot",
-            s.asked::<OfMesh>(),
+            s.requested::<OfMesh>(),
             bytes(200, "model/stl"),
         ),
         of(
             "post",
             "/api/answer",
             "The answer to an ask",
-            s.asked::<OfAsk>(),
+            s.requested::<OfAnalysis>(),
             s.answered::<StudyAnswer>(200),
         ),
         of(
             "post",
             "/api/values",
             "The settings of an ask",
-            s.asked::<OfAsk>(),
+            s.requested::<OfAnalysis>(),
             s.answered::<ValuesAnswer>(200),
         ),
         of(
             "post",
             "/api/pose",
             "The arm at one place",
-            s.asked::<OfPlace>(),
+            s.requested::<OfPlace>(),
             s.answered::<PosturesAnswer>(200),
         ),
         of(
             "post",
             "/api/scene",
             "What can be drawn of an ask",
-            s.asked::<OfAsk>(),
+            s.requested::<OfAnalysis>(),
             s.answered::<SceneAnswer>(200),
         ),
         of(
             "post",
             "/api/table",
             "The table of an ask",
-            s.asked::<OfTable>(),
+            s.requested::<OfTable>(),
             bytes(200, "text/csv"),
         ),
         of(
             "post",
             "/api/pictures",
             "The pictures of an ask",
-            s.asked::<OfAsk>(),
+            s.requested::<OfAnalysis>(),
             s.answered::<PicturesAnswer>(200),
         ),
         of(
             "post",
             "/api/picture.png",
             "A picture in pixels",
-            s.asked::<OfPicture>(),
+            s.requested::<OfPicture>(),
             bytes(200, "image/png"),
         ),
         of(
@@ -274,7 +274,7 @@ fn operations(s: &mut Schemas) -> Vec<Operation> {
             "post",
             "/api/jobs",
             "Begins a job",
-            s.asked::<Task>(),
+            s.requested::<Task>(),
             s.answered::<JobBegun>(202),
         ),
         of("get", "/api/jobs", "All jobs", None, s.answered::<JobList>(200)),

@@ -137,7 +137,7 @@ impl Server {
         self.stop();
     }
 
-    /// Shows the page in the user's browser; that there is none is no error.
+    /// Shows the page in the user's browser; that there is none is not an error.
     fn open_browser(&self) {
         let Ok(page) = self.state.opening.write(&self.url) else {
             return;
@@ -228,7 +228,7 @@ async fn listen(listener: TcpListener, app: Router, mut stopped: watch::Receiver
             .serve_connection(TokioIo::new(stream), service);
         let connection = graceful.watch(connection);
         tokio::spawn(async move {
-            // A client that went away, or sent no HTTP, is no fault of the server.
+            // A client that went away, or sent no HTTP, is not a fault of the server.
             tokio::select! {
                 _ = connection => (),
                 () = left => (),

@@ -13,7 +13,7 @@ use std::sync::{Arc, LazyLock};
 
 use armill_formats::document::{Problem, schema_json};
 use armill_study::file::format::StudyFile;
-use armill_study::live::{ChangedValue, OutlineAnswer, OutlinedAsk, changed, outline, tables};
+use armill_study::live::{ChangedValue, OutlineAnswer, OutlinedAnalysis, changed, outline, tables};
 use axum::Router;
 use axum::body::Bytes;
 use axum::extract::State as Shared;
@@ -46,7 +46,7 @@ pub(crate) struct StudyOnDisk {
     /// The robot, as the study names it.
     pub robot: Option<String>,
     /// Its asks, in order.
-    pub asks: Vec<OutlinedAsk>,
+    pub analyses: Vec<OutlinedAnalysis>,
     /// Everything that is wrong.
     pub problems: Vec<Problem>,
     /// Version of armill.
@@ -78,7 +78,7 @@ pub(crate) struct Changes {
     /// The text.
     pub text: String,
     /// The ask whose values they are; those of the study where none is named.
-    pub ask: Option<String>,
+    pub analysis: Option<String>,
     /// What changes.
     pub changes: Vec<ChangedValue>,
 }
@@ -110,14 +110,14 @@ async fn write(Shared(state): Shared<Arc<State>>, Asked(written): Asked<Written>
     Ok(json(StatusCode::OK, &state.work.done(work).await??))
 }
 
-/// The study as it is now; a file that cannot be read any more is told as a problem.
+/// The study as it is now; a file that cannot be read any more is reported as a problem.
 fn on_disk(cell: &Cell) -> StudyOnDisk {
     let (bytes, gone) = match cell.bytes() {
         Ok(bytes) => (bytes, None),
         Err(error) => (Vec::new(), Some(error)),
     };
     let text = String::from_utf8_lossy(&bytes).into_owned();
-    let told = match gone {
+    let given = match gone {
         Some(error) => OutlineAnswer {
             problems: vec![Problem::of_file(&cell.shown, error.to_string(), "")],
             ..OutlineAnswer::default()
@@ -132,10 +132,10 @@ fn on_disk(cell: &Cell) -> StudyOnDisk {
         folder: cell.root.display().to_string(),
         writable: cell.writable,
         version: version(&bytes),
-        title: told.title,
-        robot: told.robot,
-        asks: told.asks,
-        problems: told.problems,
+        title: given.title,
+        robot: given.robot,
+        analyses: given.analyses,
+        problems: given.problems,
         armill: env!("CARGO_PKG_VERSION"),
         text,
     }
@@ -148,14 +148,14 @@ async fn check(Shared(state): Shared<Arc<State>>, Asked(checked): Asked<Checked>
     Ok(json(StatusCode::OK, &state.work.done(work).await?))
 }
 
-async fn change(Shared(state): Shared<Arc<State>>, Asked(asked): Asked<Changes>) -> Answered {
-    check_text(&asked.text)?;
+async fn change(Shared(state): Shared<Arc<State>>, Asked(requested): Asked<Changes>) -> Answered {
+    check_text(&requested.text)?;
     let shared = Arc::clone(&state);
     let work = move |_: armill_core::watch::Watch<'_>| {
         changed(
-            shared.cell.text(&asked.text),
-            asked.ask.as_deref(),
-            &asked.changes,
+            shared.cell.text(&requested.text),
+            requested.analysis.as_deref(),
+            &requested.changes,
         )
     };
     Ok(json(StatusCode::OK, &state.work.done(work).await?))

@@ -47,7 +47,7 @@ pub(crate) enum Task {
     Posture {
         /// The text of the study.
         text: String,
-        /// What is tried; as the study says where nothing is told.
+        /// What is tried; as the study says where nothing is reported.
         options: Option<SearchTable>,
     },
     /// Where the part should lie.
@@ -72,7 +72,7 @@ pub(crate) enum Task {
 #[serde(deny_unknown_fields)]
 pub(crate) struct RunOptions {
     /// Only this ask.
-    pub ask: Option<String>,
+    pub analysis: Option<String>,
     /// Tables only: no pictures, no report.
     #[serde(default)]
     pub no_pictures: bool,
@@ -180,13 +180,13 @@ impl Job {
                     folder: root,
                     bytes: &found.bytes,
                 };
-                let wanted = if options.no_pictures {
+                let requested = if options.no_pictures {
                     Wanted::TABLES
                 } else {
                     Wanted::USUAL
                 };
-                let study = text.study(options.ask.as_deref())?;
-                self.results(&study, &folder(self.task(), root, "out")?, wanted)
+                let study = text.study(options.analysis.as_deref())?;
+                self.results(&study, &folder(self.task(), root, "out")?, requested)
             }
             Task::Posture { text, options } => {
                 let mut study = found(text).read()?;
@@ -201,11 +201,11 @@ impl Job {
     }
 
     /// Runs a study and writes its results.
-    fn results(&self, study: &Study, out: &ResultFolder, wanted: Wanted<'_>) -> Result<Outcome, StudyError> {
-        output::allow(study, (out, wanted))?;
+    fn results(&self, study: &Study, out: &ResultFolder, requested: Wanted<'_>) -> Result<Outcome, StudyError> {
+        output::allow(study, (out, requested))?;
         let done = self.counted(point_count(study), |watch| run(study, watch))?;
         let answer = answer(study, &done);
-        let files = output::write(study, &done, &answer, (out, wanted), &|name| self.tell(name))?;
+        let files = output::write(study, &done, &answer, (out, requested), &|name| self.tell(name))?;
         Ok((output::json(&answer)?, files))
     }
 
@@ -230,11 +230,11 @@ impl Job {
         out.write("placement.json", json.as_bytes())?;
         output::write_pictures(&placed.pictures, out)?;
         let opening = placed.opening();
-        let wanted = Wanted {
+        let requested = Wanted {
             opening: Some(&opening),
             ..Wanted::USUAL
         };
-        let (_, mut files) = self.results(&placed.study(found)?, out, wanted)?;
+        let (_, mut files) = self.results(&placed.study(found)?, out, requested)?;
         let pictures = placed
             .pictures
             .iter()

@@ -33,7 +33,7 @@ pub(crate) struct Work {
 struct Tab {
     place: Arc<Semaphore>,
     /// How many have been asked.
-    asked: watch::Sender<u64>,
+    requested: watch::Sender<u64>,
 }
 
 /// Cancels when nobody waits any more.
@@ -63,7 +63,7 @@ impl Work {
     ) -> Result<T, ApiError> {
         let place = Arc::clone(&self.places).acquire_owned().await;
         let cancel = Arc::new(AtomicBool::new(false));
-        let wanted = Wanted(Arc::clone(&cancel));
+        let expected = Wanted(Arc::clone(&cancel));
         let task = tokio::task::spawn_blocking(move || {
             // Held until the work has really ended, also where nobody waits for it.
             let _place = place;
@@ -75,7 +75,7 @@ impl Work {
             })
         });
         let result = task.await;
-        drop(wanted);
+        drop(expected);
         match result {
             Ok(result) => Ok(result?),
             Err(_) => Err(ApiError::internal("a fault of armill: the work broke off")),
@@ -113,7 +113,7 @@ impl Work {
         let new = || {
             Arc::new(Tab {
                 place: Arc::new(Semaphore::new(1)),
-                asked: watch::channel(0).0,
+                requested: watch::channel(0).0,
             })
         };
         Arc::clone(tabs.entry(name.to_owned()).or_insert_with(new))
@@ -123,14 +123,14 @@ impl Work {
 /// Waits until this question is the one to work on.
 async fn turn(tab: &Tab) -> Result<OwnedSemaphorePermit, ApiError> {
     let mut ticket = 0;
-    tab.asked.send_modify(|asked| {
-        *asked += 1;
-        ticket = *asked;
+    tab.requested.send_modify(|requested| {
+        *requested += 1;
+        ticket = *requested;
     });
-    let mut asked = tab.asked.subscribe();
+    let mut requested = tab.requested.subscribe();
     tokio::select! {
         biased;
-        _ = asked.wait_for(|asked| *asked > ticket) => Err(ApiError::superseded()),
+        _ = requested.wait_for(|requested| *requested > ticket) => Err(ApiError::superseded()),
         place = Arc::clone(&tab.place).acquire_owned() => {
             place.map_err(|_| ApiError::internal("the server is stopping"))
         }

@@ -22,7 +22,7 @@ __all__ = [
     "ToolPath",
     "__version__",
     "arithmetic",
-    "ask",
+    "analysis",
     "command",
     "options",
     "read_path",
@@ -90,7 +90,7 @@ class Robot:
     @property
     def joint_names(self) -> list[str]: ...
     @property
-    def sharers(self) -> list[str]: ...
+    def contributors(self) -> list[str]: ...
     @property
     def limits(self) -> _Floats: ...
     @property

@@ -20,11 +20,11 @@ from .conftest import Killer, busy_of_ray, manifest, sums
 
 RING = """format = 1
 robot = "yaskawa/mh12"
-limit_um = 200
+tolerance_um = 200
 tool = { flange_from_tool_mm_deg = [0, 0, 100, 0, 0, 0] }
 plane = { centre_mm = [1000, 0, 800], half_size_mm = 150, step_mm = 75 }
 load = { cases_n = [[3, -5, -5], [3, -5, 5], [3, 5, -5], [3, 5, 5]] }
-[[ask]]
+[[analysis]]
 kind = "path"
 name = "ring"
 circle = { radius_mm = 100 }
@@ -74,7 +74,7 @@ def test_places_that_cannot_be_are_refused(ring: armill.Study, places: Any, told
     with pytest.raises(armill.InputError, match=told):
         ring.judge(places)
     with pytest.raises(armill.InputError, match="other"):
-        ring.judge(np.zeros((1, 6)), ask="other")
+        ring.judge(np.zeros((1, 6)), analysis="other")
 
 
 def test_a_study_travels(ring: armill.Study) -> None:
@@ -91,7 +91,7 @@ def test_placements_over_degrees(ring: armill.Study, tmp_path: Path) -> None:
     places = np.tile(ring.drawn_place(), (57, 1))
     places[:, 0], places[:, 6] = np.repeat(x, 3), np.tile(spin, 19)
     judged = ring.judge(places)
-    assert frame["lost_points"].to_pylist() == judged.lost.tolist()
+    assert frame["unreachable_points"].to_pylist() == judged.lost.tolist()
     assert frame["branch"].to_pylist() == judged.branch
     assert np.allclose(frame["x_mm"], np.repeat(x, 3) * 1e3)
     assert np.allclose(frame["spin_deg"], np.tile([-30, 0, 30], 19))
@@ -185,7 +185,7 @@ def test_studies_with_robots_and_changes(ring: armill.Study, tmp_path: Path) -> 
 
 def test_a_change_that_cannot_be_is_told_before_anything_runs(ring: armill.Study) -> None:
     with pytest.raises(armill.InputError, match="limit"):
-        scale.studies([ring], [{}, {"limit_um": -1}])
+        scale.studies([ring], [{}, {"tolerance_um": -1}])
 
 
 def test_a_column_that_no_result_has_is_told(ring: armill.Study, tmp_path: Path) -> None:

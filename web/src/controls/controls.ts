@@ -52,7 +52,7 @@ export function controls(live: Live): HTMLElement {
     hint: "From the flange to the tip, along the flange's z axis",
   });
   const forces = new Forces((cases) => touch(() => forces, "load.cases_n", cases));
-  const limit = new NumberField({ id: "field-limit", label: "Tolerance", unit: "µm", range: [5, 300], step: 5, input: (v) => touch(() => limit, "limit_um", v), hint: "Greatest deviation in the plane that is tolerated" });
+  const limit = new NumberField({ id: "field-limit", label: "Tolerance", unit: "µm", range: [5, 300], step: 5, input: (v) => touch(() => limit, "tolerance_um", v), hint: "Greatest deviation in the plane that is tolerated" });
   const half = new NumberField({ id: "field-half", label: "Half size", unit: "mm", range: [50, 800], step: 50, input: (v) => touch(() => half, "plane.half_size_mm", v) });
   const step = new NumberField({ id: "field-step", label: "Grid step", unit: "mm", range: [5, 100], step: 5, input: (v) => touch(() => step, "plane.step_mm", v) });
   const branch = new Choice("field-branch", "Branch", (v) => touch(() => branch, "posture.branch", v));
@@ -84,7 +84,7 @@ export function controls(live: Live): HTMLElement {
     tilt.set(v.tilts_deg ? null : v.tilt_deg);
     tool.set(v.flange_from_tool_mm_deg?.[2] ?? v.tool_length_mm);
     forces.set(v.cases_n && v.cases_n.length > 0 ? v.cases_n : null);
-    limit.set(v.limit_um);
+    limit.set(v.tolerance_um);
     half.set(plane && v.kind !== "path" ? (Array.isArray(v.half_size_mm) ? v.half_size_mm[0] : v.half_size_mm) : null);
     step.set(plane && v.kind !== "path" ? v.step_mm : null);
     branch.set(v.branch, ["nominal", "best", ...v.branches].map((b) => ({ value: b, text: b === "nominal" && v.branch === "nominal" ? `nominal: ${v.branch_meant}` : b })));
@@ -112,7 +112,7 @@ const KEYS: Record<string, string[]> = {
   "field-tilt": ["tilt_deg"],
   "field-tool": ["flange_from_tool_mm_deg", "[tool]"],
   "field-forces": ["cases_n", "[load]"],
-  "field-limit": ["limit_um"],
+  "field-limit": ["tolerance_um"],
   "field-half": ["half_size_mm"],
   "field-step": ["step_mm"],
   "field-branch": ["branch"],

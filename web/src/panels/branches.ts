@@ -11,7 +11,7 @@ export function branches(live: Live): HTMLElement {
   const draw = () => {
     const pose = live.pose;
     if (!pose || pose.answer.postures.length === 0) return show(h("p", { class: "note" }, live.pose_error ?? "Every way to stand at the point appears here."));
-    const limit = live.setting?.limit_um ?? 0;
+    const limit = live.setting?.tolerance_um ?? 0;
     const worst = pose.in_plane.map((c) => envelope(c)?.in_plane_um ?? null);
     const top = Math.max(limit * 1.15, ...worst.map((w) => w ?? 0));
     const order = pose.answer.postures.map((_, i) => i).sort((a, b) => (worst[a] ?? 1e9) - (worst[b] ?? 1e9));

@@ -13,7 +13,7 @@ export function notes(live: Live): HTMLElement {
     if (!answer || !setting) return;
     trust.show(
       h("p", {}, answer.answer),
-      map?.certainty ? h("p", { class: "note" }, `Uncertainty counted twice over: ${percent(map.certainty.fraction_surely_within)} of the plate surely holds the limit, ${percent(map.certainty.fraction_possibly_within)} possibly.`) : null,
+      map?.certainty ? h("p", { class: "note" }, `Uncertainty counted twice over: ${percent(map.certainty.fraction_robustly_within)} of the plate surely holds the limit, ${percent(map.certainty.fraction_possibly_within)} possibly.`) : null,
       answer.robot.compliance_assumed ? h("p", { class: "note warn" }, "The joint compliances of this robot are assumed, not measured.") : null,
       answer.warnings.length > 0 ? h("ul", { class: "warnings" }, answer.warnings.map((w) => h("li", {}, w))) : null,
       h("p", { class: "note" }, `Model: ${setting.model.join(", ")}. Positions from ${setting.base}, tool ${setting.tool_length_mm} mm from the flange.${setting.load_source ? ` Load: ${setting.load_source}.` : ""}`),

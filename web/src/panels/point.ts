@@ -15,7 +15,7 @@ export function point(live: Live): HTMLElement {
     const u = values.in_plane_u_um ?? told?.in_plane_u_um ?? null;
     const along = values.permissible_along_load_n ?? told?.permissible_along_load_n;
     const any = values.permissible_any_direction_n ?? told?.permissible_any_direction_n;
-    const limit = live.setting?.limit_um ?? Infinity;
+    const limit = live.setting?.tolerance_um ?? Infinity;
     const over = values.in_plane_um > limit;
     show(
       h(

@@ -10,7 +10,7 @@ export function shares(live: Live): HTMLElement {
   const { root, show } = panel("shares", "Who does it");
   const draw = () => {
     const values = live.pose?.in_plane[live.posture]?.[live.load_case - 1];
-    const names = live.pose?.answer.shares_of ?? [];
+    const names = live.pose?.answer.contributors ?? [];
     const parts = sharesOf(live);
     if (!values || !parts) return show(h("p", { class: "note" }, values ? "The shares of this posture are not known." : "Shares of the joints appear here."));
     const largest = Math.max(...parts.map(Math.abs), 1e-9);

@@ -10,7 +10,7 @@ export function verdict(live: Live): HTMLElement {
   const draw = () => {
     const { answer, setting } = live;
     if (!answer || !setting) return renew(root, h("div", { class: "verdict-main" }, h("p", { class: "verdict-line" }, "…")));
-    const limit = `${trimmed(setting.limit_um, 1)}\u00a0µm`;
+    const limit = `${trimmed(setting.tolerance_um, 1)}\u00a0µm`;
     const { share, what, extra } = held(live);
     const state = share >= 1 ? "good" : share > 0 ? "part" : "none";
     renew(
@@ -33,24 +33,24 @@ export function verdict(live: Live): HTMLElement {
 function held(live: Live): { share: number; what: string; extra: Child } {
   const map = live.map;
   if (map) {
-    const sure = map.certainty ? `surely ${percent(map.certainty.fraction_surely_within)}, possibly ${percent(map.certainty.fraction_possibly_within)}` : null;
-    const unreached = map.grid.points - (map.counts.within ?? 0) - (map.counts.over_limit ?? 0);
+    const sure = map.certainty ? `surely ${percent(map.certainty.fraction_robustly_within)}, possibly ${percent(map.certainty.fraction_possibly_within)}` : null;
+    const unreachable = map.grid.points - (map.counts.within ?? 0) - (map.counts.above_tolerance ?? 0);
     const parts = [
       sure,
       map.outside_joint_limits > 0 ? `${map.outside_joint_limits} of ${map.grid.points} points outside joint limits` : null,
-      unreached > 0 ? `${unreached} points without posture` : null,
+      unreachable > 0 ? `${unreachable} points without posture` : null,
     ].filter(Boolean);
     return { share: map.fraction_within, what: "plate", extra: parts.join(" · ") };
   }
   const path = live.answer!.paths[0];
   if (path) {
-    const parts = [`${path.points} points`, path.unreached > 0 ? `${path.unreached} not reached` : null, path.outside_joint_limits > 0 ? `${path.outside_joint_limits} outside joint limits` : null, path.roundness_um !== null ? `roundness ${um(path.roundness_um)} µm` : null];
+    const parts = [`${path.points} points`, path.unreachable > 0 ? `${path.unreachable} not reached` : null, path.outside_joint_limits > 0 ? `${path.outside_joint_limits} outside joint limits` : null, path.roundness_um !== null ? `roundness ${um(path.roundness_um)} µm` : null];
     return { share: path.fraction_within, what: "path", extra: parts.filter(Boolean).join(" · ") };
   }
   const volume = live.answer!.volumes[0];
   if (volume) return { share: volume.fraction_within, what: "box", extra: `${(volume.volume_within_mm3 / 1e6).toFixed(1)} litres (dm³) of it` };
   const holes = live.answer!.holes[0];
-  return { share: holes?.fraction_within ?? 0, what: "holes", extra: holes ? `${holes.holes} holes, ${holes.unreached} not reached` : null };
+  return { share: holes?.fraction_within ?? 0, what: "holes", extra: holes ? `${holes.holes} holes, ${holes.unreachable} not reached` : null };
 }
 
 function sentence(share: number, what: string, limit: string): string {
@@ -71,7 +71,7 @@ function extreme(live: Live, which: "worst" | "best", point: Point | null): Chil
 
 function blame(live: Live): Child {
   const point = live.worst;
-  const names = live.setting?.shares_of ?? [];
+  const names = live.setting?.contributors ?? [];
   if (!point || point.in_plane_um <= 0) return null;
   const most = point.joint_share_um.reduce((best, v, i, all) => (v > all[best]! ? i : best), 0);
   return h(

@@ -86,7 +86,7 @@ const times = (n: number): string => `× ${trimmed(n, 0)}`;
 /** The colour bar, with ticks at the lines' levels and the limit marked. */
 function legend(box: HTMLElement, view: SceneView, live: Live): void {
   const scale = view.scale;
-  const limit = live.setting?.limit_um;
+  const limit = live.setting?.tolerance_um;
   if (!scale || limit === undefined) return;
   const W = 280;
   const at = (value: number) => 14 + (W - 28) * along(scale, value);

@@ -47,16 +47,16 @@ export class PlateView {
     this.surface.visible = true;
     this.colour(map.grid, scale);
     const grid = { y_mm: map.grid.y_mm, z_mm: map.grid.z_mm, values: map.grid.in_plane_um };
-    const levels = scale.levels.filter((level) => Math.abs(level - map.setting.limit_um) > 1e-6);
-    const [bound, ...iso] = contours(grid, [map.setting.limit_um, ...(options.lines ? levels : [])]) as [Line[], ...Line[][]];
+    const levels = scale.levels.filter((level) => Math.abs(level - map.setting.tolerance_um) > 1e-6);
+    const [bound, ...iso] = contours(grid, [map.setting.tolerance_um, ...(options.lines ? levels : [])]) as [Line[], ...Line[][]];
     this.iso.draw(iso.flat());
     this.casing.draw(bound);
     this.limit.draw(bound);
-    this.sure.draw(options.certainty && map.certainty ? map.certainty.boundary_surely_mm : []);
+    this.sure.draw(options.certainty && map.certainty ? map.certainty.boundary_robust_mm : []);
     this.labels.group(this.name);
     const corners = options.rectangle ? map.region.rectangle_mm : null;
     this.largest.draw(corners ? [rectangle(...corners)] : []);
-    this.tag(bound, `limit ${trimmed(map.setting.limit_um, 1)} µm`, "limit-tag", 1);
+    this.tag(bound, `limit ${trimmed(map.setting.tolerance_um, 1)} µm`, "limit-tag", 1);
     iso.forEach((lines, i) => this.tag(lines, trimmed(levels[i]!, 1), "iso", 2));
   }
 

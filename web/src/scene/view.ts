@@ -99,7 +99,7 @@ export class SceneView {
     const { answer, scene, setting } = this.live;
     if (!answer || !scene || !setting) return;
     const range = this.range();
-    if (range && !(this.show.hold_scale && this.scale)) this.scale = scaleOf(range[0], range[1], setting.limit_um);
+    if (range && !(this.show.hold_scale && this.scale)) this.scale = scaleOf(range[0], range[1], setting.tolerance_um);
     const scale = this.scale;
     const plates = answer.maps.length > 0 ? this.platesOf() : [];
     while (this.plates.length < plates.length) {
@@ -116,7 +116,7 @@ export class SceneView {
     });
     if (scene.points && scale && !scene.box) this.path.draw(scene.points, scale, answer.paths.length > 0, this.show.deviation ? this.show.magnified / 1000 : 0);
     else this.path.clear();
-    this.volume.draw(scene, setting.limit_um);
+    this.volume.draw(scene, setting.tolerance_um);
     this.part.draw(answer.paths.length + answer.holes.length > 0 ? scene.plate : null);
     this.stage.floor(0, this.reach());
     const key = `${this.live.ask} ${scene.robot} ${answer.maps.length}`;

@@ -18,7 +18,7 @@ export class VolumeView {
     this.group.add(this.surface, this.edges);
   }
 
-  draw({ box, points }: Scene, limit_um: number): void {
+  draw({ box, points }: Scene, tolerance_um: number): void {
     this.group.visible = box !== null;
     if (!box) return;
     const place = frame(box);
@@ -36,7 +36,7 @@ export class VolumeView {
       const [x, y, z] = [at.x * (nx - 1), at.y * (ny - 1), at.z * (nz - 1)].map((v) => Math.round(Number.isFinite(v) ? v : 0));
       values[(z! * ny + y!) * nx + x!] = points.columns.in_plane_um[i] ?? null;
     });
-    const mesh = surfaceBelow({ origin_mm: [0, 0, 0], step_mm: 1, counts: box.counts, values }, limit_um);
+    const mesh = surfaceBelow({ origin_mm: [0, 0, 0], step_mm: 1, counts: box.counts, values }, tolerance_um);
     this.surface.geometry.dispose();
     this.surface.geometry = new THREE.BufferGeometry()
       .setAttribute("position", new THREE.Float32BufferAttribute(mesh.positions, 3))

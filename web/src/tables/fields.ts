@@ -7,7 +7,7 @@ import { input, type Input } from "./inputs";
 import { beginning, fieldsOf, named, type Field, type Schema } from "./schema";
 
 /** Tables in the order in which one asks for them; others follow. */
-const FIRST = ["place", "posture", "tool", "load", "cut", "plane", "ask"];
+const FIRST = ["place", "posture", "tool", "load", "cut", "plane", "analysis"];
 
 export class Fields {
   readonly root = h("form", { class: "fields", "aria-label": "Tables of the study", onsubmit: (e: Event) => e.preventDefault() });

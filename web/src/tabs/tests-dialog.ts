@@ -9,7 +9,7 @@ export function testsDialog(chosen: (name: string) => void): { root: HTMLDialogE
   const none = h("p", { class: "note" }, "There is no .csv in the study's folder yet: drop the table of tests in Files first.");
   const root: HTMLDialogElement = h(
     "dialog",
-    { class: "ask", "aria-labelledby": "tests-name" },
+    { class: "analysis", "aria-labelledby": "tests-name" },
     h(
       "form",
       { method: "dialog", onsubmit: () => chosen(select.value) },

@@ -3,9 +3,9 @@ import { beginning, fieldsOf, named, type Schema } from "../../src/tables/schema
 
 const SCHEMA: Schema = {
   type: "object",
-  required: ["limit_um", "plane"],
+  required: ["tolerance_um", "plane"],
   properties: {
-    limit_um: { type: "number", minimum: 0, maximum: 1e9, description: "Greatest\ndeviation." },
+    tolerance_um: { type: "number", minimum: 0, maximum: 1e9, description: "Greatest\ndeviation." },
     load_dependent: { type: "boolean" },
     title: { type: ["string", "null"] },
     plane: { $ref: "#/$defs/Plane" },
@@ -22,10 +22,10 @@ const SCHEMA: Schema = {
 test("each field has the kind of its schema, behind references and without null", () => {
   const fields = fieldsOf(SCHEMA, SCHEMA);
   const of = (key: string) => fields.find((f) => f.key === key)!;
-  expect(of("limit_um")).toEqual({ key: "limit_um", about: "Greatest deviation.", needed: true, kind: { of: "number", least: 0, most: 1e9 } });
+  expect(of("tolerance_um")).toEqual({ key: "tolerance_um", about: "Greatest deviation.", needed: true, kind: { of: "number", least: 0, most: 1e9 } });
   expect(of("load_dependent").kind).toEqual({ of: "flag" });
   expect(of("title").kind).toEqual({ of: "text" });
-  expect(of("ask").kind.of).toBe("tables");
+  expect(of("analysis").kind.of).toBe("tables");
   const plane = of("plane").kind;
   if (plane.of !== "table") throw new Error(plane.of);
   expect(plane.fields.map((f) => f.kind.of)).toEqual(["numbers", "list"]);

@@ -2,12 +2,12 @@
 //! take. A goal shows once all of it was measured.
 //!
 //! A ratio is ours over theirs, both the median rates of one run on one machine. `must` is what armill
-//! promises, `stretch` what it could reach; below `must` a goal is missed. Missed goals are told, not failed: a
+//! promises, `stretch` what it could reach; below `must` a goal is missed. Missed goals are reported, not failed: a
 //! busy machine misses them too.
 
 use super::row::{Row, digits};
 
-/// Whose row: how the name begins and ends (a version stands between), the work, the threads.
+/// Whose row: how the name begins and ends (a version is between), the work, the threads.
 struct Side {
     begins: &'static str,
     ends: &'static str,
@@ -176,7 +176,7 @@ pub fn waits(rows: &[Row]) -> String {
     format!("| a million points | seconds | at most | |\n|---|--:|--:|---|\n{lines}")
 }
 
-/// The goals of which both sides stand in `rows`, as a Markdown table; empty if there is none.
+/// The goals of which both sides are in `rows`, as a Markdown table; empty if there is none.
 pub fn table(rows: &[Row]) -> String {
     let mut lines = String::new();
     for goal in GOALS {

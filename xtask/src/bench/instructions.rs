@@ -9,7 +9,7 @@
 //! | `instructions_per_pose` | one decimal |
 //! | `compiler` | what `rustc --version` says; told, not compared |
 //!
-//! A rise of more than 2 % against the record is a regression and leaves with 1; a fall is told and needs a new
+//! A rise of more than 2 % against the record is a regression and leaves with 1; a fall is reported and needs a new
 //! record only to be kept.
 
 use super::bench_cargo;
@@ -92,7 +92,7 @@ fn counted() -> Result<Vec<Count>, String> {
         printed(&mut cargo(&install))?;
     }
     let mut command = bench_cargo(&["bench", "--bench", "instructions"]);
-    printed(command.env("GUNGRAUN_RUNNER", runner)).map(|told| parse(&told))
+    printed(command.env("GUNGRAUN_RUNNER", runner)).map(|given| parse(&given))
 }
 
 /// Reads `instructions::group::function poses_100:...` and the line `Instructions: 123|...` after it.

@@ -1,7 +1,7 @@
 //! On what a run was made: processor, cores, system, compilers.
 //!
 //! Read from `/proc/cpuinfo` and from what programs say of themselves; elsewhere than on Linux the processor
-//! stays unknown. A program that is not there is told as `not there`.
+//! stays unknown. A program that is not there is reported as `not there`.
 
 use std::fs;
 use std::process::Command;

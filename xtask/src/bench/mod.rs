@@ -38,7 +38,7 @@ const WORKLOAD: &str = "target/bench-workload";
 /// Where `bench/` is built.
 const TARGET: &str = "target/bench";
 
-/// What was asked for.
+/// What was requested.
 #[derive(Debug, Default, PartialEq)]
 struct Options {
     /// Fewer rounds: to see whether it runs, not how fast.
@@ -199,23 +199,23 @@ impl Found {
 mod tests {
     use super::*;
 
-    fn asked(line: &str) -> Option<Options> {
+    fn requested(line: &str) -> Option<Options> {
         options(&line.split_whitespace().map(str::to_owned).collect::<Vec<_>>())
     }
 
     #[test]
     fn options_are_understood_and_unknown_ones_refused() {
-        let both = asked("--quick --only rust");
+        let both = requested("--quick --only rust");
         assert!(both.is_some_and(|options| options.quick && options.only == Some(Only::Rust)));
-        let paths = asked("--only paths");
+        let paths = requested("--only paths");
         assert!(paths.is_some_and(|options| options.only == Some(Only::Paths)));
-        assert_eq!(asked(""), Some(Options::default()));
-        assert_eq!(asked("--only python"), None);
-        assert_eq!(asked("--record"), None);
+        assert_eq!(requested(""), Some(Options::default()));
+        assert_eq!(requested("--only python"), None);
+        assert_eq!(requested("--record"), None);
     }
 
     #[test]
-    fn rows_and_missing_peers_are_told_apart() {
+    fn rows_and_missing_peers_are_reported_apart() {
         let mut found = Found::default();
         found.read("a\tdev\t1\t2.0\t1.5\t2.5\tnote\nskipped\tEAIK\tno module\n");
         assert_eq!(found.rows.len(), 1);

@@ -1,6 +1,6 @@
 //! What the peers need: a virtual environment under `target/`, a C++ compiler, cmake.
 //!
-//! Pinocchio comes as a wheel that holds its C++ headers, and Eigen's and Boost's beside them; so does cmake.
+//! Pinocchio comes as a wheel that contains its C++ headers, and Eigen's and Boost's beside them; so does cmake.
 //!
 //! | thing | where | made from |
 //! |---|---|---|
@@ -39,16 +39,16 @@ const THREADS: &[&str] = &[
 /// # Errors
 /// Why it cannot be had.
 pub fn virtual_environment() -> Result<(), String> {
-    let wanted = fs::read_to_string(REQUIREMENTS).map_err(|problem| problem.to_string())?;
+    let requested = fs::read_to_string(REQUIREMENTS).map_err(|problem| problem.to_string())?;
     // A copy of the list lies beside what was installed from it.
     let installed = Path::new(VENV).join("requirements.txt");
-    if fs::read_to_string(&installed).is_ok_and(|installed| installed == wanted) {
+    if fs::read_to_string(&installed).is_ok_and(|installed| installed == requested) {
         return Ok(());
     }
-    eprintln!("installing into {VENV}: {}", packages(&wanted).join(", "));
+    eprintln!("installing into {VENV}: {}", packages(&requested).join(", "));
     printed(Command::new("python3").args(["-m", "venv", VENV]))?;
     printed(Command::new(in_venv("python")).args(["-m", "pip", "install", "--quiet", "-r", REQUIREMENTS]))?;
-    fs::write(installed, wanted).map_err(|problem| problem.to_string())
+    fs::write(installed, requested).map_err(|problem| problem.to_string())
 }
 
 /// The peers in Python, on one thread.

@@ -25,7 +25,7 @@ pub struct Row {
 }
 
 impl Row {
-    /// The row that stands in `line`, if one does.
+    /// The row that is in `line`, if one does.
     pub fn read(line: &str) -> Option<Row> {
         let fields: Vec<&str> = line.split('\t').collect();
         let [who, work, threads, median, lower, upper, note] = fields.as_slice() else {

@@ -64,11 +64,11 @@ pub fn all(release: &Release) -> Result<Components, String> {
             component.folder = Some(sources(&component.name, &component.version)?);
         }
     }
-    let told = printed(Command::new("node").arg(PAGE_PACKAGES))?;
+    let given = printed(Command::new("node").arg(PAGE_PACKAGES))?;
     add(
         &mut components,
         PAGE_IN,
-        told.lines().filter_map(page_package).collect(),
+        given.lines().filter_map(page_package).collect(),
     );
     add(
         &mut components,
@@ -79,11 +79,11 @@ pub fn all(release: &Release) -> Result<Components, String> {
 }
 
 /// The components of `cargo tree --prefix depth --format '{p}|{l}|{r}'`.
-fn read_tree(told: &str) -> Components {
+fn read_tree(given: &str) -> Components {
     let mut components = Components::new();
     // What stands above a line: at each depth the last one.
     let mut above: Vec<String> = Vec::new();
-    for line in told.lines() {
+    for line in given.lines() {
         let digits = line.chars().take_while(char::is_ascii_digit).count();
         let (depth, line) = line.split_at(digits);
         let mut fields = line.trim_end_matches(" (*)").split('|');
@@ -256,11 +256,11 @@ mod tests {
     #[test]
     fn packages_of_the_page_are_used_by_the_crate_that_embeds_it() {
         let mut components = read_tree(TREE);
-        let told = "@scope/three|0.187.0|MIT|https://example.org/three|node_modules/@scope/three\n\n";
+        let given = "@scope/three|0.187.0|MIT|https://example.org/three|node_modules/@scope/three\n\n";
         add(
             &mut components,
             PAGE_IN,
-            told.lines().filter_map(page_package).collect(),
+            given.lines().filter_map(page_package).collect(),
         );
         let url = "pkg:npm/%40scope/three@0.187.0";
         assert!(components["pkg:cargo/armill-web@0.1.0"].uses.contains(url));

@@ -53,7 +53,7 @@ maturin and zig come from PyPI into target/dist-venv.
 /// Where they go where nothing else is said.
 const OUT: &str = "target/dist";
 
-/// What was asked for.
+/// What was requested.
 #[derive(Debug, PartialEq)]
 struct Options {
     out: PathBuf,
@@ -200,7 +200,7 @@ fn made(release: &Release) -> Result<(), String> {
         println!("{:>7.1} s  {name}", time.as_secs_f64());
     }
     for file in &files {
-        let bytes = fs::metadata(file).map_or(0, |told| told.len());
+        let bytes = fs::metadata(file).map_or(0, |given| given.len());
         println!("{:>7.1} MB {}", bytes as f64 * 1e-6, file.display());
     }
     Ok(())
@@ -211,7 +211,7 @@ impl Release {
     fn building(&self, mut command: Command) -> Command {
         let here = env::current_dir().unwrap_or_default();
         let cargo_home = component::cargo_home();
-        // What stands between two flags.
+        // What is between two flags.
         let flags = format!(
             "--remap-path-prefix={}=/cargo\u{1f}--remap-path-prefix={}=/armill",
             cargo_home.display(),
@@ -257,8 +257,8 @@ fn copy(from: &Path, to: &Path) -> Result<(), String> {
 }
 
 /// The target triple in what `rustc -vV` says.
-fn host(told: &str) -> Option<&str> {
-    told.lines().find_map(|line| line.strip_prefix("host: "))
+fn host(given: &str) -> Option<&str> {
+    given.lines().find_map(|line| line.strip_prefix("host: "))
 }
 
 /// The version of the workspace in its Cargo.toml.

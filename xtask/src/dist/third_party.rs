@@ -173,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn ours_have_no_row_and_a_missing_text_is_told() {
+    fn ours_have_no_row_and_a_missing_text_is_reported() {
         let components = Components::from([component("armill", None), component("other", Some("."))]);
         let table = table(&components);
         assert!(table.contains("| other | 1.0.0 | MIT | https://example.org |") && !table.contains("armill"));
@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn a_text_of_many_is_told_once() {
+    fn a_text_of_many_is_reported_once() {
         let of = vec!["a 1, LICENSE".to_owned(), "b 1, LICENSE".to_owned()];
         let all = all_texts(BTreeMap::from([("the text".to_owned(), of)]));
         assert_eq!(all.matches("the text").count(), 1);

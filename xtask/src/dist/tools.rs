@@ -1,4 +1,4 @@
-//! What dist needs: looked for before anything is built, so that all that is missing is told at once.
+//! What dist needs: looked for before anything is built, so that all that is missing is reported at once.
 //!
 //! maturin, zig and cargo-zigbuild are wheels of PyPI, and come into an environment of their own.
 

@@ -32,7 +32,7 @@ const BETWEEN: &str = "\x1f";
 /// Builds the program and gives its path.
 ///
 /// # Errors
-/// What the compiler says stands on stderr; here, that it failed.
+/// What the compiler says is on stderr; here, that it failed.
 pub fn program() -> Result<OsString, String> {
     let host = host()?;
     let folder = Path::new(FOLDER).join("build");
@@ -56,8 +56,8 @@ pub fn program() -> Result<OsString, String> {
 /// The program does not run.
 pub fn targets(program: &OsStr) -> Result<Vec<String>, String> {
     let mut command = Command::new(program);
-    let told = printed(command.env_remove("ARMILL_FUZZ_TARGET"))?;
-    Ok(told.lines().map(str::to_owned).collect())
+    let given = printed(command.env_remove("ARMILL_FUZZ_TARGET"))?;
+    Ok(given.lines().map(str::to_owned).collect())
 }
 
 /// The machine that rustc builds for when nobody says otherwise, such as `x86_64-unknown-linux-gnu`.
@@ -65,8 +65,8 @@ pub fn targets(program: &OsStr) -> Result<Vec<String>, String> {
 /// # Errors
 /// Rustc does not start, or names none.
 fn host() -> Result<String, String> {
-    let told = printed(Command::new("rustc").arg("-vV"))?;
-    let host = told.lines().find_map(|line| line.strip_prefix("host: "));
+    let given = printed(Command::new("rustc").arg("-vV"))?;
+    let host = given.lines().find_map(|line| line.strip_prefix("host: "));
     host.map(str::to_owned)
         .ok_or_else(|| "rustc -vV names no host".to_owned())
 }

@@ -42,7 +42,7 @@ const MOST_MIB: u32 = 2048;
 /// Inputs are no longer: 64 KiB hold any robot and any study, and longer ones run slowly.
 const LONGEST_BYTES: u32 = 64 << 10;
 
-/// What was asked for; numbers are above 0.
+/// What was requested; numbers are above 0.
 #[derive(Debug, PartialEq)]
 struct Options {
     target: Option<String>,
@@ -144,7 +144,7 @@ fn fuzzed(options: &Options) -> Result<bool, String> {
     Ok(sound)
 }
 
-/// What libFuzzer is told for a run over time: corpus, dictionary, place of findings, seconds, processes.
+/// What libFuzzer is reported for a run over time: corpus, dictionary, place of findings, seconds, processes.
 fn campaign(target: &str, crashes: &str, options: &Options) -> Vec<String> {
     let mut arguments = limits();
     arguments.push(format!("{FOLDER}/corpus/{target}"));
@@ -170,7 +170,7 @@ fn limits() -> Vec<String> {
 /// Runs it, passes on what a person wants to see of its talk, and keeps what it counted.
 ///
 /// # Errors
-/// It does not start, or its end cannot be waited for. That it found something is no error.
+/// It does not start, or its end cannot be waited for. That it found something is not an error.
 fn watch(command: &mut Command) -> Result<Said, String> {
     let line = command_line(command);
     eprintln!("+ {line}");
@@ -201,17 +201,17 @@ fn built(folder: &Path, host: &str) -> OsString {
 mod tests {
     use super::*;
 
-    fn asked(line: &str) -> Option<Options> {
+    fn requested(line: &str) -> Option<Options> {
         options(&line.split_whitespace().map(str::to_owned).collect::<Vec<_>>())
     }
 
     #[test]
     fn options_are_understood_and_unknown_ones_refused() {
-        let found = asked("urdf --seconds 5 --jobs 2");
+        let found = requested("urdf --seconds 5 --jobs 2");
         assert!(found.is_some_and(|found| found.target.as_deref() == Some("urdf")
             && found.seconds == 5
             && found.jobs == 2));
-        assert!(asked("").is_some_and(|found| found.target.is_none() && found.seconds == SECONDS));
+        assert!(requested("").is_some_and(|found| found.target.is_none() && found.seconds == SECONDS));
         for line in [
             "urdf dh",
             "--seconds",
@@ -220,13 +220,13 @@ mod tests {
             "--fast",
             "--input a",
         ] {
-            assert_eq!(asked(line), None, "{line}");
+            assert_eq!(requested(line), None, "{line}");
         }
     }
 
     #[test]
     fn limits_hold_for_a_campaign_and_for_one_input() {
-        let options = asked("dh").unwrap();
+        let options = requested("dh").unwrap();
         let arguments = campaign("dh", "target/fuzz/crashes/dh/", &options);
         assert!(limits().iter().all(|limit| arguments.contains(limit)));
         assert!(!arguments.iter().any(|argument| argument.starts_with("-fork")));

@@ -134,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn a_finding_is_told_with_its_file() {
+    fn a_finding_is_reported_with_its_file() {
         let mut said = Said::default();
         assert!(said.hear("artifact_prefix='x/'; Test unit written to target/fuzz/crashes/dh/crash-12ab"));
         assert_eq!(said.written.as_deref(), Some("target/fuzz/crashes/dh/crash-12ab"));

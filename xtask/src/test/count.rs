@@ -9,7 +9,7 @@
 //! | node | `ℹ pass 5`, or `# pass 5`; likewise `fail`, `skipped` | a line each |
 //!
 //! Not checked: what the runners print elsewhere; a summary in other words counts nothing, and a run that
-//! counts nothing is told as one that could not run.
+//! counts nothing is reported as one that could not run.
 
 use std::fmt;
 
@@ -49,7 +49,7 @@ impl Count {
         }
         if line.starts_with("Summary [") {
             let passed = number_before(line, "passed");
-            // Failed, timed out and not started are told apart there; none of them passed.
+            // Failed, timed out and not started are reported apart there; none of them passed.
             let run = number_before(line, "tests run:").max(number_before(line, "test run:"));
             let skipped = number_before(line, "skipped");
             return Self {

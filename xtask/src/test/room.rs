@@ -49,7 +49,7 @@ mod tests {
     }
 
     #[test]
-    fn little_room_is_told_and_enough_is_not() {
+    fn little_room_is_reported_and_enough_is_not() {
         assert!(warning(3.6).unwrap().starts_with("3.6 GiB free"));
         assert_eq!(warning(40.0), None);
     }

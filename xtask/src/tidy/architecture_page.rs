@@ -18,7 +18,7 @@ pub const RULE: Rule = Rule {
 const PAGE: &str = "ARCHITECTURE.md";
 /// How the sentence begins that names the files of the root.
 const ROOT: &str = "In the root stand";
-/// What stands before the names of the chores.
+/// What precedes the names of the chores.
 const CHORES_ARE: &str = "chores in Rust: ";
 
 /// Folders and files whose name begins with a dot are exempt: tools find them by that name, readers skip them.
@@ -43,11 +43,11 @@ fn missing_folders(tree: &Tree, page: &str) -> Vec<Violation> {
     let root = tree.folders_in("").into_iter();
     let folders = root.chain(tree.folders_in("crates/"));
     let missing = folders.filter(|folder| !folder.starts_with('.') && !names(page, folder));
-    let told = missing.map(|folder| {
+    let reported = missing.map(|folder| {
         let what = format!("`{folder}/` is not mentioned");
         Violation::new(PAGE, 1, what, "say in a line what it is for")
     });
-    told.collect()
+    reported.collect()
 }
 
 /// Lines of the tree that lead nowhere, or name another package than the folder holds.
@@ -107,11 +107,11 @@ fn extra_files(tree: &Tree, page: &str) -> Vec<Violation> {
         .paths()
         .filter(|path| !path.contains('/') && !path.starts_with('.'));
     let extra = files.filter(|file| *file != PAGE && !paragraph.contains(&format!("`{file}`")));
-    let told = extra.map(|file| {
+    let reported = extra.map(|file| {
         let hint = format!("put it into a folder; {PAGE} names what stands in the root");
         Violation::new(file, 1, "a file in the root", hint)
     });
-    told.collect()
+    reported.collect()
 }
 
 /// The chores of the page, where they are not those of the program.
@@ -142,7 +142,7 @@ fn names(page: &str, folder: &str) -> bool {
 mod tests {
     use super::*;
 
-    fn told(page: &str, files: &[&str]) -> Vec<String> {
+    fn reported(page: &str, files: &[&str]) -> Vec<String> {
         let files: Vec<(&str, &str)> = files
             .iter()
             .map(|path| (*path, "name = \"armill-core\"\n"))
@@ -152,10 +152,10 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_that_is_not_mentioned_is_told() {
+    fn a_folder_that_is_not_mentioned_is_reported() {
         let page = "crates/\n  core/ the mechanics\nmyrobots/\n";
         let files = ["crates/core/a.rs", "robots/a.toml", ".ci/run"];
-        assert_eq!(told(page, &files), ["`robots/` is not mentioned"]);
+        assert_eq!(reported(page, &files), ["`robots/` is not mentioned"]);
     }
 
     #[test]
@@ -169,14 +169,14 @@ mod tests {
             "b.md",
             ".gitignore",
         ];
-        assert_eq!(told(page, &files), [""; 0]);
+        assert_eq!(reported(page, &files), [""; 0]);
     }
 
     #[test]
-    fn a_tree_that_is_not_so_is_told() {
+    fn a_tree_that_is_not_so_is_reported() {
         let page = "```\ncrates/\n  core/  package core\n  gone/\n```\nIn the root stand `a.toml`.\n\n`b.md` is elsewhere.\n";
         assert_eq!(
-            told(page, &["crates/core/Cargo.toml", "b.md"]),
+            reported(page, &["crates/core/Cargo.toml", "b.md"]),
             [
                 "crates/core/Cargo.toml has no package `core`",
                 "`crates/gone/` is not there",

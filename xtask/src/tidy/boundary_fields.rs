@@ -18,7 +18,7 @@ const BOUNDARY_DERIVES: &[&str] = &[
 /// A named field.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Field {
-    /// Where it stands, from 1.
+    /// Its position, from 1.
     pub line: usize,
     /// Its name.
     pub name: String,

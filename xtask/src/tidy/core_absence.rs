@@ -147,13 +147,13 @@ mod tests {
     }
 
     #[test]
-    fn files_and_clocks_are_told_also_from_a_group() {
+    fn files_and_clocks_are_reported_also_from_a_group() {
         let text = "use std::{f64, fs};\nlet t = std::time::Instant::now();\n";
         assert_eq!(found(text), ["1 std::fs in the core", "2 std::time in the core"]);
     }
 
     #[test]
-    fn printing_and_hash_order_are_told() {
+    fn printing_and_hash_order_are_reported() {
         let text = "println!(\"\");\nlet m: HashMap<u8, u8>;\nrand::random();\n#[derive(serde::Serialize)]\n";
         assert_eq!(
             found(text),
@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn global_state_is_told_and_a_lifetime_is_none() {
+    fn global_state_is_reported_and_a_lifetime_is_none() {
         let text = "pub static A: u8 = 0;\nconst B: &'static str = \"\";\nuse std::sync::OnceLock;\nstd::thread::spawn(f);\n";
         assert_eq!(
             found(text),

@@ -46,9 +46,9 @@ fn check(tree: &Tree) -> Vec<Violation> {
         for found in dependencies(text) {
             let name = found.name.strip_prefix("armill-").unwrap_or(found.name);
             if PROGRAMS.contains(&name) {
-                violations.push(found.told(path, "a program of the repository: nothing depends on it"));
+                violations.push(found.reported(path, "a program of the repository: nothing depends on it"));
             } else if path == "xtask/Cargo.toml" {
-                violations.push(found.told(
+                violations.push(found.reported(
                     path,
                     "xtask depends on no crate: it must build where nothing else does",
                 ));
@@ -76,10 +76,10 @@ fn check_crate(path: &str, text: &str) -> Vec<Violation> {
                 [] => "it may depend on no other crate of ours".to_owned(),
                 _ => format!("it may depend on {}", uses.join(", ")),
             };
-            violations.push(found.told(path, &hint));
+            violations.push(found.reported(path, &hint));
         } else if folder == "core" && !found.of_tests && !LIBRARIES_OF_CORE.contains(&found.name) {
             let hint = format!("the core is built of {}", LIBRARIES_OF_CORE.join(", "));
-            violations.push(found.told(path, &hint));
+            violations.push(found.reported(path, &hint));
         }
     }
     let missing = uses.iter().filter(|name| {
@@ -132,7 +132,7 @@ impl<'a> Dependency<'a> {
     }
 
     /// The violation that this dependency is.
-    fn told(&self, path: &str, hint: &str) -> Violation {
+    fn reported(&self, path: &str, hint: &str) -> Violation {
         let folder = path.trim_end_matches("/Cargo.toml").trim_start_matches("crates/");
         let what = format!(
             "`{folder}` depends on `{}`",
@@ -171,7 +171,7 @@ fn dependencies(text: &str) -> Vec<Dependency<'_>> {
 mod tests {
     use super::*;
 
-    fn told(files: &[(&str, &str)]) -> Vec<String> {
+    fn reported(files: &[(&str, &str)]) -> Vec<String> {
         let violations = check(&Tree::of(files)).into_iter();
         violations
             .map(|violation| format!("{}:{} {}", violation.path, violation.line, violation.what))
@@ -179,10 +179,10 @@ mod tests {
     }
 
     #[test]
-    fn a_dependency_upwards_is_told_with_its_line() {
+    fn a_dependency_upwards_is_reported_with_its_line() {
         let text = "[package]\nname = \"armill-core\"\n[dev-dependencies]\narmill-formats.workspace = true\n";
         assert_eq!(
-            told(&[("crates/core/Cargo.toml", text)]),
+            reported(&[("crates/core/Cargo.toml", text)]),
             ["crates/core/Cargo.toml:4 `core` depends on `formats`"]
         );
     }
@@ -202,27 +202,27 @@ mod tests {
     }
 
     #[test]
-    fn dependencies_downwards_pass_and_one_that_is_missing_is_told() {
+    fn dependencies_downwards_pass_and_one_that_is_missing_is_reported() {
         let three = "[dependencies]\narmill-core.workspace = true\narmill-formats = \"1\"\narmill-report = \"1\"\nserde = \"1\"\n";
         let three = &format!("{three}armill-web = \"1\"\n");
         let all = format!("{three}armill-study = \"1\"\n");
-        assert!(told(&[("crates/cli/Cargo.toml", &all)]).is_empty());
+        assert!(reported(&[("crates/cli/Cargo.toml", &all)]).is_empty());
         assert_eq!(
-            told(&[("crates/cli/Cargo.toml", three)]),
+            reported(&[("crates/cli/Cargo.toml", three)]),
             ["crates/cli/Cargo.toml:1 `cli` does not depend on `study`, as ARCHITECTURE.md says"]
         );
     }
 
     #[test]
-    fn a_crate_without_a_place_is_told() {
-        assert_eq!(told(&[("crates/new/Cargo.toml", "")]).len(), 1);
+    fn a_crate_without_a_place_is_reported() {
+        assert_eq!(reported(&[("crates/new/Cargo.toml", "")]).len(), 1);
     }
 
     #[test]
-    fn what_the_core_is_not_built_of_is_told_but_its_tests_may_use_it() {
+    fn what_the_core_is_not_built_of_is_reported_but_its_tests_may_use_it() {
         let text = "[dependencies]\nnalgebra = \"1\"\nserde = \"1\"\n[dev-dependencies]\nproptest = \"1\"\n";
         assert_eq!(
-            told(&[("crates/core/Cargo.toml", text)]),
+            reported(&[("crates/core/Cargo.toml", text)]),
             ["crates/core/Cargo.toml:3 `core` depends on `serde`"]
         );
     }
@@ -230,7 +230,7 @@ mod tests {
     #[test]
     fn programs_stand_beside_the_crates() {
         let root = "[workspace]\nmembers = [\"crates/*\", \"fuzz\"]\n[workspace.dependencies]\narmill-fuzz = \"1\"\n";
-        let found = told(&[
+        let found = reported(&[
             ("Cargo.toml", root),
             (
                 "bench/Cargo.toml",

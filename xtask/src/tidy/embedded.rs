@@ -46,7 +46,7 @@ mod tests {
     ];
 
     #[test]
-    fn what_the_library_does_not_name_is_told() {
+    fn what_the_library_does_not_name_is_reported() {
         let library = "include_str!(\"../../../robots/maker/one.toml\")";
         let tree = Tree::of(&[FILES, &[("crates/study/src/library.rs", library)]].concat());
         let paths: Vec<String> = check(&tree).into_iter().map(|violation| violation.path).collect();

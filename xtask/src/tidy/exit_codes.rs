@@ -1,4 +1,4 @@
-//! The exit codes of the command are told alike wherever they are told.
+//! The exit codes of the command are reported alike wherever they are reported.
 //!
 //! Compared are the words from the first `Exit code` of a file to the full stop, line breaks and `//!` taken
 //! out.
@@ -14,7 +14,7 @@ pub const RULE: Rule = Rule {
     check,
 };
 
-/// Where they are told; the first is the witness.
+/// Where they are reported; the first is the witness.
 const PLACES: &[&str] = &[
     "crates/cli/src/lib.rs",
     "ARCHITECTURE.md",
@@ -24,11 +24,11 @@ const PLACES: &[&str] = &[
 /// Compares the sentences that begin with `Exit code`.
 fn check(tree: &Tree) -> Vec<Violation> {
     let there = PLACES.iter().filter_map(|path| Some((*path, tree.text(path)?)));
-    let told: Vec<(&str, String)> = there.map(|(path, text)| (path, codes(text))).collect();
-    let Some((_, witness)) = told.first() else {
+    let given: Vec<(&str, String)> = there.map(|(path, text)| (path, codes(text))).collect();
+    let Some((_, witness)) = given.first() else {
         return Vec::new();
     };
-    let others = told.iter().skip(1).filter(|(_, codes)| codes != witness);
+    let others = given.iter().skip(1).filter(|(_, codes)| codes != witness);
     others
         .map(|(path, codes)| {
             let what = format!("exit codes `{codes}`, where {} tells `{witness}`", PLACES[0]);
@@ -53,7 +53,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn other_words_are_told_and_line_breaks_are_none() {
+    fn other_words_are_reported_and_line_breaks_are_none() {
         let tree = Tree::of(&[
             (
                 PLACES[0],

@@ -48,7 +48,7 @@ mod tests {
             ("bench/src/long.rs", long.as_str()),
             (IDEA.0, &tests[..80 * 5 + 5]),
         ]);
-        let told: Vec<(String, usize)> = check(&tree)
+        let given: Vec<(String, usize)> = check(&tree)
             .into_iter()
             .map(|violation| (violation.path, violation.line))
             .collect();
@@ -57,6 +57,6 @@ mod tests {
             ("crates/core/src/long.rs", 501),
             (IDEA.0, 81),
         ];
-        assert_eq!(told, expected.map(|(path, line)| (path.to_owned(), line)));
+        assert_eq!(given, expected.map(|(path, line)| (path.to_owned(), line)));
     }
 }

@@ -1,7 +1,7 @@
 //! Every relative link of a page leads to a file.
 //!
 //! Followed are `[text](target)`, pictures and `[name]: target`, from the folder of their page, or from the
-//! root where they begin with `/`. Left alone are code blocks, what stands in backticks, addresses with `://`,
+//! root where they begin with `/`. Left alone are code blocks, what is in backticks, addresses with `://`,
 //! anchors, paths of Rust.
 
 use super::Rule;
@@ -48,7 +48,7 @@ fn check_page(tree: &Tree, path: &str, text: &str) -> Vec<Violation> {
     violations
 }
 
-/// `line` without what stands between backticks.
+/// `line` without what is between backticks.
 fn without_code(line: &str) -> String {
     line.split('`').step_by(2).collect::<Vec<_>>().join(" ")
 }
@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn links_that_lead_nowhere_are_told() {
+    fn links_that_lead_nowhere_are_reported() {
         let page =
             "[a](missing.md) and [b](other.md)\n![c](../robots/c.png \"title\")\n[d]: ../../outside.md\n";
         assert_eq!(lines(page), [1, 2, 3]);

@@ -39,10 +39,10 @@ fn check(tree: &Tree) -> Vec<Violation> {
     violations
 }
 
-/// Whether `found` stands in `line` as the beginning of a path, not inside of a longer one or a method call.
+/// Whether `found` is in `line` as the beginning of a path, not inside of a longer one or a method call.
 fn begins_a_path(line: &str, found: &str) -> bool {
     let inside = |c: char| is_word(c) || matches!(c, '.' | ')' | ']' | '}' | '-');
-    // A hidden folder may lie in any other.
+    // A hidden folder may are in any other.
     let hidden = found.starts_with("/.");
     line.match_indices(found)
         .any(|(at, _)| hidden || !line[..at].ends_with(inside))
@@ -61,7 +61,7 @@ mod tests {
     }
 
     #[test]
-    fn paths_of_one_machine_are_told() {
+    fn paths_of_one_machine_are_reported() {
         assert_eq!(
             lines("see /wo~rk/main\nfine\n\"/ro~ot/.cargo\"\n/x/.lib~rary\n"),
             [1, 3, 4]

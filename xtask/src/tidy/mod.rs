@@ -3,7 +3,7 @@
 //! A rule looks at the text of the files that git knows or would take; it builds nothing. To add a rule: one
 //! file here with its `RULE`, one line in [`RULES`].
 //!
-//! Whether code compiles, is formatted and passes clippy is not asked here. A violation is told as
+//! Whether code compiles, is formatted and passes clippy is not asked here. A violation is reported as
 //! `path:line: what; hint`; the reason of a rule stands once over its violations. Exit code 1 where there is
 //! one.
 

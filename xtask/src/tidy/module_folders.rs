@@ -16,7 +16,7 @@ pub const RULE: Rule = Rule {
     check,
 };
 
-/// Looks at all Rust that ships; the tests of a module may lie in a folder beside it.
+/// Looks at all Rust that ships; the tests of a module may are in a folder beside it.
 fn check(tree: &Tree) -> Vec<Violation> {
     let files = tree.rust_files("");
     let mut violations = Vec::new();
@@ -77,7 +77,7 @@ fn has_comment(before: &[&str]) -> bool {
 mod tests {
     use super::*;
 
-    fn told(files: &[(&str, &str)]) -> Vec<String> {
+    fn reported(files: &[(&str, &str)]) -> Vec<String> {
         let violations = check(&Tree::of(files)).into_iter();
         violations
             .map(|violation| format!("{} {}", violation.path, violation.what))
@@ -85,8 +85,8 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_beside_its_file_is_told_unless_it_holds_tests_alone() {
-        let found = told(&[
+    fn a_folder_beside_its_file_is_reported_unless_it_holds_tests_alone() {
+        let found = reported(&[
             ("src/a.rs", "mod b;\n"),
             ("src/a/b.rs", ""),
             ("src/c.rs", "#[cfg(test)]\nmod tests;\n"),
@@ -97,10 +97,10 @@ mod tests {
     }
 
     #[test]
-    fn a_module_that_the_header_leaves_out_is_told() {
+    fn a_module_that_the_header_leaves_out_is_reported() {
         let text = "//! [`shape`](mod@shape): what is drawn.\n\npub mod shape;\nmod sha;\n\n// Beneath it.\nmod line;\nmod point;\n\n#[cfg(test)]\nmod tests;\n";
         assert_eq!(
-            told(&[("src/a/mod.rs", text)]),
+            reported(&[("src/a/mod.rs", text)]),
             ["src/a/mod.rs the header does not name `sha`"]
         );
     }

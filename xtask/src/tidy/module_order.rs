@@ -1,7 +1,7 @@
 //! Inside the core a module uses only those above it in the reading order.
 //!
 //! The order is that of the table of modules in ARCHITECTURE.md. Looked at are `crate::name` and as many
-//! `super::` as lead to the root; a name that the root re-exports hides its module and is told too.
+//! `super::` as lead to the root; a name that the root re-exports hides its module and is reported too.
 
 use super::Rule;
 use super::rust::RustFile;
@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn a_module_that_comes_after_is_told() {
+    fn a_module_that_comes_after_is_reported() {
         let text =
             "use crate::frame::Isometry;\nuse crate::{robot::Robot, load};\nfn f() { crate::map::g() }\n";
         assert_eq!(lines("crates/core/src/compliance/joint.rs", text), [2, 3]);
@@ -168,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn a_module_without_a_place_is_told() {
+    fn a_module_without_a_place_is_reported() {
         assert_eq!(lines("crates/core/src/new.rs", ""), [1]);
     }
 
@@ -177,12 +177,12 @@ mod tests {
         let root = "pub mod frame;\npub mod new;\npub mod spatial;\npub mod robot;\npub mod compliance;\npub mod load;\n\
                     pub mod map;\nuse crate::map::x;\n";
         let violations = check(&Tree::of(&[(PAGE, TABLE), (ROOT, root)]));
-        let told: Vec<&str> = violations
+        let given: Vec<&str> = violations
             .iter()
             .map(|violation| violation.what.as_str())
             .collect();
         assert_eq!(
-            told,
+            given,
             [
                 "`watch` of the table of modules is not in the core",
                 "module `new` has no row in the table of modules of ARCHITECTURE.md"

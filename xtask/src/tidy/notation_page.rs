@@ -23,11 +23,11 @@ fn check(tree: &Tree) -> Vec<Violation> {
     let Some(page) = tree.text(PAGE) else {
         return Vec::new();
     };
-    let mut told = BTreeSet::new();
+    let mut given = BTreeSet::new();
     let mut violations = Vec::new();
     for (line, cell) in first_cells(page, "| word |") {
         for word in cell.split("**").skip(1).step_by(2) {
-            if !told.insert(word) {
+            if !given.insert(word) {
                 let what = format!("`{word}` is told twice");
                 violations.push(Violation::new(
                     PAGE,
@@ -69,7 +69,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_word_told_twice_and_a_suffix_in_no_row_are_told() {
+    fn a_word_told_twice_and_a_suffix_in_no_row_are_reported() {
         let suffixes: Vec<String> = UNITS
             .iter()
             .chain(UNITS_AFTER_PER)
@@ -81,16 +81,16 @@ mod tests {
                 suffixes.join(", ")
             )
         };
-        let told = |page: &str| -> Vec<String> {
+        let given = |page: &str| -> Vec<String> {
             check(&Tree::of(&[(PAGE, page)]))
                 .into_iter()
                 .map(|violation| violation.what)
                 .collect()
         };
-        assert_eq!(told(&page(&suffixes)), ["`robot` is told twice"]);
+        assert_eq!(given(&page(&suffixes)), ["`robot` is told twice"]);
         let first = format!("the suffix `_{}` is in no row", UNITS[0]);
         assert_eq!(
-            told(&page(&suffixes[1..])),
+            given(&page(&suffixes[1..])),
             ["`robot` is told twice".to_owned(), first]
         );
     }

@@ -34,7 +34,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_rule_that_is_not_listed_is_told() {
+    fn a_rule_that_is_not_listed_is_reported() {
         let rule = "pub const RULE: Rule = Rule {\n";
         let tree = Tree::of(&[
             (

@@ -17,7 +17,7 @@ pub const RULE: Rule = Rule {
 
 const PAGE: &str = "ARCHITECTURE.md";
 
-/// Words in a path that stand for any name.
+/// Words in a path that represent any name.
 const ANY: &[&str] = &["NAME", "MAKER"];
 
 /// Endings of files that the page names without a folder.
@@ -26,7 +26,7 @@ const ENDINGS: &[&str] = &[".rs", ".toml", ".md"];
 /// What a study leaves behind, and what a user's folder holds: no files of the repository.
 const OF_USERS: &[&str] = &["study.toml"];
 
-/// Looks at what stands between backticks outside of code blocks.
+/// Looks at what is between backticks outside of code blocks.
 fn check(tree: &Tree) -> Vec<Violation> {
     let mut in_block = false;
     let mut violations = Vec::new();
@@ -59,20 +59,20 @@ fn is_path(token: &str) -> bool {
     like_a_path && (token.contains('/') || has_ending) && !OF_USERS.contains(&token)
 }
 
-/// Whether `path`, or a folder that it lies in, is `token` or ends with it.
+/// Whether `path`, or a folder that it is in, is `token` or ends with it.
 fn leads_to(token: &str, path: &str) -> bool {
     let token: Vec<&str> = token.trim_end_matches('/').split('/').collect();
     let parts: Vec<&str> = path.split('/').collect();
-    let same = |(wanted, part): (&&str, &&str)| {
-        let any = |any: &&str| part.ends_with(wanted.trim_start_matches(any)) && wanted.starts_with(any);
-        wanted == part || ANY.iter().any(any)
+    let same = |(requested, part): (&&str, &&str)| {
+        let any = |any: &&str| part.ends_with(requested.trim_start_matches(any)) && requested.starts_with(any);
+        requested == part || ANY.iter().any(any)
     };
     parts
         .windows(token.len())
         .any(|window| token.iter().zip(window).all(same))
 }
 
-/// Whether `token` counts from the root, or stands for several files.
+/// Whether `token` counts from the root, or represents several files.
 fn is_whole(tree: &Tree, token: &str) -> bool {
     let token = token.trim_end_matches('/');
     let folder = token.rsplit_once('/').map_or("", |(folder, _)| folder);
@@ -84,7 +84,7 @@ fn is_whole(tree: &Tree, token: &str) -> bool {
 mod tests {
     use super::*;
 
-    fn told(page: &str) -> Vec<String> {
+    fn reported(page: &str) -> Vec<String> {
         let tree = Tree::of(&[
             (PAGE, page),
             ("crates/core/src/robot/mod.rs", ""),
@@ -96,9 +96,9 @@ mod tests {
     }
 
     #[test]
-    fn paths_that_lead_nowhere_or_to_several_files_are_told() {
+    fn paths_that_lead_nowhere_or_to_several_files_are_reported() {
         assert_eq!(
-            told("`gone.rs`, `mod.rs`\n`crates/none/`\n```\n`gone.rs`\n```\n"),
+            reported("`gone.rs`, `mod.rs`\n`crates/none/`\n```\n`gone.rs`\n```\n"),
             [
                 "`gone.rs` is not there",
                 "`mod.rs` may mean 2 files",
@@ -110,6 +110,6 @@ mod tests {
     #[test]
     fn whole_paths_unique_ends_and_names_for_any_pass() {
         let page = "`law.rs`, `load/mod.rs`, `crates/core/src/load/NAME.rs`, `robots/MAKER/`, `crates/core/src/`, `no path`";
-        assert_eq!(told(page), [""; 0]);
+        assert_eq!(reported(page), [""; 0]);
     }
 }

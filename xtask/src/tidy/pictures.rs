@@ -1,4 +1,4 @@
-//! Every picture stands in the table of its crate and in the gallery.
+//! Every picture is in the table of its crate and in the gallery.
 //!
 //! Found by text: a type whose `impl` has a `pub fn to_svg(`. The table is that of the crate's head, where each
 //! picture answers a question; the gallery is an example that draws one of each.
@@ -69,7 +69,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_picture_without_row_or_example_is_told() {
+    fn a_picture_without_row_or_example_is_reported() {
         let picture = |name: &str| {
             format!("pub struct {name} {{}}\nimpl {name} {{\n    pub fn to_svg(&self) -> String {{}}\n}}\n")
         };
@@ -83,9 +83,9 @@ mod tests {
             (TABLE, "//! | where? | [`Map`] |\n"),
             ("crates/report/examples/gallery/main.rs", "Map::default()"),
         ]);
-        let told: Vec<String> = check(&tree).into_iter().map(|violation| violation.what).collect();
+        let given: Vec<String> = check(&tree).into_iter().map(|violation| violation.what).collect();
         assert_eq!(
-            told,
+            given,
             [
                 "`Plot` is not in the table of crates/report/src/lib.rs",
                 "`Plot` is not in crates/report/examples/gallery/"

@@ -37,12 +37,12 @@ fn check(tree: &Tree) -> Vec<Violation> {
     let mut violations = Vec::new();
     for format in formats(text) {
         let name = format.to_lowercase();
-        let wanted = [
+        let requested = [
             (MUTATIONS, format!(".{name}")),
             (GUIDE, format!("|{name}")),
             (TARGETS, format!("verdicts::{name},")),
         ];
-        for (place, words) in wanted {
+        for (place, words) in requested {
             let ours = format == OURS && place != TARGETS;
             // The guide lists the names between strokes, the first one behind the option.
             let text = tree
@@ -105,7 +105,7 @@ mod tests {
         Format::Armill => {\n armill::read(text)\n}\nFormat::Dh => super::dh::read(text),\nFormat::Urdf => urdf::read_to_tip(text),\n}\n}\n";
 
     #[test]
-    fn a_format_that_is_half_there_is_told_with_what_it_lacks() {
+    fn a_format_that_is_half_there_is_reported_with_what_it_lacks() {
         let tree = Tree::of(&[
             ("crates/formats/src/robot/format.rs", FORMATS),
             ("crates/formats/src/robot/armill/mod.rs", "pub fn read() {}"),
@@ -115,12 +115,12 @@ mod tests {
             (GUIDE, "`--format urdf|dh`"),
             (TARGETS, "verdicts::armill, verdicts::dh, verdicts::urdf,"),
         ]);
-        let told: Vec<String> = check(&tree)
+        let given: Vec<String> = check(&tree)
             .into_iter()
             .map(|violation| format!("{} {}", violation.path, violation.what))
             .collect();
         assert_eq!(
-            told,
+            given,
             [
                 "crates/formats/tests/robots/mutations.rs format `urdf` is not there",
                 "crates/formats/src/robot/urdf.rs module `urdf` has no `pub fn read`"

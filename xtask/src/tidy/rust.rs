@@ -12,7 +12,7 @@
 pub struct RustFile<'a> {
     /// From the repository root.
     pub path: &'a str,
-    /// Every line as it stands, tests included.
+    /// Every line unchanged, tests included.
     pub raw: Vec<&'a str>,
     /// The lines before the tests; comments and the contents of literals are taken out.
     pub code: Vec<String>,
@@ -97,12 +97,12 @@ impl<'a> RustFile<'a> {
     }
 }
 
-/// Whether `c` can stand in a Rust name.
+/// Whether `c` can are in a Rust name.
 pub fn is_word(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }
 
-/// Where `word` first stands in `line` as a whole name.
+/// Where `word` first is in `line` as a whole name.
 pub fn find_word(line: &str, word: &str) -> Option<usize> {
     line.match_indices(word)
         .map(|(at, _)| at)
@@ -118,7 +118,7 @@ fn is_test_path(path: &str) -> bool {
         || parts.any(|part| part == "tests" || part == "benches")
 }
 
-/// The first line that is no attribute, on the way past `#[cfg(test)]`.
+/// The first line that is not an attribute, on the way past `#[cfg(test)]`.
 fn item_after_attributes(lines: &[String]) -> &str {
     let without_attribute = |line: &'_ String| line.trim().is_empty() || line.trim().starts_with("#[");
     let first = lines
@@ -268,7 +268,7 @@ mod tests {
     }
 
     #[test]
-    fn groups_are_told_name_by_name() {
+    fn groups_are_reported_name_by_name() {
         let file = RustFile::read(
             "a.rs",
             "use crate::{\n    a::{b, c},\n    d,\n};\ncrate::e::f(mycrate::g);\n",

@@ -6,7 +6,7 @@
 //! [sources.paper]          needs no source; must be used
 //! ```
 //!
-//! All slips of a file are told in the order of its lines.
+//! All slips of a file are reported in the order of its lines.
 
 use super::Rule;
 use super::toml_lines::{Table, tables};
@@ -112,7 +112,7 @@ fn has_source(tables: &[Table], index: usize) -> bool {
 mod tests {
     use super::*;
 
-    fn told(text: &str) -> Vec<String> {
+    fn reported(text: &str) -> Vec<String> {
         let violations = check(&Tree::of(&[("robots/maker/model.toml", text)]));
         violations
             .into_iter()
@@ -123,16 +123,16 @@ mod tests {
     const PAPER: &str = "[sources.paper]\nwhat = \"Made up\"\nyear = 2020\n";
 
     #[test]
-    fn numbers_without_a_source_are_told() {
+    fn numbers_without_a_source_are_reported() {
         let text = format!("{PAPER}[joints]\nsource = \"paper\"\nk = 1\n[mass]\nm_kg = 2.0\n");
-        assert_eq!(told(&text), ["8 mass holds numbers without a source"]);
+        assert_eq!(reported(&text), ["8 mass holds numbers without a source"]);
     }
 
     #[test]
-    fn a_source_that_is_not_defined_or_not_used_is_told() {
+    fn a_source_that_is_not_defined_or_not_used_is_reported() {
         let text = format!("{PAPER}[joints]\nstiffness_source = \"book\"\n");
         assert_eq!(
-            told(&text),
+            reported(&text),
             [
                 "1 source \"paper\" is not used",
                 "5 stiffness_source \"book\" is not in [sources]"
@@ -143,14 +143,14 @@ mod tests {
     #[test]
     fn the_table_around_may_name_the_source() {
         let inside = format!("{PAPER}[a]\nsource = \"paper\"\n[a.b]\nk = 1\n[[a.c]]\nk = 1\n");
-        assert_eq!(told(&inside), Vec::<String>::new());
+        assert_eq!(reported(&inside), Vec::<String>::new());
         let by_name = format!("joints_source = \"paper\"\n{PAPER}[[joints]]\nk = 1\n[[joints]]\nk = 2\n");
-        assert_eq!(told(&by_name), Vec::<String>::new());
+        assert_eq!(reported(&by_name), Vec::<String>::new());
     }
 
     #[test]
     fn a_source_of_another_table_does_not_help() {
         let text = format!("mass_source = \"paper\"\n{PAPER}[[joints]]\nk = 1\n");
-        assert_eq!(told(&text), ["6 joints holds numbers without a source"]);
+        assert_eq!(reported(&text), ["6 joints holds numbers without a source"]);
     }
 }

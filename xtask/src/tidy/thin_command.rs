@@ -37,7 +37,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn json_by_hand_is_told_but_for_problems() {
+    fn json_by_hand_is_reported_but_for_problems() {
         let tree = Tree::of(&[
             (
                 "crates/cli/src/a.rs",

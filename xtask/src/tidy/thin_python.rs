@@ -35,17 +35,17 @@ fn check(tree: &Tree) -> Vec<Violation> {
     let mut violations = Vec::new();
     for file in tree.rust_files("crates/py/src/") {
         for (index, line) in file.code.iter().enumerate() {
-            let mut told = |what: String| {
+            let mut given = |what: String| {
                 let hint = "the core or armill-study computes it, for every surface";
                 violations.push(Violation::new(file.path, index + 1, what, hint));
             };
             for word in MECHANICS {
                 if find_word(line, word).is_some() {
-                    told(format!("`{word}`"));
+                    given(format!("`{word}`"));
                 }
             }
             for number in fractions(line) {
-                told(format!("the number {number}"));
+                given(format!("the number {number}"));
             }
         }
     }
@@ -69,7 +69,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn mechanics_and_units_are_told_and_what_fills_arrays_is_not() {
+    fn mechanics_and_units_are_reported_and_what_fills_arrays_is_not() {
         let tree = Tree::of(&[
             (
                 "crates/py/src/a.rs",

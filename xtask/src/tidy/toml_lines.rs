@@ -120,12 +120,12 @@ fn sources_in(line: &str, number: usize) -> Vec<Source> {
     sources
 }
 
-/// What stands between quotes, in order.
+/// What is between quotes, in order.
 fn quoted(text: &str) -> Vec<&str> {
     text.split('"').skip(1).step_by(2).collect()
 }
 
-/// Whether a number stands in `line` outside of strings, not as a part of a name.
+/// Whether a number is in `line` outside of strings, not as a part of a name.
 fn has_number(line: &str) -> bool {
     let value = line.split_once('=').map_or(line, |(_, value)| value);
     value.split('"').step_by(2).any(|outside| {
@@ -134,7 +134,7 @@ fn has_number(line: &str) -> bool {
     })
 }
 
-/// `line` up to a `#` that stands in no string.
+/// `line` up to a `#` that is in no string.
 fn without_comment(line: &str) -> &str {
     let mut in_string = false;
     for (at, c) in line.char_indices() {
@@ -152,15 +152,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn tables_are_told_with_their_sources_and_numbers() {
+    fn tables_are_reported_with_their_sources_and_numbers() {
         let text = "format = 1\nname = \"KR 210\" # 3 of\n[a]\nx_mm = [\n  [1.0, 2],\n]\nmass_source = [\"p\", \"q\"]\n\
                     [[b.\"c\"]]\nd = { e = 1, source = \"r\", f = \"s\" }\n";
         let tables = tables(text);
-        let told: Vec<_> = tables
+        let given: Vec<_> = tables
             .iter()
             .map(|table| (table.name.as_str(), table.line, table.first_number))
             .collect();
-        assert_eq!(told, [("", 1, None), ("a", 3, Some(5)), ("b.c", 8, Some(9))]);
+        assert_eq!(given, [("", 1, None), ("a", 3, Some(5)), ("b.c", 8, Some(9))]);
         let sources = |at: usize| {
             tables[at]
                 .sources

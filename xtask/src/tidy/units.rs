@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_without_unit_are_told() {
+    fn numbers_without_unit_are_reported() {
         assert_eq!(
             lines("depth: f64,\nreach: Option<f64>,\nwrench: [[f64; 6]; 2],\nname: String,\n"),
             [3, 4, 5]
@@ -177,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn words_that_only_look_like_units_are_told() {
+    fn words_that_only_look_like_units_are_reported() {
         for name in [
             "angle_min",
             "force_per_mm",

@@ -1,7 +1,7 @@
 //! No unsafe code but where ARCHITECTURE.md names it.
 //!
 //! Comments and literals may say the word. The compiler denies it as well (`unsafe_code` in `Cargo.toml`); this
-//! rule counts where an exception is made. Further calls in a file that has its number are told from the first
+//! rule counts where an exception is made. Further calls in a file that has its number are reported from the first
 //! one too many.
 
 use super::Rule;
@@ -16,7 +16,7 @@ pub const RULE: Rule = Rule {
     check,
 };
 
-/// Where it may stand, and how often.
+/// Where it may be, and how often.
 const ALLOWED: &[(&str, usize)] = &[
     // After the check for AVX2, and for AVX-512.
     ("crates/core/src/kernel/lanes/backend.rs", 2),
@@ -45,7 +45,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn one_more_than_allowed_is_told_and_the_name_of_the_lint_is_none() {
+    fn one_more_than_allowed_is_reported_and_the_name_of_the_lint_is_none() {
         let call = "unsafe { f() }\n";
         let tree = Tree::of(&[
             (
@@ -54,12 +54,12 @@ mod tests {
             ),
             ("crates/study/src/a.rs", call),
         ]);
-        let told: Vec<(String, usize)> = check(&tree)
+        let given: Vec<(String, usize)> = check(&tree)
             .into_iter()
             .map(|violation| (violation.path, violation.line))
             .collect();
         assert_eq!(
-            told,
+            given,
             [
                 (ALLOWED[0].0.to_owned(), 4),
                 ("crates/study/src/a.rs".to_owned(), 1)

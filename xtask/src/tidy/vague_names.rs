@@ -24,14 +24,14 @@ const HINT: &str = "name it by the idea it holds";
 /// Looks at every file and folder of any kind, and at modules written inside a Rust file.
 fn check(tree: &Tree) -> Vec<Violation> {
     let mut violations = Vec::new();
-    let mut told = BTreeSet::new();
+    let mut given = BTreeSet::new();
     for path in tree.paths() {
         let mut end = 0;
         for part in path.split('/') {
             end += part.len();
             let name = part.split('.').next().unwrap_or_default();
-            // A folder is told once, not once for each file in it.
-            if VAGUE.contains(&name) && told.insert(&path[..end]) {
+            // A folder is reported once, not once for each file in it.
+            if VAGUE.contains(&name) && given.insert(&path[..end]) {
                 violations.push(Violation::new(path, 1, format!("`{part}` says nothing"), HINT));
             }
             end += 1;
@@ -58,7 +58,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn vague_files_folders_and_modules_are_told_once() {
+    fn vague_files_folders_and_modules_are_reported_once() {
         let tree = Tree::of(&[
             ("a/utils.rs", ""),
             ("b/common/one.ts", ""),

@@ -1,4 +1,4 @@
-//! Every validation case explains itself, and stands in the overview and in the table of achieved errors.
+//! Every validation case explains itself, and is in the overview and in the table of achieved errors.
 //!
 //! | must be there | for each folder in `validation/` |
 //! |---|---|
@@ -104,7 +104,7 @@ fn rows(table: &str) -> Vec<(usize, &str)> {
 mod tests {
     use super::*;
 
-    fn told(files: &[(&str, &str)]) -> Vec<String> {
+    fn reported(files: &[(&str, &str)]) -> Vec<String> {
         let violations = check(&Tree::of(files)).into_iter();
         violations
             .map(|violation| format!("{}:{} {}", violation.path, violation.line, violation.what))
@@ -112,9 +112,9 @@ mod tests {
     }
 
     #[test]
-    fn a_case_without_page_or_row_and_a_row_without_case_are_told() {
+    fn a_case_without_page_or_row_and_a_row_without_case_are_reported() {
         let table = "| case | error |\n|---|---:|\n| `gone` | 1 |\n";
-        let violations = told(&[
+        let violations = reported(&[
             ("validation/new/data.csv", ""),
             (TABLE, table),
             ("validation/src/main.rs", ""),
@@ -134,11 +134,11 @@ mod tests {
     fn cases_with_page_and_row_pass() {
         let table = "| case | error |\n|---|---|\n| [circle](circle/README.md) | 1 |\n| | 2 |\n";
         let page = (OVERVIEW, "| drawn | [circle](circle/README.md) |");
-        assert!(told(&[("validation/circle/README.md", ""), (TABLE, table), page]).is_empty());
+        assert!(reported(&[("validation/circle/README.md", ""), (TABLE, table), page]).is_empty());
     }
 
     #[test]
     fn no_cases_need_no_table() {
-        assert!(told(&[("validation/src/main.rs", "")]).is_empty());
+        assert!(reported(&[("validation/src/main.rs", "")]).is_empty());
     }
 }

@@ -19,5 +19,5 @@ const ADVISE_EXAMPLES: &str = "\
 Examples:
   armill advise cell                               the part may move by 300 mm to all sides
   armill advise cell --x-mm 700,1300 --tilt-deg 0,90 --branch any
-  armill advise cell --ask rim --json
+  armill advise cell --analysis rim --json
 The result is that of `armill run` with all that is advised, in the folder `advice`, with advice.json beside it.";

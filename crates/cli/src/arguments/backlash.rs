@@ -54,7 +54,7 @@ pub(crate) struct BacklashArguments {
     pub seed: u64,
     /// Circles of the study, by name, where not all are meant (with --circles and --simulate)
     #[arg(long, value_name = "NAME")]
-    pub ask: Vec<String>,
+    pub analysis: Vec<String>,
     /// Folder for answer, table and pictures (nothing is written if left out)
     #[arg(long, value_name = "FOLDER", conflicts_with_all = ["circles", "simulate"])]
     pub out: Option<PathBuf>,

@@ -81,7 +81,7 @@ pub(crate) struct BallbarArguments {
     pub study: Option<PathBuf>,
     /// Name of the circle in that study, where it has several
     #[arg(long, value_name = "NAME", requires = "study")]
-    pub ask: Option<String>,
+    pub analysis: Option<String>,
     /// Where angle 0 of the files lies on the circle, from its +y' towards z'
     #[arg(long, value_name = "DEG", default_value_t = 0.0, requires = "study")]
     pub zero_deg: f64,

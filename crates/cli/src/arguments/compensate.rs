@@ -13,9 +13,9 @@ use super::writing::WritingOptions;
 #[command(after_help = "\
 Examples:
   armill compensate cell                   every path of the study, into cell/compensated
-  armill compensate cell --ask ring --out fixed
-  armill compensate cell --ask ring --program ring.src --frame 3 --tool 2
-  armill compensate cell --ask ring --as-drawn --program first.src --feed-mm-per-min 1000
+  armill compensate cell --analysis ring --out fixed
+  armill compensate cell --analysis ring --program ring.src --frame 3 --tool 2
+  armill compensate cell --analysis ring --nominal --program first.src --feed-mm-per-min 1000
 The ending of --program is the language: .src KUKA, .mod ABB, .jbi Yaskawa, .ls FANUC, .script UR, .pjx Staubli.
 A path that follows a program of a robot (program = { file = \"part.src\" }) brings that program too, under its own name, with
 its targets moved and every other byte as it was. A program alone tells no robot and no load: put it into a study.
@@ -25,13 +25,13 @@ pub(crate) struct CompensateArguments {
     pub study: PathBuf,
     /// The path to compensate, by its name (every path if left out)
     #[arg(long, value_name = "NAME")]
-    pub ask: Option<String>,
+    pub analysis: Option<String>,
     /// Folder for the results (STUDY/compensated if left out)
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Make up for nothing: the path as it is drawn, such as a first circle of a ball-bar
     #[arg(long)]
-    pub as_drawn: bool,
+    pub nominal: bool,
     #[command(flatten)]
     pub program: ProgramOptions,
     /// Speed of the tip where the path tells none

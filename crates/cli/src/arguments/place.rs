@@ -1,9 +1,9 @@
 //! `armill place STUDY`: where the part should lie so that a path deviates least.
 
-use armill_study::file::placement::SureName;
+use armill_study::file::placement::RankByName;
 use clap::{Args, ValueEnum};
 
-use super::posture::{CountsArgument, GoalArgument};
+use super::posture::{ComponentArgument, ObjectiveArgument};
 use super::run::RunOptions;
 
 #[derive(Debug, Args)]
@@ -21,7 +21,7 @@ pub(crate) struct PlaceArguments {
 pub(crate) struct PlaceOptions {
     /// The path to place, where the study asks for several
     #[arg(long, value_name = "NAME")]
-    pub ask: Option<String>,
+    pub analysis: Option<String>,
 
     /// Least and greatest x of the plane's centre [without any bound: 300 mm to all sides]
     #[arg(long, value_name = "LEAST,GREATEST", value_parser = bounds, allow_hyphen_values = true)]
@@ -61,11 +61,11 @@ pub(crate) struct PlaceOptions {
 
     /// What shall be least
     #[arg(long)]
-    pub goal: Option<GoalArgument>,
+    pub objective: Option<ObjectiveArgument>,
 
     /// Which part of the deviation counts
     #[arg(long)]
-    pub counts: Option<CountsArgument>,
+    pub component: Option<ComponentArgument>,
 
     /// How far every joint stays from its limits, the elbow from stretched, the wrist from straight [default: 0]
     #[arg(long, value_name = "DEG")]
@@ -74,7 +74,7 @@ pub(crate) struct PlaceOptions {
     /// What places are compared by: the goal as if all were known, with two standard uncertainties, or how probably it keeps
     /// the limit [default: nominal]
     #[arg(long)]
-    pub sure: Option<SureArgument>,
+    pub rank_by: Option<RankByArgument>,
 
     /// Seed of the search: the same seed gives the same place
     #[arg(long, value_name = "N", default_value_t = 1)]
@@ -83,7 +83,7 @@ pub(crate) struct PlaceOptions {
 
 /// `--sure`.
 #[derive(Clone, Copy, Debug, ValueEnum)]
-pub(crate) enum SureArgument {
+pub(crate) enum RankByArgument {
     /// As if all were known
     Nominal,
     /// With two standard uncertainties
@@ -92,12 +92,12 @@ pub(crate) enum SureArgument {
     WithinLimit,
 }
 
-impl From<SureArgument> for SureName {
-    fn from(sure: SureArgument) -> SureName {
-        match sure {
-            SureArgument::Nominal => SureName::Nominal,
-            SureArgument::PlusTwoSigma => SureName::PlusTwoSigma,
-            SureArgument::WithinLimit => SureName::WithinLimit,
+impl From<RankByArgument> for RankByName {
+    fn from(rank_by: RankByArgument) -> RankByName {
+        match rank_by {
+            RankByArgument::Nominal => RankByName::Nominal,
+            RankByArgument::PlusTwoSigma => RankByName::PlusTwoSigma,
+            RankByArgument::WithinLimit => RankByName::WithinLimit,
         }
     }
 }
@@ -115,6 +115,6 @@ const PLACE_EXAMPLES: &str = "\
 Examples:
   armill place cell --x-mm 700,1300 --y-mm -400,400
   armill place cell --x-mm 700,1300 --z-mm 400,1200 --tilt-deg -60,90 --branch any --spin-deg -180,180
-  armill place cell --margin-deg 5 --goal mean --ask rim
+  armill place cell --margin-deg 5 --goal mean --analysis rim
 The result is that of `armill run` with the path at the place found, in the folder `place`, with placement.json beside it.
 A search that was stopped goes on where it was when it is started again.";

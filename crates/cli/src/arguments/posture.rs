@@ -1,6 +1,6 @@
 //! `armill posture STUDY`: the best turn of the tool and branch along the paths of a study.
 
-use armill_study::file::posture_search::{CountsName, GoalName};
+use armill_study::file::posture_search::{ComponentName, ObjectiveName};
 use clap::{Args, ValueEnum};
 
 use super::run::RunOptions;
@@ -14,11 +14,11 @@ pub(crate) struct PostureArguments {
 
     /// What shall be least
     #[arg(long)]
-    pub goal: Option<GoalArgument>,
+    pub objective: Option<ObjectiveArgument>,
 
     /// Which part of the deviation counts
     #[arg(long)]
-    pub counts: Option<CountsArgument>,
+    pub component: Option<ComponentArgument>,
 
     /// First and last turn of the tool about its axis, beside the one it has [default: -180,180]
     #[arg(
@@ -48,7 +48,7 @@ pub(crate) struct PostureArguments {
 
 /// `--goal`.
 #[derive(Clone, Copy, Debug, ValueEnum)]
-pub(crate) enum GoalArgument {
+pub(crate) enum ObjectiveArgument {
     /// The largest deviation along the path
     Worst,
     /// The mean of its points
@@ -59,7 +59,7 @@ pub(crate) enum GoalArgument {
 
 /// `--counts`.
 #[derive(Clone, Copy, Debug, ValueEnum)]
-pub(crate) enum CountsArgument {
+pub(crate) enum ComponentArgument {
     /// Across the tool
     InPlane,
     /// Across tool and feed: what walls get
@@ -68,22 +68,22 @@ pub(crate) enum CountsArgument {
     Axial,
 }
 
-impl From<GoalArgument> for GoalName {
-    fn from(goal: GoalArgument) -> GoalName {
-        match goal {
-            GoalArgument::Worst => GoalName::Worst,
-            GoalArgument::Mean => GoalName::Mean,
-            GoalArgument::AboveLimit => GoalName::AboveLimit,
+impl From<ObjectiveArgument> for ObjectiveName {
+    fn from(objective: ObjectiveArgument) -> ObjectiveName {
+        match objective {
+            ObjectiveArgument::Worst => ObjectiveName::Worst,
+            ObjectiveArgument::Mean => ObjectiveName::Mean,
+            ObjectiveArgument::AboveLimit => ObjectiveName::AboveLimit,
         }
     }
 }
 
-impl From<CountsArgument> for CountsName {
-    fn from(counts: CountsArgument) -> CountsName {
-        match counts {
-            CountsArgument::InPlane => CountsName::InPlane,
-            CountsArgument::CrossTrack => CountsName::CrossTrack,
-            CountsArgument::Axial => CountsName::Axial,
+impl From<ComponentArgument> for ComponentName {
+    fn from(component: ComponentArgument) -> ComponentName {
+        match component {
+            ComponentArgument::InPlane => ComponentName::InPlane,
+            ComponentArgument::CrossTrack => ComponentName::CrossTrack,
+            ComponentArgument::Axial => ComponentName::Axial,
         }
     }
 }

@@ -8,7 +8,7 @@ use armill_study::output::Opening;
 use armill_study::place::{Journal, Placing};
 use armill_study::{StudyError, output, studies};
 
-use super::place::wanted;
+use super::place::requested;
 use super::run::{folder, in_pool, results};
 use crate::Outcome;
 use crate::arguments::AdviseArguments;
@@ -22,14 +22,14 @@ pub(crate) fn run(arguments: &AdviseArguments) -> Result<Outcome, StudyError> {
     let found = studies::find(&arguments.run.study)?;
     let study = found.read()?;
     let seed = u64::from(arguments.place.seed);
-    let placing = Placing::new(&study, wanted(&arguments.place)?, seed)?;
+    let placing = Placing::new(&study, requested(&arguments.place)?, seed)?;
     let out = folder(("advise", "advice"), &found, &arguments.run)?;
     let mut journal = Journal::kept_in(&out);
     let advice = in_pool(arguments.run.threads, || {
         let progress = Progress::of("places", placing.place_count());
         progress.watch(|watch| {
-            let told = |what: &str| progress.tell(what);
-            advise((&found, &study), &placing, &mut journal, (watch, &told))
+            let given = |what: &str| progress.tell(what);
+            advise((&found, &study), &placing, &mut journal, (watch, &given))
         })
     })??;
     let json = serde_json::to_string_pretty(&advice.answer)? + "\n";

@@ -59,22 +59,22 @@ pub(crate) fn run(arguments: &BacklashArguments) -> Result<Outcome, StudyError> 
 
 /// The gaps.
 fn estimated(arguments: &BacklashArguments, study: &Study, noise: Option<f64>) -> Result<String, StudyError> {
-    let wanted = Wanted {
+    let requested = Wanted {
         most_lobes: arguments.lobes,
         noise,
     };
     let progress = Progress::new(estimate::point_count(study)?);
-    let (found, told) = progress.watch(|watch| estimate(study, &wanted, watch))?;
+    let (found, given) = progress.watch(|watch| estimate(study, &requested, watch))?;
     if let Some(out) = &arguments.out {
-        output::write(&told, &found, &arguments.writing.writer("backlash").folder(out)?)?;
+        output::write(&given, &found, &arguments.writing.writer("backlash").folder(out)?)?;
         say(&format!("answer, table and pictures in {}", out.display()));
     }
-    for warning in &told.warnings {
+    for warning in &given.warnings {
         say(&format!("warning: {warning}"));
     }
     Ok(match arguments.json {
-        true => serde_json::to_string_pretty(&told)?,
-        false => as_text(&told),
+        true => serde_json::to_string_pretty(&given)?,
+        false => as_text(&given),
     })
 }
 
@@ -104,8 +104,8 @@ fn planned(
         return Err(StudyError::value(message, "the lengths of your bar"));
     }
     let radii = arguments.radii_mm.iter().map(|mm| above_zero("--radii-mm", *mm));
-    let wanted = PlanWanted {
-        asks: arguments.ask.clone(),
+    let requested = PlanWanted {
+        analyses: arguments.analysis.clone(),
         count,
         half: half.map(|mm| mm * 1e-3),
         radii: radii
@@ -114,30 +114,30 @@ fn planned(
         most_lobes: arguments.lobes,
         noise: noise.unwrap_or(PLAN_NOISE_UM * 1e-6),
     };
-    let progress = Progress::of("circles", candidate_count(study, &wanted)?);
-    let told = progress.watch(|watch| plan(study, &wanted, watch))?;
+    let progress = Progress::of("circles", candidate_count(study, &requested)?);
+    let given = progress.watch(|watch| plan(study, &requested, watch))?;
     Ok(match arguments.json {
-        true => serde_json::to_string_pretty(&told)?,
-        false => plan_as_text(&told),
+        true => serde_json::to_string_pretty(&given)?,
+        false => plan_as_text(&given),
     })
 }
 
 /// Files of a bar.
 fn simulated(arguments: &BacklashArguments, study: &Study, noise: Option<f64>) -> Result<String, StudyError> {
-    let wanted = SimulationWanted {
-        asks: arguments.ask.clone(),
+    let requested = SimulationWanted {
+        analyses: arguments.analysis.clone(),
         runs: arguments.runs,
         noise: noise.unwrap_or(0.0),
         seed: arguments.seed,
     };
     let folder = arguments.simulate.as_deref().unwrap_or(".".as_ref());
-    let points = simulate::point_count(study, &wanted.asks)?;
+    let points = simulate::point_count(study, &requested.analyses)?;
     let writer = arguments.writing.writer("backlash");
-    let told = Progress::new(points).watch(|watch| simulate(study, (&wanted, folder, &writer), watch))?;
-    let line = |one: &Simulated| format!("{}: {} um at most, in {}", one.ask, um(one.largest_um), one.file);
+    let given = Progress::new(points).watch(|watch| simulate(study, (&requested, folder, &writer), watch))?;
+    let line = |one: &Simulated| format!("{}: {} um at most, in {}", one.analysis, um(one.largest_um), one.file);
     Ok(match arguments.json {
-        true => serde_json::to_string_pretty(&told)?,
-        false => told.iter().map(line).collect::<Vec<_>>().join("\n"),
+        true => serde_json::to_string_pretty(&given)?,
+        false => given.iter().map(line).collect::<Vec<_>>().join("\n"),
     })
 }
 
@@ -146,20 +146,20 @@ fn um(value: f64) -> String {
 }
 
 /// The gaps as a person reads them, see the head of this file.
-fn as_text(told: &BacklashAnswer) -> String {
+fn as_text(given: &BacklashAnswer) -> String {
     let mut lines = Vec::new();
-    for circle in &told.circles {
+    for circle in &given.circles {
         lines.extend(circle_as_text(circle));
         lines.push(String::new());
     }
     let head = ["joint", "backlash", "", "inflation", "robot file"];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
-    rows.extend(told.joints.iter().map(joint_as_row));
+    rows.extend(given.joints.iter().map(joint_as_row));
     lines.extend(columns(&rows, &[Align::Left]));
     lines.push(String::new());
     lines.push(format!(
         "{} samples: {:.2} um rms beside place, size and lobes, {:.2} um beside the gaps too",
-        told.samples, told.rms_before_um, told.rms_after_um
+        given.samples, given.rms_before_um, given.rms_after_um
     ));
     lines.join("\n")
 }
@@ -168,7 +168,7 @@ fn circle_as_text(circle: &CircleAnswer) -> Vec<String> {
     let [x, y, z] = circle.centre_mm;
     let mut lines = vec![format!(
         "circle {}: radius {} mm about ({x:.1}, {y:.1}, {z:.1}) mm; {}",
-        circle.ask,
+        circle.analysis,
         circle.radius_mm,
         circle.files.join(", ")
     )];
@@ -195,7 +195,7 @@ fn circle_as_text(circle: &CircleAnswer) -> Vec<String> {
 }
 
 fn joint_as_row(joint: &JointAnswer) -> Vec<String> {
-    let told = match (
+    let given = match (
         joint.backlash_deg.zip(joint.backlash_u_deg),
         joint.backlash_mm.zip(joint.backlash_u_mm),
     ) {
@@ -208,7 +208,7 @@ fn joint_as_row(joint: &JointAnswer) -> Vec<String> {
         (None, Some(mm)) => format!("{mm:.5} mm"),
         (None, None) => "-".to_owned(),
     };
-    let [gap, u] = told;
+    let [gap, u] = given;
     let inflation = joint
         .inflation_ratio
         .map_or("-".to_owned(), |ratio| format!("{ratio:.1}"));
@@ -216,32 +216,32 @@ fn joint_as_row(joint: &JointAnswer) -> Vec<String> {
 }
 
 /// Circles to drive, as a person reads them.
-fn plan_as_text(told: &PlanAnswer) -> String {
+fn plan_as_text(given: &PlanAnswer) -> String {
     let list = |numbers: &[f64]| {
         let words: Vec<String> = numbers.iter().map(|mm| format!("{mm:.0}")).collect();
         words.join(", ")
     };
-    let [low, high] = &told.box_mm;
+    let [low, high] = &given.box_mm;
     let mut lines = vec![
         format!(
             "looked at {} circles, {} followed: {} centres a side from ({}) to ({}) mm, planes {}, radii {} mm",
-            told.candidates,
-            told.followed,
-            told.along,
+            given.candidates,
+            given.followed,
+            given.along,
             list(low),
             list(high),
-            told.planes.join(" "),
-            list(&told.radii_mm)
+            given.planes.join(" "),
+            list(&given.radii_mm)
         ),
-        format!("tool against the normal of the plane; noise {} um", told.noise_um),
+        format!("tool against the normal of the plane; noise {} um", given.noise_um),
         String::new(),
-        format!("{:<10} {}", "study", told.begun.join(", ")),
-        format!("{:<10} {}", "", known_as_text(&told.known)),
+        format!("{:<10} {}", "study", given.begun.join(", ")),
+        format!("{:<10} {}", "", known_as_text(&given.known)),
     ];
-    for (index, circle) in told.circles.iter().enumerate() {
+    for (index, circle) in given.circles.iter().enumerate() {
         lines.extend(proposed_as_text(index + 1, circle));
     }
-    if let Some(last) = told.circles.last().map(|circle| &circle.known) {
+    if let Some(last) = given.circles.last().map(|circle| &circle.known) {
         lines.push(String::new());
         lines.push("standard uncertainty to expect with all of them".to_owned());
         let row = |joint: &ExpectedAnswer| {
@@ -284,7 +284,7 @@ fn known_as_text(known: &KnownAnswer) -> String {
     }];
     parts.extend(
         known
-            .not_told_apart
+            .not_identifiable
             .iter()
             .map(|set| format!("not apart {}", set.join(", "))),
     );

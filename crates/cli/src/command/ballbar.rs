@@ -14,7 +14,7 @@
 
 use std::path::PathBuf;
 
-use armill_formats::measurement::ballbar::{Told, direction_of};
+use armill_formats::measurement::ballbar::{BallbarReadOptions, direction_of};
 use armill_formats::robot_program::Written;
 use armill_study::StudyError;
 use armill_study::ballbar::answer::{LobeAnswer, PartAnswer, ShownAnswer};
@@ -46,21 +46,21 @@ const MOST_OUTLIERS: usize = 10;
 /// # Errors
 /// Files that cannot be read, or their problems; options that cannot be; a place where nothing can be written.
 pub(crate) fn run(arguments: &BallbarArguments) -> Result<Outcome, StudyError> {
-    let (wanted, question) = (wanted(arguments)?, question(arguments)?);
-    let measured = read(&arguments.files, &wanted)?;
+    let (requested, question) = (requested(arguments)?, question(arguments)?);
+    let measured = read(&arguments.files, &requested)?;
     let found = analyse(&measured, &question)?;
     let mut answer = answer(&measured, &question, &found);
     if !arguments.before.is_empty() {
-        let first = read(&arguments.before, &wanted)?;
+        let first = read(&arguments.before, &requested)?;
         let shown = analyse(&first, &question)?;
         answer.before = Some(before((&first, &shown), (&measured, &found))?);
     }
     let taught = taught(arguments, (&measured, &found))?;
     let table = match &taught {
         None => None,
-        Some((told, circle, _)) => {
-            answer.warnings.extend(told.warnings(arguments.teach_lobes));
-            answer.taught = Some(told.clone());
+        Some((given, circle, _)) => {
+            answer.warnings.extend(given.warnings(arguments.teach_lobes));
+            answer.taught = Some(given.clone());
             Some(circle.csv()?)
         }
     };
@@ -101,14 +101,14 @@ fn taught(
     (measured, found): (&Measured, &Found),
 ) -> Result<Option<(TaughtAnswer, TaughtCircle, Option<Program>)>, StudyError> {
     let told_feed = measured.feed.map(|feed| feed * 60e3);
-    let program = program::wanted(&arguments.program, arguments.feed_mm_per_min.or(told_feed))?;
+    let program = program::requested(&arguments.program, arguments.feed_mm_per_min.or(told_feed))?;
     if arguments.teach.is_none() && program.is_none() {
         return Ok(None);
     }
     let radius = measured.test.radius();
     let needed = program
         .as_ref()
-        .map(|(_, wanted)| points_within(radius, wanted.within));
+        .map(|(_, requested)| points_within(radius, requested.within));
     let points = arguments
         .points
         .unwrap_or(needed.unwrap_or(USUAL_POINTS).min(MOST_POINTS));
@@ -119,9 +119,9 @@ fn taught(
         );
         return Err(StudyError::value(message, "more than two points a lobe"));
     }
-    let (told, circle) = teach(found, (points, arguments.teach_lobes))?;
-    let Some((folder, wanted)) = program else {
-        return Ok(Some((told, circle, None)));
+    let (given, circle) = teach(found, (points, arguments.teach_lobes))?;
+    let Some((folder, requested)) = program else {
+        return Ok(Some((given, circle, None)));
     };
     let Some(study) = &arguments.study else {
         return Err(StudyError::value(
@@ -131,26 +131,26 @@ fn taught(
     };
     finite("--zero-deg", &[arguments.zero_deg])?;
     let place = CircleWanted {
-        ask: arguments.ask.clone(),
+        analysis: arguments.analysis.clone(),
         zero: arguments.zero_deg.to_radians(),
         mirrored: arguments.mirrored,
     };
     let study = studies::find(study)?.read()?;
-    let mut written = taught_program(&study, &circle, &place, &wanted)?;
+    let mut written = taught_program(&study, &circle, &place, &requested)?;
     let sagitta = sagitta(radius, points);
-    if sagitta > wanted.within {
+    if sagitta > requested.within {
         written.notes.push(format!(
             "straight moves between {points} points leave the circle by {:.1} um; {} points keep within {} um",
             sagitta * 1e6,
-            points_within(radius, wanted.within),
+            points_within(radius, requested.within),
             arguments.program.within_um
         ));
     }
-    Ok(Some((told, circle, Some((folder, written)))))
+    Ok(Some((given, circle, Some((folder, written)))))
 }
 
 /// What files do not tell.
-fn wanted(arguments: &BallbarArguments) -> Result<Wanted, StudyError> {
+fn requested(arguments: &BallbarArguments) -> Result<Wanted, StudyError> {
     let direction = arguments.direction.as_deref().map(|word| {
         direction_of(word)
             .ok_or_else(|| StudyError::value(format!("--direction: `{word}` is no direction"), "CW or CCW"))
@@ -158,7 +158,7 @@ fn wanted(arguments: &BallbarArguments) -> Result<Wanted, StudyError> {
     let positive = |flag: &str, value: Option<f64>| value.map(|value| above_zero(flag, value)).transpose();
     finite("--start-deg", arguments.start_deg.as_slice())?;
     Ok(Wanted {
-        told: Told {
+        given: BallbarReadOptions {
             radius: positive("--radius-mm", arguments.radius_mm)?.map(|mm| mm * 1e-3),
             direction: direction.transpose()?,
             start: arguments.start_deg.map(f64::to_radians),

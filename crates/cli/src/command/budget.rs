@@ -28,32 +28,32 @@ use crate::terminal::{print, say};
 pub(crate) fn run(arguments: &BudgetArguments) -> Result<Outcome, StudyError> {
     let study = studies::find(&arguments.study)?.read()?;
     let progress = Progress::new(point_count(&study)?);
-    let (combined, told) = progress.watch(|watch| budget(&study, watch))?;
+    let (combined, given) = progress.watch(|watch| budget(&study, watch))?;
     if let Some(out) = &arguments.out {
-        output::write(&told, &combined, &arguments.writing.writer("budget").folder(out)?)?;
+        output::write(&given, &combined, &arguments.writing.writer("budget").folder(out)?)?;
         say(&format!("table and pictures in {}", out.display()));
     }
     print(&match arguments.json {
-        true => serde_json::to_string_pretty(&told)?,
-        false => as_text(&told),
+        true => serde_json::to_string_pretty(&given)?,
+        false => as_text(&given),
     })?;
     Ok(Outcome::Fine)
 }
 
 /// The answer as a person reads it, see the head of this file.
-fn as_text(told: &BudgetAnswer) -> String {
+fn as_text(given: &BudgetAnswer) -> String {
     let mut lines = vec![format!(
         "{} ({}): radius {} mm, {} angles over {:.0} deg; centre {}, radius {}",
-        told.ask,
-        told.branch,
-        told.radius_mm,
-        told.angles,
-        told.arc_deg,
-        told.datum.centre,
-        told.datum.radius
+        given.analysis,
+        given.branch,
+        given.radius_mm,
+        given.angles,
+        given.arc_deg,
+        given.datum.centre,
+        given.datum.radius
     )];
     lines.extend(
-        told.files
+        given.files
             .iter()
             .map(|file| format!("{:<18} {}", file.of, file.file)),
     );
@@ -63,7 +63,7 @@ fn as_text(told: &BudgetAnswer) -> String {
         "contribution", "largest um", "at deg", "rms um", "scatter um", "u um", "alone %", "without %"
     ));
     let percent = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.1}"));
-    lines.extend(told.contributions.iter().map(|one| {
+    lines.extend(given.contributions.iter().map(|one| {
         format!(
             "{:<30} {:>10.2} {:>8.1} {:>8.2} {:>10.2} {:>7} {:>8} {:>9}",
             one.name,
@@ -76,7 +76,7 @@ fn as_text(told: &BudgetAnswer) -> String {
             percent(one.explained_without_percent)
         )
     }));
-    let sums = &told.sums;
+    let sums = &given.sums;
     lines.push(String::new());
     lines.push(format!("{:<30} {:>10}", "largest together", "um"));
     lines.extend(
@@ -91,7 +91,7 @@ fn as_text(told: &BudgetAnswer) -> String {
         "{:<30} {:>10.2}   load {:.2} and path without load {:.2}",
         "plain sum", sums.plain_um, sums.load_um, sums.unloaded_um
     ));
-    if let Some(beside) = &told.without_load {
+    if let Some(beside) = &given.without_load {
         lines.push(format!(
             "{:<30} {:>10.2}   at {:.1} deg; measured {:.2} at {:.1} deg, explained {:.1} %; in no sum",
             "without load, predicted",
@@ -102,12 +102,12 @@ fn as_text(told: &BudgetAnswer) -> String {
             beside.explained_percent
         ));
     }
-    if let Some(part) = &told.part {
+    if let Some(part) = &given.part {
         lines.extend(of_part(part));
     }
     lines.push(String::new());
-    lines.extend(told.warnings.iter().map(|warning| format!("warning: {warning}")));
-    lines.extend(told.sources.iter().map(|source| format!("source: {source}")));
+    lines.extend(given.warnings.iter().map(|warning| format!("warning: {warning}")));
+    lines.extend(given.sources.iter().map(|source| format!("source: {source}")));
     lines.join("\n")
 }
 

@@ -31,16 +31,16 @@ use crate::terminal::{print, say};
 /// written.
 pub(crate) fn run(arguments: &CalibrateArguments) -> Result<Outcome, StudyError> {
     let found = robots::find(&arguments.robot, ".".as_ref())?;
-    let asked = match arguments.unknowns {
+    let requested = match arguments.unknowns {
         UnknownsArgument::Geometry => Asked::Geometry,
         UnknownsArgument::Zeros => Asked::Zeros,
     };
-    let (mut question, told) = question(&arguments.poses, asked)?;
+    let (mut question, given) = question(&arguments.poses, requested)?;
     question.prior = prior(arguments)?;
     let hold_out = hold_out(arguments)?;
     let shown = arguments.poses_file.display().to_string();
-    let measured = read((&shown, &arguments.poses_file), &found.robot, &told, &question)?;
-    let calibration = calibrate(&found.robot, (&shown, &measured), &question, (&hold_out, &told))?;
+    let measured = read((&shown, &arguments.poses_file), &found.robot, &given, &question)?;
+    let calibration = calibrate(&found.robot, (&shown, &measured), &question, (&hold_out, &given))?;
     let answer = answer(&found.robot, &calibration, &question);
     let writer = arguments.writing.writer("calibrate");
     if let Some(file) = &arguments.out {
@@ -108,7 +108,7 @@ fn as_text(answer: &CalibrateAnswer) -> String {
     lines.extend(answer.prior.as_ref().map(|prior| {
         format!(
             "prior {} mm and {} deg; of parameters, base and point the poses tell {:.1}",
-            prior.length_mm, prior.angle_deg, answer.told_by_poses
+            prior.length_mm, prior.angle_deg, answer.effective_parameters
         )
     }));
     if !answer.unused.is_empty() {

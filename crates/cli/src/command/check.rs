@@ -27,10 +27,10 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, StudyError> {
         print(r#"{"problems":[]}"#)?;
     }
     let counted = |count: usize, noun: &str| format!("{count} {noun}{}", if count == 1 { "" } else { "s" });
-    let (asks, points) = (
-        counted(study.asks.len(), "ask"),
+    let (analyses, points) = (
+        counted(study.analyses.len(), "analysis"),
         counted(point_count(&study), "point"),
     );
-    say(&format!("{}: fine; {asks}, {points}", found.shown));
+    say(&format!("{}: fine; {analyses}, {points}", found.shown));
     Ok(Outcome::Fine)
 }

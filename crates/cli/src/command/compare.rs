@@ -28,7 +28,7 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<Outcome, StudyError> {
         (None, Some(first)) => writer.folder_in(&studies::find(first)?.folder, "compare")?,
         (None, None) => writer.folder_in(".".as_ref(), "compare")?,
     };
-    let wanted = if arguments.no_pictures {
+    let requested = if arguments.no_pictures {
         Pictures::None
     } else {
         Pictures::Drawn
@@ -36,7 +36,7 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<Outcome, StudyError> {
     let compared = in_pool(arguments.threads, || {
         let progress = Progress::new(of.point_count());
         let compared = progress.watch(|watch| compare(&of, watch))?;
-        write(&compared, (&out, wanted), &|name| progress.tell(name))?;
+        write(&compared, (&out, requested), &|name| progress.tell(name))?;
         Ok::<_, StudyError>(compared)
     })??;
     let answer = &compared.answer;
@@ -55,18 +55,18 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<Outcome, StudyError> {
 /// A paragraph an ask.
 fn as_text(answer: &ComparisonAnswer) -> String {
     let mut lines = Vec::new();
-    let mut told: Vec<String> = Vec::new();
-    for ask in &answer.asks {
+    let mut given: Vec<String> = Vec::new();
+    for analysis in &answer.analyses {
         if !lines.is_empty() {
             lines.push(String::new());
         }
-        lines.extend(of_ask(ask));
+        lines.extend(of_ask(analysis));
         // What all asks have in common to say is said once.
-        let notes = differences(ask).into_iter().chain(ask.notes.iter().cloned());
+        let notes = differences(analysis).into_iter().chain(analysis.notes.iter().cloned());
         for note in notes {
-            if !told.contains(&note) {
+            if !given.contains(&note) {
                 lines.push(note.clone());
-                told.push(note);
+                given.push(note);
             }
         }
     }
@@ -78,7 +78,7 @@ fn as_text(answer: &ComparisonAnswer) -> String {
 }
 
 /// The ranking and the table of one ask, um.
-fn of_ask(ask: &ComparedAnswer) -> Vec<String> {
+fn of_ask(analysis: &ComparedAnswer) -> Vec<String> {
     let head = [
         "cell",
         "robot",
@@ -96,7 +96,7 @@ fn of_ask(ask: &ComparedAnswer) -> Vec<String> {
         "mostly by",
     ];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
-    rows.extend(ask.cells.iter().map(row));
+    rows.extend(analysis.cells.iter().map(row));
     let aligned = [
         Align::Left,
         Align::Left,
@@ -113,7 +113,7 @@ fn of_ask(ask: &ComparedAnswer) -> Vec<String> {
         Align::Right,
         Align::Left,
     ];
-    let mut lines = vec![ask.answer.clone()];
+    let mut lines = vec![analysis.answer.clone()];
     lines.push("In-plane deviation in µm, best cell first:".to_owned());
     lines.extend(
         columns(&rows, &aligned)
@@ -144,7 +144,7 @@ fn row(cell: &CellNumbers) -> Vec<String> {
         um(cell.max_in_plane_um),
         um(cell.max_in_plane_u_um.map(|u| 2.0 * u)),
         um(cell.max_normal_um),
-        um(Some(cell.limit_um)),
+        um(Some(cell.tolerance_um)),
         format!("{:.1} %", cell.fraction_within_and_inside_joint_limits * 100.0),
         by.map_or_else(String::new, |(by, part)| format!("{by} ({part:.0} %)")),
     ]
@@ -154,16 +154,16 @@ fn row(cell: &CellNumbers) -> Vec<String> {
 const IN_COLUMNS: [&str; 3] = ["robot", "compliance", "tolerance"];
 
 /// In what the cells differ besides what the table has, a line each.
-fn differences(ask: &ComparedAnswer) -> Vec<String> {
-    let differing = ask
+fn differences(analysis: &ComparedAnswer) -> Vec<String> {
+    let differing = analysis
         .traits
         .iter()
         .filter(|one| one.differs && !IN_COLUMNS.contains(&one.what));
     differing
         .map(|one| {
-            let of = ask.cells.iter().zip(&one.of);
-            let told: Vec<String> = of.map(|(cell, told)| format!("{}: {told}", cell.cell)).collect();
-            format!("Differs: {}. {}.", one.what, told.join("; "))
+            let of = analysis.cells.iter().zip(&one.of);
+            let given: Vec<String> = of.map(|(cell, given)| format!("{}: {given}", cell.cell)).collect();
+            format!("Differs: {}. {}.", one.what, given.join("; "))
         })
         .collect()
 }

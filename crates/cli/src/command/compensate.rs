@@ -12,7 +12,7 @@ use armill_study::in_place::allow_programs;
 use armill_study::program_out::program;
 use armill_study::{StudyError, studies};
 
-use super::program::{save, wanted};
+use super::program::{save, requested};
 use crate::Outcome;
 use crate::arguments::CompensateArguments;
 use crate::progress::Progress;
@@ -25,29 +25,29 @@ use crate::terminal::{print, say};
 pub(crate) fn run(arguments: &CompensateArguments) -> Result<Outcome, StudyError> {
     let found = studies::find(&arguments.study)?;
     let study = found.read()?;
-    let wanted = wanted(&arguments.program, arguments.feed_mm_per_min)?;
+    let requested = requested(&arguments.program, arguments.feed_mm_per_min)?;
     let writer = arguments.writing.writer("compensate");
     let folder = match &arguments.out {
         Some(out) => writer.folder(out)?,
         None => writer.folder_in(&found.folder, "compensated")?,
     };
     let out = folder.path().to_owned();
-    allow_programs(&study, arguments.ask.as_deref(), &folder)?;
+    allow_programs(&study, arguments.analysis.as_deref(), &folder)?;
     let progress = Progress::new(armill_study::compensate::point_count(
         &study,
-        arguments.ask.as_deref(),
+        arguments.analysis.as_deref(),
     ));
-    let compensation = match arguments.as_drawn {
+    let compensation = match arguments.nominal {
         true => Compensation::NONE,
         false => Compensation::USUAL,
     };
-    let name = arguments.ask.as_deref();
+    let name = arguments.analysis.as_deref();
     let commanded = progress.watch(|watch| compensate(&study, name, compensation, watch))?;
     let mut files: Vec<(String, &[u8])> = Vec::new();
     for one in &commanded {
-        files.push((one.told.file.clone(), &one.csv));
-        if one.told.rounds > 0 {
-            let picture = one.told.file.replace(".commanded.csv", "-compensated.svg");
+        files.push((one.given.file.clone(), &one.csv));
+        if one.given.rounds > 0 {
+            let picture = one.given.file.replace(".commanded.csv", "-compensated.svg");
             files.push((picture, one.picture.as_bytes()));
         }
         files.extend(one.program.iter().map(|(name, bytes)| (name.clone(), &bytes[..])));
@@ -58,22 +58,22 @@ pub(crate) fn run(arguments: &CompensateArguments) -> Result<Outcome, StudyError
     }
     folder.finish()?;
     drop(folder);
-    if let Some((folder, wanted)) = &wanted {
+    if let Some((folder, requested)) = &requested {
         let [one] = &commanded[..] else {
             let message = format!(
                 "--program: the study has {} paths, a program is one",
                 commanded.len()
             );
-            return Err(StudyError::value(message, "name it: --ask NAME"));
+            return Err(StudyError::value(message, "name it: --analysis NAME"));
         };
-        let written = program(&study, one.setting, (&one.path.0, &one.path.1), wanted)?;
+        let written = program(&study, one.setting, (&one.path.0, &one.path.1), requested)?;
         save(&writer, folder, &written)?;
     }
     let any = |known: fn(&StiffnessModel) -> bool| commanded.iter().any(|one| known(&one.setting.model));
     let answer = CompensationAnswer {
         backlash: any(|model| model.structure.gaps().next().is_some()),
         geometry: any(|model| model.actual.is_some()),
-        paths: commanded.into_iter().map(|one| one.told).collect(),
+        paths: commanded.into_iter().map(|one| one.given).collect(),
         compliance_assumed: study.compliance_is_assumed(),
     };
     print(&if arguments.json {
@@ -87,20 +87,20 @@ pub(crate) fn run(arguments: &CompensateArguments) -> Result<Outcome, StudyError
 
 /// What came of the program that a path came from.
 fn in_place(path: &CompensatedPath) -> Vec<String> {
-    let written = path.in_place.iter().map(|told| {
+    let written = path.in_place.iter().map(|given| {
         format!(
             "{}: {} written with {} targets moved: in its own moves {:.2} µm ({:.2} µm rms)",
             path.name,
-            told.files.join(", "),
-            told.moved_targets,
-            told.after.max_um,
-            told.after.rms_um
+            given.files.join(", "),
+            given.moved_targets,
+            given.after.max_um,
+            given.after.rms_um
         )
     });
     let notes = path
         .in_place
         .iter()
-        .flat_map(|told| &told.notes)
+        .flat_map(|given| &given.notes)
         .chain(&path.notes);
     written.chain(notes.map(|note| format!("note: {note}"))).collect()
 }
@@ -123,11 +123,11 @@ fn as_text(answer: &CompensationAnswer) -> String {
     for path in answer
         .paths
         .iter()
-        .filter(|path| path.unreached + path.outside_joint_limits > 0)
+        .filter(|path| path.unreachable + path.outside_joint_limits > 0)
     {
         lines.push(format!(
             "{}: {} of {} points are out of reach and stay; {} stand outside joint limits",
-            path.name, path.unreached, path.points, path.outside_joint_limits
+            path.name, path.unreachable, path.points, path.outside_joint_limits
         ));
     }
     lines.extend(answer.paths.iter().flat_map(in_place));

@@ -14,9 +14,9 @@ const PIXELS: f64 = 2.0;
 /// # Errors
 /// Another ending; a picture that cannot become pixels; a place where nothing can be written.
 pub(super) fn write(writer: &Writer, file: &Path, svg: &str) -> Result<(), StudyError> {
-    let ends_in = |wanted: &str| {
+    let ends_in = |requested: &str| {
         let ending = file.extension();
-        ending.is_some_and(|ending| ending.eq_ignore_ascii_case(wanted))
+        ending.is_some_and(|ending| ending.eq_ignore_ascii_case(requested))
     };
     let bytes = if ends_in("png") {
         armill_report::raster::png(svg, PIXELS)?

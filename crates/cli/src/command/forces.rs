@@ -14,7 +14,7 @@
 //! Times and rates are told to a microsecond, forces to a hundredth of a newton.
 
 use armill_core::load::ActsOn;
-use armill_formats::measurement::format::Wanted;
+use armill_formats::measurement::format::ForceReadOptions;
 use armill_study::StudyError;
 use armill_study::forces::{
     Air, DriftAnswer, ForcesAnswer, RangeAnswer, Refusal, SummaryAnswer, Treatment, Unread, answer, output,
@@ -33,7 +33,7 @@ use crate::terminal::{print, say};
 /// folder or stdout that takes no more.
 pub(crate) fn run(arguments: &ForcesArguments) -> Result<Outcome, StudyError> {
     let shown = arguments.file.display().to_string();
-    let wanted = Wanted {
+    let requested = ForceReadOptions {
         rate_hz: arguments.rate_hz,
         columns: arguments.columns.clone(),
         channels: arguments.channels.clone(),
@@ -44,7 +44,7 @@ pub(crate) fn run(arguments: &ForcesArguments) -> Result<Outcome, StudyError> {
         spindle_rpm: arguments.spindle_rpm,
     };
     // Nothing here asks what the force acts on: numbers are told as they stand in the file.
-    let measured = read((&shown, &arguments.file), ActsOn::Part, &wanted, arguments.cycle);
+    let measured = read((&shown, &arguments.file), ActsOn::Part, &requested, arguments.cycle);
     let measured = measured.map_err(|unread| match unread {
         Unread::File(problems) => problems,
         Unread::Value(refusal) => refused(refusal),
@@ -120,9 +120,9 @@ fn as_text(answer: &ForcesAnswer) -> String {
         format!(
             "{} samples from {} s to {} s, {} Hz; {}",
             answer.samples,
-            told(answer.start_s),
-            told(answer.start_s + answer.duration_s),
-            told(answer.rate_hz),
+            reported(answer.start_s),
+            reported(answer.start_s + answer.duration_s),
+            reported(answer.rate_hz),
             answer.channels.join(", ")
         ),
     ];
@@ -179,7 +179,7 @@ fn row(name: &str, before: RangeAnswer, after: RangeAnswer) -> String {
 /// What was taken off: force and rate, and the stretches that it was found in.
 fn drift_text(drift: &DriftAnswer) -> String {
     let three = |[x, y, z]: [f64; 3]| format!("({x:.3}, {y:.3}, {z:.3})");
-    let stretch = |[from, to]: &[f64; 2]| format!("{} to {} s", told(*from), told(*to));
+    let stretch = |[from, to]: &[f64; 2]| format!("{} to {} s", reported(*from), reported(*to));
     let air: Vec<String> = drift.air_s.iter().map(stretch).collect();
     format!(
         "drift        {} N and {} N/s\nair cut      {}: {} samples, {}",
@@ -195,6 +195,6 @@ fn drift_text(drift: &DriftAnswer) -> String {
 }
 
 /// Times and rates, to a microsecond.
-fn told(value: f64) -> f64 {
+fn reported(value: f64) -> f64 {
     decimals(value, 6)
 }

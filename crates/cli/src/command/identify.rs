@@ -209,7 +209,7 @@ fn as_text(answer: &Answer) -> String {
             named.join(", ")
         ));
     }
-    for set in &answer.not_told_apart {
+    for set in &answer.not_identifiable {
         lines.push(if set.len() == 1 {
             format!("not seen     {}: no test loads it", set.join(", "))
         } else {

@@ -36,7 +36,7 @@ pub(crate) fn run(arguments: &NewArguments) -> Result<Outcome, StudyError> {
     };
     let mut made = written(arguments, files)?.into_iter();
     let study = made.next().unwrap_or_default();
-    let told = format!(
+    let given = format!(
         "made {study}; {first}, then: armill run {}",
         arguments.dir.display()
     );
@@ -44,7 +44,7 @@ pub(crate) fn run(arguments: &NewArguments) -> Result<Outcome, StudyError> {
         let beside = made.collect();
         print(&serde_json::to_string(&MadeStudy { study, beside })?)?;
     }
-    say(&told);
+    say(&given);
     Ok(Outcome::Fine)
 }
 

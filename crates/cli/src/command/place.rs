@@ -22,7 +22,7 @@ use crate::terminal::say;
 pub(crate) fn run(arguments: &PlaceArguments) -> Result<Outcome, StudyError> {
     let found = studies::find(&arguments.run.study)?;
     let study = found.read()?;
-    let placing = Placing::new(&study, wanted(&arguments.place)?, u64::from(arguments.place.seed))?;
+    let placing = Placing::new(&study, requested(&arguments.place)?, u64::from(arguments.place.seed))?;
     let out = folder(("place", "place"), &found, &arguments.run)?;
     let mut journal = Journal::kept_in(&out);
     let placed = in_pool(arguments.run.threads, || {
@@ -54,13 +54,13 @@ pub(crate) fn run(arguments: &PlaceArguments) -> Result<Outcome, StudyError> {
 }
 
 /// What the options ask for.
-pub(super) fn wanted(options: &PlaceOptions) -> Result<PlaceTable, StudyError> {
+pub(super) fn requested(options: &PlaceOptions) -> Result<PlaceTable, StudyError> {
     if let Some(margin) = options.margin_deg.filter(|margin| !(0.0..=90.0).contains(margin)) {
         let message = format!("--margin-deg: {margin} is outside 0 to 90");
         return Err(StudyError::value(message, "see `armill place --help`"));
     }
     Ok(PlaceTable {
-        ask: options.ask.clone(),
+        analysis: options.analysis.clone(),
         x_mm: options.x_mm,
         y_mm: options.y_mm,
         z_mm: options.z_mm,
@@ -72,7 +72,7 @@ pub(super) fn wanted(options: &PlaceOptions) -> Result<PlaceTable, StudyError> {
         fixture: Vec::new(),
         branch: options.branch.clone(),
         counts: options.counts.map(Into::into),
-        goal: options.goal.map(Into::into),
+        objective: options.objective.map(Into::into),
         sure: options.sure.map(Into::into),
         margin_deg: options.margin_deg,
         least_wrist_deg: None,

@@ -212,7 +212,7 @@ fn posture_text(answer: &PoseAnswer, posture: &PostureAnswer) -> Vec<String> {
             three(u)
         ));
         let shares = answer
-            .shares_of
+            .contributors
             .iter()
             .zip(shares)
             .map(|(name, share)| format!("{name} {:.2}", length(share)));

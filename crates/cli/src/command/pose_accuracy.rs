@@ -27,9 +27,9 @@ const MOST_TOLD: usize = 10;
 /// No such robot; options that cannot be; the problems of the file; poses that tell too little.
 pub(crate) fn run(arguments: &PoseAccuracyArguments) -> Result<Outcome, StudyError> {
     let found = robots::find(&arguments.robot, ".".as_ref())?;
-    let (question, told) = question(&arguments.poses, Asked::BaseAndTool)?;
+    let (question, given) = question(&arguments.poses, Asked::BaseAndTool)?;
     let shown = arguments.file.display().to_string();
-    let measured = read((&shown, &arguments.file), &found.robot, &told, &question)?;
+    let measured = read((&shown, &arguments.file), &found.robot, &given, &question)?;
     let answer = answer(&found.robot, (&shown, &measured), &question)?;
     print(&match arguments.json {
         true => serde_json::to_string_pretty(&answer)?,

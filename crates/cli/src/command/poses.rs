@@ -2,7 +2,7 @@
 
 use armill_core::calibrate::Asked;
 use armill_core::nalgebra::Vector3;
-use armill_formats::measurement::poses::{Told, TurnOrder};
+use armill_formats::measurement::poses::{PoseReadOptions, TurnOrder};
 use armill_study::StudyError;
 use armill_study::calibrate::answer::FrameAnswer;
 use armill_study::calibrate::{ErrorsAnswer, Question};
@@ -14,26 +14,26 @@ use crate::arguments::{PosesOptions, TurnArgument};
 ///
 /// # Errors
 /// Numbers that cannot be.
-pub(super) fn question(options: &PosesOptions, asked: Asked) -> Result<(Question, Told), StudyError> {
+pub(super) fn question(options: &PosesOptions, requested: Asked) -> Result<(Question, PoseReadOptions), StudyError> {
     let tool_point_mm = match &options.tool_mm {
         Some(tool_mm) => three("--tool-mm", tool_mm)?,
         None => Vector3::zeros(),
     };
     let turn_length = above_zero("--turn-mm", options.turn_mm)? * 1e-3;
     let question = Question {
-        asked,
+        requested,
         tool_point: tool_point_mm * 1e-3,
         turn_length: options.turns.then_some(turn_length),
         prior: None,
     };
-    let told = Told {
+    let given = PoseReadOptions {
         columns: options.columns.clone(),
         turns: options.turn_order.map(|order| match order {
             TurnArgument::FixedXyz => TurnOrder::FixedXyz,
             TurnArgument::MovingXyz => TurnOrder::MovingXyz,
         }),
     };
-    Ok((question, told))
+    Ok((question, given))
 }
 
 /// A line of errors.

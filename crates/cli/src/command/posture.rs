@@ -4,7 +4,7 @@
 //! (`posture` beside the study). Stdout has a sentence a path: before and after.
 
 use armill_study::answer::StudyAnswer;
-use armill_study::file::posture_search::{CountsName, GoalName, SearchTable};
+use armill_study::file::posture_search::{ComponentName, ObjectiveName, SearchTable};
 use armill_study::{StudyError, studies};
 
 use super::run::{folder, results};
@@ -18,13 +18,13 @@ use crate::arguments::PostureArguments;
 pub(crate) fn run(arguments: &PostureArguments) -> Result<Outcome, StudyError> {
     let found = studies::find(&arguments.run.study)?;
     let mut study = found.read()?;
-    study.search_postures(wanted(arguments)?.as_ref())?;
+    study.search_postures(requested(arguments)?.as_ref())?;
     let out = folder(("posture", "posture"), &found, &arguments.run)?;
     results((&study, &out), (&arguments.run, None), summary)
 }
 
 /// What the options ask for; `None` where they leave all to the study.
-fn wanted(arguments: &PostureArguments) -> Result<Option<SearchTable>, StudyError> {
+fn requested(arguments: &PostureArguments) -> Result<Option<SearchTable>, StudyError> {
     let bounded = |option: &str, value: Option<f64>, [least, most]: [f64; 2]| match value {
         Some(value) if !(value >= least && value <= most) => Err(StudyError::value(
             format!("{option}: {value} is outside {least} to {most}"),
@@ -45,8 +45,8 @@ fn wanted(arguments: &PostureArguments) -> Result<Option<SearchTable>, StudyErro
     let table = SearchTable {
         turns_deg: turns,
         step_deg: bounded("--step-deg", arguments.step_deg, [0.1, 180.0])?,
-        counts: arguments.counts.map(CountsName::from),
-        goal: arguments.goal.map(GoalName::from),
+        counts: arguments.counts.map(ComponentName::from),
+        objective: arguments.objective.map(ObjectiveName::from),
         turn_deg_per_mm: bounded("--turn-deg-per-mm", arguments.turn_deg_per_mm, [1e-6, 1e3])?,
         least_wrist_deg: bounded("--least-wrist-deg", arguments.least_wrist_deg, [0.0, 80.0])?,
         reversal_um_mm: bounded("--reversal-um-mm", arguments.reversal_um_mm, [0.0, 1e9])?,

@@ -14,7 +14,7 @@ use crate::terminal::say;
 ///
 /// # Errors
 /// An ending of no language; numbers that cannot be.
-pub(super) fn wanted(
+pub(super) fn requested(
     options: &ProgramOptions,
     feed_mm_per_min: Option<f64>,
 ) -> Result<Option<(PathBuf, ProgramWanted)>, StudyError> {
@@ -33,7 +33,7 @@ pub(super) fn wanted(
         );
         StudyError::value(message, ".src, .mod, .jbi, .ls, .script or .pjx")
     })?;
-    let wanted = ProgramWanted {
+    let requested = ProgramWanted {
         language,
         name: file
             .file_stem()
@@ -51,7 +51,7 @@ pub(super) fn wanted(
         },
     };
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
-    Ok(Some((folder.unwrap_or(".".as_ref()).to_path_buf(), wanted)))
+    Ok(Some((folder.unwrap_or(".".as_ref()).to_path_buf(), requested)))
 }
 
 /// `value`, where it is from `least` to `most`.

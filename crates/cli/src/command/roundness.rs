@@ -16,7 +16,7 @@
 
 use std::path::Path;
 
-use armill_formats::measurement::profile::Wanted;
+use armill_formats::measurement::profile::ProfileReadOptions;
 use armill_study::StudyError;
 use armill_study::number::decimals;
 use armill_study::roundness::{Question, RoundnessAnswer, answer, judge, output, read};
@@ -39,7 +39,7 @@ const MOST_NAMED: usize = 5;
 /// takes no more.
 pub(crate) fn run(arguments: &RoundnessArguments) -> Result<Outcome, StudyError> {
     let question = question(arguments)?;
-    let wanted = Wanted {
+    let requested = ProfileReadOptions {
         radius_mm: arguments.radius_mm,
         else_radius_mm: None,
         unit: arguments.unit,
@@ -48,7 +48,7 @@ pub(crate) fn run(arguments: &RoundnessArguments) -> Result<Outcome, StudyError>
     let mut judged = Vec::new();
     for file in &arguments.files {
         let shown = file.display().to_string();
-        let measured = read((&shown, file), &wanted)?;
+        let measured = read((&shown, file), &requested)?;
         let found = judge(&shown, &measured, &question)?;
         answers.push(answer(&shown, &measured, &question, &found));
         judged.push(found);
@@ -135,13 +135,13 @@ fn as_text(answer: &RoundnessAnswer) -> String {
     lines.push(circle(
         "LSCI",
         lsci.ront_mm,
-        &told(lsci.radius_mm),
+        &reported(lsci.radius_mm),
         &lsci.centre_mm,
     ));
     lines.push(match &answer.mzci {
         Some(zone) => {
             let [inner, outer] = zone.radii_mm;
-            let mean = told((inner + outer) / 2.0);
+            let mean = reported((inner + outer) / 2.0);
             circle("MZCI", zone.ront_mm, &mean, &zone.centre_mm)
         }
         None => format!(
@@ -153,11 +153,11 @@ fn as_text(answer: &RoundnessAnswer) -> String {
     lines.push(circle(
         "MCCI",
         mcci.ront_mm,
-        &told(mcci.radius_mm),
+        &reported(mcci.radius_mm),
         &mcci.centre_mm,
     ));
     lines.push(match &answer.mici {
-        Some(mici) => circle("MICI", mici.ront_mm, &told(mici.radius_mm), &mici.centre_mm),
+        Some(mici) => circle("MICI", mici.ront_mm, &reported(mici.radius_mm), &mici.centre_mm),
         None => format!(
             "MICI     none: {}",
             answer.mici_refused.as_deref().unwrap_or_default()
@@ -218,7 +218,7 @@ fn circle(name: &str, ront_mm: f64, radius: &str, centre_mm: &[f64]) -> String {
 }
 
 /// A radius, to a ten thousandth of a millimetre.
-fn told(radius_mm: f64) -> String {
+fn reported(radius_mm: f64) -> String {
     format!("{radius_mm:.4}")
 }
 

@@ -55,18 +55,18 @@ pub(super) fn results(
     (options, opening): (&RunOptions, Option<&Opening>),
     summary: impl FnOnce(&StudyAnswer) -> String,
 ) -> Result<Outcome, StudyError> {
-    let mut wanted = Wanted {
+    let mut requested = Wanted {
         opening,
         ..Wanted::USUAL
     };
     if options.no_pictures {
-        wanted.pictures = Pictures::None;
+        requested.pictures = Pictures::None;
     }
     if options.csv {
-        wanted.csv = Csv::Every;
+        requested.csv = Csv::Every;
     }
-    output::allow(study, (out, wanted))?;
-    let answer = in_pool(options.threads, || work(study, (out, wanted)))??;
+    output::allow(study, (out, requested))?;
+    let answer = in_pool(options.threads, || work(study, (out, requested)))??;
     if options.json {
         print(output::json(&answer)?.trim_end())?;
     } else {
@@ -100,11 +100,11 @@ pub(super) fn in_pool<T: Send>(
 }
 
 /// From the study to its answer and its files, under a bar.
-fn work(study: &Study, (out, wanted): (&ResultFolder, Wanted<'_>)) -> Result<StudyAnswer, StudyError> {
+fn work(study: &Study, (out, requested): (&ResultFolder, Wanted<'_>)) -> Result<StudyAnswer, StudyError> {
     let progress = Progress::new(point_count(study));
     let found = progress.watch(|watch| run_study(study, watch))?;
     let answer = answer(study, &found);
-    output::write(study, &found, &answer, (out, wanted), &|name| {
+    output::write(study, &found, &answer, (out, requested), &|name| {
         progress.tell(name);
     })?;
     Ok(answer)

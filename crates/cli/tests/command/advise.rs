@@ -6,16 +6,16 @@ const CELL: &str = r#"format = 1
 robot = "yaskawa/mh12"
 plane = { centre_mm = [1000, 0, 800], tilt_deg = 0, half_size_mm = 100, step_mm = 50 }
 load = { cases_n = [[3, 5, 5]] }
-[[ask]]
+[[analysis]]
 kind = "path"
 name = "ring"
 circle.radius_mm = 60
 step_mm = 20
 "#;
 
-fn cell(limit_um: &str, place: &str) -> Cell {
+fn cell(tolerance_um: &str, place: &str) -> Cell {
     let cell = Cell::new();
-    cell.file("study.toml", format!("limit_um = {limit_um}\n{CELL}{place}"));
+    cell.file("study.toml", format!("tolerance_um = {tolerance_um}\n{CELL}{place}"));
     cell
 }
 
@@ -50,7 +50,7 @@ fn a_path_that_does_not_hold_is_moved_turned_and_told_what_it_comes_to() {
     let advice = advice(&cell);
     let largest = |of: &str| number(&advice[of]["max_in_plane_um"]);
     assert_eq!(advice["moves"], true);
-    assert!(largest("as_advised") < largest("as_drawn"), "{advice}");
+    assert!(largest("as_advised") < largest("nominal"), "{advice}");
     // Compensated it goes nearer to the path than it deviated.
     assert!(number(&advice["compensated"]["max_um"]) < 0.5 * largest("as_advised"));
     // What is advised is what was run.
@@ -98,8 +98,8 @@ fn where_nothing_can_be_better_part_and_tool_stay() {
 #[test]
 fn a_study_without_a_path_is_refused() {
     let cell = Cell::new();
-    let map = CELL[..CELL.find("[[ask]]").unwrap()].to_owned();
-    cell.file("study.toml", format!("limit_um = 40\n{map}"));
+    let map = CELL[..CELL.find("[[analysis]]").unwrap()].to_owned();
+    cell.file("study.toml", format!("tolerance_um = 40\n{map}"));
     cell.armill(&["advise", "study.toml"])
         .refused(&["no path that could be placed"]);
 }

@@ -5,7 +5,7 @@ use crate::cell::{Cell, number, numbers};
 const CLASS: &str = r#"
 format = 1
 robot = "kuka/kr120r2500pro"
-limit_um = 100
+tolerance_um = 100
 [compliance]
 class = "heavy"
 [plane]

@@ -8,21 +8,21 @@ use crate::documents::repository;
 
 const CELL: &str = r#"format = 1
 robot = "arm.toml"
-limit_um = 200
+tolerance_um = 200
 plane = { centre_mm = [850, 250, 450], tilt_deg = 90, half_size_mm = 150, step_mm = 75 }
 tool = { flange_from_tool_mm_deg = [30, -20, 150, 0, 0, 0] }
 load = { cases_n = [[0, 0, 0]] }
 posture.branch = "front elbow-up"
-[[ask]]
+[[analysis]]
 kind = "path"
 name = "flat"
 circle = { radius_mm = 100 }
-[[ask]]
+[[analysis]]
 kind = "path"
 name = "upright"
 plane = { centre_mm = [750, -350, 750], tilt_deg = 0 }
 circle = { radius_mm = 100 }
-[[ask]]
+[[analysis]]
 kind = "path"
 name = "tilted"
 plane = { centre_mm = [700, 450, 550], tilt_deg = 40 }
@@ -62,7 +62,7 @@ fn cell() -> Cell {
     cell
 }
 
-fn told(cell: &Cell, arguments: &[&str]) -> Value {
+fn reported(cell: &Cell, arguments: &[&str]) -> Value {
     let all = [&["backlash", "study.toml", "--json"], arguments].concat();
     cell.armill(&all).fine().json()
 }
@@ -70,10 +70,10 @@ fn told(cell: &Cell, arguments: &[&str]) -> Value {
 #[test]
 fn gaps_of_the_robot_file_come_back_from_what_it_would_show() {
     let cell = cell();
-    let written = told(&cell, &["--simulate", "runs", "--noise-um", "2", "--seed", "4"]);
+    let written = reported(&cell, &["--simulate", "runs", "--noise-um", "2", "--seed", "4"]);
     assert_eq!(written.as_array().unwrap().len(), 3);
     cell.file("study.toml", format!("{CELL}{MEASURED}"));
-    let found = told(&cell, &["--out", "out"]);
+    let found = reported(&cell, &["--out", "out"]);
     for (joint, gap) in found["joints"].as_array().unwrap().iter().zip(GAPS) {
         assert_eq!(joint["state"], "told", "{joint}");
         let [value, u] = ["backlash_deg", "backlash_u_deg"].map(|key| number(&joint[key]));
@@ -115,11 +115,11 @@ fn the_same_seed_makes_the_same_file_and_armill_ballbar_reads_it() {
         "9",
         "--runs",
         "1",
-        "--ask",
+        "--analysis",
         "upright",
     ];
-    told(&cell, &[&["--simulate", "one"][..], &noise].concat());
-    told(&cell, &[&["--simulate", "two"][..], &noise].concat());
+    reported(&cell, &[&["--simulate", "one"][..], &noise].concat());
+    reported(&cell, &[&["--simulate", "two"][..], &noise].concat());
     let [one, two] =
         ["one", "two"].map(|folder| std::fs::read(cell.at(&format!("{folder}/upright.csv"))).unwrap());
     assert_eq!(one, two);
@@ -135,7 +135,7 @@ fn the_same_seed_makes_the_same_file_and_armill_ballbar_reads_it() {
 #[test]
 fn files_in_other_angles_give_the_same_gaps() {
     let cell = cell();
-    told(&cell, &["--simulate", "runs", "--ask", "flat"]);
+    reported(&cell, &["--simulate", "runs", "--analysis", "flat"]);
     let text = std::fs::read_to_string(cell.at("runs/flat.csv")).unwrap();
     // The bar was looked at from above: x is 0 deg, and the other way round.
     let turned = text.lines().map(|line| {
@@ -153,7 +153,7 @@ fn files_in_other_angles_give_the_same_gaps() {
             "study.toml",
             format!("{CELL}[[ballbar]]\nask = \"flat\"\n{table}\n"),
         );
-        told(&cell, &[])["joints"].clone()
+        reported(&cell, &[])["joints"].clone()
     };
     let plain = of("files = [\"runs/flat.csv\"]");
     let other = of("files = [\"runs/turned.csv\"]\nzero_deg = 90\nmirrored = true");
@@ -169,9 +169,9 @@ fn files_in_other_angles_give_the_same_gaps() {
 #[test]
 fn circles_that_tell_the_joints_apart_are_proposed() {
     let cell = cell();
-    let plan = told(
+    let plan = reported(
         &cell,
-        &["--circles", "2", "--ask", "flat", "--within-mm", "150,150,150"],
+        &["--circles", "2", "--analysis", "flat", "--within-mm", "150,150,150"],
     );
     let circles = plan["circles"].as_array().unwrap();
     assert_eq!(circles.len(), 2);
@@ -208,7 +208,7 @@ fn what_cannot_be_is_refused() {
     refused(&["--circles", "1", "--radii-mm", "0"], &["--radii-mm"]);
     refused(&["--simulate", "runs", "--noise-um", "nan"], &["--noise-um"]);
     refused(
-        &["--simulate", "runs", "--ask", "nowhere"],
+        &["--simulate", "runs", "--analysis", "nowhere"],
         &["no circle called `nowhere`"],
     );
     assert!(!cell.at("runs").exists());

@@ -46,7 +46,7 @@ fn folder() -> tempfile::TempDir {
     folder
 }
 
-fn told(folder: &Path, arguments: &[&str]) -> Value {
+fn reported(folder: &Path, arguments: &[&str]) -> Value {
     let (code, out, err) = armill(folder, &[&["ballbar"], arguments, &["--json"]].concat());
     assert_eq!(code, 0, "{err}");
     serde_json::from_str(&out).unwrap()
@@ -57,8 +57,8 @@ fn number(value: &Value, expected: f64, slack: f64) {
     assert!((found - expected).abs() <= slack, "{value} for {expected}");
 }
 
-fn part<'a>(told: &'a Value, what: &str) -> &'a Value {
-    let parts = told["parts"]["radial"].as_array().unwrap();
+fn part<'a>(reported: &'a Value, what: &str) -> &'a Value {
+    let parts = reported["parts"]["radial"].as_array().unwrap();
     parts
         .iter()
         .find(|part| part["what"] == what)
@@ -68,40 +68,40 @@ fn part<'a>(told: &'a Value, what: &str) -> &'a Value {
 #[test]
 fn a_test_is_told_in_quantities_differences_and_parts() {
     let folder = folder();
-    let told = told(folder.path(), &["test.csv"]);
-    assert_eq!(told["axes"], serde_json::json!(["X", "Y"]));
-    number(&told["centring"]["offset_um"][0], 40.0, 0.02);
-    number(&told["mean_bidirectional_um"], 12.75, 0.02);
+    let reported = reported(folder.path(), &["test.csv"]);
+    assert_eq!(reported["axes"], serde_json::json!(["X", "Y"]));
+    number(&reported["centring"]["offset_um"][0], 40.0, 0.02);
+    number(&reported["mean_bidirectional_um"], 12.75, 0.02);
     // At the ends of X the directions are 20 um apart.
-    number(&told["hysteresis_um"], 20.0, 0.01);
-    number(&told["repeatability"][0]["max_um"], -0.5, 1e-3);
-    number(&told["repeatability"][0]["rms_um"], 0.5, 1e-3);
-    number(&part(&told, "step X+")["value_um"], 20.0, 0.02);
-    number(&part(&told, "step Y-")["value_um"], 0.0, 0.02);
-    number(&told["parts"]["scale_um_per_m"][0], (12.75 + 30.0) / 0.1, 0.2);
-    number(&told["parts"]["squareness_urad"], 0.0, 0.2);
-    number(&told["lobes"][1]["amplitude_um"], 30.0, 0.02);
+    number(&reported["hysteresis_um"], 20.0, 0.01);
+    number(&reported["repeatability"][0]["max_um"], -0.5, 1e-3);
+    number(&reported["repeatability"][0]["rms_um"], 0.5, 1e-3);
+    number(&part(&reported, "step X+")["value_um"], 20.0, 0.02);
+    number(&part(&reported, "step Y-")["value_um"], 0.0, 0.02);
+    number(&reported["parts"]["scale_um_per_m"][0], (12.75 + 30.0) / 0.1, 0.2);
+    number(&reported["parts"]["squareness_urad"], 0.0, 0.2);
+    number(&reported["lobes"][1]["amplitude_um"], 30.0, 0.02);
     assert!(
-        told["warnings"].as_array().unwrap().is_empty(),
+        reported["warnings"].as_array().unwrap().is_empty(),
         "{}",
-        told["warnings"]
+        reported["warnings"]
     );
     // About the pivot the offset is in F, and in nothing else.
-    let setup = self::told(folder.path(), &["test.csv", "--centre", "setup"]);
+    let setup = self::reported(folder.path(), &["test.csv", "--centre", "setup"]);
     number(
         &setup["runs"][0]["radial_max_um"],
         12.5 + 40.0 + 30.0 + 10.0,
         0.05,
     );
     assert_eq!(setup["centring"]["centre"], "setup");
-    let [one, other] = [&told, &setup].map(|told| told["circular_bidirectional_um"].as_f64().unwrap());
+    let [one, other] = [&reported, &setup].map(|reported| reported["circular_bidirectional_um"].as_f64().unwrap());
     assert!((one - other).abs() < 1e-6);
 }
 
 #[test]
 fn files_of_one_circle_are_one_test_and_what_they_lack_is_told_beside() {
     let folder = folder();
-    let both = told(
+    let both = reported(
         folder.path(),
         &["cw.csv", "ccw.csv", "--radius-mm", "100", "--plane", "ZX"],
     );
@@ -109,7 +109,7 @@ fn files_of_one_circle_are_one_test_and_what_they_lack_is_told_beside() {
     assert_eq!(both["runs"][1]["name"], "CCW1");
     number(&both["hysteresis_um"], 20.0, 0.01);
     assert!(both["warnings"].to_string().contains("one CW run alone"));
-    let one = told(folder.path(), &["cw.csv", "--radius-mm", "100"]);
+    let one = reported(folder.path(), &["cw.csv", "--radius-mm", "100"]);
     assert!(one["circular_bidirectional_um"].is_null() && one["hysteresis_um"].is_null());
     let warned = one["warnings"].to_string();
     assert!(
@@ -173,7 +173,7 @@ fn tables_pictures_and_report_come_out() {
 #[test]
 fn a_circle_is_taught_and_the_second_test_put_beside_the_first() {
     let folder = folder();
-    let first = told(folder.path(), &["test.csv", "--teach", "p.csv", "--points", "36"]);
+    let first = reported(folder.path(), &["test.csv", "--teach", "p.csv", "--points", "36"]);
     let table = std::fs::read_to_string(folder.path().join("p.csv")).unwrap();
     assert_eq!(table.lines().count(), 37);
     let row: Vec<f64> = table
@@ -189,7 +189,7 @@ fn a_circle_is_taught_and_the_second_test_put_beside_the_first() {
     );
     number(&first["taught"]["stays_um"], 10.0, 0.01);
     assert!(first["taught"]["circular_expected_um"].as_f64().unwrap() < 22.0);
-    let second = told(folder.path(), &["second.csv", "--before", "test.csv"]);
+    let second = reported(folder.path(), &["second.csv", "--before", "test.csv"]);
     let compared = second["before"]["compared"].as_array().unwrap();
     let of = |what: &str| compared.iter().find(|of| of["what"] == what).unwrap();
     number(&of("D")["after_um"], 0.75, 0.02);
@@ -205,7 +205,7 @@ fn few_samples_tell_few_lobes() {
         text + &format!("{},{deviation},CCW,1\n", 10 * k)
     });
     std::fs::write(folder.path().join("few.csv"), format!("{HEAD}{NAMES}{rows}")).unwrap();
-    let found = told(folder.path(), &["few.csv", "--lobes", "100"]);
+    let found = reported(folder.path(), &["few.csv", "--lobes", "100"]);
     let lobes = found["lobes"].as_array().unwrap();
     assert_eq!(lobes.len(), 17);
     number(&lobes[9]["amplitude_um"], 5.0, 1e-3);
@@ -217,7 +217,7 @@ fn few_samples_tell_few_lobes() {
         found["warnings"]
     );
     let teach = ["few.csv", "--teach", "p.csv", "--teach-lobes", "30"];
-    let found = told(folder.path(), &teach);
+    let found = reported(folder.path(), &teach);
     assert_eq!(found["taught"]["most_lobes"], 17);
     assert!(
         found["warnings"]
@@ -255,18 +255,18 @@ fn points_are_written_where_all_else_is_too() {
 #[test]
 fn dirt_is_told_and_left_out_on_demand() {
     let folder = folder();
-    let kept = told(folder.path(), &["dirt.csv"]);
+    let kept = reported(folder.path(), &["dirt.csv"]);
     assert_eq!(kept["outliers"].as_array().unwrap().len(), 1);
     number(&kept["outliers"][0]["angle_deg"], 100.5, 1e-6);
     assert!(kept["warnings"].to_string().contains("--leave-out-outliers"));
-    let clean = told(folder.path(), &["dirt.csv", "--leave-out-outliers"]);
-    let g = |told: &Value| told["directions"][0]["circular_um"].as_f64().unwrap();
+    let clean = reported(folder.path(), &["dirt.csv", "--leave-out-outliers"]);
+    let g = |reported: &Value| reported["directions"][0]["circular_um"].as_f64().unwrap();
     // 80 um on top of a flank of the ellipse.
     assert!(g(&kept) > g(&clean) + 5.0, "{kept} {clean}");
     // The circle to teach is that of the samples that are left: at 100 degrees, beside the dirt.
     let correction = |more: &[&str]| -> f64 {
         let teach = ["dirt.csv", "--teach", "p.csv", "--teach-lobes", "30"];
-        let _ = told(folder.path(), &[&teach, more].concat());
+        let _ = reported(folder.path(), &[&teach, more].concat());
         let table = std::fs::read_to_string(folder.path().join("p.csv")).unwrap();
         let row = table.lines().find(|line| line.starts_with("100")).unwrap();
         row.split(',').nth(2).unwrap().parse().unwrap()
@@ -288,21 +288,21 @@ fn an_arc_says_that_it_is_one() {
         text + &format!("{deg},{},CCW,1\n", deviation_um(f64::from(deg) + 0.25, 1.0))
     });
     std::fs::write(folder.path().join("arc.csv"), format!("{HEAD}{NAMES}{arc}")).unwrap();
-    let told = told(folder.path(), &["arc.csv"]);
+    let reported = reported(folder.path(), &["arc.csv"]);
     // Seen from the least-squares centre.
-    number(&told["runs"][0]["arc_deg"], 220.0, 0.1);
-    let warned = told["warnings"].to_string();
+    number(&reported["runs"][0]["arc_deg"], 220.0, 0.1);
+    let warned = reported["warnings"].to_string();
     assert!(warned.contains("CCW1 has no samples from"), "{warned}");
     assert!(warned.contains("nothing is known of the step Y-"), "{warned}");
     // A sample stands on 0 degrees, and none before it.
     assert!(warned.contains("nothing is known of the step X+"), "{warned}");
-    assert!(part(&told, "step X+").is_null() && !part(&told, "step X-").is_null());
+    assert!(part(&reported, "step X+").is_null() && !part(&reported, "step X-").is_null());
     // An arc tells one scale better than the other.
     let both_ways = format!("{HEAD}{NAMES}{arc}{}", arc.replace("CCW", "CW"));
     std::fs::write(folder.path().join("arcs.csv"), both_ways).unwrap();
-    let u = &self::told(folder.path(), &["arcs.csv"])["parts"]["scale_u_um_per_m"];
+    let u = &self::reported(folder.path(), &["arcs.csv"])["parts"]["scale_u_um_per_m"];
     assert!(u[1].as_f64().unwrap() > 2.0 * u[0].as_f64().unwrap(), "{u}");
-    assert!(told["lobes"].as_array().unwrap().is_empty());
+    assert!(reported["lobes"].as_array().unwrap().is_empty());
     let (code, _, err) = armill(folder.path(), &["ballbar", "arc.csv", "--teach", "p.csv"]);
     assert!(
         code == 2 && err.contains("measure full turns") && !folder.path().join("p.csv").exists(),
@@ -316,9 +316,9 @@ fn an_error_that_repeats_is_found_with_its_period() {
     let wave = |a: f64| 2.0 * (TAU * 100.0 * a.to_radians().cos() / 20.0).sin() * a.to_radians().cos();
     let text = format!("{HEAD}{NAMES}{}{}", rows("CW", 1, wave), rows("CCW", 1, wave));
     std::fs::write(folder.path().join("wave.csv"), text).unwrap();
-    let found = told(folder.path(), &["wave.csv", "--cyclic", "found"]);
+    let found = reported(folder.path(), &["wave.csv", "--cyclic", "found"]);
     number(&found["parts"]["cyclic_period_mm"], 20.0, 0.1);
-    let given = told(folder.path(), &["wave.csv", "--cyclic", "20"]);
+    let given = reported(folder.path(), &["wave.csv", "--cyclic", "20"]);
     number(&part(&given, "cyclic along X, sine")["value_um"], 2.0, 0.05);
 }
 
@@ -328,8 +328,8 @@ fn results_of_the_bar_are_shown_beside_ours() {
     let results = "<BALLBAR><MACHINE_TESTED NAME='MH12'/><FEATURE NAME='AF_CIRCULARITY' DT='UT_LENGTH_UM'>70.5</FEATURE>\
         <FEATURE NAME='AF_BACKLASH_A_POS' DT='UT_LENGTH_UM'>19.5</FEATURE></BALLBAR>";
     std::fs::write(folder.path().join("a.b5r"), results).unwrap();
-    let told = told(folder.path(), &["test.csv", "a.b5r"]);
-    number(&told["results"][0]["features"][1]["ours"], 20.0, 0.02);
+    let reported = reported(folder.path(), &["test.csv", "a.b5r"]);
+    number(&reported["results"][0]["features"][1]["ours"], 20.0, 0.02);
     let (code, _, err) = armill(folder.path(), &["ballbar", "a.b5r"]);
     assert!(code == 2 && err.contains("results only, no radii"), "{err}");
 }
@@ -467,12 +467,12 @@ fn what_is_wrong_is_told_with_its_place_and_a_hint() {
 const CIRCLE: &str = r#"
 format = 1
 robot = "yaskawa/mh12"
-limit_um = 200
+tolerance_um = 200
 tool = { flange_from_tool_mm_deg = [0, 0, 100, 0, 0, 0] }
 plane = { centre_mm = [1000, 0, 800], half_size_mm = 150, step_mm = 75 }
 load = { cases_n = [[1, 0, 0]] }
 
-[[ask]]
+[[analysis]]
 kind = "path"
 name = "ring"
 circle = { radius_mm = 100 }
@@ -491,7 +491,7 @@ fn the_taught_circle_comes_as_a_program_that_passes_every_point() {
     ] {
         for ending in ["src", "mod", "ls", "script"] {
             let file = format!("prog/ring.{ending}");
-            let asked = [
+            let requested = [
                 "test.csv",
                 "--teach",
                 "p.csv",
@@ -502,7 +502,7 @@ fn the_taught_circle_comes_as_a_program_that_passes_every_point() {
                 "--study",
                 "study.toml",
             ];
-            let (code, _, err) = armill(at, &[&["ballbar"], &asked[..], keys].concat());
+            let (code, _, err) = armill(at, &[&["ballbar"], &requested[..], keys].concat());
             assert_eq!(code, 0, "{err}");
             // Straight moves between 48 points leave the circle by R (1 - cos(pi / 48)) = 214 um.
             assert!(
@@ -541,7 +541,7 @@ fn the_taught_circle_comes_as_a_program_that_passes_every_point() {
             );
             let tip = |target: &Target| target.pose().unwrap().translation.vector * 1e3;
             // The circle lies on the plane about the origin of its frame, -x is y' and y is z'.
-            let wanted: Vec<[f64; 2]> = rows
+            let expected: Vec<[f64; 2]> = rows
                 .iter()
                 .map(|row| {
                     let a = (zero_deg + way * row[0]).to_radians();
@@ -551,7 +551,7 @@ fn the_taught_circle_comes_as_a_program_that_passes_every_point() {
             for next in &moves[..49] {
                 let tip = tip(&next.target);
                 let off = |[x, y]: &[f64; 2]| (tip.x - x).hypot(tip.y - y);
-                let nearest = wanted.iter().map(off).fold(f64::MAX, f64::min);
+                let nearest = expected.iter().map(off).fold(f64::MAX, f64::min);
                 // FANUC and KUKA write micrometres, two of them on a diagonal.
                 assert!(
                     nearest < 2e-3 && tip.z.abs() < 1e-3,
@@ -575,7 +575,7 @@ fn the_taught_circle_comes_as_a_program_that_passes_every_point() {
         }
     }
     // Without a count as many points as the straight moves need.
-    let asked = [
+    let requested = [
         "ballbar",
         "test.csv",
         "--teach",
@@ -585,7 +585,7 @@ fn the_taught_circle_comes_as_a_program_that_passes_every_point() {
         "--study",
         "study.toml",
     ];
-    let (code, _, err) = armill(at, &asked);
+    let (code, _, err) = armill(at, &requested);
     assert!(code == 0 && !err.contains("leave the circle"), "{err}");
     assert_eq!(
         std::fs::read_to_string(at.join("p.csv")).unwrap().lines().count(),
@@ -603,7 +603,7 @@ fn a_program_of_another_circle_or_of_none_is_refused() {
         CIRCLE.replace("radius_mm = 100", "radius_mm = 60"),
     )
     .unwrap();
-    let two = format!("{CIRCLE}[[ask]]\nkind = \"path\"\nname = \"other\"\ncircle = {{ radius_mm = 50 }}\n");
+    let two = format!("{CIRCLE}[[analysis]]\nkind = \"path\"\nname = \"other\"\ncircle = {{ radius_mm = 50 }}\n");
     std::fs::write(at.join("two.toml"), two).unwrap();
     std::fs::write(
         at.join("line.toml"),
@@ -628,7 +628,7 @@ fn a_program_of_another_circle_or_of_none_is_refused() {
             "2 circles: ring, other",
         ),
         (
-            &["--program", "a.src", "--study", "two.toml", "--ask", "third"],
+            &["--program", "a.src", "--study", "two.toml", "--analysis", "third"],
             "no circle called `third`",
         ),
         (
@@ -658,7 +658,7 @@ fn a_program_of_another_circle_or_of_none_is_refused() {
             "a.src",
             "--study",
             "two.toml",
-            "--ask",
+            "--analysis",
             "ring",
         ],
     );

@@ -15,12 +15,12 @@ use crate::cell::armill;
 const STUDY: &str = r#"
 format = 1
 robot = "yaskawa/mh12"
-limit_um = 200
+tolerance_um = 200
 tool = { flange_from_tool_mm_deg = [0, 0, 100, 0, 0, 0] }
 plane = { centre_mm = [1000, 0, 800], half_size_mm = 150, step_mm = 75 }
 load = { cases_n = [[6, 10, 10]] }
 
-[[ask]]
+[[analysis]]
 kind = "path"
 name = "groove"
 circle = { radius_mm = 100 }
@@ -117,7 +117,7 @@ fn experiment(noise_um: [f64; 2], keys: &str, (turn, sign): (f64, f64)) -> (temp
     (folder, load)
 }
 
-fn told(folder: &Path) -> Value {
+fn reported(folder: &Path) -> Value {
     let (code, out, err) = armill(folder, &["budget", ".", "--json"]);
     assert_eq!(code, 0, "{err}");
     serde_json::from_str(&out).unwrap()
@@ -139,20 +139,20 @@ fn an_experiment_without_noise_is_explained_whole_whichever_way_its_files_look()
         ("zero_deg = 90\nmirrored = true\n", (quarter, -1.0)),
     ] {
         let (folder, load) = experiment([0.0, 0.0], keys, seen);
-        let told = told(folder.path());
+        let reported = reported(folder.path());
         // The load moves the centre by a third of a millimetre, and angles about it by 0.2 degrees: near a reversal a
         // sample or two differ.
-        assert!(number(&told, "/part/explained_percent") > 99.5, "{keys}: {told}");
-        assert!(number(&told, "/part/turns_as_good_percent") < 0.5, "{keys}");
-        let waves = told["part"]["waves"].as_array().unwrap();
+        assert!(number(&reported, "/part/explained_percent") > 99.5, "{keys}: {reported}");
+        assert!(number(&reported, "/part/turns_as_good_percent") < 0.5, "{keys}");
+        let waves = reported["part"]["waves"].as_array().unwrap();
         assert!(number(&waves[1], "/phase_difference_deg").abs() < 0.5);
         // The centre and the radius that came off are those of the load: the path without load has neither.
         let mean = load.iter().sum::<f64>() / 360.0;
-        assert!((number(&told, "/contributions/0/radius_um") - mean).abs() < 0.1);
-        let name = |k: usize| told["contributions"][k]["name"].as_str().unwrap().to_owned();
+        assert!((number(&reported, "/contributions/0/radius_um") - mean).abs() < 0.1);
+        let name = |k: usize| reported["contributions"][k]["name"].as_str().unwrap().to_owned();
         assert_eq!([name(1), name(2)], ["path without load, both ways", "reversal"]);
         // What is left of 45 cos 2a and 18 cos 3a: root of half of the squares.
-        let rms = number(&told, "/contributions/1/rms_um");
+        let rms = number(&reported, "/contributions/1/rms_um");
         assert!(
             (rms - (45.0_f64.hypot(18.0)) / 2.0_f64.sqrt()).abs() < 0.1,
             "{rms}"
@@ -160,8 +160,8 @@ fn an_experiment_without_noise_is_explained_whole_whichever_way_its_files_look()
         // A square wave less its first harmonic, 4/pi of it, which a shifted centre is.
         let left = 30.0 * (1.0 - 8.0 / (std::f64::consts::PI * std::f64::consts::PI)).sqrt();
         assert!(
-            (number(&told, "/contributions/2/rms_um") - left).abs() < 0.3,
-            "{told}"
+            (number(&reported, "/contributions/2/rms_um") - left).abs() < 0.3,
+            "{reported}"
         );
     }
 }
@@ -169,25 +169,25 @@ fn an_experiment_without_noise_is_explained_whole_whichever_way_its_files_look()
 #[test]
 fn noise_is_told_as_scatter_and_no_more_is_missing_than_it_brings() {
     let (folder, _) = experiment([2.0, 3.0], "part_u_um = 3\n", (0.0, 1.0));
-    let told = told(folder.path());
-    assert!((number(&told, "/repeatability_um") - 2.0).abs() < 0.2, "{told}");
+    let reported = reported(folder.path());
+    assert!((number(&reported, "/repeatability_um") - 2.0).abs() < 0.2, "{reported}");
     let [explained, explainable] =
-        ["/part/explained_percent", "/part/explainable_percent"].map(|path| number(&told, path));
+        ["/part/explained_percent", "/part/explainable_percent"].map(|path| number(&reported, path));
     assert!(
         explained > 98.0 && (explained - explainable).abs() < 0.6,
         "{explained} {explainable}"
     );
-    assert!((number(&told, "/part/residual/rms_um") - 3.2).abs() < 0.6);
-    let plain = number(&told, "/sums/load_um") + number(&told, "/sums/unloaded_um");
-    assert!((number(&told, "/sums/plain_um") - plain).abs() < 1e-9);
+    assert!((number(&reported, "/part/residual/rms_um") - 3.2).abs() < 0.6);
+    let plain = number(&reported, "/sums/load_um") + number(&reported, "/sums/unloaded_um");
+    assert!((number(&reported, "/sums/plain_um") - plain).abs() < 1e-9);
 }
 
 #[test]
 fn a_wrong_zero_is_seen_though_all_sizes_are_right() {
     let (folder, _) = experiment([0.0, 0.0], "zero_deg = 45\nballbar_zero_deg = 0\n", (0.0, 1.0));
-    let told = told(folder.path());
-    assert!(number(&told, "/part/explained_percent") < 20.0);
-    let warned = told["warnings"].to_string();
+    let reported = reported(folder.path());
+    assert!(number(&reported, "/part/explained_percent") < 20.0);
+    let warned = reported["warnings"].to_string();
     assert!(warned.contains("zero_deg wrong"), "{warned}");
 }
 
@@ -199,7 +199,7 @@ fn a_run_compares_by_itself_and_its_report_shows_it() {
     assert_eq!(code, 0, "{err}");
     let result: Value =
         serde_json::from_str(&std::fs::read_to_string(at.join("out/result.json")).unwrap()).unwrap();
-    assert_eq!(result["measured"], told(at));
+    assert_eq!(result["measured"], reported(at));
     let report = std::fs::read_to_string(at.join("out/report.html")).unwrap();
     assert!(report.contains("What was measured, beside what is predicted"));
     for picture in ["groove-budget.svg", "groove-measured.svg", "groove-waves.svg"] {
@@ -283,7 +283,7 @@ fn with_play() -> String {
 fn backlash_that_the_ballbar_saw_is_not_counted_again() {
     let (folder, plain_load) = experiment([0.0, 0.0], "", (0.0, 1.0));
     let at = folder.path();
-    let plain = told(at);
+    let plain = reported(at);
     assert!(plain["without_load"].is_null());
     std::fs::write(at.join("arm.toml"), with_play()).unwrap();
     let study = std::fs::read_to_string(at.join("study.toml")).unwrap();
@@ -301,7 +301,7 @@ fn backlash_that_the_ballbar_saw_is_not_counted_again() {
 
     // The same ball-bar and the same part as without backlash: nothing of the budget changes.
     std::fs::write(at.join("study.toml"), &study).unwrap();
-    let same = told(at);
+    let same = reported(at);
     for k in 0..3 {
         for key in ["largest_um", "rms_um", "explained_alone_percent"] {
             let path = format!("/contributions/{k}/{key}");
@@ -331,14 +331,14 @@ fn backlash_that_the_ballbar_saw_is_not_counted_again() {
     std::fs::write(at.join("own.csv"), file).unwrap();
     let own = measured.replace("\"run1.csv\", \"run2.csv\"", "\"own.csv\"");
     std::fs::write(at.join("study.toml"), format!("{bare}[measured]{own}")).unwrap();
-    let own = told(at);
+    let own = reported(at);
     // The table of the run has three decimals.
     assert!(number(&own, "/without_load/explained_percent") > 99.9, "{own}");
 
     // Without a ball-bar the prediction stands for it, as a part of its own.
     let part = format!("{bare}[measured]\npart = \"cmm.csv\"\n");
     std::fs::write(at.join("study.toml"), part).unwrap();
-    let alone = told(at);
+    let alone = reported(at);
     assert_eq!(alone["contributions"][1]["name"], "path without load, predicted");
     assert_eq!(alone["contributions"][1]["origin"], "unloaded");
     assert!(
@@ -360,13 +360,13 @@ fn backlash_that_the_ballbar_saw_is_not_counted_again() {
 
     // And what the data sheet says stands for the scatter of runs.
     let study = std::fs::read_to_string(at.join("study.toml")).unwrap();
-    let scattering = study.replacen("limit_um", "repeatability_mm = 0.08\nlimit_um", 1);
+    let scattering = study.replacen("tolerance_um", "repeatability_mm = 0.08\ntolerance_um", 1);
     std::fs::write(at.join("study.toml"), scattering).unwrap();
-    let scattering = told(at);
+    let scattering = reported(at);
     assert_eq!(scattering["contributions"][2]["name"], "repeatability");
     assert!((number(&scattering, "/contributions/2/scatter_um") - 80.0 / 3.616_088).abs() < 1e-4);
     assert!((number(&scattering, "/repeatability_um") - 80.0 / 3.616_088).abs() < 1e-4);
-    let sum = |told: &Value| number(told, "/sums/with_scatter_um") - number(told, "/sums/as_functions_um");
+    let sum = |reported: &Value| number(reported, "/sums/with_scatter_um") - number(reported, "/sums/as_functions_um");
     assert!(sum(&scattering) > sum(&alone) + 20.0, "{scattering}");
 }
 
@@ -374,13 +374,13 @@ fn backlash_that_the_ballbar_saw_is_not_counted_again() {
 fn doubt_of_compliances_stands_beside_the_load_and_is_less_without_centre_and_radius() {
     let (folder, _) = experiment([0.0, 0.0], "", (0.0, 1.0));
     let at = folder.path();
-    let free = number(&told(at), "/contributions/0/bias_u_um");
+    let free = number(&reported(at), "/contributions/0/bias_u_um");
     assert!(free > 0.05, "{free}");
     let study = std::fs::read_to_string(at.join("study.toml")).unwrap();
     // Twice the load, twice the doubt.
     let sure = study.replace("cases_n = [[6, 10, 10]]", "cases_n = [[12, 20, 20]]");
     std::fs::write(at.join("study.toml"), &sure).unwrap();
-    let twice = number(&told(at), "/contributions/0/bias_u_um");
+    let twice = number(&reported(at), "/contributions/0/bias_u_um");
     assert!((twice / free - 2.0).abs() < 1e-6, "{twice} {free}");
     let kept = format!("{study}centre = \"as-measured\"\nradius = \"as-measured\"\n");
     std::fs::write(
@@ -389,26 +389,26 @@ fn doubt_of_compliances_stands_beside_the_load_and_is_less_without_centre_and_ra
             .replace("part = \"cmm.csv\"", "ballbar = [\"run1.csv\"]"),
     )
     .unwrap();
-    let kept = told(at);
+    let kept = reported(at);
     assert!(number(&kept, "/contributions/0/bias_u_um") > 2.0 * free, "{kept}");
 }
 
 #[test]
 fn waves_that_are_hardly_there_have_neither_phase_nor_share() {
     let (folder, _) = experiment([0.0, 0.0], "", (0.0, 1.0));
-    let told = told(folder.path());
-    let least = number(&told, "/part/least_wave_um");
-    for wave in told["part"]["waves"].as_array().unwrap() {
+    let reported = reported(folder.path());
+    let least = number(&reported, "/part/least_wave_um");
+    for wave in reported["part"]["waves"].as_array().unwrap() {
         let is_there = number(wave, "/measured_um") >= least;
         assert_eq!(wave["explained_percent"].is_number(), is_there, "{wave}");
         assert_eq!(wave["measured_phase_deg"].is_number(), is_there, "{wave}");
         assert!(is_there || wave["phase_difference_deg"].is_null(), "{wave}");
     }
     // The reversal is a square wave: it has no even waves but those of the ellipse, and what angles off a sample leave.
-    let waves = told["part"]["waves"].as_array().unwrap();
+    let waves = reported["part"]["waves"].as_array().unwrap();
     assert!(
         waves.iter().any(|wave| wave["explained_percent"].is_null()),
-        "{told}"
+        "{reported}"
     );
     assert!(waves[1]["explained_percent"].is_number());
 }

@@ -89,7 +89,7 @@ fn folder() -> tempfile::TempDir {
 #[test]
 fn a_long_arm_and_a_wrong_zero_are_found_and_the_robot_that_is_written_has_them() {
     let folder = folder();
-    let asked = [
+    let requested = [
         "calibrate",
         "poses.csv",
         "--robot",
@@ -99,7 +99,7 @@ fn a_long_arm_and_a_wrong_zero_are_found_and_the_robot_that_is_written_has_them(
     ];
     let answer = json(
         folder.path(),
-        &[&asked[..], &["--out", "mine.toml", "--residuals", "left.csv"]].concat(),
+        &[&requested[..], &["--out", "mine.toml", "--residuals", "left.csv"]].concat(),
     );
     let value = |name: &str| {
         let all = answer["parameters"].as_array().unwrap();
@@ -234,8 +234,8 @@ fn what_cannot_be_is_refused_with_all_problems_at_once() {
             &["OURS=THEIRS"],
         ),
     ] {
-        let asked = [arguments, &["--robot", "lever.toml", "--json"]].concat();
-        let (code, out, err) = armill(folder.path(), &asked);
+        let requested = [arguments, &["--robot", "lever.toml", "--json"]].concat();
+        let (code, out, err) = armill(folder.path(), &requested);
         assert_eq!(code, 2, "{arguments:?} {err}");
         for part in parts {
             assert!(
@@ -288,7 +288,7 @@ fn a_ur10_calibrated_by_random_poses_is_judged_by_others_of_them_and_by_cubes_el
     };
     let folder = tempfile::tempdir().unwrap();
     let [random, cubes] = [random.to_str().unwrap(), cubes.to_str().unwrap()];
-    let asked = [
+    let requested = [
         "calibrate",
         random,
         "--robot",
@@ -297,7 +297,7 @@ fn a_ur10_calibrated_by_random_poses_is_judged_by_others_of_them_and_by_cubes_el
     ];
     let rms = |answer: &Value, set: &str, when: &str| number(&answer[set][when]["rms_mm"]);
     // Where the arm was measured, half of the error goes, in poses that were held out too.
-    let inside = json(folder.path(), &[&asked[..], &["0.2"]].concat());
+    let inside = json(folder.path(), &[&requested[..], &["0.2"]].concat());
     assert!(
         rms(&inside, "held_out", "after") < 0.51 * rms(&inside, "held_out", "before"),
         "{inside}"
@@ -305,7 +305,7 @@ fn a_ur10_calibrated_by_random_poses_is_judged_by_others_of_them_and_by_cubes_el
     // All cubes lie elsewhere: next to nothing is gained, and that is told.
     let answer = json(
         folder.path(),
-        &[&asked[..], &[cubes, "--out", "ur10.toml"]].concat(),
+        &[&requested[..], &[cubes, "--out", "ur10.toml"]].concat(),
     );
     assert_eq!(answer["parameters"].as_array().unwrap().len(), 16);
     assert!((rms(&answer, "held_out", "before") - 0.77).abs() < 0.0051);
@@ -325,7 +325,7 @@ fn a_ur10_calibrated_by_random_poses_is_judged_by_others_of_them_and_by_cubes_el
 #[test]
 fn a_prior_keeps_what_poses_do_not_tell_and_the_drawing_shows_both_sets() {
     let folder = folder();
-    let asked = [
+    let requested = [
         "calibrate",
         "poses.csv",
         "--robot",
@@ -337,7 +337,7 @@ fn a_prior_keeps_what_poses_do_not_tell_and_the_drawing_shows_both_sets() {
     let answer = json(
         folder.path(),
         &[
-            &asked[..],
+            &requested[..],
             &[
                 "--prior-mm",
                 "100",
@@ -357,7 +357,7 @@ fn a_prior_keeps_what_poses_do_not_tell_and_the_drawing_shows_both_sets() {
         .unwrap();
     assert!((number(&along["value_mm"]) - 0.5).abs() < 1e-4, "{answer}");
     assert!((number(&answer["prior"]["length_mm"]) - 100.0).abs() < 1e-9);
-    assert!(number(&answer["told_by_poses"]) > 2.0);
+    assert!(number(&answer["effective_parameters"]) > 2.0);
     let drawing = std::fs::read_to_string(folder.path().join("errors.svg")).unwrap();
     for part in [
         "found from, before",
@@ -374,7 +374,7 @@ fn a_prior_keeps_what_poses_do_not_tell_and_the_drawing_shows_both_sets() {
         ),
         (&["--drawing", "errors.jpg"], "is no picture that armill draws"),
     ] {
-        let (code, _, err) = armill(folder.path(), &[&asked[..], arguments].concat());
+        let (code, _, err) = armill(folder.path(), &[&requested[..], arguments].concat());
         assert!(code == 2 && err.contains(said), "{arguments:?}: {err}");
     }
 }
@@ -395,7 +395,7 @@ fn a_ur10_of_twenty_poses_meets_others_better_with_a_prior() {
     let some: Vec<&str> = some.map(|(_, line)| line).take(21).collect();
     std::fs::write(folder.path().join("few.csv"), some.join("\n")).unwrap();
     let random = random.to_str().unwrap();
-    let asked = [
+    let requested = [
         "calibrate",
         "few.csv",
         "--robot",
@@ -405,7 +405,7 @@ fn a_ur10_of_twenty_poses_meets_others_better_with_a_prior() {
         "--same-set-up",
     ];
     let rms = |prior: &[&str]| {
-        let answer = json(folder.path(), &[&asked[..], prior].concat());
+        let answer = json(folder.path(), &[&requested[..], prior].concat());
         assert_eq!(answer["training"]["poses"], 20);
         ["before", "after"].map(|when| number(&answer["held_out"][when]["rms_mm"]))
     };
@@ -425,7 +425,7 @@ fn a_named_branch_of_a_calibrated_robot_is_the_posture_that_the_drawing_has() {
         return;
     };
     let folder = tempfile::tempdir().unwrap();
-    let asked = [
+    let requested = [
         "calibrate",
         random.to_str().unwrap(),
         "--robot",
@@ -433,7 +433,7 @@ fn a_named_branch_of_a_calibrated_robot_is_the_posture_that_the_drawing_has() {
         "--out",
         "mine.toml",
     ];
-    let (code, _, err) = armill(folder.path(), &asked);
+    let (code, _, err) = armill(folder.path(), &requested);
     assert_eq!(code, 0, "{err}");
     let postures = |robot: &str| {
         let answer = json(

@@ -14,7 +14,7 @@ pub const ARMILL: &str = env!("CARGO_BIN_EXE_armill");
 pub const SMALL: &str = r#"format = 1
 title = "Small"
 robot = "yaskawa/mh12"
-limit_um = 130
+tolerance_um = 130
 
 [plane]
 centre_mm = [1000, 0, 800]
@@ -28,21 +28,21 @@ cases_n = [[3, 5, 5], [3, -5, 5]]
 
 /// One ask of every kind but holes, to be appended to [`SMALL`]: 25 + 2 x 25 + 27 + 36 points.
 pub const EVERY_KIND: &str = r#"
-[[ask]]
+[[analysis]]
 kind = "map"
 name = "plate"
 
-[[ask]]
+[[analysis]]
 kind = "sections"
 name = "distances"
 distances_mm = [900, 1000]
 
-[[ask]]
+[[analysis]]
 kind = "volume"
 name = "space"
 box = { half_size_mm = [50, 50, 50], step_mm = 50 }
 
-[[ask]]
+[[analysis]]
 kind = "path"
 name = "groove"
 circle.radius_mm = 60

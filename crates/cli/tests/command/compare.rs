@@ -5,14 +5,14 @@ use crate::cell::{Cell, number};
 /// A path and a plane that both arms reach.
 const CELL: &str = r#"format = 1
 robot = "yaskawa/mh12"
-limit_um = 60
+tolerance_um = 60
 plane = { centre_mm = [850, 50, 300], tilt_deg = 90, half_size_mm = 100, step_mm = 100 }
 tool = { flange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0] }
 load = { cases_n = [[3, -5, 5], [3, 5, 5]] }
-[[ask]]
+[[analysis]]
 kind = "map"
 name = "plate"
-[[ask]]
+[[analysis]]
 kind = "path"
 name = "ring"
 circle.radius_mm = 60
@@ -51,7 +51,7 @@ fn two_studies_stand_side_by_side_best_first_with_what_differs() {
 fn numbers_are_those_of_a_run() {
     let cell = Cell::new();
     cell.file("a/study.toml", CELL);
-    cell.file("b/study.toml", but("limit_um = 60", "limit_um = 30"));
+    cell.file("b/study.toml", but("tolerance_um = 60", "tolerance_um = 30"));
     let compared = cell
         .armill(&["compare", "a", "b", "--json", "--out", "side", "--no-pictures"])
         .fine()
@@ -60,7 +60,7 @@ fn numbers_are_those_of_a_run() {
         .armill(&["run", "a", "--json", "--no-pictures", "--out", "alone"])
         .fine()
         .json();
-    let ring = &compared["asks"][0];
+    let ring = &compared["analyses"][0];
     assert_eq!(
         (ring["name"].as_str(), ring["kind"].as_str()),
         (Some("ring"), Some("path"))
@@ -103,8 +103,8 @@ fn another_robot_brings_its_own_compliance_and_is_told_as_assumed() {
         "fanuc/r2000ic",
     ];
     let said = cell.armill(&args).fine();
-    for told in ["kuka/kr120r2500pro", "fanuc/r2000ic", "yaskawa/mh12", "assumed"] {
-        assert!(said.out.contains(told), "{told}: {}", said.out);
+    for given in ["kuka/kr120r2500pro", "fanuc/r2000ic", "yaskawa/mh12", "assumed"] {
+        assert!(said.out.contains(given), "{given}: {}", said.out);
     }
     assert!(
         said.out
@@ -154,7 +154,7 @@ fn compliances_and_statements_of_the_study_stay_with_its_own_robot() {
             "--no-pictures",
         ];
         let json = cell.armill(&args).fine().json();
-        let rows = json["asks"][0]["cells"].as_array().unwrap().clone();
+        let rows = json["analyses"][0]["cells"].as_array().unwrap().clone();
         let row = rows.iter().find(|row| row["cell"] == robot).unwrap().clone();
         number(&row["max_in_plane_um"])
     };
@@ -191,12 +191,12 @@ fn asks_of_one_cell_alone_and_paths_that_are_not_the_same_are_told() {
     let said = cell
         .armill(&["compare", "a.toml", "b.toml", "--no-pictures"])
         .fine();
-    for told in [
+    for given in [
         "map `plate` is asked of a alone and left out.",
         "map `sheet` is asked of b alone and left out.",
         "The paths `ring` of a and b are not the same: 38 points over 377.0 mm against 44 points over 439.8 mm.",
     ] {
-        assert!(said.out.contains(told), "{told}: {}", said.out);
+        assert!(said.out.contains(given), "{given}: {}", said.out);
     }
 }
 
@@ -205,19 +205,19 @@ fn what_cannot_be_compared_is_refused_with_what_to_do() {
     let cell = Cell::new();
     cell.file("a.toml", CELL);
     let gravity = "\n[gravity]\nreference_joints_deg = [0, 0, 0, 0, -90, 0]\n[[tool.mass]]\nat = \"tool\"\nmass_kg = 5\ncentre_mm = [0, 0, 0]\nsource = \"test\"\n";
-    let first = CELL.find("[[ask]]").unwrap();
-    let (head, asks) = CELL.split_at(first);
+    let first = CELL.find("[[analysis]]").unwrap();
+    let (head, analyses) = CELL.split_at(first);
     let head = head
         .replace("tool = { flange_from_tool_mm_deg", "tool.flange_from_tool_mm_deg")
         .replace("0, 0, 0] }", "0, 0, 0]");
-    cell.file("heavy.toml", format!("{head}{gravity}{asks}"));
+    cell.file("heavy.toml", format!("{head}{gravity}{analyses}"));
     cell.file(
         "apart.toml",
         but("\"ring\"", "\"rim\"").replace("\"plate\"", "\"sheet\""),
     );
-    cell.file("wrong.toml", but("limit_um = 60", "limit_um = \"x\""));
-    let refused = |args: &[&str], told: &[&str]| {
-        cell.armill(&[&["compare"], args].concat()).refused(told);
+    cell.file("wrong.toml", but("tolerance_um = 60", "tolerance_um = \"x\""));
+    let refused = |args: &[&str], given: &[&str]| {
+        cell.armill(&[&["compare"], args].concat()).refused(given);
     };
     refused(&["a.toml"], &["nothing to compare it with", "--robot"]);
     refused(

@@ -4,7 +4,7 @@ use crate::cell::{Cell, number};
 
 const CELL: &str = r#"format = 1
 robot = "yaskawa/mh12"
-limit_um = 60
+tolerance_um = 60
 plane = { centre_mm = [1000, 0, 500], tilt_deg = 90, half_size_mm = 100, step_mm = 50 }
 tool = { flange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0] }
 [load]
@@ -19,7 +19,7 @@ fn cell(program: &str, rest: &str) -> Cell {
     cell.file("ring.ngc", RING);
     cell.file(
         "study.toml",
-        format!("{CELL}[[ask]]\nkind = \"path\"\nname = \"ring\"\nprogram = {{ {program} }}\n{rest}"),
+        format!("{CELL}[[analysis]]\nkind = \"path\"\nname = \"ring\"\nprogram = {{ {program} }}\n{rest}"),
     );
     cell
 }
@@ -29,8 +29,8 @@ fn the_commanded_path_read_again_deviates_onto_the_drawn_one() {
     let cell = cell("file = \"ring.ngc\", limits = false", "");
     let said = cell.armill(&["compensate", "study.toml"]).fine();
     assert!(said.out.starts_with("ring: the tool goes "), "{}", said.out);
-    let told = cell.armill(&["compensate", "study.toml", "--json"]).fine().json();
-    let path = &told["paths"][0];
+    let given = cell.armill(&["compensate", "study.toml", "--json"]).fine().json();
+    let path = &given["paths"][0];
     let (before, after) = (
         number(&path["before"]["max_um"]),
         number(&path["after"]["max_um"]),
@@ -196,11 +196,11 @@ fn a_program_of_a_robot_comes_back_with_its_targets_moved_and_nothing_else() {
     // A force that stays as it is: only what the posture changes is left between the targets.
     let study = std::fs::read_to_string(cell.at("study.toml")).unwrap();
     cell.file("study.toml", study.replace("frame = \"feed\"\n", ""));
-    let told = cell
+    let given = cell
         .armill(&["compensate", "study.toml", "--json", "--out", "c"])
         .fine()
         .json();
-    let path = &told["paths"][0];
+    let path = &given["paths"][0];
     let of = |key: &str| number(&path[key]["max_um"]);
     let placed = number(&path["in_place"]["after"]["max_um"]);
     assert!(of("before") > 500.0 && of("after") < 0.01, "{path}");
@@ -318,7 +318,7 @@ fn what_keeps_a_program_from_being_written_in_place_is_said() {
     ]);
 }
 
-const CIRCLE: &str = "[[ask]]\nkind = \"path\"\nname = \"round\"\ncircle.radius_mm = 40\nstep_mm = 2\n";
+const CIRCLE: &str = "[[analysis]]\nkind = \"path\"\nname = \"round\"\ncircle.radius_mm = 40\nstep_mm = 2\n";
 
 /// Places of the straight moves of a KRL program, mm.
 fn places(cell: &Cell, program: &str) -> Vec<[f64; 3]> {
@@ -362,7 +362,7 @@ fn a_path_as_it_is_drawn_makes_up_for_nothing() {
     let all = [
         "compensate",
         "study.toml",
-        "--as-drawn",
+        "--nominal",
         "--program",
         "round.src",
         "--feed-mm-per-min",
@@ -379,8 +379,8 @@ fn a_path_as_it_is_drawn_makes_up_for_nothing() {
         assert!((x.hypot(*y) - 40.0).abs() < 1e-3 && *z == 0.0, "{x} {y} {z}");
     }
     assert!(!cell.at("compensated/round-compensated.svg").exists());
-    let told = cell.armill(&[&all[..], &["--json"]].concat()).fine().json();
-    let path = &told["paths"][0];
+    let given = cell.armill(&[&all[..], &["--json"]].concat()).fine().json();
+    let path = &given["paths"][0];
     assert_eq!(
         (&path["rounds"], &path["largest_correction_um"]),
         (&0.into(), &0.0.into())
@@ -392,7 +392,7 @@ fn a_path_as_it_is_drawn_makes_up_for_nothing() {
 #[test]
 fn what_cannot_be_compensated_says_why() {
     let cell = cell("file = \"ring.ngc\"", "");
-    cell.armill(&["compensate", "study.toml", "--ask", "rim"])
+    cell.armill(&["compensate", "study.toml", "--analysis", "rim"])
         .refused(&["no path called `rim`"]);
     cell.file("map.toml", CELL.replace("frame = \"feed\"", ""));
     cell.armill(&["compensate", "map.toml"])

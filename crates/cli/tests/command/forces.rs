@@ -52,24 +52,24 @@ fn a_record_is_told_before_and_after_whatever_its_format() {
             ],
         );
         assert_eq!(code, 0, "{err}");
-        let told: Value = serde_json::from_str(&out).unwrap();
+        let given: Value = serde_json::from_str(&out).unwrap();
         assert_eq!(
-            (&told["format"], &told["samples"]),
+            (&given["format"], &given["samples"]),
             (&format.into(), &3000.into())
         );
         let number = |value: &Value, expected: f64, slack: f64| {
             let found = value.as_f64().unwrap();
             assert!((found - expected).abs() <= slack, "{value} for {expected}");
         };
-        number(&told["rate_hz"], 1000.0, 1e-6);
-        number(&told["drift"]["offset_n"][0], 5.0, 1e-9);
-        number(&told["before"]["fx_n"]["greatest"], 37.0, 0.0);
-        number(&told["after"]["fx_n"]["greatest"], 32.0, 1e-9);
-        number(&told["after"]["fy_n"]["mean"], -40.0 / 3.0, 1e-9);
-        number(&told["after"]["size_n"]["greatest"], 32_f64.hypot(40.0), 1e-9);
+        number(&given["rate_hz"], 1000.0, 1e-6);
+        number(&given["drift"]["offset_n"][0], 5.0, 1e-9);
+        number(&given["before"]["fx_n"]["greatest"], 37.0, 0.0);
+        number(&given["after"]["fx_n"]["greatest"], 32.0, 1e-9);
+        number(&given["after"]["fy_n"]["mean"], -40.0 / 3.0, 1e-9);
+        number(&given["after"]["size_n"]["greatest"], 32_f64.hypot(40.0), 1e-9);
         // A hum of whole turns has no mean but for the trapezia at its edges, a tenth of it.
-        number(&told["revolutions"]["largest_mean_n"], 50.0, 0.2);
-        assert_eq!(told["drift"]["air_found"], false);
+        number(&given["revolutions"]["largest_mean_n"], 50.0, 0.2);
+        assert_eq!(given["drift"]["air_found"], false);
     }
 }
 
@@ -110,9 +110,9 @@ fn tables_and_pictures_come_out_and_can_be_read_again() {
     assert_eq!(turns.lines().count(), 149 + 1);
     let (code, out, err) = armill(folder.path(), &["forces", "o/forces.csv", "--no-drift", "--json"]);
     assert_eq!(code, 0, "{err}");
-    let told: Value = serde_json::from_str(&out).unwrap();
-    assert!(told["unused"].to_string().contains("fx_before_n"));
-    assert!(told["after"]["fx_n"]["greatest"].as_f64().unwrap() < 33.0);
+    let given: Value = serde_json::from_str(&out).unwrap();
+    assert!(given["unused"].to_string().contains("fx_before_n"));
+    assert!(given["after"]["fx_n"]["greatest"].as_f64().unwrap() < 33.0);
 }
 
 #[test]
@@ -157,8 +157,8 @@ fn what_is_wrong_is_told_with_its_place_and_a_hint() {
         }
     }
     let (code, out, _) = armill(folder.path(), &["forces", "trap.txt", "--json"]);
-    let told: Value = serde_json::from_str(&out).unwrap();
-    assert!(code == 2 && told["problems"][0]["line"] == 4, "{out}");
+    let given: Value = serde_json::from_str(&out).unwrap();
+    assert!(code == 2 && given["problems"][0]["line"] == 4, "{out}");
     let (code, out, _) = armill(folder.path(), &["forces", "two.txt", "--cycle", "2"]);
     assert!(code == 0 && out.contains("cycle 2 of 2"), "{out}");
 }

@@ -12,12 +12,12 @@ const KRL: &str = "DEF A()\n$BASE={X 1000,Y 0,Z 500,A 0,B 0,C 0}\n$TOOL={X 0,Y 0
 const PROGRAM: &str = r#"
 [tool]
 flange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0]
-[[ask]]
+[[analysis]]
 kind = "path"
 name = "ring"
 program.file = "side.src"
 "#;
-const RING: &str = "\n[[ask]]\nkind = \"path\"\nname = \"ring\"\ncircle.radius_mm = 60\nstep_mm = 40\n";
+const RING: &str = "\n[[analysis]]\nkind = \"path\"\nname = \"ring\"\ncircle.radius_mm = 60\nstep_mm = 40\n";
 
 /// Poses of the lever with 0.5 mm and 0.1 deg of error.
 fn poses() -> String {
@@ -300,10 +300,10 @@ fn a_run_removes_its_own_stale_files_and_not_those_that_were_changed() {
     assert_eq!(files["mine.csv"], PRECIOUS.as_bytes());
     assert_eq!(files["ring.parquet"], b"noted by hand");
     // The answer names what belongs to it.
-    let told = cell.result("out")["files"].as_object().unwrap().clone();
-    let names: Vec<&String> = told.keys().collect();
+    let given = cell.result("out")["files"].as_object().unwrap().clone();
+    let names: Vec<&String> = given.keys().collect();
     assert_eq!(names, ["rim.csv", "rim.parquet", "rim.vtp"]);
-    assert!(told.values().all(|sum| sum.as_str().unwrap().len() == 64));
+    assert!(given.values().all(|sum| sum.as_str().unwrap().len() == 64));
 }
 
 #[cfg(unix)]
@@ -388,7 +388,7 @@ fn inputs_named_in_a_study_are_regular_files_and_pipes_may_be_named_on_the_comma
         ("zero.toml", program("/dev/zero")),
         (
             "holes.toml",
-            format!("{SMALL}[[ask]]\nkind = \"holes\"\nholes.file = \"pipe\"\n"),
+            format!("{SMALL}[[analysis]]\nkind = \"holes\"\nholes.file = \"pipe\"\n"),
         ),
         ("part.toml", format!("{SMALL}{RING}[measured]\npart = \"pipe\"\n")),
         ("robot.toml", SMALL.replace("yaskawa/mh12", "/dev/zero")),
@@ -413,8 +413,8 @@ fn inputs_named_in_a_study_are_regular_files_and_pipes_may_be_named_on_the_comma
     std::io::Write::write_all(&mut child.stdin.take().unwrap(), ballbar().as_bytes()).unwrap();
     let said = child.wait_with_output().unwrap();
     assert!(said.status.success());
-    let told: serde_json::Value = serde_json::from_slice(&said.stdout).unwrap();
-    assert!(told.is_object());
+    let given: serde_json::Value = serde_json::from_slice(&said.stdout).unwrap();
+    assert!(given.is_object());
 }
 
 #[test]

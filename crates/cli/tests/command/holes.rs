@@ -4,11 +4,11 @@ use crate::cell::{Cell, number, numbers};
 
 const PANEL: &str = r#"format = 1
 robot = "yaskawa/mh12"
-limit_um = 150
+tolerance_um = 150
 plane = { centre_mm = [850, 50, 300], tilt_deg = 90, half_size_mm = 100, step_mm = 50 }
 tool = { flange_from_tool_mm_deg = [100, 0, 150, 0, 90, 0] }
 load = { cases_n = [[5, -10, 60]] }
-[[ask]]
+[[analysis]]
 kind = "holes"
 name = "panel"
 posture.search = { step_deg = 15 }
@@ -47,10 +47,10 @@ fn each_hole_deviates_as_its_posture_does() {
             panic!("three components");
         };
         // On a plate that faces up x of the part goes along -y of base, its y along x, its normal upwards.
-        let told = ["x_um", "y_um", "depth_um"].map(|key| number(&hole[key]));
-        for (told, expected) in told.into_iter().zip([-y, x, z]) {
+        let given = ["x_um", "y_um", "depth_um"].map(|key| number(&hole[key]));
+        for (given, expected) in given.into_iter().zip([-y, x, z]) {
             // Lanes and the plain way differ by rounding.
-            assert!((told - expected).abs() < 1e-6, "{told} um and {expected} um");
+            assert!((given - expected).abs() < 1e-6, "{given} um and {expected} um");
         }
         let at = numbers(&posture["tool"]["xyz_mm"]);
         let placed = numbers(&hole["xyz_mm"]);
@@ -78,7 +78,7 @@ fn a_hole_that_only_a_straight_wrist_holds_is_told_with_a_warning_and_lost_to_a_
         .armill(&["run", "study.toml", "--json", "--no-pictures"])
         .fine()
         .json();
-    assert_eq!(json["holes"][0]["each"][0]["in_the_way"], "singular", "{json}");
+    assert_eq!(json["holes"][0]["each"][0]["blocked_by"], "singular", "{json}");
     assert_eq!(json["holes"][0]["refused"], 1);
     assert_eq!(json["holes"][0]["fraction_within"], 0.0);
     let warned = json["warnings"].to_string();

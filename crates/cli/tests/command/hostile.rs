@@ -50,10 +50,10 @@ fn any_number_of_a_study_that_follows_a_program_ends_in_an_answer_or_a_refusal()
     let program = r#"
 [tool]
 flange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0]
-[[ask]]
+[[analysis]]
 kind = "path"
 name = "ring"
-[ask.program]
+[analysis.program]
 file = "ring.ngc"
 step_mm = 2
 chord_error_mm = 0.02

@@ -132,13 +132,13 @@ fn a_plan_expects_what_the_compliances_of_the_robot_file_give() {
         let (code, stdout, stderr) = armill(folder.path(), &pose);
         assert_eq!(code, 0, "{stderr}");
         let posture: Value = serde_json::from_str(&stdout).unwrap();
-        let (expected, told) = (
+        let (expected, given) = (
             numbers(&test["expected_mm"]),
             numbers(&posture["postures"][0]["deviation_um"]),
         );
-        for (mm, um) in expected.iter().zip(&told) {
+        for (mm, um) in expected.iter().zip(&given) {
             // Degrees are turned into radians and back, and written in full.
-            assert!((mm - um / 1e3).abs() < 1e-9 * (1.0 + mm.abs()), "{test} {told:?}");
+            assert!((mm - um / 1e3).abs() < 1e-9 * (1.0 + mm.abs()), "{test} {given:?}");
         }
     }
 }
@@ -390,7 +390,7 @@ fn real_tests_left_out_are_predicted_better_than_by_least_squares() {
     let best = identify(&["--points", "separate"]);
     assert!(left_out(&best) < 0.089, "{}", best["left_out"]);
     assert_eq!(best["outliers"], serde_json::json!(["line 12"]));
-    assert_eq!(best["not_told_apart"].as_array().unwrap().len(), 1);
+    assert_eq!(best["not_identifiable"].as_array().unwrap().len(), 1);
 }
 
 #[test]

@@ -18,11 +18,11 @@ fn moments() -> Vec<f64> {
 
 /// Two asks: enough files to be killed among, few enough to be drawn often.
 const ASKS: &str = r#"
-[[ask]]
+[[analysis]]
 kind = "map"
 name = "plate"
 
-[[ask]]
+[[analysis]]
 kind = "path"
 name = "groove"
 circle.radius_mm = 60
@@ -117,7 +117,7 @@ fn a_run_killed_over_an_older_answer_never_leaves_that_answer_beside_its_own_tab
     let older = finished_files(&cell.at("out"));
     cell.file(
         "study.toml",
-        format!("{}{ASKS}", SMALL.replace("limit_um = 130", "limit_um = 10")),
+        format!("{}{ASKS}", SMALL.replace("tolerance_um = 130", "tolerance_um = 10")),
     );
     let begun = Instant::now();
     assert!(start(&cell, "newer").wait().unwrap().success());
@@ -156,7 +156,7 @@ fn a_run_killed_while_it_computes_has_written_nothing() {
 
 #[test]
 fn a_search_killed_again_and_again_ends_at_the_same_place() {
-    let ring = "[[ask]]\nkind = \"path\"\nname = \"groove\"\ncircle.radius_mm = 60\nstep_mm = 20\n";
+    let ring = "[[analysis]]\nkind = \"path\"\nname = \"groove\"\ncircle.radius_mm = 60\nstep_mm = 20\n";
     let free =
         "[place]\nx_mm = [700, 1200]\nz_mm = [500, 1100]\ntilt_deg = [-30, 60]\nroll_deg = [-90, 90]\n";
     let cell = Cell::with_study(&format!("{SMALL}{ring}{free}"));

@@ -56,7 +56,7 @@ fn a_material_is_shown_with_every_set_and_what_is_used() {
     assert_eq!(shown["mechanistic"].as_array().unwrap().len(), 4);
     let source = shown["mechanistic"][0]["source"].as_str().unwrap();
     let sources = shown["sources"].as_array().unwrap();
-    assert!(sources.iter().any(|told| told["key"] == source));
+    assert!(sources.iter().any(|given| given["key"] == source));
 }
 
 #[test]

@@ -234,9 +234,9 @@ fn the_schema_names_every_field_of_the_study() {
         "tool",
         "plane",
         "load",
-        "limit_um",
+        "tolerance_um",
         "posture",
-        "ask",
+        "analysis",
         "compliance",
         "statement",
     ] {
@@ -320,9 +320,9 @@ fn an_example_of_several_files_is_made_before_it_is_run() {
     cell.armill(&["new", "mh12-ballbar", "--example", "mh12-ballbar"])
         .fine();
     // The gaps that its measurements were made with.
-    let told = cell.armill(&["backlash", "mh12-ballbar", "--json"]).fine().json();
+    let given = cell.armill(&["backlash", "mh12-ballbar", "--json"]).fine().json();
     let made = [0.009, 0.006, 0.012, 0.015, 0.010];
-    for (joint, gap) in told["joints"].as_array().unwrap().iter().zip(made) {
+    for (joint, gap) in given["joints"].as_array().unwrap().iter().zip(made) {
         let (found, u) = (number(&joint["backlash_deg"]), number(&joint["backlash_u_deg"]));
         assert!((found - gap).abs() < 4.0 * u && u < 2e-4, "{joint}");
     }

@@ -60,7 +60,7 @@ fn number(value: &Value, expected: f64) {
 #[test]
 fn runs_of_several_files_have_accuracy_and_repeatability() {
     let folder = folder();
-    let asked = [
+    let requested = [
         "path-accuracy",
         "both.csv",
         "third.csv",
@@ -71,20 +71,20 @@ fn runs_of_several_files_have_accuracy_and_repeatability() {
         "--drawing",
         "path.svg",
     ];
-    let (code, out, err) = armill(folder.path(), &[&asked[..], &["--json"]].concat());
+    let (code, out, err) = armill(folder.path(), &[&requested[..], &["--json"]].concat());
     assert_eq!(code, 0, "{err}");
-    let told: Value = serde_json::from_str(&out).unwrap();
+    let given: Value = serde_json::from_str(&out).unwrap();
     // Offsets 10, 20, 60: mean 30; distances 20, 10, 30: mean 20, S = 10, 20 + 30.
-    number(&told["at_mm"], 0.03);
-    number(&told["at_mean_mm"], 0.03);
-    number(&told["rt_mm"], 0.05);
+    number(&given["at_mm"], 0.03);
+    number(&given["at_mean_mm"], 0.03);
+    number(&given["rt_mm"], 0.05);
     assert_eq!(
-        (&told["cycles"], &told["points"], &told["not_passed"]),
+        (&given["cycles"], &given["points"], &given["not_passed"]),
         (&3.into(), &51.into(), &0.into())
     );
-    number(&told["at_worst"]["offset_mm"][1], 0.03);
-    assert_eq!(told["unused"][0], "time (both.csv)");
-    let notes = told["notes"].to_string();
+    number(&given["at_worst"]["offset_mm"][1], 0.03);
+    assert_eq!(given["unused"][0], "time (both.csv)");
+    let notes = given["notes"].to_string();
     assert!(
         notes.contains("asks for 10 cycles of a path; here are 3"),
         "{notes}"
@@ -102,7 +102,7 @@ fn runs_of_several_files_have_accuracy_and_repeatability() {
             .unwrap()
             .contains("Path accuracy")
     );
-    let (_, text, _) = armill(folder.path(), &asked);
+    let (_, text, _) = armill(folder.path(), &requested);
     assert!(
         text.contains("AT   0.0300 mm") && text.contains("RT   0.0500 mm"),
         "{text}"

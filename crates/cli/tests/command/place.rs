@@ -8,11 +8,11 @@ use crate::cell::{ARMILL, Cell, MH12_URDF, number};
 /// A ring on a plate, with room to move along x and to tilt.
 const CELL: &str = r#"format = 1
 robot = "yaskawa/mh12"
-limit_um = 60
+tolerance_um = 60
 plane = { centre_mm = [1000, 0, 800], tilt_deg = 0, half_size_mm = 100, step_mm = 50 }
 load = { cases_n = [[3, -5, -5], [3, 5, 5]] }
 posture = { branch = "front elbow-up" }
-[[ask]]
+[[analysis]]
 kind = "path"
 name = "ring"
 circle.radius_mm = 60
@@ -40,7 +40,7 @@ fn the_place_is_told_in_words_files_and_lines_that_lay_the_path_there() {
     assert!(said.out.contains("None is better of "), "{}", said.out);
     let placed = placement(&cell, "place");
     let cost = number(&placed["found"]["cost_um"]);
-    assert!(cost < 0.5 * number(&placed["as_drawn"]["cost_um"]), "{placed}");
+    assert!(cost < 0.5 * number(&placed["nominal"]["cost_um"]), "{placed}");
     for picture in ["placement-margin.svg", "placement-x-tilt.svg", "report.html"] {
         assert!(cell.at(&format!("place/{picture}")).exists(), "{picture}");
     }
@@ -139,7 +139,7 @@ fn where_no_place_holds_the_path_that_is_told() {
         said.out
     );
     let placed = placement(&cell, "place");
-    assert_eq!(placed["found"]["lost_points"], placed["points"]);
+    assert_eq!(placed["found"]["unreachable_points"], placed["points"]);
     assert_eq!(placed["by_margin"].as_array().unwrap().len(), 0);
 }
 
@@ -215,22 +215,22 @@ rotation_deg = [0, 0, 0]
 
 #[test]
 fn what_cannot_be_placed_is_refused_with_what_to_do() {
-    let more = "[[ask]]\nkind = \"path\"\nname = \"second\"\ncircle.radius_mm = 20\nstep_mm = 10\n";
+    let more = "[[analysis]]\nkind = \"path\"\nname = \"second\"\ncircle.radius_mm = 20\nstep_mm = 10\n";
     let cell = cell(more);
-    let refused = |args: &[&str], told: &str| {
+    let refused = |args: &[&str], given: &str| {
         cell.armill(&[&["place", "study.toml"], args].concat())
-            .refused(&[told]);
+            .refused(&[given]);
     };
     refused(&[], "the study has several paths: `ring`, `second`");
-    refused(&["--ask", "rim"], "no path called `rim`");
-    refused(&["--ask", "ring", "--x-mm", "900,800"], "nothing between");
-    refused(&["--ask", "ring", "--x-mm", "900"], "two numbers");
+    refused(&["--analysis", "rim"], "no path called `rim`");
+    refused(&["--analysis", "ring", "--x-mm", "900,800"], "nothing between");
+    refused(&["--analysis", "ring", "--x-mm", "900"], "two numbers");
     refused(
-        &["--ask", "ring", "--margin-deg", "91"],
+        &["--analysis", "ring", "--margin-deg", "91"],
         "--margin-deg: 91 is outside 0 to 90",
     );
-    refused(&["--ask", "ring", "--branch", "sideways"], "`sideways`");
-    cell.file("map.toml", &CELL[..CELL.find("[[ask]]").unwrap()]);
+    refused(&["--analysis", "ring", "--branch", "sideways"], "`sideways`");
+    cell.file("map.toml", &CELL[..CELL.find("[[analysis]]").unwrap()]);
     cell.armill(&["place", "map.toml"])
         .refused(&["no path that could be placed"]);
 }
@@ -238,16 +238,16 @@ fn what_cannot_be_placed_is_refused_with_what_to_do() {
 #[test]
 fn holes_are_placed_each_held_in_its_best_turn_and_branch() {
     let holes =
-        CELL[..CELL.find("[[ask]]").unwrap()].replace("posture = { branch = \"front elbow-up\" }\n", "");
-    let ask = r#"
-[[ask]]
+        CELL[..CELL.find("[[analysis]]").unwrap()].replace("posture = { branch = \"front elbow-up\" }\n", "");
+    let analysis = r#"
+[[analysis]]
 kind = "holes"
 name = "rim"
 holes = { at_mm = [[0, 0, 0], [60, 0, 0], [60, 60, 0]], normals = [[0, 0, 1], [0.3, 0, 1], [0.3, 0, 1]] }
 posture.search.step_deg = 45
 "#;
     let cell = Cell::new();
-    cell.file("study.toml", format!("{holes}{ask}"));
+    cell.file("study.toml", format!("{holes}{analysis}"));
     let args = [
         "place",
         "study.toml",
@@ -261,7 +261,7 @@ posture.search.step_deg = 45
     assert!(said.out.starts_with("rim: at most "), "{}", said.out);
     let placed = placement(&cell, "place");
     let cost = number(&placed["found"]["cost_um"]);
-    assert!(cost < number(&placed["as_drawn"]["cost_um"]), "{placed}");
+    assert!(cost < number(&placed["nominal"]["cost_um"]), "{placed}");
     // The run there holds each hole so, through the door that asks for holes take.
     let largest = number(&cell.result("place")["holes"][0]["max_in_plane_um"]);
     assert!((largest - cost).abs() < 1e-3 * cost, "{largest} {cost}");
@@ -289,7 +289,7 @@ fn a_rail_brings_the_arm_to_where_a_part_would_go() {
         .replace("\"yaskawa/mh12\"", "\"railed.urdf\"")
         .replace("step_mm = 10\n", "step_mm = 60\n")
         .replace("centre_mm = [1000, 0, 800]", "centre_mm = [1000, 700, 800]")
-        .replace("[[ask]]", &format!("{compliance}[[ask]]"));
+        .replace("[[analysis]]", &format!("{compliance}[[analysis]]"));
     cell.file("study.toml", study);
     let said = cell
         .armill(&["place", "study.toml", "--no-pictures", "--rail-mm", "0,1500"])
@@ -297,7 +297,7 @@ fn a_rail_brings_the_arm_to_where_a_part_would_go() {
     assert!(said.out.contains(", rail at "), "{}", said.out);
     assert!(said.out.contains("posture.home_deg = ["), "{}", said.out);
     let placed = placement(&cell, "place");
-    assert_eq!(placed["found"]["lost_points"], 0);
+    assert_eq!(placed["found"]["unreachable_points"], 0);
     // The same arm without a rail, and the part moved in place of it: by lanes, not one pose after the other.
     cell.file("plain.toml", CELL.replace("step_mm = 10\n", "step_mm = 60\n"));
     let moved = [

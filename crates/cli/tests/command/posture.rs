@@ -4,11 +4,11 @@ use crate::cell::{Cell, number};
 
 const CELL: &str = r#"format = 1
 robot = "yaskawa/mh12"
-limit_um = 60
+tolerance_um = 60
 plane = { centre_mm = [850, 50, 300], tilt_deg = 90, half_size_mm = 100, step_mm = 50 }
 tool = { flange_from_tool_mm_deg = [120, 0, 150, 0, 90, 0] }
 load = { cases_n = [[30, -50, 50], [30, 50, 50]] }
-[[ask]]
+[[analysis]]
 kind = "path"
 name = "ring"
 circle.radius_mm = 60
@@ -110,7 +110,7 @@ fn what_cannot_be_is_refused_with_the_option() {
     cell.armill(&["posture", "study.toml", "--turns-deg", "90,-90"])
         .refused(&["turns from 90 to -90 deg"]);
     let map = CELL
-        .split("[[ask]]")
+        .split("[[analysis]]")
         .next()
         .map(str::to_owned)
         .unwrap_or_default();

@@ -9,7 +9,7 @@ use crate::cell::{ARMILL, Cell, EVERY_KIND, MH12_URDF, SMALL, what_is_half};
 const PROGRAM: &str = "G21 G90\nG0 X-60 Y0 Z20\nG1 Z0 F300\nG1 X60\nG3 X-60 Y0 I-60 J0\nM2\n";
 
 /// What the study of a robot file and a program asks.
-const ASK: &str = "\n[[ask]]\nkind = \"path\"\nname = \"part\"\nprogram.file = \"part.nc\"\nstep_mm = 5\n";
+const ASK: &str = "\n[[analysis]]\nkind = \"path\"\nname = \"part\"\nprogram.file = \"part.nc\"\nstep_mm = 5\n";
 
 /// [`SMALL`] of a robot that lies beside it.
 fn with_own_robot() -> String {
@@ -151,7 +151,7 @@ fn gigabytes_are_refused_before_they_fill_the_memory() {
         sparse(name, 200 << 20);
     }
     let (whole, record) = ("more than 64 MiB", "error: ");
-    for (command, told) in [
+    for (command, given) in [
         ("check big.toml", whole),
         ("check study.toml", whole),
         ("robots big.toml", whole),
@@ -168,7 +168,7 @@ fn gigabytes_are_refused_before_they_fill_the_memory() {
         let (code, said) = shell(&cell, &format!("ulimit -v 1500000; exec \"$ARMILL\" {command}"));
         assert_eq!(code, Some(2), "{command}: {said}");
         assert!(
-            said.contains(told) && !said.contains("panicked"),
+            said.contains(given) && !said.contains("panicked"),
             "{command}: {said}"
         );
     }

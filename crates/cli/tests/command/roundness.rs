@@ -55,25 +55,25 @@ fn folder() -> tempfile::TempDir {
 #[test]
 fn the_four_circles_are_told_as_json_without_a_filter() {
     let folder = folder();
-    let told = json(folder.path(), &["roundness", "full.csv"]);
+    let given = json(folder.path(), &["roundness", "full.csv"]);
     for (circle, radius) in [("lsci", 25.0), ("mcci", 25.0045), ("mici", 24.9955)] {
-        let circle = &told[circle];
+        let circle = &given[circle];
         assert!((number(&circle["radius_mm"]) - radius).abs() < 5e-4, "{circle}");
         // Crests of 31 waves do not meet those of three everywhere.
         assert!((number(&circle["ront_mm"]) - 0.009).abs() < 2e-4, "{circle}");
         assert!((number(&circle["centre_mm"][0]) - 10.0).abs() < 1e-3, "{circle}");
         assert!((number(&circle["centre_mm"][1]) + 5.0).abs() < 1e-3, "{circle}");
     }
-    let [inner, outer] = [0, 1].map(|k| number(&told["mzci"]["radii_mm"][k]));
-    assert!((outer - inner - number(&told["mzci"]["ront_mm"])).abs() < 1e-12);
+    let [inner, outer] = [0, 1].map(|k| number(&given["mzci"]["radii_mm"][k]));
+    assert!((outer - inner - number(&given["mzci"]["ront_mm"])).abs() < 1e-12);
     for other in ["lsci", "mcci", "mici"] {
-        assert!(number(&told["mzci"]["ront_mm"]) <= number(&told[other]["ront_mm"]));
+        assert!(number(&given["mzci"]["ront_mm"]) <= number(&given[other]["ront_mm"]));
     }
-    let lsci = &told["lsci"];
+    let lsci = &given["lsci"];
     let sum = number(&lsci["ronp_mm"]) + number(&lsci["ronv_mm"]);
     assert!((sum - number(&lsci["ront_mm"])).abs() < 1e-12);
-    assert_eq!(told["filter_upr"], Value::Null);
-    let third = &told["harmonics"][2];
+    assert_eq!(given["filter_upr"], Value::Null);
+    let third = &given["harmonics"][2];
     assert!((number(&third["amplitude_um"]) - 4.0).abs() < 1e-3 && number(&third["phase_deg"]).abs() < 0.1);
 }
 
@@ -91,17 +91,17 @@ fn deviations_with_a_radius_tell_the_same_as_points() {
 #[test]
 fn a_filter_takes_fine_waves_off_and_refuses_few_points() {
     let folder = folder();
-    let told = json(folder.path(), &["roundness", "full.csv", "--upr", "15"]);
+    let given = json(folder.path(), &["roundness", "full.csv", "--upr", "15"]);
     // Three waves pass by exp(-ln 2 / 25), 31 by a twentieth.
     let passed = 2.0
         * (4.0 * (-std::f64::consts::LN_2 / 25.0).exp()
             + 0.5 * (-std::f64::consts::LN_2 * (31.0_f64 / 15.0).powi(2)).exp());
     assert!(
-        (number(&told["lsci"]["ront_mm"]) * 1e3 - passed).abs() < 0.03,
+        (number(&given["lsci"]["ront_mm"]) * 1e3 - passed).abs() < 0.03,
         "{}",
-        told["lsci"]
+        given["lsci"]
     );
-    assert_eq!(told["filter_upr"], 15);
+    assert_eq!(given["filter_upr"], 15);
     for (file, part) in [
         ("few.csv", "105 even points a turn"),
         ("arc.csv", "the largest step between points is 210"),
@@ -115,10 +115,10 @@ fn a_filter_takes_fine_waves_off_and_refuses_few_points() {
 #[test]
 fn an_arc_has_no_inscribed_circle_and_says_why() {
     let folder = folder();
-    let told = json(folder.path(), &["roundness", "arc.csv"]);
-    assert_eq!(told["mici"], Value::Null);
-    assert!(told["mici_refused"].as_str().unwrap().contains("deg open"));
-    assert!(number(&told["mzci"]["ront_mm"]) < 0.0091);
+    let given = json(folder.path(), &["roundness", "arc.csv"]);
+    assert_eq!(given["mici"], Value::Null);
+    assert!(given["mici_refused"].as_str().unwrap().contains("deg open"));
+    assert!(number(&given["mzci"]["ront_mm"]) < 0.0091);
     let (code, out, _) = armill(folder.path(), &["roundness", "arc.csv"]);
     assert_eq!(code, 0);
     assert!(out.contains("MICI     none: the points leave 210"), "{out}");
@@ -176,8 +176,8 @@ fn table_and_pictures_are_written_for_one_file_and_for_several() {
     }
     assert!(folder.path().join("one/roundness.png").exists());
     let several = ["roundness", "full.csv", "arc.csv", "--out", "all"];
-    let told = json(folder.path(), &several);
-    assert_eq!(told.as_array().unwrap().len(), 2);
+    let given = json(folder.path(), &several);
+    assert_eq!(given.as_array().unwrap().len(), 2);
     for name in ["all/1-full/roundness.csv", "all/2-arc/roundness.svg"] {
         assert!(folder.path().join(name).exists(), "{name}");
     }
@@ -237,9 +237,9 @@ fn circles_of_nist_are_read_as_they_are_and_qif_samples_are_told_for_what_they_h
         return;
     };
     let nist = Path::new(&samples).join("datasets/nist-circles");
-    let told = json(&nist, &["roundness", "cir2d1.ds", "--unit", "mm"]);
+    let given = json(&nist, &["roundness", "cir2d1.ds", "--unit", "mm"]);
     // The trap: a local optimum of 13.1595 is published.
-    assert!((number(&told["mici"]["radius_mm"]) - 13.160_359_917).abs() < 1e-9);
+    assert!((number(&given["mici"]["radius_mm"]) - 13.160_359_917).abs() < 1e-9);
     let qif = Path::new(&samples).join("measurements/qif/_legacy/qif-2.1/samples");
     for (file, part) in [
         (

@@ -262,8 +262,8 @@ fn a_plane_half_in_reach_counts_both_halves() {
         .iter()
         .filter(|um| !um.is_null())
         .count();
-    let told = number(&map["counts"]["within"]) + number(&map["counts"]["over_limit"]);
-    assert_eq!(reached as f64, told);
+    let given = number(&map["counts"]["within"]) + number(&map["counts"]["above_tolerance"]);
+    assert_eq!(reached as f64, given);
 }
 
 #[test]
@@ -273,7 +273,7 @@ fn strict_exits_with_1_where_the_tolerance_is_not_held() {
             .armill(&["run", "study.toml", "--no-pictures", "--strict"])
             .code
     };
-    let wide = SMALL.replace("limit_um = 130", "limit_um = 1000");
+    let wide = SMALL.replace("tolerance_um = 130", "tolerance_um = 1000");
     assert_eq!((exit(SMALL), exit(&wide)), (1, 0));
     let far = wide.replace("[1000, 0, 800]", "[9000, 0, 800]");
     assert_eq!(exit(&far), 1, "what is not reached is not held");
@@ -286,14 +286,14 @@ fn strict_exits_with_1_where_the_tolerance_is_not_held() {
 
 #[test]
 fn strict_looks_at_volumes_too() {
-    let volume = "[[ask]]\nkind = \"volume\"\nbox = { half_size_mm = [50, 50, 50], step_mm = 50 }\n";
+    let volume = "[[analysis]]\nkind = \"volume\"\nbox = { half_size_mm = [50, 50, 50], step_mm = 50 }\n";
     let exit = |limit: &str| {
-        let study = format!("{}{volume}", SMALL.replace("limit_um = 130", limit));
+        let study = format!("{}{volume}", SMALL.replace("tolerance_um = 130", limit));
         Cell::with_study(&study)
             .armill(&["run", "study.toml", "--no-pictures", "--strict"])
             .code
     };
-    assert_eq!((exit("limit_um = 10"), exit("limit_um = 1000")), (1, 0));
+    assert_eq!((exit("tolerance_um = 10"), exit("tolerance_um = 1000")), (1, 0));
 }
 
 #[test]
@@ -302,7 +302,7 @@ fn heights_of_the_controller_frame_give_the_map_450_mm_higher() {
     cell.file("floor/study.toml", SMALL);
     let lower = SMALL
         .replace("[1000, 0, 800]", "[1000, 0, 350]")
-        .replace("limit_um", "base = \"controller\"\nlimit_um");
+        .replace("tolerance_um", "base = \"controller\"\ntolerance_um");
     cell.file("controller/study.toml", lower);
     let run = |folder: &str| {
         cell.armill(&["run", folder, "--no-pictures"]).fine();
@@ -337,9 +337,9 @@ fn a_path_with_blanks_and_letters_of_other_scripts_is_taken() {
 
 #[test]
 fn asks_named_in_any_script_have_files_of_their_own() {
-    let asks = ["карта", "плита", "größe", "grüße", "面"]
-        .map(|name| format!("[[ask]]\nkind = \"map\"\nname = \"{name}\"\n"));
-    let cell = Cell::with_study(&format!("{SMALL}{}", asks.concat()));
+    let analyses = ["карта", "плита", "größe", "grüße", "面"]
+        .map(|name| format!("[[analysis]]\nkind = \"map\"\nname = \"{name}\"\n"));
+    let cell = Cell::with_study(&format!("{SMALL}{}", analyses.concat()));
     cell.armill(&TABLES_ONLY).fine();
     let files = cell.files("out");
     for name in ["карта.csv", "плита.csv", "größe.csv", "grüße.csv", "面.csv"] {
@@ -350,8 +350,8 @@ fn asks_named_in_any_script_have_files_of_their_own() {
 #[test]
 fn names_and_titles_may_hold_anything() {
     let study = SMALL.replace("title = \"Small\"", r#"title = "</script> a\u0001 & 'b' \" <c>""#);
-    let ask = "[[ask]]\nkind = \"map\"\nname = \"x<y & z \\u0007 ]]>\"\n";
-    let cell = Cell::with_study(&format!("{study}{ask}"));
+    let analysis = "[[analysis]]\nkind = \"map\"\nname = \"x<y & z \\u0007 ]]>\"\n";
+    let cell = Cell::with_study(&format!("{study}{analysis}"));
     cell.armill(&["run", "study.toml"]).fine();
     let files = cell.files("out");
     let half: Vec<String> = files
@@ -368,12 +368,12 @@ fn names_and_titles_may_hold_anything() {
 
 #[test]
 fn planes_of_one_point_and_of_one_line_are_drawn_and_told() {
-    let asks = "[[ask]]\nkind = \"map\"\nname = \"point\"\nplane.half_size_mm = 0\n\
-                [[ask]]\nkind = \"map\"\nname = \"line\"\nplane.half_size_mm = [100, 0]\n\
-                [[ask]]\nkind = \"volume\"\nname = \"cell\"\nbox = { half_size_mm = [0, 0, 0], step_mm = 50 }\n\
-                [[ask]]\nkind = \"path\"\nname = \"dash\"\nline = { from_mm = [0, 0], to_mm = [1e-6, 0] }\n\
-                [[ask]]\nkind = \"map\"\nname = \"idle\"\nlimit_um = 0\nload.cases_n = [[0, 0, 0]]\n";
-    let cell = Cell::with_study(&format!("{SMALL}{asks}"));
+    let analyses = "[[analysis]]\nkind = \"map\"\nname = \"point\"\nplane.half_size_mm = 0\n\
+                [[analysis]]\nkind = \"map\"\nname = \"line\"\nplane.half_size_mm = [100, 0]\n\
+                [[analysis]]\nkind = \"volume\"\nname = \"cell\"\nbox = { half_size_mm = [0, 0, 0], step_mm = 50 }\n\
+                [[analysis]]\nkind = \"path\"\nname = \"dash\"\nline = { from_mm = [0, 0], to_mm = [1e-6, 0] }\n\
+                [[analysis]]\nkind = \"map\"\nname = \"idle\"\ntolerance_um = 0\nload.cases_n = [[0, 0, 0]]\n";
+    let cell = Cell::with_study(&format!("{SMALL}{analyses}"));
     cell.armill(&["run", "study.toml"]).fine();
     let result = cell.result("out");
     let points: Vec<f64> = result["maps"]
@@ -432,7 +432,7 @@ fn an_older_answer_does_not_outlive_the_tables_it_belonged_to() {
     // A folder in place of a table stops the second run after its work, while it writes.
     std::fs::remove_file(cell.at("out/map.vtp")).unwrap();
     std::fs::create_dir(cell.at("out/map.vtp")).unwrap();
-    cell.file("study.toml", SMALL.replace("limit_um = 130", "limit_um = 10"));
+    cell.file("study.toml", SMALL.replace("tolerance_um = 130", "tolerance_um = 10"));
     cell.armill(&TABLES_ONLY).refused(&["map.vtp"]);
     assert!(
         !cell.at("out/result.json").exists(),

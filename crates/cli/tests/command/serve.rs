@@ -61,8 +61,8 @@ fn the_first_line_is_the_address_and_a_signal_ends_it_with_zero() {
     stream.read_to_string(&mut answer).unwrap();
     assert!(answer.starts_with("HTTP/1.1 200"), "{answer}");
     if cfg!(unix) {
-        let asked = Command::new("kill").arg(child.id().to_string()).status().unwrap();
-        assert!(asked.success());
+        let requested = Command::new("kill").arg(child.id().to_string()).status().unwrap();
+        assert!(requested.success());
         let begun = Instant::now();
         let ended = loop {
             if let Some(status) = child.try_wait().unwrap() {
@@ -125,7 +125,7 @@ fn no_command_line_holds_the_token_and_the_page_that_leads_to_it_is_private() {
     // It is there until the browser has the address, whatever others ask for.
     let page = std::path::Path::new(arguments);
     let (host, _) = server.1.strip_prefix("http://").unwrap().split_once('/').unwrap();
-    let ask = |path: &str| {
+    let analysis = |path: &str| {
         let mut stream = TcpStream::connect(host).unwrap();
         write!(
             stream,
@@ -136,10 +136,10 @@ fn no_command_line_holds_the_token_and_the_page_that_leads_to_it_is_private() {
         stream.read_to_end(&mut answer).unwrap();
         assert!(answer.starts_with(b"HTTP/1.1 200"), "{path}");
     };
-    ask("/");
-    ask("/?token=0123");
+    analysis("/");
+    analysis("/?token=0123");
     assert!(page.exists());
-    ask(&format!("/?token={token}"));
+    analysis(&format!("/?token={token}"));
     assert!(!page.exists() && !page.parent().unwrap().exists());
 }
 
@@ -193,19 +193,19 @@ fn clients_without_the_token_do_not_keep_out_one_that_has_it() {
     let server = served(&cell);
     let (host, _) = server.1.strip_prefix("http://").unwrap().split_once('/').unwrap();
     // So much that what answers it does not fit into what the system keeps.
-    let asked = format!("GET / HTTP/1.1\r\nHost: {host}\r\n\r\n").repeat(4000);
+    let requested = format!("GET / HTTP/1.1\r\nHost: {host}\r\n\r\n").repeat(4000);
     let mut strangers = Vec::new();
     for number in 0..520 {
         let mut stranger = TcpStream::connect(host).unwrap();
         stranger.set_nonblocking(true).unwrap();
         if number % 2 == 0 {
             // What the system does not take is not sent.
-            let _ = stranger.write(asked.as_bytes());
+            let _ = stranger.write(requested.as_bytes());
         }
         strangers.push(stranger);
     }
     let begun = Instant::now();
-    assert_eq!(server.asked("GET", "/api/jobs", ""), json!({ "jobs": [] }));
+    assert_eq!(server.requested("GET", "/api/jobs", ""), json!({ "jobs": [] }));
     // Before the time limits of the strangers end any of their connections.
     assert!(begun.elapsed() < Duration::from_secs(8), "{:?}", begun.elapsed());
     drop(strangers);
@@ -225,11 +225,11 @@ fn a_port_that_is_taken_and_a_study_that_is_none_are_told() {
 /// Room along x and to tilt: enough rounds to be killed between.
 const PLACED: &str = r#"format = 1
 robot = "yaskawa/mh12"
-limit_um = 60
+tolerance_um = 60
 plane = { centre_mm = [1000, 0, 800], tilt_deg = 0, half_size_mm = 100, step_mm = 50 }
 load = { cases_n = [[3, -5, -5], [3, 5, 5]] }
 posture = { branch = "front elbow-up" }
-[[ask]]
+[[analysis]]
 kind = "path"
 name = "ring"
 circle.radius_mm = 60
@@ -241,7 +241,7 @@ tilt_deg = [-30, 60]
 
 impl Served {
     /// The answer of the server in JSON.
-    fn asked(&self, method: &str, path: &str, body: &str) -> Value {
+    fn requested(&self, method: &str, path: &str, body: &str) -> Value {
         let (host, token) = self
             .1
             .strip_prefix("http://")
@@ -263,7 +263,7 @@ impl Served {
     /// Begins the placement of the study.
     fn place(&self) -> String {
         let job = json!({ "kind": "place", "text": PLACED }).to_string();
-        self.asked("POST", "/api/jobs", &job)["id"]
+        self.requested("POST", "/api/jobs", &job)["id"]
             .as_str()
             .unwrap()
             .to_owned()
@@ -273,7 +273,7 @@ impl Served {
     fn done(&self, id: &str) -> Value {
         let begun = Instant::now();
         loop {
-            let job = self.asked("GET", &format!("/api/jobs/{id}"), "");
+            let job = self.requested("GET", &format!("/api/jobs/{id}"), "");
             match job["state"].as_str().unwrap() {
                 "done" => return job,
                 "waiting" | "running" => assert!(begun.elapsed() < Duration::from_secs(600)),

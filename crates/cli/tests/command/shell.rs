@@ -68,8 +68,8 @@ fn bash_reads_its_completions_and_offers_what_begins_so() {
     let cell = Cell::new();
     let script = cell.armill(&["completions", "bash"]).fine().out;
     cell.file("armill.bash", &script);
-    let asked = "source ./armill.bash; COMP_WORDS=(armill pose-); COMP_CWORD=1; _armill armill pose- armill; echo ${COMPREPLY[@]}";
-    for arguments in [&["-n", "armill.bash"][..], &["--norc", "-c", asked]] {
+    let requested = "source ./armill.bash; COMP_WORDS=(armill pose-); COMP_CWORD=1; _armill armill pose- armill; echo ${COMPREPLY[@]}";
+    for arguments in [&["-n", "armill.bash"][..], &["--norc", "-c", requested]] {
         let ran = Command::new("bash")
             .args(arguments)
             .current_dir(cell.path())

@@ -49,7 +49,7 @@ fn a_spring_of_the_base_has_a_share_of_its_own() {
         said.out
     );
     let answer = cell.armill(&[&push[..], &["--json"]].concat()).fine().json();
-    assert_eq!(answer["shares_of"].as_array().unwrap().len(), 3);
+    assert_eq!(answer["contributors"].as_array().unwrap().len(), 3);
     let posture = &answer["postures"][0];
     assert!((numbers(&posture["deviation_um"])[1] - 7.5).abs() < 1e-9);
     // Ten per cent of the base's share.

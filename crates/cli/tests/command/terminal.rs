@@ -7,7 +7,7 @@ use crate::cell::{ARMILL, Cell, EVERY_KIND, SMALL};
 
 /// A study with two problems, so that there is something to colour.
 fn broken() -> Cell {
-    Cell::with_study(&SMALL.replace("step_mm", "step").replace("limit_um", "limit"))
+    Cell::with_study(&SMALL.replace("step_mm", "step").replace("tolerance_um", "limit"))
 }
 
 #[test]
@@ -54,9 +54,9 @@ fn characters_of_the_input_that_control_a_terminal_are_shown_as_escapes() {
         (named.clone(), &["check", "study.toml"][..], 0),
         (named.clone(), &["check", "study.toml", "--json"], 0),
         // An excerpt, a message and a file name.
-        (named.replace("limit_um", "limit"), &["check", "study.toml"], 2),
+        (named.replace("tolerance_um", "limit"), &["check", "study.toml"], 2),
         (
-            named.replace("limit_um", "limit"),
+            named.replace("tolerance_um", "limit"),
             &["check", "study.toml", "--json"],
             2,
         ),
@@ -66,7 +66,7 @@ fn characters_of_the_input_that_control_a_terminal_are_shown_as_escapes() {
             2,
         ),
         (
-            named.replace("limit_um", &format!("\"{hostile}\"")),
+            named.replace("tolerance_um", &format!("\"{hostile}\"")),
             &["check", "study.toml"],
             2,
         ),

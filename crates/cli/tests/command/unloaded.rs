@@ -5,11 +5,11 @@ use crate::documents::repository;
 
 const CELL: &str = r#"format = 1
 robot = "arm.toml"
-limit_um = 200
+tolerance_um = 200
 plane = { centre_mm = [900, 150, 500], tilt_deg = 90, half_size_mm = 100, step_mm = 50 }
 tool = { flange_from_tool_mm_deg = [0, 0, 250, 0, 0, 0] }
 load = { cases_n = [[3, -5, -5]] }
-[[ask]]
+[[analysis]]
 kind = "path"
 name = "ring"
 circle.radius_mm = 60
@@ -73,7 +73,7 @@ fn backlash_of_the_robot_file_is_part_of_the_deviation_along_a_path() {
 
 #[test]
 fn what_is_known_of_backlash_and_geometry_is_compensated() {
-    let cell = Cell::with_study(&CELL.replace("arm.toml\"", "yaskawa/mh12\"\nactual_robot = \"arm.toml\""));
+    let cell = Cell::with_study(&CELL.replace("arm.toml\"", "yaskawa/mh12\"\ncalibrated_robot = \"arm.toml\""));
     // Longer links, and play.
     cell.file(
         "arm.toml",
@@ -81,37 +81,37 @@ fn what_is_known_of_backlash_and_geometry_is_compensated() {
             .replace("length_mm = 640", "length_mm = 640.4")
             .replace("length_mm = 614", "length_mm = 613.7"),
     );
-    let told = cell.armill(&["compensate", "study.toml", "--json"]).fine().json();
-    let path = &told["paths"][0];
+    let given = cell.armill(&["compensate", "study.toml", "--json"]).fine().json();
+    let path = &given["paths"][0];
     let [before, after] = ["before", "after"].map(|when| number(&path[when]["rms_um"]));
     assert!(before > 200.0 && after < 1.0, "{before} {after}");
     cell.file("arm.toml", with_play());
     cell.file("study.toml", CELL);
-    let told = cell.armill(&["compensate", "study.toml", "--json"]).fine().json();
-    let path = &told["paths"][0];
+    let given = cell.armill(&["compensate", "study.toml", "--json"]).fine().json();
+    let path = &given["paths"][0];
     let [before, after] = ["before", "after"].map(|when| number(&path[when]["rms_um"]));
     assert!(before > 50.0 && after < 0.3 * before, "{before} {after}");
 }
 
 #[test]
 fn maps_have_play_where_it_moves_the_tool_farthest_and_say_so() {
-    let map = CELL.split_once("[[ask]]").unwrap().0;
+    let map = CELL.split_once("[[analysis]]").unwrap().0;
     let cell = Cell::with_study(map);
-    let told = |arm: String| {
+    let given = |arm: String| {
         cell.file("arm.toml", arm);
         let said = cell.armill(&["run", "study.toml", "--no-pictures", "--json"]);
         said.fine().json()
     };
-    let without = told(mh12());
+    let without = given(mh12());
     assert!(!without["warnings"].to_string().contains("gaps"));
-    let with = told(with_play());
+    let with = given(with_play());
     let farthest = "maps, sections, volumes and holes tell where backlash moves the tool farthest";
     assert!(
         with["warnings"].to_string().contains(farthest),
         "{}",
         with["warnings"]
     );
-    let worst = |told: &serde_json::Value| told["maps"][0]["worst"].clone();
+    let worst = |given: &serde_json::Value| given["maps"][0]["worst"].clone();
     // Half of 0.01 deg at a metre are 87 um a joint.
     assert!(number(&worst(&with)["in_plane_um"]) > number(&worst(&without)["in_plane_um"]) + 100.0);
     let shares = worst(&with)["joint_share_um"]
@@ -125,7 +125,7 @@ fn maps_have_play_where_it_moves_the_tool_farthest_and_say_so() {
 
 #[test]
 fn a_single_pose_has_the_deviation_of_the_map_with_backlash_in_it_and_its_shares() {
-    let map = CELL.split_once("[[ask]]").unwrap().0;
+    let map = CELL.split_once("[[analysis]]").unwrap().0;
     let cell = Cell::with_study(&map.replace("step_mm = 50", "step_mm = 100"));
     cell.file("arm.toml", with_play());
     let run = cell
@@ -153,8 +153,8 @@ fn a_single_pose_has_the_deviation_of_the_map_with_backlash_in_it_and_its_shares
         ]);
         said.fine().json()["postures"][0].clone()
     };
-    let told = pose("arm.toml");
-    let deviation = numbers(&told["deviation_um"]);
+    let given = pose("arm.toml");
+    let deviation = numbers(&given["deviation_um"]);
     // The plane stands upright: its normal, and the tool axis, is vertical.
     let axis = 2;
     let in_plane = (0..3)
@@ -165,7 +165,7 @@ fn a_single_pose_has_the_deviation_of_the_map_with_backlash_in_it_and_its_shares
     let of_map = number(&worst["in_plane_um"]);
     assert!((in_plane - of_map).abs() < 1e-6 * of_map, "{in_plane} {of_map}");
     let mut sum = [0.0; 3];
-    for share in rows(&told["joint_share_um"]) {
+    for share in rows(&given["joint_share_um"]) {
         (0..3).for_each(|k| sum[k] += share[k]);
     }
     assert!(
@@ -183,8 +183,8 @@ fn a_single_pose_has_the_deviation_of_the_map_with_backlash_in_it_and_its_shares
 
 #[test]
 fn a_map_of_a_measured_arm_has_its_geometry() {
-    let map = CELL.split_once("[[ask]]").unwrap().0;
-    let cell = Cell::with_study(&map.replace("arm.toml\"", "yaskawa/mh12\"\nactual_robot = \"arm.toml\""));
+    let map = CELL.split_once("[[analysis]]").unwrap().0;
+    let cell = Cell::with_study(&map.replace("arm.toml\"", "yaskawa/mh12\"\ncalibrated_robot = \"arm.toml\""));
     let fraction = |arm: String| {
         cell.file("arm.toml", arm);
         let said = cell
@@ -209,13 +209,13 @@ fn a_map_of_a_measured_arm_has_its_geometry() {
 #[test]
 fn an_arm_that_does_not_fit_is_refused_at_its_place() {
     let cell =
-        Cell::with_study(&CELL.replace("arm.toml\"", "yaskawa/mh12\"\nactual_robot = \"nowhere.toml\""));
+        Cell::with_study(&CELL.replace("arm.toml\"", "yaskawa/mh12\"\ncalibrated_robot = \"nowhere.toml\""));
     cell.armill(&["check", "study.toml"])
         .refused(&["study.toml:3:", "nowhere.toml"]);
     cell.file("lever.toml", LEVER);
     cell.file(
         "study.toml",
-        CELL.replace("arm.toml\"", "yaskawa/mh12\"\nactual_robot = \"lever.toml\""),
+        CELL.replace("arm.toml\"", "yaskawa/mh12\"\ncalibrated_robot = \"lever.toml\""),
     );
     cell.armill(&["check", "study.toml"]).refused(&[
         "study.toml:3:",
@@ -225,7 +225,7 @@ fn an_arm_that_does_not_fit_is_refused_at_its_place() {
 
 #[test]
 fn an_arm_whose_zero_is_another_is_no_measured_one() {
-    let cell = Cell::with_study(&CELL.replace("arm.toml\"", "yaskawa/mh12\"\nactual_robot = \"other.toml\""));
+    let cell = Cell::with_study(&CELL.replace("arm.toml\"", "yaskawa/mh12\"\ncalibrated_robot = \"other.toml\""));
     cell.file("other.toml", mh12().replacen("sign = -1", "sign = 1", 1));
     cell.armill(&["check", "study.toml"]).refused(&[
         "study.toml:3:",
@@ -251,11 +251,11 @@ licence = "none"
 
 /// The largest uncertainty, the setting's scatter and the parts of the model that are told of a map.
 fn unsure(cell: &Cell) -> (f64, f64, String) {
-    let told = cell
+    let given = cell
         .armill(&["run", "study.toml", "--no-pictures", "--json"])
         .fine()
         .json();
-    let map = &told["maps"][0];
+    let map = &given["maps"][0];
     (
         number(&map["worst"]["in_plane_u_um"]),
         number(&map["setting"]["scatter_um"]),
@@ -265,7 +265,7 @@ fn unsure(cell: &Cell) -> (f64, f64, String) {
 
 #[test]
 fn an_arm_that_scatters_is_less_sure_by_that_and_the_study_knows_better() {
-    let map = CELL.split_once("[[ask]]").unwrap().0;
+    let map = CELL.split_once("[[analysis]]").unwrap().0;
     let cell = Cell::with_study(map);
     cell.file("arm.toml", mh12());
     let (still, none, _) = unsure(&cell);
@@ -273,13 +273,13 @@ fn an_arm_that_scatters_is_less_sure_by_that_and_the_study_knows_better() {
     let table = "[repeatability]\npose_mm = 0.08\nsource = \"paper\"\n\n[chain]";
     cell.file("arm.toml", mh12().replacen("[chain]", table, 1));
     let sigma = 80.0 / 3.616_088;
-    let (by_file, told, model) = unsure(&cell);
-    assert!((told - sigma).abs() < 1e-4, "{told}");
+    let (by_file, given, model) = unsure(&cell);
+    assert!((given - sigma).abs() < 1e-4, "{given}");
     assert!((by_file - still.hypot(sigma)).abs() < 1e-3, "{by_file} {still}");
     assert!(model.contains("repeatability in the uncertainty"), "{model}");
     cell.file(
         "study.toml",
-        map.replacen("limit_um", "repeatability_mm = 0.04\nlimit_um", 1),
+        map.replacen("tolerance_um", "repeatability_mm = 0.04\ntolerance_um", 1),
     );
     let (by_study, _, _) = unsure(&cell);
     assert!(
@@ -288,7 +288,7 @@ fn an_arm_that_scatters_is_less_sure_by_that_and_the_study_knows_better() {
     );
     cell.file(
         "study.toml",
-        map.replacen("limit_um", "repeatability_mm = -1\nlimit_um", 1),
+        map.replacen("tolerance_um", "repeatability_mm = -1\ntolerance_um", 1),
     );
     cell.armill(&["check", "study.toml"])
         .refused(&["study.toml:3:", "repeatability_mm"]);
@@ -304,14 +304,14 @@ fn the_table_has_what_no_load_makes() {
     let names: Vec<&str> = lines.next().unwrap().split(',').collect();
     let at = |name: &str| names.iter().position(|other| *other == name).unwrap();
     let (all, part) = (at("cross_um"), at("unloaded_cross_um"));
-    let mut told = 0;
+    let mut given = 0;
     for line in lines {
         let cells: Vec<f64> = line
             .split(',')
             .map(|cell| cell.parse().unwrap_or(f64::NAN))
             .collect();
         assert!((cells[all] - cells[part]).abs() < 1e-3, "{line}");
-        told += 1;
+        given += 1;
     }
-    assert!(told > 100);
+    assert!(given > 100);
 }

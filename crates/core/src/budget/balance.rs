@@ -190,15 +190,15 @@ mod tests {
     fn parts_that_sum_up_to_the_measurement_explain_all_of_it_wherever_the_part_lay() {
         let measured = curve(|a| load(a) + path(a) + 3e-4 * a.cos() - 2e-4 * a.sin() + 5e-5);
         let found = balance(&turn(), parts(0.0), Some((&measured, 0.0)), (BOTH, 10));
-        let told = found.comparison.unwrap();
-        assert!((told.together.explained - 1.0).abs() < 1e-12 && told.together.residual_rms < 1e-12);
-        assert!(told.explainable == 1.0 && told.beyond_known < 1e-12);
-        for share in &told.shares {
+        let given = found.comparison.unwrap();
+        assert!((given.together.explained - 1.0).abs() < 1e-12 && given.together.residual_rms < 1e-12);
+        assert!(given.explainable == 1.0 && given.beyond_known < 1e-12);
+        for share in &given.shares {
             assert!(share.alone < 0.9 && share.without < 0.9);
         }
         // What one explains alone is what all others lack without the rest.
-        assert_eq!(told.shares[0].alone, told.shares[1].without);
-        let wave = told.waves[1];
+        assert_eq!(given.shares[0].alone, given.shares[1].without);
+        let wave = given.waves[1];
         assert!(wave.phase_difference().abs() < 1e-9 && (wave.explained().unwrap() - 1.0).abs() < 1e-9);
         // Kept, the centre of the part is an error like any other.
         let none = Removed {
@@ -218,9 +218,9 @@ mod tests {
             let clean = curve(|a| load(a) + path(a));
             let measured: Vec<f64> = clean.iter().zip(&noise).map(|(c, n)| c + sigma * n).collect();
             let found = balance(&turn(), parts(sigma), Some((&measured, 0.0)), (BOTH, 10));
-            let told = found.comparison.unwrap();
-            off.push(told.together.explained - told.explainable);
-            beyond.push(told.beyond_known);
+            let given = found.comparison.unwrap();
+            off.push(given.together.explained - given.explainable);
+            beyond.push(given.beyond_known);
         }
         // 1 - sigma^2 / <m, m> in the mean. One turn of 720 points misses by a twentieth of what is left, and by twice what
         // noise and signal have in common by chance: together a fiftieth.

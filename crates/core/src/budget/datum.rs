@@ -38,9 +38,9 @@ impl Datum {
     pub fn taken_off(turn: &Turn, curve: &[f64], removed: Removed) -> (Datum, Vec<f64>) {
         let row = |a: &f64| {
             let (sin, cos) = a.sin_cos();
-            let wanted = |is: bool, value: f64| if is { value } else { 0.0 };
+            let requested = |is: bool, value: f64| if is { value } else { 0.0 };
             let [c, r] = [removed.centre, removed.radius];
-            Vector3::new(wanted(c, cos), wanted(c, sin), wanted(r, 1.0))
+            Vector3::new(requested(c, cos), requested(c, sin), requested(r, 1.0))
         };
         let rows: Vec<Vector3<f64>> = turn.angle().iter().map(row).collect();
         let part = |i: usize| -> Vec<f64> { rows.iter().map(|row| row[i]).collect() };

@@ -151,9 +151,9 @@ mod tests {
     #[test]
     fn a_curve_of_even_angles_is_straight_between_them_and_across_the_end_of_the_turn() {
         let turn = Turn::new((0..720).map(|k| (f64::from(k) / 2.0).to_radians()).collect()).unwrap();
-        let told = turn.of_even(&[0.0, 1.0, 4.0, 2.0]);
+        let given = turn.of_even(&[0.0, 1.0, 4.0, 2.0]);
         for (half_deg, value) in [(0, 0.0), (90, 0.5), (180, 1.0), (450, 3.0), (630, 1.0)] {
-            assert!((told[half_deg] - value).abs() < 1e-12, "{half_deg}");
+            assert!((given[half_deg] - value).abs() < 1e-12, "{half_deg}");
         }
         assert_eq!(turn.of_even(&[]), vec![0.0; 720]);
     }

@@ -32,7 +32,7 @@ pub struct WavePair {
 
 impl WavePair {
     /// This pair without what is smaller than `least` (m): phases of two waves that are there, a share of a measured one.
-    pub fn told(&self, least: f64) -> ToldPair {
+    pub fn reported(&self, least: f64) -> ToldPair {
         let is_there = |wave: &Harmonic| wave.amplitude >= least && wave.amplitude > 0.0;
         let [measured, predicted] = [is_there(&self.measured), is_there(&self.predicted)];
         ToldPair {
@@ -129,26 +129,26 @@ mod tests {
     fn waves_stand_beside_each_other_with_their_phases() {
         let m = curve(|a| 2e-5 * (2.0 * a - 0.5).cos() + 4e-6 * (3.0 * a).cos());
         let p = curve(|a| 1e-5 * (2.0 * a - 0.9).cos() + 4e-6 * (3.0 * a).cos());
-        let told = pairs(&turn(), (&p, &m), 6);
-        assert_eq!(told.len(), 6);
-        let two = told[1];
+        let reported = pairs(&turn(), (&p, &m), 6);
+        assert_eq!(reported.len(), 6);
+        let two = reported[1];
         assert!(
             (two.measured.amplitude - 2e-5).abs() < 1e-15 && (two.predicted.amplitude - 1e-5).abs() < 1e-15
         );
         assert!((two.phase_difference() - 0.4).abs() < 1e-9);
         let left = (1.0 + 0.25 - 0.4_f64.cos()) * 4e-10;
         assert!((two.explained().unwrap() - (1.0 - left / 4e-10)).abs() < 1e-9);
-        assert!((told[2].explained().unwrap() - 1.0).abs() < 1e-9);
+        assert!((reported[2].explained().unwrap() - 1.0).abs() < 1e-9);
     }
 
     #[test]
     fn shares_of_waves_weighed_by_their_squares_are_the_share_of_all() {
         let m = curve(|a| 2e-5 * (2.0 * a - 0.5).cos() + 4e-6 * (3.0 * a).cos());
         let p = curve(|a| 1e-5 * (2.0 * a - 0.9).cos() + 7e-6 * (3.0 * a + 1.0).cos());
-        let told = pairs(&turn(), (&p, &m), 10);
+        let reported = pairs(&turn(), (&p, &m), 10);
         let squares = |pair: &WavePair| pair.measured.amplitude.powi(2);
-        let all: f64 = told.iter().map(squares).sum();
-        let seen = told.iter().filter(|pair| pair.measured.amplitude > 1e-9);
+        let all: f64 = reported.iter().map(squares).sum();
+        let seen = reported.iter().filter(|pair| pair.measured.amplitude > 1e-9);
         let weighed: f64 = seen.map(|pair| pair.explained().unwrap() * squares(pair)).sum();
         let whole = super::super::agreement(&turn(), &p, &m).unwrap().explained;
         assert!((weighed / all - whole).abs() < 1e-9);
@@ -162,17 +162,17 @@ mod tests {
         let found = pairs(&turn(), (&p, &m), 6);
         let least = least_amplitude(&found, 0.0, 360);
         assert!((least - 2e-7).abs() < 1e-12);
-        let told: Vec<ToldPair> = found.iter().map(|pair| pair.told(least)).collect();
-        assert!(told[1].phase_difference.is_some() && told[1].explained.is_some());
+        let reported: Vec<ToldPair> = found.iter().map(|pair| pair.reported(least)).collect();
+        assert!(reported[1].phase_difference.is_some() && reported[1].explained.is_some());
         let nothing = ToldPair {
             measured_phase: None,
             predicted_phase: None,
             phase_difference: None,
             explained: None,
         };
-        assert_eq!([told[2], told[4]], [nothing; 2]);
-        assert!(told[3].predicted_phase.is_some() && told[3].explained.is_none());
-        assert_eq!(told[3].phase_difference, None);
+        assert_eq!([reported[2], reported[4]], [nothing; 2]);
+        assert!(reported[3].predicted_phase.is_some() && reported[3].explained.is_none());
+        assert_eq!(reported[3].phase_difference, None);
     }
 
     #[test]

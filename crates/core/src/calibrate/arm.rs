@@ -188,9 +188,9 @@ mod tests {
         for robot in [arms::mh12(), arms::other::on_rail(&arms::mh12())] {
             let frame = Isometry::new(Vector3::new(1.0, -2.0, 0.3), Vector3::new(0.4, 1.1, -2.0));
             let tool = Isometry::new(Vector3::new(0.02, 0.03, 0.2), Vector3::new(0.2, -0.4, 0.9));
-            let asked = unknowns(&robot, Asked::Geometry, true);
-            let some: Vec<f64> = (0..asked.len()).map(|k| 1e-2 * (k as f64 * 1.7).sin()).collect();
-            let arm = Arm::nominal(&robot, frame, tool).changed(&asked, &some);
+            let requested = unknowns(&robot, Asked::Geometry, true);
+            let some: Vec<f64> = (0..requested.len()).map(|k| 1e-2 * (k as f64 * 1.7).sin()).collect();
+            let arm = Arm::nominal(&robot, frame, tool).changed(&requested, &some);
             let joints = stream.joints(&robot);
             let (position, axes) = arm.predicted(&joints);
             let turned = nalgebra::Rotation3::from_matrix_unchecked(axes);
@@ -199,22 +199,22 @@ mod tests {
                 position,
                 rotation: Some(UnitQuaternion::from_rotation_matrix(&turned)),
             };
-            let rows = arm.rows(&asked, &pose, 0.5);
-            for column in 0..asked.len() {
+            let rows = arm.rows(&requested, &pose, 0.5);
+            for column in 0..requested.len() {
                 let step = 1e-5;
-                let mut by = vec![0.0; asked.len()];
+                let mut by = vec![0.0; requested.len()];
                 by[column] = step;
                 // The residual goes down as the prediction goes up.
                 let side = |sign: f64| {
                     let by: Vec<f64> = by.iter().map(|b| sign * b).collect();
-                    arm.changed(&asked, &by).rows(&[], &pose, 0.5)
+                    arm.changed(&requested, &by).rows(&[], &pose, 0.5)
                 };
                 let slope = (side(-1.0) - side(1.0)) / (2.0 * step);
                 // Rounding of metres over the step, and its square.
                 assert!(
                     (slope - rows.columns(column, 1)).norm() < 1e-9,
                     "{:?}",
-                    asked[column]
+                    requested[column]
                 );
             }
         }

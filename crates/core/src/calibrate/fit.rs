@@ -46,7 +46,7 @@ const FARTHEST: f64 = 1e4;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
     /// Of the chain.
-    pub asked: Asked,
+    pub requested: Asked,
     /// About where the measured point sits on the flange.
     pub flange_from_point: Isometry,
     /// So many metres count as much as a radian.
@@ -126,7 +126,7 @@ pub struct Calibrated {
     /// `s`, m: standard deviation of a single reading about the geometry that was found.
     pub standard_deviation: f64,
     /// How many of the estimates the poses tell: all without a prior.
-    pub told: f64,
+    pub given: f64,
     /// Of each joint but the last, m and rad.
     small: Vec<[f64; 6]>,
 }
@@ -216,14 +216,14 @@ pub fn fit(robot: &Robot, poses: &[MeasuredPose], question: &Question) -> Result
     let (in_frames, _) = told_apart(&start, &frames, &free);
     let mut arm = settle(start, &in_frames, &free)?;
     enough(in_frames.len())?;
-    let unknowns = unknowns(robot, question.asked, with > 0);
+    let unknowns = unknowns(robot, question.requested, with > 0);
     let mut variance = cost(&arm, &in_frames, &free) / (rows - in_frames.len()) as f64;
     // Once for all rounds: what is kept in one and not in the next would keep a value that nobody tells.
     let (kept, redundant) = told_apart(&arm, &unknowns, &free);
     enough(kept.len())?;
     let (mut rounds, mut is_settled) = (0, false);
     // Without a prior nothing depends on the scatter, and one round is enough.
-    let (inverse, told) = loop {
+    let (inverse, given) = loop {
         let data = Data {
             hold: question
                 .prior
@@ -233,14 +233,14 @@ pub fn fit(robot: &Robot, poses: &[MeasuredPose], question: &Question) -> Result
         arm = settle(arm, &kept, &data)?;
         let (r, z) = triangle(&arm, &kept, &data).whole();
         let (_, inverse) = solve(&r, &z, 0.0).ok_or(Refusal::NotFound)?;
-        let told = data.hold.told(&kept, &inverse);
-        let next = cost(&arm, &kept, &free) / (rows as f64 - told);
+        let given = data.hold.reported(&kept, &inverse);
+        let next = cost(&arm, &kept, &free) / (rows as f64 - given);
         is_settled |= question.prior.is_none() || (next / variance - 1.0).abs() < SAME_SCATTER;
         variance = next;
         rounds += 1;
         // What is left of perfect poses is rounding, and holds nothing.
         if is_settled || rounds == MOST_ROUNDS || variance == 0.0 {
-            break (inverse, told);
+            break (inverse, given);
         }
     };
     let covariance = inverse * variance;
@@ -260,7 +260,7 @@ pub fn fit(robot: &Robot, poses: &[MeasuredPose], question: &Question) -> Result
         flange_from_point: arm.flange_from_point,
         errors: errors_of(&arm, poses),
         standard_deviation: variance.sqrt(),
-        told,
+        given,
         small: arm.small,
         covariance,
     })

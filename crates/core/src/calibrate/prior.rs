@@ -73,9 +73,9 @@ impl Hold {
 
     /// A row for each of `unknowns` that is held: its weight, and what it is short of zero.
     pub fn rows(self, arm: &Arm<'_>, unknowns: &[Unknown]) -> DMatrix<f64> {
-        let held = self.held(unknowns);
-        let mut rows = DMatrix::zeros(held.len(), unknowns.len() + 1);
-        for (row, (column, weight)) in held.into_iter().enumerate() {
+        let evaluation = self.evaluation(unknowns);
+        let mut rows = DMatrix::zeros(evaluation.len(), unknowns.len() + 1);
+        for (row, (column, weight)) in evaluation.into_iter().enumerate() {
             rows[(row, column)] = weight;
             rows[(row, unknowns.len())] = -weight * arm.value(&unknowns[column]);
         }
@@ -89,13 +89,13 @@ impl Hold {
     }
 
     /// How many of `unknowns` the poses tell; `inverse` is `C`.
-    pub fn told(self, unknowns: &[Unknown], inverse: &DMatrix<f64>) -> f64 {
+    pub fn reported(self, unknowns: &[Unknown], inverse: &DMatrix<f64>) -> f64 {
         let by_prior = |(column, weight): (usize, f64)| weight * weight * inverse[(column, column)];
-        let held = self.held(unknowns);
-        unknowns.len() as f64 - held.into_iter().map(by_prior).sum::<f64>()
+        let evaluation = self.evaluation(unknowns);
+        unknowns.len() as f64 - evaluation.into_iter().map(by_prior).sum::<f64>()
     }
 
-    fn held(self, unknowns: &[Unknown]) -> Vec<(usize, f64)> {
+    fn evaluation(self, unknowns: &[Unknown]) -> Vec<(usize, f64)> {
         let weights = unknowns.iter().map(|unknown| self.weight(unknown)).enumerate();
         weights.filter(|(_, weight)| *weight > 0.0).collect()
     }

@@ -12,7 +12,7 @@ const BLOCK: usize = 256;
 #[derive(Clone, Debug)]
 pub(super) struct Triangle {
     /// Square, one column an unknown and the right-hand side last.
-    held: DMatrix<f64>,
+    evaluation: DMatrix<f64>,
     block: DMatrix<f64>,
     filled: usize,
 }
@@ -21,7 +21,7 @@ impl Triangle {
     /// Of nothing, for so many unknowns.
     pub fn new(unknowns: usize) -> Triangle {
         Triangle {
-            held: DMatrix::zeros(unknowns + 1, unknowns + 1),
+            evaluation: DMatrix::zeros(unknowns + 1, unknowns + 1),
             block: DMatrix::zeros(BLOCK, unknowns + 1),
             filled: 0,
         }
@@ -39,23 +39,23 @@ impl Triangle {
     }
 
     fn fold(&mut self) {
-        let width = self.held.ncols();
+        let width = self.evaluation.ncols();
         let mut whole = DMatrix::zeros(width + self.filled, width);
-        whole.rows_mut(0, width).copy_from(&self.held);
+        whole.rows_mut(0, width).copy_from(&self.evaluation);
         whole
             .rows_mut(width, self.filled)
             .copy_from(&self.block.rows(0, self.filled));
-        self.held = whole.qr().r();
+        self.evaluation = whole.qr().r();
         self.filled = 0;
     }
 
     /// The matrix of the unknowns and the right-hand side.
     pub fn whole(mut self) -> (DMatrix<f64>, DVector<f64>) {
         self.fold();
-        let width = self.held.ncols() - 1;
+        let width = self.evaluation.ncols() - 1;
         (
-            self.held.columns(0, width).into_owned(),
-            self.held.column(width).into_owned(),
+            self.evaluation.columns(0, width).into_owned(),
+            self.evaluation.column(width).into_owned(),
         )
     }
 }
@@ -125,10 +125,10 @@ mod tests {
         assert!(solve(&j, &DVector::zeros(3), 0.0).is_none());
         let j = DMatrix::from_row_slice(3, 1, &[1.0, 0.0, 1.0]);
         let r = DVector::from_vec(vec![1.0, 0.0, 1.0]);
-        let [free, held] = [0.0, 1.0].map(|damping| solve(&j, &r, damping).unwrap().0[0]);
+        let [free, evaluation] = [0.0, 1.0].map(|damping| solve(&j, &r, damping).unwrap().0[0]);
         assert!(
-            (free - 1.0).abs() < 1e-15 && (held - 0.5).abs() < 1e-15,
-            "{free} {held}"
+            (free - 1.0).abs() < 1e-15 && (evaluation - 0.5).abs() < 1e-15,
+            "{free} {evaluation}"
         );
     }
 }

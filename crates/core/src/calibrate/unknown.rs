@@ -73,19 +73,19 @@ impl Unknown {
 /// All that is asked, those first that are kept where two do the same: base, tool, zeros, lengths, angles.
 ///
 /// A body whose turn was not measured has no turn to find.
-pub(super) fn unknowns(robot: &Robot, asked: Asked, turns_measured: bool) -> Vec<Unknown> {
+pub(super) fn unknowns(robot: &Robot, requested: Asked, turns_measured: bool) -> Vec<Unknown> {
     let six = |place| (0..6).map(move |component| Unknown { place, component });
     let mut all: Vec<Unknown> = six(Place::Base).collect();
     all.extend(six(Place::Tool).filter(|unknown| turns_measured || !unknown.turns()));
-    let seats: Vec<Unknown> = (0..robot.joints().len().saturating_sub(1))
+    let attachments: Vec<Unknown> = (0..robot.joints().len().saturating_sub(1))
         .flat_map(|joint| six(Place::After(joint)))
         .collect();
     let (zeros, others): (Vec<Unknown>, Vec<Unknown>) =
-        seats.into_iter().partition(|unknown| unknown.is_zero_of(robot));
-    if asked != Asked::BaseAndTool {
+        attachments.into_iter().partition(|unknown| unknown.is_zero_of(robot));
+    if requested != Asked::BaseAndTool {
         all.extend(zeros);
     }
-    if asked == Asked::Geometry {
+    if requested == Asked::Geometry {
         all.extend(others.iter().filter(|unknown| !unknown.turns()));
         all.extend(others.iter().filter(|unknown| unknown.turns()));
     }

@@ -17,7 +17,7 @@ use super::load_test::{LoadTest, Measured};
 use super::prior::typical_sizes;
 use super::unknown::Unknown;
 use crate::robot::forward::{forward, joint_axis};
-use crate::robot::{Robot, Seat};
+use crate::robot::{Robot, Attachment};
 use crate::spatial::{Twist, Wrench};
 
 /// A test with all that its posture decides.
@@ -113,7 +113,7 @@ impl Effects {
                         }
                         moved[axis.index()]
                     }
-                    Measured::Turn(joint) if unknown.seat == Seat::Joint(joint) => {
+                    Measured::Turn(joint) if unknown.attachment == Attachment::Joint(joint) => {
                         screw.angular.dot(&self.joint_axes[joint])
                     }
                     Measured::Turn(_) => 0.0,

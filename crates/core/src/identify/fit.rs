@@ -271,25 +271,25 @@ impl<'a> Problem<'a> {
             .map(|length| length / scale)
             .map(|n| if n <= bend { n * n } else { (2.0 * n - bend) * bend })
             .sum();
-        let (prior, wanted) = self.prior_rows(x.len());
-        tests + (prior * x - wanted).norm_squared()
+        let (prior, requested) = self.prior_rows(x.len());
+        tests + (prior * x - requested).norm_squared()
     }
 
     /// Rows of the prior and what they should give, over their standard uncertainties; of points that they are not shifted.
     fn prior_rows(&self, count: usize) -> (DMatrix<f64>, DVector<f64>) {
-        let (of_sizes, wanted) = LogPrior::rows(&self.prior, count);
+        let (of_sizes, requested) = LogPrior::rows(&self.prior, count);
         let (Points::Common(u) | Points::Separate(u)) = self.method.points else {
-            return (of_sizes, wanted);
+            return (of_sizes, requested);
         };
         if !self.in_logs() {
-            return (of_sizes, wanted);
+            return (of_sizes, requested);
         }
         let (first, more) = (self.prior.len(), self.method.points.count());
         let mut rows = of_sizes.resize_vertically(first + more, 0.0);
         for k in 0..more {
             rows[(first + k, self.unknowns.len() + k)] = 1.0 / u;
         }
-        (rows, wanted.resize_vertically(first + more, 0.0))
+        (rows, requested.resize_vertically(first + more, 0.0))
     }
 
     /// Derivatives of what `x` says (sizes, then shifts) by `x`, on a diagonal.
@@ -334,7 +334,7 @@ impl<'a> Problem<'a> {
         let mut damping = 0.0;
         for _ in 0..MOST_STEPS {
             let (tests, residual) = self.weighed(&linear, scale);
-            let (prior, wanted) = self.prior_rows(count);
+            let (prior, requested) = self.prior_rows(count);
             let right = &tests * &x - residual;
             let lengths: Vec<f64> = tests.column_iter().map(|column| column.norm()).collect();
             let (rows, more) = (tests.nrows(), prior.nrows());
@@ -343,7 +343,7 @@ impl<'a> Problem<'a> {
             a.rows_mut(rows, more).copy_from(&prior);
             let mut b = DVector::zeros(rows + more + count);
             b.rows_mut(0, rows).copy_from(&right);
-            b.rows_mut(rows, more).copy_from(&wanted);
+            b.rows_mut(rows, more).copy_from(&requested);
             for j in 0..count {
                 let hold = lengths[j] * f64::sqrt(damping);
                 a[(rows + more + j, j)] = hold;
@@ -428,8 +428,8 @@ mod tests {
     /// Of the objective, from the weighed rows.
     fn gradient(problem: &Problem<'_>, used: &[usize], x: &DVector<f64>, scale: f64) -> DVector<f64> {
         let (tests, residual) = problem.weighed(&problem.linear(used, x), scale);
-        let (prior, wanted) = problem.prior_rows(x.len());
-        (tests.tr_mul(&residual) + prior.tr_mul(&(&prior * x - wanted))) * 2.0
+        let (prior, requested) = problem.prior_rows(x.len());
+        (tests.tr_mul(&residual) + prior.tr_mul(&(&prior * x - requested))) * 2.0
     }
 
     #[test]

@@ -146,11 +146,11 @@ pub fn identify(
 
 fn refuse(unknowns: &[Unknown], tests: &[LoadTest], method: Method) -> Result<(), Refusal> {
     let readings: usize = tests.iter().map(|test| test.readings.len()).sum();
-    let asked = unknowns.len() + method.points.count();
-    if readings < asked {
+    let requested = unknowns.len() + method.points.count();
+    if readings < requested {
         return Err(Refusal::TooFewReadings {
             readings,
-            unknowns: asked,
+            unknowns: requested,
         });
     }
     let speaks = |test: &LoadTest| {
@@ -164,7 +164,7 @@ fn refuse(unknowns: &[Unknown], tests: &[LoadTest], method: Method) -> Result<()
         pairs.fold(0.0, |far, (a, b)| f64::max(far, (a - b).abs())) < SAME_POSTURE
     };
     let turns = |test: &LoadTest| test.readings.iter().any(|r| matches!(r.what, Measured::Turn(_)));
-    if asked > 1 && tests.iter().all(same) && !tests.iter().any(turns) {
+    if requested > 1 && tests.iter().all(same) && !tests.iter().any(turns) {
         return Err(Refusal::OnePosture { tests: tests.len() });
     }
     Ok(())
@@ -385,7 +385,7 @@ mod tests {
 
     #[test]
     fn what_is_refused_says_why() {
-        let told = [
+        let given = [
             (
                 Refusal::TooFewReadings {
                     readings: 3,
@@ -402,7 +402,7 @@ mod tests {
                 "no test has both a load and a reading other than 0",
             ),
         ];
-        for (refusal, text) in told {
+        for (refusal, text) in given {
             assert_eq!(refusal.to_string(), text);
         }
     }

@@ -94,12 +94,12 @@ struct Candidate {
 }
 
 /// The tests that make `unknowns` known best; fewer than asked only where no posture has room.
-pub fn plan(robot: &Robot, unknowns: &[Unknown], asked: &PlanQuestion) -> Plan {
-    let candidates = candidates(robot, unknowns, asked);
+pub fn plan(robot: &Robot, unknowns: &[Unknown], requested: &PlanQuestion) -> Plan {
+    let candidates = candidates(robot, unknowns, requested);
     let (prior, _) = LogPrior::rows(&typical(unknowns), unknowns.len());
     let mut information = prior.tr_mul(&prior);
     let mut chosen: Vec<usize> = Vec::new();
-    while chosen.len() < asked.tests.min(candidates.len()) {
+    while chosen.len() < requested.tests.min(candidates.len()) {
         let best = best_addition(&information, &candidates, &chosen);
         add(&mut information, &candidates[best], 1.0);
         chosen.push(best);
@@ -158,16 +158,16 @@ fn best_addition(information: &DMatrix<f64>, candidates: &[Candidate], chosen: &
         .0
 }
 
-fn candidates(robot: &Robot, unknowns: &[Unknown], asked: &PlanQuestion) -> Vec<Candidate> {
+fn candidates(robot: &Robot, unknowns: &[Unknown], requested: &PlanQuestion) -> Vec<Candidate> {
     let state = State::typical(unknowns);
     let mut found = Vec::new();
-    for (posture, joints) in postures_with_room(robot, asked) {
-        for pull in &asked.pulls {
-            let test = test_of(&joints, *pull, asked);
+    for (posture, joints) in postures_with_room(robot, requested) {
+        for pull in &requested.pulls {
+            let test = test_of(&joints, *pull, requested);
             let effects = Effects::of(robot, unknowns, &test);
             let jacobian = effects.jacobian(unknowns, &state);
             let rows = DMatrix::from_fn(3, unknowns.len(), |i, k| {
-                jacobian[(i, k)] * state.sizes[k] / asked.gauge
+                jacobian[(i, k)] * state.sizes[k] / requested.gauge
             });
             let readings = effects.readings(unknowns, &state);
             found.push(Candidate {
@@ -184,27 +184,27 @@ fn candidates(robot: &Robot, unknowns: &[Unknown], asked: &PlanQuestion) -> Vec<
     found
 }
 
-fn test_of(joints: &[f64], pull: Vector3<f64>, asked: &PlanQuestion) -> LoadTest {
+fn test_of(joints: &[f64], pull: Vector3<f64>, requested: &PlanQuestion) -> LoadTest {
     let reading = |axis| Reading {
         what: Measured::Displacement(axis),
         value: 0.0,
-        standard_uncertainty: asked.gauge,
+        standard_uncertainty: requested.gauge,
     };
     LoadTest {
         joints: joints.to_vec(),
         wrench: Wrench::from_force(pull),
-        force_point: asked.tool_point,
-        measured_point: asked.tool_point,
+        force_point: requested.tool_point,
+        measured_point: requested.tool_point,
         readings: [Axis::X, Axis::Y, Axis::Z].map(reading).to_vec(),
     }
 }
 
 /// Postures of the sequence in which the tool is clear of floor and arm, each with its number.
-fn postures_with_room(robot: &Robot, asked: &PlanQuestion) -> Vec<(u32, Vec<f64>)> {
+fn postures_with_room(robot: &Robot, requested: &PlanQuestion) -> Vec<(u32, Vec<f64>)> {
     let looked_at = (1..=POSTURES).map(|index| {
         let joints = posture(robot, index);
         let frames = forward(robot, &joints);
-        let tool = frames.base_from_flange * nalgebra::Point3::from(asked.tool_point);
+        let tool = frames.base_from_flange * nalgebra::Point3::from(requested.tool_point);
         let places = [frames.base_from_flange.translation.vector, tool.coords];
         let first = frames.origin(0);
         let away = places.map(|place| (place.xy() - first.coords.xy()).norm());
@@ -215,7 +215,7 @@ fn postures_with_room(robot: &Robot, asked: &PlanQuestion) -> Vec<(u32, Vec<f64>
     let clearance = |[most, part]: [f64; 2]| f64::min(most, part * farthest);
     let (lowest, nearest) = (clearance(LOWEST), clearance(NEAREST));
     let above = |place: &Vector3<f64>| {
-        let floor = asked.floor.as_ref();
+        let floor = requested.floor.as_ref();
         floor.is_none_or(|floor| place.dot(&floor.up) - floor.height > lowest)
     };
     let has_room = looked_at

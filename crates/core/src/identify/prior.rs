@@ -15,7 +15,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::unknown::{Role, Unknown};
-use crate::robot::Seat;
+use crate::robot::Attachment;
 
 /// Whether anything is known beforehand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,8 +46,8 @@ impl LogPrior {
                 rows[(row, *k)] = factor / prior.standard_uncertainty;
             }
         }
-        let wanted = priors.iter().map(|prior| prior.mean / prior.standard_uncertainty);
-        (rows, DVector::from_iterator(priors.len(), wanted))
+        let requested = priors.iter().map(|prior| prior.mean / prior.standard_uncertainty);
+        (rows, DVector::from_iterator(priors.len(), requested))
     }
 }
 
@@ -68,11 +68,11 @@ const LOST_MOTION_FACTOR: f64 = 1.0;
 
 /// The typical prior, one row an unknown.
 pub fn typical(unknowns: &[Unknown]) -> Vec<LogPrior> {
-    let drive_of = |seat: Seat| {
-        let seat = if seat == Seat::Base { Seat::Joint(0) } else { seat };
+    let drive_of = |attachment: Attachment| {
+        let attachment = if attachment == Attachment::Base { Attachment::Joint(0) } else { attachment };
         unknowns
             .iter()
-            .position(|other| other.role == Role::Drive && other.turns() && other.seat == seat)
+            .position(|other| other.role == Role::Drive && other.turns() && other.attachment == attachment)
     };
     let row = |(index, unknown): (usize, &Unknown)| {
         let alone = |value: f64, factor: f64| LogPrior {
@@ -85,7 +85,7 @@ pub fn typical(unknowns: &[Unknown]) -> Vec<LogPrior> {
             Role::Drive => alone(SLIDING_DRIVE, DRIVE_FACTOR),
             Role::Tool => alone(TOOL, TOOL_FACTOR),
             Role::LostMotion { .. } => alone(LOST_MOTION, LOST_MOTION_FACTOR),
-            Role::Bending | Role::Base => match drive_of(unknown.seat) {
+            Role::Bending | Role::Base => match drive_of(unknown.attachment) {
                 Some(drive) => LogPrior {
                     parts: vec![(index, 1.0), (drive, -1.0)],
                     mean: -STIFFER.ln(),
@@ -144,11 +144,11 @@ mod tests {
     #[test]
     fn the_middle_satisfies_every_row() {
         let unknowns = [
-            Unknown::about(Seat::Joint(0), Axis::Z, Role::Drive),
-            Unknown::about(Seat::Joint(0), Axis::X, Role::Bending),
-            Unknown::about(Seat::Base, Axis::X, Role::Base),
-            Unknown::along(Seat::Flange, Axis::X, Role::Tool),
-            Unknown::along(Seat::Joint(1), Axis::X, Role::Drive),
+            Unknown::about(Attachment::Joint(0), Axis::Z, Role::Drive),
+            Unknown::about(Attachment::Joint(0), Axis::X, Role::Bending),
+            Unknown::about(Attachment::Base, Axis::X, Role::Base),
+            Unknown::along(Attachment::Flange, Axis::X, Role::Tool),
+            Unknown::along(Attachment::Joint(1), Axis::X, Role::Drive),
         ];
         let sizes = typical_sizes(&unknowns);
         for row in typical(&unknowns) {
@@ -160,21 +160,21 @@ mod tests {
     #[test]
     fn the_middle_lies_at_no_distance_from_the_rows_and_a_factor_at_its_standard_uncertainty() {
         let unknowns = [
-            Unknown::about(Seat::Joint(0), Axis::Z, Role::Drive),
-            Unknown::about(Seat::Joint(0), Axis::X, Role::Bending),
-            Unknown::along(Seat::Flange, Axis::X, Role::Tool),
+            Unknown::about(Attachment::Joint(0), Axis::Z, Role::Drive),
+            Unknown::about(Attachment::Joint(0), Axis::X, Role::Bending),
+            Unknown::along(Attachment::Flange, Axis::X, Role::Tool),
         ];
         let priors = typical(&unknowns);
-        let (rows, wanted) = LogPrior::rows(&priors, 5);
-        assert_eq!((rows.shape(), wanted.len()), ((3, 5), 3));
+        let (rows, requested) = LogPrior::rows(&priors, 5);
+        assert_eq!((rows.shape(), requested.len()), ((3, 5), 3));
         let sizes = typical_sizes(&unknowns);
         let logs = DVector::from_fn(5, |k, _| sizes.get(k).map_or(0.0, |size| size.ln()));
-        assert!((&rows * &logs - &wanted).norm() < 1e-12);
+        assert!((&rows * &logs - &requested).norm() < 1e-12);
         for (k, prior) in priors.iter().enumerate() {
             let mut off = logs.clone();
             off[k] += prior.standard_uncertainty;
             // Of its own row by one; a drive moves the bending that is told by it, too.
-            let away = &rows * &off - &wanted;
+            let away = &rows * &off - &requested;
             assert!((away[k] - 1.0).abs() < 1e-12, "{k}: {away}");
         }
         let (none, nothing) = LogPrior::rows(&[], 4);

@@ -15,8 +15,8 @@ use nalgebra::Vector3;
 
 use crate::robot::chain::{Axis, Motion};
 use crate::robot::forward::{Frames, forward, joint_axis};
-use crate::robot::yielding::{seat_frame, spring_screw};
-use crate::robot::{Robot, Seat};
+use crate::robot::deflected_arm::{attachment_frame, spring_screw};
+use crate::robot::{Robot, Attachment};
 use crate::spatial::Twist;
 
 /// What yields there.
@@ -41,7 +41,7 @@ pub enum Role {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unknown {
     /// Where it sits.
-    pub seat: Seat,
+    pub attachment: Attachment,
     /// How it moves what comes after it, per unit: a twist at the seat's origin, in the seat's axes.
     pub direction: Twist,
     /// What it is.
@@ -50,26 +50,26 @@ pub struct Unknown {
 
 impl Unknown {
     /// A spring that turns about an axis of its seat.
-    pub fn about(seat: Seat, axis: Axis, role: Role) -> Unknown {
+    pub fn about(attachment: Attachment, axis: Axis, role: Role) -> Unknown {
         let direction = Twist {
             linear: Vector3::zeros(),
             angular: axis.unit(),
         };
         Unknown {
-            seat,
+            attachment,
             direction,
             role,
         }
     }
 
     /// A spring that slides along an axis of its seat.
-    pub fn along(seat: Seat, axis: Axis, role: Role) -> Unknown {
+    pub fn along(attachment: Attachment, axis: Axis, role: Role) -> Unknown {
         let direction = Twist {
             linear: axis.unit(),
             angular: Vector3::zeros(),
         };
         Unknown {
-            seat,
+            attachment,
             direction,
             role,
         }
@@ -84,8 +84,8 @@ impl Unknown {
     pub fn screw_at_flange(&self, frames: &Frames) -> Twist {
         let flange = &frames.base_from_flange;
         // Tests are told in the flange frame: a tool sits on it as it is.
-        let base_from_seat = seat_frame(self.seat, frames, flange);
-        spring_screw(&self.direction, &base_from_seat, flange.translation.vector)
+        let base_from_attachment = attachment_frame(self.attachment, frames, flange);
+        spring_screw(&self.direction, &base_from_attachment, flange.translation.vector)
     }
 
     /// `g(tau)` and its derivative.
@@ -105,8 +105,8 @@ pub fn drives(robot: &Robot) -> Vec<Unknown> {
     let links = robot.chain().links().iter().enumerate();
     links
         .map(|(index, link)| match link.motion {
-            Motion::About(axis, _) => Unknown::about(Seat::Joint(index), axis, Role::Drive),
-            Motion::Along(axis, _) => Unknown::along(Seat::Joint(index), axis, Role::Drive),
+            Motion::About(axis, _) => Unknown::about(Attachment::Joint(index), axis, Role::Drive),
+            Motion::Along(axis, _) => Unknown::along(Attachment::Joint(index), axis, Role::Drive),
         })
         .collect()
 }
@@ -121,7 +121,7 @@ pub fn bending(robot: &Robot) -> Vec<Unknown> {
             continue;
         };
         for axis in [Axis::X, Axis::Y, Axis::Z] {
-            let spring = Unknown::about(Seat::Joint(index), axis, Role::Bending);
+            let spring = Unknown::about(Attachment::Joint(index), axis, Role::Bending);
             if axis != own && !is_drive(robot, index + 1, &spring) {
                 found.push(spring);
             }
@@ -133,7 +133,7 @@ pub fn bending(robot: &Robot) -> Vec<Unknown> {
 /// The floor: turns about the base axes, without the one that is the axis of the first drive.
 pub fn base(robot: &Robot) -> Vec<Unknown> {
     [Axis::X, Axis::Y, Axis::Z]
-        .map(|axis| Unknown::about(Seat::Base, axis, Role::Base))
+        .map(|axis| Unknown::about(Attachment::Base, axis, Role::Base))
         .into_iter()
         .filter(|spring| !is_drive(robot, 0, spring))
         .collect()
@@ -142,7 +142,7 @@ pub fn base(robot: &Robot) -> Vec<Unknown> {
 /// Tool and holder: slides along the axes of the flange.
 pub fn tool() -> Vec<Unknown> {
     [Axis::X, Axis::Y, Axis::Z]
-        .map(|axis| Unknown::along(Seat::Flange, axis, Role::Tool))
+        .map(|axis| Unknown::along(Attachment::Flange, axis, Role::Tool))
         .to_vec()
 }
 
@@ -226,9 +226,9 @@ mod tests {
         assert_eq!(bending(&robot).len(), 9);
         let of_4: Vec<_> = bending(&robot)
             .into_iter()
-            .filter(|spring| spring.seat == Seat::Joint(3))
+            .filter(|spring| spring.attachment == Attachment::Joint(3))
             .collect();
-        assert_eq!(of_4, [Unknown::about(Seat::Joint(3), Axis::Z, Role::Bending)]);
+        assert_eq!(of_4, [Unknown::about(Attachment::Joint(3), Axis::Z, Role::Bending)]);
         // The floor turns about x and y; about z it is the first drive.
         assert_eq!(base(&robot).len(), 2);
     }

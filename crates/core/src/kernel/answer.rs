@@ -3,7 +3,7 @@
 use nalgebra::{Unit, Vector3};
 
 use super::question::Question;
-use crate::robot::{PostureName, Seat, Singularity, Unreachable};
+use crate::robot::{PostureName, Attachment, Singularity, Unreachable};
 use crate::workpiece::Split;
 
 /// How far (rad) outside a limit still counts as at it: rounding of a joint that stands at its limit.
@@ -74,15 +74,15 @@ pub struct Answers {
     pub joint_count: usize,
     /// Load cases.
     pub case_count: usize,
-    /// Whom shares are told for: [`crate::source::StiffnessModel::sharers`].
+    /// Whom shares are told for: [`crate::source::StiffnessModel::contributors`].
     pub share_count: usize,
 }
 
 impl Answers {
     /// Room for the answers of `question` at so many points, each unanswered; without shares where none are told.
-    pub(super) fn new(question: &Question<'_>, count: usize, told: Told) -> Answers {
+    pub(super) fn new(question: &Question<'_>, count: usize, given: Told) -> Answers {
         let (joint_count, case_count) = (question.arm.robot.joints().len(), question.cases.len());
-        let share_count = told.sharers(question).len();
+        let share_count = given.contributors(question).len();
         Answers {
             points: vec![UNANSWERED; count],
             joints: vec![0.0; count * joint_count],
@@ -112,11 +112,11 @@ impl Answers {
     pub(crate) fn move_on(&mut self, index: usize, by: &[Vector3<f64>], normal: Unit<Vector3<f64>>) {
         assert_eq!(self.share_count, 0, "shares would no longer add up");
         let deviations = &mut self.deviations[index * self.case_count..][..self.case_count];
-        if let Ok(held) = &mut self.points[index] {
+        if let Ok(evaluation) = &mut self.points[index] {
             for (deviation, by) in deviations.iter_mut().zip(by) {
                 *deviation += by;
             }
-            held.take_envelope(deviations, normal);
+            evaluation.take_envelope(deviations, normal);
         }
     }
 
@@ -152,7 +152,7 @@ impl Answers {
         &self.deviations[index * self.case_count..][..self.case_count]
     }
 
-    /// Share of each sharer in the in-plane deviation at point `index`, m.
+    /// Share of each contributor in the in-plane deviation at point `index`, m.
     pub fn shares_at(&self, index: usize) -> &[f64] {
         &self.shares[index * self.share_count..][..self.share_count]
     }
@@ -161,24 +161,24 @@ impl Answers {
     /// plane and its mirror image) it is the first, on every machine.
     pub fn worst(&self) -> Option<(usize, &Held)> {
         let most = self
-            .held()
-            .map(|(_, held)| held.in_plane)
+            .evaluation()
+            .map(|(_, evaluation)| evaluation.in_plane)
             .max_by(f64::total_cmp)?;
-        self.held().find(|(_, held)| held.in_plane >= most * (1.0 - SAME))
+        self.evaluation().find(|(_, evaluation)| evaluation.in_plane >= most * (1.0 - SAME))
     }
 
     /// The point with the least in-plane deviation, if any point is reached; of equal ones the first, likewise.
     pub fn best(&self) -> Option<(usize, &Held)> {
         let least = self
-            .held()
-            .map(|(_, held)| held.in_plane)
+            .evaluation()
+            .map(|(_, evaluation)| evaluation.in_plane)
             .min_by(f64::total_cmp)?;
-        self.held()
-            .find(|(_, held)| held.in_plane <= least * (1.0 + SAME))
+        self.evaluation()
+            .find(|(_, evaluation)| evaluation.in_plane <= least * (1.0 + SAME))
     }
 
     /// The points where the arm holds the tool, with their index.
-    pub fn held(&self) -> impl Iterator<Item = (usize, &Held)> {
+    pub fn evaluation(&self) -> impl Iterator<Item = (usize, &Held)> {
         self.points
             .iter()
             .enumerate()
@@ -200,9 +200,9 @@ pub(super) enum Told {
 
 impl Told {
     /// Whom shares are told for.
-    pub fn sharers(self, question: &Question<'_>) -> Vec<Seat> {
+    pub fn contributors(self, question: &Question<'_>) -> Vec<Attachment> {
         match self {
-            Told::Shares => question.arm.model.sharers(question.arm.robot.joints().len()),
+            Told::Shares => question.arm.model.contributors(question.arm.robot.joints().len()),
             Told::DeviationsAlone => Vec::new(),
         }
     }

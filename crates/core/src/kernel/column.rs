@@ -22,7 +22,7 @@ use crate::predict::deviation_of;
 use crate::robot::forward::{Frames, forward_into, joint_axis};
 use crate::robot::inverse::{Finder, Found, Wanted};
 use crate::robot::{Branch, Joint, PostureName, Robot, Singularity};
-use crate::source::{Arm, Links, Standing};
+use crate::source::{Arm, Links, ArmState};
 use crate::spatial::{Twist, Wrench};
 
 /// Postures a pose has room for; arms without names of branches keep the first so many that are found.
@@ -162,7 +162,7 @@ impl<'q> Columns<'q> {
         }
         let mut columns = Columns::one_by_one(arm, home, [wrist, 0.0]);
         if let Way::General(one_by_one) = &mut columns.way {
-            one_by_one.lie = Some(vec![0.0; arm.robot.joints().len()]);
+            one_by_one.placement = Some(vec![0.0; arm.robot.joints().len()]);
         }
         columns
     }
@@ -184,10 +184,10 @@ impl<'q> Columns<'q> {
             way: Way::General(Box::new(OneByOne {
                 finder: Finder::new(arm.robot),
                 frames: Frames::for_robot(arm.robot),
-                standing: Standing::new(arm),
+                arm_state: ArmState::new(arm),
                 tool_from_flange: arm.flange_from_tool.inverse(),
                 rail: None,
-                lie: None,
+                placement: None,
             })),
         }
     }
@@ -272,12 +272,12 @@ fn stand(flags: u32, bend2: f64, least: f64) -> Stand {
 struct OneByOne<'q> {
     finder: Finder<'q>,
     frames: Frames,
-    standing: Standing<'q>,
+    arm_state: ArmState<'q>,
     tool_from_flange: Isometry,
     /// Joint positions at home, with the rail where it was told to stand; `None` where the question says.
     rail: Option<Vec<f64>>,
     /// Where links lie in their gaps, rad (m); `None` where only the load counts.
-    lie: Option<Vec<f64>>,
+    placement: Option<Vec<f64>>,
 }
 
 impl OneByOne<'_> {
@@ -289,14 +289,14 @@ impl OneByOne<'_> {
         (index, out): (usize, &mut Column),
     ) {
         let arm = keeping.arm;
-        let wanted = Wanted {
+        let requested = Wanted {
             base_from_flange: pose * self.tool_from_flange,
             near: None,
             home: self.rail.as_deref().or(keeping.home),
         };
         // What was found at the pose before is no guide: columns may come in any order.
         self.finder.forget();
-        let Ok(found) = self.finder.all(&wanted) else {
+        let Ok(found) = self.finder.all(&requested) else {
             return;
         };
         let named = arm.robot.inverse().has_branches();
@@ -315,9 +315,9 @@ impl OneByOne<'_> {
             } else {
                 forward_into(arm.robot, &one.joints, &mut self.frames);
                 let tcp = pose.translation.vector.into();
-                self.standing.stand_in(&one.joints, &self.frames, &tcp);
+                self.arm_state.set_frames(&one.joints, &self.frames, &tcp);
                 let wrist = keeping.wrist.max(keeping.margin);
-                if is_singular(named, one, (self.standing.screws(), wrist))
+                if is_singular(named, one, (self.arm_state.screws(), wrist))
                     || elbow_bend(arm.robot, &self.frames) < keeping.margin.sin()
                 {
                     Stand::Singular
@@ -331,11 +331,11 @@ impl OneByOne<'_> {
             }
             let mut most = 0.0_f64;
             for wrench in push.cases {
-                let mut links = match &mut self.lie {
+                let mut links = match &mut self.placement {
                     None => Links::Neglected,
-                    Some(lie) => Links::Farthest(push.along, lie),
+                    Some(placement) => Links::Farthest(push.along, placement),
                 };
-                match deviation_of(&mut self.standing, wrench, &mut links) {
+                match deviation_of(&mut self.arm_state, wrench, &mut links) {
                     Ok(twist) => {
                         let [a, b] = push.along.map(|along| along.dot(&twist.linear));
                         most = most.max(a.hypot(b));

@@ -11,9 +11,9 @@ use crate::frame::{Isometry, both_across};
 use crate::predict::deviation_of;
 use crate::robot::forward::{Frames, forward_into};
 use crate::robot::inverse::{Finder, Found, Wanted};
-use crate::robot::{Overrun, PostureName, Seat, Unreachable};
-use crate::source::standing::AsItStands;
-use crate::source::{Links, Standing};
+use crate::robot::{Overrun, PostureName, Attachment, Unreachable};
+use crate::source::arm_state::LoadedPosture;
+use crate::source::{Links, ArmState};
 
 /// Envelopes that differ by less (relative) are equal, and the first posture stands: two flips without names differ by
 /// rounding, which would take one here and the other beside it.
@@ -26,9 +26,9 @@ pub(super) struct General<'q> {
     /// What may stand for the point: postures, the roomier of two flips that are alike.
     candidates: Vec<Found>,
     frames: Frames,
-    standing: Standing<'q>,
+    arm_state: ArmState<'q>,
     /// Whom shares are told for; nobody where they are not asked for.
-    sharers: Vec<Seat>,
+    contributors: Vec<Attachment>,
     beside: Beside<'q>,
     joints: Vec<f64>,
     deviations: Vec<Vector3<f64>>,
@@ -48,10 +48,10 @@ enum Beside<'q> {
 }
 
 impl<'q> General<'q> {
-    pub(super) fn new(question: &Question<'q>, told: Told) -> General<'q> {
+    pub(super) fn new(question: &Question<'q>, given: Told) -> General<'q> {
         let (joints, cases) = (question.arm.robot.joints().len(), question.cases.len());
-        let sharers = told.sharers(question);
-        let beside = match told {
+        let contributors = given.contributors(question);
+        let beside = match given {
             Told::Shares if question.arm.model.moves_unloaded() => {
                 Beside::Farthest(vec![0.0; joints * cases])
             }
@@ -62,25 +62,25 @@ impl<'q> General<'q> {
             finder: Finder::new(question.arm.robot),
             candidates: Vec::new(),
             frames: Frames::for_robot(question.arm.robot),
-            standing: Standing::new(question.arm),
+            arm_state: ArmState::new(question.arm),
             joints: vec![0.0; joints],
             deviations: vec![Vector3::zeros(); cases],
-            shares: vec![0.0; sharers.len()],
+            shares: vec![0.0; contributors.len()],
             kept: (
                 vec![0.0; joints],
                 vec![Vector3::zeros(); cases],
-                vec![0.0; sharers.len()],
+                vec![0.0; contributors.len()],
             ),
-            sharers,
+            contributors,
             beside,
         }
     }
 
     /// The same on a path, where it is known where links were dragged to in their gaps, rad (m), one a joint.
-    pub(super) fn on_path(question: &Question<'q>, told: Told, dragged: &'q [f64]) -> General<'q> {
+    pub(super) fn on_path(question: &Question<'q>, given: Told, dragged: &'q [f64]) -> General<'q> {
         General {
             beside: Beside::Dragged(dragged),
-            ..General::new(question, told)
+            ..General::new(question, given)
         }
     }
 
@@ -96,19 +96,19 @@ impl<'q> General<'q> {
         base_from_tool: &Isometry,
         near: Option<&[f64]>,
     ) -> Result<Held, Unreachable> {
-        let wanted = Wanted {
+        let requested = Wanted {
             base_from_flange: base_from_tool * self.tool_from_flange,
             near,
             home: question.home,
         };
         match question.choice {
             BranchChoice::Of(pattern) => {
-                let found = self.finder.matching(&wanted, pattern)?;
+                let found = self.finder.matching(&requested, pattern)?;
                 self.candidates.clear();
                 self.candidates.extend(roomiest(question, found).cloned());
             }
             BranchChoice::Best => {
-                let found = self.finder.all(&wanted)?;
+                let found = self.finder.all(&requested)?;
                 self.candidates.clear();
                 let by_load_alone = matches!(self.beside, Beside::Nothing);
                 let alike =
@@ -145,13 +145,13 @@ impl<'q> General<'q> {
         let candidates = std::mem::take(&mut self.candidates);
         for found in &candidates {
             let judged = self.judge(question, base_from_tool, found);
-            let outside = |held: &Held| question.choice == BranchChoice::Best && !held.within_limits();
+            let outside = |evaluation: &Held| question.choice == BranchChoice::Best && !evaluation.within_limits();
             let missed = match judged {
                 Err(reason) => Some(reason),
-                Ok(held) if outside(&held) => Some(outside_limits(question, &held)),
-                Ok(held) => {
-                    if best.is_none_or(|b| held.in_plane < b.in_plane * (1.0 - ALIKE)) {
-                        best = Some(held);
+                Ok(evaluation) if outside(&evaluation) => Some(outside_limits(question, &evaluation)),
+                Ok(evaluation) => {
+                    if best.is_none_or(|b| evaluation.in_plane < b.in_plane * (1.0 - ALIKE)) {
+                        best = Some(evaluation);
                         self.keep();
                     }
                     None
@@ -174,9 +174,9 @@ impl<'q> General<'q> {
         self.joints.copy_from_slice(&found.joints);
         forward_into(question.arm.robot, &found.joints, &mut self.frames);
         let tcp = base_from_tool.translation.vector.into();
-        self.standing.stand_in(&found.joints, &self.frames, &tcp);
+        self.arm_state.set_frames(&found.joints, &self.frames, &tcp);
         let (limit_joint, limit_margin) = limit_margin(question, &found.joints);
-        let mut held = Held {
+        let mut evaluation = Held {
             name: found.name,
             limit_margin,
             limit_joint,
@@ -191,51 +191,51 @@ impl<'q> General<'q> {
             let unstable = |_| Unreachable::Unstable { case };
             let mut links = match &mut self.beside {
                 Beside::Nothing => Links::Neglected,
-                Beside::Dragged(dragged) => Links::Dragged(dragged),
-                Beside::Farthest(lie) => {
-                    let lie = &mut lie[case * self.joints.len()..][..self.joints.len()];
-                    Links::Farthest(both_across(&question.normal), lie)
+                Beside::Dragged(dragged) => Links::KeptByFriction(dragged),
+                Beside::Farthest(placement) => {
+                    let placement = &mut placement[case * self.joints.len()..][..self.joints.len()];
+                    Links::Farthest(both_across(&question.normal), placement)
                 }
             };
-            let deviation = deviation_of(&mut self.standing, wrench, &mut links);
+            let deviation = deviation_of(&mut self.arm_state, wrench, &mut links);
             self.deviations[case] = deviation.map_err(unstable)?.linear;
         }
-        held.take_envelope(&self.deviations, question.normal);
-        if !self.sharers.is_empty() {
-            held.in_plane_uncertainty = self.share(question, &held, base_from_tool)?;
+        evaluation.take_envelope(&self.deviations, question.normal);
+        if !self.contributors.is_empty() {
+            evaluation.in_plane_uncertainty = self.share(question, &evaluation, base_from_tool)?;
         }
-        Ok(held)
+        Ok(evaluation)
     }
 
     /// Fills the shares of the deciding case and gives the standard uncertainty of its in-plane part.
     fn share(
         &mut self,
         question: &Question<'_>,
-        held: &Held,
+        evaluation: &Held,
         base_from_tool: &Isometry,
     ) -> Result<f64, Unreachable> {
-        let case = held.deciding_case;
+        let case = evaluation.deciding_case;
         let deviation = self.deviations[case];
         let in_plane = deviation - question.normal.into_inner() * deviation.dot(&question.normal);
         let along = in_plane.try_normalize(0.0).unwrap_or_default();
         let unstable = |_| Unreachable::Unstable { case };
         if case + 1 != question.cases.len() {
             // The arm stands under the last load case still.
-            self.standing.elastic(&question.cases[case]).map_err(unstable)?;
+            self.arm_state.elastic(&question.cases[case]).map_err(unstable)?;
         }
-        self.standing.share_along(&along, &self.sharers, &mut self.shares);
-        let mut variance = self.standing.variance_along(&along).max(0.0) + self.standing.scatter().powi(2);
-        let lie = match &self.beside {
+        self.arm_state.share_along(&along, &self.contributors, &mut self.shares);
+        let mut variance = self.arm_state.variance_along(&along).max(0.0) + self.arm_state.scatter().powi(2);
+        let placement = match &self.beside {
             Beside::Nothing => None,
             Beside::Dragged(dragged) => Some(*dragged),
-            Beside::Farthest(lie) => Some(&lie[case * self.joints.len()..][..self.joints.len()]),
+            Beside::Farthest(placement) => Some(&placement[case * self.joints.len()..][..self.joints.len()]),
         };
-        if let Some(lie) = lie {
-            let (standing, lie) = (&self.standing, (lie, &question.cases[case]));
-            variance += standing.share_backlash(&along, lie, &self.sharers, &mut self.shares);
+        if let Some(placement) = placement {
+            let (arm_state, placement) = (&self.arm_state, (placement, &question.cases[case]));
+            variance += arm_state.share_backlash(&along, placement, &self.contributors, &mut self.shares);
         }
-        if !question.doubt.is_none() {
-            let standing = AsItStands {
+        if !question.uncertainty.is_none() {
+            let arm_state = LoadedPosture {
                 joints: &self.joints,
                 frames: &self.frames,
                 tcp: base_from_tool.translation.vector.into(),
@@ -243,8 +243,8 @@ impl<'q> General<'q> {
                 wrench: &question.cases[case],
             };
             let of_doubt = self
-                .standing
-                .variance_of_doubt(&question.doubt, &standing, &along);
+                .arm_state
+                .variance_of_inputs(&question.uncertainty, &arm_state, &along);
             variance += of_doubt.map_err(unstable)?;
         }
         Ok(variance.sqrt())
@@ -269,8 +269,8 @@ fn roomiest<'f>(question: &Question<'_>, found: &'f [Found]) -> Option<&'f Found
 }
 
 /// By how much a posture leaves the range of the joint that is farthest outside.
-fn outside_limits(question: &Question<'_>, held: &Held) -> Unreachable {
-    let (joint, by) = (held.limit_joint, -held.limit_margin);
+fn outside_limits(question: &Question<'_>, evaluation: &Held) -> Unreachable {
+    let (joint, by) = (evaluation.limit_joint, -evaluation.limit_margin);
     let by = if question.arm.robot.slides(joint) {
         Overrun::Slid(by)
     } else {

@@ -9,7 +9,7 @@ use super::answer::{Answers, Slot, Slots, Told};
 use super::general::General;
 use super::question::Question;
 use super::solver::{BLOCK, Order, Solver};
-use crate::load::{Doubt, TipYield};
+use crate::load::{InputUncertainty, TipCompliance};
 use crate::path::Stop;
 use crate::spatial::Wrench;
 use crate::watch::{Cancelled, Watch};
@@ -30,11 +30,11 @@ pub fn evaluate_loaded(
     question: &Question<'_>,
     count: usize,
     stop: impl Fn(usize) -> Stop,
-    load: impl FnMut(usize, Option<&TipYield>, &mut [Wrench]),
+    load: impl FnMut(usize, Option<&TipCompliance>, &mut [Wrench]),
     watch: Watch<'_>,
 ) -> Result<Answers, Cancelled> {
     let question = Question {
-        doubt: Doubt::NONE,
+        uncertainty: InputUncertainty::NONE,
         ..*question
     };
     assert!(!question.cases.is_empty(), "a question has a load case at least");
@@ -62,38 +62,38 @@ impl Rows<'_> {
         mut self,
         question: &Question<'_>,
         stop: impl Fn(usize) -> Stop,
-        mut load: impl FnMut(usize, Option<&TipYield>, &mut [Wrench]),
+        mut load: impl FnMut(usize, Option<&TipCompliance>, &mut [Wrench]),
         watch: Watch<'_>,
     ) -> Result<(), Cancelled> {
         let units = unit_loads();
-        let asked = Question {
+        let requested = Question {
             cases: &units,
             ..*question
         };
-        let mut solver = Solver::new(&asked, Order::AlongPath, Told::DeviationsAlone);
+        let mut solver = Solver::new(&requested, Order::AlongPath, Told::DeviationsAlone);
         let mut under_units = vec![Vector3::zeros(); BLOCK * units.len()];
         for (block, mut slots) in self.answers.blocks(BLOCK).into_iter().enumerate() {
             let first = block * BLOCK;
             let count = slots.points.len();
-            let asked = Slots {
+            let requested = Slots {
                 points: &mut *slots.points,
                 joints: &mut *slots.joints,
                 deviations: &mut under_units[..count * units.len()],
                 shares: &mut *slots.shares,
             };
-            solver.answer(|i| stop(first + i).base_from_tool, asked, watch)?;
+            solver.answer(|i| stop(first + i).base_from_tool, requested, watch)?;
             for (i, under_units) in under_units.chunks(units.len()).take(count).enumerate() {
                 let Slot {
                     point, deviations, ..
                 } = slots.at(i);
-                let Ok(held) = point else { continue };
+                let Ok(evaluation) = point else { continue };
                 let yields = Yields::of(under_units);
                 load(first + i, Some(&yields.tip), &mut self.wrenches);
                 for (deviation, wrench) in deviations.iter_mut().zip(&self.wrenches) {
                     *deviation = yields.under(wrench);
                 }
-                held.take_envelope(deviations, stop(first + i).normal);
-                held.in_plane_uncertainty = 0.0;
+                evaluation.take_envelope(deviations, stop(first + i).normal);
+                evaluation.in_plane_uncertainty = 0.0;
             }
         }
         Ok(())
@@ -103,7 +103,7 @@ impl Rows<'_> {
         mut self,
         question: &Question<'_>,
         stop: impl Fn(usize) -> Stop,
-        mut load: impl FnMut(usize, Option<&TipYield>, &mut [Wrench]),
+        mut load: impl FnMut(usize, Option<&TipCompliance>, &mut [Wrench]),
         watch: Watch<'_>,
     ) -> Result<(), Cancelled> {
         let mut general = General::new(question, Told::DeviationsAlone);
@@ -115,7 +115,7 @@ impl Rows<'_> {
             }
             load(index, None, &mut self.wrenches);
             let stop = stop(index);
-            let asked = Question {
+            let requested = Question {
                 cases: &self.wrenches,
                 normal: stop.normal,
                 ..*question
@@ -127,7 +127,7 @@ impl Rows<'_> {
                 shares,
             } = slots.at(0);
             *point = general
-                .answer(&asked, &stop.base_from_tool, before.as_deref())
+                .answer(&requested, &stop.base_from_tool, before.as_deref())
                 .inspect(|_| general.write(joints, deviations, shares))
                 .inspect(|_| before = Some(joints.to_vec()));
             (watch.finished)(1);
@@ -156,7 +156,7 @@ fn unit_loads() -> [Wrench; 7] {
 /// `delta = C_f f + C_m m + g`.
 struct Yields {
     /// `C_f` and `g`.
-    tip: TipYield,
+    tip: TipCompliance,
     by_moment: Matrix3<f64>,
 }
 
@@ -167,7 +167,7 @@ impl Yields {
         let columns =
             |first: usize| Matrix3::from_fn(|row, column| (deviations[first + column] - unloaded)[row]);
         Yields {
-            tip: TipYield {
+            tip: TipCompliance {
                 by_force: columns(1),
                 unloaded,
             },

@@ -4,7 +4,7 @@
 //! envelope over the cases and what decides it. Ortho-parallel arms with drive springs alone go through [`lanes`], many
 //! points in one instruction; where those cannot decide, and for every other model, `general` takes one point after the
 //! other. [`evaluate_loaded`] takes a load of its own at every point, [`evaluate_on_path`] one point of a path with all that
-//! moves the tool beside its load, [`stand_at`] any chain at joint positions that are known, for whoever writes down what he
+//! moves the tool beside its load, [`evaluate_at_joints`] any chain at joint positions that are known, for whoever writes down what he
 //! wants of it, [`postures_at`] every posture of many poses. Blocks run on all threads of the current rayon pool; every point is written by index, so any number of threads
 //! gives the same bits.
 //!
@@ -22,15 +22,15 @@ mod placed;
 mod postures_at;
 mod question;
 mod solver;
-mod stand_at;
+mod evaluate_at_joints;
 
 pub use answer::{AT_LIMIT, Answers, Held};
 pub use column::{Column, Columns, Push, SLOTS, Stand};
 pub use loaded::evaluate_loaded;
-pub use placed::{Glance, Judge, Judged, Keeping, Lie, PlacedPath, Pushes, Sighted, ToldIn};
+pub use placed::{Glance, Judge, Judged, Keeping, PartPlacement, PlacedPath, Pushes, Sighted, ToldIn};
 pub use postures_at::{PosturesAt, postures_at};
 pub use question::{BranchChoice, Question};
-pub use stand_at::{Untold, stand_at};
+pub use evaluate_at_joints::{EvaluateError, evaluate_at_joints};
 
 use rayon::prelude::*;
 

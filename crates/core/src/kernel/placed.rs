@@ -1,6 +1,6 @@
 //! A path on a part, judged where the part lies: what a search for a placement asks ten thousand times.
 //!
-//! The points, the directions that count and the wrenches are told on the part once; a place ([`Lie`]) then tells where the
+//! The points, the directions that count and the wrenches are told on the part once; a place ([`PartPlacement`]) then tells where the
 //! part lies and how far the tool is turned. Each of the arm's postures is judged over all points ([`Judged`]).
 //!
 //! Ortho-parallel arms that yield at their drives alone go through lanes; any other arm takes one pose after the other. Both
@@ -47,7 +47,7 @@ pub struct Pushes {
 
 /// Where a part lies, and how far the tool is turned about its axis beside the turn it has there.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Lie {
+pub struct PartPlacement {
     /// The part in base.
     pub base_from_part: Isometry,
     /// Turn of the tool, rad.
@@ -101,9 +101,9 @@ impl PlacedPath {
     /// # Panics
     /// If the wrenches are neither those of all points nor those of each, or there is none.
     pub fn new(points: Vec<Sighted>, pushes: Pushes) -> PlacedPath {
-        let told = pushes.wrenches.len();
+        let given = pushes.wrenches.len();
         assert!(
-            pushes.cases > 0 && (told == pushes.cases || told == pushes.cases * points.len()),
+            pushes.cases > 0 && (given == pushes.cases || given == pushes.cases * points.len()),
             "wrenches of all points or of each"
         );
         PlacedPath {
@@ -208,14 +208,14 @@ impl<'q> Judge<'q> {
     pub fn judge(
         &mut self,
         path: &PlacedPath,
-        lie: &Lie,
+        placement: &PartPlacement,
         open: BranchPattern,
         worth: impl FnMut(&Judged) -> bool,
     ) -> [Option<Judged>; SLOTS] {
         let is_open = slots_of(open);
         match &mut self.way {
-            Way::Lanes(placer) => by_lanes(placer, (&path.laid, lie), is_open, worth),
-            Way::General(columns) => one_by_one((columns, self.keeping.limit), (path, lie), is_open, worth),
+            Way::Lanes(placer) => by_lanes(placer, (&path.laid, placement), is_open, worth),
+            Way::General(columns) => one_by_one((columns, self.keeping.limit), (path, placement), is_open, worth),
         }
     }
 }
@@ -223,17 +223,17 @@ impl<'q> Judge<'q> {
 impl Judge<'_> {
     /// What the points of `path` come to where the part lies so and each is held for itself, in the best of these turns of the
     /// tool (rad, beside the place's) and of the branches that are open.
-    pub fn judge_each(&mut self, path: &PlacedPath, lie: &Lie, open: BranchPattern, spins: &[f64]) -> Judged {
+    pub fn judge_each(&mut self, path: &PlacedPath, placement: &PartPlacement, open: BranchPattern, spins: &[f64]) -> Judged {
         let is_open = slots_of(open);
         let mut least = Vec::with_capacity(path.len());
         match &mut self.way {
-            Way::Lanes(placer) => placer.least_of_each(&path.laid, (lie, spins), is_open, &mut least),
+            Way::Lanes(placer) => placer.least_of_each(&path.laid, (placement, spins), is_open, &mut least),
             Way::General(columns) => {
                 let named = columns.slots_are_branches();
                 let mut column = Column::default();
-                columns.stand_rail(lie.rail);
+                columns.stand_rail(placement.rail);
                 for index in 0..path.len() {
-                    path.fill_column(columns, (index, lie), spins, &mut column);
+                    path.fill_column(columns, (index, placement), spins, &mut column);
                     let allowed = |slot: usize| !named || is_open[slot % SLOTS];
                     let all = column.deviations.iter().enumerate();
                     let open = all
@@ -256,28 +256,28 @@ impl PlacedPath {
     fn fill_column(
         &self,
         columns: &mut Columns<'_>,
-        (index, lie): (usize, &Lie),
+        (index, placement): (usize, &PartPlacement),
         spins: &[f64],
         out: &mut Column,
     ) {
         let axes = match self.pushes.told_in {
             ToldIn::Base => UnitQuaternion::identity(),
-            ToldIn::Part => lie.base_from_part.rotation,
+            ToldIn::Part => placement.base_from_part.rotation,
         };
-        let turned = |told: &Wrench| Wrench {
-            force: axes * told.force,
-            moment: axes * told.moment,
+        let turned = |given: &Wrench| Wrench {
+            force: axes * given.force,
+            moment: axes * given.moment,
         };
         let cases: Vec<Wrench> = self.wrenches(index).iter().map(turned).collect();
         let point = &self.points[index];
         let pose = |spin: &f64| {
-            let about = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), lie.spin + spin);
-            lie.base_from_part * point.part_from_tool * about
+            let about = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), placement.spin + spin);
+            placement.base_from_part * point.part_from_tool * about
         };
         let poses: Vec<Isometry> = spins.iter().map(pose).collect();
         let push = Push {
             cases: &cases,
-            along: point.along.map(|along| lie.base_from_part * along),
+            along: point.along.map(|along| placement.base_from_part * along),
         };
         columns.fill(&poses, &push, out);
     }
@@ -309,11 +309,11 @@ impl Glance {
     pub fn may_be_worth(
         &mut self,
         path: &PlacedPath,
-        lie: &Lie,
+        placement: &PartPlacement,
         open: BranchPattern,
         worth: impl FnMut(&Judged) -> bool,
     ) -> bool {
-        let judged = by_lanes(&mut self.0, (&path.single, lie), slots_of(open), worth);
+        let judged = by_lanes(&mut self.0, (&path.single, placement), slots_of(open), worth);
         judged.iter().any(Option::is_some)
     }
 }
@@ -326,7 +326,7 @@ fn slots_of(open: BranchPattern) -> [bool; SLOTS] {
 /// [`Judge::judge`] by lanes.
 fn by_lanes<T: Precision>(
     placer: &mut Placer<T>,
-    (laid, lie): (&Laid<T>, &Lie),
+    (laid, placement): (&Laid<T>, &PartPlacement),
     open: [bool; SLOTS],
     mut worth: impl FnMut(&Judged) -> bool,
 ) -> [Option<Judged>; SLOTS] {
@@ -337,7 +337,7 @@ fn by_lanes<T: Precision>(
         above: tallied.above,
     };
     let mut given_up = [false; SLOTS];
-    let tallied = placer.judge(laid, lie, |four, tallied| {
+    let tallied = placer.judge(laid, placement, |four, tallied| {
         let mut any = false;
         for flip in 0..2 {
             let slot = 2 * four + flip;
@@ -356,7 +356,7 @@ const SOME: usize = 20;
 /// [`Judge::judge`] one pose after the other.
 fn one_by_one(
     (columns, limit): (&mut Columns<'_>, f64),
-    (path, lie): (&PlacedPath, &Lie),
+    (path, placement): (&PlacedPath, &PartPlacement),
     mut open: [bool; SLOTS],
     mut worth: impl FnMut(&Judged) -> bool,
 ) -> [Option<Judged>; SLOTS] {
@@ -365,11 +365,11 @@ fn one_by_one(
         // One for whatever posture is best at each point.
         open = std::array::from_fn(|slot| slot == 0);
     }
-    columns.stand_rail(lie.rail);
+    columns.stand_rail(placement.rail);
     let mut judged = [Judged::default(); SLOTS];
     let mut column = Column::default();
     for index in 0..path.len() {
-        path.fill_column(columns, (index, lie), &[0.0], &mut column);
+        path.fill_column(columns, (index, placement), &[0.0], &mut column);
         let best = || column.deviations.iter().copied().fold(f64::INFINITY, f64::min);
         for (slot, judged) in judged.iter_mut().enumerate().filter(|(slot, _)| open[*slot]) {
             let deviation = match named {

@@ -47,12 +47,12 @@ pub fn postures_at(
         let last = count.min(first + AT_ONCE);
         for i in first..last {
             finder.forget();
-            let wanted = Wanted {
+            let requested = Wanted {
                 base_from_flange: base_from_flange(i),
                 near: None,
                 home,
             };
-            let all = finder.all(&wanted);
+            let all = finder.all(&requested);
             found.poses.push(all.map(<[_]>::len));
             for posture in all.unwrap_or_default() {
                 let margin = robot.limit_margin(&posture.joints);

@@ -2,7 +2,7 @@
 
 use nalgebra::{Unit, Vector3};
 
-use crate::load::Doubt;
+use crate::load::InputUncertainty;
 use crate::robot::BranchPattern;
 use crate::source::Arm;
 use crate::spatial::Wrench;
@@ -29,7 +29,7 @@ pub struct Question<'a> {
     /// Load cases on the tool at the TCP, base basis; at least one.
     pub cases: &'a [Wrench],
     /// How sure load and tool are; lanes answer where there is no doubt.
-    pub doubt: Doubt,
+    pub uncertainty: InputUncertainty,
     /// Outward normal of the plane that deviations are split on, base basis.
     pub normal: Unit<Vector3<f64>>,
     /// Which posture stands for a point.
@@ -43,7 +43,7 @@ impl<'a> Question<'a> {
             arm,
             home,
             cases: &[],
-            doubt: Doubt::NONE,
+            uncertainty: InputUncertainty::NONE,
             normal: Vector3::z_axis(),
             choice: BranchChoice::Best,
         }

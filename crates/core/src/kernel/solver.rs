@@ -38,18 +38,18 @@ impl<'q> Solver<'q> {
     ///
     /// # Panics
     /// If it has no load case.
-    pub fn new(question: &'q Question<'q>, order: Order, told: Told) -> Solver<'q> {
+    pub fn new(question: &'q Question<'q>, order: Order, given: Told) -> Solver<'q> {
         assert!(!question.cases.is_empty(), "a question has a load case at least");
         let model = question.arm.model;
-        let by_load_alone = told == Told::DeviationsAlone || !model.moves_unloaded();
+        let by_load_alone = given == Told::DeviationsAlone || !model.moves_unloaded();
         Solver {
             question,
             order,
-            lanes: (model.is_drives_alone() && by_load_alone && question.doubt.is_none())
+            lanes: (model.is_drives_alone() && by_load_alone && question.uncertainty.is_none())
                 .then(|| question.arm.robot.ortho_parallel())
                 .flatten()
                 .map(|arm| Points::new(question, arm)),
-            general: General::new(question, told),
+            general: General::new(question, given),
             poses: Vec::with_capacity(BLOCK),
             before: None,
         }
@@ -85,11 +85,11 @@ impl<'q> Solver<'q> {
             let in_lanes = self
                 .lanes
                 .as_ref()
-                .and_then(|lanes| Some((lanes, lanes.held(i)?)));
+                .and_then(|lanes| Some((lanes, lanes.evaluation(i)?)));
             *point = match in_lanes {
-                Some((lanes, held)) => {
+                Some((lanes, evaluation)) => {
                     lanes.write(i, joints, deviations, shares);
-                    Ok(held)
+                    Ok(evaluation)
                 }
                 None => self
                     .general

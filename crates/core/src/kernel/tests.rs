@@ -6,10 +6,10 @@ use nalgebra::{Unit, Vector3};
 
 use super::*;
 use crate::arms::{self, Stream};
-use crate::load::Doubt;
+use crate::load::InputUncertainty;
 use crate::robot::inverse::{ToolAt, postures};
 use crate::robot::{
-    BranchPattern, JointCompliance, PostureName, Robot, Seat, Spring, Structure, Unreachable,
+    BranchPattern, JointCompliance, PostureName, Robot, Attachment, Spring, Structure, Unreachable,
 };
 use crate::source::{Arm, StiffnessModel};
 use crate::spatial::Wrench;
@@ -26,7 +26,7 @@ pub(super) fn cases() -> Vec<Wrench> {
 }
 
 /// A question to `robot` with a bent tool and an oblique plane.
-pub(super) fn ask<T>(
+pub(super) fn analysis<T>(
     robot: &Robot,
     model: &StiffnessModel,
     choice: BranchChoice,
@@ -42,7 +42,7 @@ pub(super) fn ask<T>(
         },
         home: None,
         cases: &cases,
-        doubt: Doubt::NONE,
+        uncertainty: InputUncertainty::NONE,
         normal: Unit::new_normalize(Vector3::new(-0.8, 0.3, 0.5)),
         choice,
     })
@@ -68,7 +68,7 @@ pub(super) fn springy() -> StiffnessModel {
     };
     StiffnessModel {
         structure: Structure {
-            springs: vec![Spring::about(Seat::Base, Vector3::y(), compliance)],
+            springs: vec![Spring::about(Attachment::Base, Vector3::y(), compliance)],
             ..Structure::EMPTY
         },
         ..StiffnessModel::DRIVES.clone()
@@ -95,7 +95,7 @@ pub(super) fn cancelled_after<T>(count: usize, work: impl FnOnce(Watch<'_>) -> T
 fn work_ends_at_the_block_in_which_it_is_cancelled() {
     let robot = &arms::ALL[0];
     let poses = poses(robot, 300, 1);
-    ask(robot, StiffnessModel::DRIVES, NOMINAL, |question| {
+    analysis(robot, StiffnessModel::DRIVES, NOMINAL, |question| {
         let (stopped, done) =
             cancelled_after(100, |watch| evaluate_in_order(question, 300, |i| poses[i], watch));
         assert_eq!((stopped.unwrap_err(), done), (Cancelled, 160));
@@ -111,7 +111,7 @@ fn work_ends_at_the_block_in_which_it_is_cancelled() {
 fn points_in_order_and_in_any_order_are_the_same_where_no_wrist_is_straight() {
     let robot = &arms::ALL[4];
     let poses = poses(robot, 200, 2);
-    ask(robot, StiffnessModel::DRIVES, NOMINAL, |question| {
+    analysis(robot, StiffnessModel::DRIVES, NOMINAL, |question| {
         let any = evaluate(question, 200, |i| poses[i], Watch::NONE).unwrap();
         let ordered = evaluate_in_order(question, 200, |i| poses[i], Watch::NONE).unwrap();
         assert_eq!(any.points, ordered.points);
@@ -127,7 +127,7 @@ fn an_arm_that_scatters_and_a_model_that_misses_are_as_unsure_through_lanes_as_o
     let robot = &arms::ALL[0];
     let poses = poses(robot, 100, 9);
     let of = |model: &StiffnessModel| {
-        ask(robot, model, NOMINAL, |question| {
+        analysis(robot, model, NOMINAL, |question| {
             evaluate(question, 100, |i| poses[i], Watch::NONE).unwrap()
         })
     };
@@ -146,15 +146,15 @@ fn an_arm_that_scatters_and_a_model_that_misses_are_as_unsure_through_lanes_as_o
     drives.structure.repeatability = 2e-5;
     drives.structure.model_error = 0.2;
     let [plain, lanes, general] = [&rigid(0.0, 0.0), &drives, &rigid(2e-5, 0.2)].map(of);
-    let held = plain.points.iter().zip(&lanes.points).zip(&general.points);
+    let evaluation = plain.points.iter().zip(&lanes.points).zip(&general.points);
     let mut count = 0;
-    for ((plain, lanes), general) in held {
+    for ((plain, lanes), general) in evaluation {
         let (Ok(plain), Ok(lanes), Ok(general)) = (plain, lanes, general) else {
             continue;
         };
         let expected = plain.in_plane_uncertainty.hypot(2e-5).hypot(0.2 * plain.in_plane);
-        for told in [lanes, general] {
-            assert!((told.in_plane_uncertainty - expected).abs() < 1e-12 * expected);
+        for given in [lanes, general] {
+            assert!((given.in_plane_uncertainty - expected).abs() < 1e-12 * expected);
         }
         count += 1;
     }
@@ -164,7 +164,7 @@ fn an_arm_that_scatters_and_a_model_that_misses_are_as_unsure_through_lanes_as_o
 #[test]
 #[should_panic(expected = "a question has a load case at least")]
 fn a_question_without_load_is_refused() {
-    ask(&arms::ALL[0], StiffnessModel::DRIVES, NOMINAL, |question| {
+    analysis(&arms::ALL[0], StiffnessModel::DRIVES, NOMINAL, |question| {
         let without = Question {
             cases: &[],
             ..*question
@@ -176,7 +176,7 @@ fn a_question_without_load_is_refused() {
 
 #[test]
 fn no_points_have_no_answers() {
-    ask(&arms::ALL[0], StiffnessModel::DRIVES, NOMINAL, |question| {
+    analysis(&arms::ALL[0], StiffnessModel::DRIVES, NOMINAL, |question| {
         let none = evaluate(question, 0, |_| Isometry::identity(), Watch::NONE).unwrap();
         assert!(none.points.is_empty() && none.worst().is_none() && none.best().is_none());
     });
@@ -203,15 +203,15 @@ fn the_roomier_flip_stands_unless_one_is_named() {
                 let found = all.iter().find(|posture| posture.name == name).unwrap();
                 robot.limit_margin(&found.joints).unwrap().1
             };
-            ask(
+            analysis(
                 &robot,
                 StiffnessModel::DRIVES,
                 BranchChoice::Of(pattern),
                 |question| {
                     let answers = evaluate(question, 1, |_| made.base_from_tool, Watch::NONE).unwrap();
-                    let held = answers.points[0].unwrap();
-                    let own = room(held.name);
-                    assert!((own - held.limit_margin).abs() < 1e-9);
+                    let evaluation = answers.points[0].unwrap();
+                    let own = room(evaluation.name);
+                    assert!((own - evaluation.limit_margin).abs() < 1e-9);
                     for posture in &all {
                         let flips = posture
                             .name
@@ -222,7 +222,7 @@ fn the_roomier_flip_stands_unless_one_is_named() {
                 },
             );
             // Named, it stands whatever its room.
-            ask(
+            analysis(
                 &robot,
                 StiffnessModel::DRIVES,
                 BranchChoice::Of(branch.into()),
@@ -243,24 +243,24 @@ fn the_load_case_that_no_arm_stands_is_named() {
         load_dependent: true,
         ..StiffnessModel::DRIVES.clone()
     };
-    ask(robot, &model, NOMINAL, |question| {
+    analysis(robot, &model, NOMINAL, |question| {
         for unstable in 0..3 {
             let mut cases = cases();
             // A hundred tonnes.
             cases[unstable] = Wrench::from_force(Vector3::new(7e5, -4e5, 6e5));
-            let asked = Question {
+            let requested = Question {
                 cases: &cases,
                 ..*question
             };
-            let answers = evaluate(&asked, 20, |i| poses[i], Watch::NONE).unwrap();
-            let mut told = 0;
+            let answers = evaluate(&requested, 20, |i| poses[i], Watch::NONE).unwrap();
+            let mut given = 0;
             for point in &answers.points {
                 if let Err(Unreachable::Unstable { case }) = point {
                     assert_eq!(*case, unstable);
-                    told += 1;
+                    given += 1;
                 }
             }
-            assert!(told > 0);
+            assert!(given > 0);
         }
     });
 }
@@ -279,7 +279,7 @@ fn best_tells_how_far_the_least_bad_posture_leaves_the_limits() {
         .unwrap();
     let poses = poses(&arms::ALL[0], 30, 5);
     let tool = arms::bent_tool();
-    ask(&robot, StiffnessModel::DRIVES, BranchChoice::Best, |question| {
+    analysis(&robot, StiffnessModel::DRIVES, BranchChoice::Best, |question| {
         let answers = evaluate(question, 30, |i| poses[i], Watch::NONE).unwrap();
         for (point, pose) in answers.points.iter().zip(&poses) {
             let Err(Unreachable::OutsideLimits { joint, by }) = point else {
@@ -310,12 +310,12 @@ fn a_rail_outside_its_range_is_told_in_metres() {
     let tool = arms::bent_tool();
     let pose = crate::robot::inverse::posture_at(&railed, &[6.5, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6], &tool)
         .base_from_tool;
-    ask(&railed, StiffnessModel::DRIVES, BranchChoice::Best, |question| {
-        let asked = Question {
+    analysis(&railed, StiffnessModel::DRIVES, BranchChoice::Best, |question| {
+        let requested = Question {
             home: Some(&home),
             ..*question
         };
-        let answers = evaluate(&asked, 1, |_| pose, Watch::NONE).unwrap();
+        let answers = evaluate(&requested, 1, |_| pose, Watch::NONE).unwrap();
         let miss = answers.points[0].unwrap_err();
         // The rail ends at 5 m.
         assert!(

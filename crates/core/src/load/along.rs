@@ -59,7 +59,7 @@ pub enum Greatest {
 }
 
 /// The cut at a point as drawn; its forces, feed frame, are those of the drawing until force and tool have come to rest
-/// ([`super::straying`]), then those at rest.
+/// ([`super::force_equilibrium`]), then those at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CutHere {
     /// Which of the tools.
@@ -147,7 +147,7 @@ impl PathLoad {
         out: &mut [Wrench],
     ) {
         let of_cut;
-        let (told, frame) = match self {
+        let (given, frame) = match self {
             PathLoad::Cases(load) => (&load.cases[..], load.frame),
             PathLoad::OfEach {
                 cases,
@@ -162,8 +162,8 @@ impl PathLoad {
         };
         let axes = frame.axes(base_from_part, Some(base_from_feed));
         let axes = axes.unwrap_or(*base_from_feed);
-        for (out, told) in out.iter_mut().zip(told) {
-            *out = turned(told, &axes);
+        for (out, given) in out.iter_mut().zip(given) {
+            *out = turned(given, &axes);
         }
     }
 }
@@ -256,7 +256,7 @@ mod tests {
         let mean = Vector3::new(0.0, 0.0, 10.0);
         assert_eq!(here.under(mean), [mean, here.greatest * 2.0]);
         // The drawn path passes beside the part, the tool that strays does not.
-        let beside = CutHere {
+        let cut_in_air = CutHere {
             cut: Some(Cut {
                 depth: 1e-3,
                 engagement: Engagement::strip([4.9e-3, 5e-3], 0.01).unwrap(),
@@ -266,7 +266,7 @@ mod tests {
             ..CutHere::NOTHING
         };
         for met in [Vector3::zeros(), Vector3::new(-800.0, 90.0, 1.0)] {
-            assert_eq!(beside.under(met), [met, met]);
+            assert_eq!(cut_in_air.under(met), [met, met]);
         }
     }
 

@@ -69,7 +69,7 @@ impl EngagedArc {
     }
 
     /// Whether `phi` (rad, from 0 to a turn) lies in it.
-    pub(super) fn holds(self, phi: f64) -> bool {
+    pub(super) fn contains(self, phi: f64) -> bool {
         self.entry <= phi && phi <= self.exit
     }
 

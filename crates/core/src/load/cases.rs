@@ -47,15 +47,15 @@ impl LoadCases {
     /// The cases told in base, for a part that lies at `base_from_part`; `None` where they turn with a feed.
     pub fn in_base(&self, base_from_part: &Isometry) -> Option<Vec<Wrench>> {
         let axes = self.frame.axes(base_from_part, None)?;
-        Some(self.cases.iter().map(|told| turned(told, &axes)).collect())
+        Some(self.cases.iter().map(|given| turned(given, &axes)).collect())
     }
 }
 
 /// A wrench told in `axes`, in the axes that these are told in.
-pub(super) fn turned(told: &Wrench, axes: &Rotation3<f64>) -> Wrench {
+pub(super) fn turned(given: &Wrench, axes: &Rotation3<f64>) -> Wrench {
     Wrench {
-        force: axes * told.force,
-        moment: axes * told.moment,
+        force: axes * given.force,
+        moment: axes * given.moment,
     }
 }
 
@@ -90,8 +90,8 @@ mod tests {
         assert_eq!(LoadFrame::Feed.axes(&part, Some(&feed)), Some(feed));
         for frame in [LoadFrame::Base, LoadFrame::Part] {
             assert_eq!(frame.axes(&part, Some(&feed)), frame.axes(&part, None));
-            let told = load(frame).in_base(&part).unwrap()[0];
-            assert_eq!(told.force, frame.axes(&part, None).unwrap() * Vector3::x());
+            let given = load(frame).in_base(&part).unwrap()[0];
+            assert_eq!(given.force, frame.axes(&part, None).unwrap() * Vector3::x());
         }
     }
 }

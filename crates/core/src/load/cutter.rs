@@ -260,7 +260,7 @@ impl Cutter {
     }
 
     /// How much farther out than on a true tool tooth `tooth` stands at `height`, m.
-    pub fn stands_out(&self, tooth: u32, height: f64) -> f64 {
+    pub fn radial_runout(&self, tooth: u32, height: f64) -> f64 {
         let trails = f64::from(tooth) * self.pitch() + self.lag(height);
         self.runout.offset * (self.runout.angle - trails).cos()
     }
@@ -324,9 +324,9 @@ mod tests {
             angle: 0.4,
         };
         let cutter = Cutter::flat(16.0 * MM, 3).unwrap().with_runout(runout).unwrap();
-        let sum: f64 = (0..3).map(|tooth| cutter.stands_out(tooth, 0.0)).sum();
+        let sum: f64 = (0..3).map(|tooth| cutter.radial_runout(tooth, 0.0)).sum();
         assert!(sum.abs() < 1e-19);
-        assert!((cutter.stands_out(0, 0.0) - 20e-6 * 0.4_f64.cos()).abs() < 1e-20);
+        assert!((cutter.radial_runout(0, 0.0) - 20e-6 * 0.4_f64.cos()).abs() < 1e-20);
     }
 
     #[test]

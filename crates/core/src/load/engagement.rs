@@ -100,20 +100,20 @@ impl Engagement {
     /// # Errors
     /// As [`Engagement::of`].
     pub fn at_depth(immersion: Immersion, cutter: &Cutter, depth: f64) -> Result<Engagement, CuttingError> {
-        let told = Engagement::of(immersion, cutter.diameter())?;
+        let given = Engagement::of(immersion, cutter.diameter())?;
         let (radius, widest) = (cutter.radius(), cutter.at_height(depth).radius);
         let narrower = radius - widest;
         let reaches = |y: f64| if y >= widest { radius } else { y };
         Ok(match immersion {
             Immersion::Up(_) => Engagement {
-                right: -reaches(-(told.right - narrower)),
+                right: -reaches(-(given.right - narrower)),
                 left: radius,
             },
             Immersion::Down(_) => Engagement {
                 right: -radius,
-                left: reaches(told.left + narrower),
+                left: reaches(given.left + narrower),
             },
-            Immersion::Centred(_) | Immersion::Slot => told,
+            Immersion::Centred(_) | Immersion::Slot => given,
         })
     }
 
@@ -138,7 +138,7 @@ impl Engagement {
 
     /// The strip that a tool of this `radius` (m) meets when it runs `cross` (m) to the left of where it should; `None` if
     /// that takes it past the strip. A strip that reaches the rim goes on beyond it.
-    pub fn strayed(&self, cross: f64, radius: f64) -> Option<Engagement> {
+    pub fn deflected(&self, cross: f64, radius: f64) -> Option<Engagement> {
         let left = if self.left >= radius {
             radius
         } else {
@@ -179,8 +179,8 @@ impl Engagement {
     /// Where a point of the edge at `radius` (m) cuts; `None` if it passes beside the strip.
     pub fn arc_at(&self, radius: f64) -> Option<EngagedArc> {
         let angle = |y: f64| (y / radius).clamp(-1.0, 1.0).acos();
-        let beside = radius <= 0.0 || self.right >= radius || self.left <= -radius;
-        let arc = (!beside).then(|| EngagedArc {
+        let outside = radius <= 0.0 || self.right >= radius || self.left <= -radius;
+        let arc = (!outside).then(|| EngagedArc {
             entry: angle(self.left),
             exit: angle(self.right),
         })?;
@@ -306,16 +306,16 @@ mod tests {
         let down = Engagement::of(Immersion::Down(2.0 * MM), diameter).unwrap();
         let slot = Engagement::of(Immersion::Slot, diameter).unwrap();
         // Half a millimetre to the left: into a wall on the left, out of one on the right.
-        let width = |strip: Engagement| strip.strayed(0.5 * MM, radius).map(|strip| strip.width() / MM);
+        let width = |strip: Engagement| strip.deflected(0.5 * MM, radius).map(|strip| strip.width() / MM);
         assert!((width(up).unwrap() - 2.5).abs() < 1e-12);
         assert!((width(down).unwrap() - 1.5).abs() < 1e-12);
-        assert_eq!(slot.strayed(0.5 * MM, radius), Some(slot));
-        assert_eq!(down.strayed(2.0 * MM, radius), None);
+        assert_eq!(slot.deflected(0.5 * MM, radius), Some(slot));
+        assert_eq!(down.deflected(2.0 * MM, radius), None);
         // A rib keeps its width until its edge passes the rim.
         let rib = Engagement::of(Immersion::Centred(2.0 * MM), diameter).unwrap();
         assert!((width(rib).unwrap() - 2.0).abs() < 1e-12);
-        let beside = rib.strayed(-5.0 * MM, radius).unwrap();
-        assert!((beside.width() - MM).abs() < 1e-15);
+        let outside = rib.deflected(-5.0 * MM, radius).unwrap();
+        assert!((outside.width() - MM).abs() < 1e-15);
     }
 
     #[test]

@@ -4,7 +4,7 @@
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CuttingError {
     /// A quantity outside what it can be.
-    #[error("{what} is {}: must be {}", told(*.value, .unit), allowed([*.least, *.most], .unit))]
+    #[error("{what} is {}: must be {}", reported(*.value, .unit), allowed([*.least, *.most], .unit))]
     OutOfRange {
         /// Which quantity.
         what: &'static str,
@@ -39,7 +39,7 @@ pub enum CuttingError {
 }
 
 /// A number with its unit: lengths in mm, as people tell them; without what rounding leaves behind the ninth decimal.
-fn told(value: f64, unit: &str) -> String {
+fn reported(value: f64, unit: &str) -> String {
     let (value, unit) = match unit {
         "m" => (value * 1e3, "mm"),
         _ => (value, unit),
@@ -55,12 +55,12 @@ fn told(value: f64, unit: &str) -> String {
 
 /// A range in words: its ends, or the one that means something.
 fn allowed([least, most]: [f64; 2], unit: &str) -> String {
-    let most_told = told(most, unit);
+    let upper = reported(most, unit);
     match (least == f64::MIN_POSITIVE, most == f64::MAX) {
         (true, true) => "above 0".to_owned(),
-        (true, false) => format!("above 0 and at most {most_told}"),
-        (false, true) => format!("at least {}", told(least, unit)),
-        (false, false) => format!("between {} and {most_told}", told(least, unit)),
+        (true, false) => format!("above 0 and at most {upper}"),
+        (false, true) => format!("at least {}", reported(least, unit)),
+        (false, false) => format!("between {} and {upper}", reported(least, unit)),
     }
 }
 
@@ -92,24 +92,24 @@ mod tests {
 
     #[test]
     fn a_range_is_told_in_millimetres_and_by_the_ends_that_mean_something() {
-        let told = |value, ends, unit| checked("depth", value, ends, unit).unwrap_err().to_string();
+        let reported = |value, ends, unit| checked("depth", value, ends, unit).unwrap_err().to_string();
         assert_eq!(
-            told(9e-3, [f64::MIN_POSITIVE, 6e-3], "m"),
+            reported(9e-3, [f64::MIN_POSITIVE, 6e-3], "m"),
             "depth is 9 mm: must be above 0 and at most 6 mm"
         );
         assert_eq!(
-            told(0.0, [f64::MIN_POSITIVE, f64::MAX], "rad/s"),
+            reported(0.0, [f64::MIN_POSITIVE, f64::MAX], "rad/s"),
             "depth is 0 rad/s: must be above 0"
         );
         assert_eq!(
-            told(20e-3, [0.0, 5e-3], "m"),
+            reported(20e-3, [0.0, 5e-3], "m"),
             "depth is 20 mm: must be between 0 mm and 5 mm"
         );
     }
 
     #[test]
     fn every_refusal_names_the_thing_its_value_and_its_limit() {
-        let told = [
+        let reported = [
             (
                 CuttingError::OutOfRange {
                     what: "number of flutes",
@@ -148,7 +148,7 @@ mod tests {
                 "the tool leaves the part along its axis: nothing is cut",
             ),
         ];
-        for (error, text) in told {
+        for (error, text) in reported {
             assert_eq!(error.to_string(), text);
         }
     }
@@ -170,16 +170,16 @@ mod tests {
             );
         }
         // What rounding leaves behind the ninth decimal is not told, what is smaller than all of it is.
-        let told = |value| checked("depth", value, [0.0, 1e-20], "").unwrap_err().to_string();
+        let reported = |value| checked("depth", value, [0.0, 1e-20], "").unwrap_err().to_string();
         assert!(
-            told(0.1 + 0.2).starts_with("depth is 0.3:"),
+            reported(0.1 + 0.2).starts_with("depth is 0.3:"),
             "{}",
-            told(0.1 + 0.2)
+            reported(0.1 + 0.2)
         );
         assert!(
-            told(1e-12).starts_with("depth is 0.000000000001:"),
+            reported(1e-12).starts_with("depth is 0.000000000001:"),
             "{}",
-            told(1e-12)
+            reported(1e-12)
         );
     }
 }

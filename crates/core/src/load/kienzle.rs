@@ -190,7 +190,7 @@ impl Kienzle {
 mod tests {
     use super::*;
 
-    fn sure(value: f64) -> Estimate {
+    fn exact(value: f64) -> Estimate {
         Estimate {
             value,
             standard_uncertainty: 0.0,
@@ -199,10 +199,10 @@ mod tests {
 
     fn law(kc1_n_per_mm2: f64, mc: f64) -> Kienzle {
         Kienzle::new(KienzleValues {
-            specific_force: sure(kc1_n_per_mm2 * 1e6),
-            exponent: sure(mc),
-            radial_ratio: sure(0.4),
-            axial_ratio: sure(0.1),
+            specific_force: exact(kc1_n_per_mm2 * 1e6),
+            exponent: exact(mc),
+            radial_ratio: exact(0.4),
+            axial_ratio: exact(0.1),
         })
         .unwrap()
     }
@@ -238,10 +238,10 @@ mod tests {
     #[test]
     fn derivatives_match_differences() {
         let values = |kc1: f64, mc: f64, r: f64, a: f64| KienzleValues {
-            specific_force: sure(kc1),
-            exponent: sure(mc),
-            radial_ratio: sure(r),
-            axial_ratio: sure(a),
+            specific_force: exact(kc1),
+            exponent: exact(mc),
+            radial_ratio: exact(r),
+            axial_ratio: exact(a),
         };
         let at = [800e6, 0.25, 0.4, 0.1];
         let force = |v: [f64; 4]| Kienzle::new(values(v[0], v[1], v[2], v[3])).unwrap().force(7e-5);
@@ -290,7 +290,7 @@ mod tests {
         );
         let with_exponent = |mc: f64| {
             Kienzle::new(KienzleValues {
-                exponent: sure(mc),
+                exponent: exact(mc),
                 ..*law(800.0, 0.25).values()
             })
         };

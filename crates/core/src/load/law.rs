@@ -68,15 +68,15 @@ mod tests {
         let shear = Vector3::new(631e6, 99e6, 273e6);
         let edge = Vector3::new(13e3, 10e3, 2.8e3);
         let linear = Mechanistic::new(shear, edge).unwrap();
-        let sure = |value| Estimate {
+        let exact = |value| Estimate {
             value,
             standard_uncertainty: 0.1 * value,
         };
         let power = Kienzle::new(KienzleValues {
-            specific_force: sure(800e6),
-            exponent: sure(0.25),
-            radial_ratio: sure(0.4),
-            axial_ratio: sure(0.1),
+            specific_force: exact(800e6),
+            exponent: exact(0.25),
+            radial_ratio: exact(0.4),
+            axial_ratio: exact(0.1),
         });
         [
             CuttingLaw::Mechanistic(linear.with_relative_uncertainty(0.2).unwrap()),

@@ -172,10 +172,10 @@ impl Milling {
             return even;
         }
         let flutes = self.cutter.flutes();
-        let own = self.cutter.stands_out(tooth, point.height);
+        let own = self.cutter.radial_runout(tooth, point.height);
         let left_by_the_one = |before: u32| {
             let other = (tooth + flutes - before % flutes) % flutes;
-            let farther_out = own - self.cutter.stands_out(other, point.height);
+            let farther_out = own - self.cutter.radial_runout(other, point.height);
             f64::from(before) * even + farther_out * point.sin_kappa
         };
         (1..=flutes).map(left_by_the_one).fold(f64::INFINITY, f64::min)
@@ -221,7 +221,7 @@ impl Milling {
             let lag = self.cutter.lag(point.height);
             for tooth in 0..self.cutter.flutes() {
                 let phi = (self.tip_angle(tooth, angle) - lag).rem_euclid(TAU);
-                if !arc.holds(phi) {
+                if !arc.contains(phi) {
                     continue;
                 }
                 let h = self.chip_of_tooth(tooth, &point, phi);
@@ -244,7 +244,7 @@ impl Milling {
         for tooth in 0..self.cutter.flutes() {
             let tip = self.tip_angle(tooth, angle).rem_euclid(TAU);
             if lag.abs() < STRAIGHT {
-                if arc.holds(tip) {
+                if arc.contains(tip) {
                     let force = law.force(self.chip(&point).at(tip));
                     sum += Moments::at(tip).directions(&point, hand) * force * depth;
                 }

@@ -7,7 +7,7 @@
 //! thick it cuts), [`mechanistic`] and [`kienzle`] (force of a chip; [`law`] is either, [`sets`] several of one material),
 //! [`milling`] (force at an angle of the spindle
 //! and over a revolution), [`mean`] (its mean, and how sure it is), [`drilling`], [`process`] (all of it for a tool on
-//! its way), [`straying`] (the force on a tool that it pushes off its path).
+//! its way), [`force_equilibrium`] (the force on a tool that it pushes off its path).
 //!
 //! [`record`]: a force as it was measured over time.
 //!
@@ -17,7 +17,7 @@ pub mod along;
 pub mod arc;
 pub mod cases;
 pub mod cutter;
-pub mod doubt;
+mod input_uncertainty;
 pub mod drilling;
 pub mod end_mill_body;
 pub mod engagement;
@@ -30,14 +30,14 @@ pub mod milling;
 pub mod process;
 pub mod record;
 pub mod sets;
-pub mod straying;
+pub mod force_equilibrium;
 
 mod quadrature;
 
 pub use along::{CutHere, CutsAlong, Greatest, PathLoad};
 pub use cases::{LoadCases, LoadFrame};
 pub use cutter::{Cutter, Hand, Runout};
-pub use doubt::Doubt;
+pub use input_uncertainty::InputUncertainty;
 pub use end_mill_body::EndMillBody;
 pub use engagement::{Engagement, Immersion};
 pub use error::CuttingError;
@@ -49,4 +49,4 @@ pub use milling::{Cut, Milling};
 pub use process::{Advance, CuttingForce, Process};
 pub use record::{ActsOn, Record, RecordError};
 pub use sets::Together;
-pub use straying::{Rest, Straying, TipYield};
+pub use force_equilibrium::{Rest, ForceEquilibrium, TipCompliance};

@@ -3,7 +3,7 @@
 //! A path is followed in one posture: the branch is chosen once, from points spread over the path, so the arm does not
 //! change its elbow in the middle of a part. A load that is the same everywhere, under a tool that never leans, is answered
 //! with shares and uncertainties at every point; any other load point by point without them. Where a tool cuts, force and
-//! deviation come to rest at every point ([`crate::load::straying`]); the branch is chosen under the forces of the path as
+//! deviation come to rest at every point ([`crate::load::force_equilibrium`]); the branch is chosen under the forces of the path as
 //! drawn.
 //!
 //! Backlash and geometry come on top of what the load does (`unloaded`); force and depth of a cut do not answer to them.
@@ -13,7 +13,7 @@ use std::ops::Range;
 use super::turns;
 use super::unloaded::{Unloaded, move_unloaded};
 use crate::kernel::{Answers, BranchChoice, Question, evaluate_in_order, evaluate_loaded};
-use crate::load::{CutsAlong, PathLoad, Rest, Straying, TipYield};
+use crate::load::{CutsAlong, PathLoad, Rest, ForceEquilibrium, TipCompliance};
 use crate::path::Track;
 use crate::robot::{Branch, BranchPattern};
 use crate::spatial::Wrench;
@@ -69,12 +69,12 @@ pub fn along_path(
     watch: Watch<'_>,
 ) -> Result<AlongPath, Cancelled> {
     let cases = vec![Wrench::ZERO; load.case_count()];
-    let asked = Question {
+    let requested = Question {
         cases: &cases,
         ..*question
     };
     assert!(load.covers(track.len()), "a load for each point of the track");
-    let choice = chosen(&asked, track, &load, watch)?;
+    let choice = chosen(&requested, track, &load, watch)?;
     along_postures(question, (track, load), vec![(0, choice)], watch)
 }
 
@@ -102,13 +102,13 @@ pub fn along_postures(
     if steady.is_some() {
         track.wrenches(&load, 0, &mut cases);
     }
-    let asked = Question {
+    let requested = Question {
         cases: &cases,
         normal: steady.unwrap_or(question.normal),
         ..*question
     };
     let runs = Runs {
-        question: asked,
+        question: requested,
         track,
         choices: &choices,
         watch,
@@ -148,21 +148,21 @@ struct Runs<'a> {
 impl Runs<'_> {
     /// The answers under the cases of the question.
     fn steady(&self) -> Result<Answers, Cancelled> {
-        self.each(|asked, run| {
+        self.each(|requested, run| {
             let pose = |i| self.track.stop(run.start + i).base_from_tool;
-            evaluate_in_order(asked, run.len(), pose, self.watch)
+            evaluate_in_order(requested, run.len(), pose, self.watch)
         })
     }
 
     /// The answers under the wrenches that `load` fills in at each point.
     fn loaded(
         &self,
-        mut load: impl FnMut(usize, Option<&TipYield>, &mut [Wrench]),
+        mut load: impl FnMut(usize, Option<&TipCompliance>, &mut [Wrench]),
     ) -> Result<Answers, Cancelled> {
-        self.each(|asked, run| {
+        self.each(|requested, run| {
             let stop = |i| self.track.stop(run.start + i);
-            let of_run = |i: usize, tip: Option<&TipYield>, out: &mut [Wrench]| load(run.start + i, tip, out);
-            evaluate_loaded(asked, run.len(), stop, of_run, self.watch)
+            let of_run = |i: usize, tip: Option<&TipCompliance>, out: &mut [Wrench]| load(run.start + i, tip, out);
+            evaluate_loaded(requested, run.len(), stop, of_run, self.watch)
         })
     }
 
@@ -173,11 +173,11 @@ impl Runs<'_> {
         let ends = self.choices.iter().skip(1).map(|(first, _)| *first);
         let ends = ends.chain([self.track.len()]);
         let runs = self.choices.iter().zip(ends).map(|((first, choice), end)| {
-            let asked = Question {
+            let requested = Question {
                 choice: *choice,
                 ..self.question
             };
-            answer(&asked, *first..end)
+            answer(&requested, *first..end)
         });
         Ok(Answers::joined(runs.collect::<Result<_, _>>()?))
     }
@@ -195,7 +195,7 @@ impl AlongPath {
 struct Resting<'a> {
     track: &'a Track,
     cuts: CutsAlong,
-    straying: Straying,
+    equilibrium: ForceEquilibrium,
     rested: Rested,
 }
 
@@ -203,18 +203,18 @@ impl Resting<'_> {
     fn new(track: &Track, cuts: CutsAlong) -> Resting<'_> {
         Resting {
             track,
-            straying: Straying::new(cuts.cutters[0], cuts.law),
+            equilibrium: ForceEquilibrium::new(cuts.cutters[0], cuts.law),
             cuts,
             rested: Rested::default(),
         }
     }
 
     /// Brings the force at point `index` to rest, and fills in its wrenches, base.
-    fn load(&mut self, index: usize, tip: Option<&TipYield>, out: &mut [Wrench]) {
+    fn load(&mut self, index: usize, tip: Option<&TipCompliance>, out: &mut [Wrench]) {
         let base_from_feed = self.track.base_from_feed(index);
         let here = &mut self.cuts.points[index];
         if let Some(tip) = tip {
-            let tip = tip.seen_from(&base_from_feed.inverse());
+            let tip = tip.rotated(&base_from_feed.inverse());
             let drawn = [here.mean, here.greatest];
             for force in &drawn[..out.len().min(drawn.len())] {
                 // In plane is across the tool.
@@ -222,10 +222,10 @@ impl Resting<'_> {
                 self.rested.largest_if_drawn = self.rested.largest_if_drawn.max(in_plane);
             }
             if let Some(cut) = here.cut {
-                self.straying.hold(self.cuts.cutters[here.cutter]);
-                match self.straying.rest(&cut, here.mean, &tip) {
+                self.equilibrium.set_cutter(self.cuts.cutters[here.cutter]);
+                match self.equilibrium.rest(&cut, here.mean, &tip) {
                     Rest::Settled(force) => [here.mean, here.greatest] = here.under(force),
-                    Rest::DrawnIn => {
+                    Rest::PulledIn => {
                         self.rested.unsettled += 1;
                         self.rested.first_unsettled.get_or_insert(index);
                     }
@@ -262,22 +262,22 @@ fn chosen(
     };
     let stride = track.len().div_ceil(SPREAD).max(1);
     let count = track.len().div_ceil(stride);
-    let mut best: Option<(Merit, Branch)> = None;
+    let mut best: Option<(Score, Branch)> = None;
     for branch in open {
-        let asked = Question {
+        let requested = Question {
             choice: BranchChoice::Of(branch.into()),
             ..*question
         };
         let answers = evaluate_loaded(
-            &asked,
+            &requested,
             count,
             |i| track.stop(i * stride),
             |i, _, out| track.wrenches(load, i * stride, out),
             quiet,
         )?;
-        let merit = Merit::of(&answers, question.choice);
-        if best.is_none_or(|(before, _)| merit.beats(&before)) {
-            best = Some((merit, branch));
+        let score = Score::of(&answers, question.choice);
+        if best.is_none_or(|(before, _)| score.beats(&before)) {
+            best = Some((score, branch));
         }
     }
     let branch = best.map_or(pattern, |(_, branch)| branch.into());
@@ -286,21 +286,21 @@ fn chosen(
 
 /// How good a branch is for a path.
 #[derive(Clone, Copy, Debug)]
-struct Merit {
+struct Score {
     within_limits: usize,
     reached: usize,
     /// Larger is better.
     finer: f64,
 }
 
-impl Merit {
-    fn of(answers: &Answers, choice: BranchChoice) -> Merit {
-        let held = || answers.held().map(|(_, held)| held);
-        let margin = held().map(|held| held.limit_margin).fold(f64::INFINITY, f64::min);
-        let largest = held().map(|held| held.in_plane).fold(0.0, f64::max);
-        Merit {
-            within_limits: held().filter(|held| held.within_limits()).count(),
-            reached: held().count(),
+impl Score {
+    fn of(answers: &Answers, choice: BranchChoice) -> Score {
+        let evaluation = || answers.evaluation().map(|(_, evaluation)| evaluation);
+        let margin = evaluation().map(|evaluation| evaluation.limit_margin).fold(f64::INFINITY, f64::min);
+        let largest = evaluation().map(|evaluation| evaluation.in_plane).fold(0.0, f64::max);
+        Score {
+            within_limits: evaluation().filter(|evaluation| evaluation.within_limits()).count(),
+            reached: evaluation().count(),
             finer: if choice == BranchChoice::Best {
                 -largest
             } else {
@@ -309,8 +309,8 @@ impl Merit {
         }
     }
 
-    fn beats(&self, other: &Merit) -> bool {
-        let count = |merit: &Merit| (merit.within_limits, merit.reached);
+    fn beats(&self, other: &Score) -> bool {
+        let count = |score: &Score| (score.within_limits, score.reached);
         count(self) > count(other) || (count(self) == count(other) && self.finer > other.finer)
     }
 }

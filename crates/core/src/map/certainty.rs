@@ -20,12 +20,12 @@ use crate::kernel::Held;
 pub const COVERAGE: f64 = 2.0;
 
 /// Probability that the in-plane deviation of a point is at most `limit` (m).
-pub fn probability_within(held: &Held, limit: f64) -> f64 {
-    let room = limit - held.in_plane;
-    if held.in_plane_uncertainty == 0.0 {
+pub fn probability_within(evaluation: &Held, limit: f64) -> f64 {
+    let room = limit - evaluation.in_plane;
+    if evaluation.in_plane_uncertainty == 0.0 {
         return if room >= 0.0 { 1.0 } else { 0.0 };
     }
-    0.5 * libm::erfc(-room / (held.in_plane_uncertainty * std::f64::consts::SQRT_2))
+    0.5 * libm::erfc(-room / (evaluation.in_plane_uncertainty * std::f64::consts::SQRT_2))
 }
 
 /// How sure a map is of its region: of points inside the joint limits alone.
@@ -48,7 +48,7 @@ impl PlaneMap {
     pub fn certainty(&self, limit: f64) -> Certainty {
         let points = self.answers.points.len().max(1) as f64;
         let away = |uncertainties: f64| {
-            self.inside_joint_limits(|held| held.in_plane + uncertainties * held.in_plane_uncertainty)
+            self.inside_joint_limits(|evaluation| evaluation.in_plane + uncertainties * evaluation.in_plane_uncertainty)
         };
         let (most, least) = (away(COVERAGE), away(-COVERAGE));
         let fraction = |values: &[Option<f64>]| {
@@ -58,7 +58,7 @@ impl PlaneMap {
                 .count();
             within as f64 / points
         };
-        let probabilities = self.inside_joint_limits(|held| probability_within(held, limit));
+        let probabilities = self.inside_joint_limits(|evaluation| probability_within(evaluation, limit));
         Certainty {
             fraction_surely: fraction(&most),
             fraction_possibly: fraction(&least),
@@ -74,7 +74,7 @@ mod tests {
     use super::*;
     use crate::robot::{Branch, PostureName};
 
-    fn held(in_plane: f64, in_plane_uncertainty: f64) -> Held {
+    fn evaluation(in_plane: f64, in_plane_uncertainty: f64) -> Held {
         Held {
             name: PostureName::Branch(Branch::ALL[0]),
             limit_margin: f64::INFINITY,
@@ -92,14 +92,14 @@ mod tests {
     fn probabilities_are_those_of_the_normal_distribution() {
         // Phi(1), Phi(1.96), Phi(-2) as printed in tables of the standard normal distribution.
         for (in_plane, printed) in [(40e-6, 0.841_345), (30.4e-6, 0.975_002), (70e-6, 0.022_750)] {
-            let p = probability_within(&held(in_plane, 10e-6), 50e-6);
+            let p = probability_within(&evaluation(in_plane, 10e-6), 50e-6);
             assert!((p - printed).abs() < 5e-7, "{p} against {printed}");
         }
     }
 
     #[test]
     fn without_uncertainty_a_point_is_within_or_not() {
-        assert_eq!(probability_within(&held(50e-6, 0.0), 50e-6), 1.0);
-        assert_eq!(probability_within(&held(50.1e-6, 0.0), 50e-6), 0.0);
+        assert_eq!(probability_within(&evaluation(50e-6, 0.0), 50e-6), 1.0);
+        assert_eq!(probability_within(&evaluation(50.1e-6, 0.0), 50e-6), 0.0);
     }
 }

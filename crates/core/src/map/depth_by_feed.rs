@@ -95,7 +95,7 @@ mod tests {
     use super::*;
     use crate::load::{
         CutHere, CutsAlong, Cutter, CuttingLaw, Engagement, Greatest, Immersion, Mechanistic, Milling,
-        TipYield,
+        TipCompliance,
     };
     use crate::map::limits::PermittedForces;
     use nalgebra::{Matrix3, Vector3};
@@ -131,7 +131,7 @@ mod tests {
     }
 
     /// Points whose tips yield along the feed by these (m/N), each with its cutter and depth.
-    fn asked(of: &[(f64, usize, f64)]) -> (Vec<PointLimits>, Vec<Option<Varied>>) {
+    fn requested(of: &[(f64, usize, f64)]) -> (Vec<PointLimits>, Vec<Option<Varied>>) {
         let mut varied: Vec<Option<Varied>> = of
             .iter()
             .map(|(a, cutter, depth)| {
@@ -148,7 +148,7 @@ mod tests {
                     greatest: Greatest::LeftOut,
                     points: vec![here],
                 };
-                let tip = TipYield {
+                let tip = TipCompliance {
                     by_force: Matrix3::from_diagonal(&Vector3::new(*a, 0.0, 0.0)),
                     unloaded: Vector3::zeros(),
                 };
@@ -170,7 +170,7 @@ mod tests {
     }
 
     fn of(points: &[(f64, usize, f64)]) -> DepthByFeed {
-        let (points, mut varied) = asked(points);
+        let (points, mut varied) = requested(points);
         let found = DepthByFeed::of(&points, |index| varied[index].take(), Watch::NONE);
         found.unwrap().unwrap()
     }
@@ -196,7 +196,7 @@ mod tests {
     #[test]
     fn the_sheet_begins_near_nothing_and_reaches_beyond_what_is_drawn_and_permitted() {
         for a in [5e-8, 2e-6] {
-            let (points, _) = asked(&[(a, 0, MM)]);
+            let (points, _) = requested(&[(a, 0, MM)]);
             let cut = points[0].cut.unwrap();
             let sheet = of(&[(a, 0, MM)]);
             let reaches = |all: &[f64], drawn: f64, permitted: Permitted, most: f64| {
@@ -243,7 +243,7 @@ mod tests {
     #[test]
     fn without_a_cut_there_is_no_sheet_and_long_work_can_be_stopped() {
         assert_eq!(DepthByFeed::of(&[], |_| None, Watch::NONE), Ok(None));
-        let (points, mut varied) = asked(&[(2e-7, 0, MM)]);
+        let (points, mut varied) = requested(&[(2e-7, 0, MM)]);
         let cancel = AtomicBool::new(true);
         let watch = Watch {
             cancel: &cancel,

@@ -24,8 +24,8 @@ pub fn jumps<'a>(
     path: &'a SampledPath,
     answers: &'a Answers,
 ) -> impl Iterator<Item = Jump> + 'a {
-    let held = |i: usize| answers.points[i].is_ok();
-    let follow = (1..answers.points.len()).filter(move |i| !path.begins(*i) && held(*i) && held(i - 1));
+    let evaluation = |i: usize| answers.points[i].is_ok();
+    let follow = (1..answers.points.len()).filter(move |i| !path.begins(*i) && evaluation(*i) && evaluation(i - 1));
     follow.flat_map(move |index| {
         let turns = answers.joints_at(index - 1).iter().zip(answers.joints_at(index));
         let by = turns.map(|(before, after)| after - before).enumerate();

@@ -8,9 +8,9 @@
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | `e` | permitted deviation across the tool | m |
-//! | `A`, `g` | how the tip yields there, and its deviation without a cut ([`TipYield`]) | m/N, m |
+//! | `A`, `g` | how the tip yields there, and its deviation without a cut ([`TipCompliance`]) | m/N, m |
 //! | `P` | takes away what lies along the tool | - |
-//! | `F` | force of the cut at rest ([`crate::load::straying`]) | N |
+//! | `F` | force of the cut at rest ([`crate::load::force_equilibrium`]) | N |
 //!
 //! A force is asked for by itself: `g` does not count. A cut is asked for on the arm as it stands, with `g`
 //! (`varied`).
@@ -26,9 +26,9 @@ use super::varied::Varied;
 pub use super::varied::{CutLimits, Permitted};
 use crate::compliance::{permissible_force, permissible_force_in_worst_direction};
 use crate::kernel::Question;
-use crate::load::{CutsAlong, PathLoad, TipYield};
+use crate::load::{CutsAlong, PathLoad, TipCompliance};
 use crate::path::Track;
-use crate::source::Standing;
+use crate::source::ArmState;
 use crate::watch::{Cancelled, Watch};
 
 /// What a point of a program permits.
@@ -86,12 +86,12 @@ pub fn program_limits(
         _ => None,
     };
     let mut tips = Tips {
-        standing: Standing::new(question.arm),
+        arm_state: ArmState::new(question.arm),
         track,
         found,
     };
     let mut points = Vec::new();
-    for index in asked(found, cuts) {
+    for index in requested(found, cuts) {
         if watch.is_cancelled() {
             return Err(Cancelled);
         }
@@ -139,46 +139,46 @@ impl ProgramLimits {
 }
 
 /// Points spread over those that are reached and cut something, with the worst of all.
-fn asked(found: &AlongPath, cuts: Option<&CutsAlong>) -> Vec<usize> {
+fn requested(found: &AlongPath, cuts: Option<&CutsAlong>) -> Vec<usize> {
     let cuts_there = |i: usize| cuts.is_none_or(|cuts| cuts.points[i].cut.is_some());
     let open: Vec<usize> = found
         .answers
-        .held()
+        .evaluation()
         .map(|(i, _)| i)
         .filter(|i| cuts_there(*i))
         .collect();
     let stride = open.len().div_ceil(POINTS_ASKED).max(1);
-    let mut asked: Vec<usize> = open.iter().step_by(stride).copied().collect();
-    asked.extend(
+    let mut requested: Vec<usize> = open.iter().step_by(stride).copied().collect();
+    requested.extend(
         found
             .answers
             .worst()
             .map(|(worst, _)| worst)
             .filter(|i| cuts_there(*i)),
     );
-    asked.sort_unstable();
-    asked.dedup();
-    asked
+    requested.sort_unstable();
+    requested.dedup();
+    requested
 }
 
 /// How the tip yields along a program.
 struct Tips<'a> {
-    standing: Standing<'a>,
+    arm_state: ArmState<'a>,
     track: &'a Track,
     found: &'a AlongPath,
 }
 
 impl Tips<'_> {
     /// Feed frame; `None` where the arm does not hold its own weight.
-    fn at(&mut self, index: usize) -> Option<TipYield> {
-        self.standing.stand(self.found.answers.joints_at(index));
-        let tip = self.standing.tip_yield().ok()?;
-        Some(tip.seen_from(&self.track.base_from_feed(index).inverse()))
+    fn at(&mut self, index: usize) -> Option<TipCompliance> {
+        self.arm_state.set_joints(self.found.answers.joints_at(index));
+        let tip = self.arm_state.tip_compliance().ok()?;
+        Some(tip.rotated(&self.track.base_from_feed(index).inverse()))
     }
 }
 
 /// Force (N) that a tip permits along the feed, to its left, along the tool, and in the direction that permits least.
-fn forces(tip: &TipYield, limit: f64) -> [f64; 4] {
+fn forces(tip: &TipCompliance, limit: f64) -> [f64; 4] {
     let (a, tool) = (&tip.by_force, Vector3::z_axis());
     let axes = [Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis()];
     let [forwards, left, along] = axes.map(|axis| permissible_force(a, tool, axis, limit));
@@ -195,7 +195,7 @@ mod tests {
     #[test]
     fn the_weakest_direction_is_that_of_the_largest_singular_value_across_the_tool() {
         let a = Matrix3::new(4.0, 1.0, -0.5, 0.3, 2.0, 1.5, 9.0, -7.0, 8.0) * 1e-7;
-        let tip = TipYield {
+        let tip = TipCompliance {
             by_force: a,
             unloaded: Vector3::new(1.0, 2.0, 3.0),
         };
@@ -221,7 +221,7 @@ mod tests {
 
     #[test]
     fn a_tip_that_yields_only_along_the_tool_permits_any_force() {
-        let tip = TipYield {
+        let tip = TipCompliance {
             by_force: Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, 1e-6)),
             unloaded: Vector3::zeros(),
         };

@@ -27,7 +27,7 @@ pub struct Counts {
     /// In-plane deviation within the limit.
     pub within: usize,
     /// In-plane deviation over the limit.
-    pub over_limit: usize,
+    pub above_tolerance: usize,
     /// No posture reaches.
     pub out_of_reach: usize,
     /// Postures reach, but none inside the joint limits (only where the best branch is asked for).
@@ -52,13 +52,13 @@ impl Counts {
         let mut counts = Counts::default();
         for point in &answers.points {
             match point {
-                Ok(held) => {
-                    let within = held.in_plane <= limit;
+                Ok(evaluation) => {
+                    let within = evaluation.in_plane <= limit;
                     counts.within += usize::from(within);
-                    counts.over_limit += usize::from(!within);
-                    counts.outside_joint_limits += usize::from(!held.within_limits());
-                    counts.within_and_inside_joint_limits += usize::from(within && held.within_limits());
-                    counts.near_singularity += usize::from(held.singularity.is_some());
+                    counts.above_tolerance += usize::from(!within);
+                    counts.outside_joint_limits += usize::from(!evaluation.within_limits());
+                    counts.within_and_inside_joint_limits += usize::from(within && evaluation.within_limits());
+                    counts.near_singularity += usize::from(evaluation.singularity.is_some());
                 }
                 Err(Unreachable::OutsideLimits { .. }) => counts.no_posture_inside_limits += 1,
                 Err(Unreachable::NotFound { .. } | Unreachable::OtherBranch) => counts.not_found += 1,
@@ -76,9 +76,9 @@ impl Counts {
 
     /// All points.
     pub fn points(&self) -> usize {
-        let held = self.within + self.over_limit;
+        let evaluation = self.within + self.above_tolerance;
         let missed = self.out_of_reach + self.no_posture_inside_limits + self.not_found;
-        held + missed + self.unverified + self.unstable
+        evaluation + missed + self.unverified + self.unstable
     }
 
     /// Points within the limit over all points; 0 where there is none.
@@ -95,14 +95,14 @@ impl Counts {
 impl PlaneMap {
     /// The region within `limit` (m), of points inside the joint limits.
     pub fn region(&self, limit: f64) -> Region {
-        region_within(&self.grid, &self.inside_joint_limits(|held| held.in_plane), limit)
+        region_within(&self.grid, &self.inside_joint_limits(|evaluation| evaluation.in_plane), limit)
     }
 
     /// `value` of each point that a part can be cut at: `None` without posture, or outside joint limits.
     pub(super) fn inside_joint_limits(&self, value: impl Fn(&Held) -> f64) -> Vec<Option<f64>> {
         let of = |point: &Result<Held, Unreachable>| {
-            let held = point.as_ref().ok().filter(|held| held.within_limits());
-            held.map(&value)
+            let evaluation = point.as_ref().ok().filter(|evaluation| evaluation.within_limits());
+            evaluation.map(&value)
         };
         self.answers.points.iter().map(of).collect()
     }

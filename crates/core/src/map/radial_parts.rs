@@ -29,8 +29,8 @@ use crate::kernel::Question;
 use crate::load::{LoadCases, LoadFrame, PathLoad};
 use crate::path::Track;
 use crate::robot::forward::{Frames, forward_into};
-use crate::source::standing::AsItStands;
-use crate::source::{Arm, Standing, Unstable};
+use crate::source::arm_state::LoadedPosture;
+use crate::source::{Arm, ArmState, Unstable};
 use crate::spatial::Wrench;
 use crate::watch::{Cancelled, Watch};
 
@@ -40,7 +40,7 @@ pub struct WithoutLoad {
     /// At each point.
     pub outward: Vec<f64>,
     /// Its change by each gap that is off by its standard uncertainty: a curve a gap, independent of each other.
-    pub doubts: Vec<Vec<f64>>,
+    pub uncertainties: Vec<Vec<f64>>,
 }
 
 /// The circle about `centre` (path x and y, m) where nothing pushes, in the postures of `along`; `None` where nothing but
@@ -67,10 +67,10 @@ pub fn radial_without_load(
         ..watch
     };
     let found = along_postures(question, (track, nothing), along.choices.clone(), quiet)?;
-    let told = radial_deviations(track, &found.answers, centre);
-    Ok(told.into_iter().next().map(|case| WithoutLoad {
+    let given = radial_deviations(track, &found.answers, centre);
+    Ok(given.into_iter().next().map(|case| WithoutLoad {
         outward: case.outward,
-        doubts: gap_doubts(&question.arm, (track, &found), centre),
+        uncertainties: gap_doubts(&question.arm, (track, &found), centre),
     }))
 }
 
@@ -84,14 +84,14 @@ fn gap_doubts(arm: &Arm<'_>, (track, found): (&Track, &AlongPath), centre: Point
         .filter(|(_, gap)| gap.standard_uncertainty > 0.0)
         .map(|(joint, gap)| (joint, gap.standard_uncertainty / gap.gap))
         .collect();
-    let mut standing = Standing::new(*arm);
+    let mut arm_state = ArmState::new(*arm);
     let mut curves = vec![Vec::with_capacity(track.len()); unsure.len()];
     for index in 0..track.len() {
-        standing.stand(found.answers.joints_at(index));
+        arm_state.set_joints(found.answers.joints_at(index));
         let outward = outwards(track, index, centre);
         let dragged = unloaded.dragged_at(index, joints);
         for (curve, (joint, relative)) in curves.iter_mut().zip(&unsure) {
-            let moved = standing.backlash_of(*joint, dragged, &Wrench::ZERO).linear;
+            let moved = arm_state.backlash_of(*joint, dragged, &Wrench::ZERO).linear;
             curve.push(moved.dot(&outward) * relative);
         }
     }
@@ -142,7 +142,7 @@ pub fn radial_doubts(
 /// An arm that stands at one point after the other.
 struct Room<'q> {
     question: Question<'q>,
-    standing: Standing<'q>,
+    arm_state: ArmState<'q>,
     frames: Frames,
     /// Rows of `L`: compliances by one independent unknown each.
     unknowns: Vec<Vec<f64>>,
@@ -152,7 +152,7 @@ impl<'q> Room<'q> {
     fn new(question: &Question<'q>) -> Room<'q> {
         Room {
             question: *question,
-            standing: Standing::new(question.arm),
+            arm_state: ArmState::new(question.arm),
             frames: Frames::for_robot(question.arm.robot),
             unknowns: unknowns(&question.arm),
         }
@@ -167,20 +167,20 @@ impl<'q> Room<'q> {
     ) -> Result<Vec<f64>, Unstable> {
         let Room {
             question,
-            standing,
+            arm_state,
             frames,
             unknowns,
         } = self;
         let joints = along.answers.joints_at(index);
         let base_from_tool = track.stop(index).base_from_tool;
         forward_into(question.arm.robot, joints, frames);
-        standing.stand_in(joints, frames, &base_from_tool.translation.vector.into());
-        let size = standing.screws().len();
+        arm_state.set_frames(joints, frames, &base_from_tool.translation.vector.into());
+        let size = arm_state.screws().len();
         // By each compliance, and last by what the model misses.
         let mut sensitive = |wrench: &Wrench| -> Result<Vec<f64>, Unstable> {
-            standing.elastic(wrench)?;
-            let by_compliance = (0..size).map(|k| standing.sensitivity(k).dot(outward));
-            Ok(by_compliance.chain([standing.missed().dot(outward)]).collect())
+            arm_state.elastic(wrench)?;
+            let by_compliance = (0..size).map(|k| arm_state.sensitivity(k).dot(outward));
+            Ok(by_compliance.chain([arm_state.missed().dot(outward)]).collect())
         };
         let without = sensitive(&Wrench::ZERO)?;
         let mut by_load = sensitive(wrench)?;
@@ -194,14 +194,14 @@ impl<'q> Room<'q> {
             .map(along_row)
             .chain(by_load.last().copied())
             .collect();
-        let stands = AsItStands {
+        let stands = LoadedPosture {
             joints,
             frames,
             tcp: base_from_tool.translation.vector.into(),
             tool_axis: base_from_tool.rotation * Vector3::z(),
             wrench,
         };
-        standing.moves_of_doubt(&question.doubt, (&stands, outward), |by| moves.push(by))?;
+        arm_state.moves_of_inputs(&question.uncertainty, (&stands, outward), |by| moves.push(by))?;
         Ok(moves)
     }
 }

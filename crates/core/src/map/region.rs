@@ -1,6 +1,6 @@
 //! The region of a plane map within a limit: how large, where, and what part fits into it.
 //!
-//! Area and boundary follow the limit between points, linearly; cells with an unreached corner do not count.
+//! Area and boundary follow the limit between points, linearly; cells with an unreachable corner do not count.
 //! Rectangle and circle are made of grid points within. m, m^2.
 
 use nalgebra::Point2;
@@ -23,7 +23,7 @@ pub struct Region {
     pub disc: Option<Disc>,
 }
 
-/// The region of `grid` where `values` (by grid index, `None` where unreached) are at most `limit`.
+/// The region of `grid` where `values` (by grid index, `None` where unreachable) are at most `limit`.
 pub fn region_within(grid: &Grid, values: &[Option<f64>], limit: f64) -> Region {
     let within: Vec<bool> = values.iter().map(|v| v.is_some_and(|v| v <= limit)).collect();
     let shape = within_level(grid, values, limit);

@@ -19,7 +19,7 @@ pub(super) fn count_on(robot: &Robot, answers: &mut Answers, follows: impl Fn(us
         if !follows(index) || answers.points[index - 1].is_err() {
             continue;
         }
-        let Ok(held) = &mut answers.points[index] else {
+        let Ok(evaluation) = &mut answers.points[index] else {
             continue;
         };
         let (before, here) = answers.joints.split_at_mut(index * answers.joint_count);
@@ -36,7 +36,7 @@ pub(super) fn count_on(robot: &Robot, answers: &mut Answers, follows: impl Fn(us
             }
         }
         if turned && let Some((joint, margin)) = robot.limit_margin(here) {
-            (held.limit_joint, held.limit_margin) = (joint, margin);
+            (evaluation.limit_joint, evaluation.limit_margin) = (joint, margin);
         }
     }
 }

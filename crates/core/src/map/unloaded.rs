@@ -9,8 +9,8 @@ use rayon::prelude::*;
 use crate::kernel::Answers;
 use crate::load::PathLoad;
 use crate::path::Track;
-use crate::predict::beside_load;
-use crate::source::{Arm, Standing, backlash};
+use crate::predict::geometry_and_backlash;
+use crate::source::{Arm, ArmState, backlash};
 use crate::spatial::Wrench;
 
 /// What moved the tool beside the load, and where links lay.
@@ -32,17 +32,17 @@ pub(super) fn move_unloaded(
         let dragged = drag(arm, track, answers);
         let (joints, cases) = (answers.joint_count, answers.case_count);
         let mut moved = vec![Vector3::zeros(); answers.deviations.len()];
-        let make = || (Standing::new(*arm), vec![Wrench::ZERO; cases]);
+        let make = || (ArmState::new(*arm), vec![Wrench::ZERO; cases]);
         moved
             .par_chunks_mut(cases)
             .enumerate()
             .filter(|(index, _)| answers.points[*index].is_ok())
-            .for_each_init(make, |(standing, wrenches), (index, moved)| {
-                standing.stand(answers.joints_at(index));
+            .for_each_init(make, |(arm_state, wrenches), (index, moved)| {
+                arm_state.set_joints(answers.joints_at(index));
                 track.wrenches(load, index, wrenches);
                 let dragged = &dragged[index * joints..][..joints];
                 for (moved, wrench) in moved.iter_mut().zip(wrenches.iter()) {
-                    *moved = beside_load(standing, dragged, wrench).linear;
+                    *moved = geometry_and_backlash(arm_state, dragged, wrench).linear;
                 }
             });
         for index in 0..answers.points.len() {
@@ -55,21 +55,21 @@ pub(super) fn move_unloaded(
 /// Where friction drags each link to at each point.
 fn drag(arm: &Arm<'_>, track: &Track, answers: &Answers) -> Vec<f64> {
     let joints = answers.joint_count;
-    let mut lies = vec![0.0; answers.points.len() * joints];
+    let mut placements = vec![0.0; answers.points.len() * joints];
     let theta = |index: usize, joint: usize| arm.robot.theta(joint, answers.joints_at(index));
     for stretch in track.path.stretches() {
-        let held: Vec<usize> = stretch.filter(|index| answers.points[*index].is_ok()).collect();
+        let evaluation: Vec<usize> = stretch.filter(|index| answers.points[*index].is_ok()).collect();
         for (joint, gap) in arm.model.structure.gaps() {
-            let moves = held
+            let moves = evaluation
                 .windows(2)
                 .map(|pair| theta(pair[1], joint) - theta(pair[0], joint));
             let links = backlash::along([0.0].into_iter().chain(moves), gap.gap);
-            for (index, link) in held.iter().zip(links) {
-                lies[index * joints + joint] = link;
+            for (index, link) in evaluation.iter().zip(links) {
+                placements[index * joints + joint] = link;
             }
         }
     }
-    lies
+    placements
 }
 
 impl Unloaded {

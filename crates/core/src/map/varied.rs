@@ -4,7 +4,7 @@
 //! between: with a weight that pulls one way, or a wide cut that pushes back, deviation need not grow all the way. Where the
 //! greatest force is a load case it counts too, as many times the mean as in the cut drawn.
 
-use crate::load::{Cut, CutHere, CutsAlong, Greatest, Rest, Straying, TipYield};
+use crate::load::{Cut, CutHere, CutsAlong, Greatest, Rest, ForceEquilibrium, TipCompliance};
 
 /// What a point permits.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,7 +50,7 @@ impl Permitted {
 
 /// The cut at a point, to be made deeper, wider or faster.
 pub(super) struct Varied {
-    straying: Straying,
+    equilibrium: ForceEquilibrium,
     /// m
     pub(super) cutter_radius: f64,
     /// Radius of the widest circle that is engaged, m.
@@ -58,17 +58,17 @@ pub(super) struct Varied {
     pub(super) cut: Cut,
     here: CutHere,
     greatest: Greatest,
-    tip: TipYield,
+    tip: TipCompliance,
     limit: f64,
 }
 
 impl Varied {
     /// The cut at point `index`, where the tip yields so (feed frame) and may deviate by `limit` (m); `None` in the air.
-    pub(super) fn of(cuts: &CutsAlong, index: usize, tip: TipYield, limit: f64) -> Option<Varied> {
+    pub(super) fn of(cuts: &CutsAlong, index: usize, tip: TipCompliance, limit: f64) -> Option<Varied> {
         let here = cuts.points[index];
         let (cutter, cut) = (cuts.cutters[here.cutter], here.cut?);
         Some(Varied {
-            straying: Straying::new(cutter, cuts.law),
+            equilibrium: ForceEquilibrium::new(cutter, cuts.law),
             cutter_radius: cutter.radius(),
             widest: cutter.at_height(cut.depth).radius,
             cut,
@@ -129,10 +129,10 @@ impl Varied {
 
     /// In-plane deviation under `cut` (m); infinite where the tool is drawn in or there is no such cut.
     pub(super) fn deviation(&mut self, cut: &Cut) -> f64 {
-        let Some(drawn) = self.straying.drawn(cut) else {
+        let Some(drawn) = self.equilibrium.nominal_force(cut) else {
             return f64::INFINITY;
         };
-        let rest = self.straying.rest(cut, drawn, &self.tip);
+        let rest = self.equilibrium.rest(cut, drawn, &self.tip);
         let Rest::Settled(force) = rest else {
             return f64::INFINITY;
         };

@@ -88,8 +88,8 @@ pub fn volume_map(
     grid: BoxGrid,
     watch: Watch<'_>,
 ) -> Result<VolumeMap, Cancelled> {
-    let held = plane.base_from_tool(nalgebra::Point2::origin(), 0.0);
-    let pose = |i: usize| Isometry::from_parts(grid.point(i).coords.into(), held.rotation);
+    let evaluation = plane.base_from_tool(nalgebra::Point2::origin(), 0.0);
+    let pose = |i: usize| Isometry::from_parts(grid.point(i).coords.into(), evaluation.rotation);
     let answers = evaluate(question, grid.len(), pose, watch)?;
     Ok(VolumeMap { grid, plane, answers })
 }

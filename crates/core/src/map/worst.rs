@@ -12,7 +12,7 @@ pub fn worst_points(track: &Track, answers: &Answers, most: usize) -> Vec<usize>
     let points = &track.path.points;
     let [low, high] = track.path.corners();
     let apart = APART * (high - low).norm();
-    let mut by_size: Vec<(usize, f64)> = answers.held().map(|(i, held)| (i, held.in_plane)).collect();
+    let mut by_size: Vec<(usize, f64)> = answers.evaluation().map(|(i, evaluation)| (i, evaluation.in_plane)).collect();
     // Only the largest are looked at: far more than are told, far fewer than a long path has.
     let looked_at = by_size.len().min(by_size.len() / 10 + 10_000);
     if looked_at < by_size.len() {
@@ -53,7 +53,7 @@ mod tests {
             base_from_part: plane.base_from_part,
             spins: None,
         };
-        let held = |in_plane| Held {
+        let evaluation = |in_plane| Held {
             name: PostureName::Branch(Branch::ALL[0]),
             limit_margin: 1.0,
             limit_joint: 0,
@@ -64,7 +64,7 @@ mod tests {
             normal: 0.0,
             full: in_plane,
         };
-        let point = |i| in_plane(i).map(held).ok_or(Unreachable::TooFar { by: 1.0 });
+        let point = |i| in_plane(i).map(evaluation).ok_or(Unreachable::TooFar { by: 1.0 });
         let answers = Answers {
             points: (0..track.len()).map(point).collect(),
             joints: Vec::new(),

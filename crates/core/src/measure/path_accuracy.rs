@@ -94,8 +94,8 @@ pub fn path_accuracy(
 ) -> Result<PathAccuracy, PathRefusal> {
     // A point that is told twice in a row has no tangent.
     let is_new = |index: &usize| *index == 0 || commanded[*index] != commanded[*index - 1];
-    let told: Vec<usize> = (0..commanded.len()).filter(is_new).collect();
-    let path: Vec<Vector3<f64>> = told.iter().map(|index| commanded[*index]).collect();
+    let given: Vec<usize> = (0..commanded.len()).filter(is_new).collect();
+    let path: Vec<Vector3<f64>> = given.iter().map(|index| commanded[*index]).collect();
     if path.len() < 2 {
         return Err(PathRefusal::Short(path.len()));
     }
@@ -112,7 +112,7 @@ pub fn path_accuracy(
     let mut points = Vec::new();
     for (index, at) in path.iter().enumerate() {
         let here: Option<Vec<Vector3<f64>>> = passed.iter().map(|run| run[index]).collect();
-        points.extend(here.map(|here| of_point((told[index], at), &here)));
+        points.extend(here.map(|here| of_point((given[index], at), &here)));
     }
     if points.is_empty() {
         return Err(PathRefusal::Elsewhere);
@@ -210,10 +210,10 @@ const SAME: f64 = 1e-9;
 
 /// The largest, and its place, of those that are told; of equal ones the first, on every machine.
 fn largest(values: impl Iterator<Item = Option<f64>>) -> Option<(usize, f64)> {
-    let told = values
+    let given = values
         .enumerate()
         .filter_map(|(place, value)| Some((place, value?)));
-    told.reduce(|most, here| {
+    given.reduce(|most, here| {
         if here.1 > most.1 * (1.0 + SAME) {
             here
         } else {

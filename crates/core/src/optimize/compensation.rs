@@ -77,18 +77,18 @@ pub fn compensated(
     question: &Question<'_>,
     (track, load): (&Track, &PathLoad),
     choices: &[(usize, BranchChoice)],
-    asked: Compensation,
+    requested: Compensation,
     watch: Watch<'_>,
 ) -> Result<Compensated, Cancelled> {
-    let load = as_drawn(load);
+    let load = nominal(load);
     let follow = |track: &Track| along_postures(question, (track, load.clone()), choices.to_vec(), watch);
     let path_from_base = track.placing.base_from_path.rotation.inverse();
     let mut commanded = track.clone();
     let mut along = follow(&commanded)?;
     let (mut rounds, mut last_move, mut contraction) = (0, 0.0, None);
-    while rounds < asked.rounds && (rounds == 0 || last_move > asked.rest) {
+    while rounds < requested.rounds && (rounds == 0 || last_move > requested.rest) {
         let mut moved = 0.0_f64;
-        for (index, _) in along.answers.held() {
+        for (index, _) in along.answers.evaluation() {
             let delta = path_from_base * mean(&along.answers, index);
             let to = track.path.points[index].at - delta;
             let at = &mut commanded.path.points[index].at;
@@ -102,7 +102,7 @@ pub fn compensated(
     }
     Ok(Compensated {
         residual: residual(track, &commanded, &along.answers),
-        unmoved: track.len() - along.answers.held().count(),
+        unmoved: track.len() - along.answers.evaluation().count(),
         track: commanded,
         along,
         rounds,
@@ -126,7 +126,7 @@ pub fn left_by(
     watch: Watch<'_>,
 ) -> Result<(AlongPath, Vec<Vector3<f64>>), Cancelled> {
     assert_eq!(drawn.len(), commanded.len(), "a command for each point");
-    let along = along_postures(question, (commanded, as_drawn(load)), choices.to_vec(), watch)?;
+    let along = along_postures(question, (commanded, nominal(load)), choices.to_vec(), watch)?;
     let residual = residual(drawn, commanded, &along.answers);
     Ok((along, residual))
 }
@@ -134,7 +134,7 @@ pub fn left_by(
 /// Deviation from the drawn path, m, base: what the tool deviates by, and what the command was moved by.
 fn residual(drawn: &Track, commanded: &Track, answers: &Answers) -> Vec<Vector3<f64>> {
     let mut residual = vec![Vector3::zeros(); answers.deviations.len()];
-    for (index, _) in answers.held() {
+    for (index, _) in answers.evaluation() {
         let moved = commanded.path.points[index].at - drawn.path.points[index].at;
         let moved = drawn.placing.base_from_path.rotation * moved;
         let of_point = index * answers.case_count..(index + 1) * answers.case_count;
@@ -153,7 +153,7 @@ fn mean(answers: &Answers, index: usize) -> Vector3<f64> {
 
 /// The load with forces that do not give way. Of a cut the mean force alone: the greatest of a revolution is over before
 /// the arm has moved.
-fn as_drawn(load: &PathLoad) -> PathLoad {
+fn nominal(load: &PathLoad) -> PathLoad {
     match load {
         PathLoad::Cuts(cuts) => PathLoad::OfEach {
             cases: 1,

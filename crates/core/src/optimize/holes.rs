@@ -9,7 +9,7 @@
 
 use rayon::prelude::*;
 
-use super::posture::{PostureSearch, about_z, fill, in_the_way};
+use super::posture::{PostureSearch, about_z, fill, blocked_by};
 use crate::kernel::{Answers, BranchChoice, Column, Columns, Question, SLOTS, Stand, evaluate};
 use crate::load::PathLoad;
 use crate::path::Track;
@@ -56,7 +56,7 @@ pub fn holes_held(
         }
         fill(columns, (track, load), (search, index), column);
         let best = best(question.arm.robot, search, column);
-        let stand = best.map_or_else(|| in_the_way(column), |_| Stand::Holds);
+        let stand = best.map_or_else(|| blocked_by(column), |_| Stand::Holds);
         let spin = best.map_or(0.0, |slot| search.spins.at(slot / SLOTS));
         let choice = match best.filter(|_| columns.slots_are_branches()) {
             Some(slot) => BranchChoice::Of(Branch::ALL[slot % SLOTS].into()),
@@ -66,7 +66,7 @@ pub fn holes_held(
         let joint_count = question.arm.robot.joints().len();
         let home = best.map(|slot| column.joints_of(slot, joint_count));
         let here = track.loaded_stop(index, load);
-        let asked = Question {
+        let requested = Question {
             cases: &here.cases,
             normal: here.stop.normal,
             choice,
@@ -74,7 +74,7 @@ pub fn holes_held(
             ..*question
         };
         let pose = here.stop.base_from_tool * about_z(spin);
-        let answers = evaluate(&asked, 1, |_| pose, Watch::NONE)?;
+        let answers = evaluate(&requested, 1, |_| pose, Watch::NONE)?;
         (watch.finished)(1);
         Ok((spin, stand, answers))
     };

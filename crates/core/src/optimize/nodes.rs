@@ -57,8 +57,8 @@ const HOLDS: f64 = 1e-10;
 ///
 /// # Panics
 /// If points and shares differ in number, or a share names no node.
-pub fn fitted(start: Vec<Vector3<f64>>, shares: &[Shares], wanted: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
-    assert_eq!(shares.len(), wanted.len(), "a value for each point");
+pub fn fitted(start: Vec<Vector3<f64>>, shares: &[Shares], requested: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
+    assert_eq!(shares.len(), requested.len(), "a value for each point");
     let count = start.len();
     let at = |x: &[Vector3<f64>], shares: &Shares| -> Vector3<f64> {
         shares.iter().map(|(node, share)| x[node] * share).sum()
@@ -84,9 +84,9 @@ pub fn fitted(start: Vec<Vector3<f64>>, shares: &[Shares], wanted: &[Vector3<f64
     let dot =
         |a: &[Vector3<f64>], b: &[Vector3<f64>]| -> f64 { a.iter().zip(b).map(|(a, b)| a.dot(b)).sum() };
     let mut x = start;
-    let size = back(&|index| wanted[index]);
+    let size = back(&|index| requested[index]);
     let enough = HOLDS * HOLDS * dot(&size, &scaled(&size));
-    let mut r = back(&|index| wanted[index] - at(&x, &shares[index]));
+    let mut r = back(&|index| requested[index] - at(&x, &shares[index]));
     let mut z = scaled(&r);
     let mut p = z.clone();
     let mut rho = dot(&r, &z);
@@ -137,8 +137,8 @@ mod tests {
         let mut shares = polyline(40, 25);
         let three = [Some(3), Some(17), Some(21)];
         shares.extend((0..9).map(|i| Shares::bent(three, 0.4, f64::from(i) / 8.0)));
-        let wanted: Vec<_> = shares.iter().map(|shares| value(shares, &x)).collect();
-        let found = fitted(vec![Vector3::zeros(); 40], &shares, &wanted);
+        let requested: Vec<_> = shares.iter().map(|shares| value(shares, &x)).collect();
+        let found = fitted(vec![Vector3::zeros(); 40], &shares, &requested);
         let apart = found
             .iter()
             .zip(&x)
@@ -151,18 +151,18 @@ mod tests {
     #[test]
     fn a_jump_in_the_middle_is_shared_by_both_sides() {
         let shares = polyline(3, 100);
-        let wanted: Vec<_> = (0..201)
+        let requested: Vec<_> = (0..201)
             .map(|i| Vector3::new(if i <= 100 { 1.0 } else { -1.0 }, 0.0, 0.0))
             .collect();
-        let found = fitted(vec![Vector3::zeros(); 3], &shares, &wanted);
+        let found = fitted(vec![Vector3::zeros(); 3], &shares, &requested);
         // By symmetry nothing at the corner; beside it the line nearest to a constant: 3/2 at its end.
         assert!(
             found[1].norm() < 0.02 && (found[0].x - 1.5).abs() < 0.02,
             "{found:?}"
         );
         let left = |x: &[Vector3<f64>]| -> f64 {
-            let rest = shares.iter().zip(&wanted);
-            rest.map(|(shares, wanted)| (value(shares, x) - wanted).norm_squared())
+            let rest = shares.iter().zip(&requested);
+            rest.map(|(shares, requested)| (value(shares, x) - requested).norm_squared())
                 .sum()
         };
         // No neighbour is better.
@@ -180,11 +180,11 @@ mod tests {
         let shares: Vec<Shares> = (0..11)
             .map(|i| Shares::straight(None, Some(0), f64::from(i) / 10.0))
             .collect();
-        let wanted: Vec<_> = (0..11)
+        let requested: Vec<_> = (0..11)
             .map(|i| Vector3::new(0.0, f64::from(i) / 10.0, 0.0))
             .collect();
         let start = vec![Vector3::zeros(), Vector3::new(7.0, 0.0, 0.0)];
-        let found = fitted(start, &shares, &wanted);
+        let found = fitted(start, &shares, &requested);
         assert!((found[0] - Vector3::y()).norm() < 1e-12);
         assert_eq!(found[1].x, 7.0);
         assert!(fitted(Vec::new(), &[], &[]).is_empty());

@@ -1,6 +1,6 @@
 //! Where should the part lie? What a place is worth, for a search to go by.
 //!
-//! A place ([`Lie`]) is where the part lies in base and how far the tool is turned about its axis, the same all along. The
+//! A place ([`PartPlacement`]) is where the part lies in base and how far the tool is turned about its axis, the same all along. The
 //! arm takes one branch for the whole path, the best of those left open; holes are held each for itself ([`Holding`]). Feasibility comes first: of two places that with
 //! fewer points lost is better, and of two that lose none that with the lesser cost.
 //!
@@ -15,11 +15,11 @@
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 use rayon::prelude::*;
 
-use super::posture::{Counts, Goal, Spins, WITHIN};
-use super::sureness::{Sure, one_off};
+use super::posture::{Component, Objective, Spins, WITHIN};
+use super::sureness::{RankBy, one_off};
 use crate::frame::{Isometry, tool_orientation};
 use crate::kernel::{
-    Glance, Judge, Judged, Keeping, Lie, PlacedPath, Pushes, Question, SLOTS, Sighted, ToldIn,
+    Glance, Judge, Judged, Keeping, PartPlacement, PlacedPath, Pushes, Question, SLOTS, Sighted, ToldIn,
 };
 use crate::load::{LoadFrame, PathLoad};
 use crate::path::{Spin, ToldSpin, Track};
@@ -29,11 +29,11 @@ use crate::watch::{Cancelled, Watch};
 
 /// What is searched for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PlacementGoal {
+pub struct PlacementObjective {
     /// Which part of the deviation counts.
-    pub counts: Counts,
+    pub component: Component,
     /// What shall be least.
-    pub goal: Goal,
+    pub objective: Objective,
     /// Branches that may be taken, of an arm whose branches have names.
     pub branches: BranchPattern,
     /// How far every joint stays from its limits, the elbow from stretched and the wrist from straight, rad.
@@ -41,7 +41,7 @@ pub struct PlacementGoal {
     /// Least bend of the wrist, rad.
     pub wrist: f64,
     /// What places are compared by.
-    pub sure: Sure,
+    pub rank_by: RankBy,
     /// How the points are held.
     pub holding: Holding,
 }
@@ -63,15 +63,15 @@ pub struct Placeable<'a> {
     /// The points as they are on the part.
     pub path: &'a PlacedPath,
     /// What is searched for.
-    pub goal: PlacementGoal,
+    pub objective: PlacementObjective,
 }
 
 /// What a place is worth.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Merit {
+pub struct Score {
     /// Points that the best branch does not hold.
     pub lost: usize,
-    /// What it is compared by, of the points that it holds: the cost in m, or as [`Sure`] says.
+    /// What it is compared by, of the points that it holds: the cost in m, or as [`RankBy`] says.
     pub cost: f64,
     /// That branch; `None` for arms without names of branches.
     pub branch: Option<Branch>,
@@ -79,9 +79,9 @@ pub struct Merit {
 
 /// The cost of a place, and how sure it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Appraisal {
+pub struct PlacementEvaluation {
     /// What the place is worth, as if all were known: its cost in m.
-    pub merit: Merit,
+    pub score: Score,
     /// Standard uncertainty of the cost, m; zero where points are lost.
     pub uncertainty: f64,
 }
@@ -90,12 +90,12 @@ pub struct Appraisal {
 ///
 /// # Panics
 /// If `load` does not [cover](PathLoad::covers) the points of the track, or there is no index.
-pub fn on_part((track, load): (&Track, &PathLoad), counts: Counts, indices: &[usize]) -> PlacedPath {
+pub fn on_part((track, load): (&Track, &PathLoad), component: Component, indices: &[usize]) -> PlacedPath {
     assert!(load.covers(track.len()), "a load for each point of the track");
     let part_from_base = track.base_from_part.inverse();
     let points = indices.iter().map(|index| {
         let stop = track.stop(*index);
-        let along = counts.along((track, *index), stop.normal);
+        let along = component.along((track, *index), stop.normal);
         Sighted {
             part_from_tool: part_from_base * stop.base_from_tool,
             along: along.map(|along| part_from_base * along),
@@ -155,7 +155,7 @@ impl ToolTurn {
         let spin = first.and_then(|first| match track.placing.spin {
             Spin::Fixed(angle) => Some(angle),
             Spin::Given(angle) => match first.spin {
-                Some(ToldSpin::Angle(told)) => Some(angle + told),
+                Some(ToldSpin::Angle(given)) => Some(angle + given),
                 // A whole orientation is told on the part.
                 Some(ToldSpin::Orientation(_)) => None,
                 None => Some(angle),
@@ -172,7 +172,7 @@ impl ToolTurn {
     }
 
     /// The place where a part lies so, with the tool turned by `spin` (rad) beside the turn it has there.
-    pub fn lie(&self, base_from_part: Isometry, spin: f64) -> Lie {
+    pub fn placement(&self, base_from_part: Isometry, spin: f64) -> PartPlacement {
         let more = match self {
             ToolTurn::WithPart => 0.0,
             ToolTurn::InBase { part_from_tool, spin } => {
@@ -182,7 +182,7 @@ impl ToolTurn {
                 2.0 * turn.k.atan2(turn.w)
             }
         };
-        Lie {
+        PartPlacement {
             base_from_part,
             spin: spin + more,
             rail: None,
@@ -190,24 +190,24 @@ impl ToolTurn {
     }
 }
 
-impl Merit {
+impl Score {
     /// Of no place at all.
-    pub const NONE: Merit = Merit {
+    pub const NONE: Score = Score {
         lost: usize::MAX,
         cost: f64::INFINITY,
         branch: None,
     };
 
     /// Whether it is better than `other`.
-    pub fn beats(&self, other: &Merit) -> bool {
+    pub fn beats(&self, other: &Score) -> bool {
         self.lost < other.lost || (self.lost == other.lost && self.cost < other.cost)
     }
 }
 
-impl Appraisal {
+impl PlacementEvaluation {
     /// How probably the cost is above `limit` (m), normally distributed with its uncertainty; `None` where it is sure.
     pub fn probability_above(&self, limit: f64) -> Option<f64> {
-        let room = limit - self.merit.cost;
+        let room = limit - self.score.cost;
         let scaled = room / (self.uncertainty * std::f64::consts::SQRT_2);
         (self.uncertainty > 0.0).then(|| 0.5 * libm::erfc(scaled))
     }
@@ -219,64 +219,64 @@ impl Placeable<'_> {
     ///
     /// # Errors
     /// [`Cancelled`] if the watch says so; it hears of places.
-    pub fn merits(
+    pub fn scores(
         &self,
-        places: &[Lie],
-        bar: Option<&Merit>,
+        places: &[PartPlacement],
+        bar: Option<&Score>,
         watch: Watch<'_>,
-    ) -> Result<Vec<Option<Merit>>, Cancelled> {
+    ) -> Result<Vec<Option<Score>>, Cancelled> {
         let off = self.arms_off();
         let judged = places.par_iter().map_init(
             || self.judges(&off),
-            |judges, lie| {
+            |judges, placement| {
                 if watch.is_cancelled() {
                     return Err(Cancelled);
                 }
-                let merit = self.merit(judges, lie, bar);
+                let score = self.score(judges, placement, bar);
                 (watch.finished)(1);
-                Ok(merit)
+                Ok(score)
             },
         );
         judged.collect()
     }
 
     /// The cost of this place and how sure it is, whatever places are compared by.
-    pub fn appraised(&self, lie: &Lie) -> Appraisal {
+    pub fn appraised(&self, placement: &PartPlacement) -> PlacementEvaluation {
         let off = one_off(&self.question.arm);
         let mut judges = self.judges(&off);
-        let nothing = Appraisal {
-            merit: Merit::NONE,
+        let nothing = PlacementEvaluation {
+            score: Score::NONE,
             uncertainty: 0.0,
         };
-        let merit = self.nominal(&mut judges.nominal, (lie, self.goal.branches), None);
-        merit.map_or(nothing, |merit| Appraisal {
-            merit,
-            uncertainty: self.uncertainty(&mut judges, lie, &merit),
+        let score = self.nominal(&mut judges.nominal, (placement, self.objective.branches), None);
+        score.map_or(nothing, |score| PlacementEvaluation {
+            score,
+            uncertainty: self.uncertainty(&mut judges, placement, &score),
         })
     }
 
     /// Arms that are one standard uncertainty off, where it matters how sure a cost is.
     fn arms_off(&self) -> Vec<Vec<JointCompliance>> {
-        match self.goal.sure {
-            Sure::Nominal => Vec::new(),
-            Sure::PlusTwoSigma | Sure::WithinLimit(_) => one_off(&self.question.arm),
+        match self.objective.rank_by {
+            RankBy::Nominal => Vec::new(),
+            RankBy::PlusTwoSigma | RankBy::WithinLimit(_) => one_off(&self.question.arm),
         }
     }
 
     fn judges<'s>(&'s self, off: &'s [Vec<JointCompliance>]) -> Judges<'s> {
         let keeping = Keeping {
-            margin: self.goal.margin,
-            wrist: self.goal.wrist,
-            limit: match self.goal.goal {
-                Goal::Above(limit) => limit,
-                Goal::Worst | Goal::Mean => 0.0,
+            margin: self.objective.margin,
+            wrist: self.objective.wrist,
+            limit: match self.objective.objective {
+                Objective::Above(limit) => limit,
+                Objective::Worst | Objective::Mean => 0.0,
             },
         };
         let arm = self.question.arm;
         let home = self.question.home;
         let judge = |compliance| Judge::new(Arm { compliance, ..arm }, home, keeping);
         Judges {
-            glance: Glance::new(arm, keeping).filter(|_| self.goal.holding == Holding::InOneBranch),
+            glance: Glance::new(arm, keeping).filter(|_| self.objective.holding == Holding::InOneBranch),
             nominal: judge(arm.compliance),
             off: off
                 .iter()
@@ -285,11 +285,11 @@ impl Placeable<'_> {
         }
     }
 
-    fn merit(&self, judges: &mut Judges<'_>, lie: &Lie, bar: Option<&Merit>) -> Option<Merit> {
+    fn score(&self, judges: &mut Judges<'_>, placement: &PartPlacement, bar: Option<&Score>) -> Option<Score> {
         // The cost alone is never above cost and uncertainty; of a probability it says nothing before all points are in.
-        let bar = bar.map(|bar| match self.goal.sure {
-            Sure::Nominal | Sure::PlusTwoSigma => *bar,
-            Sure::WithinLimit(_) => Merit {
+        let bar = bar.map(|bar| match self.objective.rank_by {
+            RankBy::Nominal | RankBy::PlusTwoSigma => *bar,
+            RankBy::WithinLimit(_) => Score {
                 cost: f64::INFINITY,
                 ..*bar
             },
@@ -300,32 +300,32 @@ impl Placeable<'_> {
             let worth = |judged: &Judged| {
                 (judged.lost == bar.lost && judged.lost > 0) || self.worth(&bar, strays, judged)
             };
-            if !glance.may_be_worth(self.path, lie, self.goal.branches, worth) {
+            if !glance.may_be_worth(self.path, placement, self.objective.branches, worth) {
                 return None;
             }
         }
-        let merit = self.nominal(&mut judges.nominal, (lie, self.goal.branches), bar.as_ref())?;
-        let uncertainty = match self.goal.sure {
-            Sure::Nominal => 0.0,
-            Sure::PlusTwoSigma | Sure::WithinLimit(_) => self.uncertainty(judges, lie, &merit),
+        let score = self.nominal(&mut judges.nominal, (placement, self.objective.branches), bar.as_ref())?;
+        let uncertainty = match self.objective.rank_by {
+            RankBy::Nominal => 0.0,
+            RankBy::PlusTwoSigma | RankBy::WithinLimit(_) => self.uncertainty(judges, placement, &score),
         };
-        Some(Merit {
-            cost: self.goal.sure.compared(merit.cost, uncertainty),
-            ..merit
+        Some(Score {
+            cost: self.objective.rank_by.compared(score.cost, uncertainty),
+            ..score
         })
     }
 
     /// Standard uncertainty of the cost of a place in its branch, m; zero where points are lost.
-    fn uncertainty(&self, judges: &mut Judges<'_>, lie: &Lie, merit: &Merit) -> f64 {
-        if merit.lost > 0 {
+    fn uncertainty(&self, judges: &mut Judges<'_>, placement: &PartPlacement, score: &Score) -> f64 {
+        if score.lost > 0 {
             return 0.0;
         }
-        let branch = merit.branch.map_or(self.goal.branches, BranchPattern::from);
+        let branch = score.branch.map_or(self.objective.branches, BranchPattern::from);
         let structure = &self.question.arm.model.structure;
-        let in_proportion = merit.cost * self.question.doubt.relative.hypot(structure.model_error);
+        let in_proportion = score.cost * self.question.uncertainty.relative.hypot(structure.model_error);
         let off = judges.off.iter_mut().map(|judge| {
-            let cost = self.nominal(judge, (lie, branch), None);
-            cost.map_or(0.0, |there| there.cost - merit.cost)
+            let cost = self.nominal(judge, (placement, branch), None);
+            cost.map_or(0.0, |there| there.cost - score.cost)
         });
         off.fold(in_proportion.hypot(structure.repeatability), f64::hypot)
     }
@@ -334,13 +334,13 @@ impl Placeable<'_> {
     fn nominal(
         &self,
         judge: &mut Judge<'_>,
-        (lie, branches): (&Lie, BranchPattern),
-        bar: Option<&Merit>,
-    ) -> Option<Merit> {
-        if let Holding::EachForItself(spins) = self.goal.holding {
+        (placement, branches): (&PartPlacement, BranchPattern),
+        bar: Option<&Score>,
+    ) -> Option<Score> {
+        if let Holding::EachForItself(spins) = self.objective.holding {
             let spins: Vec<f64> = (0..spins.count).map(|index| spins.at(index)).collect();
-            let judged = judge.judge_each(self.path, lie, branches, &spins);
-            return Some(Merit {
+            let judged = judge.judge_each(self.path, placement, branches, &spins);
+            return Some(Score {
                 lost: judged.lost,
                 cost: self.cost(&judged),
                 branch: None,
@@ -348,34 +348,34 @@ impl Placeable<'_> {
         }
         let named = judge.tells_branches();
         let worth = |judged: &Judged| bar.is_none_or(|bar| self.worth(bar, 0.0, judged));
-        let judged = judge.judge(self.path, lie, branches, worth);
-        let mut best: Option<Merit> = None;
+        let judged = judge.judge(self.path, placement, branches, worth);
+        let mut best: Option<Score> = None;
         for slot in 0..SLOTS {
             let Some(judged) = &judged[slot] else { continue };
-            let merit = Merit {
+            let score = Score {
                 lost: judged.lost,
                 cost: self.cost(judged),
                 branch: named.then_some(Branch::ALL[slot]),
             };
-            if best.is_none_or(|best| merit.beats(&best)) {
-                best = Some(merit);
+            if best.is_none_or(|best| score.beats(&best)) {
+                best = Some(score);
             }
         }
         best
     }
 
     /// Whether a posture may still beat `bar` if its cost so far is `strays` (m) above the true one.
-    fn worth(&self, bar: &Merit, strays: f64, judged: &Judged) -> bool {
+    fn worth(&self, bar: &Score, strays: f64, judged: &Judged) -> bool {
         judged.lost < bar.lost || (judged.lost == bar.lost && self.cost(judged) - strays < bar.cost)
     }
 
     /// Cost of the points so far, as a part of all.
     fn cost(&self, judged: &Judged) -> f64 {
         let count = self.path.len() as f64;
-        match self.goal.goal {
-            Goal::Worst => judged.worst,
-            Goal::Mean => judged.sum / count,
-            Goal::Above(_) => (judged.above + WITHIN * judged.sum) / count,
+        match self.objective.objective {
+            Objective::Worst => judged.worst,
+            Objective::Mean => judged.sum / count,
+            Objective::Above(_) => (judged.above + WITHIN * judged.sum) / count,
         }
     }
 }

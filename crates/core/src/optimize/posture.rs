@@ -40,7 +40,7 @@ use crate::watch::{Cancelled, Watch};
 
 /// Which part of the deviation counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Counts {
+pub enum Component {
     /// Across the tool.
     InPlane,
     /// Across the tool and the feed: what a wall gets.
@@ -51,7 +51,7 @@ pub enum Counts {
 
 /// What of the deviations along the path shall be least.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Goal {
+pub enum Objective {
     /// The largest, and under that the mean.
     Worst,
     /// The mean over the points.
@@ -77,9 +77,9 @@ pub struct PostureSearch {
     /// Turns that are tried.
     pub spins: Spins,
     /// Which part of the deviation counts.
-    pub counts: Counts,
+    pub component: Component,
     /// What shall be least.
-    pub goal: Goal,
+    pub objective: Objective,
     /// Branches that may be taken, of an arm whose branches have names.
     pub branches: BranchPattern,
     /// How much the tool may turn along the path, rad/m.
@@ -141,15 +141,15 @@ pub fn postures_along(
         search,
         joints: JointRate::all(question.arm.robot),
     };
-    let cost = match search.goal {
-        Goal::Worst => Cost::Within(walk.chain((Cost::Worst, 0.0), watch)?.0.cost),
-        Goal::Mean => Cost::Within(f64::INFINITY),
-        Goal::Above(limit) => Cost::Above(limit),
+    let cost = match search.objective {
+        Objective::Worst => Cost::Within(walk.chain((Cost::Worst, 0.0), watch)?.0.cost),
+        Objective::Mean => Cost::Within(f64::INFINITY),
+        Objective::Above(limit) => Cost::Above(limit),
     };
-    let mut found = walk.told(walk.chain((cost, 0.0), watch)?);
+    let mut found = walk.reported(walk.chain((cost, 0.0), watch)?);
     if search.back_price > 0.0 && track.path.length() > 0.0 {
         let price = search.back_price / track.path.length();
-        let other = walk.told(walk.chain((cost, price * track.len() as f64), watch)?);
+        let other = walk.reported(walk.chain((cost, price * track.len() as f64), watch)?);
         let worth = |found: &PostureFound| -> Result<f64, Cancelled> {
             let turned = (&found.turned(track), load.clone());
             let along = along_postures(question, turned, found.choices(), watch)?;
@@ -161,7 +161,7 @@ pub fn postures_along(
             found = other;
         }
     }
-    if let (Goal::Worst, Cost::Within(worst)) = (search.goal, cost) {
+    if let (Objective::Worst, Cost::Within(worst)) = (search.objective, cost) {
         found.reached = worst;
     }
     Ok(found)
@@ -311,7 +311,7 @@ impl Walk<'_> {
         (speed > 0.0).then(|| self.search.spins.step / (self.search.turn_rate * speed))
     }
 
-    fn told(&self, (cheapest, seen): (Cheapest, Seen)) -> PostureFound {
+    fn reported(&self, (cheapest, seen): (Cheapest, Seen)) -> PostureFound {
         let spins = without_steps(
             &self.track.path,
             &self.search.spins,
@@ -335,7 +335,7 @@ impl Walk<'_> {
     }
 }
 
-impl Counts {
+impl Component {
     /// Directions that the deviation counts along at point `index` of `track`, whose normal is this, base; of length 1, or 0
     /// where one is enough.
     pub(super) fn along(
@@ -345,9 +345,9 @@ impl Counts {
     ) -> [Vector3<f64>; 2] {
         let normal = normal.into_inner();
         match self {
-            Counts::InPlane => both_across(&normal),
-            Counts::CrossTrack => [track.base_from_feed(index) * Vector3::y(), Vector3::zeros()],
-            Counts::Axial => [normal, Vector3::zeros()],
+            Component::InPlane => both_across(&normal),
+            Component::CrossTrack => [track.base_from_feed(index) * Vector3::y(), Vector3::zeros()],
+            Component::Axial => [normal, Vector3::zeros()],
         }
     }
 }
@@ -391,7 +391,7 @@ impl Spins {
 impl Seen {
     fn note(&mut self, index: usize, column: &Column, keep: bool) {
         if !column.stands.contains(&Stand::Holds) {
-            self.lost.push((index, in_the_way(column)));
+            self.lost.push((index, blocked_by(column)));
         }
         if keep {
             self.kept
@@ -401,7 +401,7 @@ impl Seen {
 }
 
 /// What stands in the way of most postures of a column that none of holds; out of reach only where nothing else does.
-pub(super) fn in_the_way(column: &Column) -> Stand {
+pub(super) fn blocked_by(column: &Column) -> Stand {
     let count = |stand: Stand| column.stands.iter().filter(|other| **other == stand).count();
     let most = Stand::ALL[1..4].iter().copied().max_by_key(|stand| count(*stand));
     let most = most.filter(|stand| count(*stand) > 0);
@@ -419,7 +419,7 @@ pub(super) fn fill(
     let poses: Vec<Isometry> = (0..search.spins.count)
         .map(|turn| stop.base_from_tool * about_z(search.spins.at(turn)))
         .collect();
-    let along = search.counts.along((track, index), stop.normal);
+    let along = search.component.along((track, index), stop.normal);
     let push = Push { cases: &cases, along };
     maker.fill(&poses, &push, column);
     if maker.slots_are_branches() && search.branches != BranchPattern::default() {

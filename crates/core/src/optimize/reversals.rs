@@ -2,12 +2,12 @@
 
 use crate::kernel::Answers;
 use crate::path::SampledPath;
-use crate::robot::STANDS_STILL;
+use crate::robot::STANDSTILL;
 
 /// Times that each joint turns back on the cuts of `path`; what it does in a rapid does not count, nor over points without
 /// posture.
 pub fn reversals(path: &SampledPath, answers: &Answers) -> Vec<usize> {
-    let mut counts = vec![0; answers.joint_count];
+    let mut component = vec![0; answers.joint_count];
     for stretch in path.stretches() {
         // Farthest that each joint came since it turned back, and the way it goes.
         let mut ends: Option<Vec<(f64, f64)>> = None;
@@ -21,18 +21,18 @@ pub fn reversals(path: &SampledPath, answers: &Answers) -> Vec<usize> {
                 ends = Some(joints.iter().map(|q| (*q, 0.0)).collect());
                 continue;
             };
-            for ((count, (end, way)), q) in counts.iter_mut().zip(ends).zip(joints) {
+            for ((count, (end, way)), q) in component.iter_mut().zip(ends).zip(joints) {
                 let by = q - *end;
-                if by * *way >= 0.0 && (*way != 0.0 || by.abs() > STANDS_STILL) {
+                if by * *way >= 0.0 && (*way != 0.0 || by.abs() > STANDSTILL) {
                     (*end, *way) = (*q, if by == 0.0 { *way } else { by.signum() });
-                } else if by.abs() > STANDS_STILL {
+                } else if by.abs() > STANDSTILL {
                     *count += usize::from(*way != 0.0);
                     (*end, *way) = (*q, by.signum());
                 }
             }
         }
     }
-    counts
+    component
 }
 
 #[cfg(test)]
@@ -71,10 +71,10 @@ mod tests {
     #[test]
     fn nothing_counts_across_a_rapid_or_a_point_without_posture() {
         let joints = [[0.0, 0.0], [1.0, 0.0], [0.0, 0.0], [1.0, 0.0]];
-        let mut held = answers_at(&joints);
-        assert_eq!(reversals(&path(4), &held), [2, 0]);
-        held.points[2] = Err(Unreachable::TooFar { by: 1.0 });
-        assert_eq!(reversals(&path(4), &held), [0, 0]);
+        let mut evaluation = answers_at(&joints);
+        assert_eq!(reversals(&path(4), &evaluation), [2, 0]);
+        evaluation.points[2] = Err(Unreachable::TooFar { by: 1.0 });
+        assert_eq!(reversals(&path(4), &evaluation), [0, 0]);
         let mut two = path(2);
         two.points.extend(two.points.clone());
         assert_eq!(reversals(&two, &answers_at(&joints)), [0, 0]);

@@ -19,7 +19,7 @@ use crate::source::Arm;
 
 /// What a place is compared by.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Sure {
+pub enum RankBy {
     /// Its cost, as if all were known.
     Nominal,
     /// Its cost and two standard uncertainties.
@@ -28,14 +28,14 @@ pub enum Sure {
     WithinLimit(f64),
 }
 
-impl Sure {
+impl RankBy {
     /// What a place is compared by that costs `cost` (m) with this standard uncertainty (m).
     pub(super) fn compared(self, cost: f64, uncertainty: f64) -> f64 {
         match self {
-            Sure::Nominal => cost,
-            Sure::PlusTwoSigma => cost + 2.0 * uncertainty,
+            RankBy::Nominal => cost,
+            RankBy::PlusTwoSigma => cost + 2.0 * uncertainty,
             // What is quite sure is as far from the limit as it is near in nanometres: its sign and order count.
-            Sure::WithinLimit(limit) => (cost - limit) / uncertainty.max(SURE),
+            RankBy::WithinLimit(limit) => (cost - limit) / uncertainty.max(SURE),
         }
     }
 }

@@ -71,11 +71,11 @@ impl Clock {
                 }
                 starts.push(index);
             } else {
-                let told = match point.pace {
+                let given = match point.pace {
                     Pace::Feed(speed) => Some(speed),
-                    Pace::Rapid | Pace::Untold => None,
+                    Pace::Rapid | Pace::EvaluateError => None,
                 };
-                let known = told.filter(|speed| *speed > 0.0).or(speeds.feed);
+                let known = given.filter(|speed| *speed > 0.0).or(speeds.feed);
                 let speed = known.filter(|speed| *speed > 0.0);
                 let speed = speed.ok_or(NoTime::NoFeed { line: point.line })?;
                 now += (point.along - points[index - 1].along) / speed;
@@ -169,7 +169,7 @@ mod tests {
             to(0.0, 0.0, Pace::Rapid),
             to(20.0, 0.0, Pace::Feed(0.01)),
             to(20.0, 5.0, Pace::Rapid),
-            to(10.0, 5.0, Pace::Untold),
+            to(10.0, 5.0, Pace::EvaluateError),
         ] {
             sampler.points(&next, |point| path.points.push(point));
         }
@@ -244,9 +244,9 @@ mod tests {
                 "{step}: {error}"
             );
         }
-        let told = of_step(1e-12).to_string();
+        let given = of_step(1e-12).to_string();
         assert_eq!(
-            told,
+            given,
             "a record of 4.1e12 instants is longer than the 5e7 that are kept: take longer steps"
         );
         assert_eq!(

@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::bite::{BiteKind, Pass};
+use super::engagement::{EngagementKind, Pass};
 use super::placing::Placing;
 use super::program::{Operation, Pace};
 use super::sampled::SampledPath;
@@ -51,7 +51,7 @@ pub struct CuttingForces {
     /// The cut and its forces at every point.
     pub cuts: CutsAlong,
     /// What is worth telling of them.
-    pub told: ForcesTold,
+    pub given: ForcesTold,
 }
 
 /// Forces along a path in a few numbers, of the cuts as drawn.
@@ -162,7 +162,7 @@ impl Cutting {
             let before = (!path.begins(index)).then(|| &path.points[index - 1]);
             cuts.push(walk.cut_at(before, point)?);
         }
-        let (cutters, told) = walk.ended();
+        let (cutters, given) = walk.ended();
         Ok(CuttingForces {
             cuts: CutsAlong {
                 cutters,
@@ -170,7 +170,7 @@ impl Cutting {
                 greatest: self.greatest,
                 points: cuts,
             },
-            told,
+            given,
         })
     }
 
@@ -231,9 +231,9 @@ pub(super) fn spindle_of(
     point: &PathPoint,
 ) -> Result<f64, NoForces> {
     let line = point.line;
-    let told = operation.and_then(|operation| operation.spindle).map(f64::abs);
+    let given = operation.and_then(|operation| operation.spindle).map(f64::abs);
     let turns = |speed: &f64| *speed > 0.0;
-    let speed = told.filter(turns).or(else_this.filter(turns));
+    let speed = given.filter(turns).or(else_this.filter(turns));
     speed.ok_or(NoForces::NoSpindle { line })
 }
 
@@ -245,12 +245,12 @@ struct Walk<'a> {
     /// All that were held.
     cutters: Vec<Cutter>,
     /// Which of them is held.
-    held: usize,
+    evaluation: usize,
     operation: Option<&'a Operation>,
     peaks: Peaks,
     /// What has the largest mean force.
     largest: Option<Process>,
-    told: ForcesTold,
+    given: ForcesTold,
 }
 
 impl<'a> Walk<'a> {
@@ -263,23 +263,23 @@ impl<'a> Walk<'a> {
                 met: Met::default(),
             }),
             cutters: vec![cutting.cutter],
-            held: 0,
+            evaluation: 0,
             operation: None,
             peaks: Peaks::default(),
             largest: None,
-            told: ForcesTold::default(),
+            given: ForcesTold::default(),
         }
     }
 
     /// The tool of `operation` is taken, if it is not held already.
     fn hold(&mut self, operation: &'a Operation) -> Result<(), NoForces> {
-        if self.operation.is_some_and(|held| std::ptr::eq(held, operation)) {
+        if self.operation.is_some_and(|evaluation| std::ptr::eq(evaluation, operation)) {
             return Ok(());
         }
         self.operation = Some(operation);
         let cutter = self.cutting.held_in(operation)?;
         let known = self.cutters.iter().position(|known| *known == cutter);
-        self.held = known.unwrap_or(self.cutters.len());
+        self.evaluation = known.unwrap_or(self.cutters.len());
         if known.is_none() {
             self.cutters.push(cutter);
         }
@@ -288,7 +288,7 @@ impl<'a> Walk<'a> {
 
     /// The cut on the way to `point` from the point `before`; from nowhere behind a rapid.
     fn cut_at(&mut self, before: Option<&PathPoint>, point: &PathPoint) -> Result<CutHere, NoForces> {
-        let cutter = self.cutters[self.held];
+        let cutter = self.cutters[self.evaluation];
         let mut process = self.cutting.process(cutter, self.operation, point)?;
         let mut alike = process;
         let line = point.line;
@@ -318,25 +318,25 @@ impl<'a> Walk<'a> {
         let milling = match process.milling(advance) {
             Ok(milling) => milling,
             Err(CuttingError::Plunge { .. } | CuttingError::Withdrawal) => {
-                self.told.without_force += 1;
+                self.given.without_force += 1;
                 return Ok(CutHere::NOTHING);
             }
             Err(error) => return Err(error),
         };
         let mean = milling.mean();
         let size = mean.force.norm();
-        self.told.without_force += usize::from(size == 0.0);
+        self.given.without_force += usize::from(size == 0.0);
         let mut greatest = Vector3::zeros();
         if self.cutting.greatest == Greatest::SecondCase {
             greatest = self.peaks.over_mean(alike)? * size;
-            self.told.greatest = self.told.greatest.max(greatest.norm());
+            self.given.greatest = self.given.greatest.max(greatest.norm());
         }
-        if size > self.told.largest_mean {
-            (self.told.largest_mean, self.largest) = (size, Some(*process));
-            self.told.relative_uncertainty = along(&mean.covariance, &mean.force) / size;
+        if size > self.given.largest_mean {
+            (self.given.largest_mean, self.largest) = (size, Some(*process));
+            self.given.relative_uncertainty = along(&mean.covariance, &mean.force) / size;
         }
         Ok(CutHere {
-            cutter: self.held,
+            cutter: self.evaluation,
             cut: Some(*milling.cut()),
             mean: mean.force,
             greatest,
@@ -348,10 +348,10 @@ impl<'a> Walk<'a> {
         if let (Greatest::LeftOut, Some(process)) = (self.cutting.greatest, self.largest) {
             // A cut whose mean was found has a peak.
             let over_mean = self.peaks.over_mean(&process).unwrap_or_default();
-            self.told.greatest = over_mean.norm() * self.told.largest_mean;
+            self.given.greatest = over_mean.norm() * self.given.largest_mean;
         }
-        self.told.met = self.stock.map(|stock| stock.met);
-        (self.cutters, self.told)
+        self.given.met = self.stock.map(|stock| stock.met);
+        (self.cutters, self.given)
     }
 }
 
@@ -374,27 +374,27 @@ struct InStock<'a> {
 impl InStock<'_> {
     /// What the tool meets on `pass`.
     fn meets(&mut self, pass: &Pass, cutter: &EndMillBody) -> Result<Meets, StockError> {
-        let bite = match self.stock.cut(pass, cutter) {
-            Ok(bite) => bite,
+        let engagement = match self.stock.cut(pass, cutter) {
+            Ok(engagement) => engagement,
             Err(StockError::Tilted { .. }) => {
                 self.met.leaning += 1;
                 return Ok(Meets::AsTold);
             }
             Err(error) => return Err(error),
         };
-        self.met.removed += bite.volume;
+        self.met.removed += engagement.volume;
         // The force of a dive is not known, whatever it bites into.
-        if bite.kind == BiteKind::Plunge {
+        if engagement.kind == EngagementKind::Plunge {
             return Ok(Meets::AsTold);
         }
-        let Some(strip) = bite.strip else {
+        let Some(strip) = engagement.strip else {
             self.met.in_air += 1;
             return Ok(Meets::Nothing);
         };
-        self.met.slots += usize::from(bite.kind == BiteKind::Slot);
-        self.met.largest_depth = self.met.largest_depth.max(bite.depth);
-        self.met.largest_width = self.met.largest_width.max(bite.width);
-        Ok(Meets::Strip(strip, bite.depth))
+        self.met.slots += usize::from(engagement.kind == EngagementKind::Slot);
+        self.met.largest_depth = self.met.largest_depth.max(engagement.depth);
+        self.met.largest_width = self.met.largest_width.max(engagement.width);
+        Ok(Meets::Strip(strip, engagement.depth))
     }
 }
 

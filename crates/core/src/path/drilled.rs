@@ -34,7 +34,7 @@ impl Drill {
     pub fn along(&self, path: &SampledPath, placing: &Placing) -> Result<(PathLoad, ForcesTold), NoForces> {
         let none = Wrench::ZERO;
         let mut wrenches = Vec::with_capacity(path.points.len());
-        let mut told = ForcesTold::default();
+        let mut given = ForcesTold::default();
         for (_, point, operation) in path.with_operations() {
             wrenches.push(match placing.advance(point) {
                 Advance::Plunge => {
@@ -47,15 +47,15 @@ impl Drill {
                     };
                     let line = point.line;
                     let force = drilling.force().map_err(|error| NoForces::Cut { line, error })?;
-                    if force.thrust > told.largest_mean {
-                        (told.largest_mean, told.greatest) = (force.thrust, force.thrust);
-                        told.relative_uncertainty = force.covariance[(0, 0)].max(0.0).sqrt() / force.thrust;
+                    if force.thrust > given.largest_mean {
+                        (given.largest_mean, given.greatest) = (force.thrust, force.thrust);
+                        given.relative_uncertainty = force.covariance[(0, 0)].max(0.0).sqrt() / force.thrust;
                     }
                     force.wrench()
                 }
                 Advance::Withdrawal => none,
                 Advance::Level | Advance::Ramp(_) => {
-                    told.without_force += 1;
+                    given.without_force += 1;
                     none
                 }
             });
@@ -65,7 +65,7 @@ impl Drill {
             frame: LoadFrame::Feed,
             wrenches,
         };
-        Ok((load, told))
+        Ok((load, given))
     }
 }
 
@@ -124,32 +124,32 @@ mod tests {
             points,
             ..SampledPath::default()
         };
-        let (load, told) = drill.along(&path, &placing)?;
+        let (load, given) = drill.along(&path, &placing)?;
         let PathLoad::OfEach { wrenches, .. } = load else {
             panic!("each point has its own")
         };
-        Ok((wrenches, told))
+        Ok((wrenches, given))
     }
 
     #[test]
     fn it_thrusts_on_its_way_in_and_nowhere_else() {
         let ways = [[0.0, 0.0, -1.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]];
         // 200 mm/min at 1000 rev/min: 0.2 mm a revolution, the case of the module `drilling`.
-        let (wrenches, told) = along(&drill(), &ways, Pace::Feed(0.2 / 60.0)).unwrap();
+        let (wrenches, given) = along(&drill(), &ways, Pace::Feed(0.2 / 60.0)).unwrap();
         let kc = 800.0 * (0.1 * 59_f64.to_radians().sin()).powf(-0.25);
         let thrust = 0.5 * kc * 10.0 * 0.2 / 2.0 * 59_f64.to_radians().sin();
         assert!((wrenches[0].force - Vector3::z() * thrust).norm() < 1e-9);
         assert!((wrenches[0].moment.z - kc * 10.0 * 10.0 * 0.2 / 8.0 * 1e-3).abs() < 1e-9);
         assert_eq!([wrenches[1], wrenches[2]], [Wrench::ZERO; 2]);
-        assert_eq!(told.without_force, 1);
-        assert!((told.relative_uncertainty - 0.1).abs() < 1e-9 && told.largest_mean == wrenches[0].force.z);
+        assert_eq!(given.without_force, 1);
+        assert!((given.relative_uncertainty - 0.1).abs() < 1e-9 && given.largest_mean == wrenches[0].force.z);
     }
 
     #[test]
     fn what_nobody_tells_is_named_with_its_line() {
         let in_it_goes = [[0.0, 0.0, -1.0]];
         assert_eq!(
-            along(&drill(), &in_it_goes, Pace::Untold).unwrap_err(),
+            along(&drill(), &in_it_goes, Pace::EvaluateError).unwrap_err(),
             NoForces::NoFeed { line: 3 }
         );
         let still = Drill {

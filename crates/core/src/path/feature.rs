@@ -92,13 +92,13 @@ pub fn became(kind: FeatureKind, points: &[Strayed]) -> Option<Became> {
 fn circle(points: &[Strayed]) -> Option<Became> {
     let nominal: Vec<_> = points.iter().map(|p| p.at).collect();
     let plane = Plane::nearest(&nominal)?;
-    let told: Vec<_> = nominal.iter().map(|at| plane.seen(at)).collect();
+    let given: Vec<_> = nominal.iter().map(|at| plane.seen(at)).collect();
     let made: Vec<_> = points.iter().map(|p| plane.seen(&(p.at + p.by))).collect();
-    let (told, made) = (least_squares(&told)?, least_squares(&made)?);
+    let (given, made) = (least_squares(&given)?, least_squares(&made)?);
     Some(Became::Circle {
-        radius: told.radius,
-        radius_change: made.radius - told.radius,
-        centre_shift: plane.at(&made.centre) - plane.at(&told.centre),
+        radius: given.radius,
+        radius_change: made.radius - given.radius,
+        centre_shift: plane.at(&made.centre) - plane.at(&given.centre),
         roundness: made.peak_to_valley,
     })
 }
@@ -281,7 +281,7 @@ mod tests {
                 straightness_normal: normal,
                 offset,
             }),
-            Some(told),
+            Some(given),
         ] = [there_and_back, there].map(|points| became(FeatureKind::Line, &points))
         else {
             panic!("lines")
@@ -290,7 +290,7 @@ mod tests {
             (across - 30e-6).abs() < 1e-10 && (normal - 7e-6).abs() < 1e-10,
             "{across} {normal}"
         );
-        let Became::Line { offset: one_way, .. } = told else {
+        let Became::Line { offset: one_way, .. } = given else {
             panic!("a line")
         };
         assert!((offset - one_way).norm() < 1e-7, "{offset} {one_way}");

@@ -23,7 +23,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::{Point2, Point3, Vector2};
 
-use super::bite::Pass;
+use super::engagement::Pass;
 use super::stock::Stock;
 use crate::load::{EndMillBody, Engagement};
 
@@ -128,13 +128,13 @@ struct Strip {
 /// The widest strip of material ahead; `None` if there is none, or it has no width, and of a dive.
 pub(super) fn front(stock: &Stock, heading: &Heading, cutter: &EndMillBody) -> Option<Front> {
     let (radius, pitch) = (cutter.radius(), stock.pitch());
-    let told = heading.feed.filter(|_| !heading.dives)?;
+    let given = heading.feed.filter(|_| !heading.dives)?;
     // Where the window lies within the step it follows the chord, as the cutter that clears the way does.
     let follows = heading.step >= WINDOW_PITCHES * pitch;
     let feed = if follows {
         heading.chord / heading.step
     } else {
-        told
+        given
     };
     let count = (2.0 * radius * STRIPS_A_PITCH / pitch)
         .ceil()

@@ -38,7 +38,7 @@ pub fn path_of_holes(holes: &[Hole]) -> SampledPath {
         spin: None,
         direction: -hole.axis,
         along: 0.0,
-        pace: Pace::Untold,
+        pace: Pace::EvaluateError,
         line: hole.line,
     };
     SampledPath {

@@ -6,7 +6,7 @@
 //! on its way; [`cutting`], [`drilled`]: what that pushes with. [`feature`]: the circle, line, plane or hole that comes
 //! out. [`holes`]: points that no path joins.
 
-pub mod bite;
+pub mod engagement;
 pub mod clock;
 pub mod cutting;
 pub mod drilled;
@@ -24,7 +24,7 @@ pub mod thinned;
 pub mod track;
 
 pub use crate::load::Greatest;
-pub use bite::{Bite, BiteKind, Pass};
+pub use engagement::{Bite, EngagementKind, Pass};
 pub use clock::{Clock, NoTime, Speeds};
 pub use cutting::{Cutting, CuttingForces, ForcesTold, Met, NoForces};
 pub use drilled::Drill;

@@ -71,8 +71,8 @@ impl Placing {
         let rotation = match self.spin {
             Spin::Fixed(angle) => tool_orientation(axis, angle),
             Spin::Given(angle) => match point.spin {
-                Some(ToldSpin::Orientation(told)) => self.oriented(&told, axis, angle),
-                Some(ToldSpin::Angle(told)) => tool_orientation(axis, angle + told),
+                Some(ToldSpin::Orientation(reported)) => self.oriented(&reported, axis, angle),
+                Some(ToldSpin::Angle(reported)) => tool_orientation(axis, angle + reported),
                 None => tool_orientation(axis, angle),
             },
             Spin::AlongFeed(angle) => {
@@ -95,13 +95,13 @@ impl Placing {
         axis: Unit<Vector3<f64>>,
         angle: f64,
     ) -> UnitQuaternion<f64> {
-        let told = self.base_from_path.rotation * path_from_tool;
-        let held = match self.keeps_axis {
-            false => Some(told),
-            true => UnitQuaternion::rotation_between(&(told * Vector3::z()), &axis).map(|over| over * told),
+        let reported = self.base_from_path.rotation * path_from_tool;
+        let evaluation = match self.keeps_axis {
+            false => Some(reported),
+            true => UnitQuaternion::rotation_between(&(reported * Vector3::z()), &axis).map(|over| over * reported),
         };
         let about_axis = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angle);
-        held.map_or_else(|| tool_orientation(axis, angle), |held| held * about_axis)
+        evaluation.map_or_else(|| tool_orientation(axis, angle), |evaluation| evaluation * about_axis)
     }
 
     /// Axes of the feed frame at `point`, in base.
@@ -182,8 +182,8 @@ mod tests {
         for spin in [Spin::Fixed(0.4), Spin::AlongFeed(-1.0)] {
             let placing = placing(spin);
             let pose = placing.base_from_tool(&point(Vector3::x(), Some(tilted)));
-            let told = placing.base_from_path * tilted.normalize();
-            assert!((pose * Vector3::z() + told).norm() < 1e-14);
+            let reported = placing.base_from_path * tilted.normalize();
+            assert!((pose * Vector3::z() + reported).norm() < 1e-14);
             assert!(
                 (pose.translation.vector - (placing.base_from_path * Point3::new(0.1, 0.2, 0.3)).coords)
                     .norm()
@@ -228,17 +228,17 @@ mod tests {
 
     #[test]
     fn a_whole_orientation_is_that_of_the_tool_in_the_cell() {
-        let told = UnitQuaternion::from_euler_angles(2.0, -0.4, 1.0);
-        let axis = -(told * Vector3::z());
+        let reported = UnitQuaternion::from_euler_angles(2.0, -0.4, 1.0);
+        let axis = -(reported * Vector3::z());
         let point = PathPoint {
-            spin: Some(ToldSpin::Orientation(told)),
+            spin: Some(ToldSpin::Orientation(reported)),
             ..point(Vector3::x(), Some(axis))
         };
         let given = placing(Spin::Given(0.0));
         let apart =
             |one: UnitQuaternion<f64>, other: UnitQuaternion<f64>| (one.inverse() * other).vector().norm();
         let pose = given.base_from_tool(&point);
-        assert!(apart(pose.rotation, given.base_from_path.rotation * told) < 1e-15);
+        assert!(apart(pose.rotation, given.base_from_path.rotation * reported) < 1e-15);
         assert!((pose * Vector3::z() + given.spindle(&point).into_inner()).norm() < 1e-14);
         let more = placing(Spin::Given(0.7)).base_from_tool(&point);
         let turned = pose.rotation * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), 0.7);
@@ -248,23 +248,23 @@ mod tests {
             keeps_axis: true,
             ..given
         };
-        let held = upright.base_from_tool(&point);
-        assert!((held * Vector3::z() + upright.spindle(&point).into_inner()).norm() < 1e-14);
-        let way = held.rotation.angle_to(&pose.rotation);
+        let evaluation = upright.base_from_tool(&point);
+        assert!((evaluation * Vector3::z() + upright.spindle(&point).into_inner()).norm() < 1e-14);
+        let way = evaluation.rotation.angle_to(&pose.rotation);
         assert!((way - axis.angle(&Vector3::z())).abs() < 1e-12);
     }
 
     #[test]
     fn a_given_spin_is_added_to_the_fixed_one() {
-        let told = PathPoint {
+        let reported = PathPoint {
             spin: Some(ToldSpin::Angle(0.3)),
             ..point(Vector3::x(), Some(Vector3::new(0.2, 0.1, 1.0)))
         };
-        let given = placing(Spin::Given(0.4)).base_from_tool(&told);
-        let fixed = placing(Spin::Fixed(0.7)).base_from_tool(&told);
+        let given = placing(Spin::Given(0.4)).base_from_tool(&reported);
+        let fixed = placing(Spin::Fixed(0.7)).base_from_tool(&reported);
         assert!((given.to_homogeneous() - fixed.to_homogeneous()).norm() < 1e-14);
         // By the right hand about the tool, which points from the spindle to the tip.
-        let unspun = placing(Spin::Given(-0.3)).base_from_tool(&told);
+        let unspun = placing(Spin::Given(-0.3)).base_from_tool(&reported);
         let axis = Unit::new_normalize(unspun * Vector3::z());
         let turned = UnitQuaternion::from_axis_angle(&axis, 0.7) * unspun.rotation;
         assert!(turned.angle_to(&given.rotation) < 1e-7);

@@ -96,7 +96,7 @@ pub enum Pace {
     /// At this speed, m/s.
     Feed(f64),
     /// Cutting, at a speed that the program does not tell.
-    Untold,
+    EvaluateError,
 }
 
 impl Pace {

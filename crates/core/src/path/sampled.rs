@@ -47,12 +47,12 @@ impl SampledPath {
     /// Every point with its index and the operation that it belongs to, if one was begun.
     pub fn with_operations(&self) -> impl Iterator<Item = (usize, &PathPoint, Option<&Operation>)> {
         let mut next = self.operations.iter().peekable();
-        let mut held = None;
+        let mut evaluation = None;
         self.points.iter().enumerate().map(move |(index, point)| {
             while let Some((_, begun)) = next.next_if(|(first, _)| *first <= index) {
-                held = Some(begun);
+                evaluation = Some(begun);
             }
-            (index, point, held)
+            (index, point, evaluation)
         })
     }
 

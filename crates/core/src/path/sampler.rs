@@ -447,7 +447,7 @@ mod tests {
             chord_error: 1e-5,
             step: 1e-3,
         };
-        let told: Vec<f64> = points(sampling, &moves)
+        let given: Vec<f64> = points(sampling, &moves)
             .iter()
             .map(|point| match point.spin {
                 Some(ToldSpin::Angle(spin)) => spin.to_degrees(),
@@ -456,9 +456,9 @@ mod tests {
             .collect();
         // From 350 deg on to 370 deg, told as 10.
         let expected = [-10.0, -5.0, 0.0, 5.0, 10.0, 10.0];
-        assert_eq!(told.len(), expected.len());
-        for (told, expected) in told.iter().zip(expected) {
-            assert!((told - expected).abs() < 1e-12, "{told} and {expected}");
+        assert_eq!(given.len(), expected.len());
+        for (given, expected) in given.iter().zip(expected) {
+            assert!((given - expected).abs() < 1e-12, "{given} and {expected}");
         }
         let silent = [start([0.0; 3]), cut([4e-3, 0.0, 0.0], Course::Line)];
         assert!(points(sampling, &silent).iter().all(|point| point.spin.is_none()));
@@ -493,9 +493,9 @@ mod tests {
             let Some(ToldSpin::Orientation(found)) = point.spin else {
                 panic!("{point:?}");
             };
-            let wanted = begin * UnitQuaternion::from_scaled_axis(by * (index as f64 / 10.0));
+            let requested = begin * UnitQuaternion::from_scaled_axis(by * (index as f64 / 10.0));
             // The exponential is another way to the same; both lose some roundings.
-            assert!((found.inverse() * wanted).vector().norm() < 1e-14);
+            assert!((found.inverse() * requested).vector().norm() < 1e-14);
             assert_eq!(point.axis, Some(spindle(&found)));
         }
     }

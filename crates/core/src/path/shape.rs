@@ -104,7 +104,7 @@ fn point(at: Point2<f64>, direction: Vector2<f64>, along: f64, piece: usize) -> 
         spin: None,
         direction: Unit::new_normalize(Vector3::new(direction.x, direction.y, 0.0)),
         along,
-        pace: Pace::Untold,
+        pace: Pace::EvaluateError,
         line: piece as u32 + 1,
     }
 }

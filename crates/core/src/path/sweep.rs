@@ -64,12 +64,12 @@ const SETTLED: f64 = 1e-9;
 
 impl Sweep {
     /// Steps shorter than `standing` (m, seen from above) are taken as straight up or down.
-    pub(super) fn of(from: Point3<f64>, to: Point3<f64>, cutter: &EndMillBody, standing: f64) -> Sweep {
+    pub(super) fn of(from: Point3<f64>, to: Point3<f64>, cutter: &EndMillBody, arm_state: f64) -> Sweep {
         let (mut foot, mut head) = if from.z < to.z { (from, to) } else { (to, from) };
         let chord = (head - foot).xy();
         let mut length = chord.norm();
         let (mut along, mut slope) = (chord / length, (head.z - foot.z) / length);
-        if length <= standing {
+        if length <= arm_state {
             foot = Point3::new(to.x, to.y, foot.z);
             (head, along, length, slope) = (foot, Vector2::x(), 0.0, 0.0);
         }

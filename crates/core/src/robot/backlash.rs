@@ -2,7 +2,7 @@
 
 /// A joint that has moved by less than this since it last turned back has not moved, rad (m): far above rounding and what a
 /// controller tells apart, far below any gap that matters.
-pub const STANDS_STILL: f64 = 1e-6;
+pub const STANDSTILL: f64 = 1e-6;
 
 /// Backlash of a joint: the link lies anywhere within a gap, seen from the motor that the controller moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,12 +12,12 @@ pub struct Backlash {
     /// Its standard uncertainty, same unit.
     pub standard_uncertainty: f64,
     /// What decides on which flank the link lies.
-    pub flank: Flank,
+    pub side: BacklashSide,
 }
 
 /// What decides on which flank of its gap a link lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Flank {
+pub enum BacklashSide {
     /// Friction: the link lags behind the motor, and changes its flank where the joint turns back.
     Motion,
     /// The torque on the link, of load and gravity: the flank changes where the torque does; without any torque as friction

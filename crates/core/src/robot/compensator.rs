@@ -20,13 +20,13 @@
 
 use nalgebra::Point3;
 
-use super::spring::Seat;
+use super::spring::Attachment;
 
 /// A body that gravity pulls on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mass {
     /// What it is fixed to.
-    pub seat: Seat,
+    pub attachment: Attachment,
     /// kg
     pub mass: f64,
     /// Centre of mass in the seat's frame, m.

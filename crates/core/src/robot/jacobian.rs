@@ -98,7 +98,7 @@ mod tests {
     use super::*;
     use crate::arms;
     use crate::robot::forward::forward;
-    use crate::robot::yielding::twist_between;
+    use crate::robot::deflected_arm::twist_between;
 
     #[test]
     fn two_equal_axes_are_singular_and_six_orthogonal_screws_are_not() {

@@ -2,7 +2,7 @@
 //!
 //! In reading order: [`chain`] (elementary motions and their inner form), [`joint`] (limits, signs, zeros,
 //! compliance), [`spring`], [`compensator`], [`torque_curve`], [`backlash`], [`structure`] (what else yields, weighs and has play), [`model`]
-//! (the robot as one value), [`forward`] (joint positions to frames), [`jacobian`] (screws at the tool), [`yielding`]
+//! (the robot as one value), [`forward`] (joint positions to frames), [`jacobian`] (screws at the tool), [`deflected_arm`]
 //! (frames and screws once springs have given way), [`branch`] and [`posture`] (the ways to hold a pose), [`unreachable`](mod@unreachable) (why there may be none),
 //! [`inverse`] (tool pose to every posture), [`mod@reach`] (how far the wrist gets), [`convention`] (which sign or zero
 //! disagrees with the pendant).
@@ -23,9 +23,9 @@ pub mod spring;
 pub mod structure;
 pub mod torque_curve;
 pub mod unreachable;
-pub mod yielding;
+pub mod deflected_arm;
 
-pub use backlash::{Backlash, Flank, STANDS_STILL};
+pub use backlash::{Backlash, BacklashSide, STANDSTILL};
 pub use branch::{Branch, BranchPattern, Elbow, Shoulder, Wrist};
 pub use chain::{Amount, Axis, Chain, Motion};
 pub use compensator::{Compensator, Mass};
@@ -33,7 +33,7 @@ pub use joint::{Joint, JointCompliance, Limits};
 pub use model::{Robot, RobotError};
 pub use posture::{Posture, PostureName, Sides, Singularity};
 pub use reach::reach;
-pub use spring::{Seat, Spring};
+pub use spring::{Attachment, Spring};
 pub use structure::{Structure, StructureError};
 pub use torque_curve::{JointCurve, TorqueCurve};
 pub use unreachable::{Overrun, Unreachable};

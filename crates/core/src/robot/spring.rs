@@ -21,7 +21,7 @@ use crate::spatial::Twist;
 
 /// Where a spring or a mass sits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Seat {
+pub enum Attachment {
     /// Under the whole arm, in the base frame.
     Base,
     /// On the link after the joint with this index, in the frame right after its motion.
@@ -32,14 +32,14 @@ pub enum Seat {
     Tool,
 }
 
-impl Seat {
+impl Attachment {
     /// Place in the order from base to tool of an arm with this many joints: 0 for the base.
     pub fn rank(self, joints: usize) -> usize {
         match self {
-            Seat::Base => 0,
-            Seat::Joint(index) => index + 1,
-            Seat::Flange => joints + 1,
-            Seat::Tool => joints + 2,
+            Attachment::Base => 0,
+            Attachment::Joint(index) => index + 1,
+            Attachment::Flange => joints + 1,
+            Attachment::Tool => joints + 2,
         }
     }
 
@@ -53,7 +53,7 @@ impl Seat {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spring {
     /// Where it sits.
-    pub seat: Seat,
+    pub attachment: Attachment,
     /// How it moves what comes after it, per unit: a twist at the seat's origin in the seat's axes.
     pub direction: Twist,
     /// How much it yields.
@@ -62,18 +62,18 @@ pub struct Spring {
 
 impl Spring {
     /// A spring that turns about `axis` (unit vector, seat's axes); rad/(N m).
-    pub fn about(seat: Seat, axis: Vector3<f64>, compliance: JointCompliance) -> Spring {
+    pub fn about(attachment: Attachment, axis: Vector3<f64>, compliance: JointCompliance) -> Spring {
         Spring {
-            seat,
+            attachment,
             direction: Twist::about(axis),
             compliance,
         }
     }
 
     /// A spring that slides along `axis` (unit vector, seat's axes); m/N.
-    pub fn along(seat: Seat, axis: Vector3<f64>, compliance: JointCompliance) -> Spring {
+    pub fn along(attachment: Attachment, axis: Vector3<f64>, compliance: JointCompliance) -> Spring {
         Spring {
-            seat,
+            attachment,
             direction: Twist::along(axis),
             compliance,
         }
@@ -92,7 +92,7 @@ pub fn cutter_springs(stick_out: f64, diameter: f64, modulus: f64) -> [Spring; 2
             value,
             standard_uncertainty: 0.0,
         };
-        Spring::along(Seat::Tool, axis, compliance)
+        Spring::along(Attachment::Tool, axis, compliance)
     })
 }
 
@@ -104,7 +104,7 @@ const ROUNDING: f64 = 1e-6;
 ///
 /// # Errors
 /// Numbers that are not finite, a matrix that is not symmetric, or one that yields against its load.
-pub fn springs_of(seat: Seat, compliance: &Matrix6<f64>) -> Result<Vec<Spring>, StructureError> {
+pub fn springs_of(attachment: Attachment, compliance: &Matrix6<f64>) -> Result<Vec<Spring>, StructureError> {
     if compliance.iter().any(|value| !value.is_finite()) {
         return Err(StructureError::NotFinite("a compliance matrix"));
     }
@@ -119,7 +119,7 @@ pub fn springs_of(seat: Seat, compliance: &Matrix6<f64>) -> Result<Vec<Spring>, 
     let spring = |i: usize| {
         let u = eigen.eigenvectors.column(i);
         Spring {
-            seat,
+            attachment,
             direction: Twist {
                 linear: u.fixed_rows::<3>(0).into_owned(),
                 angular: u.fixed_rows::<3>(3).into_owned(),
@@ -146,7 +146,7 @@ mod tests {
     fn springs_of_a_matrix_add_up_to_it() {
         let a = Matrix6::from_fn(|i, j| ((3 * i + 5 * j + i * j) % 7) as f64 - 2.5);
         let matrix = a * a.transpose() * 1e-9;
-        let springs = springs_of(Seat::Flange, &matrix).unwrap();
+        let springs = springs_of(Attachment::Flange, &matrix).unwrap();
         let sum: Matrix6<f64> = springs
             .iter()
             .map(|s| s.direction.to_vector() * s.direction.to_vector().transpose() * s.compliance.value)
@@ -159,7 +159,7 @@ mod tests {
     fn a_matrix_of_one_direction_is_one_spring() {
         let mut matrix = Matrix6::zeros();
         matrix[(4, 4)] = 2e-8;
-        let springs = springs_of(Seat::Base, &matrix).unwrap();
+        let springs = springs_of(Attachment::Base, &matrix).unwrap();
         assert_eq!(springs.len(), 1);
         assert_eq!(springs[0].compliance.value, 2e-8);
         assert_eq!(springs[0].direction.angular.map(f64::abs), Vector3::y());
@@ -170,7 +170,7 @@ mod tests {
         let of = |i: usize, j: usize, value: f64| {
             let mut matrix = Matrix6::identity() * 1e-8;
             matrix[(i, j)] = value;
-            springs_of(Seat::Base, &matrix).unwrap_err()
+            springs_of(Attachment::Base, &matrix).unwrap_err()
         };
         assert!(matches!(of(0, 1, 1e-9), StructureError::NotSymmetric(_)));
         assert!(matches!(of(2, 2, -1e-9), StructureError::YieldsAgainstLoad(_)));
@@ -192,14 +192,14 @@ mod tests {
 
     #[test]
     fn seats_are_ordered_from_base_to_tool() {
-        let seats = [
-            Seat::Base,
-            Seat::Joint(0),
-            Seat::Joint(5),
-            Seat::Flange,
-            Seat::Tool,
+        let attachments = [
+            Attachment::Base,
+            Attachment::Joint(0),
+            Attachment::Joint(5),
+            Attachment::Flange,
+            Attachment::Tool,
         ];
-        assert_eq!(seats.map(|seat| seat.rank(6)), [0, 1, 6, 7, 8]);
-        assert_eq!(Seat::count(6), 9);
+        assert_eq!(attachments.map(|attachment| attachment.rank(6)), [0, 1, 6, 7, 8]);
+        assert_eq!(Attachment::count(6), 9);
     }
 }

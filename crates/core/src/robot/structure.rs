@@ -8,7 +8,7 @@ use nalgebra::DMatrix;
 use super::backlash::Backlash;
 use super::compensator::{Compensator, Mass};
 use super::model::{Robot, SOFTEST};
-use super::spring::{Seat, Spring};
+use super::spring::{Attachment, Spring};
 use super::torque_curve::JointCurve;
 
 /// What yields, weighs and has play beside the drives.
@@ -154,12 +154,12 @@ impl Structure {
             fits.then_some(())
                 .ok_or(StructureError::NoSuchJoint { what, joint })
         };
-        let seated = |what, seat: Seat| match seat {
-            Seat::Joint(joint) if joint >= joints => Err(StructureError::NoSuchJoint { what, joint }),
+        let seated = |what, attachment: Attachment| match attachment {
+            Attachment::Joint(joint) if joint >= joints => Err(StructureError::NoSuchJoint { what, joint }),
             _ => Ok(()),
         };
         for (spring, s) in self.springs.iter().enumerate() {
-            seated("a spring", s.seat)?;
+            seated("a spring", s.attachment)?;
             if s.direction.to_vector().iter().any(|part| !part.is_finite()) {
                 return Err(StructureError::NotFinite("a spring"));
             }
@@ -170,7 +170,7 @@ impl Structure {
             }
         }
         for (mass, m) in self.masses.iter().enumerate() {
-            seated("a mass", m.seat)?;
+            seated("a mass", m.attachment)?;
             if !(0.0..=1e6).contains(&m.mass) {
                 let value = m.mass;
                 return Err(StructureError::Mass { mass, value });
@@ -189,7 +189,7 @@ impl Structure {
         }
         for (joint, backlash) in self.backlash.iter().enumerate() {
             let Some(backlash) = backlash else { continue };
-            seated("backlash", Seat::Joint(joint))?;
+            seated("backlash", Attachment::Joint(joint))?;
             for value in [backlash.gap, backlash.standard_uncertainty] {
                 if !(0.0..=WIDEST).contains(&value) {
                     return Err(StructureError::Backlash { joint, value });

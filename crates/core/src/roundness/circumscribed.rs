@@ -15,44 +15,44 @@ use super::profile::reach;
 /// Its centre, and the least and greatest distance of the points from it: the latter is its radius.
 pub(super) fn minimum_circumscribed(points: &[Vector2<f64>]) -> (Vector2<f64>, [f64; 2]) {
     let [_, (_, first)] = reach(points, &Vector2::zeros());
-    let (mut held, mut centre, mut radius) = (vec![points[first]], points[first], 0.0);
+    let (mut evaluation, mut centre, mut radius) = (vec![points[first]], points[first], 0.0);
     loop {
         let [(inner, _), (outer, farthest)] = reach(points, &centre);
         let point = points[farthest];
         // A point that is held already is outside by rounding alone.
-        let larger = (outer > radius && !held.contains(&point))
-            .then(|| smallest_about(&held, point))
+        let larger = (outer > radius && !evaluation.contains(&point))
+            .then(|| smallest_about(&evaluation, point))
             .flatten()
             .filter(|larger| larger.radius > radius);
         match larger {
             None => return (centre, [inner, outer]),
-            Some(larger) => (held, centre, radius) = (larger.held, larger.centre, larger.radius),
+            Some(larger) => (evaluation, centre, radius) = (larger.evaluation, larger.centre, larger.radius),
         }
     }
 }
 
 /// A circle that two or three points hold.
 struct Held {
-    held: Vec<Vector2<f64>>,
+    evaluation: Vec<Vector2<f64>>,
     centre: Vector2<f64>,
     /// Of the least circle about this centre that holds all that were asked for.
     radius: f64,
 }
 
 /// The smallest circle about `held` and `point`, which lies on it.
-fn smallest_about(held: &[Vector2<f64>], point: Vector2<f64>) -> Option<Held> {
-    let two = held.iter().map(|a| vec![point, *a]);
-    let pairs = (0..held.len()).flat_map(|i| (0..i).map(move |j| [i, j]));
-    let three = pairs.map(|[i, j]| vec![point, held[i], held[j]]);
+fn smallest_about(evaluation: &[Vector2<f64>], point: Vector2<f64>) -> Option<Held> {
+    let two = evaluation.iter().map(|a| vec![point, *a]);
+    let pairs = (0..evaluation.len()).flat_map(|i| (0..i).map(move |j| [i, j]));
+    let three = pairs.map(|[i, j]| vec![point, evaluation[i], evaluation[j]]);
     let about = |few: Vec<Vector2<f64>>| {
         let centre = match few[..] {
             [a, b] => (a + b) / 2.0,
             _ => circumcentre(few[0], few[1], few[2])?,
         };
-        let all = held.iter().chain([&point]);
+        let all = evaluation.iter().chain([&point]);
         let radius = all.map(|p| (p - centre).norm()).fold(0.0, f64::max);
         radius.is_finite().then_some(Held {
-            held: few,
+            evaluation: few,
             centre,
             radius,
         })

@@ -40,11 +40,11 @@ impl Polar {
     /// than unknowns.
     pub fn harmonics(&self, most: usize) -> Vec<Harmonic> {
         let count = self.angles.len();
-        let told = self
+        let given = self
             .most_waves()
             .min(count.saturating_sub(1) as f64 / 2.0)
             .max(0.0) as usize;
-        let most = most.min(told);
+        let most = most.min(given);
         if most == 0 {
             return Vec::new();
         }
@@ -141,11 +141,11 @@ mod tests {
     #[test]
     fn waves_are_told_with_amplitude_and_phase_at_even_and_uneven_angles() {
         for unevenness in [0.0, 1.0] {
-            let told = wavy(90, unevenness).harmonics(15);
-            assert_eq!(told.len(), 15);
+            let given = wavy(90, unevenness).harmonics(15);
+            assert_eq!(given.len(), 15);
             // Uneven points move the least-squares circle, which is seen as one wave.
             let shift = if unevenness > 0.0 { 1 } else { 0 };
-            for wave in &told[shift..] {
+            for wave in &given[shift..] {
                 let (amplitude, phase) = match wave.waves {
                     2 => (9e-6, 0.5),
                     5 => (4e-6, -1.1),

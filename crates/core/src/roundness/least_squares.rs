@@ -154,10 +154,10 @@ mod tests {
             for from in [0.0, 77.0, 230.0] {
                 let round = least_squares(&arc([from, sweep], 0.1, |_| 0.0)).unwrap();
                 // Rounding of 1e-17 m, times 1/(1 - cos(sweep/2)) squared or so.
-                let told = (round.centre - Point2::new(0.3, -0.1)).norm();
+                let given = (round.centre - Point2::new(0.3, -0.1)).norm();
                 assert!(
-                    told < 1e-11 && (round.radius - 0.1).abs() < 1e-11,
-                    "{sweep} {from}: {told}"
+                    given < 1e-11 && (round.radius - 0.1).abs() < 1e-11,
+                    "{sweep} {from}: {given}"
                 );
                 assert!(round.peak_to_valley < 1e-14, "{sweep} {from}: {round:?}");
             }

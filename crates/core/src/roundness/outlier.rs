@@ -85,7 +85,7 @@ fn differences(values: &[f64]) -> Vec<f64> {
         let line = |near: Option<f64>, far: Option<f64>| Some(near? + 0.6 * (near? - far?));
         let between = before.zip(behind).map(|(before, behind)| 0.5 * (before + behind));
         let foretold = [between, line(before, earlier), line(behind, later)];
-        let differences = foretold.into_iter().flatten().map(|told| values[at] - told);
+        let differences = foretold.into_iter().flatten().map(|given| values[at] - given);
         differences
             .min_by(|a, b| a.abs().total_cmp(&b.abs()))
             .unwrap_or(0.0)

@@ -110,8 +110,8 @@ impl Polar {
             Ends::Closed
         };
         let off = strange(&values, ends);
-        let told = order.into_iter().zip(off);
-        let mut found: Vec<(usize, f64)> = told.filter_map(|(index, off)| Some((index, off?))).collect();
+        let given = order.into_iter().zip(off);
+        let mut found: Vec<(usize, f64)> = given.filter_map(|(index, off)| Some((index, off?))).collect();
         found.sort_by_key(|(index, _)| *index);
         found
     }
@@ -170,8 +170,8 @@ mod tests {
         let bare = Profile::new(bare).unwrap();
         let polar = bare.polar();
         assert!((polar.root_mean_square() - 5e-6 / 2.0_f64.sqrt()).abs() < 1e-9);
-        let told = polar.highest_peak() + polar.deepest_valley();
-        assert!((told - bare.least_squares().peak_to_valley).abs() < 1e-15);
+        let given = polar.highest_peak() + polar.deepest_valley();
+        assert!((given - bare.least_squares().peak_to_valley).abs() < 1e-15);
         for (point, again) in bare.points().iter().zip(polar.with(&polar.deviations)) {
             assert!((point - again).norm() < 1e-15);
         }
@@ -184,14 +184,14 @@ mod tests {
             200 | 201 => -8e-6,
             _ => 0.0,
         });
-        let told = polar.outliers();
+        let given = polar.outliers();
         assert_eq!(
-            told.iter().map(|(index, _)| *index).collect::<Vec<_>>(),
+            given.iter().map(|(index, _)| *index).collect::<Vec<_>>(),
             [77, 200, 201]
         );
         assert!(
-            (told[0].1 - 12e-6).abs() < 1e-6 && (told[1].1 + 8e-6).abs() < 1e-6,
-            "{told:?}"
+            (given[0].1 - 12e-6).abs() < 1e-6 && (given[1].1 + 8e-6).abs() < 1e-6,
+            "{given:?}"
         );
         assert!(profile(360, |_| 0.0).outliers().is_empty());
         assert!(profile(36, |_| 0.0).outliers().is_empty());

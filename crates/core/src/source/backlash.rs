@@ -24,7 +24,7 @@
 
 use nalgebra::Vector2;
 
-use crate::robot::{Backlash, Flank, STANDS_STILL};
+use crate::robot::{Backlash, BacklashSide, STANDSTILL};
 use crate::spatial::{Twist, Wrench};
 
 /// Where a link lies (rad, m) that lay at `before`, after its motor has moved by this.
@@ -42,21 +42,21 @@ pub fn along<M: Iterator<Item = f64> + Clone>(moves: M, gap: f64) -> impl Iterat
         *gone += by;
         Some(*gone)
     });
-    let first = gone.find(|gone| gone.abs() > STANDS_STILL);
-    let mut lies = first.map_or(0.0, |gone| -0.5 * gap * gone.signum());
+    let first = gone.find(|gone| gone.abs() > STANDSTILL);
+    let mut placements = first.map_or(0.0, |gone| -0.5 * gap * gone.signum());
     moves.map(move |by| {
-        lies = dragged(lies, by, gap);
-        lies
+        placements = dragged(placements, by, gap);
+        placements
     })
 }
 
 /// How far the link of a joint with this screw lies from its motor, rad (m): `dragged` as friction has it, or on the flank
 /// where `torque` (N m, N) of what weighs on it and `wrench` hold it.
-pub fn lies(backlash: &Backlash, dragged: f64, (screw, wrench): (&Twist, &Wrench), torque: f64) -> f64 {
+pub fn placements(backlash: &Backlash, dragged: f64, (screw, wrench): (&Twist, &Wrench), torque: f64) -> f64 {
     let torque = torque + screw.dot(wrench);
-    match backlash.flank {
-        Flank::Torque if torque.abs() > NO_TORQUE => 0.5 * backlash.gap * torque.signum(),
-        Flank::Torque | Flank::Motion => dragged,
+    match backlash.side {
+        BacklashSide::Torque if torque.abs() > NO_TORQUE => 0.5 * backlash.gap * torque.signum(),
+        BacklashSide::Torque | BacklashSide::Motion => dragged,
     }
 }
 
@@ -140,11 +140,11 @@ mod tests {
             links.push(motor + lag);
         }
         // Forwards half a gap behind; then the link waits for the whole gap; then half a gap behind the other way.
-        let told = [
+        let given = [
             0.9e-3, 1.9e-3, 1.9e-3, 1.9e-3, 1.9e-3, 1.9e-3, 0.9e-3, 0.9e-3, 0.9e-3, 0.9e-3, 1.7e-3,
         ];
-        for (link, told) in links.iter().zip(told) {
-            assert!((link - told).abs() < 1e-15, "{links:?}");
+        for (link, given) in links.iter().zip(given) {
+            assert!((link - given).abs() < 1e-15, "{links:?}");
         }
     }
 
@@ -153,7 +153,7 @@ mod tests {
         let after = |moves: &[f64]| along(moves.iter().copied(), 2e-4).collect::<Vec<f64>>();
         assert_eq!(after(&[0.0, -0.1, 0.3]), [1e-4, 1e-4, -1e-4]);
         // What rounding moves stands still; a slow joint moves in the end.
-        assert!(after(&[1e-16, -2e-16]).iter().all(|lies| lies.abs() < 1e-15));
+        assert!(after(&[1e-16, -2e-16]).iter().all(|placements| placements.abs() < 1e-15));
         assert_eq!(after(&[0.0, 4e-7, 4e-7, 4e-7]), [-1e-4; 4]);
         assert_eq!(after(&[]), [0.0; 0]);
     }
@@ -165,18 +165,18 @@ mod tests {
             angular: Vector3::z(),
         };
         let push = |x: f64| Wrench::from_force(Vector3::new(x, 0.0, 0.0));
-        let held = |flank, wrench: &Wrench, torque| {
+        let evaluation = |side, wrench: &Wrench, torque| {
             let backlash = Backlash {
                 gap: 2e-4,
                 standard_uncertainty: 0.0,
-                flank,
+                side,
             };
-            lies(&backlash, -3e-5, (&screw, wrench), torque)
+            placements(&backlash, -3e-5, (&screw, wrench), torque)
         };
-        assert_eq!(held(Flank::Torque, &push(5.0), 0.0), 1e-4);
-        assert_eq!(held(Flank::Torque, &push(5.0), -6.0), -1e-4);
-        assert_eq!(held(Flank::Torque, &Wrench::ZERO, 0.0), -3e-5);
-        assert_eq!(held(Flank::Torque, &Wrench::ZERO, 1e-12), -3e-5);
-        assert_eq!(held(Flank::Motion, &push(5.0), 7.0), -3e-5);
+        assert_eq!(evaluation(BacklashSide::Torque, &push(5.0), 0.0), 1e-4);
+        assert_eq!(evaluation(BacklashSide::Torque, &push(5.0), -6.0), -1e-4);
+        assert_eq!(evaluation(BacklashSide::Torque, &Wrench::ZERO, 0.0), -3e-5);
+        assert_eq!(evaluation(BacklashSide::Torque, &Wrench::ZERO, 1e-12), -3e-5);
+        assert_eq!(evaluation(BacklashSide::Motion, &push(5.0), 7.0), -3e-5);
     }
 }

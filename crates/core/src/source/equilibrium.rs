@@ -27,8 +27,8 @@ use nalgebra::{DMatrix, Matrix6, Vector3};
 use super::gravity::{Carried, carry_into, torque};
 use super::linear_system::{is_positive_definite, solve};
 use super::stiffness_model::Arm;
-use crate::robot::Seat;
-use crate::robot::yielding::{Yielded, twist_between, yield_into};
+use crate::robot::Attachment;
+use crate::robot::deflected_arm::{DeflectedArm, twist_between, deflect_into};
 use crate::spatial::{Twist, Wrench};
 
 /// Why an arm does not come to rest under its load.
@@ -45,12 +45,12 @@ pub enum Unstable {
 /// Room for finding an equilibrium, and the last one found.
 #[derive(Clone, Debug)]
 pub struct Equilibrium {
-    rest: Yielded,
-    yielded: Yielded,
+    rest: DeflectedArm,
+    yielded: DeflectedArm,
     carried: Vec<Carried>,
     /// Place of each drive or spring in the chain, base first.
     place: Vec<usize>,
-    /// Seat of each, by rank.
+    /// Attachment of each, by rank.
     rank: Vec<usize>,
     x: Vec<f64>,
     torques: Vec<f64>,
@@ -72,7 +72,7 @@ impl Equilibrium {
     pub fn for_arm(arm: &Arm<'_>) -> Equilibrium {
         let joints = arm.robot.joints().len();
         let springs = arm.model.structure.springs.len();
-        let rank: Vec<usize> = arm.seats().into_iter().map(|seat| seat.rank(joints)).collect();
+        let rank: Vec<usize> = arm.attachments().into_iter().map(|attachment| attachment.rank(joints)).collect();
         let size = rank.len();
         // A drive comes before the springs of its own seat; those come in the order of the list.
         let mut order: Vec<usize> = (0..size).collect();
@@ -82,9 +82,9 @@ impl Equilibrium {
             place[k] = at;
         }
         Equilibrium {
-            rest: Yielded::for_robot(arm.robot, springs),
-            yielded: Yielded::for_robot(arm.robot, springs),
-            carried: vec![Carried::NOTHING; Seat::count(joints)],
+            rest: DeflectedArm::for_robot(arm.robot, springs),
+            yielded: DeflectedArm::for_robot(arm.robot, springs),
+            carried: vec![Carried::NOTHING; Attachment::count(joints)],
             place,
             rank,
             x: vec![0.0; size],
@@ -128,7 +128,7 @@ impl Equilibrium {
         self.x.fill(0.0);
         let springs = &arm.model.structure.springs[..];
         let body = (arm.robot, springs, arm.flange_from_tool);
-        yield_into(body, theta, &self.x, &mut self.rest);
+        deflect_into(body, theta, &self.x, &mut self.rest);
         for _ in 0..MOST_STEPS {
             self.stand(arm, (theta, before), wrench);
             for (k, slope) in self.slopes.iter_mut().enumerate() {
@@ -175,13 +175,13 @@ impl Equilibrium {
     fn stand(&mut self, arm: &Arm<'_>, (theta, before): (&[f64], &[f64]), wrench: &Wrench) {
         let structure = &arm.model.structure;
         let body = (arm.robot, &structure.springs[..], arm.flange_from_tool);
-        yield_into(body, theta, &self.x, &mut self.yielded);
+        deflect_into(body, theta, &self.x, &mut self.yielded);
         let joints = theta.len();
-        let (seats, screws) = (&self.yielded.seats, &self.yielded.screws);
+        let (attachments, screws) = (&self.yielded.attachments, &self.yielded.screws);
         let tcp = self.yielded.base_from_tool().translation.vector;
         let g = arm.model.gravity.as_ref().map(|gravity| gravity.acceleration);
         if g.is_some() {
-            let frame = |seat: Seat| seats[seat.rank(joints)];
+            let frame = |attachment: Attachment| attachments[attachment.rank(joints)];
             carry_into(&structure.masses, frame, tcp, &mut self.carried);
         }
         for (k, screw) in screws.iter().enumerate() {

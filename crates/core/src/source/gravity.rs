@@ -18,7 +18,7 @@
 
 use nalgebra::{IsometryMatrix3, Vector3};
 
-use crate::robot::{Mass, Seat};
+use crate::robot::{Mass, Attachment};
 use crate::spatial::{Twist, Wrench};
 
 /// The masses that one seat and all after it carry.
@@ -46,18 +46,18 @@ impl Carried {
     }
 }
 
-/// What each seat carries, by [`Seat::rank`], into `carried`: as many as seats. `seat_frame` gives a seat in base.
+/// What each seat carries, by [`Attachment::rank`], into `carried`: as many as seats. `attachment_frame` gives a seat in base.
 pub fn carry_into(
     masses: &[Mass],
-    seat_frame: impl Fn(Seat) -> IsometryMatrix3<f64>,
+    attachment_frame: impl Fn(Attachment) -> IsometryMatrix3<f64>,
     tcp: Vector3<f64>,
     carried: &mut [Carried],
 ) {
-    let joints = carried.len().saturating_sub(Seat::count(0));
+    let joints = carried.len().saturating_sub(Attachment::count(0));
     carried.fill(Carried::NOTHING);
     for mass in masses {
-        let here = &mut carried[mass.seat.rank(joints)];
-        let centre = (seat_frame(mass.seat) * mass.centre).coords;
+        let here = &mut carried[mass.attachment.rank(joints)];
+        let centre = (attachment_frame(mass.attachment) * mass.centre).coords;
         here.mass += mass.mass;
         here.moment += (centre - tcp) * mass.mass;
     }
@@ -83,7 +83,7 @@ mod tests {
     fn a_mass_on_a_lever_pulls_with_its_arm() {
         // 10 kg at 0.5 m from an axis along y: 10 x 9.81 x 0.5 N m, by the right hand about +y.
         let masses = [Mass {
-            seat: Seat::Joint(0),
+            attachment: Attachment::Joint(0),
             mass: 10.0,
             centre: Point3::new(0.5, 0.0, 0.2),
         }];
@@ -101,24 +101,24 @@ mod tests {
 
     /// Masses on every seat of an arm of two joints.
     fn masses() -> Vec<Mass> {
-        let mass = |seat, mass, x| Mass {
-            seat,
+        let mass = |attachment, mass, x| Mass {
+            attachment,
             mass,
             centre: Point3::new(x, 0.2, -0.1),
         };
         vec![
-            mass(Seat::Tool, 1.0, 0.3),
-            mass(Seat::Base, 100.0, -0.4),
-            mass(Seat::Joint(0), 30.0, 0.1),
-            mass(Seat::Joint(1), 20.0, 0.5),
-            mass(Seat::Joint(1), 5.0, -0.2),
-            mass(Seat::Flange, 7.0, 0.0),
+            mass(Attachment::Tool, 1.0, 0.3),
+            mass(Attachment::Base, 100.0, -0.4),
+            mass(Attachment::Joint(0), 30.0, 0.1),
+            mass(Attachment::Joint(1), 20.0, 0.5),
+            mass(Attachment::Joint(1), 5.0, -0.2),
+            mass(Attachment::Flange, 7.0, 0.0),
         ]
     }
 
     /// A frame of its own for every seat.
-    fn frame(seat: Seat) -> IsometryMatrix3<f64> {
-        let rank = seat.rank(2) as f64;
+    fn frame(attachment: Attachment) -> IsometryMatrix3<f64> {
+        let rank = attachment.rank(2) as f64;
         IsometryMatrix3::new(
             Vector3::new(rank, 0.1 * rank, 1.0),
             Vector3::new(0.2, -0.3, 0.5) * rank,
@@ -134,7 +134,7 @@ mod tests {
         assert!((weight.force - g * 163.0).norm() < 1e-12);
         let moment: Vector3<f64> = masses()
             .iter()
-            .map(|mass| ((frame(mass.seat) * mass.centre).coords - tcp).cross(&(g * mass.mass)))
+            .map(|mass| ((frame(mass.attachment) * mass.centre).coords - tcp).cross(&(g * mass.mass)))
             .sum();
         assert!((weight.moment - moment).norm() < 1e-12);
         // Tool, then flange and tool, then joint 2 and all behind it.
@@ -148,7 +148,7 @@ mod tests {
     fn a_mass_on_the_base_loads_no_drive() {
         let on_base: Vec<Mass> = masses()
             .into_iter()
-            .filter(|mass| mass.seat == Seat::Base)
+            .filter(|mass| mass.attachment == Attachment::Base)
             .collect();
         let mut carried = [Carried::NOTHING; 5];
         carry_into(&on_base, frame, Vector3::zeros(), &mut carried);

@@ -16,10 +16,10 @@ pub mod geometric;
 pub mod gravity;
 mod linear_system;
 pub mod repeatability;
-pub mod standing;
+pub mod arm_state;
 pub mod stiffness_model;
 
 pub use deviation::Deviation;
 pub use equilibrium::Unstable;
-pub use standing::{Links, Standing};
+pub use arm_state::{Links, ArmState};
 pub use stiffness_model::{Arm, Gravity, StiffnessModel};

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use nalgebra::Vector3;
 
 use crate::frame::Isometry;
-use crate::robot::{Joint, JointCompliance, Robot, Seat, Structure};
+use crate::robot::{Joint, JointCompliance, Robot, Attachment, Structure};
 
 /// Standard acceleration of free fall, m/s^2: 3rd CGPM 1901, ISO 80000-3.
 pub const FREE_FALL: f64 = 9.806_65;
@@ -64,24 +64,24 @@ impl StiffnessModel {
     }
 
     /// What the deviation is shared out to: every joint, then base, flange and tool where springs sit.
-    pub fn sharers(&self, joints: usize) -> Vec<Seat> {
-        let others = [Seat::Base, Seat::Flange, Seat::Tool];
-        let sits = |seat: &Seat| self.structure.springs.iter().any(|spring| spring.seat == *seat);
+    pub fn contributors(&self, joints: usize) -> Vec<Attachment> {
+        let others = [Attachment::Base, Attachment::Flange, Attachment::Tool];
+        let sits = |attachment: &Attachment| self.structure.springs.iter().any(|spring| spring.attachment == *attachment);
         (0..joints)
-            .map(Seat::Joint)
+            .map(Attachment::Joint)
             .chain(others.into_iter().filter(sits))
             .collect()
     }
 
-    /// Names of [`StiffnessModel::sharers`]: joints as their maker calls them, then `base`, `flange`, `tool`.
-    pub fn sharer_names(&self, joints: &[Joint]) -> Vec<String> {
-        let name = |seat: Seat| match seat {
-            Seat::Joint(index) => joints[index].name.clone(),
-            Seat::Base => "base".to_owned(),
-            Seat::Flange => "flange".to_owned(),
-            Seat::Tool => "tool".to_owned(),
+    /// Names of [`StiffnessModel::contributors`]: joints as their maker calls them, then `base`, `flange`, `tool`.
+    pub fn contributor_names(&self, joints: &[Joint]) -> Vec<String> {
+        let name = |attachment: Attachment| match attachment {
+            Attachment::Joint(index) => joints[index].name.clone(),
+            Attachment::Base => "base".to_owned(),
+            Attachment::Flange => "flange".to_owned(),
+            Attachment::Tool => "tool".to_owned(),
         };
-        self.sharers(joints.len()).into_iter().map(name).collect()
+        self.contributors(joints.len()).into_iter().map(name).collect()
     }
 }
 
@@ -111,10 +111,10 @@ impl Arm<'_> {
     }
 
     /// Where each drive, then each spring sits.
-    pub(super) fn seats(&self) -> Vec<Seat> {
-        let springs = self.model.structure.springs.iter().map(|spring| spring.seat);
+    pub(super) fn attachments(&self) -> Vec<Attachment> {
+        let springs = self.model.structure.springs.iter().map(|spring| spring.attachment);
         (0..self.robot.joints().len())
-            .map(Seat::Joint)
+            .map(Attachment::Joint)
             .chain(springs)
             .collect()
     }
@@ -142,14 +142,14 @@ mod tests {
         [
             ("springs", |m| {
                 m.structure.springs = vec![
-                    Spring::about(Seat::Tool, Vector3::x(), compliance()),
-                    Spring::about(Seat::Base, Vector3::y(), compliance()),
-                    Spring::about(Seat::Joint(1), Vector3::y(), compliance()),
+                    Spring::about(Attachment::Tool, Vector3::x(), compliance()),
+                    Spring::about(Attachment::Base, Vector3::y(), compliance()),
+                    Spring::about(Attachment::Joint(1), Vector3::y(), compliance()),
                 ];
             }),
             ("masses", |m| {
                 m.structure.masses = vec![Mass {
-                    seat: Seat::Joint(2),
+                    attachment: Attachment::Joint(2),
                     mass: 40.0,
                     centre: Point3::new(0.1, 0.0, 0.3),
                 }];
@@ -229,16 +229,16 @@ mod tests {
     #[test]
     fn shares_are_told_for_joints_and_for_where_springs_sit() {
         let joints: Vec<Joint> = ["A1", "A2"].map(Joint::plain).to_vec();
-        assert_eq!(StiffnessModel::DRIVES.sharer_names(&joints), ["A1", "A2"]);
+        assert_eq!(StiffnessModel::DRIVES.contributor_names(&joints), ["A1", "A2"]);
         // Base before tool, whatever the order of the list; springs of a joint count for it.
         assert_eq!(
-            with(&["springs"]).sharer_names(&joints),
+            with(&["springs"]).contributor_names(&joints),
             ["A1", "A2", "base", "tool"]
         );
         let mut flange = StiffnessModel::DRIVES.clone();
-        flange.structure.springs = vec![Spring::along(Seat::Flange, Vector3::x(), compliance()); 2];
-        assert_eq!(flange.sharers(1), [Seat::Joint(0), Seat::Flange]);
-        assert_eq!(flange.sharer_names(&joints[..1]), ["A1", "flange"]);
+        flange.structure.springs = vec![Spring::along(Attachment::Flange, Vector3::x(), compliance()); 2];
+        assert_eq!(flange.contributors(1), [Attachment::Joint(0), Attachment::Flange]);
+        assert_eq!(flange.contributor_names(&joints[..1]), ["A1", "flange"]);
     }
 
     #[test]
@@ -254,8 +254,8 @@ mod tests {
         assert_eq!(&compliances[..6], robot.compliance().unwrap());
         assert_eq!(compliances[6..], [compliance(); 3]);
         assert_eq!(
-            arm.seats()[5..],
-            [Seat::Joint(5), Seat::Tool, Seat::Base, Seat::Joint(1)]
+            arm.attachments()[5..],
+            [Attachment::Joint(5), Attachment::Tool, Attachment::Base, Attachment::Joint(1)]
         );
     }
 }

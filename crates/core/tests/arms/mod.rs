@@ -12,7 +12,7 @@ use armill_core::nalgebra::Vector3;
 use armill_core::predict::{Deviation, predict};
 use armill_core::robot::joint::Sign;
 use armill_core::robot::{Amount, Axis, Branch, Joint, JointCompliance, Limits, Motion, PostureName, Robot};
-use armill_core::source::{Arm, Links, Standing, Unstable};
+use armill_core::source::{Arm, Links, ArmState, Unstable};
 use armill_core::spatial::Wrench;
 
 use Amount::{Constant, Joint as Var};
@@ -318,9 +318,9 @@ pub static ALL: LazyLock<[Robot; 6]> =
 
 /// The deviation of the tool held by `arm` at joint positions `q` under `wrench`.
 pub fn predicted(arm: &Arm<'_>, q: &[f64], wrench: &Wrench) -> Result<Deviation, Unstable> {
-    let mut standing = Standing::new(*arm);
-    standing.stand(q);
-    predict(&mut standing, wrench, &mut Links::Neglected)
+    let mut arm_state = ArmState::new(*arm);
+    arm_state.set_joints(q);
+    predict(&mut arm_state, wrench, &mut Links::Neglected)
 }
 
 /// A tool that is bent and turned against the flange.
@@ -330,7 +330,7 @@ pub fn bent_tool() -> Isometry {
 
 /// Answers of an arm of two joints that stands so, point after point, and deviates nowhere.
 pub fn answers_at(joints: &[[f64; 2]]) -> Answers {
-    let held = Held {
+    let evaluation = Held {
         name: PostureName::Branch(Branch::ALL[0]),
         limit_margin: 1.0,
         limit_joint: 0,
@@ -342,7 +342,7 @@ pub fn answers_at(joints: &[[f64; 2]]) -> Answers {
         full: 0.0,
     };
     Answers {
-        points: vec![Ok(held); joints.len()],
+        points: vec![Ok(evaluation); joints.len()],
         joints: joints.concat(),
         deviations: Vec::new(),
         shares: Vec::new(),

@@ -15,7 +15,7 @@ use armill_core::nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
 use armill_core::path::{Shape, Track};
 use armill_core::robot::forward::forward;
 use armill_core::robot::inverse::tool_on;
-use armill_core::robot::{Amount, Backlash, Flank, Motion, Robot};
+use armill_core::robot::{Amount, Backlash, BacklashSide, Motion, Robot};
 use armill_core::source::StiffnessModel;
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
@@ -56,13 +56,13 @@ fn measured(of: &Followed, gaps: &[f64], (noise, runs, seed): (f64, usize, u64))
     CircularTest::new(of.radius, all).unwrap()
 }
 
-fn found(circles: &[Followed], tests: &[CircularTest], asked: &Asked) -> Gaps {
+fn found(circles: &[Followed], tests: &[CircularTest], requested: &Asked) -> Gaps {
     let observed: Vec<Observed<'_>> = circles
         .iter()
         .zip(tests)
         .map(|(followed, test)| Observed { followed, test })
         .collect();
-    gaps(&observed, asked).unwrap().unwrap()
+    gaps(&observed, requested).unwrap().unwrap()
 }
 
 /// The tool pose at an angle of the circle.
@@ -79,11 +79,11 @@ fn pose(circle: &Circle, a: f64) -> Isometry {
 /// Joint positions at one angle of the circle, by themselves.
 fn joints_at(question: &Question<'_>, circle: &Circle, a: f64) -> Vec<f64> {
     let cases = [Wrench::ZERO];
-    let asked = Question {
+    let requested = Question {
         cases: &cases,
         ..*question
     };
-    let answers = evaluate(&asked, 1, |_| pose(circle, a), Watch::NONE).unwrap();
+    let answers = evaluate(&requested, 1, |_| pose(circle, a), Watch::NONE).unwrap();
     answers.joints_at(0).to_vec()
 }
 
@@ -115,7 +115,7 @@ fn with_gaps(gaps: &[f64]) -> StiffnessModel {
             Some(Backlash {
                 gap: *gap,
                 standard_uncertainty: 0.0,
-                flank: Flank::Motion,
+                side: BacklashSide::Motion,
             })
         })
         .collect();
@@ -128,7 +128,7 @@ fn the_effect_is_the_deviation_that_a_path_has() {
     for circle in three() {
         let of = followed(&robot, &circle);
         let model = with_gaps(&GAPS);
-        let asked = question(&robot, &model, &tool);
+        let requested = question(&robot, &model, &tool);
         let shape = Shape::Circle {
             centre: circle.centre,
             radius: circle.radius,
@@ -143,23 +143,23 @@ fn the_effect_is_the_deviation_that_a_path_has() {
             frame: LoadFrame::Base,
             cases: vec![Wrench::ZERO],
         });
-        let along = along_path(&asked, &track, load, Watch::NONE).unwrap();
+        let along = along_path(&requested, &track, load, Watch::NONE).unwrap();
         let radial = &radial_deviations(&track, &along.answers, circle.centre)[0].outward;
         let angles: Vec<f64> = (0..720).map(|k| TAU * f64::from(k) / 720.0).collect();
-        let mut told = vec![0.0; angles.len()];
+        let mut given = vec![0.0; angles.len()];
         for (joint, gap) in GAPS.iter().enumerate() {
             let effect = of.effect((joint, *gap), Direction::Anticlockwise, &angles);
-            told.iter_mut().zip(effect).for_each(|(sum, one)| *sum += one);
+            given.iter_mut().zip(effect).for_each(|(sum, one)| *sum += one);
         }
         // A path begins where its first move pushes, a circle behind a whole turn: alike once gaps are crossed.
-        for (k, (told, path)) in told.iter().zip(radial.iter().step_by(10)).enumerate().skip(60) {
+        for (k, (given, path)) in given.iter().zip(radial.iter().step_by(10)).enumerate().skip(60) {
             // Where a joint turns back between two points is known here and not there: that leaves the square of half
             // the pitch, 4e-4, as the joint bends, over the lever.
-            assert!((told - path).abs() < 2e-8, "{k}: {told} {path}");
+            assert!((given - path).abs() < 2e-8, "{k}: {given} {path}");
         }
         // And to first order what a bar shows.
         let shown = of.deviation(&GAPS, Direction::Anticlockwise, &angles);
-        let off = shown.iter().zip(&told).map(|(a, b)| (a - b).abs());
+        let off = shown.iter().zip(&given).map(|(a, b)| (a - b).abs());
         assert!(off.fold(0.0, f64::max) < 2.0 * (3e-4_f64).powi(2) / RADIUS);
     }
 }
@@ -190,10 +190,10 @@ fn links_half_a_gap_behind_stand_where_forward_kinematics_says() {
             behind[joint] -= 0.5 * gap * speed.signum();
             let place = tool_on(&forward(&robot, &behind), &tool).translation.vector;
             let centre = circle.placing.base_from_path.translation.vector;
-            let told = of.effect((joint, gap), direction, &[a])[0];
+            let given = of.effect((joint, gap), direction, &[a])[0];
             let moved = place - pose(&circle, a).translation.vector;
             let outwards = (pose(&circle, a).translation.vector - centre).normalize();
-            assert!((told - moved.dot(&outwards)).abs() < gap * gap, "{deg}");
+            assert!((given - moved.dot(&outwards)).abs() < gap * gap, "{deg}");
         }
     }
 }
@@ -211,8 +211,8 @@ fn gaps_come_back_from_three_circles() {
     );
     for (joint, gap) in GAPS.iter().enumerate() {
         // Second order of the radius, 1e-4 of 100 um, through singular values of a tenth.
-        let told = all.of(joint).unwrap();
-        assert!((told.gap - gap).abs() < 2e-3 * gap, "{joint}: {told:?} for {gap}");
+        let given = all.of(joint).unwrap();
+        assert!((given.gap - gap).abs() < 2e-3 * gap, "{joint}: {given:?} for {gap}");
     }
     // A larger gap of one joint is found at that joint.
     let mut more = GAPS;
@@ -227,23 +227,23 @@ fn twice_the_uncertainty_holds_the_gap_with_told_noise_and_with_found() {
     let robot = arms::mh12();
     let circles = three().map(|circle| followed(&robot, &circle));
     for (noise, runs) in [(Some(2e-6), 1), (None, 1), (None, 2)] {
-        let (mut held, mut all) = (0, 0);
+        let (mut evaluation, mut all) = (0, 0);
         for seed in 0..30 {
             let tests = [0, 1, 2].map(|k| measured(&circles[k], &GAPS, (2e-6, runs, 100 * seed + k as u64)));
-            let asked = Asked {
+            let requested = Asked {
                 noise,
                 ..Asked::of_all(6)
             };
-            let told = found(&circles, &tests, &asked);
-            assert_eq!(told.told.len(), 6);
-            for gap in &told.told {
+            let given = found(&circles, &tests, &requested);
+            assert_eq!(given.given.len(), 6);
+            for gap in &given.given {
                 all += 1;
-                held += usize::from((gap.gap - GAPS[gap.joint]).abs() < 2.0 * gap.u);
-                assert!((told.covariance[(gap.joint, gap.joint)].sqrt() / gap.u - 1.0).abs() < 1e-12);
+                evaluation += usize::from((gap.gap - GAPS[gap.joint]).abs() < 2.0 * gap.u);
+                assert!((given.covariance[(gap.joint, gap.joint)].sqrt() / gap.u - 1.0).abs() < 1e-12);
             }
         }
         // 95 %, of 180: between 90 and 100 by chance alone; those from residuals are a little wide.
-        assert!(held * 100 >= all * 90, "{noise:?} {runs}: {held} of {all}");
+        assert!(evaluation * 100 >= all * 90, "{noise:?} {runs}: {evaluation} of {all}");
     }
 }
 
@@ -252,8 +252,8 @@ fn on_the_circle_of_the_paper_three_joints_turn_back_together_and_are_not_told_a
     let robot = arms::mh12();
     let tool = Isometry::identity();
     let paper = circle([1.0, 0.0, 0.8], 0.0);
-    let asked = question(&robot, StiffnessModel::DRIVES, &tool);
-    let of = follow(&asked, (&paper, 720), Watch::NONE).unwrap();
+    let requested = question(&robot, StiffnessModel::DRIVES, &tool);
+    let of = follow(&requested, (&paper, 720), Watch::NONE).unwrap();
     for joint in [1, 2, 4] {
         let turns: Vec<f64> = (of.reversals.iter().filter(|r| r.joint == joint))
             .map(|r| r.angle.to_degrees())
@@ -279,7 +279,7 @@ fn on_the_circle_of_the_paper_three_joints_turn_back_together_and_are_not_told_a
         radii: vec![RADIUS],
     };
     let plan = propose(
-        &asked,
+        &requested,
         (&domain.candidates(), std::slice::from_ref(&of)),
         &PlanAsked {
             count: 3,
@@ -304,7 +304,7 @@ fn on_the_circle_of_the_paper_three_joints_turn_back_together_and_are_not_told_a
     let mut circles = vec![of];
     let mut tests = vec![test];
     for chosen in &plan.circles {
-        let whole = follow(&asked, (&chosen.candidate.circle, 720), Watch::NONE).unwrap();
+        let whole = follow(&requested, (&chosen.candidate.circle, 720), Watch::NONE).unwrap();
         tests.push(measured(&whole, &GAPS, (1e-6, 2, 7)));
         circles.push(whole);
     }
@@ -312,11 +312,11 @@ fn on_the_circle_of_the_paper_three_joints_turn_back_together_and_are_not_told_a
     let last = &plan.circles[2].known;
     assert_eq!(four.unseen, last.unseen);
     assert!(four.together.is_empty() && last.together.is_empty(), "{four:?}");
-    assert!(four.told.len() >= 5, "{four:?}");
-    for gap in &four.told {
+    assert!(four.given.len() >= 5, "{four:?}");
+    for gap in &four.given {
         assert!((gap.gap - GAPS[gap.joint]).abs() < 4.0 * gap.u, "{gap:?}");
         // What the plan expected of one run each way at this noise; two runs and a circle more are surer.
-        let expected = last.told.iter().find(|one| one.joint == gap.joint).unwrap();
+        let expected = last.given.iter().find(|one| one.joint == gap.joint).unwrap();
         assert!(
             gap.u < 1.5 * expected.u && gap.u > 0.3 * expected.u,
             "{gap:?} {expected:?}"
@@ -333,13 +333,13 @@ fn an_arm_turned_about_its_base_has_the_same_gaps() {
         let mut after = before;
         after.placing.base_from_path = turn * before.placing.base_from_path;
         let tool = tool();
-        let asked = question(&robot, StiffnessModel::DRIVES, &tool);
+        let requested = question(&robot, StiffnessModel::DRIVES, &tool);
         // The tool turns with the cell, about its own axis where the plane lies.
-        let of = follow(&asked, (&before, 720), Watch::NONE).unwrap();
-        let [told, turned] = [turn * pose(&before, 0.0), pose(&after, 0.0)];
-        let spin = (turned.rotation.inverse() * told.rotation).scaled_axis().z;
+        let of = follow(&requested, (&before, 720), Watch::NONE).unwrap();
+        let [given, turned] = [turn * pose(&before, 0.0), pose(&after, 0.0)];
+        let spin = (turned.rotation.inverse() * given.rotation).scaled_axis().z;
         after.placing.spin = armill_core::path::Spin::Fixed(spin);
-        let there = follow(&asked, (&after, 720), Watch::NONE).unwrap();
+        let there = follow(&requested, (&after, 720), Watch::NONE).unwrap();
         assert_eq!(of.reversals.len(), there.reversals.len());
         for one in &of.reversals {
             let mut others = there.reversals.iter().filter(|other| other.joint == one.joint);
@@ -392,7 +392,7 @@ fn an_arm_twice_as_large_shows_the_same_gaps_twice_as_large() {
         assert!((2.0 * small - large).abs() < 1e-11, "{small} {large}");
     }
     let [small, large] = [&one, &two].map(|of| {
-        let asked = Asked {
+        let requested = Asked {
             joints: vec![0, 3],
             ..Asked::of_all(6)
         };
@@ -400,10 +400,10 @@ fn an_arm_twice_as_large_shows_the_same_gaps_twice_as_large() {
         found(
             std::slice::from_ref(of),
             &[measured(of, &gaps, (0.0, 1, 1))],
-            &asked,
+            &requested,
         )
     });
-    for (small, large) in small.told.iter().zip(&large.told) {
+    for (small, large) in small.given.iter().zip(&large.given) {
         assert!((small.gap - large.gap).abs() < 1e-9, "{small:?} {large:?}");
     }
 }
@@ -412,9 +412,9 @@ fn an_arm_twice_as_large_shows_the_same_gaps_twice_as_large() {
 fn a_torque_that_holds_a_flank_leaves_no_step() {
     let (robot, tool) = (arms::mh12(), tool());
     let mut model = with_gaps(&GAPS);
-    model.structure.backlash[1].as_mut().unwrap().flank = Flank::Torque;
+    model.structure.backlash[1].as_mut().unwrap().side = BacklashSide::Torque;
     model.structure.masses = vec![armill_core::robot::Mass {
-        seat: armill_core::robot::Seat::Tool,
+        attachment: armill_core::robot::Attachment::Tool,
         mass: 8.0,
         centre: Point3::origin(),
     }];
@@ -457,8 +457,8 @@ fn a_joint_that_stands_still_to_rounding_drags_its_link_nowhere() {
     // The tool straight down: R stays where it is.
     let (robot, tool) = (arms::mh12(), tool());
     let flat = circle([0.85, 0.25, 0.45], 90.0);
-    let asked = question(&robot, StiffnessModel::DRIVES, &tool);
-    let of = follow(&asked, (&flat, 720), Watch::NONE).unwrap();
+    let requested = question(&robot, StiffnessModel::DRIVES, &tool);
+    let of = follow(&requested, (&flat, 720), Watch::NONE).unwrap();
     assert!(
         of.reversals.iter().all(|reversal| reversal.joint != 3),
         "{:?}",

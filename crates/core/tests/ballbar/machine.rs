@@ -54,7 +54,7 @@ impl Machine {
     /// Where the tool is when the drives are told to be at `angle` of the circle.
     fn place(&self, angle: f64, sign: f64) -> [f64; 2] {
         // Each drive is where it was told to be some time before.
-        let told = [0, 1].map(|axis| {
+        let given = [0, 1].map(|axis| {
             let late = angle - sign * SPEED / RADIUS * self.late[axis];
             RADIUS * if axis == 0 { late.cos() } else { late.sin() }
         });
@@ -64,9 +64,9 @@ impl Machine {
             let wave = if height == 0.0 {
                 0.0
             } else {
-                height * (TAU * told[k] / period).sin()
+                height * (TAU * given[k] / period).sin()
             };
-            told[k] * (1.0 + self.scale[k]) - 0.5 * self.gap[k] * speed[k].signum() + wave
+            given[k] * (1.0 + self.scale[k]) - 0.5 * self.gap[k] * speed[k].signum() + wave
         };
         let [x, y] = [axis(0), axis(1)];
         [x - self.squareness * y, y]

@@ -9,7 +9,7 @@ use armill_core::measure::ballbar::{CircularTest, Direction, Run};
 
 use crate::machine::{Machine, RADIUS, Random};
 
-fn asked(most_lobes: usize, period: Option<f64>) -> Asked {
+fn requested(most_lobes: usize, period: Option<f64>) -> Asked {
     Asked {
         reversals: of_axes(["X", "Y"]),
         most_lobes,
@@ -59,15 +59,15 @@ fn truth(machine: &Machine) -> Vec<(Term, f64)> {
 
 #[test]
 fn every_error_of_a_machine_comes_back_without_noise() {
-    let found = parts(&ALL.test([1, 1], 1440, 1), &asked(3, Some(0.01))).unwrap();
+    let found = parts(&ALL.test([1, 1], 1440, 1), &requested(3, Some(0.01))).unwrap();
     // What is left are products of the errors: 150e-6 of 18e-6, squares over the radius.
     for (term, value) in truth(&ALL) {
-        let told = part(&found, term).value;
-        assert!((told - value).abs() < 0.06e-6, "{term:?}: {told} for {value}");
+        let given = part(&found, term).value;
+        assert!((given - value).abs() < 0.06e-6, "{term:?}: {given} for {value}");
     }
     for (axis, height) in [(Axis::A, 1.5e-6), (Axis::B, 0.8e-6)] {
-        let told = part(&found, Term::Cyclic(axis, Wave::Sine)).value;
-        assert!((told - height).abs() < 0.03e-6, "{axis:?}: {told}");
+        let given = part(&found, Term::Cyclic(axis, Wave::Sine)).value;
+        assert!((given - height).abs() < 0.03e-6, "{axis:?}: {given}");
         assert!(part(&found, Term::Cyclic(axis, Wave::Cosine)).value.abs() < 0.03e-6);
     }
     assert!(found.together.is_empty() && found.rms_after < 0.05e-6 && found.rms_before > 5e-6);
@@ -93,17 +93,17 @@ fn intervals_hold_the_truth_nineteen_times_of_twenty() {
             drift: 0.0,
             ..machine
         };
-        let truth = parts(&still.test([1, 1], 360, 0), &asked(3, None)).unwrap();
-        let (mut held, mut all) = (0, 0);
+        let truth = parts(&still.test([1, 1], 360, 0), &requested(3, None)).unwrap();
+        let (mut evaluation, mut all) = (0, 0);
         for seed in 0..60 {
-            let found = parts(&machine.test(runs, 360, seed), &asked(3, None)).unwrap();
+            let found = parts(&machine.test(runs, 360, seed), &requested(3, None)).unwrap();
             for Part { term, value, .. } in &truth.parts {
-                let Part { value: told, u, .. } = part(&found, *term);
-                held += usize::from((told - value).abs() <= 2.0 * u);
+                let Part { value: given, u, .. } = part(&found, *term);
+                evaluation += usize::from((given - value).abs() <= 2.0 * u);
                 all += 1;
             }
         }
-        let share = held as f64 / all as f64;
+        let share = evaluation as f64 / all as f64;
         assert!((least..=most).contains(&share), "{runs:?} {drift}: {share}");
     }
 }
@@ -116,7 +116,7 @@ fn runs_that_drift_make_what_drifts_less_sure() {
         ..steady
     };
     let u = |machine: Machine| {
-        let found = parts(&machine.test([3, 3], 360, 5), &asked(3, Some(0.01))).unwrap();
+        let found = parts(&machine.test([3, 3], 360, 5), &requested(3, Some(0.01))).unwrap();
         part(&found, Term::Radius).u
     };
     // 5 um over the root of six runs.
@@ -129,7 +129,7 @@ fn runs_that_drift_make_what_drifts_less_sure() {
 
 #[test]
 fn one_direction_alone_says_what_it_cannot_tell_apart() {
-    let found = parts(&ALL.test([1, 0], 720, 2), &asked(3, Some(0.01))).unwrap();
+    let found = parts(&ALL.test([1, 0], 720, 2), &requested(3, Some(0.01))).unwrap();
     let sets = [
         [Term::Radius, Term::DirectionRadius],
         [Term::Squareness, Term::ServoMismatch],
@@ -160,7 +160,7 @@ fn an_arc_tells_what_it_can_with_less_sureness() {
         run.without(&places).unwrap()
     };
     let arcs = CircularTest::new(RADIUS, whole.runs().iter().map(arc).collect()).unwrap();
-    let [whole, arcs] = [whole, arcs].map(|test| parts(&test, &asked(2, None)));
+    let [whole, arcs] = [whole, arcs].map(|test| parts(&test, &requested(2, None)));
     let (whole, arcs) = (whole.unwrap(), arcs.unwrap());
     for term in [Term::Radius, Term::ScaleMismatch] {
         assert!(part(&arcs, term).u > 2.0 * part(&whole, term).u, "{term:?}");
@@ -178,7 +178,7 @@ fn scales_of_an_arc_are_as_sure_as_they_scatter() {
         lobes: 0.0,
         ..ALL
     };
-    let mut told = [0.0; 2];
+    let mut given = [0.0; 2];
     let mut scales = Vec::new();
     for seed in 0..80 {
         let whole = machine.test([1, 1], 360, seed);
@@ -188,23 +188,23 @@ fn scales_of_an_arc_are_as_sure_as_they_scatter() {
             run.without(&places).unwrap()
         };
         let arcs = CircularTest::new(RADIUS, whole.runs().iter().map(arc).collect()).unwrap();
-        let found = parts(&arcs, &asked(2, None)).unwrap();
+        let found = parts(&arcs, &requested(2, None)).unwrap();
         let [mean, half] = [Term::Radius, Term::ScaleMismatch].map(|term| part(&found, term));
         let both = mean.u.powi(2) + half.u.powi(2);
         let covariance = 2.0 * found.scale_covariance;
-        told[0] += (both + covariance) / 80.0;
-        told[1] += (both - covariance) / 80.0;
+        given[0] += (both + covariance) / 80.0;
+        given[1] += (both - covariance) / 80.0;
         scales.push([mean.value + half.value, mean.value - half.value]);
     }
     for axis in 0..2 {
         let mean = scales.iter().map(|scale| scale[axis]).sum::<f64>() / 80.0;
         let squares: f64 = scales.iter().map(|scale| (scale[axis] - mean).powi(2)).sum();
         // The root of 80 draws scatters by a twelfth; residuals of 440 samples by a thirtieth, and what hangs together.
-        let ratio = (told[axis] / (squares / 79.0)).sqrt();
+        let ratio = (given[axis] / (squares / 79.0)).sqrt();
         assert!((0.7..1.4).contains(&ratio), "{axis}: {ratio}");
     }
     // The axis of which both ends were seen is the surer one by far.
-    assert!(told[1] > 4.0 * told[0], "{told:?}");
+    assert!(given[1] > 4.0 * given[0], "{given:?}");
 }
 
 #[test]
@@ -228,20 +228,20 @@ fn a_step_at_the_end_of_an_arc_is_not_told() {
         Run::new(direction, angle.clone(), deviation.collect()).unwrap()
     };
     let runs = vec![test(-1.0), test(1.0)];
-    let found = parts(&CircularTest::new(RADIUS, runs).unwrap(), &asked(2, None)).unwrap();
+    let found = parts(&CircularTest::new(RADIUS, runs).unwrap(), &requested(2, None)).unwrap();
     assert!(found.of(Term::Reversal(0)).is_none() && found.of(Term::Reversal(1)).is_some());
     assert!(
         found.together.contains(&vec![Term::Reversal(0)]),
         "{:?}",
         found.together
     );
-    let whole = parts(&machine.test([1, 1], 360, 3), &asked(2, None)).unwrap();
+    let whole = parts(&machine.test([1, 1], 360, 3), &requested(2, None)).unwrap();
     assert!(whole.of(Term::Reversal(0)).is_some());
 }
 
 #[test]
 fn sums_stand_for_none_of_their_parts() {
-    let one_way = parts(&ALL.test([1, 0], 720, 2), &asked(3, Some(0.01))).unwrap();
+    let one_way = parts(&ALL.test([1, 0], 720, 2), &requested(3, Some(0.01))).unwrap();
     for term in [Term::Radius, Term::Squareness] {
         assert!(
             one_way.of(term).is_some() && one_way.alone(term).is_none(),
@@ -254,7 +254,7 @@ fn sums_stand_for_none_of_their_parts() {
 #[test]
 fn a_period_of_no_length_has_no_parts() {
     let test = ALL.test([1, 1], 720, 2);
-    assert_eq!(parts(&test, &asked(3, Some(1e-320))), None);
+    assert_eq!(parts(&test, &requested(3, Some(1e-320))), None);
     let [least, most] = periods(&test);
     // Four samples of half a degree.
     assert!((least / (4.0 * RADIUS * TAU / 720.0) - 1.0).abs() < 1e-9 && most == RADIUS);
@@ -268,7 +268,7 @@ fn the_period_of_a_cyclic_error_is_found_and_noise_has_none() {
             noise,
             ..ALL
         };
-        let found = strongest_period(&machine.test([2, 2], 1440, 4), &asked(3, None)).unwrap();
+        let found = strongest_period(&machine.test([2, 2], 1440, 4), &requested(3, None)).unwrap();
         assert!((found / period - 1.0).abs() < 0.01, "{period}: {found}");
     }
     for seed in 0..5 {
@@ -278,7 +278,7 @@ fn the_period_of_a_cyclic_error_is_found_and_noise_has_none() {
             ..ALL
         };
         assert_eq!(
-            strongest_period(&machine.test([1, 1], 720, seed), &asked(3, None)),
+            strongest_period(&machine.test([1, 1], 720, seed), &requested(3, None)),
             None,
             "{seed}"
         );
@@ -315,12 +315,12 @@ fn a_gap_at_told_angles_comes_back() {
     let test = CircularTest::new(RADIUS, Direction::BOTH.map(&mut run).to_vec()).unwrap();
     let mut reversals = of_axes(["X", "Y"]);
     reversals.push(reversal);
-    let asked = Asked {
+    let requested = Asked {
         reversals,
         most_lobes: 2,
         period: None,
     };
-    let found = parts(&test, &asked).unwrap();
+    let found = parts(&test, &requested).unwrap();
     let Part { value, u, .. } = *part(&found, Term::Reversal(4));
     assert!((value - 25e-6).abs() < 3.0 * u && u < 0.3e-6, "{value} {u}");
     assert!(part(&found, Term::Reversal(0)).value.abs() < 1e-6);
@@ -328,9 +328,9 @@ fn a_gap_at_told_angles_comes_back() {
 
 #[test]
 fn a_reversal_told_twice_is_named_as_one() {
-    let mut asked = asked(2, None);
-    asked.reversals.push(asked.reversals[1].clone());
-    let found = parts(&ALL.test([1, 1], 720, 6), &asked).unwrap();
+    let mut requested = requested(2, None);
+    requested.reversals.push(requested.reversals[1].clone());
+    let found = parts(&ALL.test([1, 1], 720, 6), &requested).unwrap();
     assert_eq!(found.together, [vec![Term::Reversal(1), Term::Reversal(4)]]);
     let few = Run::new(
         Direction::Clockwise,
@@ -338,9 +338,9 @@ fn a_reversal_told_twice_is_named_as_one() {
         vec![0.0; 24],
     )
     .unwrap();
-    asked.most_lobes = 20;
+    requested.most_lobes = 20;
     assert_eq!(
-        parts(&CircularTest::new(RADIUS, vec![few]).unwrap(), &asked),
+        parts(&CircularTest::new(RADIUS, vec![few]).unwrap(), &requested),
         None
     );
 }

@@ -9,7 +9,7 @@ use armill_core::frame::Isometry;
 use armill_core::nalgebra::{UnitQuaternion, Vector3};
 use armill_core::path::{Shape, Track};
 use armill_core::robot::forward::forward;
-use armill_core::robot::{Amount, Backlash, Flank, JointCompliance, Motion, Robot};
+use armill_core::robot::{Amount, Backlash, BacklashSide, JointCompliance, Motion, Robot};
 use armill_core::source::StiffnessModel;
 
 use crate::arms::circles::{RADIUS, circle};
@@ -67,7 +67,7 @@ pub fn model(gaps: &[f64], u: &[f64], actual: Robot) -> StiffnessModel {
         Some(Backlash {
             gap: *gap,
             standard_uncertainty: *u,
-            flank: Flank::Motion,
+            side: BacklashSide::Motion,
         })
     };
     model.structure.backlash = gaps.iter().zip(u).map(with).collect();
@@ -130,7 +130,7 @@ pub fn tracked(robot: &Robot, noise: f64, random: &mut Stream) -> Vec<MeasuredPo
 /// The geometry of `robot` from these poses.
 pub fn calibrated(robot: &Robot, poses: &[MeasuredPose]) -> Calibrated {
     let question = CalibrationQuestion {
-        asked: Asked::Geometry,
+        requested: Asked::Geometry,
         flange_from_point: frames()[1],
         turn_length: 0.3,
         prior: None,

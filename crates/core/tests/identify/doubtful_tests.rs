@@ -6,7 +6,7 @@ use armill_core::identify::{
     Identified, Loss, Method, Refusal, Role, Unknown, identify, measured_over_typical,
 };
 use armill_core::nalgebra::Vector3;
-use armill_core::robot::Seat;
+use armill_core::robot::Attachment;
 use armill_core::robot::chain::Axis;
 
 use crate::{Random, arms, loads, measure, usual};
@@ -54,7 +54,7 @@ fn one_wild_test_is_named_and_moves_little() {
 fn springs_that_act_alike_are_named_together() {
     let (robot, mut random) = (arms::mh12(), Random(6));
     // The link after B bends about y where B itself turns about y: nothing tells them apart.
-    let twin = Unknown::about(Seat::Joint(4), Axis::Y, Role::Bending);
+    let twin = Unknown::about(Attachment::Joint(4), Axis::Y, Role::Bending);
     let mut unknowns = drives(&robot);
     unknowns.push(twin);
     let mut tests = loads(&robot, 12, &mut random);

@@ -4,7 +4,7 @@ use armill_core::identify::effect::{Effects, State};
 use armill_core::identify::unknown::{base, bending, drives, tool};
 use armill_core::identify::{Measured, Method, Points, Reading, displacement_errors, identify};
 use armill_core::nalgebra::Vector3;
-use armill_core::robot::Seat;
+use armill_core::robot::Attachment;
 
 use crate::{Random, arms, loads, measure, plain, some_sizes, usual};
 
@@ -52,7 +52,7 @@ fn every_spring_and_both_points_are_found_exactly_where_nothing_scatters() {
     // Three springs of one size about axes through the wrist centre yield alike in every posture: which of drives and
     // bendings of the wrist yields stays open, and no prediction needs it.
     let open = |k: &usize| found.together.iter().any(|set| set.contains(k));
-    let in_wrist = |k: usize| matches!(unknowns[k].seat, Seat::Joint(3..=5));
+    let in_wrist = |k: usize| matches!(unknowns[k].attachment, Attachment::Joint(3..=5));
     assert!(
         (0..unknowns.len()).filter(open).all(in_wrist),
         "{:?}",

@@ -12,7 +12,7 @@ use crate::{Random, arms, loads};
 fn a_plan_knows_more_than_chance_and_stays_inside_the_limits() {
     let robot = arms::mh12();
     let unknowns = [drives(&robot), bending(&robot)].concat();
-    let asked = PlanQuestion {
+    let requested = PlanQuestion {
         tests: 12,
         pulls: [[0.0, 0.0, -150.0], [150.0, 0.0, 0.0], [0.0, 150.0, 0.0]]
             .map(Vector3::from)
@@ -21,7 +21,7 @@ fn a_plan_knows_more_than_chance_and_stays_inside_the_limits() {
         gauge: 1e-5,
         floor: Some(Floor::under_base()),
     };
-    let planned = plan(&robot, &unknowns, &asked);
+    let planned = plan(&robot, &unknowns, &requested);
     assert_eq!(planned.tests.len(), 12);
     for test in &planned.tests {
         let (_, margin) = robot.limit_margin(&test.joints).unwrap();
@@ -29,7 +29,7 @@ fn a_plan_knows_more_than_chance_and_stays_inside_the_limits() {
         let frames = armill_core::robot::forward::forward(&robot, &test.joints);
         assert!(frames.base_from_flange.translation.vector.z > 0.2);
     }
-    assert_eq!(plan(&robot, &unknowns, &asked).tests, planned.tests);
+    assert_eq!(plan(&robot, &unknowns, &requested).tests, planned.tests);
     for (place, test) in planned.tests.iter().enumerate() {
         assert!(!planned.tests[..place].contains(test), "{test:?} twice");
     }
@@ -55,8 +55,8 @@ fn a_plan_knows_more_than_chance_and_stays_inside_the_limits() {
     let as_test = |joints: &[f64], force| LoadTest {
         joints: joints.to_vec(),
         wrench: Wrench::from_force(force),
-        force_point: asked.tool_point,
-        measured_point: asked.tool_point,
+        force_point: requested.tool_point,
+        measured_point: requested.tool_point,
         readings: loads(&robot, 1, &mut Random(1))[0].readings.clone(),
     };
     let best: Vec<LoadTest> = planned
@@ -69,7 +69,7 @@ fn a_plan_knows_more_than_chance_and_stays_inside_the_limits() {
         let chance: Vec<LoadTest> = loads(&robot, 12, &mut random)
             .into_iter()
             .enumerate()
-            .map(|(i, t)| as_test(&t.joints, asked.pulls[i % 3]))
+            .map(|(i, t)| as_test(&t.joints, requested.pulls[i % 3]))
             .collect();
         assert!(volume(&chance) < volume(&best));
     }

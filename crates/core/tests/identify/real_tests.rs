@@ -7,7 +7,7 @@ use armill_core::identify::{
 };
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::chain::Axis;
-use armill_core::robot::{Robot, Seat};
+use armill_core::robot::{Robot, Attachment};
 use armill_core::spatial::Wrench;
 
 use crate::{AXES, arms, plain, usual};
@@ -69,7 +69,7 @@ fn least_squares_on_43_real_tests_give_what_another_program_gave() {
     let Some(tests) = fanuc_tests() else { return };
     let robot = r2000ic();
     let six = drives(&robot);
-    let both = |axis| (0..6).map(move |joint| Unknown::about(Seat::Joint(joint), axis, Role::Bending));
+    let both = |axis| (0..6).map(move |joint| Unknown::about(Attachment::Joint(joint), axis, Role::Bending));
     let eighteen: Vec<Unknown> = six
         .iter()
         .copied()

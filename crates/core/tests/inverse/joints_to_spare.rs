@@ -25,11 +25,11 @@ fn joint_3_of_an_iiwa_stands_at_home_and_all_eight_postures_of_the_others_are_fo
         for joint in [0, 1, 3, 4, 5, 6] {
             home[joint] = 0.0;
         }
-        let wanted = ToolAt {
+        let expected = ToolAt {
             home: Some(&home),
             ..at(&tool)
         };
-        let found = postures(&robot, &made.base_from_tool, wanted).unwrap();
+        let found = postures(&robot, &made.base_from_tool, expected).unwrap();
         assert!(found.iter().any(|p| apart(&robot, &p.joints, &q) < 1e-6), "{q:?}");
         for (i, posture) in found.iter().enumerate() {
             assert!((flange_of_rows(&other::IIWA14, &posture.joints) - target).norm() < 2e-9);
@@ -100,7 +100,7 @@ fn calibrated_railed_and_otherwise_counted_iiwas_hold_their_poses_with_joint_3_a
         (joint.sign, joint.zero_offset) = (Sign::Negative, 0.3);
     }
     let counted = Robot::new("counted", iiwa.chain().motions().to_vec(), joints).unwrap();
-    for (robot, kind, standing) in [
+    for (robot, kind, arm_state) in [
         (other::calibrated(&iiwa, 5e-4), "polished", 2),
         (other::on_rail(&iiwa), "closed_form", 3),
         (counted, "closed_form", 2),
@@ -118,7 +118,7 @@ fn calibrated_railed_and_otherwise_counted_iiwas_hold_their_poses_with_joint_3_a
                 ..at(&tool)
             };
             let found = postures(&robot, &made.base_from_tool, home).unwrap();
-            assert!(found.iter().all(|p| p.joints[standing] == q[standing]));
+            assert!(found.iter().all(|p| p.joints[arm_state] == q[arm_state]));
             assert!(
                 apart(&robot, &found[0].joints, &q) < 1e-6,
                 "{}: {q:?}",

@@ -2,7 +2,7 @@
 
 use armill_core::frame::Isometry;
 use armill_core::kernel::{Answers, BranchChoice, Question, evaluate, evaluate_in_order};
-use armill_core::load::Doubt;
+use armill_core::load::InputUncertainty;
 use armill_core::nalgebra::{Unit, Vector3};
 use armill_core::robot::Robot;
 use armill_core::robot::inverse::posture_at;
@@ -42,7 +42,7 @@ fn along<T>(robot: &Robot, choice: BranchChoice, then: impl FnOnce(&Question<'_>
             flange_from_tool: &tool,
         },
         home: None,
-        doubt: Doubt::NONE,
+        uncertainty: InputUncertainty::NONE,
         cases: &cases,
         normal: Unit::new_normalize(Vector3::new(-0.8, 0.3, 0.5)),
         choice,
@@ -84,12 +84,12 @@ fn the_kernel_agrees_with_predict_for_every_kind_and_any_number_of_threads() {
                 assert_eq!(answers.joints, again.joints);
                 assert_eq!(answers.deviations, again.deviations);
                 let mut checked = 0;
-                for (i, held) in answers.held() {
+                for (i, evaluation) in answers.evaluation() {
                     let posture = posture_at(&robot, answers.joints_at(i), question.arm.flange_from_tool);
                     let away = posture.base_from_tool.translation.vector - poses[i].translation.vector;
                     assert!(away.norm() < 1e-9, "{}", robot.name());
-                    if held.singularity.is_none() {
-                        assert_eq!(posture.name, held.name);
+                    if evaluation.singularity.is_none() {
+                        assert_eq!(posture.name, evaluation.name);
                     }
                     for (case, wrench) in question.cases.iter().enumerate() {
                         let witness = predict(&posture, question.arm.compliance, wrench).twist.linear;
@@ -136,7 +136,7 @@ fn along_a_path_no_joint_jumps() {
     for robot in kinds() {
         along(&robot, choices()[0], |question, poses| {
             let answers = evaluate_in_order(question, poses.len(), |i| poses[i], Watch::NONE).unwrap();
-            assert!(answers.held().count() == poses.len(), "{}", robot.name());
+            assert!(answers.evaluation().count() == poses.len(), "{}", robot.name());
             for i in 1..poses.len() {
                 let (a, b) = (answers.joints_at(i - 1), answers.joints_at(i));
                 let step = a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
@@ -152,10 +152,10 @@ fn a_map_of_an_iiwa_is_continuous() {
     for choice in choices() {
         along(&other::iiwa14(), choice, |question, poses| {
             let answers = evaluate(question, poses.len(), |i| poses[i], Watch::NONE).unwrap();
-            assert_eq!(answers.held().count(), poses.len());
+            assert_eq!(answers.evaluation().count(), poses.len());
             assert!((0..poses.len()).all(|i| answers.joints_at(i)[2] == 0.0));
-            let held: Vec<_> = answers.held().collect();
-            for ((_, a), (i, b)) in held.iter().zip(&held[1..]) {
+            let evaluation: Vec<_> = answers.evaluation().collect();
+            for ((_, a), (i, b)) in evaluation.iter().zip(&evaluation[1..]) {
                 // Half a millimetre to one apart, of a reach of 0.8 m: some parts in a thousand. The best posture of
                 // all may come to a limit: the deviation then steps up.
                 let step = (a.in_plane - b.in_plane).abs() / a.in_plane;

@@ -79,7 +79,7 @@ struct Trips {
     /// Poses, without those near a singularity.
     poses: usize,
     /// Of them, those with any posture.
-    held: usize,
+    evaluation: usize,
     /// Of them, those with the joint positions that made them among their postures.
     returned: usize,
     /// Postures in all.
@@ -103,7 +103,7 @@ fn round_trips(robot: &Robot, count: usize) -> Trips {
         let home = (robot.joints().len() > 6).then_some(&q[..]);
         let found = postures(robot, &made.base_from_tool, ToolAt { home, ..at(&tool) }).unwrap_or_default();
         trips.poses += 1;
-        trips.held += usize::from(!found.is_empty());
+        trips.evaluation += usize::from(!found.is_empty());
         trips.postures += found.len();
         // A pose is known to 1e-12; near the end of a branch joints are known to the root of it.
         trips.returned += usize::from(found.iter().any(|p| apart(robot, &p.joints, &q) < 1e-6));

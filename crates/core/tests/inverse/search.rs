@@ -12,7 +12,7 @@ fn searched_arms_hold_every_pose() {
     let robot = other::oblique();
     assert!(matches!(robot.inverse(), Inverse::Searched));
     let trips = round_trips(&robot, 1000);
-    assert!(trips.held as f64 > 0.999 * trips.poses as f64, "{trips:?}");
+    assert!(trips.evaluation as f64 > 0.999 * trips.poses as f64, "{trips:?}");
 }
 
 #[test]
@@ -23,13 +23,13 @@ fn a_search_that_follows_keeps_the_postures_that_continue() {
     let (mut finder, mut fewer) = (Finder::new(&robot), 0);
     let mut before = usize::MAX;
     for k in 0..200 {
-        let wanted = Wanted {
+        let expected = Wanted {
             base_from_flange: Isometry::translation(0.0, 0.002 * f64::from(k), 0.0) * start,
             near: None,
             home: None,
         };
         let followed: Vec<Vec<f64>> = finder
-            .all(&wanted)
+            .all(&expected)
             .unwrap()
             .iter()
             .map(|p| p.joints.clone())
@@ -41,7 +41,7 @@ fn a_search_that_follows_keeps_the_postures_that_continue() {
         fewer += usize::from(followed.len() < before);
         before = followed.len();
         let mut anew = Finder::new(&robot);
-        let anew = anew.all(&wanted).unwrap();
+        let anew = anew.all(&expected).unwrap();
         for joints in &followed {
             assert!(
                 anew.iter()

@@ -28,7 +28,7 @@ fn calibrated_arms_give_back_the_joints_that_made_the_pose() {
         let robot = other::calibrated(&ideal, 5e-4);
         assert!(matches!(robot.inverse(), Inverse::Polished(_)));
         let trips = round_trips(&robot, 10_000);
-        assert_eq!(trips.held, trips.poses);
+        assert_eq!(trips.evaluation, trips.poses);
         // Beside the singularities of the ideal arm two branches may end in one posture.
         assert!(trips.returned as f64 > 0.999 * trips.poses as f64, "{trips:?}");
     }
@@ -54,7 +54,7 @@ fn a_hundred_thousand_poses_of_every_arm() {
         other::oblique(),
     ] {
         let trips = round_trips(&robot, 100_000);
-        assert!(trips.held as f64 > 0.999 * trips.poses as f64, "{trips:?}");
+        assert!(trips.evaluation as f64 > 0.999 * trips.poses as f64, "{trips:?}");
         assert!(trips.returned as f64 > 0.999 * trips.poses as f64, "{trips:?}");
     }
 }

@@ -8,7 +8,7 @@ use armill_core::robot::{Branch, Posture, Robot};
 use armill_core::source::elastic::predict;
 use armill_core::workpiece::Split;
 
-use crate::{NEAR_SINGULAR, arms, ask, batch, cases, poses_of, some};
+use crate::{NEAR_SINGULAR, arms, analysis, batch, cases, poses_of, some};
 
 /// Largest difference of envelopes from `predict`, against the whole deviation, away from singularities; every
 /// difference near them is below `near`.
@@ -20,7 +20,7 @@ fn worst_difference<T: Precision>(
 ) -> f64 {
     let soa = poses_of::<T>(postures);
     let mut worst: f64 = 0.0;
-    ask(robot, &cases(5), BranchChoice::Best, |question| {
+    analysis(robot, &cases(5), BranchChoice::Best, |question| {
         let mut batch = batch::<T>(question, backend);
         let mut out: [Envelopes<T>; 4] = Default::default();
         batch.envelopes_of_all(&soa.poses(), &mut out);
@@ -104,7 +104,7 @@ fn joint_limits_by_cosines_agree_with_joint_positions() {
     for robot in arms::all() {
         let found = some(&robot, 20_000);
         let soa = poses_of::<f64>(&found);
-        ask(&robot, &cases(1), BranchChoice::Best, |question| {
+        analysis(&robot, &cases(1), BranchChoice::Best, |question| {
             let mut batch = batch::<f64>(question, Backend::fastest());
             let mut out: [Envelopes<f64>; 4] = Default::default();
             batch.envelopes_of_all(&soa.poses(), &mut out);
@@ -144,7 +144,7 @@ fn compliances_agree_with_the_sum_over_screws() {
     for robot in arms::all() {
         let found = some(&robot, 5_000);
         let soa = poses_of::<f64>(&found);
-        ask(&robot, &cases(1), BranchChoice::Best, |question| {
+        analysis(&robot, &cases(1), BranchChoice::Best, |question| {
             let mut batch = batch::<f64>(question, Backend::fastest());
             for branch in Branch::ALL {
                 let mut out = Arrays::default();
@@ -175,7 +175,7 @@ fn joint_positions_of_all_branches_agree_with_the_closed_form() {
     for robot in arms::all() {
         let found = some(&robot, 3_000);
         let soa = poses_of::<f64>(&found);
-        ask(&robot, &cases(1), BranchChoice::Best, |question| {
+        analysis(&robot, &cases(1), BranchChoice::Best, |question| {
             let mut out = Arrays::default();
             batch::<f64>(question, Backend::fastest()).joints(&soa.poses(), &mut out);
             for (i, posture) in found.iter().enumerate() {
@@ -216,7 +216,7 @@ fn forward_agrees_with_the_chain() {
         let found = some(&robot, 5_000);
         let joints: [Vec<f64>; 6] = std::array::from_fn(|k| found.iter().map(|p| p.joints[k]).collect());
         let soa = poses_of::<f64>(&found);
-        ask(&robot, &cases(1), BranchChoice::Best, |question| {
+        analysis(&robot, &cases(1), BranchChoice::Best, |question| {
             let mut out = Arrays::default();
             let planes: [&[f64]; 6] = std::array::from_fn(|k| &joints[k][..]);
             batch::<f64>(question, Backend::fastest()).forward(&planes, &mut out);

@@ -1,7 +1,7 @@
 //! The kernel against the plain version in `predict.rs`, and against itself on every back end.
 //!
 //! `lanes`: each number of the lanes against the plain version; `same_bits`: back ends and counts of points against
-//! each other; `whole_answers`: what `evaluate` and `stand_at` give.
+//! each other; `whole_answers`: what `evaluate` and `evaluate_at_joints` give.
 
 // A panic is how a test says that its claim is false; helper functions too.
 #![allow(clippy::unwrap_used)]
@@ -15,7 +15,7 @@ mod whole_answers;
 use armill_core::frame::Isometry;
 use armill_core::kernel::lanes::{Backend, Batch, Poses, Precision, flag};
 use armill_core::kernel::{BranchChoice, Question};
-use armill_core::load::Doubt;
+use armill_core::load::InputUncertainty;
 use armill_core::nalgebra::{Unit, Vector3};
 use armill_core::robot::inverse::posture_at;
 use armill_core::robot::{Posture, Robot};
@@ -44,7 +44,7 @@ fn cases(count: usize) -> Vec<Wrench> {
 }
 
 /// Asks `question` with a bent tool and an oblique plane.
-fn ask<T>(robot: &Robot, cases: &[Wrench], choice: BranchChoice, then: impl FnOnce(&Question<'_>) -> T) -> T {
+fn analysis<T>(robot: &Robot, cases: &[Wrench], choice: BranchChoice, then: impl FnOnce(&Question<'_>) -> T) -> T {
     let tool = arms::bent_tool();
     then(&Question {
         arm: Arm {
@@ -53,7 +53,7 @@ fn ask<T>(robot: &Robot, cases: &[Wrench], choice: BranchChoice, then: impl FnOn
             model: StiffnessModel::DRIVES,
             flange_from_tool: &tool,
         },
-        doubt: Doubt::NONE,
+        uncertainty: InputUncertainty::NONE,
         home: None,
         cases,
         normal: Unit::new_normalize(Vector3::new(-0.8, 0.3, 0.5)),

@@ -9,7 +9,7 @@ use armill_core::nalgebra::Point3;
 use armill_core::robot::Branch;
 use armill_core::workpiece::Plane;
 
-use crate::{Soa, arms, ask, batch, cases, poses_of, some};
+use crate::{Soa, arms, analysis, batch, cases, poses_of, some};
 
 /// All that a batch can tell of these poses, as numbers.
 fn everything<T: Precision>(
@@ -49,7 +49,7 @@ fn bits(values: &[f64]) -> Vec<u64> {
 fn same_bits_wherever_product_and_sum_are_fused<T: Precision + Debug>() {
     for robot in arms::all() {
         let soa = poses_of::<T>(&some(&robot, 1_000));
-        ask(&robot, &cases(5), BranchChoice::Best, |question| {
+        analysis(&robot, &cases(5), BranchChoice::Best, |question| {
             for fuses in [false, true] {
                 let mut same = Backend::available()
                     .into_iter()
@@ -79,7 +79,7 @@ fn same_bits_on_every_back_end_that_fuses_and_on_every_one_that_does_not() {
 fn any_number_of_points_gives_the_bits_of_each_alone() {
     let robot = arms::tx2_90();
     let soa = poses_of::<f64>(&some(&robot, 400));
-    ask(&robot, &cases(3), BranchChoice::Best, |question| {
+    analysis(&robot, &cases(3), BranchChoice::Best, |question| {
         let mut batch = batch::<f64>(question, Backend::fastest());
         let mut whole = Envelopes::default();
         batch.envelopes(&soa.poses(), Branch::ALL[0], &mut whole);
@@ -100,7 +100,7 @@ fn still_poses_give_what_free_poses_give() {
         .map(|i| plane.base_from_tool([0.002 * f64::from(i) - 0.2, 0.1].into(), 0.4))
         .collect();
     let soa = Soa::<f64>::of(poses.iter());
-    ask(&robot, &cases(2), BranchChoice::Best, |question| {
+    analysis(&robot, &cases(2), BranchChoice::Best, |question| {
         let still = Poses::Still {
             base_from_tool: poses[0].rotation.to_rotation_matrix(),
             at: std::array::from_fn(|k| &soa.0[9 + k][..]),

@@ -48,7 +48,7 @@ fn permits(
 ) {
     let robot = arms::mh12();
     let choice = BranchChoice::Of(BranchPattern::FRONT_ELBOW_UP);
-    let mut asked = 0;
+    let mut requested = 0;
     for point in found
         .points
         .iter()
@@ -66,9 +66,9 @@ fn permits(
         let there = followed(&robot, StiffnessModel::DRIVES, choice, load);
         let deviation = there.answers.points[point.index].as_ref().unwrap().in_plane;
         assert!((deviation / limit - 1.0).abs() < 2e-3, "{value}: {deviation}");
-        asked += 1;
+        requested += 1;
     }
-    assert!(asked > 2, "{asked}");
+    assert!(requested > 2, "{requested}");
 }
 
 #[test]
@@ -183,7 +183,7 @@ fn where_a_tool_cuts_the_force_is_that_of_the_cut_of_the_tool_that_strayed() {
         panic!("cuts stay cuts")
     };
     let mut gave_way = 0.0_f64;
-    for (i, _) in found.answers.held() {
+    for (i, _) in found.answers.evaluation() {
         let (here, before) = (&at_rest.points[i], &drawn.points[i]);
         let parts = track.parts(i, &found.answers.deviations_at(i)[0]);
         let strayed = Vector2::new(parts.cross, parts.axial);
@@ -191,7 +191,7 @@ fn where_a_tool_cuts_the_force_is_that_of_the_cut_of_the_tool_that_strayed() {
             assert_eq!(here.mean, Vector3::zeros());
             continue;
         };
-        let met = cut.strayed(strayed, 5e-3).map(|cut| {
+        let met = cut.deflected(strayed, 5e-3).map(|cut| {
             let milling = Milling::new(cutting.cutter, cutting.law, cut);
             milling.unwrap().mean().force
         });

@@ -16,7 +16,7 @@ use std::f64::consts::TAU;
 
 use armill_core::frame::Isometry;
 use armill_core::kernel::{BranchChoice, Question};
-use armill_core::load::{Doubt, LoadCases, LoadFrame, PathLoad};
+use armill_core::load::{InputUncertainty, LoadCases, LoadFrame, PathLoad};
 use armill_core::map::{AlongPath, along_path};
 use armill_core::nalgebra::{Point3, Unit, Vector3};
 use armill_core::path::{Arc, Course, Move, Pace, PathBuilder, Placing, Sampling, Spin, Step, Track};
@@ -110,7 +110,7 @@ fn question<'a>(
         },
         home: None,
         cases: &[],
-        doubt: Doubt::NONE,
+        uncertainty: InputUncertainty::NONE,
         normal: Vector3::z_axis(),
         choice,
     }

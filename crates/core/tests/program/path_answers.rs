@@ -18,7 +18,7 @@ fn the_arm_keeps_one_branch_and_the_best_one_deviates_least() {
     let robot = arms::mh12();
     let largest = |choice| {
         let found = followed(&robot, StiffnessModel::DRIVES, choice, cases(LoadFrame::Feed));
-        let mut names: Vec<_> = found.answers.held().map(|(_, held)| held.name).collect();
+        let mut names: Vec<_> = found.answers.evaluation().map(|(_, evaluation)| evaluation.name).collect();
         names.dedup();
         assert_eq!(names.len(), 1);
         found.answers.worst().unwrap().1.in_plane
@@ -40,11 +40,11 @@ fn parts_seen_from_the_path_add_up_to_the_whole() {
         cases(LoadFrame::Feed),
     );
     let track = track();
-    for (i, held) in found.answers.held() {
-        let deviation = found.answers.deviations_at(i)[held.deciding_case];
+    for (i, evaluation) in found.answers.evaluation() {
+        let deviation = found.answers.deviations_at(i)[evaluation.deciding_case];
         let (parts, whole) = (track.parts(i, &deviation), deviation.norm());
         assert!((parts.along.hypot(parts.cross).hypot(parts.axial) - whole).abs() < 1e-12 * whole);
-        assert!((parts.along.hypot(parts.cross) - held.in_plane).abs() < 1e-10 * whole);
+        assert!((parts.along.hypot(parts.cross) - evaluation.in_plane).abs() < 1e-10 * whole);
     }
 }
 
@@ -54,19 +54,19 @@ fn wrenches_of_each_point_may_be_told_in_any_frame() {
     let choice = BranchChoice::Of(BranchPattern::FRONT_ELBOW_UP);
     for frame in [LoadFrame::Base, LoadFrame::Part, LoadFrame::Feed] {
         let given = cases(frame);
-        let PathLoad::Cases(told) = &given else {
+        let PathLoad::Cases(reported) = &given else {
             unreachable!()
         };
         let count = track().path.points.len();
         let each = PathLoad::OfEach {
-            cases: told.cases.len(),
+            cases: reported.cases.len(),
             frame,
-            wrenches: told
+            wrenches: reported
                 .cases
                 .iter()
                 .copied()
                 .cycle()
-                .take(count * told.cases.len())
+                .take(count * reported.cases.len())
                 .collect(),
         };
         let [each, given] =
@@ -82,14 +82,14 @@ fn each_point_may_have_a_wrench_of_its_own() {
     let robot = arms::mh12();
     let choice = BranchChoice::Of(BranchPattern::FRONT_ELBOW_UP);
     let count = track().path.points.len();
-    let PathLoad::Cases(told) = cases(LoadFrame::Feed) else {
+    let PathLoad::Cases(reported) = cases(LoadFrame::Feed) else {
         unreachable!()
     };
     let scaled = |i: usize| {
         let k = i as f64 / count as f64;
         Wrench {
-            force: told.cases[0].force * k,
-            moment: told.cases[0].moment * k,
+            force: reported.cases[0].force * k,
+            moment: reported.cases[0].moment * k,
         }
     };
     let own = PathLoad::OfEach {
@@ -120,12 +120,12 @@ fn joints_go_on_past_half_a_turn_as_far_as_their_limits_let_them() {
             .unwrap()
             .answers;
         let (mut range, mut steps) = ((f64::MAX, f64::MIN), 0);
-        for (i, held) in found.held() {
+        for (i, evaluation) in found.evaluation() {
             let last = found.joints_at(i)[5];
             range = (range.0.min(last), range.1.max(last));
             let (joint, margin) = robot.limit_margin(found.joints_at(i)).unwrap();
-            assert!(held.limit_joint == joint && (held.limit_margin - margin).abs() < 1e-12);
-            assert!(held.within_limits(), "point {i}");
+            assert!(evaluation.limit_joint == joint && (evaluation.limit_margin - margin).abs() < 1e-12);
+            assert!(evaluation.within_limits(), "point {i}");
             let smooth = |i: usize| {
                 let [before, here] = [&track.path.points[i - 1], &track.path.points[i]];
                 here.along > before.along && before.direction.angle(&here.direction) < 0.1

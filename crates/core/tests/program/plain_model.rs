@@ -3,7 +3,7 @@
 use armill_core::kernel::BranchChoice;
 use armill_core::load::{LoadFrame, PathLoad};
 use armill_core::nalgebra::{Point3, Unit, Vector3};
-use armill_core::robot::{BranchPattern, JointCompliance, Mass, Robot, Seat, Spring, Structure};
+use armill_core::robot::{BranchPattern, JointCompliance, Mass, Robot, Attachment, Spring, Structure};
 use armill_core::source::stiffness_model::FREE_FALL;
 use armill_core::source::{Arm, Gravity, StiffnessModel};
 use armill_core::spatial::Wrench;
@@ -20,18 +20,18 @@ fn agrees(robot: &Robot, model: &StiffnessModel, frame: LoadFrame, tolerance: f6
         model,
         flange_from_tool: &arms::bent_tool(),
     };
-    let PathLoad::Cases(told) = cases(frame) else {
+    let PathLoad::Cases(given) = cases(frame) else {
         unreachable!()
     };
     let track = track();
     assert!(found.answers.points.len() > 200);
-    for (i, held) in found.answers.held() {
+    for (i, evaluation) in found.answers.evaluation() {
         let point = &track.path.points[i];
         let part = track.base_from_part.rotation;
         let z = part * point.axis.map_or(Vector3::z(), Unit::into_inner);
         let feed = part * point.direction.into_inner();
         let x = feed - z * feed.dot(&z);
-        for (case, wrench) in told.cases.iter().enumerate() {
+        for (case, wrench) in given.cases.iter().enumerate() {
             let turn = |v: Vector3<f64>| match frame {
                 LoadFrame::Base => v,
                 LoadFrame::Part => part * v,
@@ -57,9 +57,9 @@ fn agrees(robot: &Robot, model: &StiffnessModel, frame: LoadFrame, tolerance: f6
             .iter()
             .map(split)
             .fold(0.0, f64::max);
-        assert!((held.in_plane - largest).abs() < 1e-9 * largest);
+        assert!((evaluation.in_plane - largest).abs() < 1e-9 * largest);
     }
-    assert_eq!(found.answers.held().count(), found.answers.points.len());
+    assert_eq!(found.answers.evaluation().count(), found.answers.points.len());
 }
 
 /// Springs in the arm and at the tool, and a mass behind the last joint.
@@ -70,11 +70,11 @@ fn heavy(robot: &Robot) -> Structure {
     };
     Structure {
         springs: vec![
-            Spring::about(Seat::Joint(1), Vector3::x(), yields(2.4e-7)),
-            Spring::along(Seat::Tool, Vector3::x(), yields(9e-7)),
+            Spring::about(Attachment::Joint(1), Vector3::x(), yields(2.4e-7)),
+            Spring::along(Attachment::Tool, Vector3::x(), yields(9e-7)),
         ],
         masses: vec![Mass {
-            seat: Seat::Joint(robot.joints().len() - 1),
+            attachment: Attachment::Joint(robot.joints().len() - 1),
             mass: 12.0,
             centre: Point3::new(0.02, 0.01, 0.1),
         }],

@@ -5,13 +5,13 @@ use armill_core::frame::Isometry;
 use armill_core::nalgebra::{DMatrix, IsometryMatrix3, Matrix6, Point3, UnitQuaternion};
 use armill_core::robot::inverse::posture_at;
 use armill_core::robot::spring::springs_of;
-use armill_core::robot::{JointCompliance, Mass, Seat, Spring, Structure};
+use armill_core::robot::{JointCompliance, Mass, Attachment, Spring, Structure};
 use armill_core::source::elastic::predict;
-use armill_core::source::{Arm, Standing, StiffnessModel};
+use armill_core::source::{Arm, ArmState, StiffnessModel};
 use armill_core::spatial::adjoint;
 use proptest::prelude::*;
 
-use crate::{arm, arms, fanuc_masses, held, springs, weighing, wrench};
+use crate::{arm, arms, fanuc_masses, evaluation, springs, weighing, wrench};
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
@@ -23,14 +23,14 @@ proptest! {
         let posture = posture_at(robot, &q, &tool);
         let simple = predict(&posture, robot.compliance().unwrap(), &w);
         let rigid = |mut s: Spring| { s.compliance = JointCompliance { value: 0.0, standard_uncertainty: 0.0 }; s };
-        let weightless = Mass { seat: Seat::Flange, mass: 0.0, centre: Point3::new(0.1, 0.0, 0.0) };
+        let weightless = Mass { attachment: Attachment::Flange, mass: 0.0, centre: Point3::new(0.1, 0.0, 0.0) };
         let structure = Structure {
             springs: springs().into_iter().map(rigid).collect(),
             masses: vec![weightless],
             ..Structure::EMPTY
         };
         for model in [StiffnessModel::DRIVES.clone(), weighing(structure)] {
-            let full = arms::predicted(&held(robot, &model, &tool), &q, &w).unwrap();
+            let full = arms::predicted(&evaluation(robot, &model, &tool), &q, &w).unwrap();
             prop_assert_eq!(full.twist.linear, simple.twist.linear);
             prop_assert_eq!(full.twist.angular, simple.twist.angular);
             for (a, b) in full.shares.iter().zip(&simple.shares) {
@@ -55,25 +55,25 @@ proptest! {
         let as_isometry = |f: &IsometryMatrix3<f64>| {
             Isometry::from_parts(f.translation, UnitQuaternion::from_rotation_matrix(&f.rotation))
         };
-        let seats = [
-            (Seat::Base, Isometry::identity()),
-            (Seat::Joint(2), as_isometry(&frames.base_from_joint[2])),
-            (Seat::Flange, as_isometry(&frames.base_from_flange)),
-            (Seat::Tool, posture.base_from_tool),
+        let attachments = [
+            (Attachment::Base, Isometry::identity()),
+            (Attachment::Joint(2), as_isometry(&frames.base_from_joint[2])),
+            (Attachment::Flange, as_isometry(&frames.base_from_flange)),
+            (Attachment::Tool, posture.base_from_tool),
         ];
-        for (seat, base_from_seat) in seats {
-            let structure = Structure { springs: springs_of(seat, &local).unwrap(), ..Structure::EMPTY };
+        for (attachment, base_from_attachment) in attachments {
+            let structure = Structure { springs: springs_of(attachment, &local).unwrap(), ..Structure::EMPTY };
             let model = StiffnessModel { structure, ..StiffnessModel::DRIVES.clone() };
-            let arm = held(robot, &model, &tool);
-            let mut standing = Standing::new(arm);
-            standing.stand(&q);
-            let ad = adjoint(&base_from_seat, &tcp);
+            let arm = evaluation(robot, &model, &tool);
+            let mut arm_state = ArmState::new(arm);
+            arm_state.set_joints(&q);
+            let ad = adjoint(&base_from_attachment, &tcp);
             let drives = compliance_at_tool(&posture.screws, robot.compliance().unwrap());
             let expected = drives + ad * local * ad.transpose();
-            let found = standing.compliance().unwrap();
-            prop_assert!((found - expected).amax() < 1e-13 * expected.amax(), "{seat:?}");
+            let found = arm_state.compliance().unwrap();
+            prop_assert!((found - expected).amax() < 1e-13 * expected.amax(), "{attachment:?}");
             // The list of screws and compliances is all that the plain functions need.
-            let long = compliance_at_tool(standing.screws(), &arm.compliances());
+            let long = compliance_at_tool(arm_state.screws(), &arm.compliances());
             prop_assert!((long - expected).amax() < 1e-13 * expected.amax());
         }
     }
@@ -84,12 +84,12 @@ proptest! {
         let (q, tool) = (arms::positions(robot, &unit), arms::bent_tool());
         let structure = Structure { springs: springs(), masses: fanuc_masses(), ..Structure::EMPTY };
         let model = weighing(structure);
-        let full = arms::predicted(&held(robot, &model, &tool), &q, &w).unwrap();
+        let full = arms::predicted(&evaluation(robot, &model, &tool), &q, &w).unwrap();
         prop_assert_eq!(full.shares.len(), 9);
         let sum: armill_core::spatial::Twist = full.shares.iter().copied().sum();
         let longest = full.shares.iter().map(|s| s.linear.norm()).fold(0.0, f64::max);
         prop_assert!((sum.linear - full.twist.linear).norm() < 1e-14 * longest);
-        prop_assert_eq!(model.sharer_names(robot.joints())[6..].join(" "), "base flange tool");
+        prop_assert_eq!(model.contributor_names(robot.joints())[6..].join(" "), "base flange tool");
     }
 
     #[test]
@@ -102,7 +102,7 @@ proptest! {
         let s = &root * root.transpose() * 1e-14;
         let structure = Structure { springs: springs(), covariance: Some(s.clone()), ..Structure::EMPTY };
         let model = StiffnessModel { structure, ..StiffnessModel::DRIVES.clone() };
-        let arm = held(robot, &model, &tool);
+        let arm = evaluation(robot, &model, &tool);
         let found = arms::predicted(&arm, &q, &w).unwrap().covariance;
         // Witness: columns by changing one compliance at a time, the last four springs independent.
         let mut columns = DMatrix::zeros(3, 12);

@@ -1,16 +1,16 @@
 //! The full model at many points: maps and known joints say what `predict` says.
 
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
-use armill_core::kernel::{BranchChoice, Question, evaluate, stand_at};
-use armill_core::load::Doubt;
+use armill_core::kernel::{BranchChoice, Question, evaluate, evaluate_at_joints};
+use armill_core::load::InputUncertainty;
 use armill_core::nalgebra::{DMatrix, Unit, Vector3};
 use armill_core::predict::predict;
 use armill_core::robot::Structure;
-use armill_core::source::{Arm, Links, Standing, StiffnessModel};
+use armill_core::source::{Arm, Links, ArmState, StiffnessModel};
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
 
-use crate::{arms, fanuc_masses, held, springs, weighing};
+use crate::{arms, fanuc_masses, evaluation, springs, weighing};
 
 #[test]
 fn maps_and_known_joints_say_what_predict_says_on_any_number_of_threads() {
@@ -31,7 +31,7 @@ fn maps_and_known_joints_say_what_predict_says_on_any_number_of_threads() {
         },
         Wrench::from_force(Vector3::new(3.0, -5.0, 1.0)),
     ];
-    let arm = held(&robot, &model, &tool);
+    let arm = evaluation(&robot, &model, &tool);
     for choice in [
         BranchChoice::Best,
         BranchChoice::Of("front elbow-up".parse().unwrap()),
@@ -44,7 +44,7 @@ fn maps_and_known_joints_say_what_predict_says_on_any_number_of_threads() {
                 flange_from_tool: &tool,
             },
             home: None,
-            doubt: Doubt::NONE,
+            uncertainty: InputUncertainty::NONE,
             cases: &cases,
             normal: Unit::new_normalize(Vector3::new(-0.8, 0.3, 0.5)),
             choice,
@@ -58,8 +58,8 @@ fn maps_and_known_joints_say_what_predict_says_on_any_number_of_threads() {
         let again = one.install(|| evaluate(&question, 100, pose, Watch::NONE).unwrap());
         assert_eq!(all.deviations, again.deviations);
         assert_eq!(all.shares, again.shares);
-        assert!(all.held().count() > 50);
-        for (i, point) in all.held() {
+        assert!(all.evaluation().count() > 50);
+        for (i, point) in all.evaluation() {
             let q = all.joints_at(i);
             for (deviation, wrench) in all.deviations_at(i).iter().zip(&cases) {
                 let witness = arms::predicted(&arm, q, wrench).unwrap().twist.linear;
@@ -75,17 +75,17 @@ fn maps_and_known_joints_say_what_predict_says_on_any_number_of_threads() {
             );
             assert!(point.in_plane_uncertainty > 0.0);
         }
-        let held = Arm {
+        let evaluation = Arm {
             robot: &robot,
             compliance: robot.compliance().unwrap(),
             model: &model,
             flange_from_tool: &tool,
         };
         let mut known = vec![0.0; 9 * 100];
-        let tell = |standing: &mut Standing<'_>, out: &mut [f64]| {
+        let tell = |arm_state: &mut ArmState<'_>, out: &mut [f64]| {
             for (wrench, out) in cases.iter().zip(out.chunks_mut(3)) {
                 out.copy_from_slice(
-                    predict(standing, wrench, &mut Links::Neglected)?
+                    predict(arm_state, wrench, &mut Links::Neglected)?
                         .twist
                         .linear
                         .as_slice(),
@@ -93,8 +93,8 @@ fn maps_and_known_joints_say_what_predict_says_on_any_number_of_threads() {
             }
             Ok(())
         };
-        stand_at(&held, &all.joints, (&mut known, 9), tell, Watch::NONE).unwrap();
-        for (i, _) in all.held() {
+        evaluate_at_joints(&evaluation, &all.joints, (&mut known, 9), tell, Watch::NONE).unwrap();
+        for (i, _) in all.evaluation() {
             for (known, deviation) in known[9 * i..].chunks(3).zip(all.deviations_at(i)) {
                 assert!((Vector3::from_column_slice(known) - deviation).norm() < 1e-13);
             }
@@ -118,7 +118,7 @@ fn a_load_that_no_arm_stands_is_a_state_of_its_points() {
             flange_from_tool: &tool,
         },
         home: None,
-        doubt: Doubt::NONE,
+        uncertainty: InputUncertainty::NONE,
         cases: &cases,
         normal: Vector3::z_axis(),
         choice: BranchChoice::Of("front elbow-up".parse().unwrap()),

@@ -5,10 +5,10 @@ use armill_core::nalgebra::Vector3;
 use armill_core::robot::inverse::posture_at;
 use armill_core::robot::{Compensator, JointCurve, Mass, Structure, TorqueCurve};
 use armill_core::source::elastic::predict;
-use armill_core::source::{Standing, StiffnessModel, Unstable};
+use armill_core::source::{ArmState, StiffnessModel, Unstable};
 use armill_core::spatial::Wrench;
 
-use crate::{arms, fanuc_masses, held, weighing};
+use crate::{arms, fanuc_masses, evaluation, weighing};
 
 #[test]
 fn a_compensator_takes_its_slope_from_the_joint_and_its_torque_from_gravity() {
@@ -31,7 +31,7 @@ fn a_compensator_takes_its_slope_from_the_joint_and_its_torque_from_gravity() {
     };
     let q = [0.1, 0.4, -0.3, 0.4, 0.5, -0.6];
     let push = Wrench::from_force(Vector3::new(100.0, 50.0, -300.0));
-    let found = arms::predicted(&held(&robot, &model, &tool), &q, &push)
+    let found = arms::predicted(&evaluation(&robot, &model, &tool), &q, &push)
         .unwrap()
         .twist
         .linear;
@@ -53,7 +53,7 @@ fn a_compensator_takes_its_slope_from_the_joint_and_its_torque_from_gravity() {
         ..model.clone()
     };
     let small = Wrench::from_force(push.force * 1e-3);
-    let loaded = arms::predicted(&held(&robot, &soft, &tool), &q, &small)
+    let loaded = arms::predicted(&evaluation(&robot, &soft, &tool), &q, &small)
         .unwrap()
         .twist
         .linear;
@@ -61,14 +61,14 @@ fn a_compensator_takes_its_slope_from_the_joint_and_its_torque_from_gravity() {
     // Under gravity its torque stands beside that of the masses.
     let mut weighed = weighing(model.structure.clone());
     weighed.gravity.as_mut().unwrap().reference = q.to_vec();
-    let mut standing = Standing::new(held(&robot, &weighed, &tool));
-    standing.stand(&q);
+    let mut arm_state = ArmState::new(evaluation(&robot, &weighed, &tool));
+    arm_state.set_joints(&q);
     let torque = -(e(h) - e(-h)) / (2.0 * h);
-    assert!((standing.gravity_torques()[1] - torque).abs() < 1e-2, "{torque}");
+    assert!((arm_state.gravity_torques()[1] - torque).abs() < 1e-2, "{torque}");
     // A compensator stiffer than its joint lets the arm fall: an outcome, not a number.
     let mut strong = weighed.clone();
     strong.structure.compensator.as_mut().unwrap().stiffness = 1e12;
-    let fallen = arms::predicted(&held(&robot, &strong, &tool), &q, &push);
+    let fallen = arms::predicted(&evaluation(&robot, &strong, &tool), &q, &push);
     assert_eq!(fallen.unwrap_err(), Unstable::Buckles);
 }
 
@@ -89,7 +89,7 @@ fn a_straight_torque_curve_is_a_compliance_and_a_bent_one_depends_on_gravity() {
     let straight = curve(vec![[-1e4, -1e4 * c], [1e4, 1e4 * c]]);
     let q = [0.1, 0.4, -0.3, 0.4, 0.5, -0.6];
     let push = Wrench::from_force(Vector3::new(100.0, 50.0, -300.0));
-    let told = |curves: Vec<Option<JointCurve>>, masses: Vec<Mass>, load_dependent: bool| {
+    let given = |curves: Vec<Option<JointCurve>>, masses: Vec<Mass>, load_dependent: bool| {
         let mut model = weighing(Structure {
             curves,
             masses,
@@ -97,7 +97,7 @@ fn a_straight_torque_curve_is_a_compliance_and_a_bent_one_depends_on_gravity() {
         });
         model.gravity.as_mut().unwrap().reference = q.to_vec();
         model.load_dependent = load_dependent;
-        arms::predicted(&held(&robot, &model, &tool), &q, &push)
+        arms::predicted(&evaluation(&robot, &model, &tool), &q, &push)
             .unwrap()
             .twist
             .linear
@@ -105,14 +105,14 @@ fn a_straight_torque_curve_is_a_compliance_and_a_bent_one_depends_on_gravity() {
     let simple = predict(&posture_at(&robot, &q, &tool), robot.compliance().unwrap(), &push)
         .twist
         .linear;
-    assert!((told(straight.clone(), Vec::new(), false) - simple).norm() < 1e-13 * simple.norm());
-    assert!((told(straight.clone(), fanuc_masses(), false) - simple).norm() < 1e-12 * simple.norm());
-    let loaded = told(Vec::new(), fanuc_masses(), true);
-    assert!((told(straight, fanuc_masses(), true) - loaded).norm() < 1e-11 * simple.norm());
+    assert!((given(straight.clone(), Vec::new(), false) - simple).norm() < 1e-13 * simple.norm());
+    assert!((given(straight.clone(), fanuc_masses(), false) - simple).norm() < 1e-12 * simple.norm());
+    let loaded = given(Vec::new(), fanuc_masses(), true);
+    assert!((given(straight, fanuc_masses(), true) - loaded).norm() < 1e-11 * simple.norm());
     // Stiff beyond 500 N m: gravity (some kN m at this posture) takes the joint there, the load finds it stiff.
     let knee = curve(vec![[-500.0, -500.0 * c], [500.0, 500.0 * c], [1e5, 500.0 * c]]);
-    let freely = told(knee.clone(), Vec::new(), false);
-    let under_gravity = told(knee, fanuc_masses(), false);
+    let freely = given(knee.clone(), Vec::new(), false);
+    let under_gravity = given(knee, fanuc_masses(), false);
     let rigid = {
         let mut drives = robot.compliance().unwrap().to_vec();
         drives[1].value = 0.0;

@@ -3,14 +3,14 @@
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::{Isometry3, Point3, Vector3};
 use armill_core::robot::inverse::posture_at;
-use armill_core::robot::yielding::{Yielded, yield_into};
-use armill_core::robot::{Mass, Seat, Structure};
-use armill_core::source::Standing;
+use armill_core::robot::deflected_arm::{DeflectedArm, deflect_into};
+use armill_core::robot::{Mass, Attachment, Structure};
+use armill_core::source::ArmState;
 use armill_core::source::stiffness_model::FREE_FALL;
 use armill_core::spatial::Wrench;
 use proptest::prelude::*;
 
-use crate::{DOWN, FANUC, FANUC_D, arm, arms, fanuc_masses, held, springs, weighing};
+use crate::{DOWN, FANUC, FANUC_D, arm, arms, fanuc_masses, evaluation, springs, weighing};
 
 /// Potential energy of the FANUC's masses in gravity, J, from its modified DH rows alone.
 fn fanuc_energy(m: &[f64]) -> f64 {
@@ -44,15 +44,15 @@ proptest! {
         let robot = arms::r2000ic();
         let (q, tool) = (arms::positions(&robot, &unit), Isometry::identity());
         let model = weighing(Structure { masses: fanuc_masses(), ..Structure::EMPTY });
-        let mut standing = Standing::new(held(&robot, &model, &tool));
-        standing.stand(&q);
+        let mut arm_state = ArmState::new(evaluation(&robot, &model, &tool));
+        arm_state.set_joints(&q);
         let theta: Vec<f64> = (0..6).map(|i| robot.theta(i, &q)).collect();
         let h = 1e-5;
         for i in 0..6 {
             let at = |by: f64| { let mut t = theta.clone(); t[i] += by; fanuc_energy(&t) };
             let witness = -(at(h) - at(-h)) / (2.0 * h);
             // 10 kJ: h^2 of the third derivative, and rounding over h.
-            prop_assert!((standing.gravity_torques()[i] - witness).abs() < 2e-6, "joint {i}: {witness} N m");
+            prop_assert!((arm_state.gravity_torques()[i] - witness).abs() < 2e-6, "joint {i}: {witness} N m");
         }
     }
 
@@ -64,16 +64,16 @@ proptest! {
         let robot = &arms::ALL[which];
         let (q, tool) = (arms::positions(robot, &unit), arms::bent_tool());
         let mut masses = fanuc_masses();
-        masses.push(Mass { seat: Seat::Flange, mass: 60.0, centre: Point3::new(0.1, seed, 0.2) });
-        masses.push(Mass { seat: Seat::Tool, mass: 5.0, centre: Point3::new(0.0, 0.0, -0.1) });
+        masses.push(Mass { attachment: Attachment::Flange, mass: 60.0, centre: Point3::new(0.1, seed, 0.2) });
+        masses.push(Mass { attachment: Attachment::Tool, mass: 5.0, centre: Point3::new(0.0, 0.0, -0.1) });
         let model = weighing(Structure { springs: springs(), masses: masses.clone(), ..Structure::EMPTY });
-        let mut standing = Standing::new(held(robot, &model, &tool));
-        standing.stand(&q);
+        let mut arm_state = ArmState::new(evaluation(robot, &model, &tool));
+        arm_state.set_joints(&q);
         let theta: Vec<f64> = (0..6).map(|i| robot.theta(i, &q)).collect();
         let energy = |x: &[f64]| {
-            let mut out = Yielded::for_robot(robot, 6);
-            yield_into((robot, &model.structure.springs, &tool), &theta, x, &mut out);
-            let of = |m: &Mass| -DOWN.dot(&(out.seats[m.seat.rank(6)] * m.centre).coords) * m.mass;
+            let mut out = DeflectedArm::for_robot(robot, 6);
+            deflect_into((robot, &model.structure.springs, &tool), &theta, x, &mut out);
+            let of = |m: &Mass| -DOWN.dot(&(out.attachments[m.attachment.rank(6)] * m.centre).coords) * m.mass;
             masses.iter().map(of).sum::<f64>()
         };
         let h = 1e-5;
@@ -81,7 +81,7 @@ proptest! {
             let (mut more, mut less) = ([0.0; 12], [0.0; 12]);
             (more[k], less[k]) = (h, -h);
             let witness = -(energy(&more) - energy(&less)) / (2.0 * h);
-            prop_assert!((standing.gravity_torques()[k] - witness).abs() < 1e-5, "{k}: {witness}");
+            prop_assert!((arm_state.gravity_torques()[k] - witness).abs() < 1e-5, "{k}: {witness}");
         }
     }
 }
@@ -96,7 +96,7 @@ fn gravity_does_not_count_where_the_tool_was_set_and_differs_elsewhere() {
     let reference = vec![0.1, 0.2, -0.3, 0.4, 0.5, -0.6];
     model.gravity.as_mut().unwrap().reference.clone_from(&reference);
     let none = Wrench::ZERO;
-    let arm = held(&robot, &model, &tool);
+    let arm = evaluation(&robot, &model, &tool);
     let there = arms::predicted(&arm, &reference, &none).unwrap();
     assert_eq!(there.twist.linear, Vector3::zeros());
     assert_eq!(there.covariance.amax(), 0.0);
@@ -122,7 +122,7 @@ fn gravity_does_not_count_where_the_tool_was_set_and_differs_elsewhere() {
     assert!((elsewhere - witness).norm() < 1e-10);
     // The same arm hung from the ceiling sags the other way.
     model.gravity.as_mut().unwrap().acceleration = -DOWN;
-    let hung = arms::predicted(&held(&robot, &model, &tool), &q, &none)
+    let hung = arms::predicted(&evaluation(&robot, &model, &tool), &q, &none)
         .unwrap()
         .twist
         .linear;

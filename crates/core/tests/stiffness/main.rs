@@ -17,7 +17,7 @@ mod under_load;
 
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::{Point3, Vector3};
-use armill_core::robot::{JointCompliance, Mass, Robot, Seat, Spring, Structure};
+use armill_core::robot::{JointCompliance, Mass, Robot, Attachment, Spring, Structure};
 use armill_core::source::stiffness_model::FREE_FALL;
 use armill_core::source::{Arm, Gravity, StiffnessModel};
 use armill_core::spatial::Wrench;
@@ -37,12 +37,12 @@ fn spring(value: f64) -> JointCompliance {
 /// Springs at every kind of seat, none in a special direction.
 fn springs() -> Vec<Spring> {
     vec![
-        Spring::about(Seat::Joint(1), Vector3::x(), spring(2.4e-7)),
-        Spring::about(Seat::Base, Vector3::y(), spring(4e-8)),
-        Spring::along(Seat::Tool, Vector3::x(), spring(9e-7)),
-        Spring::about(Seat::Joint(4), Vector3::new(0.6, 0.0, 0.8), spring(1e-6)),
-        Spring::about(Seat::Joint(1), Vector3::y(), spring(5e-8)),
-        Spring::along(Seat::Flange, Vector3::z(), spring(1e-8)),
+        Spring::about(Attachment::Joint(1), Vector3::x(), spring(2.4e-7)),
+        Spring::about(Attachment::Base, Vector3::y(), spring(4e-8)),
+        Spring::along(Attachment::Tool, Vector3::x(), spring(9e-7)),
+        Spring::about(Attachment::Joint(4), Vector3::new(0.6, 0.0, 0.8), spring(1e-6)),
+        Spring::about(Attachment::Joint(1), Vector3::y(), spring(5e-8)),
+        Spring::along(Attachment::Flange, Vector3::z(), spring(1e-8)),
     ]
 }
 
@@ -61,7 +61,7 @@ const FANUC_D: [f64; 6] = [0.670, 0.0, 0.0, 1.280, 0.0, 0.215];
 /// Its masses at the seats of its joints.
 fn fanuc_masses() -> Vec<Mass> {
     let mass = |(joint, ((mass, [x, y, z]), d)): (usize, (&(f64, [f64; 3]), f64))| Mass {
-        seat: Seat::Joint(joint),
+        attachment: Attachment::Joint(joint),
         mass: *mass,
         centre: Point3::new(*x, *y, z + d),
     };
@@ -82,7 +82,7 @@ fn weighing(structure: Structure) -> StiffnessModel {
 }
 
 /// The arm with the compliances of its file, this model and this tool.
-fn held<'a>(robot: &'a Robot, model: &'a StiffnessModel, tool: &'a Isometry) -> Arm<'a> {
+fn evaluation<'a>(robot: &'a Robot, model: &'a StiffnessModel, tool: &'a Isometry) -> Arm<'a> {
     Arm {
         robot,
         compliance: robot.compliance().unwrap(),

@@ -2,14 +2,14 @@
 
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::Vector3;
-use armill_core::robot::yielding::{Yielded, yield_into};
+use armill_core::robot::deflected_arm::{DeflectedArm, deflect_into};
 use armill_core::robot::{Amount, Axis, Joint, Motion, Robot, Structure};
 use armill_core::source::equilibrium::Equilibrium;
-use armill_core::source::{Standing, StiffnessModel, Unstable};
+use armill_core::source::{ArmState, StiffnessModel, Unstable};
 use armill_core::spatial::Wrench;
 use proptest::prelude::*;
 
-use crate::{arm, arms, fanuc_masses, held, spring, springs, weighing, wrench};
+use crate::{arm, arms, fanuc_masses, evaluation, spring, springs, weighing, wrench};
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
@@ -20,7 +20,7 @@ proptest! {
         let (q, tool) = (arms::positions(robot, &unit), arms::bent_tool());
         let mut model = weighing(Structure { springs: springs(), masses: fanuc_masses(), ..Structure::EMPTY });
         model.load_dependent = true;
-        let arm = held(robot, &model, &tool);
+        let arm = evaluation(robot, &model, &tool);
         let theta: Vec<f64> = (0..6).map(|i| robot.theta(i, &q)).collect();
         let mut equilibrium = Equilibrium::for_arm(&arm);
         // A body that does not yield stays at x = 0; torques there are what the load puts on it.
@@ -53,7 +53,7 @@ proptest! {
         let structure = Structure { springs: springs(), ..Structure::EMPTY };
         let model = StiffnessModel { structure, load_dependent: true, ..StiffnessModel::DRIVES.clone() };
         let simple = StiffnessModel { load_dependent: false, ..model.clone() };
-        let arm = held(robot, &model, &tool);
+        let arm = evaluation(robot, &model, &tool);
         let theta: Vec<f64> = (0..6).map(|i| robot.theta(i, &q)).collect();
         let c = arm.compliances();
         let mut equilibrium = Equilibrium::for_arm(&arm);
@@ -62,14 +62,14 @@ proptest! {
         // MH12 under 500 N at full stretch may be too soft; no number is told then.
         prop_assume!(found.is_ok());
         let delta = found.unwrap();
-        let mut there = Yielded::for_robot(robot, 6);
-        yield_into((robot, &model.structure.springs, &tool), &theta, equilibrium.turns(), &mut there);
+        let mut there = DeflectedArm::for_robot(robot, 6);
+        deflect_into((robot, &model.structure.springs, &tool), &theta, equilibrium.turns(), &mut there);
         for (k, screw) in there.screws.iter().enumerate() {
             let balance = c[k].value * screw.dot(&w) - equilibrium.turns()[k];
             prop_assert!(balance.abs() < 1e-12, "{k}: {balance} rad");
         }
         // To first order it is the simple model: the rest is of the order of the turns themselves.
-        let plain = arms::predicted(&held(robot, &simple, &tool), &q, &w).unwrap().twist.linear;
+        let plain = arms::predicted(&evaluation(robot, &simple, &tool), &q, &w).unwrap().twist.linear;
         let largest = equilibrium.turns().iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         let reach = 4.0;
         prop_assert!((delta.linear - plain).norm() < 40.0 * largest * largest * reach);
@@ -81,16 +81,16 @@ proptest! {
         let (q, tool) = (arms::positions(robot, &unit), arms::bent_tool());
         let structure = Structure { springs: springs(), ..Structure::EMPTY };
         let model = StiffnessModel { structure, load_dependent: true, ..StiffnessModel::DRIVES.clone() };
-        let mut standing = Standing::new(held(robot, &model, &tool));
-        standing.stand(&q);
+        let mut arm_state = ArmState::new(evaluation(robot, &model, &tool));
+        arm_state.set_joints(&q);
         let w = Wrench { force: w.force * 0.2, moment: w.moment * 0.2 };
-        prop_assume!(standing.elastic(&w).is_ok());
-        let tangent = standing.loaded_compliance().unwrap();
+        prop_assume!(arm_state.elastic(&w).is_ok());
+        let tangent = arm_state.loaded_compliance().unwrap();
         let h = 0.1;
         for j in 0..3 {
             let push = |by: f64| Wrench { force: w.force + Vector3::ith(j, by), ..w };
-            let more = standing.elastic(&push(h)).unwrap().linear;
-            let less = standing.elastic(&push(-h)).unwrap().linear;
+            let more = arm_state.elastic(&push(h)).unwrap().linear;
+            let less = arm_state.elastic(&push(-h)).unwrap().linear;
             let witness = (more - less) / (2.0 * h);
             let found = tangent.fixed_view::<3, 1>(0, j);
             prop_assert!((found - witness).norm() < 1e-6 * tangent.fixed_view::<3, 3>(0, 0).norm());
@@ -116,7 +116,7 @@ fn a_pressed_column_buckles_at_stiffness_over_length() {
         load_dependent: true,
         ..StiffnessModel::DRIVES.clone()
     };
-    let arm = held(&robot, &model, &tool);
+    let arm = evaluation(&robot, &model, &tool);
     let press = |down: f64, side: f64| {
         let wrench = Wrench::from_force(Vector3::new(side, 0.0, -down));
         arms::predicted(&arm, &[0.0], &wrench).map(|d| d.twist)

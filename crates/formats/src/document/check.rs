@@ -1,8 +1,8 @@
 //! Compares a document's tree with the shape it should have and collects every difference.
 //!
-//! Value by value from the root: a value of the wrong kind is told and not looked into; of a table, its fields, then
-//! what is unknown, then what is missing. Where a value may have several shapes, the problems of that one are told
-//! which has the fewest. Numbers that are not finite are told wherever they stand, also where anything goes.
+//! Value by value from the root: a value of the wrong kind is reported and not looked into; of a table, its fields, then
+//! what is unknown, then what is missing. Where a value may have several shapes, the problems of that one are reported
+//! which has the fewest. Numbers that are not finite are reported wherever they stand, also where anything goes.
 //!
 //! | part of the tree | what is compared |
 //! |---|---|
@@ -67,11 +67,11 @@ struct Checker<'a> {
     problems: Vec<Problem>,
 }
 
-/// Where the check stands: the path in the document, the field it lies in, and how many shapes enclose it.
+/// Where the check stands: the path in the document, the field it is in, and how many shapes enclose it.
 struct Place<'a> {
-    /// As problems tell it: `ask[2].x_mm[0]`, empty at the root.
+    /// As problems tell it: `analysis[2].x_mm[0]`, empty at the root.
     path: &'a str,
-    /// The name that carries the unit: `x_mm` for the path `ask[2].x_mm[0]`.
+    /// The name that carries the unit: `x_mm` for the path `analysis[2].x_mm[0]`.
     field: &'a str,
     /// Shapes around this one, up to [`MOST_LEVELS`].
     level: usize,
@@ -92,7 +92,7 @@ impl Checker<'_> {
         }
     }
 
-    /// No number may be nan or infinite, wherever it stands.
+    /// No number may be nan or infinite, anywhere.
     ///
     /// A walk of its own, before any shape is looked at: where anything goes, or a value is of the wrong kind and not
     /// looked into, nobody else would see it.
@@ -127,7 +127,7 @@ impl Checker<'_> {
         }
         match (self.shapes.resolved(shape), &value.value) {
             (Shape::Any, _) | (Shape::Flag, Value::Flag(_)) => {}
-            // A number that is not finite was told as such.
+            // A number that is not finite was reported as such.
             (Shape::Number(_), Value::Real(real)) if !real.is_finite() => {}
             (Shape::Number(limits), Value::Real(real)) => self.limits(value, limits, place, *real),
             (Shape::Number(limits) | Shape::Integer(limits), Value::Whole(whole)) => {
@@ -198,8 +198,8 @@ impl Checker<'_> {
         };
         let unit = place.unit();
         let given = with_unit(&self.source.text()[value.span.clone()], unit.as_deref());
-        let wanted = with_unit(&limit.1.to_string(), unit.as_deref());
-        let message = format!("`{}` is {given}: must be {} {wanted}", place.path, limit.0);
+        let requested = with_unit(&limit.1.to_string(), unit.as_deref());
+        let message = format!("`{}` is {given}: must be {} {requested}", place.path, limit.0);
         self.report(value.span.clone(), message, None);
     }
 
@@ -227,7 +227,7 @@ impl Checker<'_> {
         );
     }
 
-    /// A list with too few or too many entries is told once; those that it has are compared all the same. Entries
+    /// A list with too few or too many entries is reported once; those that it has are compared all the same. Entries
     /// beyond the shapes of the first have the common one.
     fn list(&mut self, value: &Node, list: &ListShape, entries: &[Node], place: &Place<'_>) {
         let count = entries.len() as u64;
@@ -256,10 +256,10 @@ impl Checker<'_> {
         }
     }
 
-    /// The fields of a table whose header stands at `span`.
+    /// The fields of a table whose header is at `span`.
     ///
     /// An unknown field goes with the most similar known one that is absent, unit included: `step` for `step_mm`.
-    /// Missing fields are told at the header, with the first line of what the field means.
+    /// Missing fields are reported at the header, with the first line of what the field means.
     fn table(&mut self, span: Range<usize>, table: &Table, shape: &TableShape, place: &Place<'_>) {
         let absent: Vec<&str> = shape
             .fields
@@ -289,7 +289,7 @@ impl Checker<'_> {
                 }
             }
         }
-        // A field whose misspelling was told is not told again as missing.
+        // A field whose misspelling was reported is not told again as missing.
         for name in absent
             .iter()
             .filter(|name| shape.required.contains(**name) && !misspelled.contains(name))
@@ -356,7 +356,7 @@ impl Checker<'_> {
         let mut closest: Option<Vec<Problem>> = None;
         let fitting = alternatives
             .iter()
-            .filter(|shape| self.shapes.resolved(shape).may_hold(&value.value));
+            .filter(|shape| self.shapes.resolved(shape).fits_kind_of(&value.value));
         for shape in fitting {
             // A checker of its own, so that the problems of an alternative that was not meant are forgotten.
             let mut trial = Checker {

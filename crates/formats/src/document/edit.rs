@@ -18,7 +18,7 @@ use super::{Document, Problem, Problems, entries};
 /// One value that is to be another.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Change {
-    /// Which, as [`Document::problem`] takes it: `plane.centre_mm`, `ask[1].plane.step_mm`.
+    /// Which, as [`Document::problem`] takes it: `plane.centre_mm`, `analysis[1].plane.step_mm`.
     pub path: String,
     /// What it is to be; `null` takes it away. The entry behind the last of a list is a new one.
     pub value: serde_json::Value,
@@ -100,7 +100,7 @@ fn set(here: &mut Item, steps: &[Step], value: Value) -> Result<(), String> {
         }
         Step::Entry(index) => here.get_mut(*index).ok_or(format!("there is no entry {index}"))?,
         Step::Key(key) => {
-            // Below the root a table gets its header, inside of others it stands on a line of theirs.
+            // Below the root a table gets its header, inside of others it is on a line of theirs.
             let at_root = here.as_table().is_some_and(|table| table.position().is_none());
             let table = here.as_table_like_mut().ok_or("it stands in what is no table")?;
             table.entry(key).or_insert_with(|| match rest {
@@ -168,7 +168,7 @@ mod tests {
 
     use super::*;
 
-    const STUDY: &str = "# my cell\nlimit_um = 100 # of the drawing\n\n[plane]\n# measured on Monday\ncentre_mm = [1000, 0, 500] # mm\nstep_mm = 5\n\n[[ask]]\nkind = \"map\"\n\n[[ask]]\nkind = \"path\" # the rim\nplane = { tilt_deg = 90 }\n";
+    const STUDY: &str = "# my cell\ntolerance_um = 100 # of the drawing\n\n[plane]\n# measured on Monday\ncentre_mm = [1000, 0, 500] # mm\nstep_mm = 5\n\n[[analysis]]\nkind = \"map\"\n\n[[analysis]]\nkind = \"path\" # the rim\nplane = { tilt_deg = 90 }\n";
 
     fn with(path: &str, value: Json) -> Result<String, Problems> {
         let change = Change {
@@ -182,9 +182,9 @@ mod tests {
     fn a_value_changes_and_nothing_else_does() {
         let moved = with("plane.centre_mm", json!([900, 0.5, 500])).unwrap();
         assert_eq!(moved, STUDY.replace("[1000, 0, 500]", "[900, 0.5, 500]"));
-        let tighter = with("limit_um", json!(42.5)).unwrap();
+        let tighter = with("tolerance_um", json!(42.5)).unwrap();
         assert_eq!(tighter, STUDY.replace("100 #", "42.5 #"));
-        let tilted = with("ask[1].plane.tilt_deg", json!(45)).unwrap();
+        let tilted = with("analysis[1].plane.tilt_deg", json!(45)).unwrap();
         assert_eq!(tilted, STUDY.replace("tilt_deg = 90", "tilt_deg = 45"));
         let entry = with("plane.centre_mm[2]", json!(600)).unwrap();
         assert_eq!(entry, STUDY.replace("0, 500]", "0, 600]"));
@@ -192,7 +192,7 @@ mod tests {
 
     #[test]
     fn what_is_not_there_is_made_where_it_belongs() {
-        let finer = with("ask[0].plane.step_mm", json!(2)).unwrap();
+        let finer = with("analysis[0].plane.step_mm", json!(2)).unwrap();
         assert!(
             finer.contains("kind = \"map\"\nplane = { step_mm = 2 }\n"),
             "{finer}"
@@ -211,62 +211,62 @@ mod tests {
 
     #[test]
     fn null_takes_a_value_away_and_the_empty_table_around_it() {
-        let upright = with("ask[1].plane.tilt_deg", Json::Null).unwrap();
+        let upright = with("analysis[1].plane.tilt_deg", Json::Null).unwrap();
         assert_eq!(upright, STUDY.replace("plane = { tilt_deg = 90 }\n", ""));
-        assert_eq!(with("ask[0].load.cases_n", Json::Null).unwrap(), STUDY);
+        assert_eq!(with("analysis[0].load.cases_n", Json::Null).unwrap(), STUDY);
     }
 
     #[test]
     fn a_new_entry_stands_behind_the_last_and_takes_no_comment_of_others() {
-        let new = with("ask[2]", json!({"kind": "map", "name": ""})).unwrap();
-        assert_eq!(new, format!("{STUDY}\n[[ask]]\nkind = \"map\"\nname = \"\"\n"));
+        let new = with("analysis[2]", json!({"kind": "map", "name": ""})).unwrap();
+        assert_eq!(new, format!("{STUDY}\n[[analysis]]\nkind = \"map\"\nname = \"\"\n"));
         let first = with("ballbar[0]", json!({"files": []})).unwrap();
         assert_eq!(first, format!("{STUDY}\n[[ballbar]]\nfiles = []\n"));
         // Remarks below the last ask stay with it, what is about the next table or the file stays there.
-        let text = "[[ask]]\nkind = \"map\"\n[ask.plane] # its own\nstep_mm = 5\n# a remark on it\n\n# the place\n[place]\nx_mm = [1, 2]\n# the end\n";
-        let more = to(text, "ask[1]", json!({"kind": "path"}));
+        let text = "[[analysis]]\nkind = \"map\"\n[analysis.plane] # its own\nstep_mm = 5\n# a remark on it\n\n# the place\n[place]\nx_mm = [1, 2]\n# the end\n";
+        let more = to(text, "analysis[1]", json!({"kind": "path"}));
         assert_eq!(
             more,
-            text.replace("\n# the place", "\n[[ask]]\nkind = \"path\"\n\n# the place")
+            text.replace("\n# the place", "\n[[analysis]]\nkind = \"path\"\n\n# the place")
         );
-        let text = "limit_um = 1\n# of the drawing";
-        let one = to(text, "ask[0]", json!({"kind": "map"}));
-        assert_eq!(one, format!("{text}\n\n[[ask]]\nkind = \"map\"\n"));
-        let close = "[[ask]]\nkind = \"map\"\n# the place\n[place]\n";
-        let close = to(close, "ask[1]", json!({"kind": "path"}));
+        let text = "tolerance_um = 1\n# of the drawing";
+        let one = to(text, "analysis[0]", json!({"kind": "map"}));
+        assert_eq!(one, format!("{text}\n\n[[analysis]]\nkind = \"map\"\n"));
+        let close = "[[analysis]]\nkind = \"map\"\n# the place\n[place]\n";
+        let close = to(close, "analysis[1]", json!({"kind": "path"}));
         assert_eq!(
             close,
-            "[[ask]]\nkind = \"map\"\n\n[[ask]]\nkind = \"path\"\n# the place\n[place]\n"
+            "[[analysis]]\nkind = \"map\"\n\n[[analysis]]\nkind = \"path\"\n# the place\n[place]\n"
         );
     }
 
     #[test]
     fn an_entry_goes_with_its_comments_and_leaves_the_others() {
-        let text = "limit_um = 1\n\n# ---- asks ----\n\n# the first\n[[ask]] # here\nkind = \"map\"\n[ask.plane]\nstep_mm = 5\n\n# the rim\n[[ask]]\nkind = \"path\" # round\n# a remark on the rim\n\n# where it may lie\n[place]\nx_mm = [1, 2]\n";
-        let without_first = to(text, "ask[0]", Json::Null);
+        let text = "tolerance_um = 1\n\n# ---- asks ----\n\n# the first\n[[analysis]] # here\nkind = \"map\"\n[analysis.plane]\nstep_mm = 5\n\n# the rim\n[[analysis]]\nkind = \"path\" # round\n# a remark on the rim\n\n# where it may lie\n[place]\nx_mm = [1, 2]\n";
+        let without_first = to(text, "analysis[0]", Json::Null);
         assert_eq!(
             without_first,
             text.replace(
-                "\n# the first\n[[ask]] # here\nkind = \"map\"\n[ask.plane]\nstep_mm = 5\n",
+                "\n# the first\n[[analysis]] # here\nkind = \"map\"\n[analysis.plane]\nstep_mm = 5\n",
                 ""
             )
         );
-        let without_rim = to(text, "ask[1]", Json::Null);
+        let without_rim = to(text, "analysis[1]", Json::Null);
         assert!(without_rim.contains("step_mm = 5\n# a remark on the rim\n\n# where it may lie\n[place]"));
         assert!(!without_rim.contains("round") && !without_rim.contains("# the rim"));
-        let none = to(&without_rim, "ask[0]", Json::Null);
+        let none = to(&without_rim, "analysis[0]", Json::Null);
         assert!(
-            none.starts_with("limit_um = 1\n\n# ---- asks ----\n") && !none.contains("ask]"),
+            none.starts_with("tolerance_um = 1\n\n# ---- asks ----\n") && !none.contains("ask]"),
             "{none}"
         );
         // Nothing is there, so nothing goes.
-        assert_eq!(to(text, "ask[2]", Json::Null), text);
+        assert_eq!(to(text, "analysis[2]", Json::Null), text);
     }
 
     #[test]
     fn entries_of_lists_inside_of_tables_come_and_go_with_their_lines() {
-        let text = "[[ask]]\nprogram = { file = \"a.ngc\", feature = [\n  { name = \"bore\" }, # the bore\n  # the rim, too\n  { name = \"rim\" } # last\n] }\n";
-        let longer = to(text, "ask[0].program.feature[2]", json!({"name": "slot"}));
+        let text = "[[analysis]]\nprogram = { file = \"a.ngc\", feature = [\n  { name = \"bore\" }, # the bore\n  # the rim, too\n  { name = \"rim\" } # last\n] }\n";
+        let longer = to(text, "analysis[0].program.feature[2]", json!({"name": "slot"}));
         assert_eq!(
             longer,
             text.replace(
@@ -274,9 +274,9 @@ mod tests {
                 "{ name = \"rim\" }, # last\n  { name = \"slot\" },\n]"
             )
         );
-        let rim = to(text, "ask[0].program.feature[0]", Json::Null);
+        let rim = to(text, "analysis[0].program.feature[0]", Json::Null);
         assert_eq!(rim, text.replace("\n  { name = \"bore\" }, # the bore", ""));
-        let bore = to(text, "ask[0].program.feature[1]", Json::Null);
+        let bore = to(text, "analysis[0].program.feature[1]", Json::Null);
         assert_eq!(
             bore,
             text.replace(
@@ -284,8 +284,8 @@ mod tests {
                 "{ name = \"bore\" } # the bore"
             )
         );
-        let none = to(&bore, "ask[0].program.feature[0]", Json::Null);
-        assert_eq!(none, "[[ask]]\nprogram = { file = \"a.ngc\"}\n");
+        let none = to(&bore, "analysis[0].program.feature[0]", Json::Null);
+        assert_eq!(none, "[[analysis]]\nprogram = { file = \"a.ngc\"}\n");
         let spring = to(
             "[tool] # steel\nlength_mm = 5\n",
             "tool.spring[0]",
@@ -316,24 +316,24 @@ mod tests {
 
     #[test]
     fn a_path_deeper_than_tables_go_is_refused() {
-        for path in ["a.".repeat(90) + "a", "ask[0".to_owned() + &"[".repeat(90)] {
+        for path in ["a.".repeat(90) + "a", "analysis[0".to_owned() + &"[".repeat(90)] {
             assert!(with(&path, json!("x")).is_err(), "{path}");
         }
         assert!(with("a.b.c.d.e", json!("x")).is_ok());
     }
 
     #[test]
-    fn all_that_cannot_be_changed_is_told_with_its_place() {
+    fn all_that_cannot_be_changed_is_reported_with_its_place() {
         let change = |path: &str, value: Json| Change {
             path: path.to_owned(),
             value,
         };
         let changes = [
-            change("ask[7].limit_um", json!(1)),
+            change("analysis[7].tolerance_um", json!(1)),
             change("plane", json!(1)),
-            change("limit_um.deeper", json!(1)),
-            change("limit_um[0]", json!(1)),
-            change("ask[2]", json!(1)),
+            change("tolerance_um.deeper", json!(1)),
+            change("tolerance_um[0]", json!(1)),
+            change("analysis[2]", json!(1)),
             change("plane.step_mm", json!([null])),
             change("", Json::Null),
         ];

@@ -10,7 +10,7 @@ use toml_edit::{Array, DocumentMut, Item, Table, Value};
 
 use super::path::Step;
 
-/// How many entries a list has; `None` of what is no list.
+/// How many entries a list has; `None` of what is not a list.
 pub(super) fn count(list: &Item) -> Option<usize> {
     match list {
         Item::ArrayOfTables(tables) => Some(tables.len()),
@@ -123,7 +123,7 @@ fn own_lines(text: &str, ends: bool) -> usize {
 }
 
 /// Changes what stands above the first header at this position or behind it; without one, at the end of the text, which
-/// `change` is told.
+/// `change` is reported.
 fn change_above(document: &mut DocumentMut, from: isize, mut change: impl FnMut(&str, bool) -> String) {
     let mut next: Option<isize> = None;
     headers(document.as_table_mut(), &mut |table| {
@@ -215,13 +215,13 @@ fn pull(entries: &mut Array, index: usize) {
     }
 }
 
-/// What stands before this entry, from the comma of the one before it on.
+/// What precedes this entry, from the comma of the one before it on.
 fn above(entry: &Value) -> String {
     let prefix = entry.decor().prefix().and_then(|prefix| prefix.as_str());
     prefix.unwrap_or_default().to_owned()
 }
 
-/// What stands between the last entry and the end of the list, but for a comma.
+/// What is between the last entry and the end of the list, but for a comma.
 fn tail(entries: &Array) -> String {
     let last = entries.iter().last().filter(|_| !entries.trailing_comma());
     let suffix = last.and_then(|last| last.decor().suffix()?.as_str());

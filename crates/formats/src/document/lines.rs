@@ -1,7 +1,7 @@
 //! A text that is read line by line, never held as a whole: tool paths and force records may be of any length.
 //!
 //! UTF-8 with or without byte order mark, any line ends; a line that is no UTF-8 is taken as Latin-1, which only
-//! comments and names can hold. Zero bytes at the end of a line are dropped.
+//! comments and names can contain. Zero bytes at the end of a line are dropped.
 //!
 //! | byte | taken as |
 //! |---|---|
@@ -10,7 +10,7 @@
 //! | `FF FE`, `FE FF` at the start of the file | UTF-16: refused |
 //! | `00` at the end of a line | dropped |
 //! | tab, `0C` (form feed), `1A` (end of a text in DOS) | kept in the line |
-//! | any other below `20`, and `7F` | refused: the file is no text |
+//! | any other below `20`, and `7F` | refused: the file is not a text |
 
 use std::io::{self, BufRead, ErrorKind};
 use std::ops::Range;
@@ -21,15 +21,15 @@ use crate::table::sheet::is_remark;
 /// No line of a tool path or of a record is longer, in bytes.
 pub(crate) const LONGEST_LINE: usize = 1 << 16;
 
-/// A line longer than this is not shown: its problem is told by line and column alone.
+/// A line longer than this is not shown: its problem is reported by line and column alone.
 const LONGEST_EXCERPT_BYTES: usize = 8192;
 
-/// One line, and where it stands in its file.
+/// One line, and where it is in its file.
 #[derive(Clone, Debug)]
 pub(crate) struct Line {
     /// From 1.
     pub number: usize,
-    /// What stands on it, without its end.
+    /// What is on it, without its end.
     pub text: String,
     /// Bytes of the file before it.
     start: usize,
@@ -136,7 +136,7 @@ impl<R: BufRead> RawLines<R> {
 /// The lines of a text, one by one.
 #[derive(Debug)]
 pub(crate) struct Lines<R> {
-    /// Where it stands in the file.
+    /// Where it is in the file.
     raw: RawLines<R>,
     name: String,
     /// The line that was read last; kept so that its memory is used again.
@@ -216,7 +216,7 @@ impl<R: BufRead> Lines<R> {
 
     /// A problem of line `number`, of which no text can be shown.
     ///
-    /// It stands behind the last line that was read.
+    /// It follows the last line that was read.
     fn nothing_to_show(&self, number: usize, message: impl Into<String>, hint: &str) -> Problems {
         Problems::from(Problem {
             file: self.name.clone(),

@@ -1,7 +1,7 @@
 //! Shapes put together: alternatives into a choice, and the fields of flattened tables into one table.
 //!
 //! schemars writes an enum as alternatives (`oneOf`, `anyOf`) and serde's `flatten` as fields beside a reference.
-//! Problems are told better of simpler shapes: of names `one of "a", "b"`, of a tagged table the fields of its one
+//! Problems are reported better of simpler shapes: of names `one of "a", "b"`, of a tagged table the fields of its one
 //! variant, so both are brought together here, where a schema is read, and not where a document is checked.
 
 use std::collections::BTreeSet;
@@ -37,7 +37,7 @@ pub(super) fn one_of(shapes: Vec<Shape>) -> Shape {
 
 /// The tagged table that tables make which all require one field with a text of their own.
 ///
-/// `None` where one is no table, or no field that the first requires tells all of them apart. The texts must differ
+/// `None` where one is not a table, or no field that the first requires tells all of them apart. The texts must differ
 /// from table to table: else the tag would not say which one is meant.
 fn tagged(shapes: &[Shape]) -> Option<Shape> {
     let tables: Vec<&TableShape> = shapes
@@ -65,7 +65,7 @@ fn tagged(shapes: &[Shape]) -> Option<Shape> {
     })
 }
 
-/// A table with the fields of another shape besides its own; `None` where that shape is no table.
+/// A table with the fields of another shape besides its own; `None` where that shape is not a table.
 ///
 /// Of a tagged table every variant gets them.
 pub(super) fn merged(table: &TableShape, shape: &Shape) -> Option<Shape> {
@@ -82,7 +82,7 @@ pub(super) fn merged(table: &TableShape, shape: &Shape) -> Option<Shape> {
     }
 }
 
-/// Fields and duties of both; a field of the same name is taken from `other`. What else may stand there `table` says,
+/// Fields and duties of both; a field of the same name is taken from `other`. What else may be there `table` says,
 /// unless it leaves that open and `other` is a map.
 fn union(table: &TableShape, other: &TableShape) -> TableShape {
     let mut union = table.clone();

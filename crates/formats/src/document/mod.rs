@@ -1,10 +1,10 @@
-//! A TOML document that is checked completely: every problem is told, all at once, at its place.
+//! A TOML document that is checked completely: every problem is reported, all at once, at its place.
 //!
 //! Reading has three steps. [`Document::parse`] finds what is not TOML. [`Document::read`] compares the tree with the
 //! JSON schema of the wanted type, then lets serde build the value. What no schema can say (a step larger than its
 //! plane) the caller checks, and tells through [`Document::problem`], which finds the place of a value by its path.
 //!
-//! In reading order: `source` (the text), `problem` (what is told of it), `tree` (its values, each with its place),
+//! In reading order: `source` (the text), `problem` (what is reported of it), `tree` (its values, each with its place),
 //! `path` (finds a value), `limits` (refuses what would nest too deep); `shape` and `merge` (what a schema wants),
 //! `check` (compares tree and shape), `unit` and `words` (units of names, and how both are said); [`edit`] (changes values of
 //! a text and leaves the rest) with `entries` (of lists: new ones, and such as go); `lines` (text that is no TOML, line by line).
@@ -121,9 +121,9 @@ impl Document {
         })
     }
 
-    /// A problem at the value that `path` names, such as `plane.step_mm` or `ask[2].distances_mm[0]`.
+    /// A problem at the value that `path` names, such as `plane.step_mm` or `analysis[2].distances_mm[0]`.
     ///
-    /// Where the path does not exist, the problem stands at the nearest parent that does. Keys that are not bare are
+    /// Where the path does not exist, the problem is at the nearest parent that does. Keys that are not bare are
     /// written in quotes, as in TOML: `material."EN AW-6082"`.
     pub fn problem(&self, path: &str, message: impl Into<String>, hint: Option<&str>) -> Problem {
         self.source
@@ -150,7 +150,7 @@ impl Document {
         found
     }
 
-    /// All values as JSON has them: dates as text, what cannot be held as `null`.
+    /// All values as JSON has them: dates as text, what cannot be represented as `null`.
     pub fn to_json(&self) -> serde_json::Value {
         tree::json(&self.root)
     }

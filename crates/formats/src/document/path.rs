@@ -1,4 +1,4 @@
-//! Finds a value by its path: `ask[2].distances_mm[0]`, `material."EN AW-6082".density`.
+//! Finds a value by its path: `analysis[2].distances_mm[0]`, `material."EN AW-6082".density`.
 //!
 //! ```text
 //! path  = part { "." key | "[" index "]" }      part = key | "[" index "]"
@@ -104,7 +104,7 @@ pub(super) fn steps(path: &str) -> Vec<Step> {
 
 /// A key in double quotes and what follows it.
 ///
-/// `None` where no quote begins it, or none ends it. Whatever follows a backslash is taken as it stands.
+/// `None` where no quote begins it, or none ends it. Whatever follows a backslash is taken unchanged.
 fn quoted(path: &str) -> Option<(String, &str)> {
     let body = path.strip_prefix('"')?;
     let mut key = String::new();
@@ -127,8 +127,8 @@ mod tests {
     fn a_path_is_keys_and_entries() {
         let key = |name: &str| Step::Key(name.to_owned());
         assert_eq!(
-            steps("ask[2].x_mm[0]"),
-            [key("ask"), Step::Entry(2), key("x_mm"), Step::Entry(0)]
+            steps("analysis[2].x_mm[0]"),
+            [key("analysis"), Step::Entry(2), key("x_mm"), Step::Entry(0)]
         );
         assert_eq!(
             steps(r#"a."b.c \"d\"".e"#),

@@ -75,7 +75,7 @@ impl Problem {
         }
     }
 
-    /// A problem told of one line alone, as it stands in its file: on that line, so many bytes on.
+    /// A problem told of one line alone, unchanged in its file: on that line, so many bytes on.
     pub(crate) fn in_file(mut self, line: usize, bytes_before: usize) -> Self {
         self.line = line;
         self.span = self.span.start + bytes_before..self.span.end + bytes_before;
@@ -83,7 +83,7 @@ impl Problem {
     }
 
     /// What may be said where the file may not be quoted and has so many problems, of which this is the first.
-    fn withheld(self, count: usize) -> Problem {
+    fn unquoted(self, count: usize) -> Problem {
         let message = match count {
             1 => "the file is not valid here".to_owned(),
             _ => format!("the file has {count} problems, the first one here"),
@@ -203,21 +203,21 @@ impl Problems {
     #[must_use]
     pub fn quoting_only(self, may_be_quoted: impl Fn(&str) -> bool) -> Problems {
         let mut kept: Vec<Problem> = Vec::new();
-        let mut withheld: Option<(Problem, usize)> = None;
+        let mut unquoted: Option<(Problem, usize)> = None;
         // Problems are sorted by file: those of one file follow each other.
         for problem in self.0 {
-            match &mut withheld {
+            match &mut unquoted {
                 Some((first, count)) if first.file == problem.file => *count += 1,
                 _ => {
-                    kept.extend(withheld.take().map(|(first, count)| first.withheld(count)));
+                    kept.extend(unquoted.take().map(|(first, count)| first.unquoted(count)));
                     match may_be_quoted(&problem.file) {
                         true => kept.push(problem),
-                        false => withheld = Some((problem, 1)),
+                        false => unquoted = Some((problem, 1)),
                     }
                 }
             }
         }
-        kept.extend(withheld.map(|(first, count)| first.withheld(count)));
+        kept.extend(unquoted.map(|(first, count)| first.unquoted(count)));
         Problems(kept)
     }
 

@@ -57,7 +57,7 @@ pub(super) enum Shape {
     Tagged {
         /// Name of the field that decides.
         tag: String,
-        /// Text of the tag, and the table that it stands for, the tag among its fields.
+        /// Text of the tag, and the table that it represents, the tag among its fields.
         variants: Vec<(String, TableShape)>,
     },
     /// Any of these.
@@ -152,7 +152,7 @@ impl Shape {
     ///
     /// `Any`, `Named` and `OneOf` hold whatever there is. Of names and numbers to choose from the kind counts, not the
     /// value: a misspelled name is a better match than a table.
-    pub(super) fn may_hold(&self, value: &tree::Value) -> bool {
+    pub(super) fn fits_kind_of(&self, value: &tree::Value) -> bool {
         match self {
             Self::Any | Self::Named(_) | Self::OneOf(_) => true,
             Self::Number(_) => matches!(value, tree::Value::Real(_) | tree::Value::Whole(_)),

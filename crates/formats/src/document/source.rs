@@ -8,7 +8,7 @@ use std::str::Utf8Error;
 
 use super::problem::{Excerpt, Problem};
 
-/// A line longer than this is not shown: its problem is told by line and column alone.
+/// A line longer than this is not shown: its problem is reported by line and column alone.
 const LONGEST_EXCERPT_BYTES: usize = 8192;
 
 /// A text and the path it was read from: the place where a [`Problem`] stands.
@@ -76,7 +76,7 @@ impl Source {
         }
     }
 
-    /// The line a span begins on, and the part of the span that lies on it.
+    /// The line a span begins on, and the part of the span that is on it.
     ///
     /// `None` for a line of more than 8192 bytes.
     fn excerpt(&self, line: usize, span: Range<usize>) -> Option<Excerpt> {

@@ -24,7 +24,7 @@ pub(super) enum Value {
     Text(String),
     /// A whole number; one beyond 128 bits is cut to them.
     Whole(i128),
-    /// Any other number; one that cannot be held is infinite.
+    /// Any other number; one that cannot be represented is infinite.
     Real(f64),
     Flag(bool),
     /// A date or time, as it is written.
@@ -51,7 +51,7 @@ pub(super) fn root(table: DeTable<'_>) -> Node {
     }
 }
 
-/// Adds every text at or below `node`, which stands at `path`, with its own path.
+/// Adds every text at or below `node`, which is at `path`, with its own path.
 ///
 /// Paths are as `path` reads them; tables in the order of their keys.
 pub(super) fn texts<'a>(node: &'a Node, path: &str, found: &mut Vec<(String, &'a str)>) {
@@ -71,7 +71,7 @@ pub(super) fn texts<'a>(node: &'a Node, path: &str, found: &mut Vec<(String, &'a
     }
 }
 
-/// Adds the path of every value at or below `node` that is no table; lists are values as a whole.
+/// Adds the path of every value at or below `node` that is not a table; lists are values as a whole.
 pub(super) fn leaves(node: &Node, path: &str, found: &mut Vec<String>) {
     match &node.value {
         Value::Table(table) => {

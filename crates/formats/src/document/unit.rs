@@ -66,7 +66,7 @@ pub(super) struct Unit {
 
 /// A field's name without its unit, and the unit; `None` if the name ends with no unit.
 ///
-/// A quotient has as its lower part the last unit, as its upper one what stands before `_per`, which may be a quotient
+/// A quotient has as its lower part the last unit, as its upper one what precedes `_per`, which may be a quotient
 /// itself; a name that ends in `_per_mm` without a unit before it has none.
 pub(super) fn split(name: &str) -> Option<(&str, Unit)> {
     let cut = |suffix: &str| name.strip_suffix(suffix)?.strip_suffix('_');
@@ -120,20 +120,20 @@ pub(super) fn of_value(field: &str, path: &str) -> Option<String> {
 /// count, and a hyphen is as good as `_`.
 pub(crate) fn suggestion<'a>(unknown: &str, known: &[&'a str]) -> Option<(&'a str, String)> {
     let plain = |name: &str| name.to_lowercase().replace('-', "_");
-    let wanted = plain(unknown);
-    let base = split(&wanted).map_or(wanted.as_str(), |(base, _)| base);
+    let requested = plain(unknown);
+    let base = split(&requested).map_or(requested.as_str(), |(base, _)| base);
     for name in known {
         let Some((known_base, unit)) = split(name) else {
             continue;
         };
-        if known_base == wanted {
+        if known_base == requested {
             let rule = match unit.quantity {
                 Some(quantity) => format!("{quantity} carry their unit"),
                 None => "numbers carry their unit".to_owned(),
             };
             return Some((name, format!("{rule}: write `{name}`")));
         }
-        if known_base == base && *name != wanted {
+        if known_base == base && *name != requested {
             return Some((name, format!("give the value in {}: write `{name}`", unit.shown)));
         }
     }
@@ -141,7 +141,7 @@ pub(crate) fn suggestion<'a>(unknown: &str, known: &[&'a str]) -> Option<(&'a st
     let allowed = |name: &str| (name.chars().count() / 3).max(1);
     known
         .iter()
-        .map(|name| (strsim::damerau_levenshtein(&wanted, &plain(name)), *name))
+        .map(|name| (strsim::damerau_levenshtein(&requested, &plain(name)), *name))
         .filter(|(distance, name)| *distance <= allowed(name))
         .min()
         .map(|(_, name)| (name, format!("did you mean `{name}`?")))
@@ -158,10 +158,10 @@ mod tests {
     #[test]
     fn a_number_of_a_pose_has_the_unit_of_its_place() {
         let unit = |path: &str| of_value("flange_from_tool_mm_deg", path).unwrap();
-        let place = |index: usize| unit(&format!("ask[4].tool.flange_from_tool_mm_deg[{index}]"));
+        let place = |index: usize| unit(&format!("analysis[4].tool.flange_from_tool_mm_deg[{index}]"));
         assert_eq!([0, 2, 3, 5].map(place), ["mm", "mm", "deg", "deg"]);
-        assert_eq!(unit("ask[4].tool.flange_from_tool_mm_deg"), "mm and deg");
-        assert_eq!(of_value("x_mm", "ask[4].x_mm[5]").unwrap(), "mm");
+        assert_eq!(unit("analysis[4].tool.flange_from_tool_mm_deg"), "mm and deg");
+        assert_eq!(of_value("x_mm", "analysis[4].x_mm[5]").unwrap(), "mm");
     }
 
     #[test]
@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn a_field_without_its_unit_is_told_to_carry_it() {
+    fn a_field_without_its_unit_is_reported_to_carry_it() {
         let known = ["step_mm", "tilt_deg", "stiffness_n_per_um"];
         assert_eq!(
             suggestion("step", &known).unwrap().1,

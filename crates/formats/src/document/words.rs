@@ -94,7 +94,7 @@ pub(super) fn choices_in_words(choices: &[Json]) -> String {
     }
 }
 
-/// What stands in the file, with its kind: `the string "3 mm"`, `an array of 2 entries`.
+/// What is in the file, with its kind: `the string "3 mm"`, `an array of 2 entries`.
 pub(super) fn found(value: &Value) -> String {
     match value {
         Value::Text(text) => format!("the string {:?}", shortened(text)),

@@ -32,7 +32,7 @@ pub enum FileError {
     #[error("cannot use `{}` as a folder: `{}` is a file; move it away or choose another folder",
             path.display(), file.display())]
     FileInTheWay {
-        /// The folder that is wanted.
+        /// The folder that is required.
         path: PathBuf,
         /// The file of that name.
         file: PathBuf,

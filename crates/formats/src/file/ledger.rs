@@ -75,7 +75,7 @@ impl Ledger {
         if !fits_a_line(name) {
             return Ok(());
         }
-        let told = |source| FileError::of(&self.file, None, source);
+        let given = |source| FileError::of(&self.file, None, source);
         if self.file.is_symlink() {
             return Err(FileError::IsLink {
                 path: self.file.clone(),
@@ -85,10 +85,10 @@ impl Ledger {
             .append(true)
             .create(true)
             .open(&self.file)
-            .map_err(told)?;
+            .map_err(given)?;
         // A line that was cut off by a full disk must not take this one with it.
         let text = format!("\n{}\t{}\t{name}\n", one.sum, one.by);
-        list.write_all(text.as_bytes()).map_err(told)?;
+        list.write_all(text.as_bytes()).map_err(given)?;
         self.made.entry(name.to_owned()).or_default().push(one);
         Ok(())
     }

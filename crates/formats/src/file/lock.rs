@@ -23,7 +23,7 @@ const HOLDER_BYTES: u64 = 200;
 pub(super) struct Lock {
     file: PathBuf,
     /// `None` where the file system has no locks.
-    _held: Option<File>,
+    _lock: Option<File>,
 }
 
 impl Lock {
@@ -35,8 +35,8 @@ impl Lock {
         let file = folder.join(LOCK);
         let give_up = Instant::now() + patience;
         loop {
-            if let Some(held) = attempt(&file)? {
-                return Ok(Lock::with(file, held, by));
+            if let Some(lock) = attempt(&file)? {
+                return Ok(Lock::with(file, lock, by));
             }
             if Instant::now() >= give_up {
                 return Err(FileError::InUse {
@@ -49,14 +49,14 @@ impl Lock {
     }
 
     /// Writes the holder into the file.
-    fn with(file: PathBuf, mut held: Option<File>, by: &str) -> Lock {
-        if let Some(held) = &mut held {
+    fn with(file: PathBuf, mut lock: Option<File>, by: &str) -> Lock {
+        if let Some(lock) = &mut lock {
             // Only the message to a second run depends on this.
-            let _ = held.set_len(0);
-            let _ = held.rewind();
-            let _ = write!(held, "armill {by}, process {}", std::process::id());
+            let _ = lock.set_len(0);
+            let _ = lock.rewind();
+            let _ = write!(lock, "armill {by}, process {}", std::process::id());
         }
-        Lock { file, _held: held }
+        Lock { file, _lock: lock }
     }
 }
 

@@ -40,10 +40,10 @@ impl PartFile {
     /// What stood in the way; then no temporary file remains.
     pub fn write(path: impl AsRef<Path>, bytes: &[u8]) -> Result<PartFile, FileError> {
         let path = path.as_ref();
-        let part = told(
+        let part = named_error(
             path,
             bytes.len(),
-            write_beside(path, &mut |out| out.write_all(bytes)),
+            write_in_folder_of(path, &mut |out| out.write_all(bytes)),
         )?;
         Ok(PartFile {
             path: path.to_owned(),
@@ -65,11 +65,11 @@ impl PartFile {
             part.persist(&target).map_err(|error| error.error)?;
             Ok(())
         };
-        told(&self.path, self.bytes, named())
+        named_error(&self.path, self.bytes, named())
     }
 }
 
-/// Forces the names in a folder to the disk; not every file system can be asked for that.
+/// Forces the names in a folder to the disk; not every file system can be requested that.
 pub fn sync_folder(folder: &Path) {
     #[cfg(unix)]
     let _ = File::open(folder).and_then(|folder| folder.sync_all());
@@ -146,7 +146,7 @@ impl From<io::Error> for Failure {
 }
 
 /// What failed while so many bytes were written to `path`, as a situation with advice.
-fn told<T>(path: &Path, bytes: usize, result: Result<T, Failure>) -> Result<T, FileError> {
+fn named_error<T>(path: &Path, bytes: usize, result: Result<T, Failure>) -> Result<T, FileError> {
     result.map_err(|failure| match failure {
         Failure::Named(error) => error,
         Failure::System(source) => FileError::of(path, Some(bytes), source),
@@ -154,7 +154,7 @@ fn told<T>(path: &Path, bytes: usize, result: Result<T, Failure>) -> Result<T, F
 }
 
 /// The temporary file and the name that it is to take; none where a device was written.
-fn write_beside(
+fn write_in_folder_of(
     path: &Path,
     write: &mut dyn FnMut(&mut File) -> io::Result<()>,
 ) -> Result<Option<(NamedTempFile, PathBuf)>, Failure> {
@@ -232,7 +232,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("result.csv");
         write_atomically(&path, b"old").unwrap();
-        let failure = write_beside(&path, &mut |out| {
+        let failure = write_in_folder_of(&path, &mut |out| {
             out.write_all(b"half of the n")?;
             Err(io::ErrorKind::StorageFull.into())
         });
@@ -242,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn a_part_takes_its_name_when_it_is_told_to() {
+    fn a_part_takes_its_name_when_it_is_reported_to() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("result.csv");
         drop(PartFile::write(&path, b"given up").unwrap());
@@ -378,7 +378,7 @@ mod tests {
 
     #[cfg(target_os = "linux")]
     #[test]
-    fn a_full_device_is_told_as_no_space_and_stays_a_device() {
+    fn a_full_device_is_reported_as_no_space_and_stays_a_device() {
         let error = write_atomically("/dev/full", b"12345").unwrap_err();
         assert!(
             matches!(error, FileError::NoSpace { bytes: Some(5), .. }),

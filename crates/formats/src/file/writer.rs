@@ -147,7 +147,7 @@ impl Writer {
             let Some(identity) = Identity::of(path) else {
                 continue;
             };
-            if self.inputs.hold(&identity) {
+            if self.inputs.contains(&identity) {
                 return Err(FileError::IsInput { path: path.clone() });
             }
             if path.is_file() && !self.force && !ledger.is_ours(name, path) {

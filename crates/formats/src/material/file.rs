@@ -1,4 +1,4 @@
-//! The material file as it stands: its tables and keys.
+//! The material file unchanged: its tables and keys.
 
 use schemars::JsonSchema;
 use serde::Deserialize;

@@ -2,9 +2,9 @@
 //!
 //! A material has sets of mechanistic coefficients (N/mm2, N/mm), each as somebody identified it with some tool, and
 //! sets of Kienzle values. A set may lack a coefficient; no force is computed from it then. Where several sets of one
-//! material are whole, their mean stands for the material and their scatter for its uncertainty.
+//! material are whole, their mean represents the material and their scatter for its uncertainty.
 //!
-//! `file` is the file as it stands; here it is checked and turned into SI.
+//! `file` is the file unchanged; here it is checked and turned into SI.
 //!
 //! | in the file | here |
 //! |---|---|

@@ -82,7 +82,7 @@ fn kienzle_values_of_several_sets_scatter() {
 }
 
 #[test]
-fn a_field_that_is_not_known_is_told_with_its_unit() {
+fn a_field_that_is_not_known_is_reported_with_its_unit() {
     let text = problems_of("kte_n_per_mm = 2\n", "kte = 2\n");
     assert!(
         text.contains("cheese.toml:10:1: unknown field `mechanistic[0].kte`"),
@@ -92,7 +92,7 @@ fn a_field_that_is_not_known_is_told_with_its_unit() {
 }
 
 #[test]
-fn every_problem_is_told_at_once() {
+fn every_problem_is_reported_at_once() {
     let broken = SMALL
         .replacen("source = \"made-up\"", "source = \"hearsay\"", 1)
         .replace("ktc_n_per_mm2 = 9999\n", "")
@@ -135,7 +135,7 @@ fn a_material_without_a_force_is_refused() {
 }
 
 #[test]
-fn what_is_not_toml_is_told_with_its_line() {
+fn what_is_not_toml_is_reported_with_its_line() {
     let problems = read("air.toml", "format = 1\nname = air\n")
         .unwrap_err()
         .to_string();

@@ -23,7 +23,7 @@ use std::io::BufRead;
 use armill_core::load::ActsOn;
 
 use super::columns::{Column, Quantity, Samples, doubled, measured, missing, of_names_and_units};
-use super::format::{Format, Measured, Wanted};
+use super::format::{Format, ForceRecords, ForceReadOptions};
 use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
 use crate::table::sheet::{Cell, cells, is_blank_row, separator_of};
@@ -38,22 +38,22 @@ pub fn read(
     path: &str,
     reader: impl BufRead,
     acts_on: ActsOn,
-    wanted: &Wanted,
-) -> Result<Measured, Problems> {
+    requested: &ForceReadOptions,
+) -> Result<ForceRecords, Problems> {
     let mut lines = Lines::new(path, reader);
     let Some(first) = lines.next_row()? else {
         return Err(Problem::of_file(path, "no record in this file", HEADER_HINT).into());
     };
     let mut table = Table {
         path,
-        wanted,
+        requested,
         separator: separator_of(&first.text),
         names: Vec::new(),
         columns: Vec::new(),
     };
     // With names that are told, the first line is a row of numbers.
     let mut waiting = None;
-    match &wanted.columns {
+    match &requested.columns {
         Some(names) => {
             table.take_told(names, &first)?;
             waiting = Some(first.clone());
@@ -61,7 +61,7 @@ pub fn read(
         None => table.take_header(&first, &mut lines)?,
     }
     table.check(&first)?;
-    let mut samples = Samples::new(table.columns.clone(), wanted.rate_hz.map(f64::recip));
+    let mut samples = Samples::new(table.columns.clone(), requested.rate_hz.map(f64::recip));
     let mut problems = Vec::new();
     while problems.len() < MOST_PROBLEMS {
         let line = match waiting.take() {
@@ -86,7 +86,7 @@ pub fn read(
         .record(acts_on)
         .map_err(|error| Problem::of_file(path, error.to_string(), HEADER_HINT))?;
     let unused = table.names.into_iter().zip(&table.columns);
-    Ok(Measured {
+    Ok(ForceRecords {
         format: Format::Csv,
         records: vec![record],
         unused: unused
@@ -101,7 +101,7 @@ struct Table<'a> {
     /// What problems show.
     path: &'a str,
     /// What the user tells.
-    wanted: &'a Wanted,
+    requested: &'a ForceReadOptions,
     /// As the first line has it.
     separator: char,
     /// As they stand in the file, or as they were told.
@@ -150,13 +150,13 @@ impl Table<'_> {
         let columns = of_names_and_units(&heads, &units, |_, name| Quantity::of_name(name));
         self.columns = columns.map_err(|unfit| -> Problems {
             let whole = || 0..below.text.len();
-            let told = unfit.into_iter().map(|unfit| {
+            let given = unfit.into_iter().map(|unfit| {
                 let span = units
                     .get(unfit.index)
                     .map_or_else(whole, |cell| cell.span.clone());
                 below.problem(self.path, span, unfit.message, &unfit.hint)
             });
-            told.collect()
+            given.collect()
         })?;
         Ok(())
     }
@@ -175,7 +175,7 @@ impl Table<'_> {
         }
         let columns = self.columns.iter().flatten();
         let timed = columns.clone().any(|column| column.quantity == Quantity::Time);
-        match (timed, self.wanted.rate_hz) {
+        match (timed, self.requested.rate_hz) {
             (false, None) => {
                 let hint = "add `time_s`, or tell the sampling rate (option `rate_hz`)";
                 Err(self.at(first, "no column tells the time".to_owned(), hint))
@@ -249,16 +249,16 @@ mod tests {
 
     use super::*;
 
-    fn read_as(text: &str, rate_hz: Option<f64>, columns: Option<&str>) -> Result<Measured, Problems> {
-        let wanted = Wanted {
+    fn read_as(text: &str, rate_hz: Option<f64>, columns: Option<&str>) -> Result<ForceRecords, Problems> {
+        let requested = ForceReadOptions {
             rate_hz,
             columns: columns.map(|names| names.split(',').map(str::to_owned).collect()),
             channels: None,
         };
-        read("force.csv", text.as_bytes(), ActsOn::Part, &wanted)
+        read("force.csv", text.as_bytes(), ActsOn::Part, &requested)
     }
 
-    fn measured(text: &str) -> Measured {
+    fn measured(text: &str) -> ForceRecords {
         read_as(text, None, None).unwrap_or_else(|problems| panic!("{problems}"))
     }
 
@@ -302,14 +302,14 @@ mod tests {
         let found = read_as(text, Some(50_000.0), Some("fx_n,fy_n,fz_n,vx_g")).unwrap();
         assert_eq!(found.records[0].force()[2], Vector3::new(7.0, 8.0, 9.0));
         assert!((found.records[0].step().unwrap() - 2e-5).abs() < 1e-18);
-        let told = read_as(text, Some(50_000.0), Some("fx_n,fy_n,fz_n"))
+        let given = read_as(text, Some(50_000.0), Some("fx_n,fy_n,fz_n"))
             .unwrap_err()
             .to_string();
-        assert!(told.contains("3 columns were told, but this row has 4"), "{told}");
-        let told = read_as("fx_n,fy_n,fz_n\n1,2,3\n4,5,6\n", Some(0.0), None)
+        assert!(given.contains("3 columns were told, but this row has 4"), "{given}");
+        let given = read_as("fx_n,fy_n,fz_n\n1,2,3\n4,5,6\n", Some(0.0), None)
             .unwrap_err()
             .to_string();
-        assert!(told.contains("a sampling rate of 0 Hz is not above 0"), "{told}");
+        assert!(given.contains("a sampling rate of 0 Hz is not above 0"), "{given}");
     }
 
     #[test]
@@ -348,13 +348,13 @@ mod tests {
                 "`1.000,5` is not a number",
             ),
         ] {
-            let told = problems(text);
-            assert!(told.contains(part), "{text}: {told}");
-            assert!(told.contains("help: "), "{told}");
+            let given = problems(text);
+            assert!(given.contains(part), "{text}: {given}");
+            assert!(given.contains("help: "), "{given}");
         }
-        let told = read_as("time_s,fx_n,fy_n,fz_n\n0,1,2,3\n", Some(10.0), None)
+        let given = read_as("time_s,fx_n,fy_n,fz_n\n0,1,2,3\n", Some(10.0), None)
             .unwrap_err()
             .to_string();
-        assert!(told.contains("leave the rate out"), "{told}");
+        assert!(given.contains("leave the rate out"), "{given}");
     }
 }

@@ -30,7 +30,7 @@ use std::io::BufRead;
 use armill_core::load::{ActsOn, Record};
 
 use super::columns::{Column, Quantity, Samples, doubled, measured, missing, of_names_and_units};
-use super::format::{Format, Measured, Wanted};
+use super::format::{Format, ForceRecords, ForceReadOptions};
 use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
 use crate::table::sheet::{Cell, cells, separator_of};
@@ -55,10 +55,10 @@ pub fn read(
     path: &str,
     reader: impl BufRead,
     acts_on: ActsOn,
-    wanted: &Wanted,
-) -> Result<Measured, Problems> {
-    let channels = Channels::told(wanted.channels.as_deref()).ok_or_else(|| {
-        let names = wanted.channels.as_ref().map_or(0, Vec::len);
+    requested: &ForceReadOptions,
+) -> Result<ForceRecords, Problems> {
+    let channels = Channels::reported(requested.channels.as_deref()).ok_or_else(|| {
+        let names = requested.channels.as_ref().map_or(0, Vec::len);
         let message = format!("{names} names of channels were told");
         Problem::of_file(path, message, "three forces, or three forces and three moments")
     })?;
@@ -101,7 +101,7 @@ struct Channels {
 
 impl Channels {
     /// Those of these names, the usual ones where none are told; `None` if they are not three or six.
-    fn told(names: Option<&[String]>) -> Option<Channels> {
+    fn reported(names: Option<&[String]>) -> Option<Channels> {
         let usual = |letter: &str| ["x", "y", "z"].map(|axis| format!("{letter}{axis}"));
         let Some(names) = names else {
             return Some(Channels {
@@ -259,7 +259,7 @@ impl Reader<'_> {
             units.pop();
         }
         if units.len() != names.len() || begins_with_number(&below.text) {
-            let message = format!("a line of {} units is wanted below the channels", names.len());
+            let message = format!("a line of {} units is requested below the channels", names.len());
             let hint = "export with units: nothing else tells whether these are N or kN";
             return Err(self.at(&below, message, hint));
         }
@@ -390,7 +390,7 @@ impl Reader<'_> {
         }
         if let Some(wanted) = self.wanted_samples.filter(|wanted| *wanted != samples.count()) {
             let message = format!(
-                "cycle {} ends after {} samples, but its header tells {wanted}",
+                "cycle {} ends after {} samples, but its header tells {requested}",
                 self.cycles,
                 samples.count()
             );
@@ -407,7 +407,7 @@ impl Reader<'_> {
     }
 
     /// What the file held, or everything that is wrong with it.
-    fn finish(mut self) -> Result<Measured, Problems> {
+    fn finish(mut self) -> Result<ForceRecords, Problems> {
         self.end_cycle();
         if self.records.is_empty() && self.problems.is_empty() {
             let hint = "a DynoWare export has a line of channels (`Time`, `Fx`, ...), one of units, and samples; other \
@@ -416,7 +416,7 @@ impl Reader<'_> {
                 .push(Problem::of_file(self.path, "no samples in this file", hint));
         }
         Problems::from(self.problems).into_result()?;
-        Ok(Measured {
+        Ok(ForceRecords {
             format: Format::DynoWare,
             records: self.records,
             unused: self.unused,
@@ -428,7 +428,7 @@ impl Reader<'_> {
         let message = format!(
             "{count} pieces between commas are neither {width} numbers with points nor {width} numbers with commas"
         );
-        let hint = "commas separate cells and mark decimals at once, and which is which cannot be told: export with tab or \
+        let hint = "commas separate cells and mark decimals at once, and which is which cannot be reported: export with tab or \
                     semicolon between cells";
         self.at(line, message, hint)
     }

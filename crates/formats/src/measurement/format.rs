@@ -32,7 +32,7 @@ impl Format {
 
 /// What a file does not tell, or what its channels are called.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Wanted {
+pub struct ForceReadOptions {
     /// Samples a second, of a CSV without column of time.
     pub rate_hz: Option<f64>,
     /// The columns in order, of a CSV without header; other names than those of [`csv`] are passed over.
@@ -44,7 +44,7 @@ pub struct Wanted {
 
 /// What a file held.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Measured {
+pub struct ForceRecords {
     /// Its format.
     pub format: Format,
     /// The records, in order: one, or the cycles of an export; axes of the sensor.
@@ -64,23 +64,23 @@ pub fn read(
     path: &str,
     mut reader: impl BufRead,
     acts_on: ActsOn,
-    wanted: &Wanted,
-) -> Result<Measured, Problems> {
+    requested: &ForceReadOptions,
+) -> Result<ForceRecords, Problems> {
     let mut head = Vec::new();
     let begun = reader.by_ref().take(HEAD_BYTES).read_to_end(&mut head);
     begun.map_err(|error| unreadable(path, &error))?;
-    let format = match wanted {
-        Wanted {
+    let format = match requested {
+        ForceReadOptions {
             channels: Some(_), ..
         } => Format::DynoWare,
-        Wanted { rate_hz: Some(_), .. } | Wanted { columns: Some(_), .. } => Format::Csv,
+        ForceReadOptions { rate_hz: Some(_), .. } | ForceReadOptions { columns: Some(_), .. } => Format::Csv,
         _ if has_line_of_channels(&head) => Format::DynoWare,
         _ => Format::Csv,
     };
     let whole = Cursor::new(head).chain(reader);
     match format {
-        Format::DynoWare => dynoware::read(path, whole, acts_on, wanted),
-        Format::Csv => csv::read(path, whole, acts_on, wanted),
+        Format::DynoWare => dynoware::read(path, whole, acts_on, requested),
+        Format::Csv => csv::read(path, whole, acts_on, requested),
     }
 }
 
@@ -94,8 +94,8 @@ fn has_line_of_channels(head: &[u8]) -> bool {
 mod tests {
     use super::*;
 
-    fn known(text: &str, wanted: &Wanted) -> Result<Measured, String> {
-        let read = read("f", text.as_bytes(), ActsOn::Tool, wanted);
+    fn known(text: &str, requested: &ForceReadOptions) -> Result<ForceRecords, String> {
+        let read = read("f", text.as_bytes(), ActsOn::Tool, requested);
         read.map_err(|problems| problems.to_string())
     }
 
@@ -105,11 +105,11 @@ mod tests {
 
     #[test]
     fn the_same_numbers_come_out_of_either_format() {
-        let [export, csv] = [EXPORT, CSV].map(|text| known(text, &Wanted::default()).unwrap());
+        let [export, csv] = [EXPORT, CSV].map(|text| known(text, &ForceReadOptions::default()).unwrap());
         assert_eq!((export.format, csv.format), (Format::DynoWare, Format::Csv));
         let returns = EXPORT.replace('\n', "\r");
         assert_eq!(
-            known(&returns, &Wanted::default()).unwrap(),
+            known(&returns, &ForceReadOptions::default()).unwrap(),
             export,
             "line ends are no part of it"
         );
@@ -119,50 +119,50 @@ mod tests {
 
     #[test]
     fn what_is_told_decides_on_the_format() {
-        let by_hand = Wanted {
+        let by_hand = ForceReadOptions {
             rate_hz: Some(10.0),
             columns: Some(["fx_n", "fy_kn", "fz_n"].map(str::to_owned).to_vec()),
-            ..Wanted::default()
+            ..ForceReadOptions::default()
         };
         let plain = known("1,2,3\n4,5,6\n", &by_hand).unwrap();
         assert_eq!(
             plain.records[0].force(),
-            known(CSV, &Wanted::default()).unwrap().records[0].force()
+            known(CSV, &ForceReadOptions::default()).unwrap().records[0].force()
         );
-        let channels = |names: &[&str]| Wanted {
+        let channels = |names: &[&str]| ForceReadOptions {
             channels: Some(names.iter().map(|name| (*name).to_owned()).collect()),
-            ..Wanted::default()
+            ..ForceReadOptions::default()
         };
         let renamed = EXPORT.replace("Fx", "Kraft A");
         let found = known(&renamed, &channels(&["Kraft A", "Fy", "Fz"])).unwrap();
-        assert_eq!(found.records, known(EXPORT, &Wanted::default()).unwrap().records);
-        let told = known(&renamed, &Wanted::default()).unwrap_err();
-        assert!(told.contains("missing channels: `Fx`"), "{told}");
-        let told = known(EXPORT, &channels(&["Fx", "Fy"])).unwrap_err();
-        assert!(told.contains("2 names of channels"), "{told}");
+        assert_eq!(found.records, known(EXPORT, &ForceReadOptions::default()).unwrap().records);
+        let given = known(&renamed, &ForceReadOptions::default()).unwrap_err();
+        assert!(given.contains("missing channels: `Fx`"), "{given}");
+        let given = known(EXPORT, &channels(&["Fx", "Fy"])).unwrap_err();
+        assert!(given.contains("2 names of channels"), "{given}");
     }
 
     #[test]
     fn a_remark_does_not_end_a_record() {
         let remarked = EXPORT.replace("0.1", "# pause\n0.1");
-        let found = known(&remarked, &Wanted::default()).unwrap();
-        assert_eq!(found.records, known(EXPORT, &Wanted::default()).unwrap().records);
+        let found = known(&remarked, &ForceReadOptions::default()).unwrap();
+        assert_eq!(found.records, known(EXPORT, &ForceReadOptions::default()).unwrap().records);
     }
 
     #[test]
     fn commas_between_and_inside_numbers_are_left_to_the_reader_of_exports() {
         let trap = "Time,Fx,Fy,Fz\ns,N,N,N\n0,0,1,5,2,25,3,5\n0,1,1,5,2,25,3,5\n";
-        let found = known(trap, &Wanted::default()).unwrap();
+        let found = known(trap, &ForceReadOptions::default()).unwrap();
         assert_eq!(found.records[0].force()[0].x, 1.5);
-        let told = known(&trap.replace("0,1,1,5", "0,1,1"), &Wanted::default()).unwrap_err();
-        assert!(told.contains("which is which cannot be told"), "{told}");
+        let given = known(&trap.replace("0,1,1,5", "0,1,1"), &ForceReadOptions::default()).unwrap_err();
+        assert!(given.contains("which is which cannot be told"), "{given}");
     }
 
     #[test]
     fn what_is_neither_is_told_as_a_table_without_forces() {
         for text in ["", "\n\n", "a,b\n1,2\n"] {
             assert!(
-                known(text, &Wanted::default())
+                known(text, &ForceReadOptions::default())
                     .unwrap_err()
                     .contains("time_s,fx_n"),
                 "{text:?}"

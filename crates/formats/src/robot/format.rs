@@ -12,7 +12,7 @@
 //! | `.txt` | a table if it names a convention or `alpha`, else a chain |
 //!
 //! Text is UTF-8, with or without byte order mark, with any line ends; other bytes of a foreign file are taken as
-//! Latin-1, which only comments and names can hold.
+//! Latin-1, which only comments and names can contain.
 
 use std::path::Path;
 use std::str::FromStr;
@@ -42,7 +42,7 @@ pub enum Format {
 /// so.
 type Known = (&'static [&'static str], &'static str, fn(&str) -> Option<Format>);
 
-/// Every ending, in the order people are told them; the header explains those that several formats share.
+/// Every ending, in the order people are reported them; the header explains those that several formats share.
 const KNOWN: [Known; 8] = [
     (&["toml"], "", |_| Some(Format::Armill)),
     (&["urdf"], "", |text| {
@@ -135,7 +135,7 @@ fn known(path: &Path) -> Option<&'static Known> {
         .find(|(endings, ..)| endings.contains(&ending.as_str()))
 }
 
-/// What stands behind the last point of a file's name, in small letters.
+/// What follows the last point of a file's name, in small letters.
 fn ending(path: &Path) -> Option<String> {
     Some(path.extension()?.to_str()?.to_lowercase())
 }
@@ -155,13 +155,13 @@ pub struct Wanted {
 ///
 /// # Errors
 /// Bytes that are no text, an empty file, an unknown format, and the problems of the format.
-pub fn read(path: &Path, id: &str, bytes: &[u8], wanted: &Wanted) -> Result<RobotDescription, Problems> {
+pub fn read(path: &Path, id: &str, bytes: &[u8], requested: &Wanted) -> Result<RobotDescription, Problems> {
     let shown = path.display().to_string();
     let text = text_of(&shown, bytes)?;
     let whole = |message: String, hint: &str| {
         Problems::from(Source::new(&shown, &text).problem(0..0, message, Some(hint.to_owned())))
     };
-    let Some(format) = wanted.format.or_else(|| Format::of(path, &text)) else {
+    let Some(format) = requested.format.or_else(|| Format::of(path, &text)) else {
         let message = match ending(path).as_deref() {
             Some("xml") => "this XML is no robot: it has no <robot> element".to_owned(),
             Some(ending) => format!("`.{ending}` is the ending of no robot file"),
@@ -172,7 +172,7 @@ pub fn read(path: &Path, id: &str, bytes: &[u8], wanted: &Wanted) -> Result<Robo
             &format!("understood are {}; or say which with --format", endings()),
         ));
     };
-    if wanted.tip.is_some() && !matches!(format, Format::Urdf | Format::Xacro) {
+    if requested.tip.is_some() && !matches!(format, Format::Urdf | Format::Xacro) {
         let message = format!(
             "a tip was named, but a file of format {} has no links",
             format.name()
@@ -182,9 +182,9 @@ pub fn read(path: &Path, id: &str, bytes: &[u8], wanted: &Wanted) -> Result<Robo
     match format {
         // Ours is UTF-8, whatever else others may be.
         Format::Armill => armill::read(&shown, id, Document::text_of(&shown, bytes)?),
-        Format::Urdf => urdf::read_to_tip(&shown, id, &text, wanted.tip.as_deref()),
+        Format::Urdf => urdf::read_to_tip(&shown, id, &text, requested.tip.as_deref()),
         #[cfg(feature = "xacro")]
-        Format::Xacro => super::xacro::read_to_tip(path, id, &text, wanted.tip.as_deref()),
+        Format::Xacro => super::xacro::read_to_tip(path, id, &text, requested.tip.as_deref()),
         #[cfg(not(feature = "xacro"))]
         Format::Xacro => Err(whole(
             "this build of armill does not read xacro".to_owned(),

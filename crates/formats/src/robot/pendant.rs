@@ -10,7 +10,7 @@ pub enum PendantError {
     /// No `=` between joints and pose.
     #[error("`{0}` has no `=` between joint positions and pose")]
     NoPose(String),
-    /// A word that is no number.
+    /// A word that is not a number.
     #[error("`{0}` is not a finite number")]
     NotANumber(String),
     /// Numbers that are no pose.
@@ -43,14 +43,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_reading_that_is_none_is_told_with_its_words() {
-        let told = |text: &str| reading(text, Convention::Kuka).unwrap_err().to_string();
-        assert!(told("0,0,0").contains("no `=`"));
-        assert!(told("0,zero=1,2,3,4,5,6").contains("`zero`"));
-        assert!(told("0,0=1,2,3,4,5,inf").contains("`inf`"));
+    fn a_reading_that_is_none_is_reported_with_its_words() {
+        let given = |text: &str| reading(text, Convention::Kuka).unwrap_err().to_string();
+        assert!(given("0,0,0").contains("no `=`"));
+        assert!(given("0,zero=1,2,3,4,5,6").contains("`zero`"));
+        assert!(given("0,0=1,2,3,4,5,inf").contains("`inf`"));
         // The square of this overflows, and so the angle of a rotation vector did.
         let large = reading("0=1,2,3,1e200,0,0", Convention::Ur).unwrap_err();
         assert_eq!(large, PendantError::Pose(PoseError::TooLarge(1e200)));
-        assert!(told("0,0=1,2,3").contains("3 numbers of the pose, where kuka has 6"));
+        assert!(given("0,0=1,2,3").contains("3 numbers of the pose, where kuka has 6"));
     }
 }

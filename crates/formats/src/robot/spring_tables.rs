@@ -11,7 +11,7 @@
 
 use armill_core::nalgebra::{Matrix6, Point3, Vector3};
 use armill_core::robot::spring::springs_of;
-use armill_core::robot::{Axis, JointCompliance, Mass, Seat, Spring};
+use armill_core::robot::{Axis, JointCompliance, Mass, Attachment, Spring};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -38,26 +38,26 @@ impl AxisName {
     }
 }
 
-/// How a spring yields.
+/// How a spring kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Yields {
+pub enum SpringKind {
     /// The drive of a turning joint.
     Drive,
     /// The drive of a sliding joint.
-    SlidingDrive,
+    PrismaticDrive,
     /// About this axis of the seat.
     About(Axis),
     /// Along this axis of the seat.
     Along(Axis),
 }
 
-impl Yields {
+impl SpringKind {
     /// What yields at the seat `at`, as covariances name it: `A2`, `A2 about x`.
     pub fn name_at(self, at: &str) -> String {
         match self {
-            Yields::Drive | Yields::SlidingDrive => at.to_owned(),
-            Yields::About(axis) => format!("{at} about {}", axis.letter()),
-            Yields::Along(axis) => format!("{at} along {}", axis.letter()),
+            SpringKind::Drive | SpringKind::PrismaticDrive => at.to_owned(),
+            SpringKind::About(axis) => format!("{at} about {}", axis.letter()),
+            SpringKind::Along(axis) => format!("{at} along {}", axis.letter()),
         }
     }
 }
@@ -133,7 +133,7 @@ impl Fault {
         }
     }
 
-    /// Where it stands in a document whose path to the table is `table`.
+    /// Where it is in a document whose path to the table is `table`.
     pub fn path_in(&self, table: &str) -> String {
         match self.key {
             None => table.to_owned(),
@@ -148,14 +148,14 @@ impl Fault {
 ///
 /// # Errors
 /// A name that is none of them.
-pub fn seat(at: &str, joints: &[&str]) -> Result<Seat, Fault> {
+pub fn attachment(at: &str, joints: &[&str]) -> Result<Attachment, Fault> {
     if let Some(joint) = joints.iter().position(|name| *name == at) {
-        return Ok(Seat::Joint(joint));
+        return Ok(Attachment::Joint(joint));
     }
     match at {
-        "base" => Ok(Seat::Base),
-        "flange" => Ok(Seat::Flange),
-        "tool" => Ok(Seat::Tool),
+        "base" => Ok(Attachment::Base),
+        "flange" => Ok(Attachment::Flange),
+        "tool" => Ok(Attachment::Tool),
         _ => {
             let hint = format!("`base`, `flange`, `tool`, or a joint: {}", joints.join(", "));
             Err(Fault::new("at", format!("`{at}` is no part of the arm"), hint))
@@ -166,12 +166,12 @@ pub fn seat(at: &str, joints: &[&str]) -> Result<Seat, Fault> {
 impl SpringTable {
     /// How others name this spring: `A2 about x`; `None` for a whole matrix.
     pub fn name(&self) -> Option<String> {
-        let yields = match (self.about, self.along) {
-            (Some(axis), None) => Yields::About(axis.axis()),
-            (None, Some(axis)) => Yields::Along(axis.axis()),
+        let kind = match (self.about, self.along) {
+            (Some(axis), None) => SpringKind::About(axis.axis()),
+            (None, Some(axis)) => SpringKind::Along(axis.axis()),
             _ => return None,
         };
-        Some(yields.name_at(&self.at))
+        Some(kind.name_at(&self.at))
     }
 
     /// The springs of the core: one, or up to six for a matrix.
@@ -181,7 +181,7 @@ impl SpringTable {
     /// # Errors
     /// The first thing that is wrong.
     pub fn springs(&self, joints: &[&str]) -> Result<Vec<Spring>, Fault> {
-        let seat = seat(&self.at, joints)?;
+        let attachment = attachment(&self.at, joints)?;
         let turning = self.compliance_rad_per_n_m.is_some() || self.compliance_u_rad_per_n_m.is_some();
         let sliding = self.compliance_um_per_n.is_some() || self.compliance_u_um_per_n.is_some();
         if let Some(matrix) = &self.compliance_matrix {
@@ -193,7 +193,7 @@ impl SpringTable {
                 ));
             }
             let matrix = Matrix6::from_fn(|i, j| matrix[i][j]);
-            return springs_of(seat, &matrix).map_err(|refused| {
+            return springs_of(attachment, &matrix).map_err(|refused| {
                 let hint = "6 rows of 6 numbers, symmetric, such as diag(m/N, m/N, m/N, rad/(N m), ...)";
                 Fault::new("compliance_matrix", refused.to_string(), hint)
             });
@@ -234,9 +234,9 @@ impl SpringTable {
         };
         let axis: Vector3<f64> = axis.axis().unit();
         Ok(vec![if self.about.is_some() {
-            Spring::about(seat, axis, compliance)
+            Spring::about(attachment, axis, compliance)
         } else {
-            Spring::along(seat, axis, compliance)
+            Spring::along(attachment, axis, compliance)
         }])
     }
 }
@@ -250,7 +250,7 @@ impl MassTable {
     /// A seat that the arm does not have.
     pub fn mass(&self, joints: &[&str]) -> Result<Mass, Fault> {
         Ok(Mass {
-            seat: seat(&self.at, joints)?,
+            attachment: attachment(&self.at, joints)?,
             mass: self.mass_kg,
             centre: Point3::from(Vector3::from(self.centre_mm) * 1e-3),
         })

@@ -47,7 +47,7 @@ pub(super) enum ArcEnd {
     /// It is told.
     Told,
     /// It is not.
-    Untold,
+    EvaluateError,
 }
 
 impl<P> Default for ArcRow<P> {
@@ -71,7 +71,7 @@ impl<P> ArcRow<P> {
             (Some(via), _) => {
                 self.state = match end {
                     ArcEnd::Told => State::Between,
-                    ArcEnd::Untold => State::Closed,
+                    ArcEnd::EvaluateError => State::Closed,
                 };
                 self.begin = Some(span);
                 Next::Arc { via, end: point }
@@ -100,12 +100,12 @@ mod tests {
     fn three_points_make_an_arc_and_two_more_another_where_the_first_is_told_to_end() {
         let mut row = ArcRow::default();
         let mut next = |point: u32, end| row.next(point, end, 0..1);
-        assert_eq!(next(1, ArcEnd::Untold), Next::Straight(1));
-        assert_eq!(next(2, ArcEnd::Untold), Next::Waits);
+        assert_eq!(next(1, ArcEnd::EvaluateError), Next::Straight(1));
+        assert_eq!(next(2, ArcEnd::EvaluateError), Next::Waits);
         assert_eq!(next(3, ArcEnd::Told), Next::Arc { via: 2, end: 3 });
-        assert_eq!(next(4, ArcEnd::Untold), Next::Waits);
-        assert_eq!(next(5, ArcEnd::Untold), Next::Arc { via: 4, end: 5 });
-        assert_eq!(next(6, ArcEnd::Untold), Next::Uncertain);
+        assert_eq!(next(4, ArcEnd::EvaluateError), Next::Waits);
+        assert_eq!(next(5, ArcEnd::EvaluateError), Next::Arc { via: 4, end: 5 });
+        assert_eq!(next(6, ArcEnd::EvaluateError), Next::Uncertain);
         assert_eq!(row.end(), None);
         assert_eq!(row.end(), None);
     }
@@ -115,7 +115,7 @@ mod tests {
         for points in [1, 2] {
             let mut row = ArcRow::default();
             for point in 0..points {
-                row.next(point, ArcEnd::Untold, 7..9);
+                row.next(point, ArcEnd::EvaluateError, 7..9);
             }
             assert_eq!(row.end(), Some(7..9));
         }

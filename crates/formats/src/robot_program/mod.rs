@@ -36,7 +36,7 @@ mod rewrite;
 mod spelling;
 mod text;
 mod tokens;
-mod told;
+mod given;
 #[cfg(test)]
 mod trials;
 

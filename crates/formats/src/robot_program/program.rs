@@ -94,7 +94,7 @@ pub enum Frame {
     /// It stands on the controller under this number.
     Numbered(u32),
     /// Nothing is said of it.
-    Untold,
+    EvaluateError,
 }
 
 /// How fast a move is.
@@ -105,7 +105,7 @@ pub enum Speed {
     /// Of the joints, as a part of their greatest; or another that says nothing of the tip.
     Joints,
     /// It is not told in the program.
-    Untold,
+    EvaluateError,
 }
 
 impl Target {

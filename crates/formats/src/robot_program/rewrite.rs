@@ -133,11 +133,11 @@ impl RobotProgram {
         if again.moves.len() != self.moves.len() {
             return Err(RewriteError::Unlike);
         }
-        let mut asked = vec![None; self.moves.len()];
+        let mut requested = vec![None; self.moves.len()];
         for one in moved {
-            asked[one.index] = Some(one);
+            requested[one.index] = Some(one);
         }
-        for ((of, found), asked) in self.moves.iter().zip(&again.moves).zip(asked) {
+        for ((of, found), requested) in self.moves.iter().zip(&again.moves).zip(requested) {
             let via = |motion: &Motion| match motion {
                 Motion::Circular { via } => via.pose().copied(),
                 Motion::Joint | Motion::Linear => None,
@@ -145,16 +145,16 @@ impl RobotProgram {
             let ends = [
                 (
                     found.target.pose().copied(),
-                    asked.map(|one| one.target),
+                    requested.map(|one| one.target),
                     of.target.pose().copied(),
                 ),
-                (via(&found.motion), asked.and_then(|one| one.via), via(&of.motion)),
+                (via(&found.motion), requested.and_then(|one| one.via), via(&of.motion)),
             ];
-            for (found_end, asked, before) in ends {
-                let (Some(end), Some(wanted)) = (found_end, asked.or(before)) else {
+            for (found_end, requested, before) in ends {
+                let (Some(end), Some(expected)) = (found_end, requested.or(before)) else {
                     continue;
                 };
-                compare(in_base(&found.frame, end), in_base(&of.frame, wanted), of.line)?;
+                compare(in_base(&found.frame, end), in_base(&of.frame, expected), of.line)?;
             }
         }
         Ok(())
@@ -177,16 +177,16 @@ fn anew(target: &Target, moved: &Isometry) -> Anew {
 fn in_base(frame: &Frame, pose: Isometry) -> Isometry {
     match frame {
         Frame::Told(frame) => frame * pose,
-        Frame::Numbered(_) | Frame::Untold => pose,
+        Frame::Numbered(_) | Frame::EvaluateError => pose,
     }
 }
 
-fn compare(found: Isometry, wanted: Isometry, line: u32) -> Result<(), RewriteError> {
+fn compare(found: Isometry, expected: Isometry, line: u32) -> Result<(), RewriteError> {
     let matrix = |pose: &Isometry| *pose.rotation.to_rotation_matrix().matrix();
-    let apart = (found.translation.vector - wanted.translation.vector).norm();
-    let turned = (matrix(&found) - matrix(&wanted)).amax();
+    let apart = (found.translation.vector - expected.translation.vector).norm();
+    let turned = (matrix(&found) - matrix(&expected)).amax();
     // Of places far out the last digits of the number itself.
-    let rounding = wanted.translation.vector.norm() * 1e-12;
+    let rounding = expected.translation.vector.norm() * 1e-12;
     match apart < WRITTEN[0] + rounding && turned < WRITTEN[1] {
         true => Ok(()),
         false => Err(RewriteError::Leans {

@@ -267,14 +267,14 @@ mod tests {
 
     #[test]
     fn decimals_are_those_written_within_bounds() {
-        for (number, wanted) in [
+        for (number, requested) in [
             ("1", 3),
             ("1.25", 3),
             ("1.23456", 5),
             ("1.5E3", 3),
             ("1.0123456789012", 9),
         ] {
-            assert_eq!(decimals(number, 3, 9), wanted);
+            assert_eq!(decimals(number, 3, 9), requested);
         }
     }
 }

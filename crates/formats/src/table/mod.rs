@@ -82,7 +82,7 @@ pub enum ColumnData {
 /// Why columns do not make a table.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TableError {
-    /// There is no column.
+    /// There is not a column.
     #[error("table `{table}` has no columns: at least 1 is needed")]
     NoColumns {
         /// The name of the table.
@@ -207,7 +207,7 @@ impl Table {
 }
 
 impl Column {
-    /// Whether every value may stand in the table of this name.
+    /// Whether every value may are in the table of this name.
     ///
     /// # Errors
     /// The first number that is not finite, or the first category without a label.

@@ -87,7 +87,7 @@ pub enum ParquetError {
         column: String,
         /// The row, from 0.
         row: usize,
-        /// The text that is no label.
+        /// The text that is not a label.
         label: String,
     },
     /// The metadata `table` and `columns` belong to the table.
@@ -96,7 +96,7 @@ pub enum ParquetError {
         /// The name.
         key: String,
     },
-    /// What was read is no table.
+    /// What was read is not a table.
     #[error(transparent)]
     Table(#[from] TableError),
 }
@@ -108,7 +108,7 @@ pub enum ParquetError {
 ///
 /// # Errors
 /// [`ParquetError::ReservedKey`] for metadata called `table` or `columns`; the `parquet` crate refuses nothing that a
-/// [`Table`] can hold.
+/// [`Table`] can contain.
 pub fn write(table: &Table, metadata: &Metadata) -> Result<Vec<u8>, ParquetError> {
     if let Some(key) = metadata
         .keys()
@@ -121,14 +121,14 @@ pub fn write(table: &Table, metadata: &Metadata) -> Result<Vec<u8>, ParquetError
         KeyValue::new(TABLE_KEY.to_owned(), table.name().to_owned()),
         KeyValue::new(COLUMNS_KEY.to_owned(), serde_json::to_string(&facts)?),
     ];
-    let told = metadata
+    let given = metadata
         .iter()
         .map(|(key, value)| KeyValue::new(key.clone(), value.clone()));
     let properties = WriterProperties::builder()
         .set_compression(Compression::SNAPPY)
         .set_statistics_enabled(EnabledStatistics::None)
         .set_created_by(concat!("armill-formats version ", env!("CARGO_PKG_VERSION")).to_owned())
-        .set_key_value_metadata(Some(own.into_iter().chain(told).collect()));
+        .set_key_value_metadata(Some(own.into_iter().chain(given).collect()));
     let properties = Arc::new(table.columns().iter().fold(properties, encoded).build());
     let fields = table.columns().iter().map(field).collect::<Result<_, _>>()?;
     let schema = Type::group_type_builder("table").with_fields(fields).build()?;
@@ -163,7 +163,7 @@ fn chunk(
     Ok((sink.into_inner()?, closed))
 }
 
-/// Gives the writer of a column the values of these rows; missing ones are told by a level of 0 in place of a value.
+/// Gives the writer of a column the values of these rows; missing ones are reported by a level of 0 in place of a value.
 fn write_values(
     writer: &mut ColumnWriter<'_>,
     column: &Column,

@@ -17,7 +17,7 @@ pub(crate) struct Cell<'a> {
     pub span: Range<usize>,
 }
 
-/// What separates the cells of a table whose names stand on this line.
+/// What separates the cells of a table whose names are on this line.
 pub(crate) fn separator_of(names: &str) -> char {
     [';', '\t']
         .into_iter()

@@ -211,9 +211,9 @@ impl Table {
                 continue;
             };
             if let Some(first) = table.columns.iter().position(|before| before.same(*column)) {
-                let told = table.header.get(first).map_or("", String::as_str);
+                let given = table.header.get(first).map_or("", String::as_str);
                 tell(
-                    format!("`{}` tells what `{told}` tells", cell.text),
+                    format!("`{}` tells what `{given}` tells", cell.text),
                     "keep one of the two",
                 );
             }
@@ -231,7 +231,7 @@ impl Table {
 
     /// What no column tells though others call for it, and what to do.
     fn missing(&self) -> Vec<(String, &'static str)> {
-        let has = |wanted: &dyn Fn(Column) -> bool| self.columns.iter().any(|column| wanted(*column));
+        let has = |requested: &dyn Fn(Column) -> bool| self.columns.iter().any(|column| requested(*column));
         let absent = |names: [&str; 3], of: &dyn Fn(Column) -> Option<usize>| -> Vec<String> {
             let absent = (0..3).filter(|axis| !has(&|column| of(column) == Some(*axis)));
             absent.map(|axis| format!("`{}`", names[axis])).collect()
@@ -329,7 +329,7 @@ impl Table {
             pace: match (row.rapid, row.feed) {
                 (true, _) => Pace::Rapid,
                 (false, Some(speed)) => Pace::Feed(speed),
-                (false, None) => Pace::Untold,
+                (false, None) => Pace::EvaluateError,
             },
             line: number,
         }));

@@ -117,34 +117,34 @@ pub fn reads_back(language: Language, draft: &Draft, says: &Says) {
     let program = read_back(&written);
     assert_eq!((program.language, &program.name), (language, &draft.name));
     assert_eq!(program.moves.len(), draft.points.len(), "{:?}", program.notes);
-    for (index, (found, asked)) in program.moves.iter().zip(&draft.points).enumerate() {
+    for (index, (found, requested)) in program.moves.iter().zip(&draft.points).enumerate() {
         let tool = (found.tool, &draft.flange_from_tool, draft.tool_number);
         let frame = (found.frame, &draft.base_from_frame, draft.frame_number);
         // Joints count in no frame.
         let frame = found.target.pose().map(|_| frame);
         for (found, pose, number) in [tool].into_iter().chain(frame) {
             match (found, (says.frames)(number)) {
-                (found, Some(wanted)) => assert_eq!(found, wanted),
+                (found, Some(expected)) => assert_eq!(found, expected),
                 (Frame::Told(found), None) => near(&found, pose),
                 (found, None) => panic!("{found:?}"),
             }
         }
-        match (&found.target, asked.speed) {
+        match (&found.target, requested.speed) {
             (Target::Joints(joints), _) if index == 0 => {
-                for (joint, asked) in joints.iter().zip(&asked.joints) {
+                for (joint, requested) in joints.iter().zip(&requested.joints) {
                     // Half of four decimals of a degree.
-                    assert!((joint - asked).to_degrees().abs() < 0.51e-4);
+                    assert!((joint - requested).to_degrees().abs() < 0.51e-4);
                 }
                 assert_eq!(found.motion, Motion::Joint);
             }
             (Target::Pose { pose, .. }, Some(speed)) if index > 0 => {
-                near(pose, &asked.frame_from_tool);
+                near(pose, &requested.frame_from_tool);
                 assert_eq!(found.motion, Motion::Linear);
-                let Speed::Tip(told) = found.speed else {
+                let Speed::Tip(given) = found.speed else {
                     panic!("{found:?}");
                 };
                 // Half of the last digit that the coarsest language writes, a tenth of a mm/s.
-                assert!((told - speed).abs() < 0.51e-4, "{told} {speed}");
+                assert!((given - speed).abs() < 0.51e-4, "{given} {speed}");
             }
             (
                 Target::Pose {
@@ -152,13 +152,13 @@ pub fn reads_back(language: Language, draft: &Draft, says: &Says) {
                 },
                 None,
             ) if index > 0 => {
-                near(pose, &asked.frame_from_tool);
+                near(pose, &requested.frame_from_tool);
                 assert_eq!(found.motion, Motion::Joint);
                 assert_eq!(found.speed, says.joint_speed);
                 if says.branches {
-                    assert_eq!(*branch, asked.branch.map(BranchPattern::from).unwrap());
+                    assert_eq!(*branch, requested.branch.map(BranchPattern::from).unwrap());
                 }
-                assert_eq!(*turns, (says.turns)(&asked.joints));
+                assert_eq!(*turns, (says.turns)(&requested.joints));
             }
             other => panic!("{other:?}"),
         }

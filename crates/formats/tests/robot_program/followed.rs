@@ -72,8 +72,8 @@ fn one_list_of_poses_is_one_path_from_every_language() {
         let cuts: Vec<&FollowedMove> = followed.moves.iter().rev().take(8).rev().collect();
         for (found, [x, y, z]) in cuts.iter().zip(PLACES) {
             let [a, b, c] = TURN;
-            let wanted = kuka(FRAME) * kuka([x, y, z, a, b, c]);
-            same_poses::same(&base_from_tool(&followed, found), &wanted);
+            let expected = kuka(FRAME) * kuka([x, y, z, a, b, c]);
+            same_poses::same(&base_from_tool(&followed, found), &expected);
             assert_eq!(found.next.course, Course::Line);
         }
         // Yaskawa's joints are pulses, which only the controller knows: the first move then comes from nowhere.
@@ -135,12 +135,12 @@ fn a_frame_that_is_told_holds_and_one_by_number_is_the_cells() {
     let plain = cell(Isometry::identity());
     let moves = "LIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nLIN {X 5,Y 2,Z 3,A 0,B 0,C 0}";
     let frame = kuka([100.0, 20.0, 3.0, 30.0, 0.0, 0.0]);
-    let told = krl(&format!("$BASE={{X 100,Y 20,Z 3,A 30,B 0,C 0}}\n{moves}"));
+    let reported = krl(&format!("$BASE={{X 100,Y 20,Z 3,A 30,B 0,C 0}}\n{moves}"));
     let raised = Cell {
         base_from_controller: Isometry::translation(0.0, 0.0, 0.45),
         ..plain
     };
-    let found = follow(&told, &arm(), &raised).unwrap();
+    let found = follow(&reported, &arm(), &raised).unwrap();
     same_poses::same(&found.base_from_path, &(raised.base_from_controller * frame));
     assert!(
         found
@@ -157,7 +157,7 @@ fn a_frame_that_is_told_holds_and_one_by_number_is_the_cells() {
         lacks(&numbered, &plain),
         [FollowError::Numbered { line: 3, number: 3 }]
     );
-    assert_eq!(lacks(moves, &plain), [FollowError::Untold { line: 2 }]);
+    assert_eq!(lacks(moves, &plain), [FollowError::EvaluateError { line: 2 }]);
     let given = Cell {
         controller_from_frame: Some(frame),
         ..raised
@@ -286,14 +286,14 @@ fn arcs_pass_their_via_points_and_flat_ones_are_straight() {
     assert!((arc.axis.into_inner() + Vector3::z()).norm() < 1e-14);
     assert!((arc.sweep - std::f64::consts::PI).abs() < 1e-14);
     assert_eq!(found.moves[2].next.course, Course::Line);
-    let told = found.notes.join("\n");
+    let reported = found.notes.join("\n");
     assert!(
-        told.contains("line 4: an arc tells an orientation on its way"),
-        "{told}"
+        reported.contains("line 4: an arc tells an orientation on its way"),
+        "{given}"
     );
     assert!(
-        told.contains("line 5: an arc has its three points on one line"),
-        "{told}"
+        reported.contains("line 5: an arc has its three points on one line"),
+        "{given}"
     );
 }
 
@@ -320,15 +320,15 @@ fn what_goes_to_or_comes_from_an_unknown_place_is_left_out_and_said() {
         .collect();
     // The first begins nowhere; the third goes to a register, and the fourth comes from there.
     assert_eq!(cuts, [(0, false), (1, true), (3, false), (4, true)]);
-    let told = found.notes.join("\n");
+    let reported = found.notes.join("\n");
     assert!(
-        told.contains("line 3: the first move begins at a place that the program does not tell")
-            && told.contains("(2 times, here first)"),
-        "{told}"
+        reported.contains("line 3: the first move begins at a place that the program does not tell")
+            && reported.contains("(2 times, here first)"),
+        "{given}"
     );
     assert!(
-        told.contains("line 5: `PR[1]` is a place that the program does not tell"),
-        "{told}"
+        reported.contains("line 5: `PR[1]` is a place that the program does not tell"),
+        "{given}"
     );
 }
 
@@ -337,9 +337,9 @@ fn joints_of_another_arm_are_told() {
     let lines = "$BASE=$NULLFRAME\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}";
     let mut program = krl(lines);
     program.moves[0].target = armill_formats::robot_program::Target::Joints(vec![0.0; 7]);
-    let told = follow(&program, &arm(), &cell(Isometry::identity())).unwrap_err();
+    let reported = follow(&program, &arm(), &cell(Isometry::identity())).unwrap_err();
     assert_eq!(
-        told[0].to_string(),
+        reported[0].to_string(),
         "line 3: 7 joint positions, where robot `arm` has 6 joints"
     );
 }

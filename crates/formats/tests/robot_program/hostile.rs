@@ -93,7 +93,7 @@ fn judge(read: Read, text: &str) {
 fn every_language_reads_its_own_program_here() {
     for (read, name, text) in PROGRAMS {
         let program =
-            read(vec![ProgramText::new(name, text.as_bytes())]).unwrap_or_else(|told| panic!("{told}"));
+            read(vec![ProgramText::new(name, text.as_bytes())]).unwrap_or_else(|given| panic!("{given}"));
         assert!(program.moves.len() >= 4, "{name}");
         let arcs = |of: &Moved| matches!(program.moves[of.index].motion, Motion::Circular { .. });
         assert!(all_moved(&program, |pose| *pose).iter().any(arcs), "{name}");

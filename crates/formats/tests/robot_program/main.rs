@@ -29,8 +29,8 @@ fn program(files: &[(&str, &str)]) -> Result<RobotProgram, Problems> {
 
 /// The problems of these files, each `line:column: message`.
 fn problems(files: &[(&str, &str)]) -> Vec<String> {
-    let told = program(files).expect_err("it is refused");
-    told.as_slice()
+    let given = program(files).expect_err("it is refused");
+    given.as_slice()
         .iter()
         .map(|problem| format!("{}:{}: {}", problem.line(), problem.column(), problem.message()))
         .collect()
@@ -38,12 +38,12 @@ fn problems(files: &[(&str, &str)]) -> Vec<String> {
 
 /// That these files have one problem, which says this, and gives a hint.
 fn refused(files: &[(&str, &str)], part: &str) {
-    let told = program(files).expect_err(part);
+    let given = program(files).expect_err(part);
     let all = problems(files);
     assert_eq!(all.len(), 1, "{all:#?}");
     assert!(all[0].contains(part), "{} instead of {part}", all[0]);
     assert!(
-        told.as_slice()[0].hint().is_some_and(|hint| !hint.is_empty()),
+        given.as_slice()[0].hint().is_some_and(|hint| !hint.is_empty()),
         "{part}"
     );
 }

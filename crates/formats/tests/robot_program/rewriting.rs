@@ -81,14 +81,14 @@ pub fn rewritten(
     program.check_rewritten(&moved, &files).unwrap();
     let found = again(&files);
     assert_eq!(program.moves.len(), found.moves.len());
-    for asked in &moved {
-        let of = &found.moves[asked.index];
-        near(of.target.pose().unwrap(), &asked.target);
-        if let (Motion::Circular { via }, Some(asked)) = (&of.motion, &asked.via) {
-            near(via.pose().unwrap(), asked);
+    for requested in &moved {
+        let of = &found.moves[requested.index];
+        near(of.target.pose().unwrap(), &requested.target);
+        if let (Motion::Circular { via }, Some(requested)) = (&of.motion, &requested.via) {
+            near(via.pose().unwrap(), requested);
         }
-        assert_eq!(said(&program.moves[asked.index].target), said(&of.target));
-        assert_eq!(program.moves[asked.index].speed, of.speed);
+        assert_eq!(said(&program.moves[requested.index].target), said(&of.target));
+        assert_eq!(program.moves[requested.index].speed, of.speed);
     }
     (files, found)
 }
@@ -101,13 +101,13 @@ fn said(target: &Target) -> String {
 }
 
 /// Within half the third decimal of a mm in each direction, and of a degree, three times.
-pub fn near(found: &Isometry, wanted: &Isometry) {
-    let apart = (found.translation.vector - wanted.translation.vector).amax();
+pub fn near(found: &Isometry, expected: &Isometry) {
+    let apart = (found.translation.vector - expected.translation.vector).amax();
     let matrix = |pose: &Isometry| *pose.rotation.to_rotation_matrix().matrix();
-    let turned = (matrix(found) - matrix(wanted)).amax();
+    let turned = (matrix(found) - matrix(expected)).amax();
     assert!(
         apart < 0.51e-6 && turned < 3.0 * 0.51e-3_f64.to_radians(),
-        "{apart} {turned}: {found} {wanted}"
+        "{apart} {turned}: {found} {requested}"
     );
 }
 
@@ -136,8 +136,8 @@ fn a_target_that_counts_from_one_that_was_moved_is_told() {
         );
         moved.truncate(1);
         let files = program.with_poses(&moved).unwrap();
-        let told = program.check_rewritten(&moved, &files).unwrap_err().to_string();
-        let wanted = format!("line {line}: the move would go 10000.0 um beside its place");
-        assert!(told.starts_with(&wanted), "{told}");
+        let given = program.check_rewritten(&moved, &files).unwrap_err().to_string();
+        let expected = format!("line {line}: the move would go 10000.0 um beside its place");
+        assert!(given.starts_with(&expected), "{given}");
     }
 }

@@ -66,8 +66,8 @@ pub fn same_joints(found: &RobotMove, printed: f64) {
         panic!("no joints: {found:?}");
     };
     assert_eq!(joints.len(), 6);
-    for (joint, wanted) in joints.iter().zip(JOINTS) {
-        assert!((joint.to_degrees() - wanted).abs() <= printed, "{joints:?}");
+    for (joint, expected) in joints.iter().zip(JOINTS) {
+        assert!((joint.to_degrees() - expected).abs() <= printed, "{joints:?}");
     }
     assert_eq!(found.motion, Motion::Joint);
 }
@@ -77,11 +77,11 @@ pub fn eight_moves(moves: &[RobotMove]) {
     assert_eq!(moves.len(), 8);
     for (found, place) in moves.iter().zip(PLACES) {
         let [[x, y, z], [a, b, c]] = [place, TURN];
-        let wanted = kuka(FRAME) * kuka([x, y, z, a, b, c]);
+        let expected = kuka(FRAME) * kuka([x, y, z, a, b, c]);
         let Frame::Told(base_from_frame) = found.frame else {
             panic!("the frame is not told: {found:?}");
         };
-        same(&(base_from_frame * found.target.pose().unwrap()), &wanted);
+        same(&(base_from_frame * found.target.pose().unwrap()), &expected);
         assert_eq!(found.motion, Motion::Linear);
         let Frame::Told(tool) = found.tool else {
             panic!("the tool is not told: {found:?}");

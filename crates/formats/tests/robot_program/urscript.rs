@@ -111,8 +111,8 @@ fn rewriting_changes_the_bytes_of_targets_alone() {
     );
     let files = keeps_the_rest(&program, |pose| *pose);
     let text = String::from_utf8(files[0].1.clone()).unwrap();
-    let wanted = "p[0.200000, 0.300000,0.300000 ,0,3.1,0], a=1.2, v=0.1) # \u{fc}ber\r\n";
-    assert!(text.contains(wanted), "{text}");
+    let expected = "p[0.200000, 0.300000,0.300000 ,0,3.1,0], a=1.2, v=0.1) # \u{fc}ber\r\n";
+    assert!(text.contains(expected), "{text}");
 }
 
 #[test]
@@ -130,8 +130,8 @@ fn numbers_may_be_computed_from_numbers() {
     );
     // What was computed is written as numbers.
     let files = keeps_the_rest(&program, |pose| *pose);
-    let wanted = "movel(p[0.000000, -0.100000, 0.100000, 0.000000, 0.000000, 0.000000])";
-    assert!(String::from_utf8(files[0].1.clone()).unwrap().contains(wanted));
+    let expected = "movel(p[0.000000, -0.100000, 0.100000, 0.000000, 0.000000, 0.000000])";
+    assert!(String::from_utf8(files[0].1.clone()).unwrap().contains(expected));
 }
 
 #[test]
@@ -141,8 +141,8 @@ fn a_time_or_an_unknown_speed_says_nothing_of_the_tip() {
     assert_eq!(speed(", v=0.3"), Speed::Tip(0.3));
     assert_eq!(speed(", 1.2, 0.3, 5"), Speed::Joints);
     assert_eq!(speed(", v=0.3, t=2"), Speed::Joints);
-    assert_eq!(speed(", 1.2, v_cut"), Speed::Untold);
-    assert_eq!(speed(""), Speed::Untold);
+    assert_eq!(speed(", 1.2, v_cut"), Speed::EvaluateError);
+    assert_eq!(speed(""), Speed::EvaluateError);
 }
 
 #[test]
@@ -212,7 +212,7 @@ fn a_program_is_written_so() {
     let (name, bytes) = &written.files[0];
     assert_eq!((written.files.len(), name.as_str()), (1, "PLATE.script"));
     // Points lie 0.1 mm apart: the blend of 0.5 mm becomes 0.045 mm; the last point is stopped at.
-    let wanted = "def PLATE():\n  # made by armill\n  # LIN {X 0}\n  # frame 1 and tool 2 as this program was made with them\n  \
+    let expected = "def PLATE():\n  # made by armill\n  # LIN {X 0}\n  # frame 1 and tool 2 as this program was made with them\n  \
         armill_frame = p[0.001000, 0.002000, 0.003000, 0.000000, 0.000000, 0.000000]\n  \
         set_tcp(p[0.000000, 0.000000, 0.100000, 0.000000, 0.000000, 0.000000])\n  \
         movej([-0.806066, -0.118249, -0.358652, 1.245934, 0.865461, -5.280450], a=1.4, v=0.5)\n  \
@@ -220,7 +220,7 @@ fn a_program_is_written_so() {
         movel(pose_trans(armill_frame, p[0.000200, 0.000000, 0.000000, 0.000000, 1.570796, 0.000000]), a=1.2, v=0.050000, r=0.000045)\n  \
         movel(pose_trans(armill_frame, p[0.000300, 0.000000, 0.000000, 0.000000, 1.570796, 0.000000]), a=1.2, v=0.050000)\n\
         end\nPLATE()\n";
-    assert_eq!(std::str::from_utf8(bytes).unwrap(), wanted);
+    assert_eq!(std::str::from_utf8(bytes).unwrap(), expected);
 }
 
 #[test]
@@ -229,6 +229,6 @@ fn words_of_the_language_are_no_names() {
         name: "While".to_owned(),
         ..long(1)
     };
-    let told = write(Language::UrScript, &draft).unwrap_err().to_string();
-    assert!(told.contains("no word of the language"), "{told}");
+    let given = write(Language::UrScript, &draft).unwrap_err().to_string();
+    assert!(given.contains("no word of the language"), "{given}");
 }

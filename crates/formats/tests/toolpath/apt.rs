@@ -251,14 +251,14 @@ fn feeds_are_those_of_the_lines_above() {
                     "FEDRAT/"
                 })
             });
-            let (_, told) = above.expect("a feed is told above");
-            let told: f64 = told
+            let (_, given) = above.expect("a feed is told above");
+            let given: f64 = given
                 .split(',')
                 .next()
                 .and_then(|number| number.trim().parse().ok())
                 .expect("a number");
             assert!(
-                (speed * 6e4 - told).abs() < 1e-9 * told,
+                (speed * 6e4 - given).abs() < 1e-9 * given,
                 "{}:{}",
                 part.name,
                 next.line
@@ -306,6 +306,6 @@ fn the_format_of_every_tool_path_and_robot_program_is_known() {
         Ok(Format::Robot(Language::Val3))
     );
     // A language that nobody here reads.
-    let told = known("Comau_C5G.pdl").expect_err("Comau").to_string();
-    assert!(told.contains("a program of a robot"), "{told}");
+    let given = known("Comau_C5G.pdl").expect_err("Comau").to_string();
+    assert!(given.contains("a program of a robot"), "{given}");
 }

@@ -46,12 +46,12 @@ fn rows(section: &str, part: Option<&str>) -> Vec<Row> {
 }
 
 fn gcode(program: &str) -> Result<Summary, Problems> {
-    let wanted = Wanted {
+    let expected = Wanted {
         rotaries: Some(Rotaries::table_ac()),
         tools: Some(ToolTable::read("tools", "T1 P1 D2 Z50\n", LengthUnit::Millimetre).expect("a table")),
         ..Wanted::default()
     };
-    gcode::read("p.ngc", program.as_bytes(), &wanted, &mut |_| ())
+    gcode::read("p.ngc", program.as_bytes(), &expected, &mut |_| ())
 }
 
 const BEFORE_GCODE: &str = "G21 G90 G17 G94 F100 S1000\nT1 M6 M3\nG0 X0 Y0 Z5\n";
@@ -74,11 +74,11 @@ fn refused_words_of_gcode_are_refused_where_they_stand() {
         .into_iter()
         .flat_map(|row| row.words)
     {
-        let told = match gcode(&format!("{BEFORE_GCODE}{word}\nG0 X1\n")) {
+        let given = match gcode(&format!("{BEFORE_GCODE}{word}\nG0 X1\n")) {
             Err(problems) => problems.as_slice()[0].to_string(),
             Ok(_) => panic!("read: {word}"),
         };
-        assert!(told.contains("p.ngc:4:"), "{word}: {told}");
+        assert!(given.contains("p.ngc:4:"), "{word}: {given}");
     }
 }
 
@@ -108,7 +108,7 @@ fn codes(letter: char) -> Vec<u32> {
 #[test]
 fn every_code_that_is_known_stands_on_the_page() {
     for letter in ['G', 'M'] {
-        let told = codes(letter);
+        let given = codes(letter);
         let step = if letter == 'G' { 1 } else { 10 };
         for tenths in (0..1010).step_by(step) {
             let code = match tenths % 10 {
@@ -119,18 +119,18 @@ fn every_code_that_is_known_stands_on_the_page() {
                 Ok(_) => true,
                 Err(problems) => !problems.to_string().contains("unknown code"),
             };
-            assert!(!known || told.contains(&tenths), "{code} is not on the page");
+            assert!(!known || given.contains(&tenths), "{code} is not on the page");
         }
     }
 }
 
 fn apt(program: &str) -> Result<(Summary, Vec<Step>), Problems> {
     let mut steps = Vec::new();
-    let wanted = apt::Wanted {
+    let expected = apt::Wanted {
         dialect: Some(apt::Dialect::SolidWorks),
         ..apt::Wanted::default()
     };
-    let summary = apt::read("p.cls", program.as_bytes(), &wanted, &mut |step| steps.push(step))?;
+    let summary = apt::read("p.cls", program.as_bytes(), &expected, &mut |step| steps.push(step))?;
     Ok((summary, steps))
 }
 
@@ -205,7 +205,7 @@ fn plain(column: &str) -> &str {
 
 #[test]
 fn columns_of_a_path_are_read_and_none_is_missing() {
-    let mut told = Vec::new();
+    let mut given = Vec::new();
     for row in rows("CSV", None) {
         let mut columns: Vec<&str> = ["x_mm", "y_mm", "z_mm"].into();
         columns.extend(
@@ -223,13 +223,13 @@ fn columns_of_a_path_are_read_and_none_is_missing() {
         if let Err(problems) = csv::read("p.csv", table.as_bytes(), &mut |_| ()) {
             panic!("{problems}");
         }
-        told.extend(row.words);
+        given.extend(row.words);
     }
     let unknown = csv::read("p.csv", "x_mm,qqqqqqqq\n".as_bytes(), &mut |_| ()).expect_err("no column");
     let unknown = unknown.to_string();
     let (_, known) = unknown.split_once("understood are ").expect("a list of names");
     for name in known.lines().next().unwrap_or_default().split(", ") {
-        let listed = told.iter().any(|column| plain(column) == plain(name.trim()));
+        let listed = given.iter().any(|column| plain(column) == plain(name.trim()));
         assert!(listed, "`{name}` is not on the page");
     }
 }

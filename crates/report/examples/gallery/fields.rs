@@ -61,7 +61,7 @@ fn map(n: usize, distance_mm: f64) -> DeviationMap {
         grid: grid(n, distance_mm),
         axes: axes(),
         quantity: "in-plane deviation (µm)".into(),
-        limit_um: Some(50.0),
+        tolerance_um: Some(50.0),
         ..DeviationMap::default()
     }
 }
@@ -87,7 +87,7 @@ pub fn pictures() -> Vec<(&'static str, String)> {
     };
     let grey = DeviationMap {
         scale: ColourScale::Cividis,
-        limit_um: Some(500.0),
+        tolerance_um: Some(500.0),
         ..map(21, 700.0)
     };
     let nothing = DeviationMap {
@@ -105,7 +105,7 @@ pub fn pictures() -> Vec<(&'static str, String)> {
         grid: grid(41, 900.0),
         spread_um: vec![4.0; 41 * 41],
         axes: axes(),
-        limit_um: 50.0,
+        tolerance_um: 50.0,
         show_iso_lines: true,
         rectangle: Some(RectangleMm {
             corner_mm: [-180.0, 20.0],
@@ -128,7 +128,7 @@ pub fn pictures() -> Vec<(&'static str, String)> {
         columns: 5,
         axes: axes(),
         quantity: "in-plane deviation (µm)".into(),
-        limit_um: Some(50.0),
+        tolerance_um: Some(50.0),
         scale: ColourScale::Viridis,
         show_regions: true,
     };

@@ -99,7 +99,7 @@ fn track_map() -> TrackMap {
             vertical: "program y (mm)".to_owned(),
         },
         quantity: "deviation across the tool (µm)".to_owned(),
-        limit_um: Some(60.0),
+        tolerance_um: Some(60.0),
         scale: ColourScale::Viridis,
         stretches: vec![ring(210.0, 2000), ring(150.0, 400), ring(60.0, 24)],
         markers: vec![marker("1", [0.0, 120.5]), marker("2", [0.0, -173.5])],
@@ -132,7 +132,7 @@ fn process_map() -> ProcessMap {
             .collect(),
         horizontal: feeds,
         vertical: depths,
-        limit_um: 100.0,
+        tolerance_um: 100.0,
         drawn: Some([0.08, 2.5]),
     }
 }
@@ -170,7 +170,7 @@ fn cell_map() -> CellMap {
         },
         across: along_mm,
         up: turns_deg,
-        limit_um: Some(80.0),
+        tolerance_um: Some(80.0),
         marks: Vec::new(),
     }
 }
@@ -210,7 +210,7 @@ fn path_plot() -> PathPlot {
         quantity: "in-plane deviation (µm)".into(),
         series,
         envelope: Some(envelope),
-        limit_um: Some(50.0),
+        tolerance_um: Some(50.0),
     }
 }
 
@@ -410,7 +410,7 @@ fn comparison() -> Comparison {
         p95_um: Some(p95),
         largest_um: Some(largest),
         largest_uncertainty_um: Some(u),
-        limit_um: Some(40.0),
+        tolerance_um: Some(40.0),
         result: result.into(),
     };
     Comparison {
@@ -457,7 +457,7 @@ fn hole_map() -> HoleMap {
             vertical: "y (mm)".into(),
         },
         quantity: "deviation across the hole (µm)".into(),
-        limit_um: Some(30.0),
+        tolerance_um: Some(30.0),
         scale: ColourScale::Viridis,
         holes: (0..28).map(hole).collect(),
     }

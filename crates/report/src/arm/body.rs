@@ -1,7 +1,7 @@
 //! From a posture to solids: rounded links, cylinders for joints, a foot, a flange and a tool.
 //!
 //! Sizes follow from the length of the arm, not from a data sheet: this is a schematic. A joint that turns about its own link is drawn
-//! as a collar on that link, since its origin may stand anywhere along the axis.
+//! as a collar on that link, since its origin may be anywhere along the axis.
 //!
 //! ```text
 //!   joint (cylinder about its axis)
@@ -74,7 +74,7 @@ const NEAR: f64 = 0.02;
 const FOOT: f64 = 0.022;
 /// Half the length of a collar as a share of its link's radius.
 const COLLAR: f64 = 0.42;
-/// Where a collar stands on the link above its joint, as a part of that link's first straight piece.
+/// Where a collar is on the link above its joint, as a part of that link's first straight piece.
 const COLLAR_ABOVE: f64 = 0.45;
 /// Radius of the first and of the last link, schematic like all sizes here, as shares of the arm's length.
 const THICK: f64 = 0.046;
@@ -270,7 +270,7 @@ fn collar_of(routes: &[Vec<Vec3>], k: usize, axis: Vec3, half_length: f64) -> Op
     })
 }
 
-/// A straight part of a link: a capsule with round ends, which joints hide; where collars stand on it,
+/// A straight part of a link: a capsule with round ends, which joints hide; where collars are on it,
 /// cylinders with flat ends between them.
 fn link(ends: [Vec3; 2], radii: [f64; 2], collars: &[&Collar]) -> Vec<Solid> {
     if collars.is_empty() {
@@ -335,7 +335,7 @@ fn foot(posture: &ArmPosture, size: f64) -> Solid {
 }
 
 /// The line of a link from one joint to the next: along the joint's axis to the foot of the perpendicular and
-/// from there across, or straight where one of the two is too short; a single point where both joints stand at
+/// from there across, or straight where one of the two is too short; a single point where both joints are at
 /// one place.
 fn route(from: Vec3, axis: Vec3, to: Vec3, near: f64) -> Vec<Vec3> {
     let way = between(from, to);

@@ -60,7 +60,7 @@ pub struct ArmDrawing {
     /// Further postures, drawn faintly behind it; one without joints, or with a point that is not finite, is
     /// left out.
     pub ghosts: Vec<ArmPosture>,
-    /// Corners of a plate in mm, in order around it. Not checked: that they lie in one plane.
+    /// Corners of a plate in mm, in order around it. Not checked: that they are in one plane.
     pub plate_mm: Option<[[f64; 3]; 4]>,
     /// Path of the tool in mm; points that are not finite are left out.
     pub path_mm: Vec<[f64; 3]>,

@@ -197,7 +197,7 @@ pub(crate) fn draw_scene(svg: &mut Svg, scene: &Scene, view: View, area: Rect) {
         items.push((centre_depth(&plate), Item::Plate(plate)));
     }
     if !scene.path_mm.is_empty() {
-        // Just in front of the plate that it lies on.
+        // Just in front of the plate that it is on.
         let depth =
             centre_depth(&scene.path_mm).max(scene.plate_mm.map_or(f64::NEG_INFINITY, |p| centre_depth(&p)));
         items.push((depth + 1e-3 * scene.size_mm, Item::Path));
@@ -340,7 +340,7 @@ fn draw_names(svg: &mut Svg, scene: &Scene, place: &Placed, area: Rect) {
     }
 }
 
-/// What a badge keeps clear of, and the part of the drawing that it stands in.
+/// What a badge keeps clear of, and the part of the drawing that it is in.
 struct Around<'a> {
     taken: &'a [Rect],
     arm: &'a [Point],

@@ -12,7 +12,7 @@ use super::body::{Part, Solid};
 use super::view::{Vec3, along, cross, unit};
 use crate::svg::{Point, Style, Svg};
 
-/// Where a point of the base frame stands on the picture: a parallel projection with one scale.
+/// Where a point of the base frame is on the picture: a parallel projection with one scale.
 pub(crate) trait Place {
     /// Pixels, y downwards.
     fn at(&self, p: Vec3) -> Point;

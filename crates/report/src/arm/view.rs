@@ -1,6 +1,6 @@
 //! From where the arm is seen, and the projection that follows: parallel, z up.
 //!
-//! The viewer stands in direction `d = (cos e cos a, cos e sin a, sin e)`; picture axes are `r = (-sin a, cos a, 0)` to the right
+//! The viewer is in direction `d = (cos e cos a, cos e sin a, sin e)`; picture axes are `r = (-sin a, cos a, 0)` to the right
 //! and `u = d x r` up; the depth `p . d` grows towards the viewer.
 //!
 //! | view | azimuth a | elevation e | to the right | up |

@@ -34,7 +34,7 @@ pub fn map(grid: Grid) -> DeviationMap {
             vertical: NASTY.into(),
         },
         quantity: NASTY.into(),
-        limit_um: Some(50.0),
+        tolerance_um: Some(50.0),
         overlays: vec![Overlay {
             label: NASTY.into(),
             points_mm: vec![[0.0, 0.0], [f64::NAN, 1.0], [9.0, 9.0]],
@@ -48,7 +48,7 @@ pub fn region(grid: Grid) -> RegionMap {
     RegionMap {
         title: NASTY.into(),
         grid,
-        limit_um: 50.0,
+        tolerance_um: 50.0,
         show_iso_lines: true,
         rectangle: Some(RectangleMm {
             corner_mm: [-50.0, 10.0],
@@ -124,7 +124,7 @@ pub fn comparison(um: Option<f64>) -> Comparison {
         p95_um: um,
         largest_um: um,
         largest_uncertainty_um: um,
-        limit_um: um.or(Some(f64::INFINITY)),
+        tolerance_um: um.or(Some(f64::INFINITY)),
         result: NASTY.into(),
     };
     Comparison {
@@ -147,7 +147,7 @@ pub fn hole_map(um: Option<f64>) -> HoleMap {
     HoleMap {
         title: NASTY.into(),
         quantity: NASTY.into(),
-        limit_um: Some(10.0),
+        tolerance_um: Some(10.0),
         holes: vec![
             hole([0.0, 0.0], um),
             hole([50.0, 20.0], Some(12.0)),
@@ -165,7 +165,7 @@ pub fn path_plot(deviation_um: Vec<f64>) -> PathPlot {
             position,
             deviation_um,
         }],
-        limit_um: Some(50.0),
+        tolerance_um: Some(50.0),
         ..PathPlot::default()
     }
 }
@@ -225,7 +225,7 @@ pub fn sheet(grids: Vec<Grid>) -> MapSeries {
     });
     MapSeries {
         panels: panels.collect(),
-        limit_um: Some(50.0),
+        tolerance_um: Some(50.0),
         show_regions: true,
         columns: 4,
         ..MapSeries::default()
@@ -244,7 +244,7 @@ pub fn track(deviation_um: Vec<f64>) -> TrackMap {
         title: NASTY.into(),
         subtitle: NASTY.into(),
         quantity: NASTY.into(),
-        limit_um: Some(50.0),
+        tolerance_um: Some(50.0),
         stretches: vec![Stretch {
             points_mm: (0..deviation_um.len()).map(at).collect(),
             deviation_um,
@@ -270,7 +270,7 @@ pub fn process(deviation_um: Vec<f64>) -> ProcessMap {
         horizontal: vec![0.05, 0.10, 0.20],
         vertical: vec![1.0, 3.0],
         deviation_um,
-        limit_um: 50.0,
+        tolerance_um: 50.0,
         drawn: Some([0.1, 2.0]),
     }
 }
@@ -319,7 +319,7 @@ pub fn everything() -> Vec<String> {
     all.extend(grids.iter().map(|g| region(g.clone()).to_svg()));
     all.push(
         RegionMap {
-            limit_um: f64::NAN,
+            tolerance_um: f64::NAN,
             ..region(grid(3, 3, slope))
         }
         .to_svg(),
@@ -361,7 +361,7 @@ pub fn everything() -> Vec<String> {
             process(vec![7.0; 6]),
             process(vec![0.0, f64::NAN, 1e300, -1e300, 3.0, 4.0]),
             ProcessMap {
-                limit_um: f64::NAN,
+                tolerance_um: f64::NAN,
                 drawn: Some([f64::NAN, 2.0]),
                 ..process(vec![10.0, 20.0, 90.0, 30.0, 40.0, 50.0])
             },

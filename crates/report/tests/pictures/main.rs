@@ -113,7 +113,7 @@ fn frame(svg: &str) -> [f64; 4] {
 fn the_limit_line_passes_between_the_right_grid_points() {
     // Values 20, 35, 50+, ... along the row: with the limit 42 the line lies between the second and third of five columns.
     let svg = DeviationMap {
-        limit_um: Some(42.0),
+        tolerance_um: Some(42.0),
         overlays: vec![],
         ..map(grid(5, 4, |y, _| slope(y, 0.0)))
     }
@@ -133,13 +133,13 @@ fn the_limit_line_passes_between_the_right_grid_points() {
 #[test]
 fn a_limit_that_no_point_exceeds_is_named_but_not_drawn() {
     let svg = DeviationMap {
-        limit_um: Some(500.0),
+        tolerance_um: Some(500.0),
         ..map(grid(5, 4, slope))
     }
     .to_svg();
     assert!(svg.contains("limit 500 µm (kept everywhere)"));
     let svg = DeviationMap {
-        limit_um: Some(5.0),
+        tolerance_um: Some(5.0),
         ..map(grid(5, 4, slope))
     }
     .to_svg();

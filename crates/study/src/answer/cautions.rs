@@ -16,13 +16,13 @@ pub(super) fn of_holes(holes: &HolesAnswer) -> Vec<String> {
         let reason = first.reason.as_deref().unwrap_or_default();
         format!(
             "{name}: {} of {count} holes cannot be drilled, hole {} first: {reason}.",
-            holes.unreached, first.hole
+            holes.unreachable, first.hole
         )
     });
     let mut strained = holes
         .each
         .iter()
-        .filter_map(|hole| Some((hole.hole, hole.in_the_way?)));
+        .filter_map(|hole| Some((hole.hole, hole.blocked_by?)));
     let strained = strained.next().map(|(first, why)| {
         format!(
             "{name}: for {} of {count} holes every turn and branch is refused, hole {first} first ({}): they are told as they can \
@@ -41,14 +41,14 @@ pub(super) fn of_holes(holes: &HolesAnswer) -> Vec<String> {
 pub(super) fn of_path(path: &PathAnswer) -> Vec<String> {
     let name = &path.name;
     let mut warnings = Vec::new();
-    if path.unreached > 0 {
+    if path.unreachable > 0 {
         let hint = match path.program {
             Some(_) => "does the program lie where it should (part_from_path_mm_deg)?",
             None => "are its coordinates in mm, and does the plane lie where it should?",
         };
         warnings.push(format!(
             "{name}: {} of {} points are out of reach; {hint}",
-            path.unreached, path.points
+            path.unreachable, path.points
         ));
     }
     if path.outside_joint_limits > 0 {

@@ -20,7 +20,7 @@ use serde::Serialize;
 
 use super::map::CountsAnswer;
 use super::point::{PointAnswer, SettingAnswer};
-use crate::file::holes::HolesAsk;
+use crate::file::holes::HolesAnalysis;
 use crate::file::path::PathSource;
 use crate::file::resolve::{Setting, Study};
 use crate::number::without_rounding;
@@ -35,7 +35,7 @@ pub struct HolesAnswer {
     /// How many holes.
     pub holes: usize,
     /// Holes without posture inside joint limits.
-    pub unreached: usize,
+    pub unreachable: usize,
     /// Holes by reason; they add up to all.
     pub counts: CountsAnswer,
     /// Holes that no turn and branch holds clear of singularities and inside joint limits; they are told in a posture that
@@ -87,13 +87,13 @@ pub struct HoleAnswer {
     pub xyz_mm: [f64; 3],
     /// Out of the part, base axes.
     pub normal_axis: [f64; 3],
-    /// `within`, `over_limit`, or why there is no posture.
+    /// `within`, `above_tolerance`, or why there is no posture.
     pub state: &'static str,
     /// Why no posture stands, in words; none where one does.
     pub reason: Option<String>,
     /// What is against the posture that is told where no turn and branch stands: `singular`, `outside_joint_limits`; none
     /// where one does.
-    pub in_the_way: Option<&'static str>,
+    pub blocked_by: Option<&'static str>,
     /// Branch of the posture.
     pub branch: Option<String>,
     /// Turn of the tool about its axis, beside the one that it has unturned.
@@ -124,17 +124,17 @@ pub struct HoleAnswer {
 const WORST: usize = 5;
 
 /// What became of the holes that the ask called `name` asks for.
-pub(super) fn answer(study: &Study, name: &str, ask: &HolesAsk, found: &HolesFound) -> HolesAnswer {
-    let (path, answers) = (&ask.path, &found.answers);
+pub(super) fn answer(study: &Study, name: &str, analysis: &HolesAnalysis, found: &HolesFound) -> HolesAnswer {
+    let (path, answers) = (&analysis.path, &found.answers);
     let setting = &path.setting;
     let counts = Counts::of(answers, setting.limit);
-    let held: Vec<(usize, &Held)> = answers.held().collect();
+    let evaluation: Vec<(usize, &Held)> = answers.evaluation().collect();
     let count = answers.points.len();
     let mut order: Vec<usize> = (0..count).collect();
     let key = |index: usize| {
         answers.points[index]
             .as_ref()
-            .map_or(f64::INFINITY, |held| held.in_plane)
+            .map_or(f64::INFINITY, |evaluation| evaluation.in_plane)
     };
     order.sort_by(|a, b| key(*b).total_cmp(&key(*a)));
     let worst = order.iter().filter(|index| answers.points[**index].is_ok());
@@ -144,51 +144,51 @@ pub(super) fn answer(study: &Study, name: &str, ask: &HolesAsk, found: &HolesFou
             .get(index)
             .is_some_and(|stand| *stand != Stand::Holds)
     };
-    let good = held
+    let good = evaluation
         .iter()
-        .filter(|(index, held)| held.in_plane <= setting.limit && !is_refused(*index))
+        .filter(|(index, evaluation)| evaluation.in_plane <= setting.limit && !is_refused(*index))
         .count();
     let source = match &path.source {
         PathSource::Program { file, .. } => Some(file.clone()),
         PathSource::Holes { file } => file.clone(),
         PathSource::Shape(_) => None,
     };
-    let mean = held.iter().map(|(_, held)| held.in_plane).sum::<f64>() / held.len().max(1) as f64;
+    let mean = evaluation.iter().map(|(_, evaluation)| evaluation.in_plane).sum::<f64>() / evaluation.len().max(1) as f64;
     HolesAnswer {
         name: name.to_owned(),
-        branch: ask.branch(),
+        branch: analysis.branch(),
         holes: count,
-        unreached: count - held.len(),
-        refused: held.iter().filter(|(index, _)| is_refused(*index)).count(),
+        unreachable: count - evaluation.len(),
+        refused: evaluation.iter().filter(|(index, _)| is_refused(*index)).count(),
         fraction_within: good as f64 / count.max(1) as f64,
         counts: CountsAnswer::of(&counts),
-        mean_in_plane_um: (!held.is_empty()).then_some(mean * 1e6),
-        max_in_plane_um: answers.worst().map(|(_, held)| held.in_plane * 1e6),
-        max_depth_um: held
+        mean_in_plane_um: (!evaluation.is_empty()).then_some(mean * 1e6),
+        max_in_plane_um: answers.worst().map(|(_, evaluation)| evaluation.in_plane * 1e6),
+        max_depth_um: evaluation
             .iter()
-            .map(|(_, held)| held.normal.abs() * 1e6)
+            .map(|(_, evaluation)| evaluation.normal.abs() * 1e6)
             .max_by(f64::total_cmp),
-        turns: ask.search.spins.count,
+        turns: analysis.search.spins.count,
         setting: SettingAnswer::of(study, setting),
         file: source,
         material: path.drill.as_ref().map(|drill| drill.material.name.clone()),
-        largest_thrust_n: path.drill.as_ref().and(path.forces).map(|told| told.largest_mean),
+        largest_thrust_n: path.drill.as_ref().and(path.forces).map(|given| given.largest_mean),
         worst_holes: worst
             .take(WORST)
-            .filter_map(|index| worst_hole(study, ask, found, *index))
+            .filter_map(|index| worst_hole(study, analysis, found, *index))
             .collect(),
         each: order
             .iter()
-            .map(|index| hole(study, (ask, found), *index))
+            .map(|index| hole(study, (analysis, found), *index))
             .collect(),
-        notes: notes(ask),
+        notes: notes(analysis),
     }
 }
 
 /// Axes of hole `index`, base: x and y across it, z out of the part.
-pub(crate) fn base_from_hole(ask: &HolesAsk, index: usize) -> Rotation3<f64> {
-    let z = ask.path.track.stop(index).normal.into_inner();
-    let part = &ask.path.track.base_from_part;
+pub(crate) fn base_from_hole(analysis: &HolesAnalysis, index: usize) -> Rotation3<f64> {
+    let z = analysis.path.track.stop(index).normal.into_inner();
+    let part = &analysis.path.track.base_from_part;
     let across = |axis: Vector3<f64>| laid_across(part * axis, &z);
     let x = across(Vector3::x())
         .or_else(|| across(Vector3::y()))
@@ -205,18 +205,18 @@ fn laid_across(axis: Vector3<f64>, z: &Vector3<f64>) -> Option<Vector3<f64>> {
 }
 
 /// The deviation of the deciding case at hole `index` in its axes, m.
-pub(crate) fn error(ask: &HolesAsk, found: &HolesFound, (index, held): (usize, &Held)) -> Vector3<f64> {
-    let deviation = found.answers.deviations_at(index)[held.deciding_case];
-    base_from_hole(ask, index).inverse() * deviation
+pub(crate) fn error(analysis: &HolesAnalysis, found: &HolesFound, (index, evaluation): (usize, &Held)) -> Vector3<f64> {
+    let deviation = found.answers.deviations_at(index)[evaluation.deciding_case];
+    base_from_hole(analysis, index).inverse() * deviation
 }
 
-fn hole(study: &Study, (ask, found): (&HolesAsk, &HolesFound), index: usize) -> HoleAnswer {
-    let (path, answers) = (&ask.path, &found.answers);
+fn hole(study: &Study, (analysis, found): (&HolesAnalysis, &HolesFound), index: usize) -> HoleAnswer {
+    let (path, answers) = (&analysis.path, &found.answers);
     let (setting, robot) = (&path.setting, &study.robot.robot);
     let stop = path.track.stop(index);
     let point = &answers.points[index];
-    let held = point.as_ref().ok();
-    let error = held.map(|held| error(ask, found, (index, held)) * 1e6);
+    let evaluation = point.as_ref().ok();
+    let error = evaluation.map(|evaluation| error(analysis, found, (index, evaluation)) * 1e6);
     let tip = setting.counted(&stop.base_from_tool.translation.vector.into());
     let scale = |joint: usize| {
         if robot.slides(joint) {
@@ -232,8 +232,8 @@ fn hole(study: &Study, (ask, found): (&HolesAsk, &HolesFound), index: usize) -> 
         xyz_mm: tip.coords.map(|c| without_rounding(c * 1e3)).into(),
         normal_axis: stop.normal.into_inner().map(without_rounding).into(),
         state: match point {
-            Ok(held) if held.in_plane <= setting.limit => "within",
-            Ok(_) => "over_limit",
+            Ok(evaluation) if evaluation.in_plane <= setting.limit => "within",
+            Ok(_) => "above_tolerance",
             Err(miss) => miss.word(),
         },
         reason: point.as_ref().err().map(|miss| {
@@ -243,39 +243,39 @@ fn hole(study: &Study, (ask, found): (&HolesAsk, &HolesFound), index: usize) -> 
             };
             format!("{miss}{most}")
         }),
-        in_the_way: held
+        blocked_by: evaluation
             .and(found.stands.get(index))
             .filter(|stand| **stand != Stand::Holds)
             .map(|stand| stand.word()),
-        branch: held.map(|held| held.name.to_string()),
-        turn_deg: held.map(|_| without_rounding(found.spins[index].to_degrees())),
+        branch: evaluation.map(|evaluation| evaluation.name.to_string()),
+        turn_deg: evaluation.map(|_| without_rounding(found.spins[index].to_degrees())),
         x_um: error.map(|error| error.x),
         y_um: error.map(|error| error.y),
         depth_um: error.map(|error| error.z),
-        in_plane_um: held.map(|held| held.in_plane * 1e6),
-        in_plane_u_um: held.map(|held| held.in_plane_uncertainty * 1e6),
-        joints_deg: match held {
+        in_plane_um: evaluation.map(|evaluation| evaluation.in_plane * 1e6),
+        in_plane_u_um: evaluation.map(|evaluation| evaluation.in_plane_uncertainty * 1e6),
+        joints_deg: match evaluation {
             Some(_) => joints.iter().enumerate().map(|(i, q)| q * scale(i)).collect(),
             None => Vec::new(),
         },
-        limit_margin_deg: held
-            .map(|held| held.limit_margin * scale(held.limit_joint))
+        limit_margin_deg: evaluation
+            .map(|evaluation| evaluation.limit_margin * scale(evaluation.limit_joint))
             .filter(|margin| margin.is_finite()),
-        limit_joint: held
-            .filter(|held| held.limit_margin.is_finite())
-            .map(|held| robot.joints()[held.limit_joint].name.clone()),
-        wrist_bend_deg: held.and_then(|_| wrist_bend(robot, joints)).map(f64::to_degrees),
-        singularity: held.and_then(|held| held.singularity).map(|s| s.to_string()),
+        limit_joint: evaluation
+            .filter(|evaluation| evaluation.limit_margin.is_finite())
+            .map(|evaluation| robot.joints()[evaluation.limit_joint].name.clone()),
+        wrist_bend_deg: evaluation.and_then(|_| wrist_bend(robot, joints)).map(f64::to_degrees),
+        singularity: evaluation.and_then(|evaluation| evaluation.singularity).map(|s| s.to_string()),
     }
 }
 
 /// A hole with shares, on a plane across it.
-fn worst_hole(study: &Study, ask: &HolesAsk, found: &HolesFound, index: usize) -> Option<WorstHole> {
-    let held = found.answers.points[index].as_ref().ok()?;
-    let path = &ask.path;
+fn worst_hole(study: &Study, analysis: &HolesAnalysis, found: &HolesFound, index: usize) -> Option<WorstHole> {
+    let evaluation = found.answers.points[index].as_ref().ok()?;
+    let path = &analysis.path;
     let here = path.track.loaded_stop(index, &path.load);
     let tip = here.stop.base_from_tool.translation;
-    let turn = UnitQuaternion::from_rotation_matrix(&base_from_hole(ask, index));
+    let turn = UnitQuaternion::from_rotation_matrix(&base_from_hole(analysis, index));
     let setting = Setting {
         plane: Plane {
             base_from_part: Isometry::from_parts(tip, turn),
@@ -289,17 +289,17 @@ fn worst_hole(study: &Study, ask: &HolesAsk, found: &HolesFound, index: usize) -
         hole: index + 1,
         point: PointAnswer {
             in_plane_mm: PointAnswer::in_plane_mm(&path.setting.plane, &at),
-            ..PointAnswer::of(study, &setting, &found.answers, (index, held, at))
+            ..PointAnswer::of(study, &setting, &found.answers, (index, evaluation, at))
         },
     })
 }
 
 /// What was passed over in the program, and what is not in the drill.
-fn notes(ask: &HolesAsk) -> Vec<String> {
-    let mut notes = match &ask.path.source {
+fn notes(analysis: &HolesAnalysis) -> Vec<String> {
+    let mut notes = match &analysis.path.source {
         PathSource::Program { summary, .. } => summary.notes.clone(),
         _ => Vec::new(),
     };
-    notes.extend(ask.path.drill.iter().flat_map(|drill| drill.remarks.clone()));
+    notes.extend(analysis.path.drill.iter().flat_map(|drill| drill.remarks.clone()));
     notes
 }

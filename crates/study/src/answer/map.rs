@@ -54,7 +54,7 @@ pub struct CountsAnswer {
     /// In-plane deviation within the limit.
     pub within: usize,
     /// In-plane deviation over the limit.
-    pub over_limit: usize,
+    pub above_tolerance: usize,
     /// No posture reaches.
     pub out_of_reach: usize,
     /// Postures reach, but none inside the joint limits (`best` only).
@@ -72,7 +72,7 @@ impl CountsAnswer {
     pub(crate) fn of(counts: &Counts) -> CountsAnswer {
         CountsAnswer {
             within: counts.within,
-            over_limit: counts.over_limit,
+            above_tolerance: counts.above_tolerance,
             out_of_reach: counts.out_of_reach,
             no_posture_inside_limits: counts.no_posture_inside_limits,
             not_found: counts.not_found,
@@ -103,15 +103,15 @@ pub struct CertaintyAnswer {
     /// Multiple of the standard uncertainty that counts as sure.
     pub coverage_factor: f64,
     /// Points that hold the limit with so much to spare, over all points.
-    pub fraction_surely_within: f64,
+    pub fraction_robustly_within: f64,
     /// Points that would hold it with so much taken away, over all points.
     pub fraction_possibly_within: f64,
     /// Mean probability of all points to be within.
     pub fraction_expected_within: f64,
     /// Area that surely holds the limit.
-    pub area_surely_mm2: f64,
+    pub area_robust_mm2: f64,
     /// Its boundary.
-    pub boundary_surely_mm: Vec<Vec<[f64; 2]>>,
+    pub boundary_robust_mm: Vec<Vec<[f64; 2]>>,
     /// Area that possibly holds it.
     pub area_possibly_mm2: f64,
     /// Its boundary.
@@ -161,7 +161,7 @@ pub(super) fn answer(study: &Study, name: &str, setting: &Setting, map: &PlaneMa
             .vector
             .into()
     };
-    let point = |(index, held)| PointAnswer::of(study, setting, &map.answers, (index, held, at(index)));
+    let point = |(index, evaluation)| PointAnswer::of(study, setting, &map.answers, (index, evaluation, at(index)));
     let (worst, best) = (map.answers.worst().map(point), map.answers.best().map(point));
     MapAnswer {
         name: name.to_owned(),
@@ -197,11 +197,11 @@ fn region_answer(region: &Region) -> RegionAnswer {
 fn certainty_answer(certainty: &Certainty) -> CertaintyAnswer {
     CertaintyAnswer {
         coverage_factor: COVERAGE,
-        fraction_surely_within: certainty.fraction_surely,
+        fraction_robustly_within: certainty.fraction_surely,
         fraction_possibly_within: certainty.fraction_possibly,
         fraction_expected_within: certainty.expected_fraction,
-        area_surely_mm2: certainty.surely.area * 1e6,
-        boundary_surely_mm: boundary(&certainty.surely),
+        area_robust_mm2: certainty.surely.area * 1e6,
+        boundary_robust_mm: boundary(&certainty.surely),
         area_possibly_mm2: certainty.possibly.area * 1e6,
         boundary_possibly_mm: boundary(&certainty.possibly),
     }
@@ -226,7 +226,7 @@ fn grid_answer(map: &PlaneMap, limit: f64) -> GridAnswer {
         map.answers
             .points
             .iter()
-            .map(|point| point.as_ref().ok().map(|held| four_decimals(get(held))))
+            .map(|point| point.as_ref().ok().map(|evaluation| four_decimals(get(evaluation))))
             .collect()
     };
     GridAnswer {
@@ -237,11 +237,11 @@ fn grid_answer(map: &PlaneMap, limit: f64) -> GridAnswer {
         z_mm: (0..grid.rows)
             .map(|i| without_rounding(grid.coordinate(i, grid.rows) * 1e3))
             .collect(),
-        in_plane_um: of(&|held| held.in_plane * 1e6),
-        in_plane_u_um: of(&|held| held.in_plane_uncertainty * 1e6),
-        probability_within: of(&|held| probability_within(held, limit)),
-        normal_um: of(&|held| held.normal * 1e6),
-        full_um: of(&|held| held.full * 1e6),
+        in_plane_um: of(&|evaluation| evaluation.in_plane * 1e6),
+        in_plane_u_um: of(&|evaluation| evaluation.in_plane_uncertainty * 1e6),
+        probability_within: of(&|evaluation| probability_within(evaluation, limit)),
+        normal_um: of(&|evaluation| evaluation.normal * 1e6),
+        full_um: of(&|evaluation| evaluation.full * 1e6),
         remarks: remarks(map),
     }
 }
@@ -259,11 +259,11 @@ fn remarks(map: &PlaneMap) -> Vec<Remark> {
     };
     for (index, point) in map.answers.points.iter().enumerate() {
         match point {
-            Ok(held) => {
-                if !held.within_limits() {
+            Ok(evaluation) => {
+                if !evaluation.within_limits() {
                     add("outside_joint_limits", index);
                 }
-                if held.singularity.is_some() {
+                if evaluation.singularity.is_some() {
                     add("near_singularity", index);
                 }
             }

@@ -41,7 +41,7 @@ pub use statement::{Reading, StatementAnswer};
 pub use volume::VolumeAnswer;
 
 use armill_core::load::CuttingLaw;
-use armill_core::robot::Flank;
+use armill_core::robot::BacklashSide;
 use armill_formats::robot::OtherLimits;
 use armill_formats::sources::Source;
 use rayon::prelude::*;
@@ -49,7 +49,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::budget::{self, BudgetAnswer};
-use crate::file::path::{Cut, PathAsk};
+use crate::file::path::{Cut, PathAnalysis};
 use crate::file::resolve::{Setting, Study, Subject};
 use crate::joint_unit::JointUnit;
 use crate::model_words::left_out;
@@ -133,7 +133,7 @@ enum Told {
 ///
 /// `done` is what `run` gave for this study, in the order of its asks; the answer has that order whatever the threads.
 pub fn answer(study: &Study, done: &[Done<'_>]) -> StudyAnswer {
-    let told = |done: &Done<'_>| match &done.found {
+    let given = |done: &Done<'_>| match &done.found {
         Found::Map(sheet, map) => Told::Maps(vec![map::answer(study, done.name, &sheet.setting, map)]),
         Found::Sections(sections) => {
             let section = |section: &Section<'_>| {
@@ -145,22 +145,22 @@ pub fn answer(study: &Study, done: &[Done<'_>]) -> StudyAnswer {
         Found::Volume(setting, volume) => {
             Told::Volume(Box::new(volume::answer(study, done.name, setting, volume)))
         }
-        Found::Path(ask, found) => Told::Path(Box::new(path::answer(study, done.name, ask, found))),
-        Found::Holes(ask, found) => Told::Holes(Box::new(holes::answer(study, done.name, ask, found))),
+        Found::Path(analysis, found) => Told::Path(Box::new(path::answer(study, done.name, analysis, found))),
+        Found::Holes(analysis, found) => Told::Holes(Box::new(holes::answer(study, done.name, analysis, found))),
     };
-    let all: Vec<Told> = done.par_iter().map(told).collect();
+    let all: Vec<Told> = done.par_iter().map(given).collect();
     let (mut maps, mut paths, mut volumes) = (Vec::new(), Vec::new(), Vec::new());
     let mut holes = Vec::new();
-    for told in all {
-        match told {
-            Told::Maps(told) => maps.extend(told),
-            Told::Path(told) => paths.push(*told),
-            Told::Volume(told) => volumes.push(*told),
-            Told::Holes(told) => holes.push(*told),
+    for given in all {
+        match given {
+            Told::Maps(given) => maps.extend(given),
+            Told::Path(given) => paths.push(*given),
+            Told::Volume(given) => volumes.push(*given),
+            Told::Holes(given) => holes.push(*given),
         }
     }
     let (measured, unmeasured) = match budget::beside(study, done) {
-        Some(Ok((_, told))) => (Some(told), None),
+        Some(Ok((_, given))) => (Some(given), None),
         Some(Err(reason)) => (
             None,
             Some(format!("What was measured is not compared: {reason}.")),
@@ -168,7 +168,7 @@ pub fn answer(study: &Study, done: &[Done<'_>]) -> StudyAnswer {
         None => (None, None),
     };
     let mut warnings = warnings(study, (&maps, &paths), (&volumes, &holes));
-    let of_measured = measured.iter().flat_map(|told| &told.warnings);
+    let of_measured = measured.iter().flat_map(|given| &given.warnings);
     warnings.extend(of_measured.map(|warning| format!("Measured: {warning}.")));
     warnings.extend(unmeasured);
     StudyAnswer {
@@ -265,12 +265,12 @@ fn sources(study: &Study) -> Vec<Source> {
             }
         }
     }
-    let cuts = study.asks.iter().filter_map(|ask| match &ask.subject {
+    let cuts = study.analyses.iter().filter_map(|analysis| match &analysis.subject {
         Subject::Path(path) => Some(&**path),
         Subject::Holes(holes) => Some(&holes.path),
         _ => None,
     });
-    let of_path = |path: &PathAsk| {
+    let of_path = |path: &PathAnalysis| {
         let cut = path.cut.as_ref().map(sources_of_cut);
         let drill = || {
             path.drill
@@ -312,7 +312,7 @@ fn warnings(
         }
     }
     for map in maps {
-        if map.counts.within + map.counts.over_limit == 0 {
+        if map.counts.within + map.counts.above_tolerance == 0 {
             warnings.push(format!(
                 "{}: no point of the plane has a posture; are its coordinates in mm, and counted from {}?",
                 map.name, map.setting.base
@@ -332,23 +332,23 @@ fn warnings(
     }
     warnings.extend(paths.iter().flat_map(cautions::of_path));
     warnings.extend(holes.iter().flat_map(cautions::of_holes));
-    for ask in &study.asks {
-        if let Subject::Path(path) = &ask.subject {
+    for analysis in &study.analyses {
+        if let Subject::Path(path) = &analysis.subject {
             let unsure = path.measured.as_ref().and_then(|measured| measured.warning());
-            warnings.extend(unsure.map(|warning| format!("{}: {warning}.", ask.name)));
+            warnings.extend(unsure.map(|warning| format!("{}: {warning}.", analysis.name)));
         }
     }
     warnings.extend(study.settings().find_map(|setting| left_out(&setting.model)));
     let beside_paths = study
-        .asks
+        .analyses
         .iter()
-        .any(|ask| !matches!(ask.subject, Subject::Path(_)));
+        .any(|analysis| !matches!(analysis.subject, Subject::Path(_)));
     let has_play = |setting: &Setting| {
         setting
             .model
             .structure
             .gaps()
-            .any(|(_, gap)| gap.flank == Flank::Motion)
+            .any(|(_, gap)| gap.side == BacklashSide::Motion)
     };
     if beside_paths && study.settings().any(has_play) {
         warnings.push(

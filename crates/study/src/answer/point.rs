@@ -52,11 +52,11 @@ pub struct SettingAnswer {
     /// Standard uncertainty of what the model predicts, beside that of its compliances; zero where it is not known.
     pub model_error_percent: f64,
     /// The tolerance.
-    pub limit_um: f64,
+    pub tolerance_um: f64,
     /// Parts of the stiffness model that were on.
     pub model: Vec<String>,
     /// Whom shares are told for: the joints, then base, flange and tool where springs sit.
-    pub shares_of: Vec<String>,
+    pub contributors: Vec<String>,
 }
 
 impl SettingAnswer {
@@ -80,14 +80,14 @@ impl SettingAnswer {
             cases_n: cases.iter().map(|w| clean(w.force.into())).collect(),
             moments_n_m: cases.iter().map(|w| clean(w.moment.into())).collect(),
             load_source: setting.load_source.clone(),
-            load_u_percent: without_rounding(setting.doubt.relative * 100.0),
-            load_u_n: setting.doubt.forces.map(|u| clean(u.into())),
-            tool_length_u_mm: without_rounding(setting.doubt.tool_length * 1e3),
+            load_u_percent: without_rounding(setting.uncertainty.relative * 100.0),
+            load_u_n: setting.uncertainty.forces.map(|u| clean(u.into())),
+            tool_length_u_mm: without_rounding(setting.uncertainty.tool_length * 1e3),
             scatter_um: setting.model.structure.repeatability * 1e6,
             model_error_percent: without_rounding(setting.model.structure.model_error * 100.0),
-            limit_um: without_rounding(setting.limit * 1e6),
+            tolerance_um: without_rounding(setting.limit * 1e6),
             model: parts(robot, &setting.model),
-            shares_of: setting.model.sharer_names(robot.joints()),
+            contributors: setting.model.contributor_names(robot.joints()),
         }
     }
 }
@@ -120,8 +120,8 @@ pub struct PointAnswer {
     pub normal_um: f64,
     /// Largest length of the deviation of all cases.
     pub full_um: f64,
-    /// Share of each of `shares_of` in the in-plane deviation; they add up to it (load-dependent: nearly; the
-    /// geometry of an `actual_robot` is in none).
+    /// Share of each of `contributors` in the in-plane deviation; they add up to it (load-dependent: nearly; the
+    /// geometry of an `calibrated_robot` is in none).
     pub joint_share_um: Vec<f64>,
     /// Force that keeps the limit in the direction of the deciding case; none where that case has no force or
     /// moves nothing in the plane.
@@ -131,10 +131,10 @@ pub struct PointAnswer {
 }
 
 impl PointAnswer {
-    /// Who of `shares_of` has the largest share, by size, or `geometry`, which makes what is in nobody's; and the part of the
+    /// Who of `contributors` has the largest share, by size, or `geometry`, which makes what is in nobody's; and the part of the
     /// in-plane deviation that it makes, where there is any. A share may work against the others.
-    pub(crate) fn mostly_by<'a>(&self, shares_of: &'a [String]) -> Option<(&'a str, Option<f64>)> {
-        let shares = shares_of
+    pub(crate) fn mostly_by<'a>(&self, contributors: &'a [String]) -> Option<(&'a str, Option<f64>)> {
+        let shares = contributors
             .iter()
             .map(String::as_str)
             .zip(self.joint_share_um.iter().copied());
@@ -165,32 +165,32 @@ impl PointAnswer {
         answers: &Answers,
         at: (usize, &Held, Point3<f64>),
     ) -> PointAnswer {
-        let (index, held, tcp) = at;
+        let (index, evaluation, tcp) = at;
         let robot = &study.robot.robot;
         let position = |(i, q): (usize, &f64)| if robot.slides(i) { q * 1e3 } else { q.to_degrees() };
         let compliance = by_force(&setting.compliance_at(robot, answers.joints_at(index)));
         let normal = setting.plane.normal();
         // A case that is a moment alone has no direction.
-        let along = Unit::try_new(setting.cases[held.deciding_case].force, 1e-12)
+        let along = Unit::try_new(setting.cases[evaluation.deciding_case].force, 1e-12)
             .map(|f| permissible_force(&compliance, normal, f, setting.limit));
         let any = permissible_force_in_worst_direction(&compliance, normal, setting.limit).0;
         PointAnswer {
             xyz_mm: clean(setting.counted(&tcp).coords.map(|c| c * 1e3).into()),
             in_plane_mm: PointAnswer::in_plane_mm(&setting.plane, &tcp),
-            branch: held.name.to_string(),
+            branch: evaluation.name.to_string(),
             joints_deg: answers
                 .joints_at(index)
                 .iter()
                 .enumerate()
                 .map(position)
                 .collect(),
-            within_limits: held.within_limits(),
-            singularity: held.singularity.map(|s| s.to_string()),
-            deciding_case: held.deciding_case + 1,
-            in_plane_um: held.in_plane * 1e6,
-            in_plane_u_um: held.in_plane_uncertainty * 1e6,
-            normal_um: held.normal * 1e6,
-            full_um: held.full * 1e6,
+            within_limits: evaluation.within_limits(),
+            singularity: evaluation.singularity.map(|s| s.to_string()),
+            deciding_case: evaluation.deciding_case + 1,
+            in_plane_um: evaluation.in_plane * 1e6,
+            in_plane_u_um: evaluation.in_plane_uncertainty * 1e6,
+            normal_um: evaluation.normal * 1e6,
+            full_um: evaluation.full * 1e6,
             joint_share_um: answers.shares_at(index).iter().map(|share| share * 1e6).collect(),
             permissible_along_load_n: along.filter(|n| n.is_finite()),
             permissible_any_direction_n: Some(any).filter(|n| n.is_finite()),

@@ -20,7 +20,7 @@ pub(super) fn answer(
     (maps, paths): (&[MapAnswer], &[PathAnswer]),
     (volumes, holes): (&[VolumeAnswer], &[HolesAnswer]),
 ) -> String {
-    let first = study.asks.first().and_then(|ask| match ask.subject {
+    let first = study.analyses.first().and_then(|analysis| match analysis.subject {
         Subject::Map(_) | Subject::Sections(_) => maps.first().map(|map| of_map(study, map)),
         Subject::Volume(..) => volumes.first().map(|volume| of_volume(study, volume)),
         Subject::Path(_) => paths.first().map(|path| of_path(study, path)),
@@ -47,13 +47,13 @@ fn of_volume(study: &Study, volume: &VolumeAnswer) -> String {
         volume.name,
         volume.branch,
         volume.fraction_within * 100.0,
-        micrometres(volume.setting.limit_um),
+        micrometres(volume.setting.tolerance_um),
         micrometres(worst.in_plane_um),
         micrometres(worst.in_plane_u_um),
         worst.xyz_mm[0],
         worst.xyz_mm[1],
         worst.xyz_mm[2],
-        culprit(study, worst, &volume.setting.shares_of),
+        culprit(study, worst, &volume.setting.contributors),
     )
 }
 
@@ -65,16 +65,16 @@ fn of_map(study: &Study, map: &MapAnswer) -> String {
             map.name, map.branch
         );
     };
-    let held = match map.fraction_within {
+    let evaluation = match map.fraction_within {
         0.0 => format!(
             "no point of the plane holds {} µm",
-            micrometres(map.setting.limit_um)
+            micrometres(map.setting.tolerance_um)
         ),
-        1.0 => format!("the whole plane holds {} µm", micrometres(map.setting.limit_um)),
+        1.0 => format!("the whole plane holds {} µm", micrometres(map.setting.tolerance_um)),
         fraction => format!(
             "{:.1} % of the plane holds {} µm",
             fraction * 100.0,
-            micrometres(map.setting.limit_um)
+            micrometres(map.setting.tolerance_um)
         ),
     };
     let limits = match map.outside_joint_limits {
@@ -86,7 +86,7 @@ fn of_map(study: &Study, map: &MapAnswer) -> String {
         ),
     };
     format!(
-        "{}, branch {}: {held}{limits}; the in-plane deviation goes from {} µm to {} ± {} µm at ({:.0}, {:.0}, {:.0}) mm, mostly by {}.",
+        "{}, branch {}: {evaluation}{limits}; the in-plane deviation goes from {} µm to {} ± {} µm at ({:.0}, {:.0}, {:.0}) mm, mostly by {}.",
         map.name,
         map.branch,
         micrometres(best.in_plane_um),
@@ -95,7 +95,7 @@ fn of_map(study: &Study, map: &MapAnswer) -> String {
         worst.xyz_mm[0],
         worst.xyz_mm[1],
         worst.xyz_mm[2],
-        culprit(study, worst, &map.setting.shares_of),
+        culprit(study, worst, &map.setting.contributors),
     )
 }
 
@@ -124,9 +124,9 @@ fn of_path(study: &Study, path: &PathAnswer) -> String {
         path.followed_branch.as_ref().unwrap_or(&path.branch),
         micrometres(worst.in_plane_um),
         micrometres(worst.in_plane_u_um),
-        culprit(study, worst, &path.setting.shares_of),
+        culprit(study, worst, &path.setting.contributors),
         path.fraction_within * 100.0,
-        micrometres(path.setting.limit_um),
+        micrometres(path.setting.tolerance_um),
     )
 }
 
@@ -138,7 +138,7 @@ fn of_holes(study: &Study, holes: &HolesAnswer) -> String {
             holes.holes, holes.name, holes.branch
         );
     };
-    let lost = match holes.unreached + holes.refused {
+    let lost = match holes.unreachable + holes.refused {
         0 => String::new(),
         n => format!("; {n} cannot be drilled"),
     };
@@ -148,19 +148,19 @@ fn of_holes(study: &Study, holes: &HolesAnswer) -> String {
         holes.name,
         good,
         holes.holes,
-        micrometres(holes.setting.limit_um),
+        micrometres(holes.setting.tolerance_um),
         worst.hole,
         micrometres(worst.point.in_plane_um),
         micrometres(worst.point.in_plane_u_um),
-        culprit(study, &worst.point, &holes.setting.shares_of),
+        culprit(study, &worst.point, &holes.setting.contributors),
         micrometres(holes.max_depth_um.unwrap_or(0.0)),
     )
 }
 
 /// What has the largest share, and how large.
-pub(crate) fn culprit(study: &Study, point: &PointAnswer, shares_of: &[String]) -> String {
+pub(crate) fn culprit(study: &Study, point: &PointAnswer, contributors: &[String]) -> String {
     point
-        .mostly_by(shares_of)
+        .mostly_by(contributors)
         .map_or_else(String::new, |(name, part)| {
             let is_joint = study.robot.robot.joints().iter().any(|joint| joint.name == name);
             let name = format!("{} {name}", if is_joint { "joint" } else { "the" });

@@ -43,12 +43,12 @@ pub struct VolumeAnswer {
 /// What became of the box that the ask called `name` asks for.
 pub(super) fn answer(study: &Study, name: &str, setting: &Setting, volume: &VolumeMap) -> VolumeAnswer {
     let counts = volume.counts(setting.limit);
-    let point = |(index, held)| {
+    let point = |(index, evaluation)| {
         PointAnswer::of(
             study,
             setting,
             &volume.answers,
-            (index, held, volume.grid.point(index)),
+            (index, evaluation, volume.grid.point(index)),
         )
     };
     VolumeAnswer {

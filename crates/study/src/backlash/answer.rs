@@ -7,7 +7,7 @@ use armill_core::measure::ballbar::joints::{Followed, Gap, JointReversal};
 use armill_core::robot::Robot;
 use serde::Serialize;
 
-use super::circles::CircleAsk;
+use super::circles::CircleAnalysis;
 use super::estimate::Estimated;
 use crate::file::circles::MeasuredCircle;
 use crate::file::resolve::Study;
@@ -22,7 +22,7 @@ pub struct BacklashAnswer {
     /// Every joint.
     pub joints: Vec<JointAnswer>,
     /// Sets of joints of which these circles tell a sum rather than each.
-    pub not_told_apart: Vec<Vec<String>>,
+    pub not_identifiable: Vec<Vec<String>>,
     /// Correlation of the gaps that are told, in the order of `joints`.
     pub correlation_ratio: Vec<Vec<f64>>,
     /// Samples of all circles.
@@ -39,7 +39,7 @@ pub struct BacklashAnswer {
 #[derive(Clone, Debug, Serialize)]
 pub struct CircleAnswer {
     /// Name of the path.
-    pub ask: String,
+    pub analysis: String,
     /// What was measured on it; empty of one that is proposed.
     pub files: Vec<String>,
     /// Nominal radius.
@@ -96,8 +96,8 @@ pub(super) fn answer(study: &Study, found: &Estimated<'_>) -> BacklashAnswer {
     let (robot, gaps) = (&study.robot.robot, &found.gaps);
     let name = |joint: usize| robot.joints()[joint].name.clone();
     let names = |set: &Vec<usize>| set.iter().map(|joint| name(*joint)).collect();
-    let told = gaps.told.len();
-    let correlation = |i: usize, k: usize| gaps.covariance[(i, k)] / (gaps.told[i].u * gaps.told[k].u);
+    let given = gaps.given.len();
+    let correlation = |i: usize, k: usize| gaps.covariance[(i, k)] / (gaps.given[i].u * gaps.given[k].u);
     let mut warnings: Vec<String> = (found.circles.iter())
         .flat_map(|(measured, ..)| measured.notes.clone())
         .collect();
@@ -105,7 +105,7 @@ pub(super) fn answer(study: &Study, found: &Estimated<'_>) -> BacklashAnswer {
         if !measured.test.is_bidirectional() {
             warnings.push(format!(
                 "{}: one way round alone: gaps are told from what is smooth by their steps only",
-                measured.ask
+                measured.analysis
             ));
         }
     }
@@ -123,7 +123,7 @@ pub(super) fn answer(study: &Study, found: &Estimated<'_>) -> BacklashAnswer {
             name(*joint)
         ));
     }
-    for gap in gaps.told.iter().filter(|gap| gap.gap < -BELOW_ZERO * gap.u) {
+    for gap in gaps.given.iter().filter(|gap| gap.gap < -BELOW_ZERO * gap.u) {
         warnings.push(format!(
             "{}: the gap is below zero: its link is ahead of its motor, or the angles of the files are not those of the circle",
             name(gap.joint)
@@ -133,16 +133,16 @@ pub(super) fn answer(study: &Study, found: &Estimated<'_>) -> BacklashAnswer {
         robot: robot.name().to_owned(),
         circles: (found.circles.iter())
             .map(|(measured, circle, followed)| {
-                let told = |joint: usize| gaps.of(joint).copied();
-                of_circle(robot, (measured, circle, followed), told)
+                let given = |joint: usize| gaps.of(joint).copied();
+                of_circle(robot, (measured, circle, followed), given)
             })
             .collect(),
         joints: (0..robot.joints().len())
             .map(|joint| of_joint(study, found, joint))
             .collect(),
-        not_told_apart: gaps.together.iter().map(names).collect(),
-        correlation_ratio: (0..told)
-            .map(|i| (0..told).map(|k| correlation(i, k)).collect())
+        not_identifiable: gaps.together.iter().map(names).collect(),
+        correlation_ratio: (0..given)
+            .map(|i| (0..given).map(|k| correlation(i, k)).collect())
             .collect(),
         samples: gaps.samples,
         rms_before_um: gaps.rms_before * 1e6,
@@ -153,17 +153,17 @@ pub(super) fn answer(study: &Study, found: &Estimated<'_>) -> BacklashAnswer {
 
 fn of_circle(
     robot: &Robot,
-    (measured, circle, followed): (&MeasuredCircle, &CircleAsk<'_>, &Followed),
-    told: impl Fn(usize) -> Option<Gap>,
+    (measured, circle, followed): (&MeasuredCircle, &CircleAnalysis<'_>, &Followed),
+    given: impl Fn(usize) -> Option<Gap>,
 ) -> CircleAnswer {
     let centre = circle.centre();
     CircleAnswer {
-        ask: measured.ask.clone(),
+        analysis: measured.analysis.clone(),
         files: measured.files.clone(),
         radius_mm: followed.radius * 1e3,
         centre_mm: [centre.x, centre.y, centre.z].map(|m| m * 1e3),
         reversals: (followed.reversals.iter())
-            .map(|at| of_reversal(robot, (at, followed), told(at.joint)))
+            .map(|at| of_reversal(robot, (at, followed), given(at.joint)))
             .collect(),
     }
 }
@@ -186,7 +186,7 @@ fn of_reversal(
 fn of_joint(study: &Study, found: &Estimated<'_>, joint: usize) -> JointAnswer {
     let (robot, gaps) = (&study.robot.robot, &found.gaps);
     let slides = robot.slides(joint);
-    let told = gaps.of(joint);
+    let given = gaps.of(joint);
     let deg = |value: f64| (!slides).then(|| value.to_degrees());
     let mm = |value: f64| slides.then_some(value * 1e3);
     // All circles are of one robot, so the structure of any tells its file.
@@ -200,15 +200,15 @@ fn of_joint(study: &Study, found: &Estimated<'_>, joint: usize) -> JointAnswer {
     let inflation = gaps.inflation.iter().find(|(of, _)| *of == joint);
     JointAnswer {
         joint: robot.joints()[joint].name.clone(),
-        state: match told {
+        state: match given {
             Some(_) => "told",
             None if gaps.unseen.contains(&joint) => "does not show",
             None => "not told apart",
         },
-        backlash_deg: told.and_then(|gap| deg(gap.gap)),
-        backlash_u_deg: told.and_then(|gap| deg(gap.u)),
-        backlash_mm: told.and_then(|gap| mm(gap.gap)),
-        backlash_u_mm: told.and_then(|gap| mm(gap.u)),
+        backlash_deg: given.and_then(|gap| deg(gap.gap)),
+        backlash_u_deg: given.and_then(|gap| deg(gap.u)),
+        backlash_mm: given.and_then(|gap| mm(gap.gap)),
+        backlash_u_mm: given.and_then(|gap| mm(gap.u)),
         inflation_ratio: inflation
             .map(|(_, ratio)| *ratio)
             .filter(|ratio| ratio.is_finite()),

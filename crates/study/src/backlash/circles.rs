@@ -8,22 +8,22 @@ use armill_core::path::Shape;
 use armill_core::watch::Watch;
 
 use crate::error::StudyError;
-use crate::file::path::PathAsk;
+use crate::file::path::PathAnalysis;
 use crate::file::resolve::{Study, Subject};
 use crate::run::{Runner, runner};
 
 /// A circle of a study.
 #[derive(Clone, Copy, Debug)]
-pub struct CircleAsk<'a> {
+pub struct CircleAnalysis<'a> {
     /// Its name.
     pub name: &'a str,
     /// The path.
-    pub path: &'a PathAsk,
+    pub path: &'a PathAnalysis,
     /// The circle in the cell.
     pub circle: Circle,
 }
 
-impl CircleAsk<'_> {
+impl CircleAnalysis<'_> {
     /// Its centre, m, base.
     pub fn centre(&self) -> Point3<f64> {
         let at = self.circle.centre;
@@ -35,12 +35,12 @@ impl CircleAsk<'_> {
 ///
 /// # Errors
 /// No circle, or none of that name; one whose posture is searched for.
-pub fn circles<'a>(study: &'a Study, names: &[String]) -> Result<Vec<CircleAsk<'a>>, StudyError> {
-    let all: Vec<CircleAsk<'a>> = (study.asks.iter())
-        .filter_map(|ask| match &ask.subject {
+pub fn circles<'a>(study: &'a Study, names: &[String]) -> Result<Vec<CircleAnalysis<'a>>, StudyError> {
+    let all: Vec<CircleAnalysis<'a>> = (study.analyses.iter())
+        .filter_map(|analysis| match &analysis.subject {
             Subject::Path(path) => match path.shape()? {
-                Shape::Circle { centre, radius } => Some(CircleAsk {
-                    name: &ask.name,
+                Shape::Circle { centre, radius } => Some(CircleAnalysis {
+                    name: &analysis.name,
                     path,
                     circle: Circle {
                         placing: path.track.placing,
@@ -79,7 +79,7 @@ pub fn circles<'a>(study: &'a Study, names: &[String]) -> Result<Vec<CircleAsk<'
 /// A circle beside the arm that follows it.
 pub(super) fn followed(
     study: &Study,
-    circle: &CircleAsk<'_>,
+    circle: &CircleAnalysis<'_>,
     watch: Watch<'_>,
 ) -> Result<Followed, StudyError> {
     let runner = runner(study, watch)?;
@@ -100,6 +100,6 @@ pub(super) fn followed(
 }
 
 /// What the core is asked on this circle.
-pub(super) fn question<'a>(runner: &'a Runner<'a>, circle: &CircleAsk<'a>) -> Question<'a> {
+pub(super) fn question<'a>(runner: &'a Runner<'a>, circle: &CircleAnalysis<'a>) -> Question<'a> {
     runner.question(&circle.path.setting)
 }

@@ -4,7 +4,7 @@ use armill_core::measure::ballbar::joints::{Asked, Followed, Gaps, Observed, gap
 use armill_core::watch::Watch;
 
 use super::answer::{BacklashAnswer, answer};
-use super::circles::{CircleAsk, circles, followed};
+use super::circles::{CircleAnalysis, circles, followed};
 use crate::error::StudyError;
 use crate::file::circles::MeasuredCircle;
 use crate::file::resolve::Study;
@@ -22,7 +22,7 @@ pub struct Wanted {
 #[derive(Clone, Debug)]
 pub struct Estimated<'a> {
     /// Each circle that was measured, with the arm along it.
-    pub circles: Vec<(&'a MeasuredCircle, CircleAsk<'a>, Followed)>,
+    pub circles: Vec<(&'a MeasuredCircle, CircleAnalysis<'a>, Followed)>,
     /// What they tell together.
     pub gaps: Gaps,
 }
@@ -37,14 +37,14 @@ pub fn point_count(study: &Study) -> Result<usize, StudyError> {
 }
 
 /// What was measured, each with its circle.
-fn measured(study: &Study) -> Result<Vec<(&MeasuredCircle, CircleAsk<'_>)>, StudyError> {
+fn measured(study: &Study) -> Result<Vec<(&MeasuredCircle, CircleAnalysis<'_>)>, StudyError> {
     if study.circles.is_empty() {
         return Err(StudyError::value(
             "the study names no circular test",
             "[[ballbar]] with ask = \"xy\" and files = [\"xy.csv\"]; or --circles N, or --simulate FOLDER",
         ));
     }
-    let names: Vec<String> = study.circles.iter().map(|of| of.ask.clone()).collect();
+    let names: Vec<String> = study.circles.iter().map(|of| of.analysis.clone()).collect();
     Ok(study.circles.iter().zip(circles(study, &names)?).collect())
 }
 
@@ -54,7 +54,7 @@ fn measured(study: &Study) -> Result<Vec<(&MeasuredCircle, CircleAsk<'_>)>, Stud
 /// A study in which no circle was measured; a circle that the arm does not follow; too few samples.
 pub fn estimate<'a>(
     study: &'a Study,
-    wanted: &Wanted,
+    expected: &Wanted,
     watch: Watch<'_>,
 ) -> Result<(Estimated<'a>, BacklashAnswer), StudyError> {
     let circles = (measured(study)?.into_iter())
@@ -66,12 +66,12 @@ pub fn estimate<'a>(
             test: &measured.test,
         })
         .collect();
-    let asked = Asked {
-        most_lobes: wanted.most_lobes,
-        noise: wanted.noise,
+    let requested = Asked {
+        most_lobes: expected.most_lobes,
+        noise: expected.noise,
         ..Asked::of_all(study.robot.robot.joints().len())
     };
-    let found = gaps(&observed, &asked).map_err(|error| {
+    let found = gaps(&observed, &requested).map_err(|error| {
         StudyError::value(
             error.to_string(),
             "is the arm of the study the one that was measured, and the unit of the radii right?",
@@ -84,6 +84,6 @@ pub fn estimate<'a>(
         )
     })?;
     let estimated = Estimated { circles, gaps };
-    let told = answer(study, &estimated);
-    Ok((estimated, told))
+    let given = answer(study, &estimated);
+    Ok((estimated, given))
 }

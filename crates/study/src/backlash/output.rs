@@ -26,21 +26,21 @@ const TABLE: &str = "reversals.csv";
 ///
 /// # Errors
 /// The folder or a file cannot be written.
-pub fn write(told: &BacklashAnswer, found: &Estimated<'_>, out: &ResultFolder) -> Result<(), StudyError> {
-    let pictures: Vec<Picture> = (found.circles.iter().zip(&told.circles))
+pub fn write(given: &BacklashAnswer, found: &Estimated<'_>, out: &ResultFolder) -> Result<(), StudyError> {
+    let pictures: Vec<Picture> = (found.circles.iter().zip(&given.circles))
         .map(|((measured, _, followed), circle)| picture(measured, followed, (circle, found)))
         .collect();
     let names = (pictures.iter().flat_map(picture_files)).chain([TABLE.to_owned(), RESULT.to_owned()]);
-    replace((out, &names.collect::<Vec<_>>()), (told, &|_| ()), |files| {
-        files.save(TABLE, &csv::write(&table(told)?))?;
+    replace((out, &names.collect::<Vec<_>>()), (given, &|_| ()), |files| {
+        files.save(TABLE, &csv::write(&table(given)?))?;
         save_pictures(&pictures, files)
     })?;
     Ok(())
 }
 
 /// Every reversal of every circle.
-fn table(told: &BacklashAnswer) -> Result<Table, StudyError> {
-    let rows: Vec<(&CircleAnswer, &ReversalAnswer)> = (told.circles.iter())
+fn table(given: &BacklashAnswer) -> Result<Table, StudyError> {
+    let rows: Vec<(&CircleAnswer, &ReversalAnswer)> = (given.circles.iter())
         .flat_map(|circle| circle.reversals.iter().map(move |reversal| (circle, reversal)))
         .collect();
     let text =
@@ -59,7 +59,7 @@ fn table(told: &BacklashAnswer) -> Result<Table, StudyError> {
         data: ColumnData::OptionalFloat(rows.iter().map(|(_, reversal)| of(reversal)).collect()),
     };
     let columns = vec![
-        text("ask", "the circle", &|(circle, _)| circle.ask.clone()),
+        text("analysis", "the circle", &|(circle, _)| circle.analysis.clone()),
         text("joint", "which joint turns back", &|(_, at)| at.joint.clone()),
         number("at_deg", "where, from +y' towards z'", &|at| Some(at.at_deg)),
         number("step_um", "step of the radius outwards", &|at| at.step_um),
@@ -113,7 +113,7 @@ fn picture(
         });
     }
     let picture = BallbarPlot {
-        title: format!("Where joints turn back: {}", circle.ask),
+        title: format!("Where joints turn back: {}", circle.analysis),
         subtitle: format!("radius {} mm", crate::number::decimals(circle.radius_mm, 3)),
         horizontal: "y'".to_owned(),
         vertical: "z'".to_owned(),
@@ -127,10 +127,10 @@ fn picture(
             .collect(),
     };
     Picture {
-        name: slug(&circle.ask),
+        name: slug(&circle.analysis),
         caption: format!(
             "{}: the runs, magnified; what the gaps make of them on what both ways have in common; rays where joints turn back.",
-            circle.ask
+            circle.analysis
         ),
         svg: picture.to_svg(),
     }

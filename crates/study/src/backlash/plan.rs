@@ -18,7 +18,7 @@ use crate::run::runner;
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanWanted {
     /// Circles of the study that are driven anyway, the first with the middle of the box; all where none is named.
-    pub asks: Vec<String>,
+    pub analyses: Vec<String>,
     /// How many circles more.
     pub count: usize,
     /// Half of the box of centres, m.
@@ -90,7 +90,7 @@ pub struct KnownAnswer {
     /// Joints that are told apart, with the standard uncertainty to expect.
     pub joints: Vec<ExpectedAnswer>,
     /// Sets of joints of which a sum is told.
-    pub not_told_apart: Vec<Vec<String>>,
+    pub not_identifiable: Vec<Vec<String>>,
     /// Joints that do not move the radius.
     pub unseen: Vec<String>,
     /// Greatest variance over what it would be if no other joint were looked for; none where a sum alone is seen.
@@ -117,35 +117,35 @@ const WIDER: f64 = 1.5;
 ///
 /// # Errors
 /// No circle in the study to begin with; one that the arm does not follow.
-pub fn plan(study: &Study, wanted: &PlanWanted, watch: Watch<'_>) -> Result<PlanAnswer, StudyError> {
-    let begun = circles(study, &wanted.asks)?;
+pub fn plan(study: &Study, expected: &PlanWanted, watch: Watch<'_>) -> Result<PlanAnswer, StudyError> {
+    let begun = circles(study, &expected.analyses)?;
     let along = (begun.iter())
         .map(|circle| followed(study, circle, Watch::NONE))
         .collect::<Result<Vec<Followed>, _>>()?;
     let first = &begun[0];
     let domain = Domain {
         middle: first.centre(),
-        half: Vector3::from(wanted.half),
+        half: Vector3::from(expected.half),
         along: ALONG,
         normals: Normal::ALL.to_vec(),
-        radii: match &wanted.radii[..] {
+        radii: match &expected.radii[..] {
             [] => vec![first.circle.radius, WIDER * first.circle.radius],
-            told => told.to_vec(),
+            given => given.to_vec(),
         },
     };
     let runner = runner(study, watch)?;
     let robot = runner.robot;
-    let asked = PlanAsked {
-        count: wanted.count,
+    let requested = PlanAsked {
+        count: expected.count,
         joints: (0..robot.joints().len()).collect(),
-        most_lobes: wanted.most_lobes,
+        most_lobes: expected.most_lobes,
         inflation: INFLATION,
-        noise: wanted.noise,
+        noise: expected.noise,
     };
     let found = propose(
         &question(&runner, first),
         (&domain.candidates(), &along),
-        &asked,
+        &requested,
         watch,
     )?;
     let corner = |sign: f64| {
@@ -162,7 +162,7 @@ pub fn plan(study: &Study, wanted: &PlanWanted, watch: Watch<'_>) -> Result<Plan
         radii_mm: domain.radii.iter().map(|m| m * 1e3).collect(),
         candidates: found.candidates[0],
         followed: found.candidates[1],
-        noise_um: wanted.noise * 1e6,
+        noise_um: expected.noise * 1e6,
         begun: begun.iter().map(|circle| circle.name.to_owned()).collect(),
         known: known(robot, &found.begun),
         circles: found.circles.iter().map(|one| proposed(robot, one)).collect(),
@@ -173,12 +173,12 @@ pub fn plan(study: &Study, wanted: &PlanWanted, watch: Watch<'_>) -> Result<Plan
 ///
 /// # Errors
 /// See [`circles`].
-pub fn candidate_count(study: &Study, wanted: &PlanWanted) -> Result<usize, StudyError> {
-    circles(study, &wanted.asks)?;
-    let radii = if wanted.radii.is_empty() {
+pub fn candidate_count(study: &Study, expected: &PlanWanted) -> Result<usize, StudyError> {
+    circles(study, &expected.analyses)?;
+    let radii = if expected.radii.is_empty() {
         2
     } else {
-        wanted.radii.len()
+        expected.radii.len()
     };
     Ok(ALONG.pow(3) * Normal::ALL.len() * radii)
 }
@@ -209,7 +209,7 @@ fn proposed(robot: &Robot, one: &Proposed) -> ProposedAnswer {
 fn known(robot: &Robot, known: &Known) -> KnownAnswer {
     let name = |joint: &usize| robot.joints()[*joint].name.clone();
     KnownAnswer {
-        joints: (known.told.iter())
+        joints: (known.given.iter())
             .map(|gap| {
                 let slides = robot.slides(gap.joint);
                 ExpectedAnswer {
@@ -219,7 +219,7 @@ fn known(robot: &Robot, known: &Known) -> KnownAnswer {
                 }
             })
             .collect(),
-        not_told_apart: (known.together.iter())
+        not_identifiable: (known.together.iter())
             .map(|set| set.iter().map(name).collect())
             .collect(),
         unseen: known.unseen.iter().map(name).collect(),

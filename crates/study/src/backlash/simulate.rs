@@ -14,7 +14,7 @@ use armill_core::watch::Watch;
 use armill_formats::file::{Writer, create_folder};
 use serde::Serialize;
 
-use super::circles::{CircleAsk, circles, followed};
+use super::circles::{CircleAnalysis, circles, followed};
 use super::noise::Noise;
 use crate::error::StudyError;
 use crate::file::resolve::Study;
@@ -25,7 +25,7 @@ use crate::output::slug;
 #[derive(Clone, Debug, PartialEq)]
 pub struct SimulationWanted {
     /// Names of the circles; all where none is named.
-    pub asks: Vec<String>,
+    pub analyses: Vec<String>,
     /// Runs each way.
     pub runs: usize,
     /// Standard deviation of a sample, m.
@@ -38,7 +38,7 @@ pub struct SimulationWanted {
 #[derive(Clone, Debug, Serialize)]
 pub struct Simulated {
     /// Name of the circle.
-    pub ask: String,
+    pub analysis: String,
     /// Its file.
     pub file: String,
     /// Greatest deviation of the radius by size.
@@ -52,8 +52,8 @@ const SAMPLES: u32 = 720;
 ///
 /// # Errors
 /// See [`circles`].
-pub fn point_count(study: &Study, asks: &[String]) -> Result<usize, StudyError> {
-    let circles = circles(study, asks)?;
+pub fn point_count(study: &Study, analyses: &[String]) -> Result<usize, StudyError> {
+    let circles = circles(study, analyses)?;
     Ok(circles.iter().map(|circle| circle.path.track.len()).sum())
 }
 
@@ -63,16 +63,16 @@ pub fn point_count(study: &Study, asks: &[String]) -> Result<usize, StudyError> 
 /// See [`circles`]; a circle that the arm does not follow; a folder that takes no more.
 pub fn simulate(
     study: &Study,
-    (wanted, out, writer): (&SimulationWanted, &Path, &Writer),
+    (requested, out, writer): (&SimulationWanted, &Path, &Writer),
     watch: Watch<'_>,
 ) -> Result<Vec<Simulated>, StudyError> {
-    let mut noise = Noise::seeded(wanted.seed);
+    let mut noise = Noise::seeded(requested.seed);
     let mut files: Vec<(PathBuf, String)> = Vec::new();
-    let mut told = Vec::new();
+    let mut given = Vec::new();
     // Nothing is written before all circles are known to be followed.
-    for circle in circles(study, &wanted.asks)? {
+    for circle in circles(study, &requested.analyses)? {
         let along = followed(study, &circle, watch)?;
-        let (text, largest) = table(&circle, &along, (wanted, &mut noise));
+        let (text, largest) = table(&circle, &along, (requested, &mut noise));
         let path = out.join(format!("{}.csv", slug(circle.name)));
         if files.iter().any(|(other, _)| *other == path) {
             return Err(StudyError::value(
@@ -80,8 +80,8 @@ pub fn simulate(
                 "give them names that differ in letters or digits",
             ));
         }
-        told.push(Simulated {
-            ask: circle.name.to_owned(),
+        given.push(Simulated {
+            analysis: circle.name.to_owned(),
             file: path.display().to_string(),
             largest_um: largest,
         });
@@ -92,14 +92,14 @@ pub fn simulate(
         .map(|(path, text)| (path.clone(), text.as_bytes()))
         .collect();
     writer.write_all(&bytes)?;
-    Ok(told)
+    Ok(given)
 }
 
 /// The file of one circle, and the greatest deviation in it, um.
 fn table(
-    circle: &CircleAsk<'_>,
+    circle: &CircleAnalysis<'_>,
     along: &Followed,
-    (wanted, noise): (&SimulationWanted, &mut Noise),
+    (requested, noise): (&SimulationWanted, &mut Noise),
 ) -> (String, f64) {
     let mut gaps = vec![0.0; along.joint_count()];
     for (joint, gap) in circle.path.setting.model.structure.gaps() {
@@ -112,12 +112,12 @@ fn table(
     let mut text = format!(
         "# made up by armill: backlash of {} joints, noise {} um, seed {}\n# radius_mm: {}\nangle_deg,radius_dev_um,direction,run\n",
         gaps.iter().filter(|gap| **gap > 0.0).count(),
-        decimals(wanted.noise * 1e6, 6),
-        wanted.seed,
+        decimals(requested.noise * 1e6, 6),
+        requested.seed,
         decimals(circle.circle.radius * 1e3, 9)
     );
     let mut largest: f64 = 0.0;
-    for run in 1..=wanted.runs {
+    for run in 1..=requested.runs {
         for direction in Direction::BOTH {
             let shown = along.deviation(&gaps, direction, &angles);
             let mut rows: Vec<(f64, f64)> = degrees.iter().copied().zip(shown).collect();
@@ -125,7 +125,7 @@ fn table(
                 rows.reverse();
             }
             for (deg, dr) in rows {
-                let um = (dr + wanted.noise * noise.normal()) * 1e6;
+                let um = (dr + requested.noise * noise.normal()) * 1e6;
                 largest = largest.max(um.abs());
                 let _ = writeln!(text, "{deg},{um:.4},{},{run}", direction.name());
             }

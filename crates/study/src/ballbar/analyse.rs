@@ -74,7 +74,7 @@ pub struct Found {
     /// Clockwise minus anticlockwise, of the means.
     pub between: Difference,
     /// What was looked for.
-    pub asked: Asked,
+    pub requested: Asked,
     /// What makes the test what it is; none of too few samples.
     pub parts: Option<Parts>,
     /// Lobes of what both directions have in common; none where there is a gap.
@@ -114,17 +114,17 @@ pub fn analyse(measured: &Measured, question: &Question) -> Result<Found, StudyE
         false => measured.test.clone(),
     };
     let centre = least_squares_centre(&test);
-    let mut asked = Asked {
+    let mut requested = Asked {
         reversals,
         most_lobes: question.most_lobes.min(most_lobes(&test)),
         period: None,
     };
-    asked.period = match question.cyclic {
+    requested.period = match question.cyclic {
         Cyclic::None => None,
         Cyclic::Told(period) => Some(period_of(&test, period)?),
-        Cyclic::Found => strongest_period(&test, &asked),
+        Cyclic::Found => strongest_period(&test, &requested),
     };
-    let parts = parts(&test, &asked);
+    let parts = parts(&test, &requested);
     let offset = centre.filter(|_| question.centring == Centring::LeastSquares);
     let shown = match offset {
         Some(centre) => seen_from(&test, centre.offset).map_err(|error| {
@@ -149,7 +149,7 @@ pub fn analyse(measured: &Measured, question: &Question) -> Result<Found, StudyE
         hysteresis: hysteresis(&shown),
         repeats: repeats(&shown),
         between: between_directions(&shown),
-        asked,
+        requested,
         parts,
         lobes: lobes(&shown, question.most_lobes.max(2)),
         outliers: dirt,

@@ -156,7 +156,7 @@ pub struct PartsAnswer {
     /// Period of a cyclic error along either axis, as it was told or found.
     pub cyclic_period_mm: Option<f64>,
     /// Sets of parts of which only a sum is known, or a single one that nothing is known of.
-    pub not_told_apart: Vec<Vec<String>>,
+    pub not_identifiable: Vec<Vec<String>>,
     /// Root mean square without radius and offset, those of the parts.
     pub rms_before_um: f64,
     /// And of what no part explains.
@@ -223,7 +223,7 @@ pub fn answer(measured: &Measured, question: &Question, found: &Found) -> Ballba
         })
     };
     let both = found.test.is_bidirectional();
-    let mut told = BallbarAnswer {
+    let mut given = BallbarAnswer {
         files: measured.files.clone(),
         radius_mm: measured.test.radius() * 1e3,
         feed_mm_per_min: measured.feed.map(|feed| feed * 60e3),
@@ -277,9 +277,9 @@ pub fn answer(measured: &Measured, question: &Question, found: &Found) -> Ballba
         unused: measured.unused.clone(),
         warnings: Vec::new(),
     };
-    beside(&mut told, found);
-    told.warnings = warnings(measured, question, (found, &told));
-    told
+    beside(&mut given, found);
+    given.warnings = warnings(measured, question, (found, &given));
+    given
 }
 
 impl ShownAnswer {
@@ -344,7 +344,7 @@ pub(crate) fn name_of(term: Term, (axes, found): (&[String; 2], &Found)) -> Stri
         Term::Squareness => "squareness".to_owned(),
         Term::DirectionRadius => "radius CCW minus CW".to_owned(),
         Term::ServoMismatch => "servo mismatch".to_owned(),
-        Term::Reversal(index) => format!("step {}", found.asked.reversals[index].name),
+        Term::Reversal(index) => format!("step {}", found.requested.reversals[index].name),
         Term::Lobes(count, of) => format!("{count} lobes, {}", wave(of)),
         Term::Cyclic(along, of) => format!("cyclic along {}, {}", axis(along), wave(of)),
     }
@@ -401,8 +401,8 @@ fn of_parts(parts: &Parts, (measured, found): (&Measured, &Found)) -> PartsAnswe
         squareness_u_urad: of(Term::Squareness).map(|part| 2.0 * part.u * per_m),
         servo_mismatch_s: servo.map(|(part, feed)| 2.0 * part.value / feed),
         servo_mismatch_u_s: servo.map(|(part, feed)| 2.0 * part.u / feed),
-        cyclic_period_mm: found.asked.period.map(|period| period * 1e3),
-        not_told_apart: (parts.together.iter())
+        cyclic_period_mm: found.requested.period.map(|period| period * 1e3),
+        not_identifiable: (parts.together.iter())
             .map(|set| set.iter().map(|term| name(*term)).collect())
             .collect(),
         rms_before_um: parts.rms_before * 1e6,

@@ -40,11 +40,11 @@ const TABLES: [&str; 3] = ["runs.csv", "differences.csv", "parts.csv"];
 /// # Errors
 /// A file cannot be written.
 pub fn write(
-    told: &BallbarAnswer,
+    given: &BallbarAnswer,
     (measured, found): (&Measured, &Found),
     (out, taught): (&ResultFolder, Option<&[u8]>),
 ) -> Result<Vec<PathBuf>, StudyError> {
-    let drawn = pictures(told, (measured, found));
+    let drawn = pictures(given, (measured, found));
     let names: Vec<String> = TABLES
         .map(str::to_owned)
         .into_iter()
@@ -52,11 +52,11 @@ pub fn write(
         .chain(drawn.iter().flat_map(picture_files))
         .chain([REPORT.to_owned(), RESULT.to_owned()])
         .collect();
-    replace((out, &names), (told, &|_| ()), |files| {
+    replace((out, &names), (given, &|_| ()), |files| {
         let tables = [
             runs(measured, found)?,
             differences(measured, found)?,
-            parts(told)?,
+            parts(given)?,
         ];
         for (name, table) in TABLES.iter().zip(tables) {
             files.save(name, &csv::write(&table))?;
@@ -65,7 +65,7 @@ pub fn write(
             files.save(TAUGHT, taught)?;
         }
         save_pictures(&drawn, files)?;
-        files.save(REPORT, html(told, &drawn).as_bytes())?;
+        files.save(REPORT, html(given, &drawn).as_bytes())?;
         Ok(())
     })
 }
@@ -124,8 +124,8 @@ fn differences(measured: &Measured, found: &Found) -> Result<Table, StudyError> 
     )?)
 }
 
-fn parts(told: &BallbarAnswer) -> Result<Table, StudyError> {
-    let radial: Vec<_> = told.parts.iter().flat_map(|parts| &parts.radial).collect();
+fn parts(given: &BallbarAnswer) -> Result<Table, StudyError> {
+    let radial: Vec<_> = given.parts.iter().flat_map(|parts| &parts.radial).collect();
     let number = |name: &str, description: &str, values: Vec<f64>| Column {
         name: name.to_owned(),
         unit: Some("um".to_owned()),
@@ -157,36 +157,36 @@ fn parts(told: &BallbarAnswer) -> Result<Table, StudyError> {
 }
 
 /// The circle, the repeats of each direction that has some, the directions.
-pub(crate) fn pictures(told: &BallbarAnswer, (measured, found): (&Measured, &Found)) -> Vec<Picture> {
-    let mut pictures = vec![circle(told, (measured, found))];
+pub(crate) fn pictures(given: &BallbarAnswer, (measured, found): (&Measured, &Found)) -> Vec<Picture> {
+    let mut pictures = vec![circle(given, (measured, found))];
     pictures.extend(
         Direction::BOTH
             .iter()
             .filter_map(|direction| repeats(*direction, (measured, found))),
     );
-    pictures.extend(found.between.span().map(|_| directions(told, found)));
+    pictures.extend(found.between.span().map(|_| directions(given, found)));
     pictures
 }
 
 /// What stands below the title of every picture.
-fn under(told: &BallbarAnswer) -> String {
+fn under(given: &BallbarAnswer) -> String {
     let mut parts = vec![format!(
         "radius {} mm",
-        crate::number::decimals(told.radius_mm, 3)
+        crate::number::decimals(given.radius_mm, 3)
     )];
     parts.extend(
-        told.feed_mm_per_min
+        given.feed_mm_per_min
             .map(|feed| format!("{} mm/min", crate::number::decimals(feed, 1))),
     );
-    parts.extend(told.plane.as_ref().map(|plane| format!("plane {plane}")));
-    parts.push(match told.centring.centre {
+    parts.extend(given.plane.as_ref().map(|plane| format!("plane {plane}")));
+    parts.push(match given.centring.centre {
         "setup" => "centre as set up".to_owned(),
         _ => "least-squares centre".to_owned(),
     });
     parts.join(", ")
 }
 
-fn circle(told: &BallbarAnswer, (measured, found): (&Measured, &Found)) -> Picture {
+fn circle(given: &BallbarAnswer, (measured, found): (&Measured, &Found)) -> Picture {
     let trace = |index: usize| {
         let run = &found.test.runs()[index];
         let radii = Profile::of(run).stations();
@@ -200,17 +200,17 @@ fn circle(told: &BallbarAnswer, (measured, found): (&Measured, &Found)) -> Pictu
             },
             angle_deg: (0..=STATIONS).map(|k| station(k).to_degrees()).collect(),
             radial_um: closed.collect(),
-            start_deg: Some(told.runs[index].start_deg),
+            start_deg: Some(given.runs[index].start_deg),
         }
     };
-    let g = told
+    let g = given
         .circular_bidirectional_um
         .map(|g| format!("; G(b) {g:.1} µm"));
     let picture = BallbarPlot {
         title: "Circular test".to_owned(),
-        subtitle: under(told) + &g.unwrap_or_default(),
-        horizontal: told.axes[0].clone(),
-        vertical: told.axes[1].clone(),
+        subtitle: under(given) + &g.unwrap_or_default(),
+        horizontal: given.axes[0].clone(),
+        vertical: given.axes[1].clone(),
         growth: Growth::Right,
         traces: (0..found.test.runs().len()).map(trace).collect(),
         marks: Vec::new(),
@@ -260,7 +260,7 @@ fn repeats(direction: Direction, (measured, found): (&Measured, &Found)) -> Opti
         quantity: "difference (µm)".to_owned(),
         series,
         envelope: None,
-        limit_um: None,
+        tolerance_um: None,
     };
     Some(Picture {
         name: format!("repeat-{}", direction.name()),
@@ -269,15 +269,15 @@ fn repeats(direction: Direction, (measured, found): (&Measured, &Found)) -> Opti
     })
 }
 
-fn directions(told: &BallbarAnswer, found: &Found) -> Picture {
+fn directions(given: &BallbarAnswer, found: &Found) -> Picture {
     let picture = PathPlot {
         title: "Clockwise minus anticlockwise".to_owned(),
-        subtitle: under(told),
+        subtitle: under(given),
         position_label: "angle (deg)".to_owned(),
         quantity: "difference (µm)".to_owned(),
         series: vec![along("CW − CCW".to_owned(), &found.between.stations, |um| um)],
         envelope: None,
-        limit_um: None,
+        tolerance_um: None,
     };
     Picture {
         name: "directions".to_owned(),
@@ -289,18 +289,18 @@ fn directions(told: &BallbarAnswer, found: &Found) -> Picture {
 }
 
 /// The page.
-fn html(told: &BallbarAnswer, drawn: &[Picture]) -> String {
-    let mut report = Report::new(&format!("Circular test: {}", told.files.join(", ")))
+fn html(given: &BallbarAnswer, drawn: &[Picture]) -> String {
+    let mut report = Report::new(&format!("Circular test: {}", given.files.join(", ")))
         .question("How round does the tool go, and why not rounder?")
-        .answer(&sentence(told));
-    for warning in &told.warnings {
+        .answer(&sentence(given));
+    for warning in &given.warnings {
         report = report.warning(warning);
     }
-    report = report.section("Quantities").table(&quantities(told));
+    report = report.section("Quantities").table(&quantities(given));
     for picture in drawn {
         report = report.picture(&picture.svg, &picture.caption);
     }
-    if let Some(parts) = &told.parts {
+    if let Some(parts) = &given.parts {
         let row = |part: &super::answer::PartAnswer| {
             vec![
                 part.what.clone(),
@@ -317,7 +317,7 @@ fn html(told: &BallbarAnswer, drawn: &[Picture]) -> String {
             rows: parts.radial.iter().map(row).collect(),
         });
     }
-    for results in &told.results {
+    for results in &given.results {
         let row = |feature: &super::results::FeatureAnswer| {
             let ours = feature.ours.map_or_else(String::new, |ours| format!("{ours:.1}"));
             vec![
@@ -336,7 +336,7 @@ fn html(told: &BallbarAnswer, drawn: &[Picture]) -> String {
             rows: results.features.iter().map(row).collect(),
         });
     }
-    if let Some(before) = &told.before {
+    if let Some(before) = &given.before {
         let row = |of: &super::teach::ComparedQuantity| {
             let left = of
                 .left_percent
@@ -349,7 +349,7 @@ fn html(told: &BallbarAnswer, drawn: &[Picture]) -> String {
             rows: before.compared.iter().map(row).collect(),
         });
     }
-    let runs = told
+    let runs = given
         .runs
         .iter()
         .map(|run| input(&run.name, run.samples.to_string(), "samples", &run.file));
@@ -357,15 +357,15 @@ fn html(told: &BallbarAnswer, drawn: &[Picture]) -> String {
 }
 
 /// The answer in one sentence.
-pub fn sentence(told: &BallbarAnswer) -> String {
-    let g = match told.circular_bidirectional_um {
+pub fn sentence(given: &BallbarAnswer) -> String {
+    let g = match given.circular_bidirectional_um {
         Some(g) => format!("Both ways together the path lies within a ring of {g:.1} µm"),
         None => {
-            let of = told.directions.iter().filter_map(|of| of.shown.circular_um);
+            let of = given.directions.iter().filter_map(|of| of.shown.circular_um);
             format!("The path lies within a ring of {:.1} µm", of.fold(0.0, f64::max))
         }
     };
-    match &told.between_directions {
+    match &given.between_directions {
         Some(between) => format!(
             "{g}; the directions differ by up to {:.1} µm, at {:.0} deg.",
             between.max_um.abs(),
@@ -375,7 +375,7 @@ pub fn sentence(told: &BallbarAnswer) -> String {
     }
 }
 
-fn quantities(told: &BallbarAnswer) -> Rows {
+fn quantities(given: &BallbarAnswer) -> Rows {
     let row = |name: &str, shown: &ShownAnswer| {
         vec![
             name.to_owned(),
@@ -384,18 +384,18 @@ fn quantities(told: &BallbarAnswer) -> Rows {
             um(Some(shown.radial_min_um)),
         ]
     };
-    let runs = told.runs.iter().map(|run| row(&run.name, &run.shown));
-    let directions = told
+    let runs = given.runs.iter().map(|run| row(&run.name, &run.shown));
+    let directions = given
         .directions
         .iter()
         .map(|of| row(&format!("all {}", of.direction), &of.shown));
     Rows {
         caption: format!(
             "Circular deviation G (minimum zone) and radial deviation F from the {} centre. G(b) {} µm, D {} µm, H {} µm.",
-            told.centring.centre,
-            um(told.circular_bidirectional_um),
-            um(told.mean_bidirectional_um),
-            um(told.hysteresis_um)
+            given.centring.centre,
+            um(given.circular_bidirectional_um),
+            um(given.mean_bidirectional_um),
+            um(given.hysteresis_um)
         ),
         columns: columns(&[("runs", ""), ("G", "µm"), ("F max", "µm"), ("F min", "µm")]),
         rows: runs.chain(directions).collect(),

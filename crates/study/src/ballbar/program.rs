@@ -26,7 +26,7 @@ use armill_formats::robot_program::Written;
 use super::teach::TaughtCircle;
 use crate::compensate::paths;
 use crate::error::StudyError;
-use crate::file::path::PathAsk;
+use crate::file::path::PathAnalysis;
 use crate::file::resolve::Study;
 use crate::program_out::{ProgramWanted, program};
 use crate::run::runner;
@@ -35,7 +35,7 @@ use crate::run::runner;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CircleWanted {
     /// Name of the path, a circle; the only one if left out.
-    pub ask: Option<String>,
+    pub analysis: Option<String>,
     /// Where angle 0 of the files lies, from +y' towards z', rad.
     pub zero: f64,
     /// Whether angles of the files grow from z' towards y'.
@@ -68,9 +68,9 @@ pub fn taught_program(
     study: &Study,
     taught: &TaughtCircle,
     circle: &CircleWanted,
-    wanted: &ProgramWanted,
+    expected: &ProgramWanted,
 ) -> Result<Written, StudyError> {
-    let (ask, centre, radius) = asked(study, circle.ask.as_deref())?;
+    let (analysis, centre, radius) = requested(study, circle.analysis.as_deref())?;
     if (radius - taught.radius).abs() > SAME_RADIUS {
         return Err(StudyError::value(
             format!(
@@ -81,7 +81,7 @@ pub fn taught_program(
             "the same circle in both; --radius-mm, where the files do not tell it",
         ));
     }
-    if ask.setting.search.is_some() {
+    if analysis.setting.search.is_some() {
         return Err(StudyError::value(
             "posture.search turns the tool along the path: what the ball-bar saw was another circle",
             "the study that the bar was measured in, with one turn and one branch",
@@ -99,7 +99,7 @@ pub fn taught_program(
     }
     let track = Track {
         path,
-        ..ask.track.clone()
+        ..analysis.track.clone()
     };
     let track = track.closed(TAU * radius);
     let nothing = PathLoad::Cases(LoadCases {
@@ -107,19 +107,19 @@ pub fn taught_program(
         cases: vec![Wrench::ZERO],
     });
     let runner = runner(study, Watch::NONE)?;
-    let along = along_path(&runner.question(&ask.setting), &track, nothing, Watch::NONE)?;
-    let wanted = ProgramWanted {
+    let along = along_path(&runner.question(&analysis.setting), &track, nothing, Watch::NONE)?;
+    let expected = ProgramWanted {
         within: ALL,
-        ..wanted.clone()
+        ..expected.clone()
     };
-    program(study, &ask.setting, (&track, &along.answers), &wanted)
+    program(study, &analysis.setting, (&track, &along.answers), &expected)
 }
 
 /// The circle that is asked for, its centre and its radius.
-fn asked<'a>(
+fn requested<'a>(
     study: &'a Study,
     name: Option<&str>,
-) -> Result<(&'a PathAsk, armill_core::nalgebra::Point2<f64>, f64), StudyError> {
+) -> Result<(&'a PathAnalysis, armill_core::nalgebra::Point2<f64>, f64), StudyError> {
     let circles: Vec<_> = paths(study, name)
         .filter_map(|(name, path)| match path.shape() {
             Some(Shape::Circle { centre, radius }) => Some((name, (path, *centre, *radius))),
@@ -139,7 +139,7 @@ fn asked<'a>(
             let message = format!("the study has {} circles: {}", several.len(), names.join(", "));
             Err(StudyError::value(
                 message,
-                "name the one that was measured: --ask NAME",
+                "name the one that was measured: --analysis NAME",
             ))
         }
     }

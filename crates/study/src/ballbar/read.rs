@@ -6,7 +6,7 @@ use std::path::Path;
 use armill_core::measure::ballbar::{CircularTest, Run, RunError};
 use armill_formats::document::{Problem, Problems};
 use armill_formats::input;
-use armill_formats::measurement::ballbar::{self, Held, Recorded, Results, Told};
+use armill_formats::measurement::ballbar::{self, BallbarFile, BallbarRuns, Results, BallbarReadOptions};
 
 use crate::StudyError;
 
@@ -14,7 +14,7 @@ use crate::StudyError;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Wanted {
     /// What a file does not tell of its runs.
-    pub told: Told,
+    pub given: BallbarReadOptions,
     /// The plane, by its two axes.
     pub plane: Option<String>,
     /// Speed along the circle, m/s.
@@ -68,9 +68,9 @@ impl Measured {
 ///
 /// # Errors
 /// Files that cannot be read; the problems of all files; no runs; radii, planes or feeds of different circles.
-pub fn read(files: &[impl AsRef<Path>], wanted: &Wanted) -> Result<Measured, StudyError> {
+pub fn read(files: &[impl AsRef<Path>], requested: &Wanted) -> Result<Measured, StudyError> {
     let mut problems: Vec<Problem> = Vec::new();
-    let mut recorded: Vec<(String, Recorded)> = Vec::new();
+    let mut recorded: Vec<(String, BallbarRuns)> = Vec::new();
     let mut results = Vec::new();
     for path in files {
         let shown = path.as_ref().display().to_string();
@@ -80,18 +80,18 @@ pub fn read(files: &[impl AsRef<Path>], wanted: &Wanted) -> Result<Measured, Stu
                 "a CSV with `angle_deg,radius_dev_um,direction,run`, or results of a ball-bar (.b5r)",
             )
         })?;
-        match ballbar::read(&shown, BufReader::new(file), &wanted.told) {
-            Ok(Held::Runs(runs)) => recorded.push((shown, runs)),
-            Ok(Held::Results(found)) => results.push((shown, found)),
+        match ballbar::read(&shown, BufReader::new(file), &requested.given) {
+            Ok(BallbarFile::Runs(runs)) => recorded.push((shown, runs)),
+            Ok(BallbarFile::Results(found)) => results.push((shown, found)),
             Err(wrong) => problems.extend(wrong),
         }
     }
     Problems::from(problems).into_result()?;
-    let radius = one_of(&recorded, "nominal radius", wanted.told.radius, |file| {
+    let radius = one_of(&recorded, "nominal radius", requested.given.radius, |file| {
         file.radius
     })?;
-    let feed = one_of(&recorded, "feed", wanted.feed, |file| file.feed)?;
-    let plane = one_of(&recorded, "plane", wanted.plane.clone(), |file| {
+    let feed = one_of(&recorded, "feed", requested.feed, |file| file.feed)?;
+    let plane = one_of(&recorded, "plane", requested.plane.clone(), |file| {
         file.plane.clone()
     })?;
     if recorded.is_empty() {
@@ -172,10 +172,10 @@ pub fn read(files: &[impl AsRef<Path>], wanted: &Wanted) -> Result<Measured, Stu
 /// # Errors
 /// Two files, or a file and an option, that differ.
 fn one_of<T: PartialEq + std::fmt::Debug>(
-    files: &[(String, Recorded)],
+    files: &[(String, BallbarRuns)],
     what: &str,
     beside: Option<T>,
-    of: impl Fn(&Recorded) -> Option<T>,
+    of: impl Fn(&BallbarRuns) -> Option<T>,
 ) -> Result<Option<T>, StudyError> {
     let mut found: Option<(T, &str)> = beside.map(|value| (value, "the option"));
     for (file, recorded) in files {

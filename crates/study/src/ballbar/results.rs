@@ -65,25 +65,25 @@ pub(super) fn results(measured: &Measured) -> Vec<ResultsAnswer> {
 }
 
 /// Puts our numbers beside those of the bar's own program.
-pub(super) fn beside(told: &mut BallbarAnswer, found: &Found) {
-    let [a, b] = &told.axes;
+pub(super) fn beside(given: &mut BallbarAnswer, found: &Found) {
+    let [a, b] = &given.axes;
     // The reversal of that name: told ones may come with it, or in place of those of the axes.
     let step = |axis: &str, side: &str| {
         let name = format!("{axis}{side}");
-        let index = found.asked.reversals.iter().position(|of| of.name == name)?;
+        let index = found.requested.reversals.iter().position(|of| of.name == name)?;
         let part = found.parts.as_ref()?.alone(Term::Reversal(index))?;
         Some(part.value * 1e6)
     };
-    let squareness = told.parts.as_ref().and_then(|parts| parts.squareness_urad);
+    let squareness = given.parts.as_ref().and_then(|parts| parts.squareness_urad);
     let ours = [
-        ("AF_CIRCULARITY", "um", told.circular_bidirectional_um),
+        ("AF_CIRCULARITY", "um", given.circular_bidirectional_um),
         ("AF_SQUARENESS", "um/m", squareness),
         ("AF_BACKLASH_A_POS", "um", step(a, "+")),
         ("AF_BACKLASH_A_NEG", "um", step(a, "-")),
         ("AF_BACKLASH_B_POS", "um", step(b, "+")),
         ("AF_BACKLASH_B_NEG", "um", step(b, "-")),
     ];
-    for feature in told.results.iter_mut().flat_map(|results| &mut results.features) {
+    for feature in given.results.iter_mut().flat_map(|results| &mut results.features) {
         let of = ours
             .iter()
             .find(|(name, unit, _)| *name == feature.name && *unit == feature.unit);

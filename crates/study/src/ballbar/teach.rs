@@ -124,7 +124,7 @@ pub fn teach(
     let corrections: Vec<f64> = (0..points)
         .map(|k| found.correction(TAU * k as f64 / points as f64))
         .collect();
-    let told = TaughtAnswer {
+    let given = TaughtAnswer {
         points,
         most_lobes: found.lobes.harmonics.last().map_or(most_lobes, |lobe| lobe.waves),
         largest_correction_um: corrections.iter().map(|c| c.abs()).fold(0.0, f64::max) * 1e6,
@@ -139,7 +139,7 @@ pub fn teach(
         corrections,
         found,
     };
-    Ok((told, circle))
+    Ok((given, circle))
 }
 
 /// A row a point.
@@ -229,7 +229,7 @@ mod tests {
 
     #[test]
     fn a_circle_that_makes_the_ring_worse_is_not_to_be_taught() {
-        let told = |expected: Option<f64>| TaughtAnswer {
+        let given = |expected: Option<f64>| TaughtAnswer {
             points: 72,
             most_lobes: 15,
             largest_correction_um: 22.5,
@@ -239,10 +239,10 @@ mod tests {
             radial_expected_um: [-90.0, 79.6],
             stays_um: Some(77.8),
         };
-        let worse = told(Some(169.6)).warnings(15);
+        let worse = given(Some(169.6)).warnings(15);
         assert!(worse[0].starts_with("do not teach this circle: the ring would go from 158.4 to 169.6 um"));
-        assert!(told(Some(34.9)).warnings(15).is_empty());
-        assert!(told(None).warnings(15).is_empty());
-        assert!(told(Some(34.9)).warnings(30)[0].contains("takes off 15 lobes, not 30"));
+        assert!(given(Some(34.9)).warnings(15).is_empty());
+        assert!(given(None).warnings(15).is_empty());
+        assert!(given(Some(34.9)).warnings(30)[0].contains("takes off 15 lobes, not 30"));
     }
 }

@@ -10,7 +10,7 @@ use super::read::Measured;
 pub(super) fn warnings(
     measured: &Measured,
     question: &Question,
-    (found, told): (&Found, &BallbarAnswer),
+    (found, given): (&Found, &BallbarAnswer),
 ) -> Vec<String> {
     let mut warnings = measured.notes.clone();
     let unused = measured.unused.iter();
@@ -28,7 +28,7 @@ pub(super) fn warnings(
             _ => {}
         }
     }
-    for run in told.runs.iter().filter(|run| !run.gaps_deg.is_empty()) {
+    for run in given.runs.iter().filter(|run| !run.gaps_deg.is_empty()) {
         let gaps = run
             .gaps_deg
             .iter()
@@ -44,7 +44,7 @@ pub(super) fn warnings(
             "no arc is long enough for a least-squares centre: radii are counted from the set-up".to_owned(),
         );
     }
-    let dirt = told
+    let dirt = given
         .outliers
         .iter()
         .filter(|outlier| !outlier.at_reversal)
@@ -55,22 +55,22 @@ pub(super) fn warnings(
             false => format!("{dirt} samples are off their neighbours and count: dirt (--leave-out-outliers leaves them out), or the step of a joint that turns back there (`armill backlash` tells which)"),
         });
     }
-    if told.runs.iter().any(|run| run.shown.circular_um.is_none()) {
+    if given.runs.iter().any(|run| run.shown.circular_um.is_none()) {
         warnings
             .push("no ring is the narrowest about some runs: their arc is too short for its form".to_owned());
     }
     if let Some(lobes) = &found.lobes {
-        let told = lobes.harmonics.len();
-        if told < question.most_lobes {
+        let given = lobes.harmonics.len();
+        if given < question.most_lobes {
             warnings.push(format!(
-                "{told} lobes are told, not {}: the samples are too far apart for more",
+                "{given} lobes are told, not {}: the samples are too far apart for more",
                 question.most_lobes
             ));
         }
     }
-    match &told.parts {
+    match &given.parts {
         None => warnings.push("too few samples for the parts of the deviation".to_owned()),
-        Some(parts) => warnings.extend(parts.not_told_apart.iter().map(|set| match &set[..] {
+        Some(parts) => warnings.extend(parts.not_identifiable.iter().map(|set| match &set[..] {
             [one] => format!("nothing is known of the {one}: no samples beside it"),
             set => format!("not told apart: {}; the first holds the sum", set.join(", ")),
         })),

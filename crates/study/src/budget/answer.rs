@@ -10,13 +10,13 @@ use serde::Serialize;
 
 use super::combine::{Beside, Combined};
 use crate::file::experiment::Experiment;
-use crate::file::path::PathAsk;
+use crate::file::path::PathAnalysis;
 
 /// What the error of a circle is made of.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct BudgetAnswer {
     /// Name of the path.
-    pub ask: String,
+    pub analysis: String,
     /// Posture asked for: words of a branch, or `best`.
     pub branch: String,
     /// Nominal radius of the circle.
@@ -216,10 +216,10 @@ const SOURCES: [&str; 3] = [
 ];
 
 /// What `combined` says.
-pub fn answer(experiment: &Experiment, path: &PathAsk, combined: &Combined) -> BudgetAnswer {
+pub fn answer(experiment: &Experiment, path: &PathAnalysis, combined: &Combined) -> BudgetAnswer {
     let um = |value: f64| value * 1e6;
     let (balance, sums) = (&combined.balance, &combined.balance.sums);
-    let shares = balance.comparison.as_ref().map(|told| &told.shares[..]);
+    let shares = balance.comparison.as_ref().map(|given| &given.shares[..]);
     let datum = |is_removed: bool| {
         if is_removed {
             "least-squares"
@@ -229,8 +229,8 @@ pub fn answer(experiment: &Experiment, path: &PathAsk, combined: &Combined) -> B
     };
     let contributions = balance.contributions.iter().zip(&balance.datums).enumerate();
     let [least, greatest] = &combined.envelope;
-    let mut told = BudgetAnswer {
-        ask: experiment.ask.clone(),
+    let mut given = BudgetAnswer {
+        analysis: experiment.analysis.clone(),
         branch: path.setting.branch(),
         radius_mm: experiment.radius * 1e3,
         files: files(experiment, path),
@@ -265,16 +265,16 @@ pub fn answer(experiment: &Experiment, path: &PathAsk, combined: &Combined) -> B
         part: balance
             .comparison
             .as_ref()
-            .map(|told| part(experiment, combined, told)),
+            .map(|given| part(experiment, combined, given)),
         warnings: Vec::new(),
         sources: SOURCES.to_vec(),
     };
-    told.warnings = warnings(experiment, combined, &told);
-    told
+    given.warnings = warnings(experiment, combined, &given);
+    given
 }
 
 /// What was measured, file by file.
-fn files(experiment: &Experiment, path: &PathAsk) -> Vec<FileAnswer> {
+fn files(experiment: &Experiment, path: &PathAnalysis) -> Vec<FileAnswer> {
     let file = |of: &'static str| {
         move |file: &String| FileAnswer {
             file: file.clone(),
@@ -334,52 +334,52 @@ fn without_load(combined: &Combined, beside: &Beside) -> WithoutLoadAnswer {
     }
 }
 
-fn part(experiment: &Experiment, combined: &Combined, told: &Comparison) -> PartAnswer {
+fn part(experiment: &Experiment, combined: &Combined, given: &Comparison) -> PartAnswer {
     let at_deg = |at: usize| combined.turn.angle()[at].to_degrees();
     let of_file = experiment.part.as_ref();
-    let (at, most) = largest(&told.measured);
+    let (at, most) = largest(&given.measured);
     let percent = |share: f64| share * 100.0;
     PartAnswer {
         points: of_file.map_or(0, |part| part.points),
         largest_um: most * 1e6,
         largest_at_deg: at_deg(at),
-        rms_um: told.measured_rms * 1e6,
+        rms_um: given.measured_rms * 1e6,
         centre_mm: of_file
             .and_then(|part| part.centre)
             .map(|centre| centre.map(|m| m * 1e3)),
-        radius_um: told.datum.radius * 1e6,
+        radius_um: given.datum.radius * 1e6,
         u_um: of_file.map_or(0.0, |part| part.u * 1e6),
-        explained_percent: percent(told.together.explained),
-        explainable_percent: percent(told.explainable),
-        likeness_percent: told.together.likeness.map(percent),
-        best_size_percent: told.together.gain.map(percent),
-        turns_as_good_percent: told.turns_as_good.map(percent),
+        explained_percent: percent(given.together.explained),
+        explainable_percent: percent(given.explainable),
+        likeness_percent: given.together.likeness.map(percent),
+        best_size_percent: given.together.gain.map(percent),
+        turns_as_good_percent: given.turns_as_good.map(percent),
         residual: ResidualAnswer {
-            rms_um: told.together.residual_rms * 1e6,
-            largest_um: told.together.residual_largest.1 * 1e6,
-            largest_at_deg: at_deg(told.together.residual_largest.0),
-            beyond_known_um: told.beyond_known * 1e6,
+            rms_um: given.together.residual_rms * 1e6,
+            largest_um: given.together.residual_largest.1 * 1e6,
+            largest_at_deg: at_deg(given.together.residual_largest.0),
+            beyond_known_um: given.beyond_known * 1e6,
         },
-        least_wave_um: told.least_wave * 1e6,
-        waves: told
+        least_wave_um: given.least_wave * 1e6,
+        waves: given
             .waves
             .iter()
-            .map(|pair| wave(pair, told.least_wave))
+            .map(|pair| wave(pair, given.least_wave))
             .collect(),
     }
 }
 
 fn wave(pair: &WavePair, least: f64) -> WaveAnswer {
-    let told = pair.told(least);
+    let given = pair.given(least);
     let deg = |phase: Option<f64>| phase.map(f64::to_degrees);
     WaveAnswer {
         waves: pair.measured.waves,
         measured_um: pair.measured.amplitude * 1e6,
-        measured_phase_deg: deg(told.measured_phase),
+        measured_phase_deg: deg(given.measured_phase),
         predicted_um: pair.predicted.amplitude * 1e6,
-        predicted_phase_deg: deg(told.predicted_phase),
-        phase_difference_deg: deg(told.phase_difference),
-        explained_percent: told.explained.map(|share| share * 100.0),
+        predicted_phase_deg: deg(given.predicted_phase),
+        phase_difference_deg: deg(given.phase_difference),
+        explained_percent: given.explained.map(|share| share * 100.0),
     }
 }
 
@@ -391,7 +391,7 @@ fn is_predicted(combined: &Combined) -> bool {
 }
 
 /// What was taken for granted, and what the numbers do not bear.
-fn warnings(experiment: &Experiment, combined: &Combined, told: &BudgetAnswer) -> Vec<String> {
+fn warnings(experiment: &Experiment, combined: &Combined, given: &BudgetAnswer) -> Vec<String> {
     let mut warnings = experiment.notes.clone();
     match combined.has_cut_way {
         None if is_predicted(combined) => warnings.push(
@@ -430,10 +430,10 @@ fn warnings(experiment: &Experiment, combined: &Combined, told: &BudgetAnswer) -
     if combined.turn.arc() < 0.999 * std::f64::consts::TAU {
         warnings.push(format!(
             "{:.0} deg of the turn are known: all numbers are those of that arc",
-            told.arc_deg
+            given.arc_deg
         ));
     }
-    let Some(part) = &told.part else {
+    let Some(part) = &given.part else {
         let no_part = match experiment.part {
             None => "no part was measured: nothing tells whether the budget is right",
             Some(_) => "the part shows nothing beside its datum: nothing is left to be explained",

@@ -23,7 +23,7 @@ use armill_core::watch::Watch;
 use super::parts::{Parts, parts};
 use crate::error::StudyError;
 use crate::file::experiment::Experiment;
-use crate::file::path::PathAsk;
+use crate::file::path::PathAnalysis;
 use crate::file::resolve::Study;
 use crate::run::PathFound;
 
@@ -70,14 +70,14 @@ pub const MOST_WAVES: usize = 12;
 /// A path that is not reached everywhere; curves that have too few angles in common; those of a run.
 pub fn combine(
     (study, experiment): (&Study, &Experiment),
-    (path, found): (&PathAsk, &PathFound),
+    (path, found): (&PathAnalysis, &PathFound),
     watch: Watch<'_>,
 ) -> Result<Combined, StudyError> {
     if found.radial.is_empty() {
         return Err(StudyError::value(
             format!(
                 "{}: a circle that is not reached everywhere has no budget",
-                experiment.ask
+                experiment.analysis
             ),
             "another posture, or another place of the plane",
         ));
@@ -91,7 +91,7 @@ pub fn combine(
     let common = test.map_or_else(|| own.clone(), |test| known_angles(test, &own));
     let turn = Turn::new(common).map_err(|error| {
         StudyError::value(
-            format!("{}: of what was measured {error}", experiment.ask),
+            format!("{}: of what was measured {error}", experiment.analysis),
             "full turns, a sample every 15 degrees or more",
         )
     })?;
@@ -100,17 +100,17 @@ pub fn combine(
     let Parts {
         load,
         without,
-        doubts,
+        uncertainties,
     } = parts(study, (path, found), biased, watch)?;
     let cases: Vec<Vec<f64>> = load.iter().map(|case| turn.of_even(case)).collect();
-    let without = without.map(|told| {
+    let without = without.map(|given| {
         (
-            turn.of_even(&told.outward),
-            uncertainty(&told.doubts, &turn, experiment),
+            turn.of_even(&given.outward),
+            uncertainty(&given.uncertainties, &turn, experiment),
         )
     });
     let mut contributions = vec![Contribution {
-        u: uncertainty(&doubts, &turn, experiment),
+        u: uncertainty(&uncertainties, &turn, experiment),
         ..under_load(&cases[..biased])
     }];
     let (mut has_cut_way, mut both_ways) = (None, false);
@@ -125,9 +125,9 @@ pub fn combine(
     } else if let Some((bias, u)) = without {
         contributions.push(of_unloaded("path without load, predicted", bias, u));
     }
-    let stated = Some(path.setting.model.structure.repeatability).filter(|told| *told > 0.0);
+    let stated = Some(path.setting.model.structure.repeatability).filter(|given| *given > 0.0);
     let repeatability = measured_scatter.or(stated);
-    contributions.extend(repeatability.map(|told| scattering(told, turn.angle().len())));
+    contributions.extend(repeatability.map(|given| scattering(given, turn.angle().len())));
     // Every angle is one of the part's own.
     let measured: Option<Vec<f64>> =
         part.and_then(|part| turn.angle().iter().map(|angle| part.at(*angle)).collect());
@@ -175,12 +175,12 @@ fn under_load(taken: &[Vec<f64>]) -> Contribution {
 
 /// Standard uncertainty (m) of what the load does, root mean square round the circle: that of the curves that each unknown
 /// adds, from their datum; `None` where nothing of it is known.
-fn uncertainty(doubts: &[Vec<f64>], turn: &Turn, experiment: &Experiment) -> Option<f64> {
+fn uncertainty(uncertainties: &[Vec<f64>], turn: &Turn, experiment: &Experiment) -> Option<f64> {
     let of = |curve: &Vec<f64>| {
         let (_, form) = Datum::taken_off(turn, &turn.of_even(curve), experiment.removed);
         turn.rms(&form)
     };
-    (!doubts.is_empty()).then(|| doubts.iter().map(of).fold(0.0, f64::hypot))
+    (!uncertainties.is_empty()).then(|| uncertainties.iter().map(of).fold(0.0, f64::hypot))
 }
 
 /// What is predicted of the path without load beside what the ball-bar saw of it, the way it was cut.

@@ -19,12 +19,12 @@ use armill_core::watch::Watch;
 
 use crate::error::StudyError;
 use crate::file::experiment::Experiment;
-use crate::file::path::PathAsk;
+use crate::file::path::PathAnalysis;
 use crate::file::resolve::{Study, Subject};
 use crate::run::{Done, Found, passes, runner};
 
 /// What was measured, and the path that it was measured on.
-fn circle(study: &Study) -> Result<(&Experiment, &PathAsk), StudyError> {
+fn circle(study: &Study) -> Result<(&Experiment, &PathAnalysis), StudyError> {
     let nothing = || {
         StudyError::value(
             "the study names nothing that was measured",
@@ -32,8 +32,8 @@ fn circle(study: &Study) -> Result<(&Experiment, &PathAsk), StudyError> {
         )
     };
     let experiment = study.experiment.as_ref().ok_or_else(nothing)?;
-    let path = study.asks.iter().find_map(|ask| match &ask.subject {
-        Subject::Path(path) if ask.name == experiment.ask => Some(&**path),
+    let path = study.analyses.iter().find_map(|analysis| match &analysis.subject {
+        Subject::Path(path) if analysis.name == experiment.analysis => Some(&**path),
         _ => None,
     });
     Ok((experiment, path.ok_or_else(nothing)?))
@@ -56,20 +56,20 @@ pub fn budget(study: &Study, watch: Watch<'_>) -> Result<(Combined, BudgetAnswer
     let (experiment, path) = circle(study)?;
     let found = runner(study, watch)?.path(path)?;
     let combined = combine((study, experiment), (path, &found), watch)?;
-    let told = answer(experiment, path, &combined);
-    Ok((combined, told))
+    let given = answer(experiment, path, &combined);
+    Ok((combined, given))
 }
 
 /// The budget beside all that was run; `None` where nothing was measured, a sentence where it cannot be told.
 pub(crate) fn beside(study: &Study, done: &[Done<'_>]) -> Option<Result<(Combined, BudgetAnswer), String>> {
     let experiment = study.experiment.as_ref()?;
-    let found = done.iter().find(|done| done.name == experiment.ask)?;
+    let found = done.iter().find(|done| done.name == experiment.analysis)?;
     let Found::Path(path, found) = &found.found else {
         return None;
     };
     let combined = combine((study, experiment), (path, found), Watch::NONE).map(|combined| {
-        let told = answer(experiment, path, &combined);
-        (combined, told)
+        let given = answer(experiment, path, &combined);
+        (combined, given)
     });
     Some(combined.map_err(|error| match error {
         StudyError::Value { message, .. } => message,

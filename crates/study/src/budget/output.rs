@@ -31,14 +31,14 @@ const TABLE: &str = "budget.csv";
 /// # Errors
 /// The folder or a file cannot be written.
 pub fn write(
-    told: &BudgetAnswer,
+    given: &BudgetAnswer,
     combined: &Combined,
     out: &ResultFolder,
 ) -> Result<Vec<PathBuf>, StudyError> {
-    let pictures = pictures(told, combined);
+    let pictures = pictures(given, combined);
     let files: Vec<String> = pictures.iter().flat_map(picture_files).collect();
     out.allow(files.iter().map(String::as_str).chain([TABLE]))?;
-    out.write(TABLE, &table_csv(told, combined)?)?;
+    out.write(TABLE, &table_csv(given, combined)?)?;
     write_pictures(&pictures, out)?;
     out.finish()?;
     let named = pictures.iter().map(|picture| format!("{}.svg", picture.name));
@@ -50,42 +50,42 @@ pub fn write(
 ///
 /// # Errors
 /// A table that cannot be made, which would be a fault of armill.
-pub fn table_csv(told: &BudgetAnswer, combined: &Combined) -> Result<Vec<u8>, StudyError> {
-    Ok(csv::write(&table_of(told, combined)?))
+pub fn table_csv(given: &BudgetAnswer, combined: &Combined) -> Result<Vec<u8>, StudyError> {
+    Ok(csv::write(&table_of(given, combined)?))
 }
 
 /// Whether a picture of this name is one of [`pictures`] of this ask.
-pub(crate) fn is_of_budget(name: &str, ask: &str) -> bool {
+pub(crate) fn is_of_budget(name: &str, analysis: &str) -> bool {
     let what = name
-        .strip_prefix(&slug(ask))
+        .strip_prefix(&slug(analysis))
         .and_then(|rest| rest.strip_prefix('-'));
     matches!(what, Some("budget" | "measured" | "waves"))
 }
 
 /// The pictures: bars; with a part the circle and its waves.
-pub(crate) fn pictures(told: &BudgetAnswer, combined: &Combined) -> Vec<Picture> {
+pub(crate) fn pictures(given: &BudgetAnswer, combined: &Combined) -> Vec<Picture> {
     let picture = |what: &str, caption: &str, svg: String| Picture {
-        name: format!("{}-{what}", slug(&told.ask)),
-        caption: format!("{}: {caption}", told.ask),
+        name: format!("{}-{what}", slug(&given.analysis)),
+        caption: format!("{}: {caption}", given.analysis),
         svg,
     };
     let mut pictures = vec![
-        picture("budget", "what its radial deviation is made of.", bars(told)),
+        picture("budget", "what its radial deviation is made of.", bars(given)),
         picture(
             "measured",
             "radial deviation, predicted and measured, magnified.",
-            circle(told, combined),
+            circle(given, combined),
         ),
     ];
     pictures.extend(
-        told.part
+        given.part
             .as_ref()
             .filter(|part| !part.waves.is_empty())
             .map(|part| {
                 picture(
                     "waves",
                     "amplitudes of the part and of its prediction.",
-                    waves(told, part),
+                    waves(given, part),
                 )
             }),
     );
@@ -93,25 +93,25 @@ pub(crate) fn pictures(told: &BudgetAnswer, combined: &Combined) -> Vec<Picture>
 }
 
 /// What all curves count from, in a line.
-fn subtitle(told: &BudgetAnswer) -> String {
+fn subtitle(given: &BudgetAnswer) -> String {
     let mut parts = vec![
-        format!("circle of {} mm", crate::number::decimals(told.radius_mm, 3)),
-        told.branch.clone(),
+        format!("circle of {} mm", crate::number::decimals(given.radius_mm, 3)),
+        given.branch.clone(),
     ];
-    for (what, from) in [("centre", told.datum.centre), ("radius", told.datum.radius)] {
+    for (what, from) in [("centre", given.datum.centre), ("radius", given.datum.radius)] {
         parts.push(format!("{what} {from}"));
     }
     parts.join("; ")
 }
 
-fn bars(told: &BudgetAnswer) -> String {
+fn bars(given: &BudgetAnswer) -> String {
     let bar = |label: &str, group: BudgetGroup, largest_um: f64, scatter_um: f64| BudgetBar {
         label: label.to_owned(),
         group,
         largest_um,
         scatter_um,
     };
-    let mut bars: Vec<BudgetBar> = told
+    let mut bars: Vec<BudgetBar> = given
         .contributions
         .iter()
         .map(|one| {
@@ -123,7 +123,7 @@ fn bars(told: &BudgetAnswer) -> String {
             )
         })
         .collect();
-    let sums = &told.sums;
+    let sums = &given.sums;
     let half = (sums.with_scatter_um - sums.as_functions_um).max(0.0) / 2.0;
     bars.push(bar(
         "added with their signs",
@@ -138,7 +138,7 @@ fn bars(told: &BudgetAnswer) -> String {
         0.0,
     ));
     bars.push(bar("plain sum", BudgetGroup::Sum, sums.plain_um, 0.0));
-    if let Some(part) = &told.part {
+    if let Some(part) = &given.part {
         bars.push(bar("part", BudgetGroup::Measured, part.largest_um, 0.0));
         bars.push(bar(
             "not explained",
@@ -148,15 +148,15 @@ fn bars(told: &BudgetAnswer) -> String {
         ));
     }
     let picture = BudgetBars {
-        title: format!("{}: what its error is made of", told.ask),
-        subtitle: subtitle(told),
+        title: format!("{}: what its error is made of", given.analysis),
+        subtitle: subtitle(given),
         quantity: "largest radial deviation (µm)".to_owned(),
         bars,
     };
     picture.to_svg()
 }
 
-fn circle(told: &BudgetAnswer, combined: &Combined) -> String {
+fn circle(given: &BudgetAnswer, combined: &Combined) -> String {
     let balance = &combined.balance;
     let closed = |name: &str, curve: &[f64]| {
         let angle = combined.turn.angle();
@@ -199,8 +199,8 @@ fn circle(told: &BudgetAnswer, combined: &Combined) -> String {
             .map(|beside| closed("path without load, predicted", &beside.predicted)),
     );
     let picture = PolarPlot {
-        title: format!("{}: predicted and measured", told.ask),
-        subtitle: subtitle(told),
+        title: format!("{}: predicted and measured", given.analysis),
+        subtitle: subtitle(given),
         horizontal: "base y".to_owned(),
         vertical: "z′".to_owned(),
         growth: Growth::Left,
@@ -211,7 +211,7 @@ fn circle(told: &BudgetAnswer, combined: &Combined) -> String {
     picture.to_svg()
 }
 
-fn waves(told: &BudgetAnswer, part: &PartAnswer) -> String {
+fn waves(given: &BudgetAnswer, part: &PartAnswer) -> String {
     let wave = |wave: &super::answer::WaveAnswer| WaveBar {
         waves: wave.waves,
         measured_um: wave.measured_um,
@@ -219,7 +219,7 @@ fn waves(told: &BudgetAnswer, part: &PartAnswer) -> String {
         phase_difference_deg: wave.phase_difference_deg,
     };
     let picture = WaveBars {
-        title: format!("{}: wave by wave", told.ask),
+        title: format!("{}: wave by wave", given.analysis),
         subtitle: format!("{:.1} % of the part explained", part.explained_percent),
         names: ["part".to_owned(), "predicted".to_owned()],
         waves: part.waves.iter().map(wave).collect(),
@@ -228,14 +228,14 @@ fn waves(told: &BudgetAnswer, part: &PartAnswer) -> String {
 }
 
 /// What the budget comes to, in a paragraph.
-pub(crate) fn in_words(told: &BudgetAnswer) -> String {
-    let sums = &told.sums;
+pub(crate) fn in_words(given: &BudgetAnswer) -> String {
+    let sums = &given.sums;
     let mut text = format!(
         "{}: the load makes {:.1} µm at most, the path without load {:.1} µm. Added with their signs at every angle they \
          make {:.1} µm, plainly {:.1} µm.",
-        told.ask, sums.load_um, sums.unloaded_um, sums.as_functions_um, sums.plain_um
+        given.analysis, sums.load_um, sums.unloaded_um, sums.as_functions_um, sums.plain_um
     );
-    if let Some(part) = &told.part {
+    if let Some(part) = &given.part {
         text.push_str(&format!(
             " The part is off by {:.1} µm; {:.1} % of its mean square are explained, {:.1} % could be. What is left has {:.1} \
              µm rms, {:.1} µm of it beyond known scatter and uncertainty.",
@@ -250,7 +250,7 @@ pub(crate) fn in_words(told: &BudgetAnswer) -> String {
 }
 
 /// Contributions; waves of the part.
-pub(crate) fn tables(told: &BudgetAnswer) -> Vec<html::Table> {
+pub(crate) fn tables(given: &BudgetAnswer) -> Vec<html::Table> {
     let um = |value: f64| format!("{value:.2}");
     let percent = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |value| format!("{value:.1}"));
     let contributions = html::Table {
@@ -266,7 +266,7 @@ pub(crate) fn tables(told: &BudgetAnswer) -> Vec<html::Table> {
             ("alone", "%"),
             ("without", "%"),
         ]),
-        rows: (told.contributions.iter())
+        rows: (given.contributions.iter())
             .map(|one| {
                 vec![
                     one.name.clone(),
@@ -302,12 +302,12 @@ pub(crate) fn tables(told: &BudgetAnswer) -> Vec<html::Table> {
             })
             .collect(),
     };
-    let waves = told
+    let waves = given
         .part
         .as_ref()
         .filter(|part| !part.waves.is_empty())
         .map(of_part);
-    let beside = told.without_load.as_ref().map(without_load);
+    let beside = given.without_load.as_ref().map(without_load);
     std::iter::once(contributions)
         .chain(beside)
         .chain(waves)
@@ -315,7 +315,7 @@ pub(crate) fn tables(told: &BudgetAnswer) -> Vec<html::Table> {
 }
 
 /// The path without load: what is predicted beside what was measured.
-fn without_load(told: &WithoutLoadAnswer) -> html::Table {
+fn without_load(given: &WithoutLoadAnswer) -> html::Table {
     let row = |name: &str, [most_um, at_deg, rms_um]: [f64; 3], shares: [Option<f64>; 2]| {
         let percent =
             |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |value| format!("{value:.1}"));
@@ -342,20 +342,20 @@ fn without_load(told: &WithoutLoadAnswer) -> html::Table {
         rows: vec![
             row(
                 "measured",
-                [told.measured_um, told.measured_at_deg, told.measured_rms_um],
+                [given.measured_um, given.measured_at_deg, given.measured_rms_um],
                 [None; 2],
             ),
             row(
                 "predicted",
-                [told.predicted_um, told.predicted_at_deg, told.predicted_rms_um],
-                [Some(told.explained_percent), told.likeness_percent],
+                [given.predicted_um, given.predicted_at_deg, given.predicted_rms_um],
+                [Some(given.explained_percent), given.likeness_percent],
             ),
         ],
     }
 }
 
 /// A row an angle.
-fn table_of(told: &BudgetAnswer, combined: &Combined) -> Result<Table, StudyError> {
+fn table_of(given: &BudgetAnswer, combined: &Combined) -> Result<Table, StudyError> {
     let column = |name: String, unit: &str, (decimals, data): (u8, Vec<f64>)| Column {
         name,
         unit: Some(unit.to_owned()),
@@ -372,7 +372,7 @@ fn table_of(told: &BudgetAnswer, combined: &Combined) -> Result<Table, StudyErro
         .collect();
     let mut columns = vec![column("angle_deg".to_owned(), "deg", (4, angle))];
     let balance = &combined.balance;
-    for (one, said) in balance.contributions.iter().zip(&told.contributions) {
+    for (one, said) in balance.contributions.iter().zip(&given.contributions) {
         let name = slug(&said.name).replace('-', "_");
         columns.push(column(format!("{name}_um"), "um", um(&one.bias)));
     }

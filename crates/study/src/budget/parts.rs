@@ -7,7 +7,7 @@ use armill_core::path::{Shape, Track};
 use armill_core::watch::Watch;
 
 use crate::error::StudyError;
-use crate::file::path::PathAsk;
+use crate::file::path::PathAnalysis;
 use crate::file::resolve::Study;
 use crate::run::{PathFound, runner};
 
@@ -19,7 +19,7 @@ pub struct Parts {
     /// What the same path does without it; none where nothing else moves the tool.
     pub without: Option<WithoutLoad>,
     /// Change of the mean of the cases that make the bias by each independent unknown.
-    pub doubts: Vec<Vec<f64>>,
+    pub uncertainties: Vec<Vec<f64>>,
 }
 
 /// The parts of `found`, of whose cases the first `biased` make the bias.
@@ -28,7 +28,7 @@ pub struct Parts {
 /// Those of a run.
 pub fn parts(
     study: &Study,
-    (path, found): (&PathAsk, &PathFound),
+    (path, found): (&PathAnalysis, &PathFound),
     biased: usize,
     watch: Watch<'_>,
 ) -> Result<Parts, StudyError> {
@@ -55,7 +55,7 @@ pub fn parts(
     };
     Ok(Parts {
         load: found.radial.iter().map(|case| of_load(&case.outward)).collect(),
-        doubts: radial_doubts(&question, followed, centre, biased),
+        uncertainties: radial_doubts(&question, followed, centre, biased),
         without,
     })
 }

@@ -35,7 +35,7 @@ pub struct CalibrateAnswer {
     pub prior: Option<PriorAnswer>,
     /// How many of all estimates, base and point included, the poses tell; all without a prior.
     // unit: a count
-    pub told_by_poses: f64,
+    pub effective_parameters: f64,
     /// Standard deviation of a single reading about what was found.
     pub standard_deviation_mm: f64,
     /// Columns that were passed over.
@@ -65,7 +65,7 @@ pub struct SetAnswer {
     /// How many.
     pub poses: usize,
     /// Whether base and tool were found anew for them.
-    pub frames_found_anew: bool,
+    pub frames_refitted: bool,
     /// Poses with a joint beyond the range of the poses that the geometry was found from.
     pub beyond_found_range: usize,
     /// By the robot file as it is.
@@ -120,9 +120,9 @@ pub struct ParameterAnswer {
     /// Standard uncertainty.
     pub u_deg: Option<f64>,
     /// Of the zero of a joint that turns: how much farther it stands than its controller counts, in the controller's sense.
-    pub beyond_counted_deg: Option<f64>,
+    pub offset_deg: Option<f64>,
     /// Of the zero of a joint that slides.
-    pub beyond_counted_mm: Option<f64>,
+    pub offset_mm: Option<f64>,
 }
 
 /// A motion that cannot be told.
@@ -176,11 +176,11 @@ pub fn answer(robot: &Robot, calibration: &Calibration, question: &Question) -> 
         tracker_from_base: frame(Place::Base, &after.tracker_from_base),
         flange_from_point: frame(Place::Tool, &after.flange_from_point),
         prior: question.prior.map(|prior| PriorAnswer {
-            length_mm: told(prior.length * 1e3),
-            angle_deg: told(prior.angle.to_degrees()),
+            length_mm: reported(prior.length * 1e3),
+            angle_deg: reported(prior.angle.to_degrees()),
         }),
-        told_by_poses: decimals(after.told, 3),
-        standard_deviation_mm: told(after.standard_deviation * 1e3),
+        effective_parameters: decimals(after.reported, 3),
+        standard_deviation_mm: reported(after.standard_deviation * 1e3),
         unused: calibration.unused.clone(),
         not_measured: calibration.not_measured,
         notes,
@@ -208,7 +208,7 @@ fn notes(calibration: &Calibration, question: &Question) -> Vec<String> {
     }
     match &calibration.held_out {
         None => notes.push("no poses were held out: how well others are met is not known (--hold-out)".to_owned()),
-        Some(set) if set.frames_found_anew => notes.push(
+        Some(set) if set.frames_refitted => notes.push(
             "held out from another set-up: base and measured point are fitted to these poses, before and after alike; \
              the chain is not"
                 .to_owned(),
@@ -239,13 +239,13 @@ fn set_answer(set: &Set) -> SetAnswer {
     let rms = set.after.of_position().map_or(0.0, |spread| spread.rms);
     let pose = |place: &usize| PoseAnswer {
         line: set.lines[*place],
-        error_mm: told(lengths[*place] * 1e3),
+        error_mm: reported(lengths[*place] * 1e3),
         stands_out: lengths[*place] > STANDS_OUT * rms,
     };
     SetAnswer {
         file: set.file.clone(),
         poses: lengths.len(),
-        frames_found_anew: set.frames_found_anew,
+        frames_refitted: set.frames_refitted,
         beyond_found_range: set.beyond,
         before: errors_answer(&set.before),
         after: errors_answer(&set.after),
@@ -264,12 +264,12 @@ pub(crate) fn errors_answer(errors: &PoseErrors) -> ErrorsAnswer {
     let turn = errors.of_turn();
     let by_axis = errors.rms_by_axis();
     ErrorsAnswer {
-        mean_mm: told(position.mean * 1e3),
-        rms_mm: told(position.rms * 1e3),
-        max_mm: told(position.largest * 1e3),
-        rms_xyz_mm: [0, 1, 2].map(|axis| told(by_axis[axis] * 1e3)),
-        turn_mean_deg: turn.map(|turn| told(turn.mean.to_degrees())),
-        turn_max_deg: turn.map(|turn| told(turn.largest.to_degrees())),
+        mean_mm: reported(position.mean * 1e3),
+        rms_mm: reported(position.rms * 1e3),
+        max_mm: reported(position.largest * 1e3),
+        rms_xyz_mm: [0, 1, 2].map(|axis| reported(by_axis[axis] * 1e3)),
+        turn_mean_deg: turn.map(|turn| reported(turn.mean.to_degrees())),
+        turn_max_deg: turn.map(|turn| reported(turn.largest.to_degrees())),
     }
 }
 
@@ -283,10 +283,10 @@ pub(crate) fn frame_answer(estimates: &[Estimate], place: Place, isometry: &Isom
     let at = isometry.translation.vector;
     let turned = fixed_angles(&isometry.rotation);
     FrameAnswer {
-        at_mm: [0, 1, 2].map(|axis| told(at[axis] * 1e3)),
-        at_u_mm: [0, 1, 2].map(|axis| u(axis).map(|u| told(u * 1e3))),
-        turned_deg: [0, 1, 2].map(|axis| told(turned[axis].to_degrees())),
-        turned_u_deg: [3, 4, 5].map(|axis| u(axis).map(|u| told(u.to_degrees()))),
+        at_mm: [0, 1, 2].map(|axis| reported(at[axis] * 1e3)),
+        at_u_mm: [0, 1, 2].map(|axis| u(axis).map(|u| reported(u * 1e3))),
+        turned_deg: [0, 1, 2].map(|axis| reported(turned[axis].to_degrees())),
+        turned_u_deg: [3, 4, 5].map(|axis| u(axis).map(|u| reported(u.to_degrees()))),
     }
 }
 
@@ -299,8 +299,8 @@ fn parameter(robot: &Robot, estimate: &Estimate) -> ParameterAnswer {
         }
         _ => None,
     };
-    let length = |length: f64| (!turns).then(|| told(length * 1e3));
-    let angle = |angle: f64| turns.then(|| told(angle.to_degrees()));
+    let length = |length: f64| (!turns).then(|| reported(length * 1e3));
+    let angle = |angle: f64| turns.then(|| reported(angle.to_degrees()));
     ParameterAnswer {
         name: unknown_name(robot, &estimate.unknown),
         zero: estimate.unknown.is_zero_of(robot),
@@ -308,8 +308,8 @@ fn parameter(robot: &Robot, estimate: &Estimate) -> ParameterAnswer {
         u_mm: length(u),
         value_deg: angle(value),
         u_deg: angle(u),
-        beyond_counted_deg: counted.and_then(angle),
-        beyond_counted_mm: counted.and_then(length),
+        offset_deg: counted.and_then(angle),
+        offset_mm: counted.and_then(length),
     }
 }
 
@@ -325,6 +325,6 @@ fn unknown_name(robot: &Robot, unknown: &Unknown) -> String {
 }
 
 /// A number in mm or deg to a nanometre, or a microdegree.
-pub(crate) fn told(value: f64) -> f64 {
+pub(crate) fn reported(value: f64) -> f64 {
     decimals(value, 6)
 }

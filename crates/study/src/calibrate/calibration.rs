@@ -3,7 +3,7 @@
 
 use armill_core::calibrate::{Asked, Calibrated, MeasuredPose, PoseErrors, Refusal, fit};
 use armill_core::robot::Robot;
-use armill_formats::measurement::poses::{Measured, Told};
+use armill_formats::measurement::poses::{MeasuredPoses, PoseReadOptions};
 
 use super::question::{HoldOut, Question, read};
 use crate::StudyError;
@@ -23,7 +23,7 @@ pub struct Set {
     /// By the calibrated chain.
     pub after: PoseErrors,
     /// Whether base and tool were found anew for these poses.
-    pub frames_found_anew: bool,
+    pub frames_refitted: bool,
     /// Poses with a joint beyond the range of the poses that the geometry was found from.
     pub beyond: usize,
 }
@@ -51,9 +51,9 @@ pub struct Calibration {
 /// Poses that tell too little or belong to another arm; a hold-out that cannot be read or leaves too few.
 pub fn calibrate(
     robot: &Robot,
-    (shown, measured): (&str, &Measured),
+    (shown, measured): (&str, &MeasuredPoses),
     question: &Question,
-    (hold_out, told): (&HoldOut, &Told),
+    (hold_out, given): (&HoldOut, &PoseReadOptions),
 ) -> Result<Calibration, StudyError> {
     let (kept, apart) = parted(shown, measured.poses.len(), hold_out)?;
     let chosen = |places: &[usize]| -> Vec<MeasuredPose> {
@@ -64,15 +64,15 @@ pub fn calibrate(
     };
     let lines = |places: &[usize]| places.iter().map(|place| measured.lines[*place]).collect();
     let poses = chosen(&kept);
-    let by = |poses: &[MeasuredPose], asked| fit(robot, poses, &question.for_core(asked));
+    let by = |poses: &[MeasuredPose], requested| fit(robot, poses, &question.for_core(requested));
     let before = by(&poses, Asked::BaseAndTool).map_err(|error| refused(shown, &error))?;
-    let after = by(&poses, question.asked).map_err(|error| refused(shown, &error))?;
+    let after = by(&poses, question.requested).map_err(|error| refused(shown, &error))?;
     let training = Set {
         file: shown.to_owned(),
         lines: lines(&kept),
         before: before.errors.clone(),
         after: after.errors.clone(),
-        frames_found_anew: false,
+        frames_refitted: false,
         beyond: 0,
     };
     let found_from = poses;
@@ -83,7 +83,7 @@ pub fn calibrate(
             lines,
             before: errors(&before)?,
             after: errors(&after)?,
-            frames_found_anew: false,
+            frames_refitted: false,
             beyond: beyond(&found_from, poses),
         })
     };
@@ -92,7 +92,7 @@ pub fn calibrate(
         HoldOut::Fraction(_) => Some(judged(shown, &chosen(&apart), lines(&apart))?),
         HoldOut::File { path, same_set_up } => {
             let file = path.display().to_string();
-            let other = read((&file, path), robot, told, question)?;
+            let other = read((&file, path), robot, given, question)?;
             Some(match same_set_up {
                 true => judged(&file, &other.poses, other.lines)?,
                 false => Set {
@@ -116,7 +116,7 @@ pub fn calibrate(
 fn elsewhere(
     robot: &Robot,
     after: &Calibrated,
-    (file, other): (&str, Measured),
+    (file, other): (&str, MeasuredPoses),
     question: &Question,
 ) -> Result<Set, StudyError> {
     let calibrated = after
@@ -133,7 +133,7 @@ fn elsewhere(
         before: errors(robot)?,
         after: errors(&calibrated)?,
         lines: other.lines,
-        frames_found_anew: true,
+        frames_refitted: true,
         beyond: 0,
     })
 }

@@ -45,7 +45,7 @@ pub fn residuals(calibration: &Calibration) -> String {
 }
 
 /// Errors of position before and after, as SVG.
-pub fn drawing(told: &CalibrateAnswer, calibration: &Calibration) -> String {
+pub fn drawing(given: &CalibrateAnswer, calibration: &Calibration) -> String {
     let lengths = |errors: &PoseErrors| errors.position.iter().map(|e| e.norm() * 1e3).collect();
     let of = |name: &str, set: &Set| ErrorSet {
         name: name.to_owned(),
@@ -54,13 +54,13 @@ pub fn drawing(told: &CalibrateAnswer, calibration: &Calibration) -> String {
     };
     let mut sets = vec![of("found from", &calibration.training)];
     sets.extend(calibration.held_out.as_ref().map(|set| of("held out", set)));
-    let held_out = match &told.held_out {
+    let held_out = match &given.held_out {
         Some(set) => format!(", {} held out", set.poses),
         None => String::new(),
     };
     ErrorDistribution {
-        title: format!("{}: errors of position", told.robot),
-        subtitle: format!("{} poses found from{held_out}", told.training.poses),
+        title: format!("{}: errors of position", given.robot),
+        subtitle: format!("{} poses found from{held_out}", given.training.poses),
         quantity: "distance of measured from predicted (mm)".to_owned(),
         sets,
     }

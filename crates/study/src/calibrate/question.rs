@@ -8,7 +8,7 @@ use armill_core::frame::Isometry;
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::Robot;
 use armill_formats::input;
-use armill_formats::measurement::poses::{self, Measured, Told};
+use armill_formats::measurement::poses::{self, MeasuredPoses, PoseReadOptions};
 
 use crate::StudyError;
 
@@ -32,7 +32,7 @@ pub enum HoldOut {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
     /// Of the chain.
-    pub asked: Asked,
+    pub requested: Asked,
     /// About where the measured point is, flange frame, m.
     pub tool_point: Vector3<f64>,
     /// So many metres count as much as a radian of turn; without it turns are passed over.
@@ -43,9 +43,9 @@ pub struct Question {
 
 impl Question {
     /// In the words of the core.
-    pub(crate) fn for_core(&self, asked: Asked) -> calibrate::Question {
+    pub(crate) fn for_core(&self, requested: Asked) -> calibrate::Question {
         calibrate::Question {
-            asked,
+            requested,
             flange_from_point: Isometry::from_parts(self.tool_point.into(), Default::default()),
             // Where no turn is given, nothing is weighed by it.
             turn_length: self.turn_length.unwrap_or(1.0),
@@ -61,16 +61,16 @@ impl Question {
 pub fn read(
     (shown, path): (&str, &Path),
     robot: &Robot,
-    told: &Told,
+    given: &PoseReadOptions,
     question: &Question,
-) -> Result<Measured, StudyError> {
+) -> Result<MeasuredPoses, StudyError> {
     let file = input::open(path).map_err(|error| {
         StudyError::value(
             format!("cannot read {shown}: {error}"),
             "a table with joint positions and measured points: q1_deg, ..., x_mm, y_mm, z_mm",
         )
     })?;
-    let mut measured = poses::read(shown, BufReader::new(file), robot, told)?;
+    let mut measured = poses::read(shown, BufReader::new(file), robot, given)?;
     if question.turn_length.is_none() {
         measured.poses.iter_mut().for_each(|pose| pose.rotation = None);
     } else if measured.poses.iter().any(|pose| pose.rotation.is_none()) {

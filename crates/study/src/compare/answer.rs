@@ -1,6 +1,6 @@
 //! The comparison as one JSON value.
 //!
-//! `cells[]` are what was compared, in the order given; `asks[]` what they were asked alike, paths first, each with its
+//! `cells[]` are what was compared, in the order given; `analyses[]` what they were asked alike, paths first, each with its
 //! cells best first.
 
 use std::cmp::Ordering;
@@ -15,7 +15,7 @@ use super::sentence;
 use super::traits::TraitAnswer;
 use super::{Comparable, Compared, Entry};
 use crate::answer::StudyAnswer;
-use crate::file::path::PathAsk;
+use crate::file::path::PathAnalysis;
 use crate::file::resolve::Subject;
 
 /// The whole comparison.
@@ -30,7 +30,7 @@ pub struct ComparisonAnswer {
     /// What was compared.
     pub cells: Vec<CellAnswer>,
     /// What was asked of two cells at least.
-    pub asks: Vec<ComparedAnswer>,
+    pub analyses: Vec<ComparedAnswer>,
     /// What was not compared, a sentence each.
     pub left_out: Vec<String>,
     /// What to know before trusting it, with the cell that it is about.
@@ -99,8 +99,8 @@ pub(super) fn put_together(of: &Comparable, entries: Vec<Entry>, cells: Vec<Cell
     let mut groups: Vec<Vec<Entry>> = Vec::new();
     for entry in entries {
         let same = |group: &&mut Vec<Entry>| {
-            let first = group.first().map(|first| (&first.asked.name, first.asked.kind));
-            first == Some((&entry.asked.name, entry.asked.kind))
+            let first = group.first().map(|first| (&first.requested.name, first.requested.kind));
+            first == Some((&entry.requested.name, entry.requested.kind))
         };
         match groups.iter_mut().find(same) {
             Some(group) => group.push(entry),
@@ -108,28 +108,28 @@ pub(super) fn put_together(of: &Comparable, entries: Vec<Entry>, cells: Vec<Cell
         }
     }
     let place = |group: &Vec<Entry>| {
-        let kind = group.first().map(|first| first.asked.kind);
+        let kind = group.first().map(|first| first.requested.kind);
         ["path", "holes", "map", "volume"]
             .into_iter()
             .position(|one| Some(one) == kind)
     };
     groups.sort_by_key(place);
-    let (mut asks, mut curves, mut left_out) = (Vec::new(), Vec::new(), of.left_out.clone());
+    let (mut analyses, mut curves, mut left_out) = (Vec::new(), Vec::new(), of.left_out.clone());
     for group in groups {
         if let [alone] = &group[..] {
             let name = &cells[alone.cell].name;
-            left_out.push(format!("`{}` is asked of {name} alone.", alone.asked.name));
+            left_out.push(format!("`{}` is asked of {name} alone.", alone.requested.name));
             continue;
         }
-        let (told, drawn) = compared(of, group, &cells);
-        asks.push(told);
+        let (given, drawn) = compared(of, group, &cells);
+        analyses.push(given);
         curves.push(drawn);
     }
     let answer = ComparisonAnswer {
         format: 1,
         armill: env!("CARGO_PKG_VERSION"),
-        answer: asks.first().map_or_else(String::new, in_a_sentence),
-        asks,
+        answer: analyses.first().map_or_else(String::new, in_a_sentence),
+        analyses,
         left_out,
         warnings: warnings(&cells),
         sources: sources(&cells),
@@ -150,10 +150,10 @@ fn in_a_sentence(first: &ComparedAnswer) -> String {
 fn compared(of: &Comparable, mut group: Vec<Entry>, cells: &[CellAnswer]) -> (ComparedAnswer, Vec<Curve>) {
     let first = group
         .first()
-        .map(|entry| (entry.asked.name.clone(), entry.asked.kind));
+        .map(|entry| (entry.requested.name.clone(), entry.requested.kind));
     let (name, kind) = first.unwrap_or_default();
     let mut notes = unlike_paths(of, &group, &name);
-    group.sort_by(|a, b| better(&a.asked.numbers, &b.asked.numbers));
+    group.sort_by(|a, b| better(&a.requested.numbers, &b.requested.numbers));
     let traits = traits(&group);
     let (mut numbers, mut curves) = (Vec::new(), Vec::new());
     for entry in group {
@@ -162,7 +162,7 @@ fn compared(of: &Comparable, mut group: Vec<Entry>, cells: &[CellAnswer]) -> (Co
             cell: cell.name.clone(),
             robot: cell.robot.clone(),
             compliance_assumed: cell.compliance_assumed,
-            ..entry.asked.numbers
+            ..entry.requested.numbers
         });
         curves.extend(entry.curve);
     }
@@ -171,8 +171,8 @@ fn compared(of: &Comparable, mut group: Vec<Entry>, cells: &[CellAnswer]) -> (Co
         let mut arms = traits.iter().filter(of_arm);
         arms.all(|one| one.of[index] == one.of[index + 1])
     };
-    notes.extend(sentence::doubts(&numbers, same_arm));
-    let told = ComparedAnswer {
+    notes.extend(sentence::uncertainties(&numbers, same_arm));
+    let given = ComparedAnswer {
         answer: sentence::ranking(&name, kind, &numbers),
         name,
         kind,
@@ -180,7 +180,7 @@ fn compared(of: &Comparable, mut group: Vec<Entry>, cells: &[CellAnswer]) -> (Co
         traits,
         notes,
     };
-    (told, curves)
+    (given, curves)
 }
 
 /// Which of two cells is better: `Less` where `a` is.
@@ -214,10 +214,10 @@ const SAME: f64 = 1e-6;
 /// Paths of one name that are not one path, told against the first; each in its own frame, wherever that lies.
 fn unlike_paths(of: &Comparable, group: &[Entry], name: &str) -> Vec<String> {
     let path = |entry: &Entry| {
-        let asks = &of.cells[entry.cell].study.asks;
-        asks.iter().find_map(|ask| match &ask.subject {
-            Subject::Path(path) if ask.name == name => Some(&**path),
-            Subject::Holes(holes) if ask.name == name => Some(&holes.path),
+        let analyses = &of.cells[entry.cell].study.analyses;
+        analyses.iter().find_map(|analysis| match &analysis.subject {
+            Subject::Path(path) if analysis.name == name => Some(&**path),
+            Subject::Holes(holes) if analysis.name == name => Some(&holes.path),
             _ => None,
         })
     };
@@ -232,7 +232,7 @@ fn unlike_paths(of: &Comparable, group: &[Entry], name: &str) -> Vec<String> {
         if reference.track.len() == other.track.len() && apart <= SAME {
             return None;
         }
-        let size = |path: &PathAsk| format!("{} points over {:.1} mm", path.track.len(), path.length() * 1e3);
+        let size = |path: &PathAnalysis| format!("{} points over {:.1} mm", path.track.len(), path.length() * 1e3);
         let how = match reference.track.len() == other.track.len() {
             true => format!("points lie up to {:.3} mm apart", apart * 1e3),
             false => format!("{} against {}", size(reference), size(other)),
@@ -246,7 +246,7 @@ fn unlike_paths(of: &Comparable, group: &[Entry], name: &str) -> Vec<String> {
 
 /// Warnings of the cells: once what all say, else with the cell's name.
 fn warnings(cells: &[CellAnswer]) -> Vec<String> {
-    let mut told = Vec::new();
+    let mut given = Vec::new();
     for cell in cells {
         for warning in &cell.warnings {
             let all = cells.iter().all(|other| other.warnings.contains(warning));
@@ -255,21 +255,21 @@ fn warnings(cells: &[CellAnswer]) -> Vec<String> {
             } else {
                 format!("{}: {warning}", cell.name)
             };
-            if !told.contains(&said) {
-                told.push(said);
+            if !given.contains(&said) {
+                given.push(said);
             }
         }
     }
-    told
+    given
 }
 
 /// Sources of all cells, each once.
 fn sources(cells: &[CellAnswer]) -> Vec<Source> {
-    let mut told: Vec<Source> = Vec::new();
+    let mut given: Vec<Source> = Vec::new();
     for source in cells.iter().flat_map(|cell| &cell.sources) {
-        if !told.contains(source) {
-            told.push(source.clone());
+        if !given.contains(source) {
+            given.push(source.clone());
         }
     }
-    told
+    given
 }

@@ -25,36 +25,36 @@ pub(super) fn kind(subject: &Subject) -> &'static str {
 /// # Errors
 /// Nothing is left.
 pub(super) fn keep(cells: &mut [Cell]) -> Result<Vec<String>, StudyError> {
-    let asked: Vec<Vec<(String, &'static str)>> = cells
+    let requested: Vec<Vec<(String, &'static str)>> = cells
         .iter()
-        .map(|cell| cell.study.asks.iter().map(named).collect())
+        .map(|cell| cell.study.analyses.iter().map(named).collect())
         .collect();
-    let others = |cell: usize, ask: &Ask| {
-        let all = asked.iter().enumerate();
-        all.filter(|(other, asks)| *other != cell && asks.contains(&named(ask)))
+    let others = |cell: usize, analysis: &Ask| {
+        let all = requested.iter().enumerate();
+        all.filter(|(other, analyses)| *other != cell && analyses.contains(&named(analysis)))
             .count()
     };
     let mut left_out = Vec::new();
     for (index, cell) in cells.iter_mut().enumerate() {
         let name = cell.name.clone();
-        let alone = cell.study.asks.iter().filter(|ask| others(index, ask) == 0);
-        left_out.extend(alone.map(|ask| {
+        let alone = cell.study.analyses.iter().filter(|analysis| others(index, analysis) == 0);
+        left_out.extend(alone.map(|analysis| {
             format!(
                 "{} `{}` is asked of {name} alone and left out.",
-                kind(&ask.subject),
-                ask.name
+                kind(&analysis.subject),
+                analysis.name
             )
         }));
-        cell.study.asks.retain(|ask| others(index, ask) > 0);
+        cell.study.analyses.retain(|analysis| others(index, analysis) > 0);
     }
-    if cells.iter().all(|cell| cell.study.asks.is_empty()) {
-        let of = cells.iter().zip(&asked).map(|(cell, asks)| {
-            let names: Vec<String> = asks
+    if cells.iter().all(|cell| cell.study.analyses.is_empty()) {
+        let of = cells.iter().zip(&requested).map(|(cell, analyses)| {
+            let names: Vec<String> = analyses
                 .iter()
                 .take(LISTED)
                 .map(|(name, kind)| format!("{kind} `{name}`"))
                 .collect();
-            let more = if asks.len() > LISTED { ", ..." } else { "" };
+            let more = if analyses.len() > LISTED { ", ..." } else { "" };
             format!("{} asks for {}{more}", cell.name, names.join(", "))
         });
         let of: Vec<String> = of.collect();
@@ -65,6 +65,6 @@ pub(super) fn keep(cells: &mut [Cell]) -> Result<Vec<String>, StudyError> {
     Ok(left_out)
 }
 
-fn named(ask: &Ask) -> (String, &'static str) {
-    (ask.name.clone(), kind(&ask.subject))
+fn named(analysis: &Ask) -> (String, &'static str) {
+    (analysis.name.clone(), kind(&analysis.subject))
 }

@@ -206,10 +206,10 @@ fn together(errors: Vec<StudyError>) -> Result<(), StudyError> {
         }
     }
     // Each with its own hint, as if they were told one after the other.
-    let told = values.into_iter().reduce(|[first, hint], [message, next_hint]| {
+    let reported = values.into_iter().reduce(|[first, hint], [message, next_hint]| {
         [format!("{first}\n  help: {hint}\nerror: {message}"), next_hint]
     });
-    if let Some([message, hint]) = told {
+    if let Some([message, hint]) = reported {
         return Err(StudyError::value(message, hint));
     }
     Ok(Problems::from(problems).into_result()?)

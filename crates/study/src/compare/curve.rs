@@ -2,7 +2,7 @@
 
 use armill_core::kernel::Answers;
 
-use crate::file::path::PathAsk;
+use crate::file::path::PathAnalysis;
 use crate::output::along::Handfuls;
 
 /// Deviation over distance.
@@ -16,11 +16,11 @@ pub(super) struct Curve {
 
 impl Curve {
     /// Along this path.
-    pub(super) fn along(ask: &PathAsk, answers: &Answers) -> Curve {
-        let points = &ask.track.path.points;
+    pub(super) fn along(analysis: &PathAnalysis, answers: &Answers) -> Curve {
+        let points = &analysis.track.path.points;
         let handfuls = Handfuls::of(points.len());
         let in_plane = |i: usize| match &answers.points[i] {
-            Ok(held) => held.in_plane * 1e6,
+            Ok(evaluation) => evaluation.in_plane * 1e6,
             Err(_) => f64::NAN,
         };
         Curve {

@@ -73,7 +73,7 @@ impl Comparable {
 /// What one cell gave to one name.
 struct Entry {
     cell: usize,
-    asked: Asked,
+    requested: Asked,
     traits: Vec<(&'static str, String)>,
     curve: Option<Curve>,
 }
@@ -84,14 +84,14 @@ struct Entry {
 /// Those of a run; cancelled by the watch.
 pub fn compare(of: &Comparable, watch: Watch<'_>) -> Result<Compared, StudyError> {
     let mut entries: Vec<Entry> = Vec::new();
-    let mut told = Vec::new();
+    let mut given = Vec::new();
     for (cell, here) in of.cells.iter().enumerate() {
         let done = run(&here.study, watch)?;
         let answer = answer_study(&here.study, &done);
         entries.extend(of_cell(cell, &here.study, &done, &answer));
-        told.push(CellAnswer::of(here, &answer));
+        given.push(CellAnswer::of(here, &answer));
     }
-    Ok(answer::put_together(of, entries, told))
+    Ok(answer::put_together(of, entries, given))
 }
 
 /// What one cell has to say of each name.
@@ -99,10 +99,10 @@ fn of_cell(cell: usize, study: &Study, done: &[Done<'_>], answer: &StudyAnswer) 
     let (mut maps, mut paths) = (answer.maps.iter(), answer.paths.iter());
     let (mut volumes, mut holes) = (answer.volumes.iter(), answer.holes.iter());
     let mut entries = Vec::new();
-    let mut add = |asked: Option<Asked>, traits: Vec<(&'static str, String)>, curve| {
-        entries.extend(asked.map(|asked| Entry {
+    let mut add = |requested: Option<Asked>, traits: Vec<(&'static str, String)>, curve| {
+        entries.extend(requested.map(|requested| Entry {
             cell,
-            asked,
+            requested,
             traits,
             curve,
         }));
@@ -110,38 +110,38 @@ fn of_cell(cell: usize, study: &Study, done: &[Done<'_>], answer: &StudyAnswer) 
     for done in done {
         match &done.found {
             Found::Map(sheet, map) => {
-                let asked = maps
+                let requested = maps
                     .next()
-                    .map(|told| Asked::map(told, sheet.setting.limit, &map.answers));
-                add(asked, traits::of_sheet(study, sheet), None);
+                    .map(|given| Asked::map(given, sheet.setting.limit, &map.answers));
+                add(requested, traits::of_sheet(study, sheet), None);
             }
             Found::Sections(sections) => {
                 for section in sections {
                     let limit = section.sheet.setting.limit;
-                    let asked = maps
+                    let requested = maps
                         .next()
-                        .map(|told| Asked::map(told, limit, &section.map.answers));
-                    add(asked, traits::of_sheet(study, section.sheet), None);
+                        .map(|given| Asked::map(given, limit, &section.map.answers));
+                    add(requested, traits::of_sheet(study, section.sheet), None);
                 }
             }
             Found::Volume(setting, volume) => {
-                let asked = volumes
+                let requested = volumes
                     .next()
-                    .map(|told| Asked::volume(told, setting.limit, &volume.answers));
-                add(asked, traits::of_volume(study, setting, volume), None);
+                    .map(|given| Asked::volume(given, setting.limit, &volume.answers));
+                add(requested, traits::of_volume(study, setting, volume), None);
             }
-            Found::Path(ask, found) => {
-                let asked = paths
+            Found::Path(analysis, found) => {
+                let requested = paths
                     .next()
-                    .map(|told| Asked::path(told, (ask, &found.along.answers)));
-                let curve = Curve::along(ask, &found.along.answers);
-                add(asked, traits::of_path(study, ask), Some(curve));
+                    .map(|given| Asked::path(given, (analysis, &found.along.answers)));
+                let curve = Curve::along(analysis, &found.along.answers);
+                add(requested, traits::of_path(study, analysis), Some(curve));
             }
-            Found::Holes(ask, found) => {
-                let asked = holes
+            Found::Holes(analysis, found) => {
+                let requested = holes
                     .next()
-                    .map(|told| Asked::holes(told, ask.path.setting.limit, &found.answers));
-                add(asked, traits::of_holes(study, ask), None);
+                    .map(|given| Asked::holes(given, analysis.path.setting.limit, &found.answers));
+                add(requested, traits::of_holes(study, analysis), None);
             }
         }
     }

@@ -10,7 +10,7 @@ use serde::Serialize;
 use crate::answer::{
     CountsAnswer, HolesAnswer, MapAnswer, PathAnswer, PointAnswer, SettingAnswer, VolumeAnswer,
 };
-use crate::file::path::PathAsk;
+use crate::file::path::PathAnalysis;
 
 /// One ask in one cell.
 #[derive(Clone, Debug, Serialize)]
@@ -32,7 +32,7 @@ pub struct CellNumbers {
     /// Points by reason.
     pub counts: CountsAnswer,
     /// The tolerance.
-    pub limit_um: f64,
+    pub tolerance_um: f64,
     /// Mean of the in-plane deviations.
     pub mean_in_plane_um: Option<f64>,
     /// The in-plane deviation that 95 of 100 points keep.
@@ -65,45 +65,45 @@ pub(super) struct Asked {
 
 impl Asked {
     /// A path.
-    pub(super) fn path(told: &PathAnswer, (ask, answers): (&PathAsk, &Answers)) -> Asked {
-        let branch = told.followed_branch.as_ref().unwrap_or(&told.branch);
+    pub(super) fn path(given: &PathAnswer, (analysis, answers): (&PathAnalysis, &Answers)) -> Asked {
+        let branch = given.followed_branch.as_ref().unwrap_or(&given.branch);
         Asked {
-            name: told.name.clone(),
+            name: given.name.clone(),
             kind: "path",
             numbers: numbers(
-                (branch, ask.setting.limit),
+                (branch, analysis.setting.limit),
                 answers,
-                told.worst.as_ref(),
-                &told.setting,
+                given.worst.as_ref(),
+                &given.setting,
             ),
         }
     }
 
     /// A set of holes against a limit, m.
-    pub(super) fn holes(told: &HolesAnswer, limit: f64, answers: &Answers) -> Asked {
-        let worst = told.worst_holes.first().map(|worst| &worst.point);
+    pub(super) fn holes(given: &HolesAnswer, limit: f64, answers: &Answers) -> Asked {
+        let worst = given.worst_holes.first().map(|worst| &worst.point);
         Asked {
-            name: told.name.clone(),
+            name: given.name.clone(),
             kind: "holes",
-            numbers: numbers((&told.branch, limit), answers, worst, &told.setting),
+            numbers: numbers((&given.branch, limit), answers, worst, &given.setting),
         }
     }
 
     /// A plane against a limit, m.
-    pub(super) fn map(told: &MapAnswer, limit: f64, answers: &Answers) -> Asked {
+    pub(super) fn map(given: &MapAnswer, limit: f64, answers: &Answers) -> Asked {
         Asked {
-            name: told.name.clone(),
+            name: given.name.clone(),
             kind: "map",
-            numbers: numbers((&told.branch, limit), answers, told.worst.as_ref(), &told.setting),
+            numbers: numbers((&given.branch, limit), answers, given.worst.as_ref(), &given.setting),
         }
     }
 
     /// A box against a limit, m.
-    pub(super) fn volume(told: &VolumeAnswer, limit: f64, answers: &Answers) -> Asked {
+    pub(super) fn volume(given: &VolumeAnswer, limit: f64, answers: &Answers) -> Asked {
         Asked {
-            name: told.name.clone(),
+            name: given.name.clone(),
             kind: "volume",
-            numbers: numbers((&told.branch, limit), answers, told.worst.as_ref(), &told.setting),
+            numbers: numbers((&given.branch, limit), answers, given.worst.as_ref(), &given.setting),
         }
     }
 }
@@ -116,11 +116,11 @@ fn numbers(
     setting: &SettingAnswer,
 ) -> CellNumbers {
     let counts = Counts::of(answers, limit);
-    let mut deviations: Vec<f64> = answers.held().map(|(_, held)| held.in_plane * 1e6).collect();
+    let mut deviations: Vec<f64> = answers.evaluation().map(|(_, evaluation)| evaluation.in_plane * 1e6).collect();
     deviations.sort_by(f64::total_cmp);
     let reached = deviations.len();
-    let normal = answers.held().map(|(_, held)| held.normal.abs() * 1e6);
-    let share = worst.and_then(|worst| worst.mostly_by(&setting.shares_of));
+    let normal = answers.evaluation().map(|(_, evaluation)| evaluation.normal.abs() * 1e6);
+    let share = worst.and_then(|worst| worst.mostly_by(&setting.contributors));
     CellNumbers {
         cell: String::new(),
         robot: String::new(),
@@ -129,7 +129,7 @@ fn numbers(
         points: answers.points.len(),
         reached,
         inside_joint_limits: reached - counts.outside_joint_limits,
-        limit_um: setting.limit_um,
+        tolerance_um: setting.tolerance_um,
         mean_in_plane_um: (reached > 0).then(|| deviations.iter().sum::<f64>() / reached as f64),
         p95_in_plane_um: nearest_rank(&deviations, 0.95),
         max_in_plane_um: deviations.last().copied(),

@@ -31,14 +31,14 @@ const TABLE: &str = "cells.csv";
 /// A file cannot be written.
 pub fn write(
     compared: &Compared,
-    (out, wanted): (&ResultFolder, Pictures),
+    (out, requested): (&ResultFolder, Pictures),
     note: &(dyn Fn(&str) + Sync),
 ) -> Result<Vec<PathBuf>, StudyError> {
-    let drawn = match wanted {
+    let drawn = match requested {
         Pictures::Drawn => pictures(compared),
         Pictures::None => Vec::new(),
     };
-    let report = (wanted == Pictures::Drawn).then(|| REPORT.to_owned());
+    let report = (requested == Pictures::Drawn).then(|| REPORT.to_owned());
     let names: Vec<String> = [TABLE.to_owned()]
         .into_iter()
         .chain(drawn.iter().flat_map(picture_files))
@@ -48,7 +48,7 @@ pub fn write(
     replace((out, &names), (&compared.answer, note), |files| {
         files.save(TABLE, &csv::write(&table(&compared.answer)?))?;
         save_pictures(&drawn, files)?;
-        if wanted == Pictures::Drawn {
+        if requested == Pictures::Drawn {
             files.save(REPORT, html(&compared.answer, &drawn).as_bytes())?;
         }
         Ok(())
@@ -58,9 +58,9 @@ pub fn write(
 /// A row an ask and cell.
 fn table(answer: &ComparisonAnswer) -> Result<Table, StudyError> {
     let rows: Vec<(&ComparedAnswer, &CellNumbers)> = answer
-        .asks
+        .analyses
         .iter()
-        .flat_map(|ask| ask.cells.iter().map(move |cell| (ask, cell)))
+        .flat_map(|analysis| analysis.cells.iter().map(move |cell| (analysis, cell)))
         .collect();
     let column = |name: &str, description: &str, data: ColumnData| Column {
         name: name.to_owned(),
@@ -78,11 +78,11 @@ fn table(answer: &ComparisonAnswer) -> Result<Table, StudyError> {
         ColumnData::OptionalFloat(rows.iter().map(|(_, cell)| of(cell)).collect())
     };
     let columns = vec![
-        column("ask", "name of the ask", text(&|(ask, _)| ask.name.clone())),
+        column("analysis", "name of the ask", text(&|(analysis, _)| analysis.name.clone())),
         column(
             "kind",
             "path, holes, map or volume",
-            text(&|(ask, _)| ask.kind.to_owned()),
+            text(&|(analysis, _)| analysis.kind.to_owned()),
         ),
         column("cell", "best first", text(&|(_, cell)| cell.cell.clone())),
         column("robot", "its robot", text(&|(_, cell)| cell.robot.clone())),
@@ -103,7 +103,7 @@ fn table(answer: &ComparisonAnswer) -> Result<Table, StudyError> {
             "points with a posture inside joint limits",
             count(&|cell| cell.inside_joint_limits),
         ),
-        column("limit_um", "the tolerance", number(&|cell| Some(cell.limit_um))),
+        column("tolerance_um", "the tolerance", number(&|cell| Some(cell.tolerance_um))),
         column(
             "mean_in_plane_um",
             "of reached points",
@@ -151,16 +151,16 @@ fn table(answer: &ComparisonAnswer) -> Result<Table, StudyError> {
 
 /// Two pictures of a path, one of other asks.
 fn pictures(compared: &Compared) -> Vec<Picture> {
-    let asks = compared.answer.asks.iter().zip(&compared.curves);
-    asks.flat_map(|(ask, curves)| {
-        let along = (!curves.is_empty()).then(|| along(ask, curves));
-        [ranges(ask)].into_iter().chain(along)
+    let analyses = compared.answer.analyses.iter().zip(&compared.curves);
+    analyses.flat_map(|(analysis, curves)| {
+        let along = (!curves.is_empty()).then(|| along(analysis, curves));
+        [ranges(analysis)].into_iter().chain(along)
     })
     .collect()
 }
 
 /// Mean, 95 % and largest of each cell.
-fn ranges(ask: &ComparedAnswer) -> Picture {
+fn ranges(analysis: &ComparedAnswer) -> Picture {
     let cell = |cell: &CellNumbers| ComparedCell {
         label: cell.cell.clone(),
         note: note(cell),
@@ -168,21 +168,21 @@ fn ranges(ask: &ComparedAnswer) -> Picture {
         p95_um: cell.p95_in_plane_um,
         largest_um: cell.max_in_plane_um,
         largest_uncertainty_um: cell.max_in_plane_u_um,
-        limit_um: Some(cell.limit_um),
+        tolerance_um: Some(cell.tolerance_um),
         result: format!("{} %", percent(cell.fraction_within_and_inside_joint_limits)),
     };
     let picture = Comparison {
-        title: format!("{}: which cell holds the tolerance", ask.name),
+        title: format!("{}: which cell holds the tolerance", analysis.name),
         subtitle: "mean, 95 % and largest deviation of the points that are reached; best first".to_owned(),
         quantity: "in-plane deviation (µm)".to_owned(),
         result: "within".to_owned(),
-        cells: ask.cells.iter().map(cell).collect(),
+        cells: analysis.cells.iter().map(cell).collect(),
     };
     Picture {
-        name: format!("{}-cells", slug(&ask.name)),
+        name: format!("{}-cells", slug(&analysis.name)),
         caption: format!(
             "{}: deviation of each cell against its tolerance; at the right the points within it and inside joint limits, of all points.",
-            ask.name
+            analysis.name
         ),
         svg: picture.to_svg(),
     }
@@ -193,35 +193,35 @@ fn note(cell: &CellNumbers) -> String {
     let of_all = |points: usize, what: &str| {
         (points > 0).then(|| format!("{points} of {} points {what}", cell.points))
     };
-    let told = [
+    let given = [
         cell.compliance_assumed.then(|| "compliance assumed".to_owned()),
         of_all(cell.points - cell.reached, "out of reach"),
         of_all(cell.reached - cell.inside_joint_limits, "outside joint limits"),
     ];
-    told.into_iter().flatten().collect::<Vec<_>>().join("; ")
+    given.into_iter().flatten().collect::<Vec<_>>().join("; ")
 }
 
 /// The deviation along a path, a line a cell.
-fn along(ask: &ComparedAnswer, curves: &[Curve]) -> Picture {
-    let series = ask.cells.iter().zip(curves).map(|(cell, curve)| Series {
+fn along(analysis: &ComparedAnswer, curves: &[Curve]) -> Picture {
+    let series = analysis.cells.iter().zip(curves).map(|(cell, curve)| Series {
         name: cell.cell.clone(),
         position: curve.position_mm.clone(),
         deviation_um: curve.in_plane_um.clone(),
     });
-    let limit = ask.cells.first().map(|cell| cell.limit_um);
-    let one_limit = ask.cells.iter().all(|cell| Some(cell.limit_um) == limit);
+    let limit = analysis.cells.first().map(|cell| cell.tolerance_um);
+    let one_limit = analysis.cells.iter().all(|cell| Some(cell.tolerance_um) == limit);
     let picture = PathPlot {
-        title: format!("{}: the same path in each cell", ask.name),
+        title: format!("{}: the same path in each cell", analysis.name),
         subtitle: "deviation across the tool, the largest of the load cases; gaps: out of reach".to_owned(),
         position_label: "along the path (mm)".to_owned(),
         quantity: "in-plane deviation (µm)".to_owned(),
         series: series.collect(),
         envelope: None,
-        limit_um: limit.filter(|_| one_limit),
+        tolerance_um: limit.filter(|_| one_limit),
     };
     Picture {
-        name: format!("{}-along", slug(&ask.name)),
-        caption: format!("{}: the deviation along the path, a line a cell.", ask.name),
+        name: format!("{}-along", slug(&analysis.name)),
+        caption: format!("{}: the deviation along the path, a line a cell.", analysis.name),
         svg: picture.to_svg(),
     }
 }
@@ -235,14 +235,14 @@ fn html(answer: &ComparisonAnswer, drawn: &[Picture]) -> String {
     for warning in &answer.warnings {
         report = report.warning(warning);
     }
-    for ask in &answer.asks {
+    for analysis in &answer.analyses {
         report = report
-            .section(&format!("{} ({})", ask.name, ask.kind))
-            .paragraph(&ask.answer)
-            .list(&ask.notes)
-            .table(&numbers(ask))
-            .table(&traits(ask));
-        for picture in drawn.iter().filter(|picture| is_of(picture, ask)) {
+            .section(&format!("{} ({})", analysis.name, analysis.kind))
+            .paragraph(&analysis.answer)
+            .list(&analysis.notes)
+            .table(&numbers(analysis))
+            .table(&traits(analysis));
+        for picture in drawn.iter().filter(|picture| is_of(picture, analysis)) {
             report = report.picture(&picture.svg, &picture.caption);
         }
     }
@@ -255,13 +255,13 @@ fn html(answer: &ComparisonAnswer, drawn: &[Picture]) -> String {
 }
 
 /// Whether a picture was drawn of this ask.
-fn is_of(picture: &Picture, ask: &ComparedAnswer) -> bool {
-    let slug = slug(&ask.name);
+fn is_of(picture: &Picture, analysis: &ComparedAnswer) -> bool {
+    let slug = slug(&analysis.name);
     [format!("{slug}-cells"), format!("{slug}-along")].contains(&picture.name)
 }
 
 /// The cells of one ask in numbers.
-fn numbers(ask: &ComparedAnswer) -> Rows {
+fn numbers(analysis: &ComparedAnswer) -> Rows {
     let row = |cell: &CellNumbers| {
         let assumed = if cell.compliance_assumed { "assumed" } else { "" };
         let by = cell.mostly_by.clone().zip(cell.mostly_by_percent);
@@ -278,7 +278,7 @@ fn numbers(ask: &ComparedAnswer) -> Rows {
             um(cell.max_in_plane_um),
             um(cell.max_in_plane_u_um.map(|u| armill_core::map::COVERAGE * u)),
             um(cell.max_normal_um),
-            um(Some(cell.limit_um)),
+            um(Some(cell.tolerance_um)),
             percent(cell.fraction_within_and_inside_joint_limits),
             by.map_or_else(String::new, |(by, part)| format!("{by} ({part:.0} %)")),
         ]
@@ -287,7 +287,7 @@ fn numbers(ask: &ComparedAnswer) -> Rows {
         caption: format!(
             "{}: best first. Mean, 95 % and largest are of the points that are reached, ± is twice the standard uncertainty; within: \
              points within the tolerance and inside joint limits, of all points.",
-            ask.name
+            analysis.name
         ),
         columns: columns(&[
             ("cell", ""),
@@ -306,24 +306,24 @@ fn numbers(ask: &ComparedAnswer) -> Rows {
             ("within", "%"),
             ("mostly by", ""),
         ]),
-        rows: ask.cells.iter().map(row).collect(),
+        rows: analysis.cells.iter().map(row).collect(),
     })
 }
 
 /// What the cells are; of what all share one cell stands for all.
-fn traits(ask: &ComparedAnswer) -> Rows {
-    let names = ask.cells.iter().map(|cell| (cell.cell.as_str(), ""));
+fn traits(analysis: &ComparedAnswer) -> Rows {
+    let names = analysis.cells.iter().map(|cell| (cell.cell.as_str(), ""));
     let heads: Vec<(&str, &str)> = [("", "")].into_iter().chain(names).collect();
     let row = |of: &super::TraitAnswer| {
-        let told = of.of.iter().enumerate().map(|(index, told)| match of.differs {
+        let given = of.of.iter().enumerate().map(|(index, given)| match of.differs {
             false if index > 0 => "the same".to_owned(),
-            _ => told.clone(),
+            _ => given.clone(),
         });
-        [of.what.to_owned()].into_iter().chain(told).collect()
+        [of.what.to_owned()].into_iter().chain(given).collect()
     };
     Rows {
-        caption: format!("{}: what the cells are.", ask.name),
+        caption: format!("{}: what the cells are.", analysis.name),
         columns: columns(&heads),
-        rows: ask.traits.iter().map(row).collect(),
+        rows: analysis.traits.iter().map(row).collect(),
     }
 }

@@ -27,14 +27,14 @@ pub(super) fn ranking(name: &str, kind: &str, cells: &[CellNumbers]) -> String {
     if cells.iter().all(|cell| cell.reached == 0) {
         return format!("{name}: no cell reaches any point of {of}.");
     }
-    let one_limit = cells.iter().all(|cell| cell.limit_um == first.limit_um);
+    let one_limit = cells.iter().all(|cell| cell.tolerance_um == first.tolerance_um);
     let part = |cell: &CellNumbers| match cell.fraction_within_and_inside_joint_limits {
         1.0 => whole.to_owned(),
         0.0 => format!("no point of {of}"),
         fraction => format!("{:.1} %", fraction * 100.0),
     };
     let holds = cells.iter().enumerate().map(|(index, cell)| {
-        let limit = micrometres(cell.limit_um);
+        let limit = micrometres(cell.tolerance_um);
         let part = part(cell);
         // The first share says of what, unless it is all or nothing of it.
         let part = if index == 0 && part.ends_with('%') {
@@ -53,7 +53,7 @@ pub(super) fn ranking(name: &str, kind: &str, cells: &[CellNumbers]) -> String {
         let same = |cell: &CellNumbers| cell.fraction_within_and_inside_joint_limits == fraction;
         one_limit && cells.iter().all(same)
     };
-    let limit = micrometres(first.limit_um);
+    let limit = micrometres(first.tolerance_um);
     let holds = if all(1.0) {
         format!("every cell holds {limit} µm on {whole}, {} best", first.cell)
     } else if all(0.0) {
@@ -87,8 +87,8 @@ pub(super) fn ranking(name: &str, kind: &str, cells: &[CellNumbers]) -> String {
                 cell.points
             )
         });
-        let told: Vec<String> = reach.into_iter().chain(limits).collect();
-        format!("; {} {}", cell.cell, told.join(" and "))
+        let given: Vec<String> = reach.into_iter().chain(limits).collect();
+        format!("; {} {}", cell.cell, given.join(" and "))
     });
     let lost: String = lost.collect();
     format!("{name}: {holds}{largest}{lost}.")
@@ -99,21 +99,21 @@ pub(super) fn ranking(name: &str, kind: &str, cells: &[CellNumbers]) -> String {
 ///
 /// Of two cells with one arm (`same_arm`, by the index of the first) the uncertainty is common: what is unknown of the arm
 /// changes both alike.
-pub(super) fn doubts(cells: &[CellNumbers], same_arm: impl Fn(usize) -> bool) -> Vec<String> {
-    let mut doubts = Vec::new();
+pub(super) fn uncertainties(cells: &[CellNumbers], same_arm: impl Fn(usize) -> bool) -> Vec<String> {
+    let mut uncertainties = Vec::new();
     for (index, pair) in cells.windows(2).enumerate() {
         if same_arm(index) {
             continue;
         }
-        let told = |cell: &CellNumbers| {
+        let given = |cell: &CellNumbers| {
             let u = cell.max_in_plane_u_um.unwrap_or(0.0);
             Some((cell.max_in_plane_um?, COVERAGE * u))
         };
-        let Some(((a, ua), (b, ub))) = told(&pair[0]).zip(told(&pair[1])) else {
+        let Some(((a, ua), (b, ub))) = given(&pair[0]).zip(given(&pair[1])) else {
             continue;
         };
         if (a - b).abs() < ua.hypot(ub) {
-            doubts.push(format!(
+            uncertainties.push(format!(
                 "The largest deviations of {} and {} cannot be told apart: {} ± {} and {} ± {} µm.",
                 pair[0].cell,
                 pair[1].cell,
@@ -124,25 +124,25 @@ pub(super) fn doubts(cells: &[CellNumbers], same_arm: impl Fn(usize) -> bool) ->
             ));
         }
     }
-    doubts.extend(assumed(cells));
+    uncertainties.extend(assumed(cells));
     if cells.iter().any(|cell| cell.reached < cell.points) {
-        doubts.push(
+        uncertainties.push(
             "Mean, 95 % and largest are of the points that a cell reaches: cells that miss points are compared over fewer."
                 .to_owned(),
         );
     }
-    doubts
+    uncertainties
 }
 
 /// Cells whose joint compliances nobody measured, in a sentence.
 pub(super) fn assumed(cells: &[CellNumbers]) -> Option<String> {
     let assumed = cells.iter().filter(|cell| cell.compliance_assumed);
     let names: Vec<&str> = assumed.map(|cell| cell.cell.as_str()).collect();
-    let told = format!(
+    let given = format!(
         "The joint compliances of {} are assumed, not measured.",
         names.join(", ")
     );
-    (!names.is_empty()).then_some(told)
+    (!names.is_empty()).then_some(given)
 }
 
 #[cfg(test)]
@@ -160,7 +160,7 @@ mod tests {
             reached: if largest.is_some() { 10 } else { 0 },
             inside_joint_limits: if largest.is_some() { 10 } else { 0 },
             counts: CountsAnswer::of(&armill_core::map::Counts::default()),
-            limit_um: 20.0,
+            tolerance_um: 20.0,
             mean_in_plane_um: largest,
             p95_in_plane_um: largest,
             max_in_plane_um: largest,
@@ -180,7 +180,7 @@ mod tests {
             ranking("ring", "path", &cells),
             "ring: b holds 20 µm on 93.0 % of the path, a on 12.0 %; largest 18.2 against 61.1 µm."
         );
-        assert!(doubts(&cells, |_| false).is_empty());
+        assert!(uncertainties(&cells, |_| false).is_empty());
     }
 
     #[test]
@@ -194,11 +194,11 @@ mod tests {
             ranking("ring", "path", &cells),
             "ring: b holds 20 µm on the whole path, a on no point of the path, c on no point of the path; largest 18.2 against 61.1 µm; c reaches no point."
         );
-        cells[1].limit_um = 50.0;
-        let told = ranking("ring", "path", &cells);
+        cells[1].tolerance_um = 50.0;
+        let given = ranking("ring", "path", &cells);
         assert!(
-            told.contains("b holds its 20 µm on the whole path, a holds its 50 µm on no point"),
-            "{told}"
+            given.contains("b holds its 20 µm on the whole path, a holds its 50 µm on no point"),
+            "{given}"
         );
         assert_eq!(
             ranking("m", "map", &[cell("a", 0.0, None), cell("b", 0.0, None)]),
@@ -225,8 +225,8 @@ mod tests {
         // k = 2: hypot(8, 8) = 11.3 um.
         let near = [cell("b", 1.0, Some(18.0)), cell("a", 1.0, Some(29.0))];
         let far = [cell("b", 1.0, Some(18.0)), cell("a", 1.0, Some(30.0))];
-        assert!(doubts(&near, |_| true).is_empty());
-        assert!(doubts(&near, |_| false)[0].contains("cannot be told apart: 18 ± 8 and 29 ± 8 µm"));
-        assert!(doubts(&far, |_| false).is_empty());
+        assert!(uncertainties(&near, |_| true).is_empty());
+        assert!(uncertainties(&near, |_| false)[0].contains("cannot be told apart: 18 ± 8 and 29 ± 8 µm"));
+        assert!(uncertainties(&far, |_| false).is_empty());
     }
 }

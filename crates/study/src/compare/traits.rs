@@ -8,8 +8,8 @@ use armill_core::map::VolumeMap;
 use armill_core::nalgebra::Vector3;
 use serde::Serialize;
 
-use crate::file::holes::HolesAsk;
-use crate::file::path::PathAsk;
+use crate::file::holes::HolesAnalysis;
+use crate::file::path::PathAnalysis;
 use crate::file::resolve::{Setting, Sheet, Study};
 use crate::model_words::parts;
 use crate::number::decimals;
@@ -64,23 +64,23 @@ pub(super) fn of_volume(study: &Study, setting: &Setting, volume: &VolumeMap) ->
 }
 
 /// A path.
-pub(super) fn of_path(study: &Study, ask: &PathAsk) -> Vec<(&'static str, String)> {
-    let (count, mm) = (ask.track.len(), ask.length() * 1e3);
-    along(study, ask, format!("{count} points over {mm:.1} mm"))
+pub(super) fn of_path(study: &Study, analysis: &PathAnalysis) -> Vec<(&'static str, String)> {
+    let (count, mm) = (analysis.track.len(), analysis.length() * 1e3);
+    along(study, analysis, format!("{count} points over {mm:.1} mm"))
 }
 
 /// Holes.
-pub(super) fn of_holes(study: &Study, ask: &HolesAsk) -> Vec<(&'static str, String)> {
-    let (count, turns) = (ask.path.track.len(), ask.search.spins.count);
+pub(super) fn of_holes(study: &Study, analysis: &HolesAnalysis) -> Vec<(&'static str, String)> {
+    let (count, turns) = (analysis.path.track.len(), analysis.search.spins.count);
     along(
         study,
-        &ask.path,
+        &analysis.path,
         format!("{count} holes, {turns} turns tried at each"),
     )
 }
 
-fn along(study: &Study, ask: &PathAsk, points: String) -> Vec<(&'static str, String)> {
-    let pushes = match (&ask.cut, &ask.drill, &ask.measured) {
+fn along(study: &Study, analysis: &PathAnalysis, points: String) -> Vec<(&'static str, String)> {
+    let pushes = match (&analysis.cut, &analysis.drill, &analysis.measured) {
         (_, _, Some(measured)) => format!("measured: {}", measured.table.file),
         (_, Some(drill), None) => format!("drilling {}", drill.material.name),
         (Some(cut), None, None) => {
@@ -88,10 +88,10 @@ fn along(study: &Study, ask: &PathAsk, points: String) -> Vec<(&'static str, Str
             let out_of = if stock { ", out of a stock" } else { "" };
             format!("cutting {} with {} mm{out_of}", cut.material.name, plain(cutter))
         }
-        (None, None, None) => load(&ask.setting),
+        (None, None, None) => load(&analysis.setting),
     };
-    let place = place(&ask.setting, &ask.track.placing.base_from_path);
-    all(study, &ask.setting, [place, pushes, points])
+    let place = place(&analysis.setting, &analysis.track.placing.base_from_path);
+    all(study, &analysis.setting, [place, pushes, points])
 }
 
 fn all(study: &Study, setting: &Setting, [place, load, points]: [String; 3]) -> Vec<(&'static str, String)> {
@@ -119,7 +119,7 @@ fn all(study: &Study, setting: &Setting, [place, load, points]: [String; 3]) -> 
 
 /// Where a frame of the part lies, counted as the study counts.
 fn place(setting: &Setting, base_from: &Isometry) -> String {
-    let counted = setting.base_from_counted.inverse() * base_from;
+    let counted = setting.base_from_reference.inverse() * base_from;
     pose("origin", &format!("from {}", setting.base_name), &counted)
 }
 
@@ -146,12 +146,12 @@ fn load(setting: &Setting) -> String {
         };
         numbers(&wrench.force, 1.0) + &moment
     };
-    let told: Vec<String> = cases.iter().take(MOST_CASES).map(of_case).collect();
+    let given: Vec<String> = cases.iter().take(MOST_CASES).map(of_case).collect();
     let more = match cases.len().saturating_sub(MOST_CASES) {
         0 => String::new(),
         more => format!(" and {more} more"),
     };
-    format!("{} N{more} in axes of {frame}", told.join(", "))
+    format!("{} N{more} in axes of {frame}", given.join(", "))
 }
 
 fn numbers(vector: &Vector3<f64>, scale: f64) -> String {

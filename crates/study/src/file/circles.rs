@@ -17,7 +17,7 @@ use super::resolve::Ask;
 #[serde(deny_unknown_fields)]
 pub struct BallbarTable {
     /// Name of the path that was driven, a circle; needed where the study asks for several.
-    pub ask: Option<String>,
+    pub analysis: Option<String>,
     /// Runs of the ball-bar, relative to the study.
     #[schemars(length(min = 1, max = 100))]
     pub files: Vec<String>,
@@ -36,7 +36,7 @@ pub struct BallbarTable {
 #[derive(Clone, Debug)]
 pub struct MeasuredCircle {
     /// Name of the path.
-    pub ask: String,
+    pub analysis: String,
     /// Its files.
     pub files: Vec<String>,
     /// Its runs.
@@ -56,10 +56,10 @@ impl MeasuredCircle {
         places: &mut Places<'_>,
         (index, table): (usize, &BallbarTable),
         folder: &Path,
-        asks: (&[Ask], bool),
+        analyses: (&[Ask], bool),
     ) -> Option<MeasuredCircle> {
         let key = format!("ballbar[{index}]");
-        let circle = circle(places, (&key, table.ask.as_ref()), asks);
+        let circle = circle(places, (&key, table.analysis.as_ref()), analyses);
         let mut notes = Vec::new();
         let files = format!("{key}.files");
         // Files are read even where the circle is not known: their problems belong to the same list.
@@ -67,10 +67,10 @@ impl MeasuredCircle {
         let measured = bar(places, of, (folder, table.radius_mm), &mut notes)?;
         let turned = Turned::new(table.zero_deg, table.mirrored);
         let test = turned_test(places, &files, &measured, (turned, false))?;
-        let (ask, radius) = circle?;
+        let (analysis, radius) = circle?;
         if (test.radius() / radius - 1.0).abs() > SAME_RADIUS {
             let message = format!(
-                "the bar went round a circle of {} mm, `{ask}` has {} mm",
+                "the bar went round a circle of {} mm, `{analysis}` has {} mm",
                 crate::number::decimals(test.radius() * 1e3, 3),
                 crate::number::decimals(radius * 1e3, 3)
             );
@@ -78,7 +78,7 @@ impl MeasuredCircle {
             return None;
         }
         Some(MeasuredCircle {
-            ask,
+            analysis,
             files: table.files.clone(),
             runs: measured.origins.into_iter().map(|origin| origin.name).collect(),
             test,

@@ -18,8 +18,8 @@ use armill_core::measure::ballbar::centre::seen_from;
 use armill_core::measure::ballbar::{CircularTest, Direction, Run, RunError, least_squares_centre};
 use armill_core::path::Shape;
 use armill_core::roundness::{Plane, Profile};
-use armill_formats::measurement::ballbar::Told;
-use armill_formats::measurement::profile::{Points, Wanted as PartWanted};
+use armill_formats::measurement::ballbar::BallbarReadOptions;
+use armill_formats::measurement::profile::{Points, ProfileReadOptions};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -34,7 +34,7 @@ use crate::roundness;
 #[serde(deny_unknown_fields)]
 pub struct ExperimentTable {
     /// Name of the path that was cut, a circle; needed where the study asks for several.
-    pub ask: Option<String>,
+    pub analysis: Option<String>,
     /// Profile of the part, relative to the study.
     pub part: Option<String>,
     /// Circular tests of the path without load.
@@ -80,7 +80,7 @@ pub struct Experiment {
     /// What the study says.
     pub table: ExperimentTable,
     /// Name of the path.
-    pub ask: String,
+    pub analysis: String,
     /// Nominal radius of the circle, m.
     pub radius: f64,
     /// What is taken off every curve.
@@ -115,9 +115,9 @@ impl Experiment {
         places: &mut Places<'_>,
         table: &ExperimentTable,
         folder: &Path,
-        (asks, all_read): (&[Ask], bool),
+        (analyses, all_read): (&[Ask], bool),
     ) -> Option<Experiment> {
-        let circle = circle(places, ("measured", table.ask.as_ref()), (asks, all_read));
+        let circle = circle(places, ("measured", table.analysis.as_ref()), (analyses, all_read));
         if table.part.is_none() && table.ballbar.is_empty() {
             let hint = "part = \"cmm.csv\", or ballbar = [\"first.csv\", \"second.csv\"]";
             places.problem("measured", "nothing measured is named", hint);
@@ -137,7 +137,7 @@ impl Experiment {
             part(places, table, of, (radius_mm, removed))
         });
         let test = (!table.ballbar.is_empty()).then(|| test(places, table, folder, (removed, &mut notes)));
-        let (ask, radius) = circle?;
+        let (analysis, radius) = circle?;
         // A file that was named and could not be read is a problem already.
         let (part, test) = (part.map_or(Some(None), |part| part.map(Some))?, test);
         let test = test.map_or(Some(None), |test| test.map(Some))?;
@@ -155,7 +155,7 @@ impl Experiment {
         }));
         Some(Experiment {
             table: table.clone(),
-            ask,
+            analysis,
             radius,
             removed,
             part,
@@ -168,27 +168,27 @@ impl Experiment {
 /// The circle that the table `key` is of, with its radius (m); `None` where there is none, told at its place.
 pub(super) fn circle(
     places: &mut Places<'_>,
-    (key, ask): (&str, Option<&String>),
-    (asks, all_read): (&[Ask], bool),
+    (key, analysis): (&str, Option<&String>),
+    (analyses, all_read): (&[Ask], bool),
 ) -> Option<(String, f64)> {
-    let radius = |ask: &Ask| match &ask.subject {
+    let radius = |analysis: &Ask| match &analysis.subject {
         Subject::Path(path) => match path.shape() {
             Some(Shape::Circle { radius, .. }) => Some(*radius),
             _ => None,
         },
         _ => None,
     };
-    let circles: Vec<(String, f64)> = asks
+    let circles: Vec<(String, f64)> = analyses
         .iter()
-        .filter_map(|ask| Some((ask.name.clone(), radius(ask)?)))
+        .filter_map(|analysis| Some((analysis.name.clone(), radius(analysis)?)))
         .collect();
     let hint = "the name of an ask of kind = \"path\" with circle = { radius_mm = 100 }";
-    match (ask, &circles[..]) {
+    match (analysis, &circles[..]) {
         (Some(name), _) => {
             let found = circles.iter().find(|(own, _)| own == name);
             // An ask with problems of its own is told there.
             if found.is_none() && all_read {
-                let message = match asks.iter().any(|ask| ask.name == *name) {
+                let message = match analyses.iter().any(|analysis| analysis.name == *name) {
                     true => format!("`{name}` is no circle"),
                     false => format!("the study asks for nothing called `{name}`"),
                 };
@@ -247,13 +247,13 @@ fn part(
 ) -> Option<Part> {
     let key = "measured.part";
     let shown = path.display().to_string();
-    let wanted = PartWanted {
+    let requested = ProfileReadOptions {
         radius_mm: table.radius_mm,
         else_radius_mm: radius_mm,
         unit: None,
     };
-    let told = roundness::read((&shown, &path), &wanted);
-    let measured = taken(places, key, told)?;
+    let given = roundness::read((&shown, &path), &requested);
+    let measured = taken(places, key, given)?;
     let count = measured.points.count();
     let points = match measured.points {
         Points::Plane(points) => points,
@@ -360,14 +360,14 @@ pub(super) fn bar(
     if !all_there {
         return None;
     }
-    let wanted = BallbarWanted {
-        told: Told {
+    let requested = BallbarWanted {
+        given: BallbarReadOptions {
             radius: radius_mm.map(|mm| mm * 1e-3),
-            ..Told::default()
+            ..BallbarReadOptions::default()
         },
         ..BallbarWanted::default()
     };
-    let measured = taken(places, key, ballbar::read(&files, &wanted))?;
+    let measured = taken(places, key, ballbar::read(&files, &requested))?;
     notes.extend(measured.notes.iter().cloned());
     Some(measured)
 }

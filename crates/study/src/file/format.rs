@@ -30,7 +30,7 @@ pub struct StudyFile {
     /// Name of a library robot (`armill robots`), or a robot file of any format relative to the study.
     pub robot: String,
     /// The robot as it was measured (calibrated), where its controller reckons with `robot`: found likewise.
-    pub actual_robot: Option<String>,
+    pub calibrated_robot: Option<String>,
     /// Where heights count from: `base_link` (default) or a frame of the robot such as `controller`.
     pub base: Option<String>,
     /// Joint compliances in place of the robot file's, or where it has none.
@@ -55,13 +55,13 @@ pub struct StudyFile {
     pub cut: Option<CutTable>,
     /// Greatest in-plane deviation that is tolerated.
     #[schemars(range(min = 0.0, max = 1e9))]
-    pub limit_um: f64,
+    pub tolerance_um: f64,
     /// How the arm stands.
     pub posture: Option<PostureTable>,
     /// What is asked; one map of the plane if left out.
     #[schemars(length(max = 200))]
     #[serde(default)]
-    pub ask: Vec<AskTable>,
+    pub analysis: Vec<AnalysisTable>,
     /// Where the part may lie, for `armill place`.
     pub place: Option<PlaceTable>,
     /// What was measured on one circle, beside which the prediction is put.
@@ -280,7 +280,7 @@ pub struct PostureTable {
 /// What is asked.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
-pub enum AskKind {
+pub enum AnalysisKind {
     /// The deviation over the plane.
     #[default]
     Map,
@@ -297,9 +297,9 @@ pub enum AskKind {
 /// One ask; what it does not say it takes from the study.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct AskTable {
+pub struct AnalysisTable {
     /// `map`, `sections`, `volume`, `path` or `holes`.
-    pub kind: AskKind,
+    pub kind: AnalysisKind,
     /// Name of the answer; made from kind and number if left out.
     pub name: Option<String>,
     /// Changes to the plane.
@@ -312,7 +312,7 @@ pub struct AskTable {
     pub base: Option<String>,
     /// Another tolerance.
     #[schemars(range(min = 0.0, max = 1e9))]
-    pub limit_um: Option<f64>,
+    pub tolerance_um: Option<f64>,
     /// Another posture.
     pub posture: Option<PostureTable>,
     /// Sections: the x coordinate of the plane's centre, one a section.

@@ -24,10 +24,10 @@ use armill_formats::toolpath::format::{self, Format, Wanted};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::format::AskTable;
+use super::format::AnalysisTable;
 use super::path::drill::DrillTable;
 use super::path::program::{self, BESIDE_STUDY, ProgramTable, SpinName};
-use super::path::{PathAsk, PathSource, Push, put_on};
+use super::path::{PathAnalysis, PathSource, Push, put_on};
 use super::places::Places;
 use super::quantities::pose_mm_deg;
 use super::resolve::Setting;
@@ -57,14 +57,14 @@ pub struct HolesTable {
 
 /// Holes with what pushes at them.
 #[derive(Clone, Debug)]
-pub struct HolesAsk {
+pub struct HolesAnalysis {
     /// Their places as points that no path joins, and what pushes there.
-    pub path: PathAsk,
+    pub path: PathAnalysis,
     /// Which turns and branches are tried at each.
     pub search: PostureSearch,
 }
 
-impl HolesAsk {
+impl HolesAnalysis {
     /// Branches that are open, in words: `best` where all are.
     pub fn branch(&self) -> String {
         let open = self.search.branches;
@@ -84,13 +84,13 @@ const MOST_HOLES: usize = 100_000;
 /// The problems of the files that it names.
 pub(super) fn resolve(
     places: &mut Places<'_>,
-    table: &AskTable,
+    table: &AnalysisTable,
     (folder, robot): (&Path, Option<&Robot>),
     (setting, push, search): (Option<Setting>, Option<Push<'_>>, Option<PostureSearch>),
-) -> Result<Option<HolesAsk>, StudyError> {
+) -> Result<Option<HolesAnalysis>, StudyError> {
     let of = table.holes.clone().unwrap_or_default();
-    let told = [of.at_mm.is_some(), of.file.is_some(), table.program.is_some()];
-    if told.iter().filter(|told| **told).count() != 1 {
+    let reported = [of.at_mm.is_some(), of.file.is_some(), table.program.is_some()];
+    if reported.iter().filter(|reported| **reported).count() != 1 {
         let hint = "holes = { at_mm = [[0, 0, 0]] }, holes = { file = \"holes.csv\" }, or program = { file = \"drilling.ngc\" }";
         places.problem_here("holes come from one list, one file or one program", hint);
         return Ok(None);
@@ -109,7 +109,7 @@ pub(super) fn resolve(
     else {
         return Ok(None);
     };
-    let mut ask = PathAsk {
+    let mut analysis = PathAnalysis {
         source,
         track: Track {
             path,
@@ -126,9 +126,9 @@ pub(super) fn resolve(
         features: Vec::new(),
         setting,
     };
-    let pushes = put_on(places, push, folder, &mut ask)?;
+    let pushes = put_on(places, push, folder, &mut analysis)?;
     let fine = pushes && places.problems.len() == before;
-    Ok(fine.then_some(HolesAsk { path: ask, search }))
+    Ok(fine.then_some(HolesAnalysis { path: analysis, search }))
 }
 
 /// Points, where they lie, and what gave them.
@@ -337,7 +337,7 @@ fn in_file(
     path.operations = operations;
     for (point, pace) in path.points.iter_mut().zip(paces) {
         // A row is a hole whether the tool comes to it fast or not.
-        point.pace = if pace.cuts() { pace } else { Pace::Untold };
+        point.pace = if pace.cuts() { pace } else { Pace::EvaluateError };
     }
     Ok(Some(path))
 }

@@ -20,8 +20,8 @@
 use armill_core::kernel::Answers;
 use armill_formats::robot::RobotDescription;
 
-use super::format::AskKind;
-use super::path::PathAsk;
+use super::format::AnalysisKind;
+use super::path::PathAnalysis;
 use super::places::Places;
 use super::resolve::{Ask, Setting, Subject};
 
@@ -70,7 +70,7 @@ const HINT: &str = "a larger step, a smaller plane, or fewer load cases";
 pub(super) fn check_points(
     places: &mut Places<'_>,
     path: &str,
-    (kind, points): (AskKind, f64),
+    (kind, points): (AnalysisKind, f64),
     (robot, setting, cases): (&RobotDescription, &Setting, usize),
 ) -> Option<()> {
     let bytes = bytes(kind, points, (robot, setting, cases));
@@ -89,41 +89,41 @@ pub(super) fn check_points(
 }
 
 /// A problem if all asks do not fit together: their answers are held at once.
-pub(super) fn check_asks(places: &mut Places<'_>, robot: &RobotDescription, asks: &[Ask]) {
-    let of = |kind: AskKind, setting: &Setting, points: usize| {
+pub(super) fn check_asks(places: &mut Places<'_>, robot: &RobotDescription, analyses: &[Ask]) {
+    let of = |kind: AnalysisKind, setting: &Setting, points: usize| {
         bytes(kind, points as f64, (robot, setting, setting.cases.len()))
     };
-    let of_path = |kind: AskKind, path: &PathAsk| {
+    let of_path = |kind: AnalysisKind, path: &PathAnalysis| {
         let cases = path.load.case_count();
         bytes(kind, path.track.len() as f64, (robot, &path.setting, cases))
     };
-    let of_ask = |ask: &Ask| match &ask.subject {
-        Subject::Map(sheet) => of(AskKind::Map, &sheet.setting, sheet.grid.len()),
+    let of_ask = |analysis: &Ask| match &analysis.subject {
+        Subject::Map(sheet) => of(AnalysisKind::Map, &sheet.setting, sheet.grid.len()),
         Subject::Sections(all) => all
             .iter()
-            .map(|(_, sheet)| of(AskKind::Sections, &sheet.setting, sheet.grid.len()))
+            .map(|(_, sheet)| of(AnalysisKind::Sections, &sheet.setting, sheet.grid.len()))
             .sum(),
-        Subject::Volume(setting, grid) => of(AskKind::Volume, setting, grid.len()),
-        Subject::Holes(holes) => of_path(AskKind::Holes, &holes.path),
-        Subject::Path(path) => of_path(AskKind::Path, path),
+        Subject::Volume(setting, grid) => of(AnalysisKind::Volume, setting, grid.len()),
+        Subject::Holes(holes) => of_path(AnalysisKind::Holes, &holes.path),
+        Subject::Path(path) => of_path(AnalysisKind::Path, path),
     };
-    let bytes: f64 = asks.iter().map(of_ask).sum();
+    let bytes: f64 = analyses.iter().map(of_ask).sum();
     if bytes > MOST_BYTES {
         let (gib, most) = (bytes / GIB, MOST_BYTES / GIB);
         let message = format!("all asks together would take {gib:.1} GiB of memory, more than {most:.0} GiB");
-        places.problem("ask", message, "larger steps, smaller planes, or several studies");
+        places.problem("analysis", message, "larger steps, smaller planes, or several studies");
     }
 }
 
 /// What so many points take: their answers in the core, tables and fields beside them.
-fn bytes(kind: AskKind, points: f64, (robot, setting, cases): (&RobotDescription, &Setting, usize)) -> f64 {
+fn bytes(kind: AnalysisKind, points: f64, (robot, setting, cases): (&RobotDescription, &Setting, usize)) -> f64 {
     let beside = match kind {
-        AskKind::Map => OF_MAP,
-        AskKind::Sections | AskKind::Volume => OF_FIELD,
-        AskKind::Path | AskKind::Holes => OF_PATH,
+        AnalysisKind::Map => OF_MAP,
+        AnalysisKind::Sections | AnalysisKind::Volume => OF_FIELD,
+        AnalysisKind::Path | AnalysisKind::Holes => OF_PATH,
     };
     let joints = robot.robot.joints().len();
-    let shares = setting.model.sharers(joints).len();
+    let shares = setting.model.contributors(joints).len();
     let point = Answers::bytes_per_point(joints, shares, cases)
         + beside.point
         + beside.joint_or_share * (joints + shares)

@@ -5,8 +5,8 @@
 
 use armill_formats::document::{Document, Problem};
 
-use super::ask::kind_name;
-use super::format::{AskKind, AskTable, StudyFile};
+use super::analysis::kind_name;
+use super::format::{AnalysisKind, AnalysisTable, StudyFile};
 use super::places::Places;
 use super::resolve::{Ask, Subject};
 
@@ -14,7 +14,7 @@ use super::resolve::{Ask, Subject};
 const LONGEST_SLUG: usize = 160;
 
 /// The name of an ask; of its kind and number where it gives none.
-pub(super) fn name_of(table: &AskTable, index: usize) -> String {
+pub(super) fn name_of(table: &AnalysisTable, index: usize) -> String {
     table
         .name
         .clone()
@@ -25,50 +25,50 @@ pub(super) fn name_of(table: &AskTable, index: usize) -> String {
 ///
 /// A section is spoken of as `NAME: LABEL`; the labels of an ask with problems are not known, so names like that pass
 /// then.
-pub(super) fn check_statements(places: &mut Places<'_>, file: &StudyFile, asks: &[Ask]) {
-    let named = |kinds: &[AskKind], name: &str| {
+pub(super) fn check_statements(places: &mut Places<'_>, file: &StudyFile, analyses: &[Ask]) {
+    let named = |kinds: &[AnalysisKind], name: &str| {
         let of_kind = file
-            .ask
+            .analysis
             .iter()
             .enumerate()
-            .filter(|(_, ask)| kinds.contains(&ask.kind));
+            .filter(|(_, analysis)| kinds.contains(&analysis.kind));
         of_kind
-            .map(|(index, ask)| name_of(ask, index))
-            .any(|ask| ask == name)
+            .map(|(index, analysis)| name_of(analysis, index))
+            .any(|analysis| analysis == name)
     };
     // Sections are named by their labels; those of an ask with problems are not known.
-    let sections = |ask: &Ask| match &ask.subject {
+    let sections = |analysis: &Ask| match &analysis.subject {
         Subject::Sections(sections) => sections
             .iter()
-            .map(|(label, _)| format!("{}: {label}", ask.name))
+            .map(|(label, _)| format!("{}: {label}", analysis.name))
             .collect(),
         _ => Vec::new(),
     };
-    let sections: Vec<String> = asks.iter().flat_map(sections).collect();
+    let sections: Vec<String> = analyses.iter().flat_map(sections).collect();
     // A study without asks has one that it does not write.
-    let all_asks_known = asks.len() == file.ask.len().max(1);
+    let all_asks_known = analyses.len() == file.analysis.len().max(1);
     for (index, statement) in file.statement.iter().enumerate() {
         for (k, name) in statement.of.iter().enumerate() {
-            let known = named(&[AskKind::Map, AskKind::Path], name)
+            let known = named(&[AnalysisKind::Map, AnalysisKind::Path], name)
                 || sections.contains(name)
-                || (file.ask.is_empty() && name == "map")
+                || (file.analysis.is_empty() && name == "map")
                 || (!all_asks_known && name.contains(": "));
             if known {
                 continue;
             }
-            let (message, hint) = if named(&[AskKind::Sections], name) {
+            let (message, hint) = if named(&[AnalysisKind::Sections], name) {
                 let first = sections.iter().find(|section| section.starts_with(name.as_str()));
                 let hint = format!(
                     "name one section, such as `{}`",
                     first.map_or("name: x = 800 mm", String::as_str)
                 );
                 (format!("`{name}` is a series of sections"), hint)
-            } else if named(&[AskKind::Volume], name) {
+            } else if named(&[AnalysisKind::Volume], name) {
                 (
                     format!("`{name}` is a volume"),
                     "a statement speaks of maps, sections and paths".to_owned(),
                 )
-            } else if named(&[AskKind::Holes], name) {
+            } else if named(&[AnalysisKind::Holes], name) {
                 (
                     format!("`{name}` is a set of holes"),
                     "a statement speaks of maps, sections and paths".to_owned(),
@@ -87,10 +87,10 @@ pub(super) fn check_statements(places: &mut Places<'_>, file: &StudyFile, asks: 
 /// Problems of names that give no file name, too long a one, or that of an earlier ask.
 pub(super) fn unfit_names(document: &Document, file: &StudyFile) -> Vec<Problem> {
     let names: Vec<String> = file
-        .ask
+        .analysis
         .iter()
         .enumerate()
-        .map(|(index, ask)| name_of(ask, index))
+        .map(|(index, analysis)| name_of(analysis, index))
         .collect();
     let slugs: Vec<String> = names.iter().map(|name| crate::output::slug(name)).collect();
     let problem = |i: usize| {
@@ -128,7 +128,7 @@ pub(super) fn unfit_names(document: &Document, file: &StudyFile) -> Vec<Problem>
         } else {
             return None;
         };
-        Some(document.problem(&format!("ask[{i}].name"), message, Some(hint)))
+        Some(document.problem(&format!("analysis[{i}].name"), message, Some(hint)))
     };
     (0..names.len()).filter_map(problem).collect()
 }

@@ -22,7 +22,7 @@ pub(crate) fn put(file: &mut StudyFile, (name, robot): (&str, &RobotDescription)
     let own = std::mem::replace(&mut file.robot, name.to_owned());
     file.compliance = assumed(robot)?;
     file.statement.clear();
-    let of_asks = file.ask.iter_mut().map(|ask| &mut ask.posture);
+    let of_asks = file.analysis.iter_mut().map(|analysis| &mut analysis.posture);
     for posture in of_asks.chain([&mut file.posture]) {
         leave_home(posture);
     }

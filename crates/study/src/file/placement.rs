@@ -1,7 +1,7 @@
 //! `place`: where the part may lie, and what shall be least there.
 //!
 //! ```text
-//! counted_from_part = (x, y, z) Rz(heading) Ry(tilt) R Rz(roll)
+//! reference_from_part = (x, y, z) Rz(heading) Ry(tilt) R Rz(roll)
 //! ```
 //!
 //! | symbol | meaning | unit |
@@ -13,19 +13,19 @@
 //! | `roll` | about the normal of the plane, beside where the part lies | rad |
 //! | `R` | axes of the part as the study has them (without their tilt, where they are told by it) | - |
 
-use armill_core::optimize::Sure;
+use armill_core::optimize::RankBy;
 use armill_core::robot::BranchPattern;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::posture_search::{CountsName, GoalName};
+use super::posture_search::{ComponentName, ObjectiveName};
 
 /// Where the part may lie, and what shall be least there; for `armill place`.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PlaceTable {
     /// Name of the path that is placed; needed where the study asks for several.
-    pub ask: Option<String>,
+    pub analysis: Option<String>,
     /// Least and greatest x of the plane's centre.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub x_mm: Option<[f64; 2]>,
@@ -57,12 +57,12 @@ pub struct PlaceTable {
     /// Branches that may be taken: words of a branch, or `any`; those that the study leaves open if left out.
     pub branch: Option<String>,
     /// Which part of the deviation counts; `in-plane` if left out.
-    pub counts: Option<CountsName>,
+    pub component: Option<ComponentName>,
     /// What shall be least; `worst` if left out.
-    pub goal: Option<GoalName>,
+    pub objective: Option<ObjectiveName>,
     /// What places are compared by: the goal as if all were known, with two standard uncertainties more, or how probably it
     /// keeps the limit; `nominal` if left out.
-    pub sure: Option<SureName>,
+    pub rank_by: Option<RankByName>,
     /// How far every joint stays from its limits, the elbow from stretched and the wrist from straight; 0 if left out.
     #[schemars(range(min = 0.0, max = 90.0))]
     pub margin_deg: Option<f64>,
@@ -74,7 +74,7 @@ pub struct PlaceTable {
 /// What places are compared by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum SureName {
+pub enum RankByName {
     /// The goal as if all were known.
     Nominal,
     /// The goal and two standard uncertainties.
@@ -83,13 +83,13 @@ pub enum SureName {
     WithinLimit,
 }
 
-impl SureName {
+impl RankByName {
     /// As the core knows it; `limit` in m.
-    pub fn sure(self, limit: f64) -> Sure {
+    pub fn rank_by(self, limit: f64) -> RankBy {
         match self {
-            SureName::Nominal => Sure::Nominal,
-            SureName::PlusTwoSigma => Sure::PlusTwoSigma,
-            SureName::WithinLimit => Sure::WithinLimit(limit),
+            RankByName::Nominal => RankBy::Nominal,
+            RankByName::PlusTwoSigma => RankBy::PlusTwoSigma,
+            RankByName::WithinLimit => RankBy::WithinLimit(limit),
         }
     }
 }
@@ -138,7 +138,7 @@ impl PlaceTable {
     #[must_use]
     pub fn or(self, other: PlaceTable) -> PlaceTable {
         PlaceTable {
-            ask: self.ask.or(other.ask),
+            analysis: self.analysis.or(other.analysis),
             x_mm: self.x_mm.or(other.x_mm),
             y_mm: self.y_mm.or(other.y_mm),
             z_mm: self.z_mm.or(other.z_mm),
@@ -153,9 +153,9 @@ impl PlaceTable {
                 self.fixture
             },
             branch: self.branch.or(other.branch),
-            counts: self.counts.or(other.counts),
-            goal: self.goal.or(other.goal),
-            sure: self.sure.or(other.sure),
+            component: self.component.or(other.component),
+            objective: self.objective.or(other.objective),
+            rank_by: self.rank_by.or(other.rank_by),
             margin_deg: self.margin_deg.or(other.margin_deg),
             least_wrist_deg: self.least_wrist_deg.or(other.least_wrist_deg),
         }

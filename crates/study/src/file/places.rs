@@ -1,6 +1,6 @@
 //! Where a value of an ask stands in the file: in the ask itself, or in the study it takes it from.
 //!
-//! The value `limit_um` of the second ask is `ask[1].limit_um` where that ask writes it, else the study's `limit_um`;
+//! The value `tolerance_um` of the second ask is `analysis[1].tolerance_um` where that ask writes it, else the study's `tolerance_um`;
 //! where neither does, it is missing in the ask.
 
 use armill_formats::document::{Document, Problem};
@@ -8,17 +8,17 @@ use armill_formats::document::{Document, Problem};
 /// Collects problems of one ask (or of the study itself) at the place where each value stands.
 pub(super) struct Places<'a> {
     document: &'a Document,
-    ask: Option<usize>,
+    analysis: Option<usize>,
     /// What was found so far.
     pub problems: Vec<Problem>,
 }
 
 impl<'a> Places<'a> {
     /// Problems of the ask with this index; of the study itself where there is none.
-    pub(super) fn new(document: &'a Document, ask: Option<usize>) -> Places<'a> {
+    pub(super) fn new(document: &'a Document, analysis: Option<usize>) -> Places<'a> {
         Places {
             document,
-            ask,
+            analysis,
             problems: Vec::new(),
         }
     }
@@ -32,14 +32,14 @@ impl<'a> Places<'a> {
 
     /// A problem at the ask itself.
     pub(super) fn problem_here(&mut self, message: impl Into<String>, hint: &str) {
-        let place = self.ask.map_or_else(String::new, |index| format!("ask[{index}]"));
+        let place = self.analysis.map_or_else(String::new, |index| format!("analysis[{index}]"));
         self.problems
             .push(self.document.problem(&place, message, Some(hint)));
     }
 
     /// The path in the document of the value `path` of this ask.
     fn place(&self, path: &str) -> String {
-        match self.ask.map(|index| format!("ask[{index}].{path}")) {
+        match self.analysis.map(|index| format!("analysis[{index}].{path}")) {
             Some(own) if self.document.contains(&own) || !self.document.contains(path) => own,
             _ => path.to_owned(),
         }

@@ -20,7 +20,7 @@ use armill_core::robot::forward::forward;
 use armill_core::robot::inverse::tool_on;
 use armill_core::robot::jacobian::screws_at;
 use armill_core::robot::model::NamedFrame;
-use armill_core::robot::{Seat, Spring};
+use armill_core::robot::{Attachment, Spring};
 use armill_core::spatial::Twist;
 use armill_formats::robot::RobotDescription;
 use armill_formats::sources::Source;
@@ -99,7 +99,7 @@ pub(super) fn beside(
         structure
             .springs
             .extend(screws.iter().zip(compliances).map(|(screw, compliance)| Spring {
-                seat: Seat::Base,
+                attachment: Attachment::Base,
                 direction: Twist {
                     linear: base_from_root * screw.linear,
                     angular: base_from_root * screw.angular,

@@ -1,6 +1,6 @@
 //! `posture.search`: which turns of the tool and branches are tried along a path, and what of the deviation shall be least.
 
-use armill_core::optimize::{Counts, Goal, PostureSearch, Spins};
+use armill_core::optimize::{Component, Objective, PostureSearch, Spins};
 use armill_core::robot::BranchPattern;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -20,9 +20,9 @@ pub struct SearchTable {
     #[schemars(range(min = 0.1, max = 180.0))]
     pub step_deg: Option<f64>,
     /// Which part of the deviation counts; `in-plane` if left out.
-    pub counts: Option<CountsName>,
+    pub component: Option<ComponentName>,
     /// What shall be least; `worst` if left out.
-    pub goal: Option<GoalName>,
+    pub objective: Option<ObjectiveName>,
     /// How much the tool may turn along the path; 1 if left out.
     #[schemars(range(min = 1e-6, max = 1e3))]
     pub turn_deg_per_mm: Option<f64>,
@@ -37,7 +37,7 @@ pub struct SearchTable {
 /// Which part of the deviation counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum CountsName {
+pub enum ComponentName {
     /// Across the tool.
     InPlane,
     /// Across tool and feed: what walls get.
@@ -49,7 +49,7 @@ pub enum CountsName {
 /// What shall be least.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum GoalName {
+pub enum ObjectiveName {
     /// The largest deviation along the path.
     Worst,
     /// The mean of its points.
@@ -58,24 +58,24 @@ pub enum GoalName {
     AboveLimit,
 }
 
-impl GoalName {
+impl ObjectiveName {
     /// As the core knows it; `limit` in m.
-    pub fn goal(self, limit: f64) -> Goal {
+    pub fn objective(self, limit: f64) -> Objective {
         match self {
-            GoalName::Worst => Goal::Worst,
-            GoalName::Mean => Goal::Mean,
-            GoalName::AboveLimit => Goal::Above(limit),
+            ObjectiveName::Worst => Objective::Worst,
+            ObjectiveName::Mean => Objective::Mean,
+            ObjectiveName::AboveLimit => Objective::Above(limit),
         }
     }
 }
 
-impl CountsName {
+impl ComponentName {
     /// As the core knows it.
-    pub fn counts(self) -> Counts {
+    pub fn component(self) -> Component {
         match self {
-            CountsName::InPlane => Counts::InPlane,
-            CountsName::CrossTrack => Counts::CrossTrack,
-            CountsName::Axial => Counts::Axial,
+            ComponentName::InPlane => Component::InPlane,
+            ComponentName::CrossTrack => Component::CrossTrack,
+            ComponentName::Axial => Component::Axial,
         }
     }
 }
@@ -91,8 +91,8 @@ impl SearchTable {
     pub fn is_empty(&self) -> bool {
         self.turns_deg.is_none()
             && self.step_deg.is_none()
-            && self.counts.is_none()
-            && self.goal.is_none()
+            && self.component.is_none()
+            && self.objective.is_none()
             && self.turn_deg_per_mm.is_none()
             && self.least_wrist_deg.is_none()
             && self.reversal_um_mm.is_none()
@@ -132,8 +132,8 @@ impl SearchTable {
                 step: step.to_radians(),
                 count,
             },
-            counts: self.counts.unwrap_or(CountsName::InPlane).counts(),
-            goal: self.goal.unwrap_or(GoalName::Worst).goal(limit),
+            component: self.component.unwrap_or(ComponentName::InPlane).component(),
+            objective: self.objective.unwrap_or(ObjectiveName::Worst).objective(limit),
             branches,
             turn_rate: self.turn_deg_per_mm.unwrap_or(1.0).to_radians() * 1e3,
             turn_price: TURN_PRICE * limit,
@@ -150,16 +150,16 @@ impl Study {
     ///
     /// # Errors
     /// A study without paths; turns that are none.
-    pub fn search_postures(&mut self, wanted: Option<&SearchTable>) -> Result<(), StudyError> {
+    pub fn search_postures(&mut self, requested: Option<&SearchTable>) -> Result<(), StudyError> {
         let usual = SearchTable::default();
         let mut paths = 0;
-        for ask in &mut self.asks {
-            let Subject::Path(path) = &mut ask.subject else {
+        for analysis in &mut self.analyses {
+            let Subject::Path(path) = &mut analysis.subject else {
                 continue;
             };
             paths += 1;
             let setting = &mut path.setting;
-            let table = wanted.or(setting.search.is_none().then_some(&usual));
+            let table = requested.or(setting.search.is_none().then_some(&usual));
             if let Some(table) = table {
                 let search = table.search(setting.limit, setting.open);
                 let search = search.map_err(|(message, hint)| StudyError::value(message, hint))?;
@@ -170,7 +170,7 @@ impl Study {
             let message = "the study asks for no path, along which the tool could be turned";
             return Err(StudyError::value(
                 message,
-                "[[ask]] kind = \"path\" with a program or a shape",
+                "[[analysis]] kind = \"path\" with a program or a shape",
             ));
         }
         Ok(())

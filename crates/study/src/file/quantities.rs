@@ -96,15 +96,15 @@ pub(super) fn grid(places: &mut Places<'_>, plane: &PlaneTable) -> Option<Grid> 
 
 /// The plane in base, and its tilt (rad) where it was given by one.
 ///
-/// `base_from_counted` is the frame that the table counts from. Without tilt and rotation the plane is vertical and
+/// `base_from_reference` is the frame that the table counts from. Without tilt and rotation the plane is vertical and
 /// faces the robot.
 pub(super) fn plane_at(
     places: &mut Places<'_>,
     table: &PlaneTable,
-    base_from_counted: &Isometry,
+    base_from_reference: &Isometry,
 ) -> Option<(Plane, Option<f64>)> {
     let centre = Point3::from(Vector3::from(table.centre_mm) * 1e-3);
-    let (counted_from_part, tilt) = match (table.tilt_deg, table.rotation_deg) {
+    let (reference_from_part, tilt) = match (table.tilt_deg, table.rotation_deg) {
         (Some(_), Some(_)) => {
             places.problem(
                 "plane.rotation_deg",
@@ -124,7 +124,7 @@ pub(super) fn plane_at(
     };
     Some((
         Plane {
-            base_from_part: base_from_counted * counted_from_part,
+            base_from_part: base_from_reference * reference_from_part,
         },
         tilt,
     ))

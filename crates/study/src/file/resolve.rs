@@ -8,28 +8,28 @@ use std::path::Path;
 
 use armill_core::frame::Isometry;
 use armill_core::kernel::BranchChoice;
-use armill_core::load::{Doubt, LoadCases};
+use armill_core::load::{InputUncertainty, LoadCases};
 use armill_core::map::BoxGrid;
 use armill_core::nalgebra::{Matrix6, Point3};
 use armill_core::optimize::PostureSearch;
 use armill_core::robot::{BranchPattern, Robot};
-use armill_core::source::{Arm, Standing, StiffnessModel};
+use armill_core::source::{Arm, ArmState, StiffnessModel};
 use armill_core::spatial::Wrench;
 use armill_core::workpiece::{Grid, Plane};
 use armill_formats::document::{Document, Problem, Problems};
 use armill_formats::input::Inputs;
 use armill_formats::robot::RobotDescription;
 
-use super::actual::find_actual;
-use super::ask::Resolver;
+use super::calibrated::find_calibrated;
+use super::analysis::Resolver;
 use super::circles::MeasuredCircle;
 use super::compliance::{self, OwnCompliance};
 use super::experiment::Experiment;
-use super::format::{AskTable, StatementTable, StudyFile};
-use super::holes::HolesAsk;
+use super::format::{AnalysisTable, StatementTable, StudyFile};
+use super::holes::HolesAnalysis;
 use super::memory;
 use super::names::{check_statements, name_of, unfit_names};
-use super::path::PathAsk;
+use super::path::PathAnalysis;
 use super::placement::PlaceTable;
 use super::places::Places;
 use super::positioner;
@@ -48,7 +48,7 @@ pub struct Study {
     /// Compliances that the study brings.
     pub own_compliance: Option<OwnCompliance>,
     /// What is asked.
-    pub asks: Vec<Ask>,
+    pub analyses: Vec<Ask>,
     /// Where the part may lie.
     pub place: Option<PlaceTable>,
     /// What was measured on one circle.
@@ -71,7 +71,7 @@ impl Study {
     ///
     /// Of sections the first stands for all: they differ in the plane alone.
     pub fn settings(&self) -> impl Iterator<Item = &Setting> {
-        self.asks.iter().filter_map(|ask| match &ask.subject {
+        self.analyses.iter().filter_map(|analysis| match &analysis.subject {
             Subject::Map(sheet) => Some(&sheet.setting),
             Subject::Sections(sections) => sections.first().map(|(_, sheet)| &sheet.setting),
             Subject::Volume(setting, _) => Some(setting),
@@ -100,9 +100,9 @@ pub enum Subject {
     /// A box of points.
     Volume(Setting, BoxGrid),
     /// A path.
-    Path(Box<PathAsk>),
+    Path(Box<PathAnalysis>),
     /// Holes.
-    Holes(Box<HolesAsk>),
+    Holes(Box<HolesAnalysis>),
 }
 
 /// A plane with its grid.
@@ -120,7 +120,7 @@ pub struct Setting {
     /// Name of the frame that coordinates count from.
     pub base_name: String,
     /// That frame in base.
-    pub base_from_counted: Isometry,
+    pub base_from_reference: Isometry,
     /// Flange to tool centre point.
     pub flange_from_tool: Isometry,
     /// What yields and weighs beside the drives.
@@ -138,7 +138,7 @@ pub struct Setting {
     /// Where springs and masses of the tool come from, likewise.
     pub tool_sources: Vec<String>,
     /// How sure load and tool are.
-    pub doubt: Doubt,
+    pub uncertainty: InputUncertainty,
     /// The tolerance, m.
     pub limit: f64,
     /// Which posture.
@@ -163,19 +163,19 @@ impl Setting {
 
     /// Compliance of the unloaded arm at joint positions `q` (rad, m), SI; zeros where the arm does not hold itself.
     pub fn compliance_at(&self, robot: &Robot, q: &[f64]) -> Matrix6<f64> {
-        let mut standing = Standing::new(Arm {
+        let mut arm_state = ArmState::new(Arm {
             robot,
             compliance: robot.compliance().unwrap_or_default(),
             model: &self.model,
             flange_from_tool: &self.flange_from_tool,
         });
-        standing.stand(q);
-        standing.compliance().unwrap_or_else(Matrix6::zeros)
+        arm_state.set_joints(q);
+        arm_state.compliance().unwrap_or_else(Matrix6::zeros)
     }
 
     /// A point of base told in the frame that the study counts from, m.
     pub fn counted(&self, in_base: &Point3<f64>) -> Point3<f64> {
-        self.base_from_counted.inverse_transform_point(in_base)
+        self.base_from_reference.inverse_transform_point(in_base)
     }
 }
 
@@ -223,11 +223,11 @@ impl Parsed {
     }
 
     /// The tables of its asks; of a study without any that of the map which it means.
-    pub fn ask_tables(&self) -> Cow<'_, [AskTable]> {
-        if self.file.ask.is_empty() {
+    pub fn ask_tables(&self) -> Cow<'_, [AnalysisTable]> {
+        if self.file.analysis.is_empty() {
             Cow::Owned(vec![whole_plane()])
         } else {
-            Cow::Borrowed(&self.file.ask)
+            Cow::Borrowed(&self.file.analysis)
         }
     }
 
@@ -262,18 +262,18 @@ impl Parsed {
     fn meaning(&self, folder: &Path, only: Option<&str>) -> Result<Study, StudyError> {
         let (document, file) = (&self.document, &self.file);
         let tables = self.ask_tables();
-        let wanted = only.map(|name| self.index_of(name)).transpose()?;
+        let requested = only.map(|name| self.index_of(name)).transpose()?;
         let mut places = Places::new(document, None);
         let robot = find_robot(&mut places, file, folder)?;
         let actual = match &robot {
-            Some(robot) => find_actual(&mut places, file, (robot, folder))?,
+            Some(robot) => find_calibrated(&mut places, file, (robot, folder))?,
             None => None,
         };
         let mut problems = std::mem::take(&mut places.problems);
-        let mut asks = Vec::new();
+        let mut analyses = Vec::new();
         let chosen = tables.iter().enumerate();
-        for (index, table) in chosen.filter(|(index, _)| wanted.is_none_or(|wanted| wanted == *index)) {
-            let own = (!file.ask.is_empty()).then_some(index);
+        for (index, table) in chosen.filter(|(index, _)| requested.is_none_or(|requested| requested == *index)) {
+            let own = (!file.analysis.is_empty()).then_some(index);
             let mut places = Places::new(document, own);
             let resolver = Resolver {
                 file,
@@ -284,22 +284,22 @@ impl Parsed {
             };
             let name = name_of(table, index);
             if let Some(subject) = resolver.subject(&mut places)? {
-                asks.push(Ask { name, subject });
+                analyses.push(Ask { name, subject });
             }
             problems.append(&mut places.problems);
         }
         if let Some(robot) = &robot {
-            memory::check_asks(&mut places, robot, &asks);
+            memory::check_asks(&mut places, robot, &analyses);
         }
-        check_statements(&mut places, file, &asks);
-        let all_read = asks.len() == tables.len();
-        check_place(&mut places, file, (&asks, all_read));
+        check_statements(&mut places, file, &analyses);
+        let all_read = analyses.len() == tables.len();
+        check_place(&mut places, file, (&analyses, all_read));
         let experiment = file
             .measured
             .as_ref()
-            .and_then(|table| Experiment::read(&mut places, table, folder, (&asks, all_read)));
+            .and_then(|table| Experiment::read(&mut places, table, folder, (&analyses, all_read)));
         let circles: Vec<MeasuredCircle> = (file.ballbar.iter().enumerate())
-            .filter_map(|table| MeasuredCircle::read(&mut places, table, folder, (&asks, all_read)))
+            .filter_map(|table| MeasuredCircle::read(&mut places, table, folder, (&analyses, all_read)))
             .collect();
         problems.append(&mut places.problems);
         problems.extend(unfit_names(document, file));
@@ -321,7 +321,7 @@ impl Parsed {
             question: file.question.clone(),
             own_compliance: file.compliance.as_ref().map(OwnCompliance::of).transpose()?,
             robot,
-            asks,
+            analyses,
             place: file.place.clone(),
             experiment,
             circles,
@@ -354,26 +354,26 @@ fn may_be_quoted(file: &str, folder: &Path) -> bool {
 }
 
 /// Problems of where the part may lie.
-fn check_place(places: &mut Places<'_>, file: &StudyFile, (asks, all_read): (&[Ask], bool)) {
+fn check_place(places: &mut Places<'_>, file: &StudyFile, (analyses, all_read): (&[Ask], bool)) {
     let Some(place) = &file.place else { return };
     for (key, message, hint) in place.faults() {
         places.problem(&format!("place.{key}"), message, hint);
     }
-    let is_it = |ask: &Ask, name: &String| {
-        ask.name == *name && matches!(ask.subject, Subject::Path(_) | Subject::Holes(_))
+    let is_it = |analysis: &Ask, name: &String| {
+        analysis.name == *name && matches!(analysis.subject, Subject::Path(_) | Subject::Holes(_))
     };
-    let of_none = |name: &&String| all_read && !asks.iter().any(|ask| is_it(ask, name));
-    if let Some(name) = place.ask.as_ref().filter(of_none) {
+    let of_none = |name: &&String| all_read && !analyses.iter().any(|analysis| is_it(analysis, name));
+    if let Some(name) = place.analysis.as_ref().filter(of_none) {
         let message = format!("the study has no path called `{name}`");
         places.problem("place.ask", message, "the name of an ask of kind = \"path\"");
     }
 }
 
 /// An ask for one map of the study's plane.
-fn whole_plane() -> AskTable {
-    AskTable {
+fn whole_plane() -> AnalysisTable {
+    AnalysisTable {
         name: Some("map".to_owned()),
-        ..AskTable::default()
+        ..AnalysisTable::default()
     }
 }
 

@@ -8,7 +8,7 @@
 //! | `[gravity]` | where the tool was set, and where down is |
 //! | `repeatability_mm` | how the arm scatters, in place of the robot file's |
 //! | `load_dependent` | whether the load acts on the arm as it has yielded |
-//! | `actual_robot` | the arm as it was measured, where its controller reckons with another |
+//! | `calibrated_robot` | the arm as it was measured, where its controller reckons with another |
 
 use std::sync::Arc;
 

@@ -19,7 +19,7 @@ use std::path::Path;
 
 use armill_core::load::{ActsOn, Record};
 use armill_formats::input;
-use armill_formats::measurement::format::{self, Wanted};
+use armill_formats::measurement::format::{self, ForceReadOptions};
 
 use crate::StudyError;
 
@@ -52,7 +52,7 @@ pub enum Unread {
 pub fn read(
     (shown, path): (&str, &Path),
     acts_on: ActsOn,
-    wanted: &Wanted,
+    requested: &ForceReadOptions,
     cycle: Option<usize>,
 ) -> Result<Measured, Unread> {
     let file = input::open(path).map_err(|error| {
@@ -62,17 +62,17 @@ pub fn read(
             "a text export of DynoWare, or a CSV with `time_s,fx_n,fy_n,fz_n`",
         ))
     })?;
-    let known = format::read(shown, BufReader::new(file), acts_on, wanted);
+    let known = format::read(shown, BufReader::new(file), acts_on, requested);
     let mut known = known.map_err(|problems| Unread::File(problems.into()))?;
     let count = known.records.len();
     // One cycle needs no choice; of several none is taken by chance.
     let chosen = match (cycle, count) {
         (None, 1) => 1,
         (Some(cycle), _) if (1..=count).contains(&cycle) => cycle,
-        (told, _) => {
-            let message = match told {
+        (given, _) => {
+            let message = match given {
                 None => format!("{shown} holds {count} cycles"),
-                Some(told) => format!("{shown} holds {count} cycles, not a cycle {told}"),
+                Some(given) => format!("{shown} holds {count} cycles, not a cycle {given}"),
             };
             let hint = format!("choose one, from 1 to {count}");
             return Err(Unread::Value(Refusal::new("cycle", message, hint)));

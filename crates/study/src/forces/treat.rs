@@ -109,7 +109,7 @@ fn without_drift(record: &Record, air: &Air) -> Result<Option<(Record, Drift)>, 
                 let message = format!("an air cut from {from} to {to} s has no length");
                 return Err(Refusal::new("air_s", message, "its begin, then its end"));
             }
-            drift::remove(record, AirCut::Told(stretches))
+            drift::remove(record, AirCut::Given(stretches))
         }
     };
     let within = format!("the record goes from {} to {} s", record.begin(), record.end());
@@ -151,21 +151,21 @@ mod tests {
 
     #[test]
     fn drift_goes_where_it_is_told_and_stays_where_it_is_to_stay() {
-        let told = treat(record(), &treatment(Air::Told(vec![[0.0, 0.4], [1.6, 2.0]]))).unwrap();
-        assert!((told.after.force_at(1.0).x - 50.0).abs() < 1e-9);
-        assert_eq!(told.before, record());
-        assert!((told.drift.unwrap().offset.x - 3.0).abs() < 1e-9);
+        let given = treat(record(), &treatment(Air::Told(vec![[0.0, 0.4], [1.6, 2.0]]))).unwrap();
+        assert!((given.after.force_at(1.0).x - 50.0).abs() < 1e-9);
+        assert_eq!(given.before, record());
+        assert!((given.drift.unwrap().offset.x - 3.0).abs() < 1e-9);
         let kept = treat(record(), &treatment(Air::Kept)).unwrap();
         assert_eq!((kept.after, kept.drift), (record(), None));
     }
 
     #[test]
     fn turns_are_of_what_is_left() {
-        let wanted = Treatment {
+        let requested = Treatment {
             spindle_rpm: Some(600.0),
             ..treatment(Air::Told(vec![[0.0, 0.4]]))
         };
-        let turns = treat(record(), &wanted).unwrap().turns.unwrap();
+        let turns = treat(record(), &requested).unwrap().turns.unwrap();
         assert_eq!(turns.len(), 19);
         assert!((turns[10].mean.x - 50.0).abs() < 1e-9);
     }
@@ -173,7 +173,7 @@ mod tests {
     #[test]
     fn what_cannot_be_is_told_under_its_key() {
         let base = treatment(Air::Kept);
-        for (wanted, key, word) in [
+        for (requested, key, word) in [
             (treatment(Air::Told(vec![[5.0, 6.0]])), "air_s", "0 samples"),
             (treatment(Air::Told(vec![[1.0, 1.0]])), "air_s", "no length"),
             (treatment(Air::Told(vec![[0.0, f64::NAN]])), "air_s", "0 samples"),
@@ -194,7 +194,7 @@ mod tests {
                 "60000 rpm",
             ),
         ] {
-            let refused = treat(record(), &wanted).unwrap_err();
+            let refused = treat(record(), &requested).unwrap_err();
             assert!(
                 refused.key == key && refused.message.contains(word),
                 "{refused:?}"

@@ -14,7 +14,7 @@ use armill_formats::measurement::load_tests::LoadTests;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::question::{PointsAsked, PriorAsked, Question, Units, seat_name, spring_name};
+use super::question::{PointsAsked, PriorAsked, Question, Units, attachment_name, spring_name};
 use crate::StudyError;
 
 /// What load tests tell of an arm. The fields are those of the JSON answer.
@@ -43,7 +43,7 @@ pub struct Answer {
     /// Names of the outliers: residuals beyond 3.5 times the scatter.
     pub outliers: Vec<String>,
     /// Springs of which these tests tell only some sum or difference; a single one is seen by no test.
-    pub not_told_apart: Vec<Vec<String>>,
+    pub not_identifiable: Vec<Vec<String>>,
     /// Every test.
     pub by_test: Vec<TestAnswer>,
     /// What a user should know.
@@ -61,7 +61,7 @@ pub struct Answer {
 pub struct SpringAnswer {
     /// `A2 drive`, `A2 about x`.
     pub name: String,
-    /// Seat: `base`, a joint, `flange`.
+    /// Attachment: `base`, a joint, `flange`.
     pub at: String,
     /// Of springs that turn.
     pub compliance_rad_per_n_m: Option<f64>,
@@ -168,7 +168,7 @@ pub fn answer(robot: &Robot, tests: &LoadTests, question: &Question) -> Result<A
     };
     let identified =
         identify(robot, &unknowns, &tests.tests, method).map_err(|refusal| refused(&refusal, question))?;
-    Ok(told(robot, tests, question, unknowns, identified))
+    Ok(reported(robot, tests, question, unknowns, identified))
 }
 
 /// Refuses readings so far from those of a typical arm that a unit must be wrong.
@@ -221,7 +221,7 @@ fn refused(refusal: &Refusal, question: &Question) -> StudyError {
 }
 
 /// What was found, in the units and names of the answer.
-fn told(
+fn reported(
     robot: &Robot,
     tests: &LoadTests,
     question: &Question,
@@ -234,7 +234,7 @@ fn told(
         .collect();
     let (mut springs, mut lost_motion) = (Vec::new(), Vec::new());
     for ((unknown, estimate), name) in unknowns.iter().zip(&identified.estimates).zip(&names) {
-        let at = seat_name(robot, unknown);
+        let at = attachment_name(robot, unknown);
         let fraction_known_from_tests = estimate.known;
         if let Role::LostMotion { torque } = unknown.role {
             lost_motion.push(LostMotionAnswer {
@@ -306,7 +306,7 @@ fn told(
             .filter(|t| t.outlier)
             .map(|t| t.name.clone())
             .collect(),
-        not_told_apart: identified
+        not_identifiable: identified
             .together
             .iter()
             .map(|set| set.iter().map(|k| names[*k].clone()).collect())

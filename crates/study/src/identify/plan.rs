@@ -87,7 +87,7 @@ pub fn plan(
     within("--pull-n", pull, PULL_N, "N")?;
     within("--gauge-um", gauge * 1e6, GAUGE_UM, "um")?;
     let unknowns = question.unknowns(robot, &[])?;
-    let asked = PlanQuestion {
+    let requested = PlanQuestion {
         tests: count,
         pulls: [
             -Vector3::z(),
@@ -102,7 +102,7 @@ pub fn plan(
         gauge,
         floor: Some(Floor::under_base()),
     };
-    let plan = core_plan(robot, &unknowns, &asked);
+    let plan = core_plan(robot, &unknowns, &requested);
     if plan.tests.is_empty() {
         return Err(StudyError::value(
             "no posture inside the joint limits keeps the tool clear of the floor and of the arm itself",

@@ -12,7 +12,7 @@ use armill_core::identify::unknown::{base, bending, drives, lost_motion, tool};
 use armill_core::identify::{LoadTest, Points, Prior, Role, Unknown};
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::{Axis, Robot};
-use armill_formats::robot::spring_tables::Yields;
+use armill_formats::robot::spring_tables::SpringKind;
 
 use crate::{StudyError, robot_answers};
 
@@ -146,12 +146,12 @@ pub(super) fn within(flag: &str, value: f64, [low, high]: [f64; 2], unit: &str) 
 }
 
 /// What a robot file calls the seat of an unknown.
-pub fn seat_name(robot: &Robot, unknown: &Unknown) -> String {
-    robot_answers::seat_name(robot, unknown.seat)
+pub fn attachment_name(robot: &Robot, unknown: &Unknown) -> String {
+    robot_answers::attachment_name(robot, unknown.attachment)
 }
 
 /// How an unknown yields, as a robot file says it.
-pub fn yields(unknown: &Unknown) -> Yields {
+pub fn yields(unknown: &Unknown) -> SpringKind {
     let direction = if unknown.turns() {
         unknown.direction.angular
     } else {
@@ -159,19 +159,19 @@ pub fn yields(unknown: &Unknown) -> Yields {
     };
     let axis = Axis::ALL[direction.iamax()];
     match (unknown.role, unknown.turns()) {
-        (Role::Drive | Role::LostMotion { .. }, true) => Yields::Drive,
-        (Role::Drive | Role::LostMotion { .. }, false) => Yields::SlidingDrive,
-        (_, true) => Yields::About(axis),
-        (_, false) => Yields::Along(axis),
+        (Role::Drive | Role::LostMotion { .. }, true) => SpringKind::Drive,
+        (Role::Drive | Role::LostMotion { .. }, false) => SpringKind::PrismaticDrive,
+        (_, true) => SpringKind::About(axis),
+        (_, false) => SpringKind::Along(axis),
     }
 }
 
 /// What people call an unknown: `A2 drive`, `A2 about x`, `A2 lost motion`.
 pub fn spring_name(robot: &Robot, unknown: &Unknown) -> String {
-    let seat = seat_name(robot, unknown);
+    let attachment = attachment_name(robot, unknown);
     match (unknown.role, yields(unknown)) {
-        (Role::LostMotion { .. }, _) => format!("{seat} lost motion"),
-        (_, Yields::Drive | Yields::SlidingDrive) => format!("{seat} drive"),
-        (_, spring) => spring.name_at(&seat),
+        (Role::LostMotion { .. }, _) => format!("{attachment} lost motion"),
+        (_, SpringKind::Drive | SpringKind::PrismaticDrive) => format!("{attachment} drive"),
+        (_, spring) => spring.name_at(&attachment),
     }
 }

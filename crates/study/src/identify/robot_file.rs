@@ -9,7 +9,7 @@ use armill_core::robot::Robot;
 use armill_formats::robot::armill::{Identified, IdentifiedSpring, with_springs};
 
 use super::answer::Answer;
-use super::question::{seat_name, yields};
+use super::question::{attachment_name, yields};
 use crate::StudyError;
 
 /// The robot file `text` (at `path`) with the springs of `answer`, found from the tests in `tests_path`.
@@ -30,7 +30,7 @@ pub fn robot_file(
         .map(|k| {
             let (unknown, estimate) = (&answer.unknowns[*k], answer.identified.estimates[*k]);
             IdentifiedSpring {
-                at: seat_name(robot, unknown),
+                at: attachment_name(robot, unknown),
                 yields: yields(unknown),
                 compliance: estimate.value,
                 standard_uncertainty: estimate.standard_uncertainty,

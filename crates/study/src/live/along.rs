@@ -18,8 +18,8 @@ use armill_core::watch::Watch;
 
 use super::posture::{Asked, is_same};
 use crate::error::StudyError;
-use crate::file::holes::HolesAsk;
-use crate::file::path::PathAsk;
+use crate::file::holes::HolesAnalysis;
+use crate::file::path::PathAnalysis;
 use crate::file::resolve::Study;
 use crate::pose::At;
 use crate::run::{Done, Found, runner};
@@ -42,7 +42,7 @@ impl Held {
 
 /// Point `index` of a path of this study, which may have been done; there is such a point.
 pub(super) fn on_path(
-    (study, path): (&Study, &PathAsk),
+    (study, path): (&Study, &PathAnalysis),
     index: usize,
     done: Option<&Done<'_>>,
     watch: Watch<'_>,
@@ -59,17 +59,17 @@ pub(super) fn on_path(
     };
     let answers = &along.answers;
     let unloaded = along.unloaded.as_ref();
-    let held = Held {
+    let evaluation = Held {
         joints: joints_at(answers, index),
         dragged: unloaded.map(|unloaded| unloaded.dragged_at(index, answers.joint_count).to_vec()),
     };
     let spin = searched.map_or(0.0, |searched| searched.posture.spins[index]);
-    Ok(turned((&path.track, &along.load), index, spin, held))
+    Ok(turned((&path.track, &along.load), index, spin, evaluation))
 }
 
 /// Hole `index` of this study, whose holes may have been done; there is such a hole.
 pub(super) fn at_hole(
-    (study, holes): (&Study, &HolesAsk),
+    (study, holes): (&Study, &HolesAnalysis),
     index: usize,
     done: Option<&Done<'_>>,
     watch: Watch<'_>,
@@ -84,22 +84,22 @@ pub(super) fn at_hole(
             &of_now
         }
     };
-    let held = Held {
+    let evaluation = Held {
         joints: joints_at(&found.answers, index),
         dragged: None,
     };
-    Ok(turned(of, index, found.spins[index], held))
+    Ok(turned(of, index, found.spins[index], evaluation))
 }
 
 /// A point of this track with the tool turned about its axis by `spin` (rad) more.
-fn turned((track, load): (&Track, &PathLoad), index: usize, spin: f64, held: Held) -> Asked {
+fn turned((track, load): (&Track, &PathLoad), index: usize, spin: f64, evaluation: Held) -> Asked {
     let here = track.loaded_stop(index, load);
     let spin = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), spin);
     Asked {
         at: At::Pose(here.stop.base_from_tool * spin),
         normal: here.stop.normal,
         cases: here.cases,
-        held: Some(held),
+        evaluation: Some(evaluation),
     }
 }
 

@@ -35,8 +35,8 @@ pub struct PictureAnswer {
 ///
 /// # Errors
 /// Every problem of the text that concerns it; no ask of that name; cancelled by the watch.
-pub fn answer_json(text: Text<'_>, ask: Option<&str>, watch: Watch<'_>) -> Result<String, StudyError> {
-    let study = text.study(ask)?;
+pub fn answer_json(text: Text<'_>, analysis: Option<&str>, watch: Watch<'_>) -> Result<String, StudyError> {
+    let study = text.study(analysis)?;
     let done = run(&study, watch)?;
     output::json(&answer(&study, &done))
 }
@@ -45,8 +45,8 @@ pub fn answer_json(text: Text<'_>, ask: Option<&str>, watch: Watch<'_>) -> Resul
 ///
 /// # Errors
 /// As of [`answer_json`].
-pub fn table_csv(text: Text<'_>, ask: Option<&str>, watch: Watch<'_>) -> Result<Vec<u8>, StudyError> {
-    let (_, _, study) = text.one_ask(ask)?;
+pub fn table_csv(text: Text<'_>, analysis: Option<&str>, watch: Watch<'_>) -> Result<Vec<u8>, StudyError> {
+    let (_, _, study) = text.one_ask(analysis)?;
     let done = run(&study, watch)?;
     output::table_csv(&study, done.first().ok_or_else(no_ask)?)
 }
@@ -56,29 +56,29 @@ pub fn table_csv(text: Text<'_>, ask: Option<&str>, watch: Watch<'_>) -> Result<
 /// # Errors
 /// As of [`answer_json`]; a study in which nothing was measured.
 pub fn measured_csv(text: Text<'_>, watch: Watch<'_>) -> Result<Vec<u8>, StudyError> {
-    let (combined, told) = crate::budget::budget(&text.study(None)?, watch)?;
-    crate::budget::output::table_csv(&told, &combined)
+    let (combined, given) = crate::budget::budget(&text.study(None)?, watch)?;
+    crate::budget::output::table_csv(&given, &combined)
 }
 
 /// The pictures of this ask, or of all, as `armill run` draws them.
 ///
 /// # Errors
 /// As of [`answer_json`].
-pub fn pictures(text: Text<'_>, ask: Option<&str>, watch: Watch<'_>) -> Result<PicturesAnswer, StudyError> {
-    let study = text.study(ask)?;
+pub fn pictures(text: Text<'_>, analysis: Option<&str>, watch: Watch<'_>) -> Result<PicturesAnswer, StudyError> {
+    let study = text.study(analysis)?;
     let done = run(&study, watch)?;
-    let told = |Picture { name, caption, svg }| PictureAnswer {
+    let given = |Picture { name, caption, svg }| PictureAnswer {
         measured: study
             .experiment
             .as_ref()
-            .is_some_and(|of| is_of_budget(&name, &of.ask)),
+            .is_some_and(|of| is_of_budget(&name, &of.analysis)),
         name,
         title: caption,
         svg,
     };
     let pictures = output::pictures(&study, &done, &answer(&study, &done));
     Ok(PicturesAnswer {
-        pictures: pictures.into_iter().map(told).collect(),
+        pictures: pictures.into_iter().map(given).collect(),
     })
 }
 
@@ -88,11 +88,11 @@ pub fn pictures(text: Text<'_>, ask: Option<&str>, watch: Watch<'_>) -> Result<P
 /// As of [`answer_json`]; no picture of that name.
 pub fn picture_svg(
     text: Text<'_>,
-    ask: Option<&str>,
+    analysis: Option<&str>,
     name: &str,
     watch: Watch<'_>,
 ) -> Result<String, StudyError> {
-    let pictures = pictures(text, ask, watch)?.pictures;
+    let pictures = pictures(text, analysis, watch)?.pictures;
     let names: Vec<String> = pictures
         .iter()
         .map(|picture| format!("`{}`", picture.name))
@@ -106,5 +106,5 @@ pub fn picture_svg(
 
 /// A study always has an ask, its own or the map that it means.
 fn no_ask() -> StudyError {
-    StudyError::value("the study asks for nothing", "add an [[ask]]")
+    StudyError::value("the study asks for nothing", "add an [[analysis]]")
 }

@@ -37,7 +37,7 @@ pub fn kind_of(path: &Path, name: &str) -> (FileKind, String) {
     let kind = guess(Path::new(name), &String::from_utf8_lossy(&head));
     let line = match kind {
         FileKind::Robot => format!("robot = \"{name}\""),
-        FileKind::Path => format!("[[ask]] kind = \"path\" program = {{ file = \"{name}\" }}"),
+        FileKind::Path => format!("[[analysis]] kind = \"path\" program = {{ file = \"{name}\" }}"),
         FileKind::Forces => format!("program = {{ file = \"...\", forces = {{ file = \"{name}\" }} }}"),
         FileKind::Ballbar => format!("[measured] ballbar = [\"{name}\"]"),
         FileKind::Profile => format!("[measured] part = \"{name}\""),
@@ -58,7 +58,7 @@ fn guess(name: &Path, head: &str) -> FileKind {
     match ending.as_deref() {
         Some("qif") => FileKind::Profile,
         Some("b5r" | "b52" | "b5t") => FileKind::Ballbar,
-        Some("toml") if head.contains("limit_um") => FileKind::Unknown,
+        Some("toml") if head.contains("tolerance_um") => FileKind::Unknown,
         Some("csv" | "txt" | "tsv" | "dat") if has(&["fx", "force", "mz"]) => FileKind::Forces,
         Some("csv" | "txt" | "tsv" | "dat") if has(&["angle", "radial", "deviation_um"]) => FileKind::Profile,
         _ if RobotFormat::has_ending(name) => FileKind::Robot,

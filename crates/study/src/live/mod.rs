@@ -46,7 +46,7 @@ pub use answered::{
 };
 pub use file_kind::{FileKind, kind_of};
 pub use meshes::{DrawnMesh, mesh_bytes};
-pub use outline::{ChangedAnswer, ChangedValue, OutlineAnswer, OutlinedAsk, changed, outline};
+pub use outline::{ChangedAnswer, ChangedValue, OutlineAnswer, OutlinedAnalysis, changed, outline};
 pub use posture::{
     CaseAnswer, ChainPosition, DrawnJoint, DrawnPosture, JointLimits, Place, PostureQuestion, PosturesAnswer,
     postures,
@@ -78,16 +78,16 @@ impl Text<'_> {
     ///
     /// # Errors
     /// Every problem of the text that concerns it; no ask of that name.
-    pub fn study(&self, ask: Option<&str>) -> Result<Study, StudyError> {
-        Parsed::of(self.shown, self.bytes)?.resolve(self.folder, ask)
+    pub fn study(&self, analysis: Option<&str>) -> Result<Study, StudyError> {
+        Parsed::of(self.shown, self.bytes)?.resolve(self.folder, analysis)
     }
 
     /// The text with its fields, and the study with this ask alone, or with the first.
-    fn one_ask(&self, ask: Option<&str>) -> Result<(Parsed, String, Study), StudyError> {
+    fn one_ask(&self, analysis: Option<&str>) -> Result<(Parsed, String, Study), StudyError> {
         let parsed = Parsed::of(self.shown, self.bytes)?;
         // A study without asks means one map.
         let first = || parsed.ask_names().first().cloned().unwrap_or_default();
-        let name = ask.map_or_else(first, str::to_owned);
+        let name = analysis.map_or_else(first, str::to_owned);
         let study = parsed.resolve(self.folder, Some(&name))?;
         Ok((parsed, name, study))
     }
@@ -95,7 +95,7 @@ impl Text<'_> {
 
 /// What the points of the only ask of this study share; of sections those of the one with this number, from 0.
 fn setting(study: &Study, section: usize) -> Result<&Setting, StudyError> {
-    let found = study.asks.first().and_then(|ask| match &ask.subject {
+    let found = study.analyses.first().and_then(|analysis| match &analysis.subject {
         Subject::Map(sheet) => Some(&sheet.setting),
         Subject::Sections(sections) => sections.get(section).map(|(_, sheet)| &sheet.setting),
         Subject::Volume(setting, _) => Some(setting),

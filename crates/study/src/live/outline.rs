@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Text;
 use crate::error::StudyError;
-use crate::file::ask::kind_name;
+use crate::file::analysis::kind_name;
 use crate::file::resolve::Parsed;
 
 /// What is in a text; a text that is broken has problems, and as much of the rest as can be told.
@@ -18,14 +18,14 @@ pub struct OutlineAnswer {
     /// The robot, as the study names it.
     pub robot: Option<String>,
     /// Its asks, in order; one map where it has none.
-    pub asks: Vec<OutlinedAsk>,
+    pub analyses: Vec<OutlinedAnalysis>,
     /// Everything that is wrong, as `armill check --json` tells it.
     pub problems: Vec<Problem>,
 }
 
 /// One ask.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct OutlinedAsk {
+pub struct OutlinedAnalysis {
     /// Its name.
     pub name: String,
     /// `map`, `sections`, `volume`, `path` or `holes`.
@@ -40,7 +40,7 @@ pub struct ChangedAnswer {
     /// The text.
     pub text: String,
     /// Its asks.
-    pub asks: Vec<OutlinedAsk>,
+    pub analyses: Vec<OutlinedAnalysis>,
     /// Everything that is wrong with it.
     pub problems: Vec<Problem>,
 }
@@ -76,7 +76,7 @@ pub fn outline(text: Text<'_>) -> OutlineAnswer {
             Err(_) => parsed.file.title.clone(),
         },
         robot: Some(parsed.file.robot.clone()),
-        asks: asks(&parsed),
+        analyses: analyses(&parsed),
         problems: resolved.err().map_or_else(Vec::new, problems),
     }
 }
@@ -88,17 +88,17 @@ pub fn outline(text: Text<'_>) -> OutlineAnswer {
 /// A text that is not TOML; no ask of that name; a change that cannot be made.
 pub fn changed(
     text: Text<'_>,
-    ask: Option<&str>,
+    analysis: Option<&str>,
     changes: &[ChangedValue],
 ) -> Result<ChangedAnswer, StudyError> {
-    let new = changed_text(text, ask, changes)?;
-    let OutlineAnswer { asks, problems, .. } = outline(Text {
+    let new = changed_text(text, analysis, changes)?;
+    let OutlineAnswer { analyses, problems, .. } = outline(Text {
         bytes: new.as_bytes(),
         ..text
     });
     Ok(ChangedAnswer {
         text: new,
-        asks,
+        analyses,
         problems,
     })
 }
@@ -106,16 +106,16 @@ pub fn changed(
 /// The text alone of [`changed`].
 pub(super) fn changed_text(
     text: Text<'_>,
-    ask: Option<&str>,
+    analysis: Option<&str>,
     changes: &[ChangedValue],
 ) -> Result<String, StudyError> {
-    let below = match ask {
+    let below = match analysis {
         Some(name) if changes.iter().any(|change| !change.whole) => {
             let parsed = Parsed::of(text.shown, text.bytes)?;
             // The map that a study without asks means stands in the study itself.
-            match (parsed.index_of(name)?, parsed.file.ask.is_empty()) {
+            match (parsed.index_of(name)?, parsed.file.analysis.is_empty()) {
                 (_, true) => String::new(),
-                (index, false) => format!("ask[{index}]."),
+                (index, false) => format!("analysis[{index}]."),
             }
         }
         _ => String::new(),
@@ -128,15 +128,15 @@ pub(super) fn changed_text(
     Ok(edit::changed(text.shown, old, &changes.collect::<Vec<_>>())?)
 }
 
-pub(super) fn asks(parsed: &Parsed) -> Vec<OutlinedAsk> {
+pub(super) fn analyses(parsed: &Parsed) -> Vec<OutlinedAnalysis> {
     let tables = parsed.ask_tables();
     let names = parsed.ask_names();
     let one = |(index, (table, name)): (usize, (_, String))| {
-        let table: &crate::file::format::AskTable = table;
-        OutlinedAsk {
+        let table: &crate::file::format::AnalysisTable = table;
+        OutlinedAnalysis {
             name,
             kind: kind_name(table.kind),
-            keys: parsed.keys(&format!("ask[{index}]")),
+            keys: parsed.keys(&format!("analysis[{index}]")),
         }
     };
     tables.iter().zip(names).enumerate().map(one).collect()

@@ -14,7 +14,7 @@ use armill_core::predict::predict;
 use armill_core::robot::Robot;
 use armill_core::robot::forward::{forward, joint_axis};
 use armill_core::robot::inverse::tool_on;
-use armill_core::source::{Arm, Links, Standing};
+use armill_core::source::{Arm, Links, ArmState};
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
 use armill_core::workpiece::Split;
@@ -60,7 +60,7 @@ pub struct Place {
 #[derive(Clone, Debug)]
 pub struct PostureQuestion<'a> {
     /// The ask; the first if left out.
-    pub ask: Option<&'a str>,
+    pub analysis: Option<&'a str>,
     /// Where.
     pub at: Place,
     /// Load case that the answer tells the deviation of, from 1.
@@ -151,7 +151,7 @@ pub struct CaseAnswer {
     pub full_um: f64,
     /// All of it, of the TCP, base axes.
     pub deviation_um: [f64; 3],
-    /// Share of each of `answer.shares_of` in the in-plane deviation; they add up to it. Of postures with a name.
+    /// Share of each of `answer.contributors` in the in-plane deviation; they add up to it. Of postures with a name.
     pub share_um: Option<Vec<f64>>,
     /// Force that keeps the limit in the direction of this case; none where it has no force or moves nothing in the plane.
     pub permissible_along_load_n: Option<f64>,
@@ -166,7 +166,7 @@ pub(super) struct Asked {
     /// Wrenches on the tool, base, one a case.
     pub cases: Vec<Wrench>,
     /// How the answer holds the tool there, of a path and of holes.
-    pub held: Option<Held>,
+    pub evaluation: Option<Held>,
 }
 
 /// Every posture at a place of this ask.
@@ -178,7 +178,7 @@ pub fn postures(
     question: &PostureQuestion<'_>,
     watch: Watch<'_>,
 ) -> Result<PosturesAnswer, StudyError> {
-    let (parsed, _, study) = text.one_ask(question.ask)?;
+    let (parsed, _, study) = text.one_ask(question.analysis)?;
     postures_of(
         (text, &parsed, &study),
         (&question.at, question.case),
@@ -195,11 +195,11 @@ pub(super) fn postures_of(
     watch: Watch<'_>,
 ) -> Result<PosturesAnswer, StudyError> {
     let setting = setting(study, at.section.unwrap_or(0))?;
-    let asked = asked((study, setting), at, done, watch)?;
+    let requested = requested((study, setting), at, done, watch)?;
     let robot = &study.robot.robot;
     let wrench = match (
-        case.checked_sub(1).and_then(|case| asked.cases.get(case)),
-        asked.cases.len(),
+        case.checked_sub(1).and_then(|case| requested.cases.get(case)),
+        requested.cases.len(),
     ) {
         (None, count) if count > 0 => {
             let message = format!("there is no load case {case}");
@@ -211,12 +211,12 @@ pub(super) fn postures_of(
         (found, _) => found.copied(),
     };
     // Joints to spare stand as they do in the answer.
-    let held = asked.held.as_ref().and_then(|held| held.joints.as_ref());
-    let home = held.or(setting.home.as_ref());
+    let evaluation = requested.evaluation.as_ref().and_then(|evaluation| evaluation.joints.as_ref());
+    let home = evaluation.or(setting.home.as_ref());
     let answer = answer_in(
         &study.robot,
         &PoseQuestion {
-            at: asked.at.clone(),
+            at: requested.at.clone(),
             flange_from_tool: setting.flange_from_tool,
             wrench,
             load_dependent: setting.model.load_dependent,
@@ -232,8 +232,8 @@ pub(super) fn postures_of(
         },
         &Situation {
             model: &setting.model,
-            normal: Some(asked.normal),
-            dragged: &|q| asked.held.as_ref()?.dragged_in(q),
+            normal: Some(requested.normal),
+            dragged: &|q| requested.evaluation.as_ref()?.dragged_in(q),
         },
     )?;
     let joints = answer
@@ -244,7 +244,7 @@ pub(super) fn postures_of(
     let of_cases = joints
         .iter()
         .zip(&answer.postures)
-        .map(|(q, posture)| deviations(robot, setting, (q, &posture.branch), &asked));
+        .map(|(q, posture)| deviations(robot, setting, (q, &posture.branch), &requested));
     let in_plane = of_cases.collect();
     let shapes = Shapes::of(&parsed.file.robot, text.folder);
     let drawn = |q: &Vec<f64>| DrawnPosture {
@@ -261,7 +261,7 @@ pub(super) fn postures_of(
 }
 
 /// What the place means.
-fn asked(
+fn requested(
     (study, setting): (&Study, &Setting),
     at: &Place,
     done: Option<&Done<'_>>,
@@ -271,7 +271,7 @@ fn asked(
         at,
         normal: setting.plane.normal(),
         cases: setting.cases.clone(),
-        held: None,
+        evaluation: None,
     };
     let one_of = "one of: y_mm with z_mm, joints_deg, xyz_mm, point";
     let numbers = [at.y_mm, at.z_mm].into_iter().flatten();
@@ -291,7 +291,7 @@ fn asked(
         }
         (None, None, Some(joints), None, None) => Ok(on_plane(At::JointsDeg(joints.clone()))),
         (None, None, None, Some(xyz), None) => {
-            let tcp = setting.base_from_counted * Point3::from(Vector3::from(xyz) * 1e-3);
+            let tcp = setting.base_from_reference * Point3::from(Vector3::from(xyz) * 1e-3);
             Ok(on_plane(At::Pose(held_at(setting, tcp))))
         }
         (None, None, None, None, Some(index)) => point((study, setting), index, done, watch),
@@ -324,7 +324,7 @@ fn point(
             format!("they count from 0 to {}", count.saturating_sub(1)),
         )),
     };
-    match study.asks.first().map(|ask| &ask.subject) {
+    match study.analyses.first().map(|analysis| &analysis.subject) {
         Some(Subject::Path(path)) => {
             within(path.track.len())?;
             on_path((study, path), index, done, watch)
@@ -339,7 +339,7 @@ fn point(
                 at: At::Pose(held_at(setting, grid.point(index))),
                 normal: setting.plane.normal(),
                 cases: setting.cases.clone(),
-                held: None,
+                evaluation: None,
             })
         }
         _ => Err(StudyError::value(
@@ -354,36 +354,36 @@ fn deviations(
     robot: &Robot,
     setting: &Setting,
     (q, branch): (&[f64], &str),
-    asked: &Asked,
+    requested: &Asked,
 ) -> Vec<Option<CaseAnswer>> {
-    let (cases, normal) = (&asked.cases, asked.normal);
+    let (cases, normal) = (&requested.cases, requested.normal);
     let Some(compliance) = robot.compliance() else {
         return vec![None; cases.len()];
     };
-    let dragged = asked.held.as_ref().and_then(|held| held.dragged_in(q));
+    let dragged = requested.evaluation.as_ref().and_then(|evaluation| evaluation.dragged_in(q));
     let arm = Arm {
         robot,
         compliance,
         model: &setting.model,
         flange_from_tool: &setting.flange_from_tool,
     };
-    let mut standing = Standing::new(arm);
-    standing.stand(q);
+    let mut arm_state = ArmState::new(arm);
+    arm_state.set_joints(q);
     let mut positions = vec![0.0; q.len()];
     let yields = by_force(&setting.compliance_at(robot, q));
     let any = permissible_force_in_worst_direction(&yields, normal, setting.limit).0;
     let mut of = |wrench: &Wrench| {
         let mut links = match dragged {
-            Some(dragged) => Links::Dragged(dragged),
+            Some(dragged) => Links::KeptByFriction(dragged),
             None => Links::Farthest(both_across(&normal), &mut positions),
         };
-        let moved = predict(&mut standing, wrench, &mut links).ok()?.twist.linear;
+        let moved = predict(&mut arm_state, wrench, &mut links).ok()?.twist.linear;
         let split = Split::of(&moved, normal);
         let question = Question {
             arm,
             home: Some(q),
             cases: std::slice::from_ref(wrench),
-            doubt: setting.doubt,
+            uncertainty: setting.uncertainty,
             normal,
             choice: BranchChoice::Best,
         };
@@ -430,9 +430,9 @@ fn in_plane_parts(
         Some(dragged) => evaluate_on_path(&question, &base_from_tool, dragged),
         None => evaluate(&question, 1, |_| base_from_tool, Watch::NONE).ok()?,
     };
-    let held = answers.points[0].as_ref().ok()?;
+    let evaluation = answers.points[0].as_ref().ok()?;
     let shares = answers.shares_at(0).iter().map(|share| share * 1e6).collect();
-    is_same(answers.joints_at(0), q).then_some((held.in_plane_uncertainty * 1e6, shares))
+    is_same(answers.joints_at(0), q).then_some((evaluation.in_plane_uncertainty * 1e6, shares))
 }
 
 /// The arm at these joint positions (rad, m).
@@ -465,15 +465,15 @@ fn as_chain(robot: &Robot, q: &[f64]) -> Vec<ChainPosition> {
     let of = |i: usize| {
         let scale = JointUnit::of(robot, i).scale;
         let mut other = q.to_vec();
-        let mut told = |value: f64| {
+        let mut given = |value: f64| {
             other[i] = value;
             without_rounding(robot.theta(i, &other) * scale)
         };
         let limits = robot.joints()[i].limits;
         // A joint of negative sign counts from its upper limit up.
-        let ends = limits.map(|limits| [told(limits.lower), told(limits.upper)]);
+        let ends = limits.map(|limits| [given(limits.lower), given(limits.upper)]);
         ChainPosition {
-            at_deg: told(q[i]),
+            at_deg: given(q[i]),
             lower_deg: ends.map(|[a, b]| a.min(b)),
             upper_deg: ends.map(|[a, b]| a.max(b)),
         }
@@ -485,11 +485,11 @@ fn as_chain(robot: &Robot, q: &[f64]) -> Vec<ChainPosition> {
 fn limits(robot: &Robot) -> Vec<JointLimits> {
     let of = |(i, joint): (usize, &armill_core::robot::Joint)| {
         let unit = JointUnit::of(robot, i);
-        let told = |value: f64| without_rounding(value * unit.scale);
+        let given = |value: f64| without_rounding(value * unit.scale);
         JointLimits {
             name: joint.name.clone(),
-            lower_deg: joint.limits.map(|limits| told(limits.lower)),
-            upper_deg: joint.limits.map(|limits| told(limits.upper)),
+            lower_deg: joint.limits.map(|limits| given(limits.lower)),
+            upper_deg: joint.limits.map(|limits| given(limits.upper)),
             unit: unit.name,
         }
     };
@@ -507,12 +507,12 @@ mod tests {
             let robot = crate::library::robot(name).unwrap().unwrap().robot;
             let q: Vec<f64> = (0..robot.joints().len()).map(|i| 0.1 + 0.05 * i as f64).collect();
             let mut back = Vec::new();
-            for (i, told) in as_chain(&robot, &q).iter().enumerate() {
+            for (i, given) in as_chain(&robot, &q).iter().enumerate() {
                 assert!(
-                    told.lower_deg < Some(told.at_deg) && Some(told.at_deg) < told.upper_deg,
+                    given.lower_deg < Some(given.at_deg) && Some(given.at_deg) < given.upper_deg,
                     "{name} {i}"
                 );
-                back.push(robot.joint_position(i, told.at_deg.to_radians(), &back));
+                back.push(robot.joint_position(i, given.at_deg.to_radians(), &back));
                 assert!((back[i] - q[i]).abs() < 1e-9, "{name} {i}");
             }
         }

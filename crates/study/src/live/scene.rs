@@ -13,7 +13,7 @@ use serde_json::{Map, Value};
 
 use super::Text;
 use crate::error::StudyError;
-use crate::file::ask::plane_of;
+use crate::file::analysis::plane_of;
 use crate::file::format::{HalfSize, PlaneTable};
 use crate::file::resolve::{Parsed, Setting, Sheet, Study, Subject};
 use crate::number::without_rounding;
@@ -104,8 +104,8 @@ const COLUMNS: [&str; 11] = [
 ///
 /// # Errors
 /// Every problem of the text that concerns it; no ask of that name; cancelled by the watch.
-pub fn scene(text: Text<'_>, ask: Option<&str>, watch: Watch<'_>) -> Result<SceneAnswer, StudyError> {
-    let (parsed, name, study) = text.one_ask(ask)?;
+pub fn scene(text: Text<'_>, analysis: Option<&str>, watch: Watch<'_>) -> Result<SceneAnswer, StudyError> {
+    let (parsed, name, study) = text.one_ask(analysis)?;
     let done = match has_points(&study) {
         true => run(&study, watch)?,
         false => Vec::new(),
@@ -115,7 +115,7 @@ pub fn scene(text: Text<'_>, ask: Option<&str>, watch: Watch<'_>) -> Result<Scen
 
 /// Whether the points of this study's ask are drawn one by one.
 fn has_points(study: &Study) -> bool {
-    let subject = study.asks.first().map(|ask| &ask.subject);
+    let subject = study.analyses.first().map(|analysis| &analysis.subject);
     !matches!(subject, Some(Subject::Map(_) | Subject::Sections(_)))
 }
 
@@ -134,7 +134,7 @@ pub(super) fn scene_of(
         PlateInScene::of(&sheet.setting, [half(sheet.grid.columns), half(sheet.grid.rows)])
     };
     let mut plate = PlateInScene::of(setting, half_of(&plane));
-    match &study.asks[0].subject {
+    match &study.analyses[0].subject {
         Subject::Map(sheet) => plate = of_sheet(sheet),
         Subject::Sections(all) => {
             let section = |(label, sheet): &(String, Sheet)| SectionInScene {
@@ -152,7 +152,7 @@ pub(super) fn scene_of(
     };
     Ok(SceneAnswer {
         robot: study.robot.robot.name().to_owned(),
-        base_mm: mm(&setting.base_from_counted.translation.vector),
+        base_mm: mm(&setting.base_from_reference.translation.vector),
         plate,
         sections,
         points,
@@ -212,8 +212,8 @@ impl BoxInScene {
 fn points(study: &Study, done: &Done<'_>) -> Result<PointsInScene, StudyError> {
     let (setting, answers) = match &done.found {
         Found::Volume(setting, volume) => (*setting, &volume.answers),
-        Found::Path(ask, found) => (&ask.setting, &found.along.answers),
-        Found::Holes(ask, found) => (&ask.path.setting, &found.answers),
+        Found::Path(analysis, found) => (&analysis.setting, &found.along.answers),
+        Found::Holes(analysis, found) => (&analysis.path.setting, &found.answers),
         Found::Map(..) | Found::Sections(_) => {
             return Err(StudyError::value(
                 "a map has its points in the answer",
@@ -231,10 +231,10 @@ fn points(study: &Study, done: &Done<'_>) -> Result<PointsInScene, StudyError> {
     };
     let counted = place("x_mm").iter().zip(place("y_mm")).zip(place("z_mm"));
     let in_base =
-        counted.map(|((x, y), z)| mm(&(setting.base_from_counted * (Point3::new(*x, *y, *z) * 1e-3)).coords));
+        counted.map(|((x, y), z)| mm(&(setting.base_from_reference * (Point3::new(*x, *y, *z) * 1e-3)).coords));
     let deviation = |index: usize| {
-        let held = answers.points[index].as_ref().ok()?;
-        let deviation = answers.deviations_at(index)[held.deciding_case];
+        let evaluation = answers.points[index].as_ref().ok()?;
+        let deviation = answers.deviations_at(index)[evaluation.deciding_case];
         Some(deviation.map(|m| (m * 1e9).round() * 1e-3).into())
     };
     let drawn = table

@@ -23,7 +23,7 @@ pub struct TablesAnswer {
 /// Where a value stands.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct ValuePlace {
-    /// Which: `place.x_mm`, `ask[1].circle.radius_mm`; a list is one value, but for lists of tables.
+    /// Which: `place.x_mm`, `analysis[1].circle.radius_mm`; a list is one value, but for lists of tables.
     pub path: String,
     /// Its bytes in the text: the first, and the one behind the last.
     pub bytes: [usize; 2],
@@ -96,24 +96,24 @@ mod tests {
 
     #[test]
     fn every_value_is_told_with_its_place() {
-        let text = "limit_um = 50 # of it\n[place]\nx_mm = [900, 1100.5]\n[[ask]]\nkind = \"path\"\ncircle.radius_mm = 60\n";
-        let told = of(text);
-        assert_eq!(told.values["place"]["x_mm"], json!([900, 1100.5]));
+        let text = "tolerance_um = 50 # of it\n[place]\nx_mm = [900, 1100.5]\n[[analysis]]\nkind = \"path\"\ncircle.radius_mm = 60\n";
+        let given = of(text);
+        assert_eq!(given.values["place"]["x_mm"], json!([900, 1100.5]));
         let place = |path: &str| {
-            let found = told.places.iter().find(|place| place.path == path).unwrap();
+            let found = given.places.iter().find(|place| place.path == path).unwrap();
             &text[found.bytes[0]..found.bytes[1]]
         };
         assert_eq!(
             (
-                place("limit_um"),
+                place("tolerance_um"),
                 place("place.x_mm"),
-                place("ask[0].circle.radius_mm")
+                place("analysis[0].circle.radius_mm")
             ),
             ("50", "[900, 1100.5]", "60")
         );
         // The study lacks its robot.
         assert!(
-            told.problems
+            given.problems
                 .iter()
                 .any(|problem| problem.message().contains("robot"))
         );
@@ -121,8 +121,8 @@ mod tests {
 
     #[test]
     fn a_text_that_is_no_toml_has_problems_alone() {
-        let told = of("limit_um = = 3");
-        assert!(told.values.is_null() && told.places.is_empty());
-        assert_eq!(told.problems.len(), 1);
+        let given = of("tolerance_um = = 3");
+        assert!(given.values.is_null() && given.places.is_empty());
+        assert_eq!(given.problems.len(), 1);
     }
 }

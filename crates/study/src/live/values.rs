@@ -10,8 +10,8 @@ use serde::Serialize;
 use super::scene::{PlateInScene, half_of};
 use super::{Text, setting};
 use crate::error::StudyError;
-use crate::file::ask::{kind_name, plane_of};
-use crate::file::format::{AskTable, HalfSize, StudyFile};
+use crate::file::analysis::{kind_name, plane_of};
+use crate::file::format::{AnalysisTable, HalfSize, StudyFile};
 use crate::file::resolve::{Parsed, Study};
 use crate::number::without_rounding;
 
@@ -19,7 +19,7 @@ use crate::number::without_rounding;
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct ValuesAnswer {
     /// Name of the ask.
-    pub ask: String,
+    pub analysis: String,
     /// `map`, `sections`, `volume`, `path` or `holes`.
     pub kind: &'static str,
     /// The robot, as the study names it.
@@ -47,7 +47,7 @@ pub struct ValuesAnswer {
     /// Forces on the tool, one a case.
     pub cases_n: Vec<[f64; 3]>,
     /// The tolerance.
-    pub limit_um: f64,
+    pub tolerance_um: f64,
     /// Posture as the file asks for it: words of a branch, `nominal` or `best`.
     pub branch: String,
     /// The branch that this means.
@@ -70,8 +70,8 @@ pub struct ValuesAnswer {
 ///
 /// # Errors
 /// Every problem of the text that concerns it; no ask of that name.
-pub fn values(text: Text<'_>, ask: Option<&str>) -> Result<ValuesAnswer, StudyError> {
-    let (parsed, name, study) = text.one_ask(ask)?;
+pub fn values(text: Text<'_>, analysis: Option<&str>) -> Result<ValuesAnswer, StudyError> {
+    let (parsed, name, study) = text.one_ask(analysis)?;
     values_of(&parsed, name, &study)
 }
 
@@ -107,7 +107,7 @@ pub(super) fn values_of(parsed: &Parsed, name: String, study: &Study) -> Result<
         tool_length_mm: without_rounding(setting.flange_from_tool.translation.vector.norm() * 1e3),
         load_frame: load.map(|load| load.frame.map_or("base", |frame| frame.word())),
         cases_n: load.map_or_else(Vec::new, |load| load.cases_n.clone()),
-        limit_um: table.limit_um.unwrap_or(file.limit_um),
+        tolerance_um: table.tolerance_um.unwrap_or(file.tolerance_um),
         branch: branch_words(file, table),
         branch_meant: setting.branch(),
         branches: match robot.inverse().has_branches() {
@@ -119,12 +119,12 @@ pub(super) fn values_of(parsed: &Parsed, name: String, study: &Study) -> Result<
         tilts_deg: table.tilts_deg.clone(),
         box_half_size_mm: table.in_box.as_ref().map(|of| of.half_size_mm),
         plane_corners_mm: PlateInScene::of(setting, half_of(&plane)).corners_mm,
-        ask: name,
+        analysis: name,
     })
 }
 
 /// The posture in the words of the file.
-fn branch_words(file: &StudyFile, table: &AskTable) -> String {
+fn branch_words(file: &StudyFile, table: &AnalysisTable) -> String {
     let words = [&table.posture, &file.posture]
         .into_iter()
         .flatten()
@@ -133,10 +133,10 @@ fn branch_words(file: &StudyFile, table: &AskTable) -> String {
 }
 
 /// The turn of the tool on a path.
-fn spin(table: &AskTable) -> Option<f64> {
+fn spin(table: &AnalysisTable) -> Option<f64> {
     match (&table.program, table.kind) {
         (Some(program), _) => Some(program.spin_deg.unwrap_or(0.0)),
-        (None, crate::file::format::AskKind::Path) => Some(table.spin_deg.unwrap_or(0.0)),
+        (None, crate::file::format::AnalysisKind::Path) => Some(table.spin_deg.unwrap_or(0.0)),
         _ => None,
     }
 }

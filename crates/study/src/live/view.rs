@@ -5,11 +5,11 @@ use armill_core::watch::Watch;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::outline::{asks, changed_text};
+use super::outline::{analyses, changed_text};
 use super::scene::scene_of;
 use super::stand::{ExtremesAnswer, Stand, StandsAnswer, extremes_of, stands_of};
 use super::values::values_of;
-use super::{ChangedValue, OutlinedAsk, SceneAnswer, Text, ValuesAnswer};
+use super::{ChangedValue, OutlinedAnalysis, SceneAnswer, Text, ValuesAnswer};
 use crate::answer::{StudyAnswer, answer};
 use crate::error::StudyError;
 use crate::run::run;
@@ -20,7 +20,7 @@ pub struct ViewAnswer {
     /// The text with the changes made in it.
     pub text: String,
     /// Its asks.
-    pub asks: Vec<OutlinedAsk>,
+    pub analyses: Vec<OutlinedAnalysis>,
     /// The settings that the ask resolves to.
     pub values: ValuesAnswer,
     /// What of it can be drawn in space.
@@ -40,26 +40,26 @@ pub struct ViewAnswer {
 /// by the watch.
 pub fn view(
     text: Text<'_>,
-    ask: Option<&str>,
+    analysis: Option<&str>,
     (changes, stand): (&[ChangedValue], Option<&Stand>),
     watch: Watch<'_>,
 ) -> Result<ViewAnswer, StudyError> {
-    let new = changed_text(text, ask, changes)?;
+    let new = changed_text(text, analysis, changes)?;
     let text = Text {
         bytes: new.as_bytes(),
         ..text
     };
-    let (parsed, name, study) = text.one_ask(ask)?;
+    let (parsed, name, study) = text.one_ask(analysis)?;
     let done = run(&study, watch)?;
     let answer = answer(&study, &done);
     let extremes = extremes_of(&answer, &done);
-    let told = (&answer, extremes.as_slice(), done.as_slice());
+    let given = (&answer, extremes.as_slice(), done.as_slice());
     let stands = match stand {
-        Some(stand) => stands_of((text, &parsed, &study), told, stand, watch)?,
+        Some(stand) => stands_of((text, &parsed, &study), given, stand, watch)?,
         None => None,
     };
     Ok(ViewAnswer {
-        asks: asks(&parsed),
+        analyses: analyses(&parsed),
         scene: scene_of(&parsed, &name, (&study, &done))?,
         values: values_of(&parsed, name, &study)?,
         answer,

@@ -14,7 +14,7 @@ use armill_report::{AxisLabels, ColourScale, HoleMap, HoleMark};
 use super::pictures::{Picture, share_bar, shares};
 use super::plates::subtitle;
 use crate::answer::HolesAnswer;
-use crate::file::holes::HolesAsk;
+use crate::file::holes::HolesAnalysis;
 use crate::file::resolve::{Setting, Study};
 
 /// Holes that are numbered in the picture.
@@ -23,61 +23,61 @@ const NUMBERED: usize = 3;
 /// The pictures of a set of holes.
 pub(super) fn pictures(
     study: &Study,
-    ask: &HolesAsk,
-    (told, found): (&HolesAnswer, &HolesFound),
+    analysis: &HolesAnalysis,
+    (given, found): (&HolesAnswer, &HolesFound),
 ) -> Vec<Picture> {
     let named = |what: &str, caption: &str, svg: String| Picture {
-        name: format!("{}-{what}", super::slug(&told.name)),
-        caption: format!("{}: {caption}", told.name),
+        name: format!("{}-{what}", super::slug(&given.name)),
+        caption: format!("{}: {caption}", given.name),
         svg,
     };
     let caption = "the holes seen along z of their frame, coloured by the deviation across each; the worst are numbered.";
-    let mut pictures = vec![named("holes", caption, map(ask, told, found))];
-    let bars = told.worst_holes.iter().map(|worst| {
+    let mut pictures = vec![named("holes", caption, map(analysis, given, found))];
+    let bars = given.worst_holes.iter().map(|worst| {
         let [x, y, z] = worst.point.xyz_mm;
         share_bar(
             &format!("hole {} ({x:.0}, {y:.0}, {z:.0})", worst.hole),
             &worst.point,
         )
     });
-    let title = format!("{}: which joint is to blame", told.name);
+    let title = format!("{}: which joint is to blame", given.name);
     let quantity = "share of deviation across the hole (µm)";
-    let setting = open_setting(ask);
+    let setting = open_setting(analysis);
     let svg = shares(study, &title, (&setting, quantity), bars.collect());
-    if !told.worst_holes.is_empty() {
+    if !given.worst_holes.is_empty() {
         pictures.push(named("shares", "share of each joint at the worst holes.", svg));
     }
     pictures
 }
 
 /// The setting with the branches that were open.
-fn open_setting(ask: &HolesAsk) -> Setting {
-    let choice = match ask.search.branches == BranchPattern::default() {
+fn open_setting(analysis: &HolesAnalysis) -> Setting {
+    let choice = match analysis.search.branches == BranchPattern::default() {
         true => BranchChoice::Best,
-        false => BranchChoice::Of(ask.search.branches),
+        false => BranchChoice::Of(analysis.search.branches),
     };
     Setting {
         choice,
-        ..ask.path.setting.clone()
+        ..analysis.path.setting.clone()
     }
 }
 
 /// The holes along x and y of their frame.
-fn map(ask: &HolesAsk, told: &HolesAnswer, found: &HolesFound) -> String {
-    let track = &ask.path.track;
+fn map(analysis: &HolesAnalysis, given: &HolesAnswer, found: &HolesFound) -> String {
+    let track = &analysis.path.track;
     let path_from_base = track.placing.base_from_path.rotation.inverse();
     let worst = |index: usize| {
-        let mut numbered = told.worst_holes.iter().take(NUMBERED);
+        let mut numbered = given.worst_holes.iter().take(NUMBERED);
         numbered.any(|worst| worst.hole == index + 1)
     };
     let mark = |(index, point): (usize, &PathPoint)| {
-        let held = found.answers.points[index].as_ref().ok();
+        let evaluation = found.answers.points[index].as_ref().ok();
         let moved =
-            held.map(|held| path_from_base * found.answers.deviations_at(index)[held.deciding_case] * 1e6);
+            evaluation.map(|evaluation| path_from_base * found.answers.deviations_at(index)[evaluation.deciding_case] * 1e6);
         HoleMark {
             at_mm: [point.at.x * 1e3, point.at.y * 1e3],
             error_um: moved.map_or([f64::NAN; 2], |moved| [moved.x, moved.y]),
-            deviation_um: held.map(|held| held.in_plane * 1e6),
+            deviation_um: evaluation.map(|evaluation| evaluation.in_plane * 1e6),
             name: match worst(index) {
                 true => (index + 1).to_string(),
                 false => String::new(),
@@ -85,14 +85,14 @@ fn map(ask: &HolesAsk, told: &HolesAnswer, found: &HolesFound) -> String {
         }
     };
     let picture = HoleMap {
-        title: told.name.clone(),
-        subtitle: subtitle(&open_setting(ask)),
+        title: given.name.clone(),
+        subtitle: subtitle(&open_setting(analysis)),
         axes: AxisLabels {
             horizontal: "x of the holes' frame (mm)".to_owned(),
             vertical: "y of the holes' frame (mm)".to_owned(),
         },
         quantity: "deviation across the hole (µm)".to_owned(),
-        limit_um: Some(ask.path.setting.limit * 1e6),
+        tolerance_um: Some(analysis.path.setting.limit * 1e6),
         scale: ColourScale::Viridis,
         holes: track.path.points.iter().enumerate().map(mark).collect(),
     };

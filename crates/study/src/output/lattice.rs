@@ -1,18 +1,18 @@
 //! The picture of a search for turns of the tool: path by turn, coloured by deviation, with the turn that was chosen.
 
 use armill_core::kernel::Stand;
-use armill_core::optimize::{Counts, PostureSearch};
+use armill_core::optimize::{Component, PostureSearch};
 use armill_report::{AxisLabels, Cell, CellMap};
 
 use super::pictures::Picture;
-use crate::file::path::PathAsk;
+use crate::file::path::PathAnalysis;
 use crate::run::PathFound;
 
 /// Deviation over path and turn; `None` where nothing was searched for.
-pub(super) fn picture(name: &str, subtitle: String, ask: &PathAsk, found: &PathFound) -> Option<Picture> {
-    let (searched, search) = (found.searched.as_ref()?, ask.setting.search.as_ref()?);
+pub(super) fn picture(name: &str, subtitle: String, analysis: &PathAnalysis, found: &PathFound) -> Option<Picture> {
+    let (searched, search) = (found.searched.as_ref()?, analysis.setting.search.as_ref()?);
     let lattice = &searched.posture.lattice;
-    let points = &ask.track.path.points;
+    let points = &analysis.track.path.points;
     // Of points at one place, behind and before a rapid, the first is drawn.
     let mut columns: Vec<usize> = (0..lattice.points.len()).collect();
     columns.dedup_by(|next, before| {
@@ -56,7 +56,7 @@ pub(super) fn picture(name: &str, subtitle: String, ask: &PathAsk, found: &PathF
                 }
             })
             .collect(),
-        limit_um: Some(ask.setting.limit * 1e6),
+        tolerance_um: Some(analysis.setting.limit * 1e6),
         labels: AxisLabels {
             horizontal: "along the path (mm)".to_owned(),
             vertical: "turn of the tool (deg)".to_owned(),
@@ -76,9 +76,9 @@ pub(super) fn picture(name: &str, subtitle: String, ask: &PathAsk, found: &PathF
 
 /// What the colours mean.
 fn quantity(search: &PostureSearch) -> &'static str {
-    match search.counts {
-        Counts::InPlane => "deviation across the tool (µm)",
-        Counts::CrossTrack => "deviation across the track (µm)",
-        Counts::Axial => "deviation along the tool (µm)",
+    match search.component {
+        Component::InPlane => "deviation across the tool (µm)",
+        Component::CrossTrack => "deviation across the track (µm)",
+        Component::Axial => "deviation along the tool (µm)",
     }
 }

@@ -18,7 +18,7 @@ use armill_report::{AxisLabels, ProcessMap};
 use super::pictures::Picture;
 use crate::answer::path::limits::verdict;
 use crate::error::StudyError;
-use crate::file::path::PathAsk;
+use crate::file::path::PathAnalysis;
 use crate::run::PathFound;
 
 /// What the table's name ends in.
@@ -32,12 +32,12 @@ const MM_DECIMALS: u8 = 4;
 ///
 /// # Errors
 /// Never in practice: columns of one length with names of their own.
-pub(super) fn table(name: &str, ask: &PathAsk, found: &PathFound) -> Result<Option<Table>, StudyError> {
+pub(super) fn table(name: &str, analysis: &PathAnalysis, found: &PathFound) -> Result<Option<Table>, StudyError> {
     let Some(limits) = &found.limits else {
         return Ok(None);
     };
     let points = &limits.points;
-    let at = |point: &PointLimits| &ask.track.path.points[point.index];
+    let at = |point: &PointLimits| &analysis.track.path.points[point.index];
     let column = |name: &str, unit: Option<&str>, description: &str, decimals: Option<u8>, data| Column {
         name: name.to_owned(),
         unit: unit.map(str::to_owned),
@@ -72,8 +72,8 @@ pub(super) fn table(name: &str, ask: &PathAsk, found: &PathFound) -> Result<Opti
             "deviation across the tool as the study cuts",
             Some(MM_DECIMALS),
             numbers(&|point| {
-                let held = found.along.answers.points[point.index].as_ref().ok()?;
-                Some(held.in_plane * 1e6)
+                let evaluation = found.along.answers.points[point.index].as_ref().ok()?;
+                Some(evaluation.in_plane * 1e6)
             }),
         ),
         force(
@@ -109,18 +109,18 @@ pub(super) fn table(name: &str, ask: &PathAsk, found: &PathFound) -> Result<Opti
             Some(cut.feed_per_tooth)
         }),
     ];
-    let told = |part: Part| move |point: &PointLimits| point.cut.as_ref().and_then(part);
+    let given = |part: Part| move |point: &PointLimits| point.cut.as_ref().and_then(part);
     // Parts of the cut that no point tells get no column.
     for (name, description, part) in parts
         .into_iter()
-        .filter(|(.., part)| points.iter().any(|p| told(*part)(p).is_some()))
+        .filter(|(.., part)| points.iter().any(|p| given(*part)(p).is_some()))
     {
         columns.push(column(
             &format!("permitted_{name}_mm"),
             Some("mm"),
             &format!("{description}, all else as the study has it"),
             Some(MM_DECIMALS),
-            numbers(&|point| told(part)(point).map(|permitted| permitted.value() * 1e3)),
+            numbers(&|point| given(part)(point).map(|permitted| permitted.value() * 1e3)),
         ));
         columns.push(column(
             &format!("permitted_{name}_verdict"),
@@ -130,7 +130,7 @@ pub(super) fn table(name: &str, ask: &PathAsk, found: &PathFound) -> Result<Opti
             ColumnData::Text(
                 points
                     .iter()
-                    .map(|point| told(part)(point).map_or("", verdict).to_owned())
+                    .map(|point| given(part)(point).map_or("", verdict).to_owned())
                     .collect(),
             ),
         ));
@@ -139,7 +139,7 @@ pub(super) fn table(name: &str, ask: &PathAsk, found: &PathFound) -> Result<Opti
 }
 
 /// Depth over feed with the line of the tolerance; `None` without a cut.
-pub(super) fn picture(name: &str, subtitle: String, ask: &PathAsk, found: &PathFound) -> Option<Picture> {
+pub(super) fn picture(name: &str, subtitle: String, analysis: &PathAnalysis, found: &PathFound) -> Option<Picture> {
     let sheet = found.limits.as_ref()?.depth_by_feed.as_ref()?;
     let mm = |values: &[f64]| values.iter().map(|value| value * 1e3).collect();
     let drawing = ProcessMap {
@@ -153,7 +153,7 @@ pub(super) fn picture(name: &str, subtitle: String, ask: &PathAsk, found: &PathF
         horizontal: mm(&sheet.feeds_per_tooth),
         vertical: mm(&sheet.depths),
         deviation_um: sheet.deviations.iter().map(|deviation| deviation * 1e6).collect(),
-        limit_um: ask.setting.limit * 1e6,
+        tolerance_um: analysis.setting.limit * 1e6,
         drawn: drawn(found),
     };
     Some(Picture {

@@ -110,9 +110,9 @@ const PICTURES: [&str; 16] = [
     "vectors", "along", "polar", "track", "process", "forces",
 ];
 
-/// Whether files called `slug` could be pictures of the ask called `ask`.
-pub(crate) fn is_picture_of(slug: &str, ask: &str) -> bool {
-    slug.strip_prefix(ask)
+/// Whether files called `slug` could be pictures of the ask called `analysis`.
+pub(crate) fn is_picture_of(slug: &str, analysis: &str) -> bool {
+    slug.strip_prefix(analysis)
         .and_then(|rest| rest.strip_prefix('-'))
         .is_some_and(|rest| PICTURES.contains(&rest))
 }
@@ -136,8 +136,8 @@ pub fn slug(name: &str) -> String {
 ///
 /// # Errors
 /// Files there that may not be replaced.
-pub fn allow(study: &Study, (out, wanted): (&ResultFolder, Wanted<'_>)) -> Result<(), StudyError> {
-    let names = names(study, &[], wanted);
+pub fn allow(study: &Study, (out, requested): (&ResultFolder, Wanted<'_>)) -> Result<(), StudyError> {
+    let names = names(study, &[], requested);
     Ok(out.allow(names.iter().map(String::as_str))?)
 }
 
@@ -149,30 +149,30 @@ pub fn write(
     study: &Study,
     done: &[Done<'_>],
     answer: &StudyAnswer,
-    (out, wanted): (&ResultFolder, Wanted<'_>),
+    (out, requested): (&ResultFolder, Wanted<'_>),
     note: &(dyn Fn(&str) + Sync),
 ) -> Result<Vec<PathBuf>, StudyError> {
-    let drawn = match wanted.pictures {
+    let drawn = match requested.pictures {
         Pictures::Drawn => pictures::draw(study, done, answer),
         Pictures::None => Vec::new(),
     };
-    let names = names(study, &drawn, wanted);
+    let names = names(study, &drawn, requested);
     replace((out, &names), (answer, note), |files| {
         let tables = || {
-            let asks = study.asks.par_iter().zip(done).with_max_len(1);
-            asks.try_for_each(|(ask, done)| {
-                let slug = slug(&ask.name);
-                tables::files(study, (ask, done), wanted.csv, &|extension, bytes| {
+            let analyses = study.analyses.par_iter().zip(done).with_max_len(1);
+            analyses.try_for_each(|(analysis, done)| {
+                let slug = slug(&analysis.name);
+                tables::files(study, (analysis, done), requested.csv, &|extension, bytes| {
                     files.save(&format!("{slug}.{extension}"), bytes)
                 })
             })
         };
-        let pictures = || match wanted.pictures {
+        let pictures = || match requested.pictures {
             Pictures::Drawn => {
                 save_pictures(&drawn, files)?;
                 files.save(
                     REPORT,
-                    report::html(study, answer, (&drawn, wanted.opening)).as_bytes(),
+                    report::html(study, answer, (&drawn, requested.opening)).as_bytes(),
                 )
             }
             Pictures::None => Ok(()),
@@ -221,14 +221,14 @@ pub(crate) const RESULT: &str = "result.json";
 pub(crate) const REPORT: &str = "report.html";
 
 /// The names of all files, the answer last.
-fn names(study: &Study, drawn: &[Picture], wanted: Wanted) -> Vec<String> {
-    let tables = study.asks.iter().flat_map(|ask| {
-        let slug = slug(&ask.name);
-        let extensions = tables::extensions(ask, wanted.csv).into_iter();
+fn names(study: &Study, drawn: &[Picture], requested: Wanted) -> Vec<String> {
+    let tables = study.analyses.iter().flat_map(|analysis| {
+        let slug = slug(&analysis.name);
+        let extensions = tables::extensions(analysis, requested.csv).into_iter();
         extensions.map(move |extension| format!("{slug}.{extension}"))
     });
     let pictures = drawn.iter().flat_map(picture_files);
-    let report = (wanted.pictures == Pictures::Drawn).then(|| REPORT.to_owned());
+    let report = (requested.pictures == Pictures::Drawn).then(|| REPORT.to_owned());
     tables
         .chain(pictures)
         .chain(report)

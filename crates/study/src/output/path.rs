@@ -27,7 +27,7 @@ use super::arm::arm_posture;
 use super::pictures::{Picture, share_bar, shares};
 use super::plates::{axes, base_y, subtitle};
 use crate::answer::PathAnswer;
-use crate::file::path::{MeasuredForces, PathAsk};
+use crate::file::path::{MeasuredForces, PathAnalysis};
 use crate::file::resolve::{Setting, Study};
 use crate::run::PathFound;
 
@@ -43,24 +43,24 @@ const GHOSTS: usize = 5;
 const PLATE: f64 = 1.3;
 
 /// The pictures of a path.
-pub(super) fn pictures(study: &Study, ask: &PathAsk, told: &PathAnswer, found: &PathFound) -> Vec<Picture> {
+pub(super) fn pictures(study: &Study, analysis: &PathAnalysis, given: &PathAnswer, found: &PathFound) -> Vec<Picture> {
     let drawing = Drawing {
         study,
-        ask,
-        told,
+        analysis,
+        given,
         found,
     };
     let mut pictures = vec![drawing.where_it_deviates(), drawing.along()];
     pictures.extend(drawing.polar());
     pictures.extend(drawing.blame());
-    pictures.extend(super::limits::picture(&told.name, drawing.subtitle(), ask, found));
+    pictures.extend(super::limits::picture(&given.name, drawing.subtitle(), analysis, found));
     pictures.extend(super::lattice::picture(
-        &told.name,
+        &given.name,
         drawing.subtitle(),
-        ask,
+        analysis,
         found,
     ));
-    pictures.extend(ask.measured.as_deref().map(|measured| drawing.forces(measured)));
+    pictures.extend(analysis.measured.as_deref().map(|measured| drawing.forces(measured)));
     pictures.extend(drawing.arm());
     pictures
 }
@@ -68,8 +68,8 @@ pub(super) fn pictures(study: &Study, ask: &PathAsk, told: &PathAnswer, found: &
 /// What a path's pictures are made of.
 struct Drawing<'a> {
     study: &'a Study,
-    ask: &'a PathAsk,
-    told: &'a PathAnswer,
+    analysis: &'a PathAnalysis,
+    given: &'a PathAnswer,
     found: &'a PathFound,
 }
 
@@ -77,8 +77,8 @@ impl Drawing<'_> {
     /// A picture of this path: `what` ends its file name, `caption` follows the name of the path.
     fn picture(&self, what: &str, caption: &str, svg: String) -> Picture {
         Picture {
-            name: format!("{}-{what}", super::slug(&self.told.name)),
-            caption: format!("{}: {caption}", self.told.name),
+            name: format!("{}-{what}", super::slug(&self.given.name)),
+            caption: format!("{}: {caption}", self.given.name),
             svg,
         }
     }
@@ -87,7 +87,7 @@ impl Drawing<'_> {
     fn setting(&self) -> Setting {
         Setting {
             choice: self.found.along.choice_at(0),
-            ..self.ask.setting.clone()
+            ..self.analysis.setting.clone()
         }
     }
 
@@ -99,17 +99,17 @@ impl Drawing<'_> {
     /// NaN where the point is not reached: the drawing leaves a gap there.
     fn in_plane_um(&self, index: usize) -> f64 {
         let point = &self.found.along.answers.points[index];
-        point.as_ref().map_or(f64::NAN, |held| held.in_plane * 1e6)
+        point.as_ref().map_or(f64::NAN, |evaluation| evaluation.in_plane * 1e6)
     }
 
     /// A load case in a word: its force where that is the same everywhere.
     fn case_name(&self, case: usize) -> String {
         let force = self
-            .ask
+            .analysis
             .setting
             .cases
             .get(case)
-            .filter(|_| self.ask.load.is_steady());
+            .filter(|_| self.analysis.load.is_steady());
         force.map_or_else(
             || format!("case {}", case + 1),
             |wrench| {
@@ -121,7 +121,7 @@ impl Drawing<'_> {
 
     /// Arrows on a shape under loads that are the same everywhere, else the path coloured by its deviation.
     fn where_it_deviates(&self) -> Picture {
-        if self.ask.shape().is_some() && self.ask.load.is_steady() {
+        if self.analysis.shape().is_some() && self.analysis.load.is_steady() {
             let caption = "in-plane deviation along the path under every load case.";
             return self.picture("vectors", caption, self.vectors());
         }
@@ -131,14 +131,14 @@ impl Drawing<'_> {
 
     /// The path seen along its z, stretch by stretch, with the worst points numbered.
     fn track(&self) -> String {
-        let points = &self.ask.track.path.points;
+        let points = &self.analysis.track.path.points;
         let at = |i: usize| [points[i].at.x * 1e3, points[i].at.y * 1e3];
         let stretch = |range: std::ops::Range<usize>| Stretch {
             points_mm: range.clone().map(at).collect(),
             deviation_um: range.map(|i| self.in_plane_um(i)).collect(),
         };
-        let stretches = self.ask.track.path.stretches().map(stretch).collect();
-        let [low, high] = self.ask.track.path.corners();
+        let stretches = self.analysis.track.path.stretches().map(stretch).collect();
+        let [low, high] = self.analysis.track.path.corners();
         let apart_mm = APART * (high.x - low.x).max(high.y - low.y) * 1e3;
         let mut markers: Vec<Marker> = Vec::new();
         for (i, worst) in self.found.worst.iter().enumerate() {
@@ -159,14 +159,14 @@ impl Drawing<'_> {
             }
         }
         let picture = TrackMap {
-            title: self.told.name.clone(),
+            title: self.given.name.clone(),
             subtitle: self.subtitle(),
             axes: AxisLabels {
                 horizontal: "path x (mm)".to_owned(),
                 vertical: "path y (mm)".to_owned(),
             },
             quantity: "deviation across the tool (µm)".to_owned(),
-            limit_um: Some(self.ask.setting.limit * 1e6),
+            tolerance_um: Some(self.analysis.setting.limit * 1e6),
             stretches,
             markers,
             ..TrackMap::default()
@@ -176,16 +176,16 @@ impl Drawing<'_> {
 
     /// The shape on its plane with arrows at some of its points, drawn as seen from the tool side: y' to the left.
     fn vectors(&self) -> String {
-        let (track, answers) = (&self.ask.track, &self.found.along.answers);
+        let (track, answers) = (&self.analysis.track, &self.found.along.answers);
         let points = &track.path.points;
-        let y0 = base_y(&self.ask.setting);
+        let y0 = base_y(&self.analysis.setting);
         let at = |i: usize| [y0 - points[i].at.x * 1e3, points[i].at.y * 1e3];
         let every = points.len().div_ceil(ARROWS).max(1);
         let reached = |i: &usize| answers.points[*i].is_ok();
         let arrows = |case: usize| {
             let arrow = |i: usize| {
                 let deviation: Vector3<f64> =
-                    self.ask.setting.plane.in_part(&answers.deviations_at(i)[case]) * 1e6;
+                    self.analysis.setting.plane.in_part(&answers.deviations_at(i)[case]) * 1e6;
                 Arrow {
                     at_mm: at(i),
                     deviation_um: [-deviation.x, deviation.y],
@@ -202,9 +202,9 @@ impl Drawing<'_> {
             path_mm.extend(path_mm.first().copied());
         }
         let picture = VectorField {
-            title: self.told.name.clone(),
+            title: self.given.name.clone(),
             subtitle: self.subtitle(),
-            axes: axes(&self.ask.setting),
+            axes: axes(&self.analysis.setting),
             growth: Growth::Left,
             path_mm,
             cases: (0..answers.case_count)
@@ -220,7 +220,7 @@ impl Drawing<'_> {
     /// The deviation along the path: of one load case its parts, of several each in the plane. Of a path too long for a
     /// chart the largest sizes of each handful of points.
     fn along(&self) -> Picture {
-        let (track, answers) = (&self.ask.track, &self.found.along.answers);
+        let (track, answers) = (&self.analysis.track, &self.found.along.answers);
         let points = &track.path.points;
         let handfuls = Handfuls::of(points.len());
         let position = handfuls.positions_mm(points);
@@ -264,20 +264,20 @@ impl Drawing<'_> {
             (cases, "deviation across the tool (µm)", "largest of all cases")
         };
         let picture = PathPlot {
-            title: self.told.name.clone(),
+            title: self.given.name.clone(),
             subtitle: self.subtitle(),
             position_label: "along the path (mm)".to_owned(),
             quantity: quantity.to_owned(),
             series: all,
             envelope: Some(series(envelope.to_owned(), &|i| self.in_plane_um(i))),
-            limit_um: Some(self.ask.setting.limit * 1e6),
+            tolerance_um: Some(self.analysis.setting.limit * 1e6),
         };
         self.picture("along", "the deviation along the path.", picture.to_svg())
     }
 
     /// What becomes of a circle, magnified.
     fn polar(&self) -> Option<Picture> {
-        let count = self.ask.track.len();
+        let count = self.analysis.track.len();
         let angle_deg: Vec<f64> = (0..=count).map(|i| 360.0 * i as f64 / count as f64).collect();
         let series = |(case, radial): (usize, &RadialDeviation)| RadialSeries {
             name: self.case_name(case),
@@ -290,7 +290,7 @@ impl Drawing<'_> {
                 .collect(),
         };
         let picture = PolarPlot {
-            title: self.told.name.clone(),
+            title: self.given.name.clone(),
             subtitle: self.subtitle(),
             horizontal: "base y".to_owned(),
             vertical: "z′".to_owned(),
@@ -305,12 +305,12 @@ impl Drawing<'_> {
 
     /// Which joint is to blame at the worst points.
     fn blame(&self) -> Option<Picture> {
-        let worst = &self.told.worst_points;
+        let worst = &self.given.worst_points;
         let bars = worst.iter().enumerate().map(|(i, worst)| {
             let label = format!("{}: line {}", i + 1, worst.line);
             share_bar(&label, &worst.point)
         });
-        let title = format!("{}: which joint is to blame", self.told.name);
+        let title = format!("{}: which joint is to blame", self.given.name);
         let quantity = "share of deviation across the tool (µm)";
         let svg = shares(self.study, &title, (&self.setting(), quantity), bars.collect());
         (!worst.is_empty()).then(|| self.picture("shares", "share of each joint at the worst points.", svg))
@@ -326,7 +326,7 @@ impl Drawing<'_> {
         if let Some(rpm) = measured.table.spindle_rpm {
             let _ = write!(subtitle, "; means of turns at {rpm} rpm");
         }
-        let title = format!("{}: measured force", self.told.name);
+        let title = format!("{}: measured force", self.given.name);
         let mut plot = crate::forces::output::plot((title, subtitle), &measured.treated);
         let [from, to] = measured.program;
         plot.marks_s = vec![
@@ -339,10 +339,10 @@ impl Drawing<'_> {
 
     /// The arm at the worst point of the path, faintly along it.
     fn arm(&self) -> Option<Picture> {
-        let (answers, track) = (&self.found.along.answers, &self.ask.track);
+        let (answers, track) = (&self.found.along.answers, &self.analysis.track);
         let (worst, _) = answers.worst()?;
         let robot = &self.study.robot.robot;
-        let flange_from_tool = &self.ask.setting.flange_from_tool;
+        let flange_from_tool = &self.analysis.setting.flange_from_tool;
         let stand = |i: usize| arm_posture(robot, answers.joints_at(i), flange_from_tool);
         let ghosts = (0..GHOSTS)
             .map(|k| k * track.len() / GHOSTS)
@@ -361,7 +361,7 @@ impl Drawing<'_> {
             path_mm.extend(path_mm.first().copied());
         }
         let drawing = ArmDrawing {
-            title: self.told.name.clone(),
+            title: self.given.name.clone(),
             subtitle: self.subtitle(),
             posture: stand(worst),
             ghosts: ghosts.map(stand).collect(),
@@ -375,8 +375,8 @@ impl Drawing<'_> {
 
     /// Corners of the plate, path axes: about the centre of the plane of a shape, below a program.
     fn plate(&self) -> [Point3<f64>; 4] {
-        let [low, high] = self.ask.track.path.corners();
-        let [low, high] = match self.ask.shape() {
+        let [low, high] = self.analysis.track.path.corners();
+        let [low, high] = match self.analysis.shape() {
             Some(_) => {
                 let reach = PLATE * low.coords.amax().max(high.coords.amax());
                 [Point3::new(-reach, -reach, 0.0), Point3::new(reach, reach, 0.0)]

@@ -39,7 +39,7 @@ pub(super) fn draw(study: &Study, done: &[Done<'_>], answer: &StudyAnswer) -> Ve
     // Maps and paths stand in the answer in the order of the asks.
     let (mut maps, mut paths) = (answer.maps.as_slice(), answer.paths.iter());
     let mut holes = answer.holes.iter();
-    let told = done.iter().map(|done| {
+    let given = done.iter().map(|done| {
         let count = match &done.found {
             Found::Map(..) => 1,
             Found::Sections(sections) => sections.len(),
@@ -55,14 +55,14 @@ pub(super) fn draw(study: &Study, done: &[Done<'_>], answer: &StudyAnswer) -> Ve
             .flatten();
         (done, of_ask, (path, of_holes))
     });
-    let told: Vec<_> = told.collect();
-    let mut pictures: Vec<Picture> = told
+    let given: Vec<_> = given.collect();
+    let mut pictures: Vec<Picture> = given
         .into_par_iter()
         .with_max_len(1)
         .flat_map_iter(|(done, maps, others)| pictures_of(study, done, maps, others))
         .collect();
-    if let Some(Ok((combined, told))) = crate::budget::beside(study, done) {
-        pictures.extend(crate::budget::output::pictures(&told, &combined));
+    if let Some(Ok((combined, given))) = crate::budget::beside(study, done) {
+        pictures.extend(crate::budget::output::pictures(&given, &combined));
     }
     pictures
 }
@@ -76,23 +76,23 @@ fn pictures_of(
 ) -> Vec<Picture> {
     match &done.found {
         Found::Map(plate, map) => {
-            let Some(told) = maps.first() else {
+            let Some(given) = maps.first() else {
                 return Vec::new();
             };
             let mut pictures: Vec<Picture> =
-                map_pictures(told, &plate.setting, map, overlays(study, &plate.setting))
+                map_pictures(given, &plate.setting, map, overlays(study, &plate.setting))
                     .into_iter()
                     .collect();
-            pictures.extend(worst_point(study, &plate.setting, told, map));
+            pictures.extend(worst_point(study, &plate.setting, given, map));
             pictures
         }
         Found::Sections(sections) => {
-            let panels = sections.iter().zip(maps).map(|(section, told)| {
+            let panels = sections.iter().zip(maps).map(|(section, given)| {
                 section_panel(
                     section.label,
                     &section.map,
                     &section.sheet.setting,
-                    told.fraction_within,
+                    given.fraction_within,
                 )
             });
             let panels: Vec<_> = panels.collect();
@@ -101,11 +101,11 @@ fn pictures_of(
             drawn.into_iter().collect()
         }
         Found::Volume(setting, volume) => vec![slices(done.name, volume, setting)],
-        Found::Path(ask, found) => {
-            path.map_or_else(Vec::new, |told| super::path::pictures(study, ask, told, found))
+        Found::Path(analysis, found) => {
+            path.map_or_else(Vec::new, |given| super::path::pictures(study, analysis, given, found))
         }
-        Found::Holes(ask, found) => {
-            holes.map_or_else(Vec::new, |told| super::holes::pictures(study, ask, (told, found)))
+        Found::Holes(analysis, found) => {
+            holes.map_or_else(Vec::new, |given| super::holes::pictures(study, analysis, (given, found)))
         }
     }
 }
@@ -113,8 +113,8 @@ fn pictures_of(
 /// Paths of the study that lie on the same plane as a map, to be drawn on it.
 fn overlays(study: &Study, setting: &Setting) -> Vec<Overlay> {
     let mut overlays: Vec<Overlay> = Vec::new();
-    for ask in &study.asks {
-        let Subject::Path(path) = &ask.subject else {
+    for analysis in &study.analyses {
+        let Subject::Path(path) = &analysis.subject else {
             continue;
         };
         let Some(shape) = path.shape() else { continue };
@@ -144,8 +144,8 @@ fn overlays(study: &Study, setting: &Setting) -> Vec<Overlay> {
 
 /// Why the worst point of a map is bad: shares of the joints there and at the best point, the compliance in the
 /// plane, and the arm.
-fn worst_point(study: &Study, setting: &Setting, told: &MapAnswer, map: &PlaneMap) -> Vec<Picture> {
-    let Some((worst, best)) = told.worst.as_ref().zip(told.best.as_ref()) else {
+fn worst_point(study: &Study, setting: &Setting, given: &MapAnswer, map: &PlaneMap) -> Vec<Picture> {
+    let Some((worst, best)) = given.worst.as_ref().zip(given.best.as_ref()) else {
         return Vec::new();
     };
     let Some((index, _)) = map.answers.worst() else {
@@ -155,17 +155,17 @@ fn worst_point(study: &Study, setting: &Setting, told: &MapAnswer, map: &PlaneMa
         let [x, y, z] = point.xyz_mm;
         share_bar(&format!("{which} ({x:.0}, {y:.0}, {z:.0}) mm"), point)
     });
-    let slug = super::slug(&told.name);
+    let slug = super::slug(&given.name);
     vec![
         Picture {
             name: format!("{slug}-shares"),
             caption: format!(
                 "{}: share of each joint where the deviation is largest and least.",
-                told.name
+                given.name
             ),
             svg: shares(
                 study,
-                &format!("{}: which joint is to blame", told.name),
+                &format!("{}: which joint is to blame", given.name),
                 (setting, "share of in-plane deviation (µm)"),
                 bars.to_vec(),
             ),
@@ -173,11 +173,11 @@ fn worst_point(study: &Study, setting: &Setting, told: &MapAnswer, map: &PlaneMa
         ellipse(study, setting, &slug, &map.answers, index),
         Picture {
             name: format!("{slug}-arm"),
-            caption: format!("{}: the arm where the deviation is largest.", told.name),
+            caption: format!("{}: the arm where the deviation is largest.", given.name),
             svg: arm(
                 study,
                 setting,
-                (&told.name, map.answers.joints_at(index)),
+                (&given.name, map.answers.joints_at(index)),
                 plate_corners(map),
             ),
         },
@@ -201,7 +201,7 @@ pub(super) fn shares(
     (setting, quantity): (&Setting, &str),
     mut bars: Vec<ShareBar>,
 ) -> String {
-    let mut parts = setting.model.sharer_names(study.robot.robot.joints());
+    let mut parts = setting.model.contributor_names(study.robot.robot.joints());
     if setting.model.actual.is_some() {
         parts.push(GEOMETRY.to_owned());
         for ShareBar {

@@ -76,7 +76,7 @@ pub(super) fn grid(map: &PlaneMap, setting: &Setting) -> Grid {
 fn spread_um(map: &PlaneMap) -> Vec<f64> {
     let points = map.answers.points.iter();
     let uncertainty =
-        |point: &Result<Held, Unreachable>| point.as_ref().map_or(0.0, |held| held.in_plane_uncertainty);
+        |point: &Result<Held, Unreachable>| point.as_ref().map_or(0.0, |evaluation| evaluation.in_plane_uncertainty);
     points.map(|point| COVERAGE * uncertainty(point) * 1e6).collect()
 }
 
@@ -93,8 +93,8 @@ pub(super) fn base_y(setting: &Setting) -> f64 {
 /// What a point shows: its deviation, told apart outside joint limits, or that it is not reached.
 fn state(point: &Result<Held, Unreachable>) -> PointState {
     match point {
-        Ok(held) if held.within_limits() => PointState::Reached(held.in_plane * 1e6),
-        Ok(held) => PointState::OutsideJointLimits(held.in_plane * 1e6),
+        Ok(evaluation) if evaluation.within_limits() => PointState::Reached(evaluation.in_plane * 1e6),
+        Ok(evaluation) => PointState::OutsideJointLimits(evaluation.in_plane * 1e6),
         Err(_) => PointState::Unreachable,
     }
 }
@@ -124,14 +124,14 @@ pub(super) fn map_pictures(
             .as_ref()
             .map(|p| marker("largest", MarkerKind::Point, at(p.in_plane_mm))),
     ];
-    let limit_um = setting.limit * 1e6;
+    let tolerance_um = setting.limit * 1e6;
     let deviation = DeviationMap {
         title: answer.name.clone(),
         subtitle: subtitle(setting),
         grid: grid(map, setting),
         axes: axes(setting),
         quantity: QUANTITY.to_owned(),
-        limit_um: Some(limit_um),
+        tolerance_um: Some(tolerance_um),
         scale: ColourScale::Viridis,
         overlays,
         markers: markers.into_iter().flatten().collect(),
@@ -139,12 +139,12 @@ pub(super) fn map_pictures(
         show_grid_points: map.grid.len() <= 200,
     };
     let region = RegionMap {
-        title: format!("{}: where {limit_um:.0} µm hold", answer.name),
+        title: format!("{}: where {tolerance_um:.0} µm hold", answer.name),
         subtitle: subtitle(setting),
         grid: grid(map, setting),
         spread_um: spread_um(map),
         axes: axes(setting),
-        limit_um,
+        tolerance_um,
         show_iso_lines: true,
         rectangle: answer
             .region
@@ -174,7 +174,7 @@ pub(super) fn map_pictures(
         Picture {
             name: format!("{slug}-region"),
             caption: format!(
-                "{}: {:.1} % of the points hold {limit_um:.0} µm{}.",
+                "{}: {:.1} % of the points hold {tolerance_um:.0} µm{}.",
                 answer.name,
                 answer.fraction_within_and_inside_joint_limits * 100.0,
                 if answer.outside_joint_limits > 0 {
@@ -198,7 +198,7 @@ pub(super) fn sheet(name: &str, panels: Vec<Panel>, setting: &Setting, axes: Axi
         panels,
         axes,
         quantity: QUANTITY.to_owned(),
-        limit_um: Some(setting.limit * 1e6),
+        tolerance_um: Some(setting.limit * 1e6),
         scale: ColourScale::Viridis,
         show_regions: true,
     };

@@ -12,8 +12,8 @@ use armill_core::nalgebra::Point3;
 use armill_core::optimize::HolesFound;
 use armill_core::path::Track;
 
-use crate::file::holes::HolesAsk;
-use crate::file::path::PathAsk;
+use crate::file::holes::HolesAnalysis;
+use crate::file::path::PathAnalysis;
 use crate::file::resolve::Setting;
 use crate::number::decimals;
 use crate::run::{Found, PathFound, Section};
@@ -32,9 +32,9 @@ pub(super) struct Rows<'a> {
     /// TCP of each point, mm, in the frame that the study counts from.
     pub at_mm: Vec<[f64; 3]>,
     /// The path whose points they are, and what came out along it.
-    pub path: Option<(&'a PathAsk, &'a PathFound)>,
+    pub path: Option<(&'a PathAnalysis, &'a PathFound)>,
     /// The holes that they are, likewise.
-    pub holes: Option<(&'a HolesAsk, &'a HolesFound)>,
+    pub holes: Option<(&'a HolesAnalysis, &'a HolesFound)>,
 }
 
 impl<'a> Rows<'a> {
@@ -65,8 +65,8 @@ impl<'a> Rows<'a> {
     /// Points against the limit, by reason.
     pub(super) fn state(&self, index: usize) -> &'static str {
         match &self.answers.points[index] {
-            Ok(held) if held.in_plane <= self.setting.limit => "within",
-            Ok(_) => "over_limit",
+            Ok(evaluation) if evaluation.in_plane <= self.setting.limit => "within",
+            Ok(_) => "above_tolerance",
             Err(miss) => miss.word(),
         }
     }
@@ -88,8 +88,8 @@ pub(super) fn of_held<'r>(
     value: impl Fn(&Rows<'_>, usize, &Held) -> f64 + 'r,
 ) -> impl Iterator<Item = Option<f64>> + 'r {
     points.map(move |index| {
-        let held = rows.answers.points[index].as_ref().ok()?;
-        Some(value(rows, index, held)).filter(|value| value.is_finite())
+        let evaluation = rows.answers.points[index].as_ref().ok()?;
+        Some(value(rows, index, evaluation)).filter(|value| value.is_finite())
     })
 }
 
@@ -119,13 +119,13 @@ pub(super) fn rows<'a>(found: &'a Found<'_>) -> Vec<Rows<'a>> {
             let points = (0..volume.grid.len()).map(|index| volume.grid.point(index));
             vec![Rows::new("", setting, &volume.answers, points)]
         }
-        Found::Path(ask, found) => vec![Rows {
-            path: Some((ask, found)),
-            ..Rows::new("", &ask.setting, &found.along.answers, tips(&ask.track))
+        Found::Path(analysis, found) => vec![Rows {
+            path: Some((analysis, found)),
+            ..Rows::new("", &analysis.setting, &found.along.answers, tips(&analysis.track))
         }],
-        Found::Holes(ask, found) => vec![Rows {
-            holes: Some((ask, found)),
-            ..Rows::new("", &ask.path.setting, &found.answers, tips(&ask.path.track))
+        Found::Holes(analysis, found) => vec![Rows {
+            holes: Some((analysis, found)),
+            ..Rows::new("", &analysis.path.setting, &found.answers, tips(&analysis.path.track))
         }],
     }
 }

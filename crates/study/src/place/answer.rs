@@ -1,6 +1,6 @@
 //! The place that was found, as values of a result.
 
-use armill_core::optimize::{Appraisal, Sure};
+use armill_core::optimize::{PlacementEvaluation, RankBy};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -14,19 +14,19 @@ pub struct PlacementAnswer {
     /// Version of this format.
     pub format: u32,
     /// The path.
-    pub ask: String,
+    pub analysis: String,
     /// Which part of the deviation counted: `in-plane`, `cross-track`, `axial`.
-    pub counts: &'static str,
-    /// What was to be least: `worst`, `mean`, `above-limit`.
-    pub goal: &'static str,
+    pub component: &'static str,
+    /// What was to be least: `worst`, `mean`, `above-tolerance`.
+    pub objective: &'static str,
     /// What places were compared by: `nominal`, `plus-two-sigma`, `within-limit`.
-    pub sure: &'static str,
+    pub rank_by: &'static str,
     /// How far every joint stays from its limits, the elbow from stretched and the wrist from straight.
     pub margin_deg: f64,
     /// Points of the path.
     pub points: usize,
     /// Where the study has the part, in the branches that it has there.
-    pub as_drawn: OutcomeAnswer,
+    pub nominal: OutcomeAnswer,
     /// At the place that was found.
     pub found: OutcomeAnswer,
     /// The fixture that it is, where fixtures were told.
@@ -60,7 +60,7 @@ pub struct OutcomeAnswer {
     /// How probably it is above the limit, where it is not sure.
     pub probability_above_limit: Option<f64>,
     /// Points that the arm does not hold inside its limits and away from singularities.
-    pub lost_points: usize,
+    pub unreachable_points: usize,
     /// The branch; none for arms whose branches have no names.
     pub branch: Option<String>,
 }
@@ -98,15 +98,15 @@ pub struct MarginAnswer {
 
 impl OutcomeAnswer {
     /// Of a place appraised so, against this limit, m.
-    pub(super) fn of(appraised: &Appraisal, limit: f64) -> OutcomeAnswer {
-        let Appraisal { merit, uncertainty } = appraised;
-        let cost = if merit.cost.is_finite() { merit.cost } else { 0.0 };
+    pub(super) fn of(appraised: &PlacementEvaluation, limit: f64) -> OutcomeAnswer {
+        let PlacementEvaluation { score, uncertainty } = appraised;
+        let cost = if score.cost.is_finite() { score.cost } else { 0.0 };
         OutcomeAnswer {
             cost_um: cost * 1e6,
             cost_u_um: uncertainty * 1e6,
             probability_above_limit: appraised.probability_above(limit),
-            lost_points: merit.lost,
-            branch: merit.branch.map(|branch| branch.to_string()),
+            unreachable_points: score.lost,
+            branch: score.branch.map(|branch| branch.to_string()),
         }
     }
 }
@@ -114,12 +114,12 @@ impl OutcomeAnswer {
 impl PlacementAnswer {
     /// What was found, in sentences.
     pub fn sentences(&self) -> Vec<String> {
-        let what = match self.goal {
+        let what = match self.objective {
             "worst" => "at most",
             "mean" => "on the mean",
             _ => "a cost (mean excess over the limit, and a thousandth of the mean) of",
         };
-        let comes_to = |outcome: &OutcomeAnswer| match outcome.lost_points {
+        let comes_to = |outcome: &OutcomeAnswer| match outcome.unreachable_points {
             0 => format!(
                 "{what} {}{} µm",
                 micrometres(outcome.cost_um),
@@ -136,20 +136,20 @@ impl PlacementAnswer {
                 .as_deref()
                 .map_or(String::new(), |branch| format!(" in {branch}"))
         };
-        let mut lines = vec![match self.found.lost_points {
+        let mut lines = vec![match self.found.unreachable_points {
             0 => format!(
                 "{}: {} {} deviation{} at {}; as drawn {}{}.",
-                self.ask,
+                self.analysis,
                 comes_to(&self.found),
-                self.counts,
+                self.component,
                 branch(&self.found),
                 self.place_in_words(),
-                comes_to(&self.as_drawn),
-                branch(&self.as_drawn),
+                comes_to(&self.nominal),
+                branch(&self.nominal),
             ),
             lost => format!(
                 "{}: no place was found that the arm holds everywhere; the best, {}, loses {lost} of {} points{}.",
-                self.ask,
+                self.analysis,
                 self.place_in_words(),
                 self.points,
                 branch(&self.found),
@@ -182,7 +182,7 @@ impl PlacementAnswer {
         if let Some(above) = self
             .found
             .probability_above_limit
-            .filter(|_| self.sure == "within-limit")
+            .filter(|_| self.rank_by == "within-limit")
         {
             lines.push(format!(
                 "It is above the limit with a probability of {:.1} %.",
@@ -231,7 +231,7 @@ impl PlacementAnswer {
 
     /// Lines of a study file that lay the path there; none where no place holds it.
     pub fn study_lines(&self) -> String {
-        if self.found.lost_points > 0 {
+        if self.found.unreachable_points > 0 {
             return String::new();
         }
         let place = &self.place;
@@ -263,10 +263,10 @@ impl PlacementAnswer {
 }
 
 /// As the study calls it.
-pub(super) fn sure_word(sure: Sure) -> &'static str {
-    match sure {
-        Sure::Nominal => "nominal",
-        Sure::PlusTwoSigma => "plus-two-sigma",
-        Sure::WithinLimit(_) => "within-limit",
+pub(super) fn sure_word(rank_by: RankBy) -> &'static str {
+    match rank_by {
+        RankBy::Nominal => "nominal",
+        RankBy::PlusTwoSigma => "plus-two-sigma",
+        RankBy::WithinLimit(_) => "within-limit",
     }
 }

@@ -4,8 +4,8 @@
 //! all millimetres and in all degrees. A place is looked at until it is known to be no better. Where the largest deviation
 //! counts, some points of the path show that first; what they leave is looked at in full.
 
-use armill_core::kernel::Lie;
-use armill_core::optimize::{Goal, Merit, Placeable, Sure};
+use armill_core::kernel::PartPlacement;
+use armill_core::optimize::{Objective, Score, Placeable, RankBy};
 use armill_core::watch::{Cancelled, Watch};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -51,7 +51,7 @@ const SLACK: f64 = 1e-9;
 struct Grid {
     first: Vec<f64>,
     step: Vec<f64>,
-    counts: Vec<usize>,
+    component: Vec<usize>,
     pitch: [f64; 2],
 }
 
@@ -74,13 +74,13 @@ impl Searched<'_> {
         best: &Spot,
         watch: Watch<'_>,
     ) -> Result<(GridAnswer, Option<Spot>), Cancelled> {
-        self.grid(&self.near(&best.at), &best.merit, watch)
+        self.grid(&self.near(&best.at), &best.score, watch)
     }
 
     /// What the grid over all that is free says of a place that is worth `best`, and the best place there where one is better.
     pub(super) fn wide_grid(
         &self,
-        best: &Merit,
+        best: &Score,
         watch: Watch<'_>,
     ) -> Result<(GridAnswer, Option<Spot>), Cancelled> {
         self.grid(&self.wide(), best, watch)
@@ -98,8 +98,8 @@ impl Searched<'_> {
     /// Whether some points show that a place is no better.
     fn is_quick(&self) -> bool {
         matches!(
-            (self.all.goal.goal, self.all.goal.sure),
-            (Goal::Worst, Sure::Nominal)
+            (self.all.objective.objective, self.all.objective.rank_by),
+            (Objective::Worst, RankBy::Nominal)
         )
     }
 
@@ -113,7 +113,7 @@ impl Searched<'_> {
         let mut grid = Grid {
             first: Vec::new(),
             step: Vec::new(),
-            counts: Vec::new(),
+            component: Vec::new(),
             pitch: NEAR,
         };
         for ((degree, [least, greatest]), at) in self.freedom.free().zip(at) {
@@ -123,7 +123,7 @@ impl Searched<'_> {
             let (below, above) = (fits(*at), fits(1.0 - at));
             grid.first.push(at - below as f64 * step);
             grid.step.push(step);
-            grid.counts.push(below + above + 1);
+            grid.component.push(below + above + 1);
         }
         grid
     }
@@ -131,22 +131,22 @@ impl Searched<'_> {
     fn wide(&self) -> Grid {
         let mut pitch = FINEST;
         loop {
-            let counts: Vec<usize> = self
+            let component: Vec<usize> = self
                 .freedom
                 .free()
                 .map(|(degree, [least, greatest])| {
                     ((greatest - least) / pitch[usize::from(is_angle(degree))]).ceil() as usize + 1
                 })
                 .collect();
-            let places: f64 = counts.iter().map(|count| *count as f64).product();
+            let places: f64 = component.iter().map(|count| *count as f64).product();
             if places <= self.most() as f64 {
                 return Grid {
-                    first: vec![0.0; counts.len()],
-                    step: counts
+                    first: vec![0.0; component.len()],
+                    step: component
                         .iter()
                         .map(|count| 1.0 / (count - 1).max(1) as f64)
                         .collect(),
-                    counts,
+                    component,
                     pitch,
                 };
             }
@@ -157,10 +157,10 @@ impl Searched<'_> {
     fn grid(
         &self,
         grid: &Grid,
-        best: &Merit,
+        best: &Score,
         watch: Watch<'_>,
     ) -> Result<(GridAnswer, Option<Spot>), Cancelled> {
-        let bar = Merit {
+        let bar = Score {
             cost: best.cost - SLACK * best.cost.abs(),
             ..*best
         };
@@ -178,7 +178,7 @@ impl Searched<'_> {
             }
             for spot in self.better(&self.all, left, &bar, watch)? {
                 better += 1;
-                if found.as_ref().is_none_or(|found| spot.merit.beats(&found.merit)) {
+                if found.as_ref().is_none_or(|found| spot.score.beats(&found.score)) {
                     found = Some(spot);
                 }
             }
@@ -199,29 +199,29 @@ impl Searched<'_> {
         &self,
         path: &Placeable<'_>,
         places: Vec<Vec<f64>>,
-        bar: &Merit,
+        bar: &Score,
         watch: Watch<'_>,
     ) -> Result<Vec<Spot>, Cancelled> {
-        let lies: Vec<Lie> = places.iter().map(|at| self.freedom.lie(at)).collect();
+        let placements: Vec<PartPlacement> = places.iter().map(|at| self.freedom.placement(at)).collect();
         let quiet = Watch {
             finished: &|_| (),
             ..watch
         };
-        let merits = path.merits(&lies, Some(bar), quiet)?;
-        let both = places.into_iter().zip(merits);
-        let spots = both.filter_map(|(at, merit)| Some(Spot { at, merit: merit? }));
-        Ok(spots.filter(|spot| spot.merit.beats(bar)).collect())
+        let scores = path.scores(&placements, Some(bar), quiet)?;
+        let both = places.into_iter().zip(scores);
+        let spots = both.filter_map(|(at, score)| Some(Spot { at, score: score? }));
+        Ok(spots.filter(|spot| spot.score.beats(bar)).collect())
     }
 }
 
 impl Grid {
     fn len(&self) -> usize {
-        self.counts.iter().product()
+        self.component.iter().product()
     }
 
     fn at(&self, mut index: usize) -> Vec<f64> {
-        let mut at = Vec::with_capacity(self.counts.len());
-        for ((first, step), count) in self.first.iter().zip(&self.step).zip(&self.counts) {
+        let mut at = Vec::with_capacity(self.component.len());
+        for ((first, step), count) in self.first.iter().zip(&self.step).zip(&self.component) {
             at.push((first + step * (index % count) as f64).clamp(0.0, 1.0));
             index /= count;
         }

@@ -4,7 +4,7 @@ use armill_core::nalgebra::UnitQuaternion;
 
 use super::answer::PlacementAnswer;
 use crate::error::StudyError;
-use crate::file::format::{AskKind, PlaneChange, PostureTable, StudyFile};
+use crate::file::format::{AnalysisKind, PlaneChange, PostureTable, StudyFile};
 use crate::file::resolve::{Study, Subject};
 use crate::output::{Opening, Picture};
 use crate::studies::FoundStudy;
@@ -16,7 +16,7 @@ pub struct Found {
     /// Front and sections.
     pub pictures: Vec<Picture>,
     /// Which ask was placed.
-    pub(super) ask: usize,
+    pub(super) analysis: usize,
     /// The tool on the part at each point, where it turns with it though the study does not say so.
     pub(super) with_part: Option<Vec<UnitQuaternion<f64>>>,
 }
@@ -24,8 +24,8 @@ pub struct Found {
 impl Found {
     /// Whether the path is better there than as drawn.
     pub fn is_better(&self) -> bool {
-        let (there, drawn) = (&self.answer.found, &self.answer.as_drawn);
-        (there.lost_points, there.cost_um) < (drawn.lost_points, drawn.cost_um)
+        let (there, drawn) = (&self.answer.found, &self.answer.nominal);
+        (there.unreachable_points, there.cost_um) < (drawn.unreachable_points, drawn.cost_um)
     }
 
     /// What a report about the path there begins with.
@@ -43,10 +43,10 @@ impl Found {
     /// Every problem of the file, which may have changed since it was read.
     pub fn study(&self, found: &FoundStudy) -> Result<Study, StudyError> {
         let mut study = found.read_changed(|file| self.lay(file))?;
-        study.asks.retain(|ask| ask.name == self.answer.ask);
+        study.analyses.retain(|analysis| analysis.name == self.answer.analysis);
         study.statements.clear();
-        for ask in &mut study.asks {
-            let path = match &mut ask.subject {
+        for analysis in &mut study.analyses {
+            let path = match &mut analysis.subject {
                 Subject::Path(path) => path,
                 Subject::Holes(holes) => &mut holes.path,
                 _ => continue,
@@ -67,18 +67,18 @@ impl Found {
     /// Lets the study file lay its path there.
     fn lay(&self, file: &mut StudyFile) {
         let place = &self.answer.place;
-        let Some(ask) = file.ask.get_mut(self.ask) else {
+        let Some(analysis) = file.analysis.get_mut(self.analysis) else {
             return;
         };
-        ask.plane = Some(PlaneChange {
+        analysis.plane = Some(PlaneChange {
             centre_mm: Some(place.centre_mm),
             tilt_deg: place.tilt_deg,
             rotation_deg: place.rotation_deg,
-            ..ask.plane.take().unwrap_or_default()
+            ..analysis.plane.take().unwrap_or_default()
         });
         let whole = file.posture.as_ref();
-        let own = ask.posture.as_ref();
-        ask.posture = Some(PostureTable {
+        let own = analysis.posture.as_ref();
+        analysis.posture = Some(PostureTable {
             branch: self.answer.found.branch.clone().or_else(|| {
                 let own = own.and_then(|posture| posture.branch.clone());
                 own.or_else(|| whole.and_then(|posture| posture.branch.clone()))
@@ -94,10 +94,10 @@ impl Found {
             let sum = spin.unwrap_or(0.0) + place.spin_deg;
             Some(sum - 360.0 * (sum / 360.0).round())
         };
-        match &mut ask.program {
-            _ if ask.kind == AskKind::Holes => (),
+        match &mut analysis.program {
+            _ if analysis.kind == AnalysisKind::Holes => (),
             Some(program) => program.spin_deg = more(program.spin_deg),
-            None => ask.spin_deg = more(ask.spin_deg),
+            None => analysis.spin_deg = more(analysis.spin_deg),
         }
     }
 }

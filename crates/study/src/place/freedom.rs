@@ -1,7 +1,7 @@
 //! What may move, as numbers from 0 to 1, and the place that they mean. The formula is in [`crate::file::placement`].
 
 use armill_core::frame::{Isometry, fixed_angles};
-use armill_core::kernel::Lie;
+use armill_core::kernel::PartPlacement;
 use armill_core::nalgebra::{Translation3, Unit, UnitQuaternion, Vector3};
 use armill_core::optimize::ToolTurn;
 use schemars::JsonSchema;
@@ -19,7 +19,7 @@ pub(super) const DEGREES: usize = 8;
 #[derive(Clone, Debug)]
 pub(super) struct Freedom {
     /// The frame that the study counts from.
-    base_from_counted: Isometry,
+    base_from_reference: Isometry,
     /// Axes of the part there, without their tilt where the plane is told by it.
     axes: UnitQuaternion<f64>,
     /// Whether the plane is told by its tilt.
@@ -49,23 +49,23 @@ pub struct PlaceAnswer {
 impl Freedom {
     /// Of a path asked with `setting` and its rail at `rail` (m), whose tool is turned as `turn` says, inside the bounds of `table`.
     pub fn new((setting, rail): (&Setting, f64), turn: ToolTurn, table: &PlaceTable) -> Freedom {
-        let base_from_counted = setting.base_from_counted;
-        let counted_from_part = base_from_counted.inverse() * setting.plane.base_from_part;
+        let base_from_reference = setting.base_from_reference;
+        let reference_from_part = base_from_reference.inverse() * setting.plane.base_from_part;
         let tilt = setting.tilt.unwrap_or(0.0);
-        let at = counted_from_part.translation.vector;
+        let at = reference_from_part.translation.vector;
         let here = [at.x, at.y, at.z, 0.0, tilt, 0.0, 0.0, rail];
         let mut bounds = here.map(|value| [value, value]);
-        for (bounds, (key, told)) in bounds.iter_mut().zip(table.bounds()) {
-            if let Some(told) = told {
-                *bounds = told.map(|value| match key.ends_with("_mm") {
+        for (bounds, (key, reported)) in bounds.iter_mut().zip(table.bounds()) {
+            if let Some(reported) = reported {
+                *bounds = reported.map(|value| match key.ends_with("_mm") {
                     true => value * 1e-3,
                     false => value.to_radians(),
                 });
             }
         }
         Freedom {
-            base_from_counted,
-            axes: about(Vector3::y_axis(), -tilt) * counted_from_part.rotation,
+            base_from_reference,
+            axes: about(Vector3::y_axis(), -tilt) * reference_from_part.rotation,
             by_tilt: setting.tilt.is_some(),
             turn,
             rail: table.rail_mm.is_some(),
@@ -94,7 +94,7 @@ impl Freedom {
     }
 
     /// The part at these values, in the frame that the study counts from.
-    fn counted_from_part(&self, [x, y, z, heading, tilt, roll, ..]: [f64; DEGREES]) -> Isometry {
+    fn reference_from_part(&self, [x, y, z, heading, tilt, roll, ..]: [f64; DEGREES]) -> Isometry {
         let rotation = about(Vector3::z_axis(), heading)
             * about(Vector3::y_axis(), tilt)
             * self.axes
@@ -103,24 +103,24 @@ impl Freedom {
     }
 
     /// The place where the free degrees have these parts of their ranges.
-    pub fn lie(&self, at: &[f64]) -> Lie {
+    pub fn part_placement(&self, at: &[f64]) -> PartPlacement {
         self.lie_of(self.values(at))
     }
 
     /// The place where the degrees have these values, m and rad.
-    pub fn lie_of(&self, values: [f64; DEGREES]) -> Lie {
-        let base_from_part = self.base_from_counted * self.counted_from_part(values);
+    pub fn lie_of(&self, values: [f64; DEGREES]) -> PartPlacement {
+        let base_from_part = self.base_from_reference * self.reference_from_part(values);
         let [.., spin, rail] = values;
-        Lie {
+        PartPlacement {
             rail: self.rail.then_some(rail),
-            ..self.turn.lie(base_from_part, spin)
+            ..self.turn.part_placement(base_from_part, spin)
         }
     }
 
     /// The free degrees there.
-    pub fn told(&self, at: &[f64]) -> Vec<FreeAnswer> {
+    pub fn reported(&self, at: &[f64]) -> Vec<FreeAnswer> {
         let values = self.values(at);
-        let told = |(degree, bounds): (usize, [f64; 2])| {
+        let reported = |(degree, bounds): (usize, [f64; 2])| {
             let unit = |value: f64| match is_angle(degree) {
                 true => value.to_degrees(),
                 false => value * 1e3,
@@ -135,7 +135,7 @@ impl Freedom {
                 at_bound: values[degree] < least + edge || values[degree] > greatest - edge,
             }
         };
-        self.free().map(told).collect()
+        self.free().map(reported).collect()
     }
 
     /// The same place in words of the study.
@@ -143,16 +143,16 @@ impl Freedom {
         let values = self.values(at);
         let [x, y, z, heading, tilt, roll, spin, rail] = values;
         let by_tilt = self.by_tilt && heading == 0.0 && roll == 0.0;
-        let rotation = fixed_angles(&self.counted_from_part(values).rotation);
+        let rotation = fixed_angles(&self.reference_from_part(values).rotation);
         // A tenth of a micrometre: nobody lays a part more finely.
-        let told = |value: f64| decimals(value, 4) + 0.0;
-        let deg = |angle: f64| told(angle.to_degrees());
+        let reported = |value: f64| decimals(value, 4) + 0.0;
+        let deg = |angle: f64| reported(angle.to_degrees());
         PlaceAnswer {
-            centre_mm: [x, y, z].map(|value| told(value * 1e3)),
+            centre_mm: [x, y, z].map(|value| reported(value * 1e3)),
             tilt_deg: by_tilt.then(|| deg(tilt)),
             rotation_deg: (!by_tilt).then(|| rotation.map(deg).into()),
             spin_deg: deg(spin),
-            rail_mm: self.rail.then(|| told(rail * 1e3)),
+            rail_mm: self.rail.then(|| reported(rail * 1e3)),
         }
     }
 }

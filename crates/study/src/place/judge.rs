@@ -2,8 +2,8 @@
 //!
 //! Each is judged on all points of the path, by the goal, the branches and the margin of the study, as if all were known.
 
-use armill_core::kernel::Lie;
-use armill_core::optimize::{Merit, Placeable, PlacementGoal, Sure, ToolTurn, on_part};
+use armill_core::kernel::PartPlacement;
+use armill_core::optimize::{Score, Placeable, PlacementObjective, RankBy, ToolTurn, on_part};
 use armill_core::watch::Watch;
 
 use super::freedom::Freedom;
@@ -27,7 +27,7 @@ pub struct PartPlace {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Worth {
     /// Of each place; the cost is that of the points that are held, m.
-    pub merits: Vec<Merit>,
+    pub scores: Vec<Score>,
     /// Points of the path.
     pub points: usize,
     /// Load cases at each.
@@ -37,7 +37,7 @@ pub struct Worth {
 impl Placing<'_> {
     /// Where the study has the part; with its rail, where the arm stands on one.
     pub fn drawn(&self) -> PartPlace {
-        let [x, y, z, heading, tilt, roll, spin, rail] = self.as_drawn().values(&[]);
+        let [x, y, z, heading, tilt, roll, spin, rail] = self.nominal().values(&[]);
         PartPlace {
             part: [x, y, z, heading, tilt, roll],
             spin,
@@ -59,50 +59,50 @@ impl Placing<'_> {
             ..watch
         };
         let runner = runner(self.study, quiet)?;
-        let (load, _) = runner.pushed(self.ask)?;
-        let goal = PlacementGoal {
-            sure: Sure::Nominal,
-            ..self.goal()?
+        let (load, _) = runner.pushed(self.analysis)?;
+        let objective = PlacementObjective {
+            rank_by: RankBy::Nominal,
+            ..self.objective()?
         };
-        let track = &self.ask.track;
+        let track = &self.analysis.track;
         let all: Vec<usize> = (0..track.len()).collect();
-        let path = on_part((track, &load), goal.counts, &all);
+        let path = on_part((track, &load), objective.component, &all);
         let placeable = Placeable {
-            question: &runner.question(&self.ask.setting),
+            question: &runner.question(&self.analysis.setting),
             path: &path,
-            goal,
+            objective,
         };
-        let freedom = self.as_drawn();
-        let lies: Vec<Lie> = places.iter().map(|place| lie(&freedom, place)).collect();
-        let merits = placeable.merits(&lies, None, watch)?;
+        let freedom = self.nominal();
+        let placements: Vec<PartPlacement> = places.iter().map(|place| part_placement(&freedom, place)).collect();
+        let scores = placeable.scores(&placements, None, watch)?;
         // Where no branch is open all points are lost.
-        let none = Merit {
+        let none = Score {
             lost: path.len(),
             cost: 0.0,
             branch: None,
         };
         Ok(Worth {
-            merits: merits.into_iter().map(|merit| merit.unwrap_or(none)).collect(),
+            scores: scores.into_iter().map(|score| score.unwrap_or(none)).collect(),
             points: path.len(),
             cases: path.case_count(),
         })
     }
 
     /// Nothing free: the place that the study has.
-    fn as_drawn(&self) -> Freedom {
-        let setting = &self.ask.setting;
+    fn nominal(&self) -> Freedom {
+        let setting = &self.analysis.setting;
         Freedom::new(
             (setting, self.rail()),
-            ToolTurn::of(&self.ask.track),
+            ToolTurn::of(&self.analysis.track),
             &PlaceTable::default(),
         )
     }
 }
 
-fn lie(freedom: &Freedom, place: &PartPlace) -> Lie {
+fn part_placement(freedom: &Freedom, place: &PartPlace) -> PartPlacement {
     let [x, y, z, heading, tilt, roll] = place.part;
     let rail = place.rail.unwrap_or(0.0);
-    Lie {
+    PartPlacement {
         rail: place.rail,
         ..freedom.lie_of([x, y, z, heading, tilt, roll, place.spin, rail])
     }
@@ -121,11 +121,11 @@ mod tests {
             r#"
 format = 1
 robot = "yaskawa/mh12"
-limit_um = 200
+tolerance_um = 200
 tool = {{ flange_from_tool_mm_deg = [0, 0, 100, 0, 0, 0] }}
 plane = {{ centre_mm = {centre_mm:?}, tilt_deg = {tilt_deg}, half_size_mm = 150, step_mm = 75 }}
 load = {{ cases_n = [[3, -5, -5], [30, 5, 5]] }}
-[[ask]]
+[[analysis]]
 kind = "path"
 name = "groove"
 circle = {{ radius_mm = 100 }}
@@ -142,12 +142,12 @@ circle = {{ radius_mm = 100 }}
     fn the_place_as_drawn_is_that_of_the_study() {
         let study = study([800.0, 50.0, 700.0], 30.0);
         let drawn = placing(&study).drawn();
-        let wanted = [0.8, 0.05, 0.7, 0.0, 30.0_f64.to_radians(), 0.0];
+        let requested = [0.8, 0.05, 0.7, 0.0, 30.0_f64.to_radians(), 0.0];
         let apart = drawn
             .part
             .iter()
-            .zip(wanted)
-            .map(|(told, wanted)| (told - wanted).abs());
+            .zip(requested)
+            .map(|(given, requested)| (given - requested).abs());
         // The last digit, from mm into m.
         assert!(apart.fold(0.0, f64::max) < 1e-15, "{drawn:?}");
         assert_eq!((drawn.spin, drawn.rail), (0.0, None));
@@ -161,18 +161,18 @@ circle = {{ radius_mm = 100 }}
             ([850.0, -200.0, 600.0], 90.0),
         ];
         let studies = places.map(|(centre_mm, tilt_deg)| study(centre_mm, tilt_deg));
-        let lie = |study: &Study| placing(study).drawn();
+        let part_placement = |study: &Study| placing(study).drawn();
         let worth = placing(&studies[0])
-            .judge(&studies.each_ref().map(lie), Watch::NONE)
+            .judge(&studies.each_ref().map(part_placement), Watch::NONE)
             .unwrap();
         assert_eq!((worth.points, worth.cases), (360, 2));
-        for (merit, study) in worth.merits.iter().zip(&studies) {
+        for (score, study) in worth.scores.iter().zip(&studies) {
             let done = run(study, Watch::NONE).unwrap();
-            let told = &answer(study, &done).paths[0];
-            let max_um = told.max_in_plane_um.unwrap();
-            assert_eq!(merit.lost, 0);
+            let given = &answer(study, &done).paths[0];
+            let max_um = given.max_in_plane_um.unwrap();
+            assert_eq!(score.lost, 0);
             // The answer is rounded to a thousandth of a micrometre.
-            assert!((merit.cost * 1e6 - max_um).abs() < 1e-3, "{merit:?} {max_um}");
+            assert!((score.cost * 1e6 - max_um).abs() < 1e-3, "{score:?} {max_um}");
         }
     }
 
@@ -185,7 +185,7 @@ circle = {{ radius_mm = 100 }}
             ..placing.drawn()
         };
         let worth = placing.judge(&[far], Watch::NONE).unwrap();
-        assert_eq!(worth.merits[0].lost, worth.points);
+        assert_eq!(worth.scores[0].lost, worth.points);
     }
 
     #[test]

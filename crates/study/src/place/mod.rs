@@ -30,9 +30,9 @@ pub use journal::Journal;
 pub use judge::{PartPlace, Worth};
 
 use armill_core::frame::from_xyz_and_fixed_angles;
-use armill_core::kernel::{BranchChoice, Lie};
+use armill_core::kernel::{BranchChoice, PartPlacement};
 use armill_core::nalgebra::{Point3, UnitQuaternion, Vector3};
-use armill_core::optimize::{Holding, PlacementGoal, PostureSearch, ToolTurn, on_part};
+use armill_core::optimize::{Holding, PlacementObjective, PostureSearch, ToolTurn, on_part};
 use armill_core::path::Spin;
 use armill_core::robot::{BranchPattern, Robot};
 use armill_core::watch::Watch;
@@ -41,9 +41,9 @@ use armill_core::workpiece::Plane;
 use crate::ENOUGH_JOINTS;
 use crate::answer::path::search::{counts_word, goal_word};
 use crate::error::StudyError;
-use crate::file::path::PathAsk;
-use crate::file::placement::{ANY, FixtureTable, PlaceTable, SureName};
-use crate::file::posture_search::{CountsName, GoalName};
+use crate::file::path::PathAnalysis;
+use crate::file::placement::{ANY, FixtureTable, PlaceTable, RankByName};
+use crate::file::posture_search::{ComponentName, ObjectiveName};
 use crate::file::resolve::{Setting, Study, Subject};
 use crate::joint_unit::JointUnit;
 use crate::number::decimals;
@@ -64,7 +64,7 @@ pub struct Placing<'a> {
     /// Which of its asks.
     index: usize,
     name: &'a str,
-    ask: &'a PathAsk,
+    analysis: &'a PathAnalysis,
     /// Turns and branches that each point may take for itself, where it is a set of holes.
     holes: Option<&'a PostureSearch>,
     table: PlaceTable,
@@ -77,11 +77,11 @@ impl<'a> Placing<'a> {
     ///
     /// # Errors
     /// No such path, or several; bounds that leave nothing; words that name no branch.
-    pub fn new(study: &'a Study, wanted: PlaceTable, seed: u64) -> Result<Placing<'a>, StudyError> {
-        let mut table = wanted.or(study.place.clone().unwrap_or_default());
-        let (index, chosen) = chosen(study, table.ask.as_deref())?;
-        let (name, (ask, holes)) = (chosen.0, chosen.1);
-        let stays = ask
+    pub fn new(study: &'a Study, requested: PlaceTable, seed: u64) -> Result<Placing<'a>, StudyError> {
+        let mut table = requested.or(study.place.clone().unwrap_or_default());
+        let (index, chosen) = chosen(study, table.analysis.as_deref())?;
+        let (name, (analysis, holes)) = (chosen.0, chosen.1);
+        let stays = analysis
             .source
             .robot()
             .is_some_and(|robot| robot.cell.base_from_path.is_none());
@@ -108,7 +108,7 @@ impl<'a> Placing<'a> {
             return Err(StudyError::value(messages.join("; "), *hint));
         }
         if !table.is_free() {
-            let at = ask.setting.counted(&ask.setting.plane.at(Point3::origin().xy()));
+            let at = analysis.setting.counted(&analysis.setting.plane.at(Point3::origin().xy()));
             let about = |at: f64| Some([at * 1e3 - USUAL_MM, at * 1e3 + USUAL_MM]);
             (table.x_mm, table.y_mm, table.z_mm) = (about(at.x), about(at.y), about(at.z));
         }
@@ -116,7 +116,7 @@ impl<'a> Placing<'a> {
             study,
             index,
             name,
-            ask,
+            analysis,
             holes,
             table,
             seed,
@@ -143,8 +143,8 @@ impl<'a> Placing<'a> {
 
     fn effort(&self) -> Effort {
         let robot = &self.study.robot.robot;
-        let effort = match robot.ortho_parallel().is_some() && self.ask.setting.model.is_drives_alone() {
-            true => Effort::lanes(self.ask.track.len()),
+        let effort = match robot.ortho_parallel().is_some() && self.analysis.setting.model.is_drives_alone() {
+            true => Effort::lanes(self.analysis.track.len()),
             false => Effort::ONE_BY_ONE,
         };
         effort.shared_by(self.holes.map_or(1, |search| search.spins.count))
@@ -158,22 +158,22 @@ impl<'a> Placing<'a> {
         &self,
         journal: &mut Journal<'_>,
         watch: Watch<'_>,
-        told: &dyn Fn(&str),
+        given: &dyn Fn(&str),
     ) -> Result<Found, StudyError> {
         let quiet = Watch {
             finished: &|_| (),
             ..watch
         };
         let runner = runner(self.study, quiet)?;
-        let (load, _) = runner.pushed(self.ask)?;
-        let goal = self.goal()?;
-        let track = &self.ask.track;
+        let (load, _) = runner.pushed(self.analysis)?;
+        let objective = self.objective()?;
+        let track = &self.analysis.track;
         let effort = self.effort();
         let all: Vec<usize> = (0..track.len()).collect();
         let stride = track.len().div_ceil(effort.points).max(1);
         let some: Vec<usize> = all.iter().copied().step_by(stride).collect();
-        let on_part = |indices: &[usize]| on_part((track, &load), goal.counts, indices);
-        let question = runner.question(&self.ask.setting);
+        let on_part = |indices: &[usize]| on_part((track, &load), objective.component, indices);
+        let question = runner.question(&self.analysis.setting);
         let (all, some) = (on_part(&all), on_part(&some));
         let turn = ToolTurn::of(track);
         let sites = self.sites(turn);
@@ -184,29 +184,29 @@ impl<'a> Placing<'a> {
             sites: &sites,
             effort,
             watch,
-            told,
+            given,
         };
-        journal.take_up(prepared.fingerprint(&goal));
-        let mut best = prepared.best((goal, effort), "", None, journal)?;
-        let mut front = prepared.front(goal, &best, journal)?;
+        journal.take_up(prepared.fingerprint(&objective));
+        let mut best = prepared.best((objective, effort), "", None, journal)?;
+        let mut front = prepared.front(objective, &best, journal)?;
         if let Some((_, first)) = front.first() {
             best = first.clone();
         }
-        let (best, certificate) = prepared.certified(best, goal, journal)?;
+        let (best, certificate) = prepared.certified(best, objective, journal)?;
         if let Some((_, first)) = front.first_mut() {
             *first = best.clone();
         }
-        let answer = self.answer(&prepared, goal, (&best, certificate, &front), journal.taken());
+        let answer = self.answer(&prepared, objective, (&best, certificate, &front), journal.taken());
         let freedom = &sites[best.site].freedom;
         let mut pictures = prepared
-            .searched(freedom, goal, effort)
+            .searched(freedom, objective, effort)
             .sections(&best.spot, &answer, watch)?;
-        pictures.extend(pictures::front(&answer, self.ask.setting.limit));
+        pictures.extend(pictures::front(&answer, self.analysis.setting.limit));
         Ok(Found {
             with_part: answer
                 .tool_turns_with_part
-                .then(|| self.tool_on_part(&freedom.lie(&best.spot.at))),
-            ask: self.index,
+                .then(|| self.tool_on_part(&freedom.part_placement(&best.spot.at))),
+            analysis: self.index,
             answer,
             pictures,
         })
@@ -216,46 +216,46 @@ impl<'a> Placing<'a> {
     fn answer(
         &self,
         prepared: &Prepared<'_>,
-        goal: PlacementGoal,
+        objective: PlacementObjective,
         (best, certificate, front): (&Best, CertificateAnswer, &[(f64, Best)]),
         rounds_taken_up: usize,
     ) -> PlacementAnswer {
-        let (track, setting) = (&self.ask.track, &self.ask.setting);
+        let (track, setting) = (&self.analysis.track, &self.analysis.setting);
         let turn = ToolTurn::of(track);
         let rail = self.rail();
         let drawn = Freedom::new((setting, rail), turn, &PlaceTable::default());
-        let as_asked = PlacementGoal {
+        let as_asked = PlacementObjective {
             branches: match setting.choice {
                 BranchChoice::Of(pattern) => pattern,
                 BranchChoice::Best => BranchPattern::default(),
             },
-            ..goal
+            ..objective
         };
-        let outcome = |freedom: &Freedom, goal: PlacementGoal, at: &[f64]| {
-            let searched = prepared.searched(freedom, goal, prepared.effort);
-            OutcomeAnswer::of(&searched.all.appraised(&freedom.lie(at)), setting.limit)
+        let outcome = |freedom: &Freedom, objective: PlacementObjective, at: &[f64]| {
+            let searched = prepared.searched(freedom, objective, prepared.effort);
+            OutcomeAnswer::of(&searched.all.appraised(&freedom.part_placement(at)), setting.limit)
         };
         let of = |best: &Best| &prepared.sites[best.site];
         let place = of(best).freedom.answer(&best.spot.at);
         PlacementAnswer {
             format: 1,
-            ask: self.name.to_owned(),
-            counts: counts_word(goal.counts),
-            goal: goal_word(goal.goal),
-            margin_deg: decimals(goal.margin.to_degrees(), 4),
-            sure: sure_word(goal.sure),
-            as_drawn: outcome(&drawn, as_asked, &[]),
-            found: outcome(&of(best).freedom, goal, &best.spot.at),
+            analysis: self.name.to_owned(),
+            component: counts_word(objective.component),
+            objective: goal_word(objective.objective),
+            margin_deg: decimals(objective.margin.to_degrees(), 4),
+            rank_by: sure_word(objective.rank_by),
+            nominal: outcome(&drawn, as_asked, &[]),
+            found: outcome(&of(best).freedom, objective, &best.spot.at),
             fixture: of(best).name.map(str::to_owned),
             home_deg: place.rail_mm.and_then(|rail| self.home_with_rail(rail)),
             place,
-            free: of(best).freedom.told(&best.spot.at),
+            free: of(best).freedom.given(&best.spot.at),
             certificate,
             by_margin: front
                 .iter()
                 .map(|(margin, best)| MarginAnswer {
                     margin_deg: decimals(margin.to_degrees(), 4),
-                    cost_um: outcome(&of(best).freedom, goal, &best.spot.at).cost_um,
+                    cost_um: outcome(&of(best).freedom, objective, &best.spot.at).cost_um,
                     fixture: of(best).name.map(str::to_owned),
                     place: of(best).freedom.answer(&best.spot.at),
                 })
@@ -272,28 +272,28 @@ impl<'a> Placing<'a> {
     fn home_with_rail(&self, rail_mm: f64) -> Option<Vec<f64>> {
         let robot = &self.study.robot.robot;
         let rail = rail_of(robot)?;
-        let home = self.ask.setting.home.as_deref();
-        let told = |joint: usize| {
+        let home = self.analysis.setting.home.as_deref();
+        let given = |joint: usize| {
             let middle = robot.joints()[joint].limits.map_or(0.0, |limits| limits.middle());
             home.map_or(middle, |home| home[joint]) * JointUnit::of(robot, joint).scale
         };
-        let mut all: Vec<f64> = (0..robot.joints().len()).map(told).collect();
+        let mut all: Vec<f64> = (0..robot.joints().len()).map(given).collect();
         all[rail] = rail_mm;
         Some(all)
     }
 
     /// The tool on the part at each point, turned as it is judged at this place.
-    fn tool_on_part(&self, lie: &Lie) -> Vec<UnitQuaternion<f64>> {
-        let track = &self.ask.track;
+    fn tool_on_part(&self, part_placement: &PartPlacement) -> Vec<UnitQuaternion<f64>> {
+        let track = &self.analysis.track;
         let part_from_base = track.base_from_part.inverse().rotation;
-        let spin = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), lie.spin);
+        let spin = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), part_placement.spin);
         let at = |index: usize| part_from_base * track.stop(index).base_from_tool.rotation * spin;
         (0..track.len()).map(at).collect()
     }
 
-    fn goal(&self) -> Result<PlacementGoal, StudyError> {
+    fn objective(&self) -> Result<PlacementObjective, StudyError> {
         let table = &self.table;
-        let setting = &self.ask.setting;
+        let setting = &self.analysis.setting;
         let branches = match table.branch.as_deref() {
             None => self.holes.map_or(setting.open, |search| search.branches),
             Some(ANY) => BranchPattern::default(),
@@ -302,20 +302,20 @@ impl<'a> Placing<'a> {
                 StudyError::value(message, "words of a branch, or `any`")
             })?,
         };
-        Ok(PlacementGoal {
-            counts: match (table.counts, self.holes) {
-                (Some(counts), _) => counts.counts(),
-                (None, Some(search)) => search.counts,
-                (None, None) => CountsName::InPlane.counts(),
+        Ok(PlacementObjective {
+            component: match (table.component, self.holes) {
+                (Some(component), _) => component.component(),
+                (None, Some(search)) => search.component,
+                (None, None) => ComponentName::InPlane.component(),
             },
-            goal: table.goal.unwrap_or(GoalName::Worst).goal(setting.limit),
+            objective: table.objective.unwrap_or(ObjectiveName::Worst).objective(setting.limit),
             branches,
             margin: table.margin_deg.unwrap_or(0.0).to_radians(),
             holding: match self.holes {
                 Some(search) => Holding::EachForItself(search.spins),
                 None => Holding::InOneBranch,
             },
-            sure: table.sure.unwrap_or(SureName::Nominal).sure(setting.limit),
+            rank_by: table.rank_by.unwrap_or(RankByName::Nominal).rank_by(setting.limit),
             wrist: match (table.least_wrist_deg, self.holes) {
                 (Some(least), _) => least.to_radians(),
                 (None, Some(search)) => search.wrist,
@@ -327,7 +327,7 @@ impl<'a> Placing<'a> {
     /// Where the rail stands in the study, m; 0 where there is none.
     fn rail(&self) -> f64 {
         let robot = &self.study.robot.robot;
-        let home = self.ask.setting.home.as_deref();
+        let home = self.analysis.setting.home.as_deref();
         let at = |joint: usize| match home {
             Some(home) => home[joint],
             None => robot.joints()[joint].limits.map_or(0.0, |limits| limits.middle()),
@@ -336,7 +336,7 @@ impl<'a> Placing<'a> {
     }
 
     fn sites(&self, turn: ToolTurn) -> Vec<Site<'_>> {
-        let setting = &self.ask.setting;
+        let setting = &self.analysis.setting;
         if self.table.fixture.is_empty() {
             return vec![Site {
                 name: None,
@@ -393,43 +393,43 @@ fn check_rail(robot: &Robot, [least, greatest]: [f64; 2]) -> Result<(), StudyErr
 }
 
 /// A path, or a set of holes with what each may be turned by.
-type Placed<'a> = (&'a PathAsk, Option<&'a PostureSearch>);
+type Placed<'a> = (&'a PathAnalysis, Option<&'a PostureSearch>);
 
 /// The ask that is placed: which one, its name, and what it is about.
-fn chosen<'a>(study: &'a Study, wanted: Option<&str>) -> Result<(usize, (&'a str, Placed<'a>)), StudyError> {
+fn chosen<'a>(study: &'a Study, requested: Option<&str>) -> Result<(usize, (&'a str, Placed<'a>)), StudyError> {
     let all: Vec<(usize, (&str, Placed<'_>))> = study
-        .asks
+        .analyses
         .iter()
         .enumerate()
-        .filter_map(|(index, ask)| {
-            let about: Placed<'_> = match &ask.subject {
+        .filter_map(|(index, analysis)| {
+            let about: Placed<'_> = match &analysis.subject {
                 Subject::Path(path) => (path, None),
                 Subject::Holes(holes) => (&holes.path, Some(&holes.search)),
                 _ => return None,
             };
-            Some((index, (ask.name.as_str(), about)))
+            Some((index, (analysis.name.as_str(), about)))
         })
         .collect();
     let names = || {
         let names = all.iter().map(|(_, (name, _))| format!("`{name}`"));
         names.collect::<Vec<_>>().join(", ")
     };
-    match (wanted, &all[..]) {
+    match (requested, &all[..]) {
         (None, []) => Err(StudyError::value(
             "the study asks for no path that could be placed",
-            "[[ask]] kind = \"path\" with a program or a shape, or kind = \"holes\"",
+            "[[analysis]] kind = \"path\" with a program or a shape, or kind = \"holes\"",
         )),
         (None, [one]) => Ok(*one),
         (None, _) => {
             let message = format!("the study has several paths: {}", names());
-            Err(StudyError::value(message, "name one: --ask NAME, or `place.ask`"))
+            Err(StudyError::value(message, "name one: --analysis NAME, or `place.ask`"))
         }
-        (Some(wanted), _) => all
+        (Some(requested), _) => all
             .iter()
-            .find(|(_, (name, _))| *name == wanted)
+            .find(|(_, (name, _))| *name == requested)
             .copied()
             .ok_or_else(|| {
-                let message = format!("the study has no path called `{wanted}`");
+                let message = format!("the study has no path called `{requested}`");
                 StudyError::value(message, format!("its paths: {}", names()))
             }),
     }
@@ -438,7 +438,7 @@ fn chosen<'a>(study: &'a Study, wanted: Option<&str>) -> Result<(usize, (&'a str
 /// The plane in this fixture, base, and its tilt where it is told by one.
 fn plane_of(fixture: &FixtureTable, setting: &Setting) -> (Plane, Option<f64>) {
     let centre = Vector3::from(fixture.centre_mm) * 1e-3;
-    let counted_from_part = match fixture.rotation_deg {
+    let reference_from_part = match fixture.rotation_deg {
         Some(angles) => from_xyz_and_fixed_angles(centre, Vector3::from(angles).map(f64::to_radians)),
         None => {
             let tilt = fixture.tilt_deg.unwrap_or(0.0).to_radians();
@@ -446,7 +446,7 @@ fn plane_of(fixture: &FixtureTable, setting: &Setting) -> (Plane, Option<f64>) {
         }
     };
     let plane = Plane {
-        base_from_part: setting.base_from_counted * counted_from_part,
+        base_from_part: setting.base_from_reference * reference_from_part,
     };
     let tilt = fixture
         .rotation_deg

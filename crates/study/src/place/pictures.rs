@@ -1,7 +1,7 @@
 //! What a search for a place shows: the front against margins, and what lies around the place that was found.
 
-use armill_core::kernel::Lie;
-use armill_core::optimize::{Placeable, PlacementGoal, Sure};
+use armill_core::kernel::PartPlacement;
+use armill_core::optimize::{Placeable, PlacementObjective, RankBy};
 use armill_core::watch::{Cancelled, Watch};
 use armill_report::{AxisLabels, Cell, CellMap, Marker, MarkerKind, PathPlot, Series};
 
@@ -19,7 +19,7 @@ pub(super) fn front(answer: &PlacementAnswer, limit: f64) -> Option<Picture> {
         return None;
     }
     let drawing = PathPlot {
-        title: format!("{}: deviation against margin", answer.ask),
+        title: format!("{}: deviation against margin", answer.analysis),
         subtitle: "the best place that keeps every joint so far from its limits, the elbow from stretched, the wrist from straight".to_owned(),
         position_label: "margin (deg)".to_owned(),
         quantity: quantity(answer),
@@ -29,7 +29,7 @@ pub(super) fn front(answer: &PlacementAnswer, limit: f64) -> Option<Picture> {
             deviation_um: answer.by_margin.iter().map(|at| at.cost_um).collect(),
         }],
         envelope: None,
-        limit_um: Some(limit * 1e6),
+        tolerance_um: Some(limit * 1e6),
     };
     Some(Picture {
         name: "placement-margin".to_owned(),
@@ -70,12 +70,12 @@ impl Searched<'_> {
         watch: Watch<'_>,
     ) -> Result<Picture, Cancelled> {
         let parts: Vec<f64> = (0..CELLS).map(|k| k as f64 / (CELLS - 1) as f64).collect();
-        let mut lies: Vec<Lie> = Vec::with_capacity(CELLS * CELLS);
+        let mut placements: Vec<PartPlacement> = Vec::with_capacity(CELLS * CELLS);
         for across in &parts {
             for up in &parts {
                 let mut at = best.at.clone();
                 (at[pair[0]], at[pair[1]]) = (*across, *up);
-                lies.push(self.freedom.lie(&at));
+                placements.push(self.freedom.placement(&at));
             }
         }
         let quiet = Watch {
@@ -83,13 +83,13 @@ impl Searched<'_> {
             ..watch
         };
         // Sections show the cost in micrometres, whatever places are compared by.
-        let goal = PlacementGoal {
-            sure: Sure::Nominal,
-            ..self.some.goal
+        let objective = PlacementObjective {
+            rank_by: RankBy::Nominal,
+            ..self.some.objective
         };
-        let merits = Placeable { goal, ..self.some }.merits(&lies, None, quiet)?;
-        let cells = merits.iter().map(|merit| match merit {
-            Some(merit) if merit.lost == 0 => Cell::Holds(merit.cost * 1e6),
+        let scores = Placeable { objective, ..self.some }.scores(&placements, None, quiet)?;
+        let cells = scores.iter().map(|score| match score {
+            Some(score) if score.lost == 0 => Cell::Holds(score.cost * 1e6),
             _ => Cell::PointsLost,
         });
         let scale = |which: usize| {
@@ -104,7 +104,7 @@ impl Searched<'_> {
         let names = pair.map(|which| WORDS[free[which].0]);
         let found = [0, 1].map(|which| scale(which)(best.at[pair[which]]));
         let drawing = CellMap {
-            title: format!("{}: around the place that was found", answer.ask),
+            title: format!("{}: around the place that was found", answer.analysis),
             subtitle: match (self.some.path.len(), self.all.path.len()) {
                 (some, all) if some < all => {
                     format!("all else as it was found; {some} of {all} points, the best branch at each place")
@@ -149,10 +149,10 @@ const WORDS: [(&str, &str); DEGREES] = [
 
 /// What was to be least.
 fn quantity(answer: &PlacementAnswer) -> String {
-    let which = match answer.goal {
+    let which = match answer.objective {
         "worst" => "largest",
         "mean" => "mean",
         _ => "mean excess of",
     };
-    format!("{which} {} deviation (µm)", answer.counts)
+    format!("{which} {} deviation (µm)", answer.component)
 }

@@ -1,7 +1,7 @@
 //! The rounds of a search: valleys of every site, the floor of the best, the same for each margin, and the grids.
 
 use armill_core::kernel::{PlacedPath, Question};
-use armill_core::optimize::{Merit, Placeable, PlacementGoal, Sure};
+use armill_core::optimize::{Score, Placeable, PlacementObjective, RankBy};
 use armill_core::watch::Watch;
 
 use super::Placing;
@@ -38,15 +38,15 @@ pub(super) struct Prepared<'a> {
     pub sites: &'a [Site<'a>],
     pub effort: Effort,
     pub watch: Watch<'a>,
-    pub told: &'a dyn Fn(&str),
+    pub given: &'a dyn Fn(&str),
 }
 
 impl Prepared<'_> {
-    pub fn searched<'s>(&'s self, freedom: &'s Freedom, goal: PlacementGoal, effort: Effort) -> Searched<'s> {
+    pub fn searched<'s>(&'s self, freedom: &'s Freedom, objective: PlacementObjective, effort: Effort) -> Searched<'s> {
         let of = |path| Placeable {
             question: self.question,
             path,
-            goal,
+            objective,
         };
         Searched {
             some: of(self.paths[0]),
@@ -60,14 +60,14 @@ impl Prepared<'_> {
     /// The best place of all sites; `also` is one more place to start from. Rounds are kept under `name`.
     pub fn best(
         &self,
-        (goal, effort): (PlacementGoal, Effort),
+        (objective, effort): (PlacementObjective, Effort),
         name: &str,
         also: Option<&Best>,
         journal: &mut Journal<'_>,
     ) -> Result<Best, StudyError> {
         let mut best: Option<Best> = None;
         for (site, of) in self.sites.iter().enumerate() {
-            let searched = self.searched(&of.freedom, goal, effort);
+            let searched = self.searched(&of.freedom, objective, effort);
             let also = also
                 .filter(|also| also.site == site)
                 .map(|also| also.spot.at.clone());
@@ -90,7 +90,7 @@ impl Prepared<'_> {
                     Ok(searched.valley(start, round, self.watch)?.at)
                 })?;
                 spots.push(searched.judged(at)?);
-                self.tell(&spots, goal.sure);
+                self.tell(&spots, objective.rank_by);
             }
             if let Some(also) = also {
                 spots.push(searched.judged(also)?);
@@ -102,7 +102,7 @@ impl Prepared<'_> {
             let spot = searched.judged(floor)?;
             if best
                 .as_ref()
-                .is_none_or(|best| spot.merit.beats(&best.spot.merit))
+                .is_none_or(|best| spot.score.beats(&best.spot.score))
             {
                 best = Some(Best { site, spot });
             }
@@ -112,13 +112,13 @@ impl Prepared<'_> {
         })
     }
 
-    fn tell(&self, spots: &[Spot], sure: Sure) {
-        let merit = the_best(spots.to_vec()).map_or(Merit::NONE, |spot| spot.merit);
-        (self.told)(&match merit.lost {
-            0 if matches!(sure, Sure::WithinLimit(_)) => {
-                format!("best so far {:.2} sigma from the limit", merit.cost)
+    fn tell(&self, spots: &[Spot], rank_by: RankBy) {
+        let score = the_best(spots.to_vec()).map_or(Score::NONE, |spot| spot.score);
+        (self.given)(&match score.lost {
+            0 if matches!(rank_by, RankBy::WithinLimit(_)) => {
+                format!("best so far {:.2} sigma from the limit", score.cost)
             }
-            0 => format!("best so far {:.2} µm", merit.cost * 1e6),
+            0 => format!("best so far {:.2} µm", score.cost * 1e6),
             lost => format!("best so far loses {lost} points"),
         });
     }
@@ -127,12 +127,12 @@ impl Prepared<'_> {
     pub fn certified(
         &self,
         mut best: Best,
-        goal: PlacementGoal,
+        objective: PlacementObjective,
         journal: &mut Journal<'_>,
     ) -> Result<(Best, CertificateAnswer), StudyError> {
         let mut tried = 0;
         loop {
-            let (certificate, better) = self.certificate(&best, goal)?;
+            let (certificate, better) = self.certificate(&best, objective)?;
             let Some(better) = better else {
                 return Ok((best, certificate));
             };
@@ -140,12 +140,12 @@ impl Prepared<'_> {
             if tried == MOST_TRIES {
                 return Ok((best, certificate));
             }
-            let searched = self.searched(&self.sites[best.site].freedom, goal, self.effort);
+            let searched = self.searched(&self.sites[best.site].freedom, objective, self.effort);
             let floor = journal.round(&format!("better {tried}"), || {
                 Ok(searched.floor(&best.spot.at, self.watch)?.at)
             })?;
             let spot = searched.judged(floor)?;
-            if spot.merit.beats(&best.spot.merit) {
+            if spot.score.beats(&best.spot.score) {
                 best.spot = spot;
             }
             tried += 1;
@@ -156,25 +156,25 @@ impl Prepared<'_> {
     fn certificate(
         &self,
         best: &Best,
-        goal: PlacementGoal,
+        objective: PlacementObjective,
     ) -> Result<(CertificateAnswer, Option<Best>), StudyError> {
-        let here = self.searched(&self.sites[best.site].freedom, goal, self.effort);
+        let here = self.searched(&self.sites[best.site].freedom, objective, self.effort);
         let (near, better) = here.near_grid(&best.spot, self.watch)?;
         let mut all = vec![(best.site, better)];
         let mut wide: Option<GridAnswer> = None;
         for (site, of) in self.sites.iter().enumerate() {
-            let searched = self.searched(&of.freedom, goal, self.effort);
-            let (told, better) = searched.wide_grid(&best.spot.merit, self.watch)?;
+            let searched = self.searched(&of.freedom, objective, self.effort);
+            let (given, better) = searched.wide_grid(&best.spot.score, self.watch)?;
             wide = Some(match wide {
-                Some(so_far) => so_far.and(told),
-                None => told,
+                Some(so_far) => so_far.and(given),
+                None => given,
             });
             all.push((site, better));
         }
         let better = all
             .into_iter()
             .filter_map(|(site, spot)| Some(Best { site, spot: spot? }))
-            .reduce(|a, b| if b.spot.merit.beats(&a.spot.merit) { b } else { a });
+            .reduce(|a, b| if b.spot.score.beats(&a.spot.score) { b } else { a });
         let wide = wide.unwrap_or_else(|| near.clone());
         Ok((CertificateAnswer { near, wide }, better))
     }
@@ -182,32 +182,32 @@ impl Prepared<'_> {
     /// The best place for each margin, from the least on; where none holds the path the front ends.
     pub fn front(
         &self,
-        goal: PlacementGoal,
+        objective: PlacementObjective,
         best: &Best,
         journal: &mut Journal<'_>,
     ) -> Result<Vec<(f64, Best)>, StudyError> {
         let mut front: Vec<(f64, Best)> = Vec::new();
-        if best.spot.merit.lost > 0 {
+        if best.spot.score.lost > 0 {
             return Ok(front);
         }
-        front.push((goal.margin, best.clone()));
+        front.push((objective.margin, best.clone()));
         for margin in MARGINS_DEG.map(f64::to_radians) {
-            if margin <= goal.margin {
+            if margin <= objective.margin {
                 continue;
             }
-            let goal = PlacementGoal { margin, ..goal };
+            let objective = PlacementObjective { margin, ..objective };
             let effort = self.effort.cheaper();
             let name = format!("margin {:.0} ", margin.to_degrees());
             let also = front.last().map(|(_, best)| best);
-            let found = self.best((goal, effort), &name, also, journal)?;
-            if found.spot.merit.lost > 0 {
+            let found = self.best((objective, effort), &name, also, journal)?;
+            if found.spot.score.lost > 0 {
                 break;
             }
             front.push((margin, found));
         }
         // What keeps a wide margin keeps a narrow one too.
         for index in (1..front.len()).rev() {
-            if front[index].1.spot.merit.beats(&front[index - 1].1.spot.merit) {
+            if front[index].1.spot.score.beats(&front[index - 1].1.spot.score) {
                 front[index - 1].1 = front[index].1.clone();
             }
         }
@@ -215,12 +215,12 @@ impl Prepared<'_> {
     }
 
     /// Of all that goes into the search.
-    pub fn fingerprint(&self, goal: &PlacementGoal) -> u64 {
+    pub fn fingerprint(&self, objective: &PlacementObjective) -> u64 {
         let mut print = Fingerprint::new();
         let of = self.of;
-        let (robot, setting) = (&of.study.robot.robot, &of.ask.setting);
+        let (robot, setting) = (&of.study.robot.robot, &of.analysis.setting);
         let freedoms: Vec<&Freedom> = self.sites.iter().map(|site| &site.freedom).collect();
-        print.take(format!("{robot:?}{setting:?}{goal:?}{freedoms:?}{:?}", self.effort).as_bytes());
+        print.take(format!("{robot:?}{setting:?}{objective:?}{freedoms:?}{:?}", self.effort).as_bytes());
         print.take(&of.seed.to_le_bytes());
         for number in self.paths[1].numbers() {
             print.take(&number.to_bits().to_le_bytes());
@@ -233,5 +233,5 @@ impl Prepared<'_> {
 fn the_best(spots: Vec<Spot>) -> Option<Spot> {
     spots
         .into_iter()
-        .reduce(|best, spot| if spot.merit.beats(&best.merit) { spot } else { best })
+        .reduce(|best, spot| if spot.score.beats(&best.score) { spot } else { best })
 }

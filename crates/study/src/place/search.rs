@@ -7,8 +7,8 @@
 //! Of a path of many points some are looked at first; the floor is looked for on all. With the same seed the answer is the
 //! same on any number of threads: places are asked for by one, judged by all, and told in order.
 
-use armill_core::kernel::Lie;
-use armill_core::optimize::{Merit, Placeable};
+use armill_core::kernel::PartPlacement;
+use armill_core::optimize::{Score, Placeable};
 use armill_core::watch::{Cancelled, Watch};
 use fcmaes_core::{Cmaes, CmaesParams, Fitness};
 
@@ -99,7 +99,7 @@ pub(super) struct Searched<'a> {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Spot {
     pub at: Vec<f64>,
-    pub merit: Merit,
+    pub score: Score,
 }
 
 /// Places nearer than this part of the ranges lie in one valley.
@@ -138,7 +138,7 @@ impl Searched<'_> {
         let mut spots = self.spots(&self.some, spread, watch)?;
         // Stable, so that of equal ones the first stays first.
         spots.sort_by(|a, b| {
-            let key = |spot: &Spot| (spot.merit.lost, spot.merit.cost);
+            let key = |spot: &Spot| (spot.score.lost, spot.score.cost);
             key(a).0.cmp(&key(b).0).then(key(a).1.total_cmp(&key(b).1))
         });
         let mut starts: Vec<Spot> = Vec::new();
@@ -181,7 +181,7 @@ impl Searched<'_> {
         let spots = self.spots(&self.all, vec![at], Watch::NONE)?;
         Ok(spots.into_iter().next().unwrap_or(Spot {
             at: Vec::new(),
-            merit: Merit::NONE,
+            score: Score::NONE,
         }))
     }
 
@@ -191,13 +191,13 @@ impl Searched<'_> {
         places: Vec<Vec<f64>>,
         watch: Watch<'_>,
     ) -> Result<Vec<Spot>, Cancelled> {
-        let lies: Vec<Lie> = places.iter().map(|at| self.freedom.lie(at)).collect();
-        let merits = path.merits(&lies, None, watch)?;
-        let both = places.into_iter().zip(merits);
+        let placements: Vec<PartPlacement> = places.iter().map(|at| self.freedom.placement(at)).collect();
+        let scores = path.scores(&placements, None, watch)?;
+        let both = places.into_iter().zip(scores);
         Ok(both
-            .map(|(at, merit)| Spot {
+            .map(|(at, score)| Spot {
                 at,
-                merit: merit.unwrap_or(Merit::NONE),
+                score: score.unwrap_or(Score::NONE),
             })
             .collect())
     }
@@ -214,21 +214,21 @@ impl Searched<'_> {
         let mut looked = 1;
         if count > 0 {
             let bounds = Fitness::bounded(count, 1, &vec![0.0; count], &vec![1.0; count]);
-            let wanted = CmaesParams {
+            let requested = CmaesParams {
                 popsize: run.population,
                 max_evaluations: run.places as u64,
                 accuracy: FLAT_UM / 1e-12,
                 seed: run.seed,
                 ..CmaesParams::default()
             };
-            let mut strategy = Cmaes::new(bounds, start, &[run.step], &wanted);
+            let mut strategy = Cmaes::new(bounds, start, &[run.step], &requested);
             while looked < run.places && strategy.stop() == 0 {
-                let spots = self.spots(path, strategy.ask(), watch)?;
+                let spots = self.spots(path, strategy.analysis(), watch)?;
                 looked += spots.len();
-                let costs: Vec<f64> = spots.iter().map(|spot| cost_um(&spot.merit)).collect();
+                let costs: Vec<f64> = spots.iter().map(|spot| cost_um(&spot.score)).collect();
                 strategy.tell(&costs);
                 for spot in spots {
-                    if spot.merit.beats(&best.merit) {
+                    if spot.score.beats(&best.score) {
                         best = spot;
                     }
                 }
@@ -251,8 +251,8 @@ struct Run {
 }
 
 /// Feasibility first, told as one number.
-fn cost_um(merit: &Merit) -> f64 {
-    merit.lost as f64 * LOST_UM + merit.cost * 1e6
+fn cost_um(score: &Score) -> f64 {
+    score.lost as f64 * LOST_UM + score.cost * 1e6
 }
 
 /// Largest difference of two places in any degree.

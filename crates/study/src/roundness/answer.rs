@@ -5,7 +5,7 @@
 
 use armill_core::nalgebra::Point2;
 use armill_core::roundness::{Plane, ReferenceCircle, Zone};
-use armill_formats::measurement::profile::Measured;
+use armill_formats::measurement::profile::MeasuredProfile;
 use serde::Serialize;
 
 use super::{Judged, Question};
@@ -134,7 +134,7 @@ const SOURCES: [&str; 4] = [
 ];
 
 /// The profile of `file` in numbers.
-pub fn answer(file: &str, measured: &Measured, question: &Question, judged: &Judged) -> RoundnessAnswer {
+pub fn answer(file: &str, measured: &MeasuredProfile, question: &Question, judged: &Judged) -> RoundnessAnswer {
     let plane = judged.plane.as_ref();
     let round = |circle: &ReferenceCircle| CircleAnswer {
         centre_mm: place(plane, &circle.centre),
@@ -205,7 +205,7 @@ fn place(plane: Option<&Plane>, at: &Point2<f64>) -> Vec<f64> {
 }
 
 /// What to know of the numbers.
-fn notes(measured: &Measured, question: &Question, judged: &Judged) -> Vec<String> {
+fn notes(measured: &MeasuredProfile, question: &Question, judged: &Judged) -> Vec<String> {
     let as_measured = judged.measured.as_ref().unwrap_or(&judged.polar);
     let gap_deg = as_measured.gap.width.to_degrees();
     let waves = as_measured.most_waves();

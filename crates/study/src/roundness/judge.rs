@@ -4,7 +4,7 @@
 //! the deviations from that circle, and the circles are then put to what it leaves.
 
 use armill_core::roundness::{Harmonic, Plane, Polar, Profile, ReferenceCircle, RoundnessError, Zone};
-use armill_formats::measurement::profile::{Measured, Points};
+use armill_formats::measurement::profile::{MeasuredProfile, Points};
 
 use crate::StudyError;
 
@@ -44,7 +44,7 @@ pub struct Judged {
 ///
 /// # Errors
 /// Points that have no plane or no circle; a filter that they are too sparse for.
-pub fn judge(shown: &str, measured: &Measured, question: &Question) -> Result<Judged, StudyError> {
+pub fn judge(shown: &str, measured: &MeasuredProfile, question: &Question) -> Result<Judged, StudyError> {
     let (plane, points) = match &measured.points {
         Points::Plane(points) => (None, points.clone()),
         Points::Space(points) => {

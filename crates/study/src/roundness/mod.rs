@@ -18,7 +18,7 @@ use std::io::BufReader;
 use std::path::Path;
 
 use armill_formats::input;
-use armill_formats::measurement::profile::{self, Measured, Wanted};
+use armill_formats::measurement::profile::{self, MeasuredProfile, ProfileReadOptions};
 
 use crate::StudyError;
 
@@ -26,12 +26,12 @@ use crate::StudyError;
 ///
 /// # Errors
 /// The file cannot be read; its problems.
-pub fn read((shown, path): (&str, &Path), wanted: &Wanted) -> Result<Measured, StudyError> {
+pub fn read((shown, path): (&str, &Path), requested: &ProfileReadOptions) -> Result<MeasuredProfile, StudyError> {
     let file = input::open(path).map_err(|error| {
         StudyError::value(
             format!("cannot read {shown}: {error}"),
             "a table with `x_mm,y_mm` or `angle_deg,radius_mm`, or rows of numbers with --unit",
         )
     })?;
-    Ok(profile::read(shown, BufReader::new(file), wanted)?)
+    Ok(profile::read(shown, BufReader::new(file), requested)?)
 }

@@ -54,7 +54,7 @@ pub fn write(
 /// The picture of a profile.
 pub fn plot(answer: &RoundnessAnswer, judged: &Judged) -> PolarPlot {
     let polar = &judged.polar;
-    let told = |name: &str, ront_mm: f64| format!("{name}, RONt {:.2} µm", ront_mm * 1e3);
+    let given = |name: &str, ront_mm: f64| format!("{name}, RONt {:.2} µm", ront_mm * 1e3);
     let filter = match answer.filter_upr {
         Some(upr) => format!("Gaussian filter {upr} UPR"),
         None => "not filtered".to_owned(),
@@ -73,7 +73,7 @@ pub fn plot(answer: &RoundnessAnswer, judged: &Judged) -> PolarPlot {
     let mut references = Vec::new();
     if let (Ok(zone), Some(answer)) = (&judged.zone, &answer.mzci) {
         references.push(reference(
-            &told("MZCI", answer.ront_mm),
+            &given("MZCI", answer.ront_mm),
             polar,
             (zone.centre, &[zone.inner, zone.outer]),
         ));
@@ -81,12 +81,12 @@ pub fn plot(answer: &RoundnessAnswer, judged: &Judged) -> PolarPlot {
     // About an arc the smallest circle is another one altogether, which would be all that the picture shows.
     if !is_open(polar) {
         let outer = &judged.circumscribed;
-        let name = told("MCCI", answer.mcci.ront_mm);
+        let name = given("MCCI", answer.mcci.ront_mm);
         references.push(reference(&name, polar, (outer.centre, &[outer.radius])));
     }
     if let (Ok(inner), Some(answer)) = (&judged.inscribed, &answer.mici) {
         references.push(reference(
-            &told("MICI", answer.ront_mm),
+            &given("MICI", answer.ront_mm),
             polar,
             (inner.centre, &[inner.radius]),
         ));
@@ -95,7 +95,7 @@ pub fn plot(answer: &RoundnessAnswer, judged: &Judged) -> PolarPlot {
         title: format!("Roundness of {}", answer.file),
         subtitle: format!(
             "{}, {} points, {filter}; crosses: centres",
-            told("LSCI", answer.lsci.ront_mm),
+            given("LSCI", answer.lsci.ront_mm),
             answer.points
         ),
         horizontal: "x".to_owned(),

@@ -8,15 +8,15 @@ use crate::{answered, map, plate_with};
 fn points(map: &MapAnswer) -> usize {
     let c = map.counts;
     let missed = c.out_of_reach + c.no_posture_inside_limits + c.not_found;
-    c.within + c.over_limit + missed + c.unverified + c.unstable
+    c.within + c.above_tolerance + missed + c.unverified + c.unstable
 }
 
 #[test]
 fn counts_add_up_and_the_fraction_is_those_within_over_all() {
     // Near, far and half-way: all within, none reached, and some of each.
     let answer = answered(&plate_with(
-        "[[ask]]\nkind = \"sections\"\nname = \"s\"\ndistances_mm = [500, 900, 1300, 1500, 9000]\n\
-         [[ask]]\nkind = \"sections\"\nname = \"b\"\ndistances_mm = [500, 900, 1300, 1500, 9000]\nposture.branch = \"best\"\n",
+        "[[analysis]]\nkind = \"sections\"\nname = \"s\"\ndistances_mm = [500, 900, 1300, 1500, 9000]\n\
+         [[analysis]]\nkind = \"sections\"\nname = \"b\"\ndistances_mm = [500, 900, 1300, 1500, 9000]\nposture.branch = \"best\"\n",
     ));
     assert_eq!(answer.maps.len(), 10);
     for map in &answer.maps {
@@ -28,7 +28,7 @@ fn counts_add_up_and_the_fraction_is_those_within_over_all() {
             map.name
         );
         let reached = map.grid.in_plane_um.iter().flatten().count();
-        assert_eq!(reached, map.counts.within + map.counts.over_limit, "{}", map.name);
+        assert_eq!(reached, map.counts.within + map.counts.above_tolerance, "{}", map.name);
         assert!(
             map.fraction_within_and_inside_joint_limits <= map.fraction_within,
             "{}",
@@ -36,7 +36,7 @@ fn counts_add_up_and_the_fraction_is_those_within_over_all() {
         );
         let certainty = &map.certainty;
         assert!(
-            certainty.fraction_surely_within <= map.fraction_within,
+            certainty.fraction_robustly_within <= map.fraction_within,
             "{}",
             map.name
         );
@@ -65,8 +65,8 @@ fn counts_add_up_and_the_fraction_is_those_within_over_all() {
 #[test]
 fn a_larger_tolerance_holds_at_least_as_much() {
     let fractions = [10, 40, 60, 80, 200, 1000].map(|limit| {
-        let ask = format!("[[ask]]\nkind = \"map\"\nname = \"m\"\nlimit_um = {limit}\n");
-        let answer = answered(&plate_with(&ask));
+        let analysis = format!("[[analysis]]\nkind = \"map\"\nname = \"m\"\ntolerance_um = {limit}\n");
+        let answer = answered(&plate_with(&analysis));
         (answer.maps[0].fraction_within, answer.maps[0].region.area_mm2)
     });
     for pair in fractions.windows(2) {

@@ -44,7 +44,7 @@ fn twice_the_compliance_or_twice_the_force_deviates_twice() {
     };
     let once = answered(&plate_with(&own(1.0)));
     let softer = answered(&plate_with(&own(2.0)));
-    let forces = "[[ask]]\nkind = \"map\"\nname = \"map\"\nload.cases_n = [[6, -10, -10], [6, -10, 10], [6, 10, -10], [6, 10, 10]]\n";
+    let forces = "[[analysis]]\nkind = \"map\"\nname = \"map\"\nload.cases_n = [[6, -10, -10], [6, -10, 10], [6, 10, -10], [6, 10, 10]]\n";
     let pushed = answered(&plate_with(&format!("{}{forces}", own(1.0))));
     for other in [&softer, &pushed] {
         for (a, b) in once.maps[0]
@@ -63,7 +63,7 @@ fn twice_the_compliance_or_twice_the_force_deviates_twice() {
 #[test]
 fn shares_of_the_joints_add_up_to_the_worst_deviation() {
     let answer = answered(&plate_with(
-        "[[ask]]\nkind = \"map\"\n[[ask]]\nkind = \"path\"\ncircle.radius_mm = 100\n",
+        "[[analysis]]\nkind = \"map\"\n[[analysis]]\nkind = \"path\"\ncircle.radius_mm = 100\n",
     ));
     for worst in [
         answer.maps[0].worst.as_ref().unwrap(),

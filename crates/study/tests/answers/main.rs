@@ -11,7 +11,7 @@ mod deviations;
 mod paths;
 mod running;
 mod same_points;
-mod told;
+mod given;
 
 use std::path::Path;
 
@@ -24,7 +24,7 @@ use armill_study::run::{Done, run};
 const PLATE: &str = r#"format = 1
 title = "Plate"
 robot = "yaskawa/mh12"
-limit_um = 60
+tolerance_um = 60
 plane = { centre_mm = [900, 0, 800], tilt_deg = 0, half_size_mm = 200, step_mm = 50 }
 load = { cases_n = [[3, -5, -5], [3, -5, 5], [3, 5, -5], [3, 5, 5]] }
 "#;
@@ -38,8 +38,8 @@ fn study(text: &str) -> Study {
 }
 
 /// The plate with these asks, or whatever else its file shall say.
-fn plate_with(asks: &str) -> Study {
-    study(&format!("{PLATE}{asks}"))
+fn plate_with(analyses: &str) -> Study {
+    study(&format!("{PLATE}{analyses}"))
 }
 
 /// What came out of each ask.

@@ -7,13 +7,13 @@ use crate::{answered, found, plate_with};
 #[test]
 fn a_circle_starts_at_plus_y_and_turns_towards_z() {
     let study = plate_with(
-        "[[ask]]\nkind = \"path\"\nname = \"c\"\ncircle = { centre_mm = [50, 100], radius_mm = 40 }\n",
+        "[[analysis]]\nkind = \"path\"\nname = \"c\"\ncircle = { centre_mm = [50, 100], radius_mm = 40 }\n",
     );
     let found = found(&study);
-    let Found::Path(ask, _) = &found[0].found else {
+    let Found::Path(analysis, _) = &found[0].found else {
         panic!("a path")
     };
-    let points = &ask.track.path.points;
+    let points = &analysis.track.path.points;
     let in_plane = |i: usize| [-points[i].at.x * 1e3, points[i].at.y * 1e3];
     let quarter = points.len() / 4;
     assert_eq!(points.len() % 4, 0);
@@ -30,7 +30,7 @@ fn a_circle_starts_at_plus_y_and_turns_towards_z() {
 fn a_rigid_arm_deviates_by_nothing_and_cuts_round_circles() {
     let rigid = "compliance = { rad_per_n_m = [0, 0, 0, 0, 0, 0], source = \"rigid\" }\n";
     let answer = answered(&plate_with(&format!(
-        "{rigid}[[ask]]\nkind = \"map\"\nlimit_um = 0\n[[ask]]\nkind = \"path\"\ncircle.radius_mm = 100\n"
+        "{rigid}[[analysis]]\nkind = \"map\"\ntolerance_um = 0\n[[analysis]]\nkind = \"path\"\ncircle.radius_mm = 100\n"
     )));
     assert_eq!(
         (answer.maps[0].max_in_plane_um, answer.maps[0].fraction_within),
@@ -47,9 +47,9 @@ fn a_rigid_arm_deviates_by_nothing_and_cuts_round_circles() {
 
 #[test]
 fn roundness_is_at_most_the_spread_of_the_radial_deviation() {
-    let answer = answered(&plate_with("[[ask]]\nkind = \"path\"\ncircle.radius_mm = 100\n"));
+    let answer = answered(&plate_with("[[analysis]]\nkind = \"path\"\ncircle.radius_mm = 100\n"));
     let path = &answer.paths[0];
-    assert_eq!((path.circle_cases.len(), path.unreached), (4, 0));
+    assert_eq!((path.circle_cases.len(), path.unreachable), (4, 0));
     for case in &path.circle_cases {
         let spread = case.max_radial_um - case.min_radial_um;
         // The least-squares centre is not that of least spread: its fit may cost as much again at most.
@@ -68,8 +68,8 @@ fn roundness_is_at_most_the_spread_of_the_radial_deviation() {
 
 #[test]
 fn a_path_is_followed_in_one_branch_which_the_answer_names() {
-    let ask = "[[ask]]\nkind = \"path\"\nname = \"c\"\ncircle.radius_mm = 100\nposture.branch = \"best\"\n";
-    let answer = answered(&plate_with(ask));
+    let analysis = "[[analysis]]\nkind = \"path\"\nname = \"c\"\ncircle.radius_mm = 100\nposture.branch = \"best\"\n";
+    let answer = answered(&plate_with(analysis));
     let path = &answer.paths[0];
     let followed = path.followed_branch.as_ref().unwrap();
     assert_eq!((path.branch.as_str(), followed.split(' ').count()), ("best", 3));

@@ -35,7 +35,7 @@ fn every_example_study_reads() {
 fn an_ask_that_names_a_branch_keeps_the_home_of_the_study() {
     let home = "posture = { branch = \"front elbow-up\", home_deg = [1, 2, 3, 4, 5, 6] }\n";
     let study = plate_with(&format!(
-        "{home}[[ask]]\nkind = \"map\"\nposture.branch = \"front elbow-down\"\n"
+        "{home}[[analysis]]\nkind = \"map\"\nposture.branch = \"front elbow-down\"\n"
     ));
     let setting = study.settings().next().unwrap();
     assert_eq!(setting.branch(), "front elbow-down");
@@ -46,13 +46,13 @@ fn an_ask_that_names_a_branch_keeps_the_home_of_the_study() {
 #[test]
 fn points_are_counted_before_they_are_asked() {
     let study = plate_with(
-        "[[ask]]\nkind = \"map\"\n[[ask]]\nkind = \"sections\"\ntilts_deg = [0, 30]\n\
-         [[ask]]\nkind = \"volume\"\nbox = { half_size_mm = [50, 50, 50], step_mm = 50 }\n",
+        "[[analysis]]\nkind = \"map\"\n[[analysis]]\nkind = \"sections\"\ntilts_deg = [0, 30]\n\
+         [[analysis]]\nkind = \"volume\"\nbox = { half_size_mm = [50, 50, 50], step_mm = 50 }\n",
     );
     assert_eq!(point_count(&study), 81 + 2 * 81 + 27);
-    let told = std::sync::atomic::AtomicUsize::new(0);
+    let given = std::sync::atomic::AtomicUsize::new(0);
     let finished = |points: usize| {
-        told.fetch_add(points, std::sync::atomic::Ordering::Relaxed);
+        given.fetch_add(points, std::sync::atomic::Ordering::Relaxed);
     };
     run(
         &study,
@@ -63,7 +63,7 @@ fn points_are_counted_before_they_are_asked() {
     )
     .unwrap();
     assert_eq!(
-        told.into_inner(),
+        given.into_inner(),
         point_count(&study),
         "progress does not end at its end"
     );
@@ -83,14 +83,14 @@ fn a_cancelled_study_says_so_and_has_no_answer() {
 #[test]
 fn the_same_study_gives_the_same_files() {
     let study = plate_with(
-        "[[ask]]\nkind = \"map\"\n[[ask]]\nkind = \"path\"\ncircle.radius_mm = 100\nstep_mm = 30\n",
+        "[[analysis]]\nkind = \"map\"\n[[analysis]]\nkind = \"path\"\ncircle.radius_mm = 100\nstep_mm = 30\n",
     );
     let folders = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
     for folder in &folders {
         let found = found(&study);
         let out = Writer::new("run", false).folder(folder.path()).unwrap();
-        let wanted = (&out, Wanted::TABLES);
-        write(&study, &found, &answer(&study, &found), wanted, &|_| ()).unwrap();
+        let expected = (&out, Wanted::TABLES);
+        write(&study, &found, &answer(&study, &found), expected, &|_| ()).unwrap();
     }
     let mut names: Vec<_> = std::fs::read_dir(folders[0].path())
         .unwrap()

@@ -8,10 +8,10 @@ use crate::{SAME, answered, found, map, plate_with};
 #[test]
 fn a_section_is_the_map_of_its_plane() {
     let answer = answered(&plate_with(
-        "[[ask]]\nkind = \"sections\"\nname = \"s\"\ntilts_deg = [0, 45, 90]\n\
-         [[ask]]\nkind = \"sections\"\nname = \"d\"\ndistances_mm = [800, 900]\n\
-         [[ask]]\nkind = \"map\"\nname = \"tilted\"\nplane.tilt_deg = 45\n\
-         [[ask]]\nkind = \"map\"\nname = \"nearer\"\nplane.centre_mm = [800, 0, 800]\n",
+        "[[analysis]]\nkind = \"sections\"\nname = \"s\"\ntilts_deg = [0, 45, 90]\n\
+         [[analysis]]\nkind = \"sections\"\nname = \"d\"\ndistances_mm = [800, 900]\n\
+         [[analysis]]\nkind = \"map\"\nname = \"tilted\"\nplane.tilt_deg = 45\n\
+         [[analysis]]\nkind = \"map\"\nname = \"nearer\"\nplane.centre_mm = [800, 0, 800]\n",
     ));
     assert_eq!(answer.maps.len(), 3 + 2 + 2);
     assert_eq!(
@@ -32,8 +32,8 @@ fn a_section_is_the_map_of_its_plane() {
 fn a_load_told_in_the_part_turns_with_the_plane_of_each_section() {
     let load = "load = { frame = \"part\", cases_n = [[3, 5, 7]], u_n = [1, 0.5, 0] }\n";
     let answer = answered(&plate_with(&format!(
-        "[[ask]]\nkind = \"sections\"\nname = \"s\"\ntilts_deg = [0, 60]\n{load}\
-         [[ask]]\nkind = \"map\"\nname = \"tilted\"\nplane.tilt_deg = 60\n{load}"
+        "[[analysis]]\nkind = \"sections\"\nname = \"s\"\ntilts_deg = [0, 60]\n{load}\
+         [[analysis]]\nkind = \"map\"\nname = \"tilted\"\nplane.tilt_deg = 60\n{load}"
     )));
     let (section, tilted) = (map(&answer, "s: tilt 60 deg"), map(&answer, "tilted"));
     assert_eq!(section.setting.cases_n, tilted.setting.cases_n);
@@ -47,8 +47,8 @@ fn a_load_told_in_the_part_turns_with_the_plane_of_each_section() {
 #[test]
 fn a_volume_agrees_with_the_map_of_a_plane_through_it() {
     let study = plate_with(
-        "[[ask]]\nkind = \"map\"\nname = \"m\"\n\
-         [[ask]]\nkind = \"volume\"\nname = \"v\"\nbox = { half_size_mm = [50, 200, 200], step_mm = 50 }\n",
+        "[[analysis]]\nkind = \"map\"\nname = \"m\"\n\
+         [[analysis]]\nkind = \"volume\"\nname = \"v\"\nbox = { half_size_mm = [50, 200, 200], step_mm = 50 }\n",
     );
     let found = found(&study);
     let (Found::Map(_, map), Found::Volume(_, volume)) = (&found[0].found, &found[1].found) else {
@@ -75,24 +75,24 @@ fn a_volume_agrees_with_the_map_of_a_plane_through_it() {
             (in_map.normal - in_volume.normal).abs() < SAME && (in_map.full - in_volume.full).abs() < SAME
         );
     }
-    let told = answer(&study, &found);
-    let counts = told.volumes[0].counts;
-    assert_eq!(counts.within + counts.over_limit, 3 * 81);
+    let given = answer(&study, &found);
+    let counts = given.volumes[0].counts;
+    assert_eq!(counts.within + counts.above_tolerance, 3 * 81);
     // Each point stands for a cell of (50 mm)^3; products of such sizes are exact to 1e-9 mm^3 or better.
-    assert!((told.volumes[0].volume_within_mm3 - counts.within as f64 * 125_000.0).abs() < 1e-3);
+    assert!((given.volumes[0].volume_within_mm3 - counts.within as f64 * 125_000.0).abs() < 1e-3);
 }
 
 #[test]
 fn a_path_agrees_with_the_map_where_they_meet() {
     let study = plate_with(
-        "[[ask]]\nkind = \"map\"\nname = \"m\"\n\
-         [[ask]]\nkind = \"path\"\nname = \"row\"\nline = { from_mm = [-200, 50], to_mm = [200, 50] }\nstep_mm = 50\n",
+        "[[analysis]]\nkind = \"map\"\nname = \"m\"\n\
+         [[analysis]]\nkind = \"path\"\nname = \"row\"\nline = { from_mm = [-200, 50], to_mm = [200, 50] }\nstep_mm = 50\n",
     );
     let found = found(&study);
-    let (Found::Map(_, map), Found::Path(ask, path)) = (&found[0].found, &found[1].found) else {
+    let (Found::Map(_, map), Found::Path(analysis, path)) = (&found[0].found, &found[1].found) else {
         panic!("a map and a path")
     };
-    let points = &ask.track.path.points;
+    let points = &analysis.track.path.points;
     assert_eq!(points.len(), 9);
     for (sample, on_path) in points.iter().zip(&path.along.answers.points) {
         let same = (0..map.grid.len())
@@ -105,10 +105,10 @@ fn a_path_agrees_with_the_map_where_they_meet() {
 
 #[test]
 fn the_best_posture_is_inside_limits_and_never_worse_than_a_named_one_that_is() {
-    let ask = |branch: &str| {
-        format!("[[ask]]\nkind = \"map\"\nname = \"{branch}\"\nposture.branch = \"{branch}\"\n")
+    let analysis = |branch: &str| {
+        format!("[[analysis]]\nkind = \"map\"\nname = \"{branch}\"\nposture.branch = \"{branch}\"\n")
     };
-    let study = plate_with(&["best", "front elbow-up", "front elbow-down"].map(ask).concat());
+    let study = plate_with(&["best", "front elbow-up", "front elbow-down"].map(analysis).concat());
     let found = found(&study);
     let maps: Vec<_> = found
         .iter()
@@ -126,13 +126,13 @@ fn the_best_posture_is_inside_limits_and_never_worse_than_a_named_one_that_is() 
         };
         assert!(best.within_limits());
         for named in &maps[1..] {
-            if let Ok(held) = named.answers.points[index]
+            if let Ok(evaluation) = named.answers.points[index]
                 .as_ref()
-                .map(|held| *held)
+                .map(|evaluation| *evaluation)
                 .map_err(|_| ())
             {
                 assert!(
-                    !held.within_limits() || best.in_plane <= held.in_plane + SAME,
+                    !evaluation.within_limits() || best.in_plane <= evaluation.in_plane + SAME,
                     "point {index}"
                 );
             }
@@ -143,16 +143,16 @@ fn the_best_posture_is_inside_limits_and_never_worse_than_a_named_one_that_is() 
 #[test]
 fn a_load_in_part_axes_is_the_same_load_in_base_axes() {
     // A horizontal plate: x_part = -y, y_part = x, z_part = up.
-    let ask = |name: &str, load: &str| {
-        format!("[[ask]]\nkind = \"map\"\nname = \"{name}\"\nplane.tilt_deg = 90\nload = {load}\n")
+    let analysis = |name: &str, load: &str| {
+        format!("[[analysis]]\nkind = \"map\"\nname = \"{name}\"\nplane.tilt_deg = 90\nload = {load}\n")
     };
     let answer = answered(&plate_with(&format!(
         "{}{}",
-        ask(
+        analysis(
             "part",
             "{ frame = \"part\", cases_n = [[3, 5, 7]], moments_n_m = [[0, 1, 2]] }"
         ),
-        ask("base", "{ cases_n = [[5, -3, 7]], moments_n_m = [[1, 0, 2]] }")
+        analysis("base", "{ cases_n = [[5, -3, 7]], moments_n_m = [[1, 0, 2]] }")
     )));
     assert_eq!(answer.maps[0].setting.cases_n, [[5.0, -3.0, 7.0]]);
     for (a, b) in answer.maps[0]
@@ -168,9 +168,9 @@ fn a_load_in_part_axes_is_the_same_load_in_base_axes() {
 
 #[test]
 fn heights_of_the_controller_frame_count_450_mm_higher() {
-    let asks = "[[ask]]\nkind = \"map\"\nname = \"floor\"\n\
-                [[ask]]\nkind = \"map\"\nname = \"controller\"\nbase = \"controller\"\nplane.centre_mm = [900, 0, 350]\n";
-    let answer = answered(&plate_with(asks));
+    let analyses = "[[analysis]]\nkind = \"map\"\nname = \"floor\"\n\
+                [[analysis]]\nkind = \"map\"\nname = \"controller\"\nbase = \"controller\"\nplane.centre_mm = [900, 0, 350]\n";
+    let answer = answered(&plate_with(analyses));
     for (a, b) in answer.maps[0]
         .grid
         .in_plane_um

@@ -7,7 +7,7 @@ fn a_statement_is_consistent_where_the_largest_deviation_is_within_its_bound() {
     let most = answered(&plate_with("")).maps[0].max_in_plane_um.unwrap();
     for (bound, consistent) in [(most * (1.0 - 1e-9), false), (most * (1.0 + 1e-9), true)] {
         let statement = format!(
-            "[[ask]]\nkind = \"map\"\nname = \"m\"\n[[ask]]\nkind = \"map\"\nname = \"far\"\nplane.centre_mm = [9000, 0, 800]\n\
+            "[[analysis]]\nkind = \"map\"\nname = \"m\"\n[[analysis]]\nkind = \"map\"\nname = \"far\"\nplane.centre_mm = [9000, 0, 800]\n\
              [[statement]]\ntext = \"t\"\nsource = \"s\"\nat_most_um = {bound}\nof = [\"m\", \"far\"]\n"
         );
         let answer = answered(&plate_with(&statement));
@@ -55,7 +55,7 @@ fn assumed_compliances_and_their_source_are_told() {
 #[test]
 fn a_box_alone_is_told_in_the_sentence_and_what_is_out_of_reach_in_warnings() {
     let of_box =
-        "[[ask]]\nkind = \"volume\"\nname = \"v\"\nbox = { half_size_mm = [50, 50, 50], step_mm = 50 }\n";
+        "[[analysis]]\nkind = \"volume\"\nname = \"v\"\nbox = { half_size_mm = [50, 50, 50], step_mm = 50 }\n";
     let answer = answered(&plate_with(of_box));
     assert!(
         answer.answer.starts_with("v, branch ") && answer.answer.contains("% of the box"),
@@ -63,7 +63,7 @@ fn a_box_alone_is_told_in_the_sentence_and_what_is_out_of_reach_in_warnings() {
         answer.answer
     );
     let far = "plane = { centre_mm = [9000, 0, 800] }\n";
-    let path = "[[ask]]\nkind = \"path\"\nname = \"c\"\ncircle.radius_mm = 100\n";
+    let path = "[[analysis]]\nkind = \"path\"\nname = \"c\"\ncircle.radius_mm = 100\n";
     let answer = answered(&plate_with(&format!("{of_box}{far}{path}{far}")));
     for words in [
         "v: no point of the box has a posture",
@@ -85,8 +85,8 @@ fn a_box_alone_is_told_in_the_sentence_and_what_is_out_of_reach_in_warnings() {
 #[test]
 fn sources_of_loads_and_of_what_the_tool_holds_stand_in_the_answer() {
     let tool = "tool = { flange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0], mass = [{ at = \"tool\", mass_kg = 5, centre_mm = [0, 0, -50], source = \"weighed\" }] }\n";
-    let ask = "[[ask]]\nkind = \"map\"\nload = { cases_n = [[1, 2, 3]], source = \"a dynamometer\" }\n";
-    let answer = answered(&plate_with(&format!("{tool}{ask}")));
+    let analysis = "[[analysis]]\nkind = \"map\"\nload = { cases_n = [[1, 2, 3]], source = \"a dynamometer\" }\n";
+    let answer = answered(&plate_with(&format!("{tool}{analysis}")));
     let place = |key: &str| {
         answer
             .sources

@@ -2,14 +2,14 @@
 
 use armill_study::answer::StudyAnswer;
 
-use crate::{CELL, CUT, RING, STEP_OVER, STOCK, ask, of_cut, told};
+use crate::{CELL, CUT, RING, STEP_OVER, STOCK, analysis, of_cut, given};
 
 #[test]
 fn forces_come_from_the_cut_and_need_no_load() {
     let half = CUT.replace("axial_depth_mm = 1", "axial_depth_mm = 2");
     let [one, two] = [CUT, &half].map(|cut| {
-        let answer = told(
-            &format!("{CELL}{cut}{}", ask("file = \"ring.ngc\"")),
+        let answer = given(
+            &format!("{CELL}{cut}{}", analysis("file = \"ring.ngc\"")),
             &[("ring.ngc", RING)],
         )
         .unwrap();
@@ -23,8 +23,8 @@ fn forces_come_from_the_cut_and_need_no_load() {
     // A mean force goes with the depth; so does what it moves.
     assert!((twice / mean - 2.0).abs() < 1e-12 && peak > mean);
     let greatest = CUT.replace("flutes = 2 }", "flutes = 2 }\npeak = true");
-    let both = told(
-        &format!("{CELL}{greatest}{}", ask("file = \"ring.ngc\"")),
+    let both = given(
+        &format!("{CELL}{greatest}{}", analysis("file = \"ring.ngc\"")),
         &[("ring.ngc", RING)],
     )
     .unwrap();
@@ -55,8 +55,8 @@ fn what_keeps_the_tolerance_is_told_and_holds_when_it_is_cut() {
     assert!(width.value > 0.0 && limits.points > 50);
     let force = |limit: &Option<armill_study::answer::LimitAnswer>| limit.as_ref().unwrap().value;
     assert!(force(&limits.any_direction) <= force(&limits.cross).min(force(&limits.along)) * (1.0 + 1e-9));
-    let without = ask("file = \"step.ngc\"\nlimits = false");
-    let answer = told(&format!("{CELL}{CUT}{without}"), &[("step.ngc", STEP_OVER)]).unwrap();
+    let without = analysis("file = \"step.ngc\"\nlimits = false");
+    let answer = given(&format!("{CELL}{CUT}{without}"), &[("step.ngc", STEP_OVER)]).unwrap();
     assert!(answer.paths[0].limits.is_none());
 }
 
@@ -69,7 +69,7 @@ fn force_and_tool_rest_and_it_is_told_where_that_matters() {
     let rest = deep.cut.as_ref().unwrap().rest.as_ref().unwrap();
     assert_eq!((rest.points_unsettled, rest.first_unsettled_line), (0, None));
     let largest = deep.max_in_plane_um.unwrap();
-    let ratio = rest.max_in_plane_if_drawn_um / largest;
+    let ratio = rest.nominal_max_in_plane_um / largest;
     let noted = deep.notes.iter().any(|note| note.contains("strays so far"));
     assert_eq!(noted, (ratio - 1.0).abs() > 0.05, "{ratio}");
     assert!((ratio - 1.0).abs() > 1e-4, "{ratio}");
@@ -87,8 +87,8 @@ fn a_drill_thrusts_where_it_goes_in_and_moves_the_tool_as_that_force_does() {
     let holes = "G21 G90 G17\nS1000 M3\nG0 X0 Y0 Z10\nG81 X10 Y0 Z-10 R2 F200\nX-10\nG80\nM2\n";
     let drill = "file = \"holes.ngc\"\nfeature = [{ name = \"first\", kind = \"hole\", lines = [4, 4] }]";
     let table = "\ndrill = { material = \"steel-low-alloy\", diameter_mm = 6 }";
-    let drilled = told(
-        &format!("{CELL}{}", ask(&format!("{drill}{table}"))),
+    let drilled = given(
+        &format!("{CELL}{}", analysis(&format!("{drill}{table}"))),
         &[("holes.ngc", holes)],
     );
     let drilled = drilled.unwrap();
@@ -106,7 +106,7 @@ fn a_drill_thrusts_where_it_goes_in_and_moves_the_tool_as_that_force_does() {
     );
     // The same thrust as a case along the tool, and the torque about it as a moment, move the holes as far.
     let force = format!("load = {{ frame = \"feed\", cases_n = [[0, 0, {thrust}]] }}\n");
-    let pushed = told(&format!("{CELL}{force}{}", ask(drill)), &[("holes.ngc", holes)]).unwrap();
+    let pushed = given(&format!("{CELL}{force}{}", analysis(drill)), &[("holes.ngc", holes)]).unwrap();
     let shift = |answer: &StudyAnswer| answer.paths[0].features[0].shift_um.unwrap();
     let ([x, y, _], [x_pushed, y_pushed, _]) = (shift(&drilled), shift(&pushed));
     let off = (x - x_pushed).hypot(y - y_pushed);
@@ -129,8 +129,8 @@ fn a_drill_thrusts_where_it_goes_in_and_moves_the_tool_as_that_force_does() {
             "a drill and measured forces",
         ),
     ] {
-        let study = format!("{CELL}{}", ask(&format!("{drill}{wrong}")));
-        let error = told(&study, &[("holes.ngc", holes)]).unwrap_err();
+        let study = format!("{CELL}{}", analysis(&format!("{drill}{wrong}")));
+        let error = given(&study, &[("holes.ngc", holes)]).unwrap_err();
         assert!(error.contains(words) && error.contains("study.toml:"), "{error}");
     }
 }
@@ -140,8 +140,8 @@ fn kienzle_says_what_it_assumes() {
     let cut = CUT
         .replace("[cut]", "[cut]\nlaw = \"kienzle\"")
         .replace("aluminium-6082-t6", "steel-low-alloy");
-    let answer = told(
-        &format!("{CELL}{cut}{}", ask("file = \"ring.ngc\"")),
+    let answer = given(
+        &format!("{CELL}{cut}{}", analysis("file = \"ring.ngc\"")),
         &[("ring.ngc", RING)],
     )
     .unwrap();
@@ -157,7 +157,7 @@ fn kienzle_says_what_it_assumes() {
 #[test]
 fn the_sources_of_the_material_stand_among_those_of_the_answer() {
     let files = [("ring.ngc", RING)];
-    let answer = told(&format!("{CELL}{CUT}{}", ask("file = \"ring.ngc\"")), &files).unwrap();
+    let answer = given(&format!("{CELL}{CUT}{}", analysis("file = \"ring.ngc\"")), &files).unwrap();
     let of_material = |answer: &StudyAnswer| {
         let keys = answer.sources.iter().map(|source| source.key.clone());
         keys.filter(|key| key.starts_with("material:"))
@@ -165,7 +165,7 @@ fn the_sources_of_the_material_stand_among_those_of_the_answer() {
     };
     assert_eq!(of_material(&answer), ["material:duan"]);
     let kienzle = CUT.replace("[cut]", "[cut]\nlaw = \"kienzle\"");
-    let answer = told(&format!("{CELL}{kienzle}{}", ask("file = \"ring.ngc\"")), &files).unwrap();
+    let answer = given(&format!("{CELL}{kienzle}{}", analysis("file = \"ring.ngc\"")), &files).unwrap();
     assert_eq!(of_material(&answer), ["material:iscar"]);
     assert!(
         answer.answer.contains("across its axis (line "),

@@ -2,20 +2,20 @@
 
 use std::f64::consts::TAU;
 
-use crate::{CELL, LOAD, RING, ask, told};
+use crate::{CELL, LOAD, RING, analysis, reported};
 
 #[test]
 fn a_circle_as_program_deviates_as_the_circle_of_a_path() {
     // Both have 360 points: the path begins at y' and turns to z', the program at x_part = -y'.
     let step = TAU * 40.0 / 360.0;
     let shape =
-        format!("\n[[ask]]\nkind = \"path\"\nname = \"shape\"\ncircle.radius_mm = 40\nstep_mm = {step}\n");
+        format!("\n[[analysis]]\nkind = \"path\"\nname = \"shape\"\ncircle.radius_mm = 40\nstep_mm = {step}\n");
     let feature = "feature = [{ name = \"ring\", kind = \"circle\", lines = [5, 5] }]";
-    let program = ask(&format!(
+    let program = analysis(&format!(
         "file = \"ring.ngc\"\nstep_mm = {step}\nchord_error_mm = 1\n{feature}"
     ));
     let study = format!("{CELL}{LOAD}{shape}{program}");
-    let answer = told(&study, &[("ring.ngc", RING)]).unwrap();
+    let answer = reported(&study, &[("ring.ngc", RING)]).unwrap();
     let [shape, part] = &answer.paths[..] else {
         panic!("two paths")
     };
@@ -47,8 +47,8 @@ fn a_circle_as_program_deviates_as_the_circle_of_a_path() {
 
 #[test]
 fn the_worst_point_carries_shares_uncertainty_line_and_cause() {
-    let answer = told(
-        &format!("{CELL}{LOAD}{}", ask("file = \"ring.ngc\"")),
+    let answer = reported(
+        &format!("{CELL}{LOAD}{}", analysis("file = \"ring.ngc\"")),
         &[("ring.ngc", RING)],
     )
     .unwrap();
@@ -67,8 +67,8 @@ fn the_worst_point_carries_shares_uncertainty_line_and_cause() {
 fn a_load_in_the_feed_frame_turns_with_the_circle() {
     // A force against the feed alone: its deviation along the track is never forwards.
     let load = "load = { frame = \"feed\", cases_n = [[-20, 0, 0]] }\n";
-    let answer = told(
-        &format!("{CELL}{load}{}", ask("file = \"ring.ngc\"")),
+    let answer = reported(
+        &format!("{CELL}{load}{}", analysis("file = \"ring.ngc\"")),
         &[("ring.ngc", RING)],
     )
     .unwrap();
@@ -89,8 +89,8 @@ fn a_given_spin_turns_the_last_joint_as_a_fixed_one_does() {
     let head = "x_mm,y_mm,z_mm,spin_deg\n";
     let told_ones = format!("{head}{}{}", row(0, "20"), row(40, "50"));
     let last = |extra: &str, table: &str| {
-        let study = format!("{CELL}{LOAD}{}", ask(&format!("file = \"path.csv\"\n{extra}")));
-        told(&study, &[("path.csv", table)]).map(|answer| answer.paths[0].joint_range_deg[5])
+        let study = format!("{CELL}{LOAD}{}", analysis(&format!("file = \"path.csv\"\n{extra}")));
+        reported(&study, &[("path.csv", table)]).map(|answer| answer.paths[0].joint_range_deg[5])
     };
     let given = last("spin = \"given\"\nspin_deg = 5", &told_ones).unwrap();
     let [from, to] = [25.0, 55.0].map(|deg| {

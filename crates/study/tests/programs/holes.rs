@@ -2,7 +2,7 @@
 
 use armill_study::answer::{HoleAnswer, HolesAnswer};
 
-use super::{CELL, LOAD, told};
+use super::{CELL, LOAD, given};
 
 /// Drilling cycles: a plain one at two places, a peck at a third, and a pocket that is no hole.
 const DRILLING: &str = "G21 G90 G98\nS3000 M3 F120\nG0 X0 Y0 Z10\nG81 X0 Y0 Z-5 R2\nX40\nG83 X40 Y30 Z-9 R2 Q3\nG80\nG0 X-30 Y0\nG0 Z1\nG1 Z-1 F120\nG1 X-20\nG0 Z10\nM2\n";
@@ -12,11 +12,11 @@ const THRUST: &str = "load = { frame = \"feed\", cases_n = [[0, 0, 60]] }\n";
 const STEP: &str = "posture.search = { step_deg = 15 }\n";
 
 fn study(holes: &str) -> String {
-    format!("{CELL}[[ask]]\nkind = \"holes\"\nname = \"panel\"\n{STEP}{holes}\n")
+    format!("{CELL}[[analysis]]\nkind = \"holes\"\nname = \"panel\"\n{STEP}{holes}\n")
 }
 
 fn holes(text: &str, files: &[(&str, &str)]) -> HolesAnswer {
-    let mut answer = told(text, files).unwrap();
+    let mut answer = given(text, files).unwrap();
     answer.holes.remove(0)
 }
 
@@ -47,9 +47,9 @@ fn a_program_drills_the_holes_that_it_should() {
     assert_eq!(found.file.as_deref(), Some("drill.ngc"));
     // The same drill as a path has the same thrust.
     let along = format!(
-        "{CELL}[[ask]]\nkind = \"path\"\nname = \"panel\"\nprogram = {{ file = \"drill.ngc\", {DRILL} }}\n"
+        "{CELL}[[analysis]]\nkind = \"path\"\nname = \"panel\"\nprogram = {{ file = \"drill.ngc\", {DRILL} }}\n"
     );
-    let path = told(&along, &[("drill.ngc", DRILLING)]).unwrap();
+    let path = given(&along, &[("drill.ngc", DRILLING)]).unwrap();
     let thrust = path.paths[0].cut.as_ref().unwrap().largest_mean_n;
     assert!((found.largest_thrust_n.unwrap() - thrust).abs() < 1e-9 * thrust);
     // Thrust comes out of the part: the tool stands off, every hole is too shallow.
@@ -60,7 +60,7 @@ fn a_program_drills_the_holes_that_it_should() {
 fn x_y_and_depth_are_the_deviation_and_the_worst_comes_first() {
     let list = "holes = { at_mm = [[0, 0, 0], [60, 20, 0], [-50, 60, 0], [30, -40, 5]], normals = [[0, 0, 1], [0.2, 0, 1], [0, -0.3, 1], [0, 0, 1]] }";
     let found = holes(&study(&format!("{THRUST}{list}")), &[]);
-    assert_eq!((found.holes, found.unreached, found.turns), (4, 0, 24));
+    assert_eq!((found.holes, found.unreachable, found.turns), (4, 0, 24));
     for hole in &found.each {
         let across = hole.x_um.unwrap().hypot(hole.y_um.unwrap());
         // One case: what lies across the hole is the whole envelope.
@@ -85,14 +85,14 @@ fn x_y_and_depth_are_the_deviation_and_the_worst_comes_first() {
 #[test]
 fn another_order_gives_the_same_holes() {
     let at = ["[0, 0, 0]", "[60, 20, 0]", "[-50, 60, 0]", "[30, -40, 5]"];
-    let ask = |order: [usize; 4]| {
+    let analysis = |order: [usize; 4]| {
         let list = order.map(|i| at[i]).join(", ");
         by_number(&holes(
             &study(&format!("{THRUST}holes = {{ at_mm = [{list}] }}")),
             &[],
         ))
     };
-    let (first, other) = (ask([0, 1, 2, 3]), ask([2, 0, 3, 1]));
+    let (first, other) = (analysis([0, 1, 2, 3]), analysis([2, 0, 3, 1]));
     for (place, of) in [2, 0, 3, 1].into_iter().enumerate() {
         let (a, b) = (&first[of], &other[place]);
         assert_eq!(a.joints_deg, b.joints_deg);
@@ -141,13 +141,13 @@ fn a_drill_of_a_list_pushes_as_its_feed_tells() {
 
 #[test]
 fn a_hole_out_of_reach_is_told_first_with_its_reason() {
-    let answer = told(
+    let answer = given(
         &study(&format!("{THRUST}holes = {{ at_mm = [[0, 0, 0], [0, 900, 0]] }}")),
         &[],
     )
     .unwrap();
     let found = &answer.holes[0];
-    assert_eq!((found.unreached, found.each[0].hole), (1, 2));
+    assert_eq!((found.unreachable, found.each[0].hole), (1, 2));
     let lost = &found.each[0];
     assert!(lost.in_plane_um.is_none() && lost.joints_deg.is_empty());
     assert!(lost.reason.is_some() && lost.state != "within", "{lost:?}");
@@ -167,27 +167,27 @@ fn a_hole_out_of_reach_is_told_first_with_its_reason() {
 #[test]
 fn turning_the_tool_is_free_unless_the_study_says_so() {
     let spindle = CELL.replace("[0, 0, 150, 0, 0, 0]", "[100, 0, 150, 0, 90, 0]");
-    let ask = |search: &str| {
+    let analysis = |search: &str| {
         let text = format!(
-            "{spindle}[[ask]]\nkind = \"holes\"\nname = \"panel\"\n{search}{THRUST}holes.at_mm = [[0, 0, -200], [60, 20, -200]]\n"
+            "{spindle}[[analysis]]\nkind = \"holes\"\nname = \"panel\"\n{search}{THRUST}holes.at_mm = [[0, 0, -200], [60, 20, -200]]\n"
         );
         holes(&text, &[])
     };
-    let (free, held) = (ask(""), ask("posture.search.turns_deg = [0, 0]\n"));
-    assert_eq!((free.turns, held.turns), (72, 1));
+    let (free, evaluation) = (analysis(""), analysis("posture.search.turns_deg = [0, 0]\n"));
+    assert_eq!((free.turns, evaluation.turns), (72, 1));
     assert!(
-        held.each
+        evaluation.each
             .iter()
             .all(|hole| hole.turn_deg.is_none_or(|turn| turn == 0.0))
     );
     let largest = |of: &HolesAnswer| of.max_in_plane_um.unwrap();
-    assert!(held.unreached > 0 || largest(&free) <= largest(&held));
+    assert!(evaluation.unreachable > 0 || largest(&free) <= largest(&evaluation));
 }
 
 #[test]
 fn what_holes_cannot_be_is_told_at_its_place() {
     let refused = |text: &str, files: &[(&str, &str)], words: &[&str]| {
-        let error = told(text, files).unwrap_err();
+        let error = given(text, files).unwrap_err();
         for word in words {
             assert!(error.contains(word), "no `{word}` in:\n{error}");
         }
@@ -278,7 +278,7 @@ fn what_holes_cannot_be_is_told_at_its_place() {
         &[],
         &["`step_mm` means nothing to a set of holes"],
     );
-    let map = format!("{CELL}{LOAD}[[ask]]\nkind = \"map\"\nholes = {{ at_mm = [[0, 0, 0]] }}\n");
+    let map = format!("{CELL}{LOAD}[[analysis]]\nkind = \"map\"\nholes = {{ at_mm = [[0, 0, 0]] }}\n");
     refused(&map, &[], &["`holes` means nothing to a map", "kind = \"holes\""]);
     let stated = format!(
         "{}[[statement]]\ntext = \"t\"\nsource = \"s\"\nat_most_um = 5\nof = [\"panel\"]\n",

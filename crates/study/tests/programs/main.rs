@@ -25,7 +25,7 @@ use armill_study::run::run;
 /// A horizontal plate in front of an MH12; asks follow.
 const CELL: &str = r#"format = 1
 robot = "yaskawa/mh12"
-limit_um = 60
+tolerance_um = 60
 plane = { centre_mm = [1000, 50, 500], tilt_deg = 90, half_size_mm = 100, step_mm = 50 }
 tool = { flange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0] }
 posture = { branch = "front elbow-up no-flip" }
@@ -47,7 +47,7 @@ spindle_rpm = 9000
 const RING: &str = "G21 G90 G17\nS9000 M3\nG0 X40 Y0 Z10\nG0 Z0\nG3 X40 Y0 I-40 J0 F600\nG0 Z10\nM2\n";
 
 /// The answer of a study with these files beside it, or its problems in words.
-fn told(study: &str, files: &[(&str, &str)]) -> Result<StudyAnswer, String> {
+fn reported(study: &str, files: &[(&str, &str)]) -> Result<StudyAnswer, String> {
     let folder = tempfile::tempdir().unwrap();
     for (name, text) in files {
         fs::write(folder.path().join(name), text).unwrap();
@@ -58,8 +58,8 @@ fn told(study: &str, files: &[(&str, &str)]) -> Result<StudyAnswer, String> {
 }
 
 /// An ask for a path with this table of its program.
-fn ask(program: &str) -> String {
-    format!("\n[[ask]]\nkind = \"path\"\nname = \"part\"\n[ask.program]\n{program}\n")
+fn analysis(program: &str) -> String {
+    format!("\n[[analysis]]\nkind = \"path\"\nname = \"part\"\n[analysis.program]\n{program}\n")
 }
 
 /// A slot out from the middle of a block, and a step-over back; the robot reaches all of it.
@@ -69,6 +69,6 @@ const STOCK: &str = "\nstock = { from_mm = [-40, -40, -20], to_mm = [40, 40, 0] 
 
 /// The path of the step-over under this cut.
 fn of_cut(cut: &str) -> armill_study::answer::PathAnswer {
-    let study = format!("{CELL}{cut}{}", ask("file = \"step.ngc\""));
-    told(&study, &[("step.ngc", STEP_OVER)]).unwrap().paths[0].clone()
+    let study = format!("{CELL}{cut}{}", analysis("file = \"step.ngc\""));
+    reported(&study, &[("step.ngc", STEP_OVER)]).unwrap().paths[0].clone()
 }

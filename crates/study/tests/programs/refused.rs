@@ -2,18 +2,18 @@
 
 use std::fmt::Write;
 
-use crate::{CELL, CUT, LOAD, RING, STOCK, ask, told};
+use crate::{CELL, CUT, LOAD, RING, STOCK, analysis, given};
 
 #[test]
 fn what_is_wrong_is_told_at_its_place() {
-    let ring = ask("file = \"ring.ngc\"");
+    let ring = analysis("file = \"ring.ngc\"");
     let slow = CUT
         .replace("spindle_rpm = 9000", "")
         .replace("feed_mm_per_min = 600", "");
     let silent = "G21 G90\nG0 X0 Y0 Z0\nG1 X10 F100\nM2\n";
     for (study, program, words) in [
         (
-            format!("{CELL}{LOAD}{}", ask("file = \"none.ngc\"")),
+            format!("{CELL}{LOAD}{}", analysis("file = \"none.ngc\"")),
             RING,
             &["cannot read", "none.ngc", "study.toml:"][..],
         ),
@@ -28,19 +28,19 @@ fn what_is_wrong_is_told_at_its_place() {
             &["ring.ngc:3:1", "G99.5"],
         ),
         (
-            format!("{CELL}{LOAD}{}", ask("file = \"ring.ngc\"\nstep_mm = 0.001")),
+            format!("{CELL}{LOAD}{}", analysis("file = \"ring.ngc\"\nstep_mm = 0.001")),
             "G21\nG0 X0\nG1 X10000 F100\nM2\n",
             &["more than", "points"],
         ),
         (
-            format!("{CELL}{LOAD}{}", ask("file = \"ring.ngc\"\nstep_mm = 1e-30")),
+            format!("{CELL}{LOAD}{}", analysis("file = \"ring.ngc\"\nstep_mm = 1e-30")),
             RING,
             &["step_mm` is 1e-30 mm: must be at least 0.001 mm"],
         ),
         (
             format!(
                 "{CELL}{LOAD}{}",
-                ask("file = \"ring.ngc\"\nfeature = [{ name = \"a\", kind = \"line\", lines = [5, 2] }]")
+                analysis("file = \"ring.ngc\"\nfeature = [{ name = \"a\", kind = \"line\", lines = [5, 2] }]")
             ),
             RING,
             &["lines 5 to 2"],
@@ -48,13 +48,13 @@ fn what_is_wrong_is_told_at_its_place() {
         (
             format!(
                 "{CELL}{LOAD}{}",
-                ask("file = \"ring.ngc\"\nfeature = [{ name = \"a\", kind = \"line\", lines = [8, 9] }]")
+                analysis("file = \"ring.ngc\"\nfeature = [{ name = \"a\", kind = \"line\", lines = [8, 9] }]")
             ),
             RING,
             &["`a`: no cut stands in lines 8 to 9", "lines 5 to 5"],
         ),
         (
-            format!("{CELL}{LOAD}{}", ask("file = \".\"")),
+            format!("{CELL}{LOAD}{}", analysis("file = \".\"")),
             RING,
             &["is a folder"],
         ),
@@ -118,12 +118,12 @@ fn what_is_wrong_is_told_at_its_place() {
             ],
         ),
         (
-            format!("{CELL}load = {{ frame = \"feed\", cases_n = [[1, 0, 0]] }}\n[[ask]]\nkind = \"map\"\n"),
+            format!("{CELL}load = {{ frame = \"feed\", cases_n = [[1, 0, 0]] }}\n[[analysis]]\nkind = \"map\"\n"),
             RING,
             &["no feed that a load could turn with"],
         ),
     ] {
-        let error = told(&study, &[("ring.ngc", program)]).unwrap_err();
+        let error = given(&study, &[("ring.ngc", program)]).unwrap_err();
         let mut message = String::new();
         let _ = write!(message, "{error}");
         for word in words {

@@ -1,6 +1,6 @@
 //! Programs of robots as paths of a study: where they lie, which posture they tell, what is wrong with them.
 
-use crate::{CELL, LOAD, ask, told};
+use crate::{CELL, LOAD, analysis, given};
 
 /// A square in the frame of the program, whose controller counts 450 mm above the floor: 500 mm high.
 const SQUARE: &str = "&ACCESS RVP\r\nDEF part ( )\r\n$BASE={X 1000,Y 50,Z 50,A 0,B 0,C 0}\r\n$TOOL={X 0,Y 0,Z 150,A 0,B 0,C 0}\r\n\
@@ -14,13 +14,13 @@ fn cell() -> String {
 }
 
 fn study(program: &str) -> String {
-    format!("{}{LOAD}{}", cell(), ask(program))
+    format!("{}{LOAD}{}", cell(), analysis(program))
 }
 
 #[test]
 fn a_program_of_a_robot_has_the_numbers_of_the_same_path_in_gcode_wherever_its_frame_is_told() {
     let gcode = "G21 G90\nG0 X-40 Y-40 Z0\nG1 X40 F600\nG1 Y40\nG1 Z60 F30000\nM2\n";
-    let of = |study: &str, files: &[(&str, &str)]| told(study, files).unwrap().paths[0].clone();
+    let of = |study: &str, files: &[(&str, &str)]| given(study, files).unwrap().paths[0].clone();
     // The tip lies on axis 6, so that a force there turns nothing about it: the spin has no say.
     let drawn = of(&study("file = \"a.ngc\""), &[("a.ngc", gcode)]);
     let by_number = SQUARE.replace("{X 1000,Y 50,Z 50,A 0,B 0,C 0}", "BASE_DATA[3]");
@@ -91,9 +91,9 @@ fn the_posture_is_that_of_the_program_unless_the_study_says_otherwise() {
         let study = format!(
             "{}{posture}{LOAD}{}",
             cell(),
-            ask("file = \"a.src\"\nlimits = false")
+            analysis("file = \"a.src\"\nlimits = false")
         );
-        told(&study, &[("a.src", &rear)]).unwrap().paths[0].branch.clone()
+        given(&study, &[("a.src", &rear)]).unwrap().paths[0].branch.clone()
     };
     assert_eq!(branch(""), "front elbow-up flip");
     assert_eq!(
@@ -162,7 +162,7 @@ fn what_is_wrong_with_a_program_of_a_robot_is_told_with_what_mends_it() {
             &["no cutting move", "cuts_up_to_mm_per_min"],
         ),
     ] {
-        let error = told(
+        let error = given(
             &study(&format!("file = \"a.src\"\n{program}")),
             &[("a.src", text)],
         )
@@ -171,7 +171,7 @@ fn what_is_wrong_with_a_program_of_a_robot_is_told_with_what_mends_it() {
             assert!(error.contains(word), "no `{word}` in\n{error}");
         }
     }
-    let gcode = told(
+    let gcode = given(
         &study("file = \"a.ngc\"\nframe_mm_deg = [0, 0, 0, 0, 0, 0]"),
         &[("a.ngc", "G21 G90\nG0 X0 Y0\nG1 X9 F60\nM2\n")],
     );
@@ -181,7 +181,7 @@ fn what_is_wrong_with_a_program_of_a_robot_is_told_with_what_mends_it() {
 #[test]
 fn unknown_lines_calls_and_loops_are_noted_with_their_lines() {
     let text = SQUARE.replace("$VEL.CP=0.5", "LOOP\r\nZange(1)\r\nENDLOOP\r\n$VEL.CP=0.5");
-    let found = told(&study("file = \"a.src\"\nlimits = false"), &[("a.src", &text)]).unwrap();
+    let found = given(&study("file = \"a.src\"\nlimits = false"), &[("a.src", &text)]).unwrap();
     let notes = found.paths[0].notes.join("\n");
     assert!(
         notes.contains("line 9: `LOOP`") && notes.contains("line 10: `Zange` is called"),

@@ -7,7 +7,7 @@ use armill_core::watch::Watch;
 use armill_study::file::resolve::read;
 use armill_study::run::run;
 
-use crate::{CELL, CUT, STEP_OVER, STOCK, ask, of_cut};
+use crate::{CELL, CUT, STEP_OVER, STOCK, analysis, of_cut};
 
 #[test]
 fn a_stock_tells_where_the_cutter_is_in_the_air_in_a_slot_and_beside_one() {
@@ -29,15 +29,15 @@ fn a_stock_tells_where_the_cutter_is_in_the_air_in_a_slot_and_beside_one() {
     };
     assert!(note(&program, "finds in the stock") && !note(&program, "same engagement"));
     // A slot pushes harder than the cut that the study told.
-    let told = of_cut(CUT);
+    let given = of_cut(CUT);
     let mean = |program: &armill_study::answer::PathAnswer| program.cut.as_ref().unwrap().largest_mean_n;
     assert!(
-        mean(&program) > 1.2 * mean(&told),
+        mean(&program) > 1.2 * mean(&given),
         "{} {}",
         mean(&program),
-        mean(&told)
+        mean(&given)
     );
-    assert!(told.cut.as_ref().unwrap().stock.is_none() && note(&told, "same engagement"));
+    assert!(given.cut.as_ref().unwrap().stock.is_none() && note(&given, "same engagement"));
 }
 
 #[test]
@@ -47,7 +47,7 @@ fn a_program_that_misses_its_stock_is_refused_and_not_praised() {
     let far = STOCK
         .replace("[-40, -40, -20]", "[100, 100, -20]")
         .replace("[40, 40, 0]", "[200, 200, 0]");
-    let text = format!("{CELL}{CUT}{far}{}", ask("file = \"step.ngc\""));
+    let text = format!("{CELL}{CUT}{far}{}", analysis("file = \"step.ngc\""));
     let study = read("study.toml", folder.path(), text.as_bytes()).unwrap();
     let error = run(&study, Watch::NONE).unwrap_err().to_string();
     for words in [

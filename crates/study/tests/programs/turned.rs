@@ -1,6 +1,6 @@
 //! Turns of the tool and branches that are searched for along a program.
 
-use crate::{CELL, LOAD, RING, ask, told};
+use crate::{CELL, LOAD, RING, analysis, given};
 
 /// A tool across the flange, so that turning it moves the wrist; the search bounded by the words of the posture.
 fn cell(posture: &str) -> String {
@@ -13,8 +13,8 @@ fn cell(posture: &str) -> String {
 }
 
 fn searched(posture: &str) -> armill_study::answer::PathAnswer {
-    let study = format!("{}{LOAD}{}", cell(posture), ask("file = \"ring.ngc\""));
-    told(&study, &[("ring.ngc", RING)]).unwrap().paths[0].clone()
+    let study = format!("{}{LOAD}{}", cell(posture), analysis("file = \"ring.ngc\""));
+    given(&study, &[("ring.ngc", RING)]).unwrap().paths[0].clone()
 }
 
 #[test]
@@ -24,7 +24,7 @@ fn a_search_brings_the_worst_point_down_and_tells_before_and_after() {
     let found = searched("branch = \"front elbow-up\", search = { step_deg = 10 }");
     let search = found.search.unwrap();
     assert_eq!(
-        (search.counts, search.goal, search.turns),
+        (search.counts, search.objective, search.turns),
         ("in-plane", "worst", 36)
     );
     assert_eq!(search.without.max_in_plane_um, plain.max_in_plane_um);
@@ -42,7 +42,7 @@ fn a_search_brings_the_worst_point_down_and_tells_before_and_after() {
 
 #[test]
 fn a_mean_below_that_of_the_worst_and_a_worst_below_that_of_the_mean() {
-    let of = |goal: &str| searched(&format!("search = {{ step_deg = 10, goal = \"{goal}\" }}"));
+    let of = |objective: &str| searched(&format!("search = {{ step_deg = 10, goal = \"{objective}\" }}"));
     let (worst, mean) = (of("worst"), of("mean"));
     let [a, b] = [&worst, &mean].map(|path| path.search.as_ref().unwrap().with.clone());
     // Turns without steps change a deviation by some percent.
@@ -56,16 +56,16 @@ fn a_path_that_no_turn_reaches_says_where_and_why() {
     let study = format!(
         "{}{LOAD}{}",
         cell("search = { step_deg = 30 }"),
-        ask("file = \"ring.ngc\"\nstep_mm = 50")
+        analysis("file = \"ring.ngc\"\nstep_mm = 50")
     );
-    let answer = told(&study, &[("ring.ngc", &far)]).unwrap();
+    let answer = given(&study, &[("ring.ngc", &far)]).unwrap();
     let search = answer.paths[0].search.as_ref().unwrap();
     assert!(!search.lost.is_empty() && search.lost.iter().all(|lost| lost.first_line == 5));
-    let told = answer
+    let given = answer
         .warnings
         .iter()
         .any(|warning| warning.contains("no turn of the tool and branch stands"));
-    assert!(told, "{:?}", answer.warnings);
+    assert!(given, "{:?}", answer.warnings);
 }
 
 #[test]
@@ -74,18 +74,18 @@ fn a_search_that_cannot_be_is_refused_at_its_place() {
         let study = format!(
             "{}{LOAD}{}",
             cell(&format!("search = {{ {search} }}")),
-            ask("file = \"ring.ngc\"")
+            analysis("file = \"ring.ngc\"")
         );
-        told(&study, &[("ring.ngc", RING)]).unwrap_err()
+        given(&study, &[("ring.ngc", RING)]).unwrap_err()
     };
     assert!(refused("turns_deg = [90, -90]").contains("turns from 90 to -90 deg"));
     assert!(refused("turns_deg = [-300, 300]").contains("at most 360 deg apart"));
     assert!(refused("step_deg = 0").contains("`posture.search.step_deg` is 0 deg"));
     assert!(refused("goal = \"best\"").contains("goal"));
     // A map has no path along which the tool could turn.
-    let map = format!("{CELL}{LOAD}\n[[ask]]\nkind = \"map\"\nposture.search = {{}}\n");
+    let map = format!("{CELL}{LOAD}\n[[analysis]]\nkind = \"map\"\nposture.search = {{}}\n");
     assert!(
-        told(&map, &[])
+        given(&map, &[])
             .unwrap_err()
             .contains("`posture.search` means nothing to a map")
     );

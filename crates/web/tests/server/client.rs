@@ -88,7 +88,7 @@ impl Served {
     }
 
     /// As the page asks: with host, token and origin of its own.
-    pub fn ask(&self, method: &str, path: &str, body: &[u8]) -> Answer {
+    pub fn analysis(&self, method: &str, path: &str, body: &[u8]) -> Answer {
         let Served { port, token, .. } = self;
         let head = format!(
             "{method} {path} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nOrigin: http://127.0.0.1:{port}\r\nAuthorization: Bearer {token}\r\nContent-Length: {}\r\nConnection: close\r\n\r\n",
@@ -98,11 +98,11 @@ impl Served {
     }
 
     pub fn get(&self, path: &str) -> Answer {
-        self.ask("GET", path, b"")
+        self.analysis("GET", path, b"")
     }
 
     pub fn post(&self, path: &str, body: Value) -> Answer {
-        self.ask("POST", path, body.to_string().as_bytes())
+        self.analysis("POST", path, body.to_string().as_bytes())
     }
 }
 
@@ -137,7 +137,7 @@ pub fn read(stream: &mut TcpStream) -> Answer {
 }
 
 /// A study that a user would keep, with a map, a circle and comments.
-pub const STUDY: &str = "# my cell\nformat = 1\nrobot = \"yaskawa/mh12\"\nlimit_um = 100 # of the drawing\nload = { cases_n = [[3, 5, 5], [-40, 10, 0]] }\ntool = { flange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0] }\nplane = { centre_mm = [1000, 0, 800], half_size_mm = 100, step_mm = 20 } # the plate\n\n[[ask]]\nkind = \"map\"\nname = \"plate\"\n\n[[ask]]\nkind = \"path\"\nname = \"rim\"\ncircle = { radius_mm = 50 }\n";
+pub const STUDY: &str = "# my cell\nformat = 1\nrobot = \"yaskawa/mh12\"\ntolerance_um = 100 # of the drawing\nload = { cases_n = [[3, 5, 5], [-40, 10, 0]] }\ntool = { flange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0] }\nplane = { centre_mm = [1000, 0, 800], half_size_mm = 100, step_mm = 20 } # the plate\n\n[[analysis]]\nkind = \"map\"\nname = \"plate\"\n\n[[analysis]]\nkind = \"path\"\nname = \"rim\"\ncircle = { radius_mm = 50 }\n";
 
 /// A folder with this study.
 pub fn folder(study: &str) -> tempfile::TempDir {

@@ -110,7 +110,7 @@ fn a_head_of_the_limit_passes_and_one_byte_more_does_not() {
 /// Asks what takes seconds, with these bytes behind the question.
 fn asked_for_long(served: &Served, behind: &str) -> TcpStream {
     let text = STUDY.replace("step_mm = 20", "step_mm = 0.3");
-    let body = json!({ "text": text, "ask": "plate" }).to_string();
+    let body = json!({ "text": text, "analysis": "plate" }).to_string();
     let mut stream = served.connect();
     let Served { port, token, .. } = served;
     write!(stream, "POST /api/answer HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nAuthorization: Bearer {token}\r\nContent-Length: {}\r\n\r\n{body}{behind}", body.len()).unwrap();
@@ -124,10 +124,10 @@ fn the_work_of_clients_that_have_left_ends() {
     // All questions of a round together would take more than a minute on two processors.
     // hyper holds what comes behind a question, and then does not see that its client leaves.
     for behind in ["", "\r\n", "GET / HTTP/1.1\r\n"] {
-        let asked: Vec<TcpStream> = (0..60).map(|_| asked_for_long(&served, behind)).collect();
+        let requested: Vec<TcpStream> = (0..60).map(|_| asked_for_long(&served, behind)).collect();
         std::thread::sleep(Duration::from_millis(500));
         let begun = Instant::now();
-        drop(asked);
+        drop(requested);
         assert_eq!(served.get("/api/study").status, 200);
         assert!(
             begun.elapsed() < Duration::from_secs(15),

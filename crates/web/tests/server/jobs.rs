@@ -197,7 +197,7 @@ fn springs_are_found_from_a_table_of_the_folder() {
     let mine = STUDY.replace("yaskawa/mh12", "identify/robot.toml");
     assert_eq!(
         served
-            .post("/api/answer", json!({ "text": mine, "ask": "plate" }))
+            .post("/api/answer", json!({ "text": mine, "analysis": "plate" }))
             .status,
         200
     );
@@ -230,11 +230,11 @@ fn jobs_wait_for_each_other_and_are_cancelled() {
     }
     assert_eq!(state(&second), "waiting");
     assert_eq!(
-        served.ask("DELETE", &format!("/api/jobs/{second}"), b"").json()["state"],
+        served.analysis("DELETE", &format!("/api/jobs/{second}"), b"").json()["state"],
         "cancelled"
     );
     assert_eq!(
-        served.ask("DELETE", &format!("/api/jobs/{first}"), b"").status,
+        served.analysis("DELETE", &format!("/api/jobs/{first}"), b"").status,
         200
     );
     assert_eq!(ended(&served, &first)["state"], "cancelled");
@@ -258,28 +258,28 @@ fn events_come_in_order_and_end_with_the_job() {
     let mut stream = served.connect();
     let Served { port, token, .. } = &served;
     write!(stream, "GET /api/jobs/{id}/events?token={token} HTTP/1.1\r\nHost: localhost:{port}\r\nConnection: close\r\n\r\n").unwrap();
-    let mut told: Vec<Value> = Vec::new();
+    let mut given: Vec<Value> = Vec::new();
     let mut names = 0;
     for line in BufReader::new(stream).lines() {
         let line = line.unwrap();
         names += usize::from(line == "event: job");
-        told.extend(
+        given.extend(
             line.strip_prefix("data: ")
                 .map(|data| serde_json::from_str(data).unwrap()),
         );
     }
-    assert!(!told.is_empty() && names == told.len());
+    assert!(!given.is_empty() && names == given.len());
     let rank = |state: &Value| {
         ["waiting", "running", "done"]
             .iter()
             .position(|known| state == known)
             .unwrap()
     };
-    for pair in told.windows(2) {
+    for pair in given.windows(2) {
         assert!(rank(&pair[0]["state"]) <= rank(&pair[1]["state"]));
         assert!(pair[0]["seconds"].as_f64() <= pair[1]["seconds"].as_f64());
     }
-    let last = told.last().unwrap();
+    let last = given.last().unwrap();
     assert_eq!((&last["state"], &last["answer"]), (&json!("done"), &Value::Null));
 }
 
@@ -374,7 +374,7 @@ fn results_are_written_inside_the_folder_only() {
     let link = |to: &std::path::Path| {
         let _ = std::fs::remove_file(cell.join("out"));
         std::os::unix::fs::symlink(to, cell.join("out")).unwrap();
-        let job = json!({ "kind": "run", "text": STUDY, "options": { "ask": "rim", "no_pictures": true } });
+        let job = json!({ "kind": "run", "text": STUDY, "options": { "analysis": "rim", "no_pictures": true } });
         ended(&served, &begin(&served, job))
     };
     for to in ["elsewhere", "cell/../elsewhere", "missing"] {

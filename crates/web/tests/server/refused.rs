@@ -1,4 +1,4 @@
-//! What the server refuses: strangers, other sites, paths that lead out, and more than it can hold.
+//! What the server refuses: strangers, other sites, paths that lead out, and more than it can contain.
 
 use std::io::{Read, Write};
 use std::time::{Duration, Instant};
@@ -197,14 +197,14 @@ fn no_path_leads_out_of_the_folder() {
             answer.status
         );
         assert!(!answer.text().contains("secret"), "{path}: {}", answer.text());
-        let put = served.ask("PUT", &format!("/api/files/{path}?replace=1"), b"mine");
+        let put = served.analysis("PUT", &format!("/api/files/{path}?replace=1"), b"mine");
         assert!(
             matches!(put.status, 400 | 403 | 404 | 405 | 409),
             "PUT {path}: {}",
             put.status
         );
     }
-    let put = served.ask("PUT", "/api/files/made.csv?replace=1", b"mine");
+    let put = served.analysis("PUT", "/api/files/made.csv?replace=1", b"mine");
     assert_eq!(put.status, 409);
     assert!(!outer.path().join("made.csv").exists());
     assert_eq!(
@@ -214,7 +214,7 @@ fn no_path_leads_out_of_the_folder() {
     assert_eq!(std::fs::read_to_string(inner.join(".hidden")).unwrap(), "secret");
     assert_eq!(
         served
-            .ask("PUT", "/api/files/study.toml?replace=1", b"mine")
+            .analysis("PUT", "/api/files/study.toml?replace=1", b"mine")
             .status,
         403
     );
@@ -288,7 +288,7 @@ fn what_a_killed_upload_left_is_removed_at_the_next_start() {
 fn files_are_taken_in_once_and_whole() {
     let (_outer, inner) = guarded();
     let served = serve(&inner);
-    let put = |name: &str, body: &[u8]| served.ask("PUT", &format!("/api/files/{name}"), body);
+    let put = |name: &str, body: &[u8]| served.analysis("PUT", &format!("/api/files/{name}"), body);
     let taken = put("part%201.ngc", b"G21\nG1 X1 F100\n");
     assert_eq!((taken.status, taken.json()["kind"].as_str()), (201, Some("path")));
     assert_eq!(
@@ -457,7 +457,7 @@ fn odd_questions_are_refused_in_words() {
         "{\"text\": \"\", \"unknown\": 1}",
         "\u{0}",
     ] {
-        let answer = served.ask("POST", "/api/answer", body.as_bytes());
+        let answer = served.analysis("POST", "/api/answer", body.as_bytes());
         assert_eq!(
             (answer.status, answer.kind().as_str()),
             (400, "invalid-input"),
@@ -466,7 +466,7 @@ fn odd_questions_are_refused_in_words() {
     }
     let at = |at: serde_json::Value| {
         served
-            .post("/api/pose", json!({ "text": STUDY, "ask": "plate", "at": at }))
+            .post("/api/pose", json!({ "text": STUDY, "analysis": "plate", "at": at }))
             .status
     };
     assert_eq!(at(json!({})), 400);
@@ -474,7 +474,7 @@ fn odd_questions_are_refused_in_words() {
     assert_eq!(at(json!({ "xyz_mm": [1e300, 0, 0] })), 400);
     assert_eq!(at(json!({ "y_mm": 1, "z_mm": 1, "point": 1 })), 400);
     let deep = format!("{{\"text\":{}1{}}}", "[".repeat(100_000), "]".repeat(100_000));
-    assert_eq!(served.ask("POST", "/api/check", deep.as_bytes()).status, 400);
+    assert_eq!(served.analysis("POST", "/api/check", deep.as_bytes()).status, 400);
     // No HTTP at all.
     let mut stream = served.connect();
     stream.write_all(&[0x16, 3, 1, 2, 0, 1, 0]).unwrap();

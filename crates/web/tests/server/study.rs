@@ -19,7 +19,7 @@ fn answers_are_the_bytes_of_the_command() {
     let on_disk = served.get("/api/study").json();
     assert_eq!(on_disk["writable"], false);
     assert_eq!(on_disk["text"].as_str().unwrap().as_bytes(), found.bytes);
-    let answer = served.post("/api/answer", json!({ "text": on_disk["text"], "ask": null }));
+    let answer = served.post("/api/answer", json!({ "text": on_disk["text"], "analysis": null }));
     assert_eq!((answer.status, answer.text()), (200, command));
 
     let rows = armill_study::robot_answers::library_rows().unwrap();
@@ -38,16 +38,16 @@ fn values_scene_pose_table_and_pictures_are_those_of_the_study() {
         folder: folder.path(),
         bytes: STUDY.as_bytes(),
     };
-    let of = |path: &str, ask: &str| served.post(path, json!({ "text": STUDY, "ask": ask }));
+    let of = |path: &str, analysis: &str| served.post(path, json!({ "text": STUDY, "analysis": analysis }));
     let same = |body: String, value: String| assert_eq!(body, value);
     same(
         of("/api/values", "rim").text(),
         serde_json::to_string(&values(text, Some("rim")).unwrap()).unwrap(),
     );
-    let told = scene(text, Some("rim"), Watch::NONE).unwrap();
+    let given = scene(text, Some("rim"), Watch::NONE).unwrap();
     same(
         of("/api/scene", "rim").text(),
-        serde_json::to_string(&told).unwrap(),
+        serde_json::to_string(&given).unwrap(),
     );
     same(
         of("/api/answer", "plate").text(),
@@ -56,7 +56,7 @@ fn values_scene_pose_table_and_pictures_are_those_of_the_study() {
 
     let pose = served.post(
         "/api/pose",
-        json!({ "text": STUDY, "ask": "plate", "at": { "y_mm": 0, "z_mm": 0 }, "case": 2 }),
+        json!({ "text": STUDY, "analysis": "plate", "at": { "y_mm": 0, "z_mm": 0 }, "case": 2 }),
     );
     let pose = pose.json();
     let postures = pose["answer"]["postures"].as_array().unwrap().len();
@@ -71,12 +71,12 @@ fn values_scene_pose_table_and_pictures_are_those_of_the_study() {
     let name = pictures["pictures"][0]["name"].as_str().unwrap();
     let png = served.post(
         "/api/picture.png",
-        json!({ "text": STUDY, "ask": "rim", "name": name }),
+        json!({ "text": STUDY, "analysis": "rim", "name": name }),
     );
     assert_eq!(&png.body[..8], b"\x89PNG\r\n\x1a\n");
     let none = served.post(
         "/api/picture.png",
-        json!({ "text": STUDY, "ask": "rim", "name": "none" }),
+        json!({ "text": STUDY, "analysis": "rim", "name": "none" }),
     );
     assert_eq!((none.status, none.kind().as_str()), (400, "invalid-input"));
 }
@@ -86,9 +86,9 @@ fn a_broken_study_is_shown_with_its_problems_at_their_places() {
     let broken = STUDY.replace("step_mm = 20", "step_mm = -20");
     let folder = folder(&broken);
     let served = serve(folder.path());
-    let told = served.get("/api/study");
-    assert_eq!(told.status, 200);
-    let problem = &told.json()["problems"][0];
+    let given = served.get("/api/study");
+    assert_eq!(given.status, 200);
+    let problem = &given.json()["problems"][0];
     assert_eq!(
         (
             problem["line"].as_u64(),
@@ -97,7 +97,7 @@ fn a_broken_study_is_shown_with_its_problems_at_their_places() {
         (Some(7), true)
     );
     assert!(problem["column"].as_u64().unwrap() > 1 && problem["hint"].is_string());
-    let answer = served.post("/api/answer", json!({ "text": broken, "ask": "plate" }));
+    let answer = served.post("/api/answer", json!({ "text": broken, "analysis": "plate" }));
     assert_eq!(
         (
             answer.status,
@@ -105,7 +105,7 @@ fn a_broken_study_is_shown_with_its_problems_at_their_places() {
         ),
         (422, Some(7))
     );
-    let no_toml = served.post("/api/check", json!({ "text": "limit_um = = 3" }));
+    let no_toml = served.post("/api/check", json!({ "text": "tolerance_um = = 3" }));
     assert_eq!(
         (no_toml.status, no_toml.json()["problems"][0]["line"].as_u64()),
         (200, Some(1))
@@ -118,7 +118,7 @@ fn the_study_is_written_only_over_what_was_read() {
     let served = serve(folder.path());
     let file = folder.path().join("study.toml");
     let put = |text: &str, version: &Value| {
-        served.ask(
+        served.analysis(
             "PUT",
             "/api/study",
             json!({ "text": text, "version": version }).to_string().as_bytes(),
@@ -140,7 +140,7 @@ fn the_study_is_written_only_over_what_was_read() {
 
     let example = serve(Path::new("mh12-groove"));
     let read = example.get("/api/study").json();
-    let refused = example.ask(
+    let refused = example.analysis(
         "PUT",
         "/api/study",
         json!({ "text": "", "version": read["version"] })
@@ -154,11 +154,11 @@ fn the_study_is_written_only_over_what_was_read() {
 fn a_change_keeps_the_comments() {
     let served = serve(Path::new("mh12-groove"));
     let changes =
-        json!([{ "key": "plane.centre_mm", "value": [900, 0, 700] }, { "key": "limit_um", "value": 50 }]);
+        json!([{ "key": "plane.centre_mm", "value": [900, 0, 700] }, { "key": "tolerance_um", "value": 50 }]);
     let whole = served
         .post(
             "/api/change",
-            json!({ "text": STUDY, "ask": null, "changes": changes }),
+            json!({ "text": STUDY, "analysis": null, "changes": changes }),
         )
         .json();
     let expected = STUDY
@@ -169,7 +169,7 @@ fn a_change_keeps_the_comments() {
     let own = served
         .post(
             "/api/change",
-            json!({ "text": STUDY, "ask": "rim", "changes": changes }),
+            json!({ "text": STUDY, "analysis": "rim", "changes": changes }),
         )
         .json();
     let text = own["text"].as_str().unwrap();
@@ -179,7 +179,7 @@ fn a_change_keeps_the_comments() {
         "{text}"
     );
     assert_eq!(
-        own["asks"][1]["keys"],
+        own["analyses"][1]["keys"],
         json!(["circle.radius_mm", "kind", "name", "posture.branch"])
     );
     assert_eq!(own["problems"], json!([]));
@@ -188,23 +188,23 @@ fn a_change_keeps_the_comments() {
 #[test]
 fn a_view_is_what_change_answer_values_and_scene_give_one_after_the_other() {
     let served = serve(Path::new("mh12-groove"));
-    for ask in ["plate", "rim"] {
+    for analysis in ["plate", "rim"] {
         let changes = json!([
             { "key": "plane.step_mm", "value": 25 },
-            { "key": "limit_um", "value": 70, "whole": true },
+            { "key": "tolerance_um", "value": 70, "whole": true },
         ]);
-        let of = json!({ "text": STUDY, "ask": ask, "changes": changes });
+        let of = json!({ "text": STUDY, "analysis": analysis, "changes": changes });
         let stand = json!({ "follow": "worst" });
         let view = served.post(
             "/api/view",
-            json!({ "text": STUDY, "ask": ask, "changes": changes, "stand": stand }),
+            json!({ "text": STUDY, "analysis": analysis, "changes": changes, "stand": stand }),
         );
         assert_eq!(view.status, 200, "{}", view.text());
         let changed = served.post("/api/change", of.clone()).json();
         assert_eq!(changed["problems"], json!([]));
         let text = changed["text"].as_str().unwrap();
         assert!(
-            text.contains("limit_um = 70 # of the drawing") && text.contains("plane = { step_mm = 25 }"),
+            text.contains("tolerance_um = 70 # of the drawing") && text.contains("plane = { step_mm = 25 }"),
             "{text}"
         );
         let body = view.text();
@@ -213,26 +213,26 @@ fn a_view_is_what_change_answer_values_and_scene_give_one_after_the_other() {
             ("values", "/api/values"),
             ("scene", "/api/scene"),
         ] {
-            let alone = served.post(path, json!({ "text": text, "ask": ask })).text();
+            let alone = served.post(path, json!({ "text": text, "analysis": analysis })).text();
             // The bytes themselves, not only their meaning.
             assert!(
                 body.contains(&format!("\"{key}\":{}", alone.trim_end())),
-                "{ask} {key}"
+                "{analysis} {key}"
             );
         }
         assert_eq!(
-            (&view.json()["text"], &view.json()["asks"]),
-            (&changed["text"], &changed["asks"])
+            (&view.json()["text"], &view.json()["analyses"]),
+            (&changed["text"], &changed["analyses"])
         );
         let stands = &view.json()["stands"];
         assert_eq!(stands["at"], view.json()["extremes"][0]["worst"]);
         let pose = served.post(
             "/api/pose",
-            json!({ "text": text, "ask": ask, "at": stands["at"], "case": stands["case"] }),
+            json!({ "text": text, "analysis": analysis, "at": stands["at"], "case": stands["case"] }),
         );
         assert!(
             body.contains(&format!("\"pose\":{}", pose.text().trim_end())),
-            "{ask}"
+            "{analysis}"
         );
         // Nobody has to ask where it stands.
         assert!(served.post("/api/view", of).json()["stands"].is_null());
@@ -240,7 +240,7 @@ fn a_view_is_what_change_answer_values_and_scene_give_one_after_the_other() {
     let refused = |changes: Value| {
         served.post(
             "/api/view",
-            json!({ "text": STUDY, "ask": "plate", "changes": changes }),
+            json!({ "text": STUDY, "analysis": "plate", "changes": changes }),
         )
     };
     let wrong = refused(json!([{ "key": "plane.step_mm", "value": -1 }]));
@@ -251,7 +251,7 @@ fn a_view_is_what_change_answer_values_and_scene_give_one_after_the_other() {
             .unwrap()
             .contains("step_mm")
     );
-    assert_eq!(refused(json!([{ "key": "ask", "value": 1 }])).status, 422);
+    assert_eq!(refused(json!([{ "key": "analysis", "value": 1 }])).status, 422);
     assert_eq!(refused(json!([{ "value": 1 }])).status, 400);
 }
 
@@ -261,22 +261,22 @@ fn tables_and_schema_are_what_fields_are_made_of() {
     let schema = served.get("/api/schema");
     let command = armill_formats::document::schema_json::<armill_study::file::format::StudyFile>();
     assert_eq!((schema.status, schema.text()), (200, command));
-    let told = served
+    let given = served
         .post(
             "/api/tables",
             json!({ "text": STUDY.replace("step_mm = 20", "step_mm = -20") }),
         )
         .json();
-    assert_eq!(told["values"]["ask"][1]["circle"]["radius_mm"], 50);
-    let problem = &told["problems"][0]["span"]["start"];
-    let places = told["places"].as_array().unwrap();
+    assert_eq!(given["values"]["analysis"][1]["circle"]["radius_mm"], 50);
+    let problem = &given["problems"][0]["span"]["start"];
+    let places = given["places"].as_array().unwrap();
     let place = places
         .iter()
         .find(|place| place["path"] == "plane.step_mm")
         .unwrap();
     assert_eq!(&place["bytes"][0], problem);
     let broken = served
-        .post("/api/tables", json!({ "text": "limit_um = = 3" }))
+        .post("/api/tables", json!({ "text": "tolerance_um = = 3" }))
         .json();
     assert!(broken["values"].is_null() && broken["problems"][0]["line"] == 1);
 }
@@ -307,7 +307,7 @@ fn meshes_are_handed_out_where_the_robot_names_them_and_nowhere_else() {
         served
             .post(
                 "/api/pose",
-                json!({ "text": study, "ask": "plate", "at": { "joints_deg": [90, 0, 0, 0, 0, 0] } }),
+                json!({ "text": study, "analysis": "plate", "at": { "joints_deg": [90, 0, 0, 0, 0, 0] } }),
             )
             .json()
     };
@@ -355,8 +355,8 @@ fn two_tabs_are_answered_at_once_and_a_later_question_takes_the_place_of_one_tha
     let served = serve(Path::new("mh12-groove"));
     // So large that what follows is asked meanwhile.
     let large = STUDY.replace("step_mm = 20", "step_mm = 0.25");
-    let ask = |tab: &str, text: &str| {
-        let body = json!({ "text": text, "ask": "plate" }).to_string();
+    let analysis = |tab: &str, text: &str| {
+        let body = json!({ "text": text, "analysis": "plate" }).to_string();
         let head = format!(
             "POST /api/answer HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nAuthorization: Bearer {}\r\nX-Tab: {tab}\r\nContent-Length: {}\r\nConnection: close\r\n\r\n{body}",
             served.port,
@@ -366,12 +366,12 @@ fn two_tabs_are_answered_at_once_and_a_later_question_takes_the_place_of_one_tha
         served.raw(head.as_bytes())
     };
     std::thread::scope(|scope| {
-        let first = scope.spawn(|| ask("a", &large).status);
+        let first = scope.spawn(|| analysis("a", &large).status);
         std::thread::sleep(std::time::Duration::from_millis(200));
-        let second = scope.spawn(|| ask("a", &large));
+        let second = scope.spawn(|| analysis("a", &large));
         std::thread::sleep(std::time::Duration::from_millis(100));
-        let third = scope.spawn(|| ask("a", STUDY).status);
-        assert_eq!(ask("b", STUDY).status, 200);
+        let third = scope.spawn(|| analysis("a", STUDY).status);
+        assert_eq!(analysis("b", STUDY).status, 200);
         let second = second.join().unwrap();
         assert_eq!((second.status, second.kind().as_str()), (409, "superseded"));
         assert_eq!((first.join().unwrap(), third.join().unwrap()), (200, 200));
@@ -386,14 +386,14 @@ fn every_documented_path_answers_by_its_method() {
     for (path, methods) in document["paths"].as_object().unwrap() {
         let path = path.replace("{id}", "no-such").replace("{path}", "no-such");
         for method in methods.as_object().unwrap().keys() {
-            let answer = served.ask(&method.to_uppercase(), &path, b"");
+            let answer = served.analysis(&method.to_uppercase(), &path, b"");
             assert_ne!(answer.status, 405, "{method} {path}");
             assert!(
                 !answer.text().contains("there is nothing at this path"),
                 "{method} {path}"
             );
         }
-        assert_eq!(served.ask("PATCH", &path, b"").status, 405, "{path}");
+        assert_eq!(served.analysis("PATCH", &path, b"").status, 405, "{path}");
     }
 }
 

@@ -35,13 +35,13 @@ def along(source: Any, ask: str | None = None, *, table: Any = None, ax: Axes | 
     for name, label, colour, dashes, width in _PARTS:
         values = np.insert(columns[name].astype(float), gaps, np.nan)
         ax.plot(distance, values, color=colour, linestyle=dashes, linewidth=width, label=label)
-    limit = answer["setting"]["limit_um"]
+    limit = answer["setting"]["tolerance_um"]
     ax.axhline(limit, color=LIMIT, linewidth=2.2, label=f"limit {limit:g} µm", zorder=1.5)
     ax.axhline(0.0, color=INK, linewidth=0.6, zorder=1)
     _mark_worst(ax, answer["worst_points"])
-    unreached = ~np.isfinite(columns["in_plane_um"].astype(float))
-    if unreached.any():
-        here = columns["distance_mm"].astype(float)[unreached]
+    unreachable = ~np.isfinite(columns["in_plane_um"].astype(float))
+    if unreachable.any():
+        here = columns["distance_mm"].astype(float)[unreachable]
         ax.plot(here, np.zeros(len(here)), "x", color=PINK, markersize=4, label=f"not reached ({len(here)} points)")
     told = distance[np.isfinite(distance)]
     ax.set_xlim(0.0, float(told.max()) if len(told) else 1.0)

@@ -64,7 +64,7 @@ class Source:
         return value
 
     def one(self, kind: str, ask: str | None) -> Json:
-        """The map or path called ``ask``; the first where none is named."""
+        """The map or path called ``analysis``; the first where none is named."""
         found: list[Json] = self.need(kind, "armill run")
         named = [each for each in found if ask in (None, each["name"])]
         if named:

@@ -68,7 +68,7 @@ def _bars(ax: Axes, answer: Json, rows: list[tuple[str, float, float, str]]) -> 
     ax.spines[["top", "right"]].set_visible(False)
     datum = answer["datum"]
     held = f"circle of {answer['radius_mm']:g} mm, {answer['branch']}; centre {datum['centre']}, radius {datum['radius']}"
-    title(ax, f"{answer['ask']}: what its error is made of", held)
+    title(ax, f"{answer['analysis']}: what its error is made of", held)
     legend_below(ax, columns=4, drop=-0.2)
 
 

@@ -41,7 +41,7 @@ def map(
     handles: list[Any] = []
     bar = ax.figure.colorbar(filled, ax=ax, label=_plane.VALUES[value], shrink=0.8) if reached else None
     if bar is not None and value == "in_plane_um":
-        limit = answer["setting"]["limit_um"]
+        limit = answer["setting"]["tolerance_um"]
         _plane.mark_limit(bar.ax, limit)
         beyond = "" if _plane.limit_line(ax, answer) else ", nowhere crossed"
         handles.append(Line2D([], [], color=LIMIT, linewidth=2.6, label=f"limit {limit:g} µm{beyond}"))

@@ -45,7 +45,7 @@ def path(source: Any, ask: str | None = None, *, table: Any = None, ax: Axes | N
         lines.set_capstyle("round")
         ax.add_collection(lines)
         bar = ax.figure.colorbar(lines, ax=ax, label="deviation across the tool (µm)", shrink=0.85)
-        _plane.mark_limit(bar.ax, answer["setting"]["limit_um"])
+        _plane.mark_limit(bar.ax, answer["setting"]["tolerance_um"])
     for i, point in enumerate(answer["worst_points"], start=1):
         y, z = point["point"]["in_plane_mm"]
         label = f"worst points: {number(answer['max_in_plane_um'])} µm at 1" if i == 1 else None
@@ -59,7 +59,7 @@ def path(source: Any, ask: str | None = None, *, table: Any = None, ax: Axes | N
     # Seen from the tool side.
     ax.invert_xaxis()
     _plane.name_axes(ax)
-    limit = answer["setting"]["limit_um"]
+    limit = answer["setting"]["tolerance_um"]
     share = f"{100 * answer['fraction_within']:.1f} % holds {limit:g} µm"
     title(ax, answer["name"], f"{share}; {words(answer)}")
     ax.legend(loc="upper left", bbox_to_anchor=(0.0, -0.13), ncols=2, borderaxespad=0.0)

@@ -22,7 +22,7 @@ _NAMES = {
     "spin_deg": "spin of the tool (deg)",
     "rail_mm": "rail (mm)",
 }
-_GOALS = {"worst": "largest", "mean": "mean", "above-limit": "above the limit, mean"}
+_GOALS = {"worst": "largest", "mean": "mean", "above-tolerance": "above the limit, mean"}
 
 
 @picture
@@ -30,7 +30,7 @@ def placement(
     source: Any,
     costs: Mapping[str, tuple[ArrayLike, ArrayLike]] | None = None,
     *,
-    limit_um: float | None = None,
+    tolerance_um: float | None = None,
     ax: Sequence[Axes] | None = None,
 ) -> list[Axes]:
     """`placement.json`, costs over free degrees -> [front, a picture each degree]: what the place of the part is worth, µm.
@@ -48,9 +48,9 @@ def placement(
     count = 1 + len(costs)
     columns = min(2, count)
     axes = several(ax, count, (4.6 * columns + 1.2, 3.9 * -(-count // columns)), columns)
-    _front(axes[0], answer.data, by_margin, limit_um)
+    _front(axes[0], answer.data, by_margin, tolerance_um)
     for each, (degree, (values, cost)) in zip(axes[1:], costs.items()):
-        _degree(each, answer.data, degree, (np.asarray(values, dtype=float), np.asarray(cost, dtype=float)), limit_um)
+        _degree(each, answer.data, degree, (np.asarray(values, dtype=float), np.asarray(cost, dtype=float)), tolerance_um)
     return axes
 
 
@@ -59,7 +59,7 @@ def _what(answer: Json) -> str:
     return f"{_GOALS[answer['goal']]} {counted} deviation (µm)"
 
 
-def _front(ax: Axes, answer: Json, by_margin: list[Json], limit_um: float | None) -> None:
+def _front(ax: Axes, answer: Json, by_margin: list[Json], tolerance_um: float | None) -> None:
     known = [each for each in by_margin if each["cost_um"] is not None]
     margins = [each["margin_deg"] for each in known]
     ax.plot(margins, [each["cost_um"] for each in known], "o-", color=BLUE, markersize=5, label="least, by margin")
@@ -69,21 +69,21 @@ def _front(ax: Axes, answer: Json, by_margin: list[Json], limit_um: float | None
         answer["margin_deg"], found["cost_um"], yerr=spread, fmt="D", color=INK, markerfacecolor=AMBER, markersize=7, capsize=4,
         zorder=4, label="place found, ± 2 u",
     )
-    drawn: Json = answer["as_drawn"]
-    if drawn["lost_points"] == 0:
+    drawn: Json = answer["nominal"]
+    if drawn["unreachable_points"] == 0:
         ax.axhline(drawn["cost_um"], color=GREY, linestyle="--", label=f"as drawn {number(drawn['cost_um'])} µm")
-    _limit(ax, limit_um)
+    _limit(ax, tolerance_um)
     ax.set_ylim(bottom=0.0)
     ax.margins(y=0.1)
     ax.set_xlabel("margin to joint limits and singularities (deg)")
     ax.set_ylabel(_what(answer))
     x, y, z = answer["place"]["centre_mm"]
     place = f"({x:.0f}, {y:.0f}, {z:.0f}) mm"
-    title(ax, f"{answer['ask']}: what room costs", f"{number(found['cost_um'])} µm at {place}, {found['branch'] or 'best branch'}")
+    title(ax, f"{answer['analysis']}: what room costs", f"{number(found['cost_um'])} µm at {place}, {found['branch'] or 'best branch'}")
     legend_below(ax, columns=2, drop=-0.2)
 
 
-def _degree(ax: Axes, answer: Json, degree: str, curve: tuple[Any, Any], limit_um: float | None) -> None:
+def _degree(ax: Axes, answer: Json, degree: str, curve: tuple[Any, Any], tolerance_um: float | None) -> None:
     values, cost = curve
     if values.shape != cost.shape or values.ndim != 1:
         raise Missing(f"placement: costs: {degree} has {values.shape} values and {cost.shape} costs: give as many of each")
@@ -98,7 +98,7 @@ def _degree(ax: Axes, answer: Json, degree: str, curve: tuple[Any, Any], limit_u
         for i, bound in enumerate((told["least"], told["greatest"])):
             if values.min() <= bound <= values.max():
                 ax.axvline(bound, color=GREY, linestyle=":", label="bound" if i == 0 else None)
-    _limit(ax, limit_um)
+    _limit(ax, tolerance_um)
     ax.set_ylim(bottom=0.0)
     ax.grid(True, color=FAINT, linewidth=0.6)
     ax.set_xlabel(_NAMES[degree])
@@ -107,6 +107,6 @@ def _degree(ax: Axes, answer: Json, degree: str, curve: tuple[Any, Any], limit_u
     legend_below(ax, columns=2, drop=-0.2)
 
 
-def _limit(ax: Axes, limit_um: float | None) -> None:
-    if limit_um is not None:
-        ax.axhline(limit_um, color=LIMIT, linewidth=2.0, label=f"limit {limit_um:g} µm")
+def _limit(ax: Axes, tolerance_um: float | None) -> None:
+    if tolerance_um is not None:
+        ax.axhline(tolerance_um, color=LIMIT, linewidth=2.0, label=f"limit {tolerance_um:g} µm")

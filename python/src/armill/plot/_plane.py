@@ -87,7 +87,7 @@ def lines(ax: Axes, answer: Json, value: str, levels: Floats, labelled: bool) ->
 def limit_line(ax: Axes, answer: Json) -> bool:
     """The limit, bold; whether it crosses the plane."""
     y, z, values = grid(answer, "in_plane_um")
-    limit = answer["setting"]["limit_um"]
+    limit = answer["setting"]["tolerance_um"]
     if not crossed(values, [limit]):
         return False
     halo: list[AbstractPathEffect] = [withStroke(linewidth=4.6, foreground="white")]

@@ -33,7 +33,7 @@ def region(source: Any, ask: str | None = None, *, ax: Axes | None = None) -> Ax
     areas = (
         ("possibly within", certainty["boundary_possibly_mm"], certainty["area_possibly_mm2"], _POSSIBLY, "none", 1.0),
         ("within", found["boundary_mm"], found["area_mm2"], SKY, BLUE, 1.1),
-        ("surely within", certainty["boundary_surely_mm"], certainty["area_surely_mm2"], _SURELY, "none", 1.2),
+        ("surely within", certainty["boundary_robust_mm"], certainty["area_robust_mm2"], _SURELY, "none", 1.2),
     )
     for label, boundary, area_mm2, face, edge, order in areas:
         if boundary:
@@ -56,7 +56,7 @@ def region(source: Any, ask: str | None = None, *, ax: Axes | None = None) -> Ax
     ax.set_ylim(z.min(), z.max())
     ax.set_aspect("equal")
     _plane.name_axes(ax)
-    limit = answer["setting"]["limit_um"]
+    limit = answer["setting"]["tolerance_um"]
     share = f"{100 * answer['fraction_within']:.1f} % of the points hold {limit:g} µm"
     title(ax, f"{answer['name']}: region within {limit:g} µm", f"{share}; {words(answer)}")
     handles += _plane.reason_handles([answer])

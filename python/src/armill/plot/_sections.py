@@ -55,7 +55,7 @@ def sections(
         if i + columns >= len(planes):
             each.set_xlabel("y′ (mm)")
             each.tick_params(labelbottom=True)
-    limit = planes[0]["setting"]["limit_um"]
+    limit = planes[0]["setting"]["tolerance_um"]
     bar = figure.colorbar(bands[0], ax=axes, label=_plane.VALUES["in_plane_um"], shrink=0.8, aspect=28)
     _plane.mark_limit(bar.ax, limit)
     handles = [Line2D([], [], color=LIMIT, linewidth=2.6, label=f"limit {limit:g} µm"), *_plane.reason_handles(planes)]

@@ -21,13 +21,13 @@ def shares(source: Any, ask: str | None = None, *, ax: Axes | None = None) -> Ax
     """
     answer = _map_or_path(Source(source, "shares"), ask)
     points = _points(answer)
-    names: list[str] = answer["setting"]["shares_of"]
+    names: list[str] = answer["setting"]["contributors"]
     values = np.array([point["joint_share_um"] for _, point in points], dtype=float)
     ax = one(ax, (7.2, 1.7 + 0.5 * len(points)))
     rows = np.arange(len(points))
     beyond, before = np.zeros(len(points)), np.zeros(len(points))
     for i, name in enumerate(names):
-        # Ten sharers at most have eight colours and a hatch.
+        # Ten contributors at most have eight colours and a hatch.
         pattern = "" if i < len(COLOURS) else "////"
         share = values[:, i]
         start = np.where(share >= 0, beyond, before)

@@ -56,11 +56,11 @@ fn source(arguments: &ImportArguments) -> Result<(RobotDescription, String), Stu
         let [_, text] = robots::text_of(&name, &found)?;
         return Ok((found, text));
     }
-    let wanted = Wanted {
+    let requested = Wanted {
         format: arguments.format,
         tip: arguments.tip.clone(),
     };
-    let found = robots::import(file, &wanted)?;
+    let found = robots::import(file, &requested)?;
     let text = armill::write(&found);
     Ok((found, text))
 }

@@ -84,13 +84,13 @@ fn as_text(found: &RobotDescription) -> String {
 fn joint_text(found: &RobotDescription, index: usize) -> Vec<String> {
     let robot = &found.robot;
     let (joint, unit) = (&robot.joints()[index], JointUnit::of(robot, index));
-    let (name, told) = (unit.name, |value: f64| without_rounding(value * unit.scale));
+    let (name, given) = (unit.name, |value: f64| without_rounding(value * unit.scale));
     let chain = if joint.sign.factor() < 0.0 { "-" } else { "+" };
     let limits = joint.limits.map_or("limits not known".to_owned(), |limits| {
-        format!("{} to {} {name}", told(limits.lower), told(limits.upper))
+        format!("{} to {} {name}", given(limits.lower), given(limits.upper))
     });
     let speed = joint.max_speed.map_or("speed not known".to_owned(), |speed| {
-        format!("{} {name}/s", told(speed))
+        format!("{} {name}/s", given(speed))
     });
     let compliance = robot
         .compliance()

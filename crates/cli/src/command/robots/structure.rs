@@ -14,7 +14,7 @@
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::{JointCompliance, Robot};
 use armill_study::joint_unit::JointUnit;
-use armill_study::robot_answers::seat_name;
+use armill_study::robot_answers::attachment_name;
 
 /// Lines for people; none where drives alone are known.
 pub(super) fn as_text(robot: &Robot) -> Vec<String> {
@@ -43,13 +43,13 @@ pub(super) fn as_text(robot: &Robot) -> Vec<String> {
                 axis(&angular)
             )
         };
-        lines.push(format!("  spring at {}: {what}", seat_name(robot, spring.seat)));
+        lines.push(format!("  spring at {}: {what}", attachment_name(robot, spring.attachment)));
     }
     for mass in &structure.masses {
         let centre = mass.centre.coords * 1e3;
         lines.push(format!(
             "  mass at {}: {} kg, centre ({:.3}, {:.3}, {:.3}) mm",
-            seat_name(robot, mass.seat),
+            attachment_name(robot, mass.attachment),
             mass.mass,
             centre.x,
             centre.y,

@@ -24,21 +24,21 @@ fn deviation_is_compliance_times_wrench_and_the_shares_add_up() {
             .iter()
             .map(|row| row.iter().zip(wrench).map(|(c, w)| c * w).sum::<f64>() * 1e6)
             .collect();
-        let told = [
+        let given = [
             numbers(&posture["deviation_um"]),
             numbers(&posture["rotation_urad"]),
         ]
         .concat();
-        let largest = told.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let largest = given.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         // Six products a component, twice; cancellation costs a digit or two of the largest.
         let allowed = 1e3 * f64::EPSILON * largest.max(1.0);
-        assert!(apart(&predicted, &told) < allowed, "{predicted:?} and {told:?}");
+        assert!(apart(&predicted, &given) < allowed, "{predicted:?} and {given:?}");
         let shares = rows(&posture["joint_share_um"]);
         assert_eq!(shares.len(), 6);
         let sum: Vec<f64> = (0..3)
             .map(|axis| shares.iter().map(|share| share[axis]).sum())
             .collect();
-        assert!(apart(&sum, &told[..3]) < allowed, "{sum:?} and {told:?}");
+        assert!(apart(&sum, &given[..3]) < allowed, "{sum:?} and {given:?}");
     }
 }
 

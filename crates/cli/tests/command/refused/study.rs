@@ -7,7 +7,7 @@ use crate::cell::{Cell, EVERY_KIND, LEVER, SMALL};
 
 #[test]
 fn an_unknown_field_is_named_with_its_place() {
-    check("limit_um", "colour = 3\nlimit_um").refused(&["study.toml:4:1", "unknown field `colour`"]);
+    check("tolerance_um", "colour = 3\ntolerance_um").refused(&["study.toml:4:1", "unknown field `colour`"]);
 }
 
 #[test]
@@ -22,7 +22,7 @@ fn a_missing_unit_suffix_is_named() {
         "`plane.step`",
         "lengths carry their unit: write `step_mm`",
     ]);
-    check("limit_um", "limit").refused(&["study.toml:4:1", "limit_um"]);
+    check("tolerance_um", "limit").refused(&["study.toml:4:1", "tolerance_um"]);
     check("cases_n", "cases").refused(&["study.toml:13:1", "cases_n"]);
 }
 
@@ -65,9 +65,9 @@ fn lengths_that_must_be_above_0_say_so() {
         "`plane.half_size_mm` is -1 mm",
         "must be",
     ]);
-    check("limit_um = 130", "limit_um = -1").refused(&[
+    check("tolerance_um = 130", "tolerance_um = -1").refused(&[
         "study.toml:4:12",
-        "`limit_um` is -1 um",
+        "`tolerance_um` is -1 um",
         "at least 0 um",
     ]);
     check("tilt_deg = 0", "tilt_deg = 200").refused(&["study.toml:8:12", "200 deg", "at most 180"]);
@@ -153,7 +153,7 @@ fn problems_of_a_robot_file_are_told_at_the_robot_file() {
 
 #[test]
 fn a_frame_or_branch_that_is_none_is_told_with_those_that_are() {
-    check("limit_um", "base = \"flor\"\nlimit_um").refused(&[
+    check("tolerance_um", "base = \"flor\"\ntolerance_um").refused(&[
         "study.toml:4:8",
         "no frame `flor`",
         "base_link, controller",
@@ -197,31 +197,31 @@ fn a_grid_of_a_billion_points_is_refused_at_once_with_its_memory() {
 
 #[test]
 fn boxes_paths_and_sections_are_measured_before_they_are_made() {
-    let ask = |ask: &str, words: &[&str]| check_text(format!("{SMALL}[[ask]]\n{ask}\n")).refused(words);
+    let analysis = |analysis: &str, words: &[&str]| check_text(format!("{SMALL}[[analysis]]\n{analysis}\n")).refused(words);
     let memory = ["points under 2 load cases would take", "GiB", "study.toml:"];
-    ask(
+    analysis(
         "kind = \"volume\"\nbox = { half_size_mm = [500, 500, 500], step_mm = 1 }",
         &memory,
     );
     let count = ["points, more than 8000000", "study.toml:"];
-    ask("kind = \"path\"\ncircle.radius_mm = 1e4\nstep_mm = 0.001", &count);
-    ask(
+    analysis("kind = \"path\"\ncircle.radius_mm = 1e4\nstep_mm = 0.001", &count);
+    analysis(
         "kind = \"path\"\nline = { from_mm = [0, 0], to_mm = [1e4, 0] }\nstep_mm = 0.001",
         &count,
     );
     let least = ["step_mm` is 1e-30 mm: must be at least 0.001 mm", "study.toml:"];
-    ask("kind = \"path\"\ncircle.radius_mm = 100\nstep_mm = 1e-30", &least);
-    ask(
+    analysis("kind = \"path\"\ncircle.radius_mm = 100\nstep_mm = 1e-30", &least);
+    analysis(
         "kind = \"volume\"\nbox = { half_size_mm = [1, 1, 1], step_mm = 1e-30 }",
         &least,
     );
-    ask("kind = \"map\"\nplane.step_mm = 1e-30", &least);
-    ask(
+    analysis("kind = \"map\"\nplane.step_mm = 1e-30", &least);
+    analysis(
         "kind = \"path\"\nprogram = { file = \"a.ngc\", step_mm = 1e-30 }",
         &least,
     );
     let chord = ["chord_error_mm` is 1e-30 mm: must be at least 0.000001 mm"];
-    ask(
+    analysis(
         "kind = \"path\"\nprogram = { file = \"a.ngc\", chord_error_mm = 1e-30 }",
         &chord,
     );
@@ -230,7 +230,7 @@ fn boxes_paths_and_sections_are_measured_before_they_are_made() {
 #[test]
 fn asks_that_fit_one_by_one_but_not_together_are_refused() {
     // 2.4 million points a section, some 2.1 GiB; three of them are held at once.
-    let sections = "[[ask]]\nkind = \"sections\"\ndistances_mm = [900, 1000, 1100]\nplane.step_mm = 0.13\n";
+    let sections = "[[analysis]]\nkind = \"sections\"\ndistances_mm = [900, 1000, 1100]\nplane.step_mm = 0.13\n";
     check_text(format!("{SMALL}{sections}")).refused(&["all asks together", "GiB", "more than 4 GiB"]);
 }
 
@@ -254,7 +254,7 @@ fn what_a_study_takes_is_no_more_than_was_estimated() {
         let cases = ["[3, 5, 5]"; 8].join(", ");
         let small = SMALL.replace("[3, 5, 5], [3, -5, 5]", &cases);
         format!(
-            "{small}[[ask]]\nkind = \"volume\"\nbox = {{ half_size_mm = [100, 100, 100], step_mm = {step} }}\n"
+            "{small}[[analysis]]\nkind = \"volume\"\nbox = {{ half_size_mm = [100, 100, 100], step_mm = {step} }}\n"
         )
     };
     // Too many points tell what one of them takes.
@@ -322,9 +322,9 @@ fn every_problem_of_a_file_is_told_at_once() {
         .replace("step_mm = 50", "step_mm = 0")
         .replace("half_size_mm = 100", "half_size_mm = -1")
         .replace("[[3, 5, 5], [3, -5, 5]]", "[]");
-    let asks = "[posture]\nbranch = \"sideways\"\n[[ask]]\nkind = \"volume\"\n[[ask]]\nkind = \"path\"\n\
-                [[ask]]\nkind = \"sections\"\n[[ask]]\nkind = \"map\"\ncircle.radius_mm = 3\n";
-    check_text(format!("{broken}{asks}")).refused(&[
+    let analyses = "[posture]\nbranch = \"sideways\"\n[[analysis]]\nkind = \"volume\"\n[[analysis]]\nkind = \"path\"\n\
+                [[analysis]]\nkind = \"sections\"\n[[analysis]]\nkind = \"map\"\ncircle.radius_mm = 3\n";
+    check_text(format!("{broken}{analyses}")).refused(&[
         "did you mean `yaskawa/mh12`?",
         "`plane.step_mm` is 0 mm",
         "-1 mm",
@@ -337,9 +337,9 @@ fn every_problem_of_a_file_is_told_at_once() {
     ]);
     let fields = SMALL
         .replace("step_mm", "step")
-        .replace("limit_um", "limit")
+        .replace("tolerance_um", "limit")
         .replace("[1000, 0, 800]", "[1000, \"0\"]");
-    check_text(fields).refused(&["write `step_mm`", "write `limit_um`", "study.toml:7:"]);
+    check_text(fields).refused(&["write `step_mm`", "write `tolerance_um`", "study.toml:7:"]);
 }
 
 #[test]
@@ -353,7 +353,7 @@ fn a_value_that_several_asks_take_is_wrong_once() {
 
 #[test]
 fn problems_as_json_have_file_line_and_hint() {
-    let cell = Cell::with_study(&SMALL.replace("step_mm", "step").replace("limit_um", "limit"));
+    let cell = Cell::with_study(&SMALL.replace("step_mm", "step").replace("tolerance_um", "limit"));
     for command in ["check", "run"] {
         let said = cell.armill(&[command, "study.toml", "--json"]).refused(&[]);
         let problems = said.json()["problems"].clone();
@@ -438,11 +438,11 @@ fn a_missing_study_is_told_with_what_to_do() {
 #[test]
 fn two_asks_never_write_the_same_files() {
     let named = |names: &[&str]| {
-        let asks: String = names
+        let analyses: String = names
             .iter()
-            .map(|name| format!("[[ask]]\nkind = \"map\"\n{name}\n"))
+            .map(|name| format!("[[analysis]]\nkind = \"map\"\n{name}\n"))
             .collect();
-        check_text(format!("{SMALL}{asks}"))
+        check_text(format!("{SMALL}{analyses}"))
     };
     named(&["name = \"plate\"", "name = \"Plate!\""])
         .refused(&["`plate` and `Plate!` would write the same files"]);

@@ -3,7 +3,7 @@
 use super::*;
 use crate::robot::{Sides, Unreachable};
 
-fn held(in_plane: f64) -> Held {
+fn evaluation(in_plane: f64) -> Held {
     Held {
         name: PostureName::Sides(Sides::default()),
         limit_margin: 0.5,
@@ -37,7 +37,7 @@ fn the_envelope_takes_the_largest_of_each_and_the_first_of_equals() {
         Vector3::new(0.0, 3.0, -5.0),
         Vector3::new(-3.0, 0.0, 4.0),
     ];
-    let mut one = held(0.0);
+    let mut one = evaluation(0.0);
     one.take_envelope(&deviations, Vector3::z_axis());
     assert_eq!((one.in_plane, one.deciding_case), (3.0, 1));
     // Along the normal the one that is largest in size, with its sign.
@@ -56,7 +56,7 @@ fn the_envelope_takes_the_largest_of_each_and_the_first_of_equals() {
 fn turning_the_normal_round_turns_the_sign_alone() {
     let deviations = [Vector3::new(0.3, -0.2, 0.9), Vector3::new(-0.1, 0.8, 0.05)];
     let normal = Unit::new_normalize(Vector3::new(0.3, 0.5, -0.8));
-    let (mut one, mut other) = (held(0.0), held(0.0));
+    let (mut one, mut other) = (evaluation(0.0), evaluation(0.0));
     one.take_envelope(&deviations, normal);
     other.take_envelope(&deviations, -normal);
     assert_eq!(one.normal, -other.normal);
@@ -69,7 +69,7 @@ fn turning_the_normal_round_turns_the_sign_alone() {
 #[test]
 fn blocks_part_every_value_once_and_in_order() {
     for size in [1, 2, 5, 7, 100] {
-        let mut all = answers(vec![Ok(held(1.0)); 7]);
+        let mut all = answers(vec![Ok(evaluation(1.0)); 7]);
         let (joints, shares) = (all.joints.clone(), all.shares.clone());
         let mut blocks = all.blocks(size);
         assert_eq!(blocks.len(), 7_usize.div_ceil(size));
@@ -85,19 +85,19 @@ fn blocks_part_every_value_once_and_in_order() {
             }
         }
         assert_eq!(point, 7);
-        let told: Vec<f64> = all
+        let given: Vec<f64> = all
             .points
             .iter()
             .filter_map(|p| p.as_ref().unwrap_err().amount())
             .collect();
-        assert_eq!(told, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+        assert_eq!(given, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
     }
     assert!(answers(Vec::new()).blocks(3).is_empty());
 }
 
 #[test]
 fn values_of_a_point_stand_at_its_index() {
-    let all = answers(vec![Ok(held(1.0)); 3]);
+    let all = answers(vec![Ok(evaluation(1.0)); 3]);
     assert_eq!(all.joints_at(2), [4.0, 5.0]);
     assert_eq!(all.shares_at(1), [4.0, 5.0, 6.0, 7.0]);
     assert_eq!(all.deviations_at(1)[0], Vector3::repeat(3.0));
@@ -111,16 +111,16 @@ fn worst_and_best_are_the_first_of_those_that_differ_by_rounding_alone() {
     let missed = Err(Unreachable::OtherBranch);
     let all = answers(vec![
         missed,
-        Ok(held(2.0)),
-        Ok(held(5.0)),
-        Ok(held(5.0 * (1.0 + 1e-13))),
-        Ok(held(2.0 * (1.0 - 1e-13))),
+        Ok(evaluation(2.0)),
+        Ok(evaluation(5.0)),
+        Ok(evaluation(5.0 * (1.0 + 1e-13))),
+        Ok(evaluation(2.0 * (1.0 - 1e-13))),
         missed,
-        Ok(held(3.0)),
+        Ok(evaluation(3.0)),
     ]);
     assert_eq!(all.worst().unwrap().0, 2);
     assert_eq!(all.best().unwrap().0, 1);
-    assert_eq!(all.held().map(|(i, _)| i).collect::<Vec<_>>(), [1, 2, 3, 4, 6]);
+    assert_eq!(all.evaluation().map(|(i, _)| i).collect::<Vec<_>>(), [1, 2, 3, 4, 6]);
     let none = answers(vec![missed; 4]);
     assert!(none.worst().is_none() && none.best().is_none());
 }
@@ -129,7 +129,7 @@ fn worst_and_best_are_the_first_of_those_that_differ_by_rounding_alone() {
 fn a_joint_at_its_limit_is_inside_up_to_rounding() {
     let with = |limit_margin| Held {
         limit_margin,
-        ..held(0.0)
+        ..evaluation(0.0)
     };
     assert!(with(0.0).within_limits() && with(-0.9 * AT_LIMIT).within_limits());
     assert!(!with(-1.1 * AT_LIMIT).within_limits());

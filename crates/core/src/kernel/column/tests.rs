@@ -104,7 +104,7 @@ fn a_posture_of_a_column_is_one_of_the_postures_of_its_pose_and_deviates_as_pred
     );
     columns.fill(&[pose], &Push { cases: &cases, along }, &mut column);
     let all = postures(&robot, &pose, ToolAt::on(&tool)).unwrap();
-    let mut held = 0;
+    let mut evaluation = 0;
     for posture in &all {
         let PostureName::Branch(branch) = posture.name else {
             panic!("named")
@@ -113,7 +113,7 @@ fn a_posture_of_a_column_is_one_of_the_postures_of_its_pose_and_deviates_as_pred
         if column.stands[slot] != Stand::Holds {
             continue;
         }
-        held += 1;
+        evaluation += 1;
         let deviates = |wrench: &Wrench| {
             let delta = crate::source::elastic::predict(posture, robot.compliance().unwrap(), wrench)
                 .twist
@@ -123,5 +123,5 @@ fn a_posture_of_a_column_is_one_of_the_postures_of_its_pose_and_deviates_as_pred
         let most = cases.iter().map(deviates).fold(0.0, f64::max);
         assert!((most - column.deviations[slot]).abs() < 1e-11 * most, "{most}");
     }
-    assert!(held >= 2, "{held}");
+    assert!(evaluation >= 2, "{evaluation}");
 }

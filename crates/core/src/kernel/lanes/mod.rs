@@ -34,7 +34,7 @@
 //! #         robot: &robot, compliance: robot.compliance().unwrap(), flange_from_tool: &tool,
 //! #         model: armill_core::source::StiffnessModel::DRIVES,
 //! #     },
-//! #     home: None, doubt: armill_core::load::Doubt::NONE, cases: &cases, normal: -Vector3::x_axis(), choice: BranchChoice::Best,
+//! #     home: None, doubt: armill_core::load::InputUncertainty::NONE, cases: &cases, normal: -Vector3::x_axis(), choice: BranchChoice::Best,
 //! # };
 //! // Three points of a vertical plate, the tool held along base x.
 //! let (x, y, z) = ([0.9, 0.9, 3.0], [0.0, 0.1, 0.0], [0.8, 0.8, 0.8]);

@@ -25,7 +25,7 @@ use super::limits::CosineLimits;
 use super::steps::{FOUR, Second};
 use super::tally::{Lesser, Tallied, Tally};
 use super::weighed::{LargestOfEach, RowsOfEach};
-use crate::kernel::placed::{Keeping, Lie, ToldIn};
+use crate::kernel::placed::{Keeping, PartPlacement, ToldIn};
 use crate::kernel::question::Question;
 use crate::robot::inverse::OrthoParallel;
 use crate::spatial::Wrench;
@@ -44,7 +44,7 @@ const STRAYS: f64 = 3.5e-5;
 pub(in crate::kernel) struct Placer<T> {
     batch: Batch<T>,
     /// The arm as the robot's base sees it.
-    standing: Arm,
+    arm_state: Arm,
     /// Where the limits told by cosines want axis 5, tool axes.
     middle: Option<Vector3<f64>>,
     rows: Box<Planes<T, 12>>,
@@ -65,7 +65,7 @@ impl Placer<f64> {
     pub fn least_of_each(
         &mut self,
         laid: &Laid<f64>,
-        (lie, spins): (&Lie, &[f64]),
+        (placement, spins): (&PartPlacement, &[f64]),
         open: [bool; 8],
         least: &mut Vec<f64>,
     ) {
@@ -73,11 +73,11 @@ impl Placer<f64> {
         for block in 0..laid.at.len() {
             let mut best = [f64::INFINITY; BLOCK];
             for spin in spins {
-                let turned = Lie {
-                    spin: lie.spin + spin,
-                    ..*lie
+                let turned = PartPlacement {
+                    spin: placement.spin + spin,
+                    ..*placement
                 };
-                self.stand(laid, &turned);
+                self.set_joints(laid, &turned);
                 let (bend2, fours) = (
                     self.bend2,
                     [0, 1, 2, 3].map(|four| [open[2 * four], open[2 * four + 1]]),
@@ -123,7 +123,7 @@ impl<T: Precision> Placer<T> {
         // The part is seldom turned as the arm is.
         prepared.turned = true;
         Placer {
-            standing: prepared.arm.clone(),
+            arm_state: prepared.arm.clone(),
             middle: prepared.cosines.as_ref().map(|cosines| cosines.tool_middle),
             batch,
             rows: Box::new(planes()),
@@ -137,10 +137,10 @@ impl<T: Precision> Placer<T> {
     pub fn judge(
         &mut self,
         laid: &Laid<T>,
-        lie: &Lie,
+        placement: &PartPlacement,
         mut worth: impl FnMut(usize, &Tallied) -> bool,
     ) -> [Tallied; 4] {
-        self.stand(laid, lie);
+        self.set_joints(laid, placement);
         let mut tallied = [Tallied::default(); 4];
         let mut open = std::array::from_fn(|four| worth(four, &tallied[four]));
         for block in 0..laid.at.len() {
@@ -169,7 +169,7 @@ impl<T: Precision> Placer<T> {
         laid: &Laid<T>,
         block: usize,
         open: [bool; 4],
-        mut told: impl FnMut(usize, &Batch<T>),
+        mut given: impl FnMut(usize, &Batch<T>),
     ) {
         let still = laid.rotations.is_empty();
         self.batch.place(laid.at[block].each_ref());
@@ -184,23 +184,23 @@ impl<T: Precision> Placer<T> {
             reached = Some(signs[0]);
             self.batch.limit(still);
             self.weigh(laid, block);
-            told(four, &self.batch);
+            given(four, &self.batch);
         }
     }
 
     /// Lets the arm stand as a part that lies so sees it.
-    fn stand(&mut self, laid: &Laid<T>, lie: &Lie) {
+    fn stand(&mut self, laid: &Laid<T>, placement: &PartPlacement) {
         let prepared = &mut self.batch.prepared;
-        let spin = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), lie.spin);
-        prepared.arm.arm_from_base = self.standing.arm_from_base * lie.base_from_part;
-        prepared.arm.lever = spin * self.standing.lever;
-        prepared.arm.tool_from_axis_6 = spin * self.standing.tool_from_axis_6;
-        prepared.arm.tool_from_axis_5 = spin * self.standing.tool_from_axis_5;
+        let spin = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), placement.spin);
+        prepared.arm.arm_from_base = self.arm_state.arm_from_base * placement.base_from_part;
+        prepared.arm.lever = spin * self.arm_state.lever;
+        prepared.arm.tool_from_axis_6 = spin * self.arm_state.tool_from_axis_6;
+        prepared.arm.tool_from_axis_5 = spin * self.arm_state.tool_from_axis_5;
         if let (Some(cosines), Some(middle)) = (&mut prepared.cosines, self.middle) {
             cosines.tool_middle = spin * middle;
         }
         let from_part = prepared.arm.arm_from_base_rotation();
-        let from_told = told_axes(laid.told_in, &from_part, &self.standing);
+        let from_told = told_axes(laid.told_in, &from_part, &self.arm_state);
         prepared.cases.clear();
         let turned = |w: &Wrench| [from_told * w.force, from_told * w.moment];
         prepared.cases.extend(laid.cases_of_all.iter().map(turned));
@@ -269,7 +269,7 @@ impl<T: Precision> Placer<T> {
             }
         };
         batch.backend.run(LargestOfEach {
-            told_from_arm: &told_axes(laid.told_in, &arm_from_part, &self.standing).transpose(),
+            told_from_arm: &told_axes(laid.told_in, &arm_from_part, &self.arm_state).transpose(),
             moments: prepared.moments,
             wrenches,
             rows,
@@ -279,9 +279,9 @@ impl<T: Precision> Placer<T> {
 }
 
 /// Axes that wrenches are told in, in the arm's.
-fn told_axes(told: ToldIn, arm_from_part: &Matrix3<f64>, standing: &Arm) -> Matrix3<f64> {
-    match told {
+fn told_axes(given: ToldIn, arm_from_part: &Matrix3<f64>, arm_state: &Arm) -> Matrix3<f64> {
+    match given {
         ToldIn::Part => *arm_from_part,
-        ToldIn::Base => standing.arm_from_base_rotation(),
+        ToldIn::Base => arm_state.arm_from_base_rotation(),
     }
 }

@@ -87,12 +87,12 @@ impl<'q> Points<'q> {
             }
         };
         self.batch.solve_each(&self.room.chosen);
-        self.stand(preference);
+        self.set_joints(preference);
         self.deviate();
     }
 
     /// The answer at point `index` of the block; `None` where lanes cannot decide.
-    pub fn held(&self, index: usize) -> Option<Held> {
+    pub fn evaluation(&self, index: usize) -> Option<Held> {
         let Room {
             stances,
             chosen,
@@ -188,7 +188,7 @@ impl<'q> Points<'q> {
         self.room.score.fill(f64::INFINITY);
         for signs in matching {
             self.batch.solve(signs, false);
-            self.stand(preference);
+            self.set_joints(preference);
             let Solved { postures, .. } = self.batch.solved();
             let Room {
                 stances,

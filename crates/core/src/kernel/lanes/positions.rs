@@ -91,7 +91,7 @@ impl<T: Float> Work<T> for Position<'_, T> {
         let [plain, flipped] = joints;
         for joint in 0..3 {
             let row = Counting::<R>::new(self.prepared, joint, false);
-            row.stand(&phi[joint], &mut plain[..=joint], [&mut room[0], &mut nearest[0]]);
+            row.set_joints(&phi[joint], &mut plain[..=joint], [&mut room[0], &mut nearest[0]]);
         }
         flipped[..3].copy_from_slice(&plain[..3]);
         (room[1], nearest[1]) = (room[0], nearest[0]);
@@ -100,7 +100,7 @@ impl<T: Float> Work<T> for Position<'_, T> {
             let (room, nearest) = (&mut room[flip], &mut nearest[flip]);
             for joint in 3..6 {
                 let row = Counting::<R>::new(self.prepared, joint, flip == 1);
-                row.stand(&phi[joint], &mut joints[..=joint], [room, nearest]);
+                row.set_joints(&phi[joint], &mut joints[..=joint], [room, nearest]);
             }
             for i in 0..BLOCK {
                 R::step();

@@ -89,9 +89,9 @@ impl<T: Float> Work<T> for Tally<'_, T> {
         for flip in 0..2 {
             self.out.lost[flip] += lost[flip].iter().sum::<i32>() as usize;
         }
-        let told = |lanes: [R; SIDE]| lanes.into_iter().map(|lane| lane.store().to_f64());
-        self.out.worst = told(worst).fold(self.out.worst, f64::max);
-        self.out.sum += told(sum).sum::<f64>();
-        self.out.above += told(above).sum::<f64>();
+        let given = |lanes: [R; SIDE]| lanes.into_iter().map(|lane| lane.store().to_f64());
+        self.out.worst = given(worst).fold(self.out.worst, f64::max);
+        self.out.sum += given(sum).sum::<f64>();
+        self.out.above += given(above).sum::<f64>();
     }
 }

@@ -16,7 +16,7 @@ use super::*;
 use crate::arms;
 use crate::frame::Isometry;
 use crate::kernel::Question;
-use crate::kernel::tests::{NOMINAL, ask, poses};
+use crate::kernel::tests::{NOMINAL, analysis, poses};
 use crate::robot::inverse::posture_at;
 use crate::robot::{Branch, Robot, Unreachable};
 use crate::source::StiffnessModel;
@@ -35,7 +35,7 @@ fn plain(v: Vector<Lane>) -> Vector3<f64> {
 fn aimed(count: usize, mut then: impl FnMut(&Robot, &[Isometry], &mut Batch<f64>)) {
     for robot in arms::all() {
         let poses = poses(&robot, count, 81);
-        ask(&robot, StiffnessModel::DRIVES, NOMINAL, |question| {
+        analysis(&robot, StiffnessModel::DRIVES, NOMINAL, |question| {
             let mut batch = batch(question, Backend::fastest());
             batch.aim_at(&poses);
             batch.orient(Second::AtZero);
@@ -231,17 +231,17 @@ fn free(arrays: &[Vec<f64>; 12]) -> Poses<'_, f64> {
 fn a_pose_that_is_none_leaves_every_bit_of_its_neighbours() {
     let robot = &arms::ALL[2];
     let sound = arrays(&poses(robot, 100, 82));
-    ask(robot, StiffnessModel::DRIVES, NOMINAL, |question| {
+    analysis(robot, StiffnessModel::DRIVES, NOMINAL, |question| {
         for backend in Backend::available() {
             let mut batch = batch(question, backend);
-            let mut told = |arrays: &[Vec<f64>; 12]| {
+            let mut given = |arrays: &[Vec<f64>; 12]| {
                 let mut out = Envelopes::default();
                 batch.envelopes(&free(arrays), Branch::ALL[0], &mut out);
                 let flags: Vec<u32> = (0..100).map(|i| out.flags(i)).collect();
                 let bits: Vec<u64> = out.in_plane().iter().map(|x| x.to_bits()).collect();
                 (bits, flags)
             };
-            let whole = told(&sound);
+            let whole = given(&sound);
             for (array, value) in [
                 (9, f64::NAN),
                 (11, f64::INFINITY),
@@ -251,7 +251,7 @@ fn a_pose_that_is_none_leaves_every_bit_of_its_neighbours() {
                 for lane in [0, 3, 79, 80, 99] {
                     let mut broken = sound.clone();
                     broken[array][lane] = value;
-                    let (bits, flags) = told(&broken);
+                    let (bits, flags) = given(&broken);
                     for i in (0..100).filter(|i| *i != lane) {
                         assert_eq!(
                             (bits[i], flags[i]),
@@ -262,7 +262,7 @@ fn a_pose_that_is_none_leaves_every_bit_of_its_neighbours() {
                 }
             }
             // Nothing of it stays in the scratch either.
-            assert_eq!(told(&sound), whole);
+            assert_eq!(given(&sound), whole);
         }
     });
 }
@@ -271,7 +271,7 @@ fn a_pose_that_is_none_leaves_every_bit_of_its_neighbours() {
 fn all_four_postures_at_once_are_those_of_each_by_itself() {
     for robot in arms::all() {
         let arrays = arrays(&poses(&robot, 130, 83));
-        ask(&robot, StiffnessModel::DRIVES, NOMINAL, |question| {
+        analysis(&robot, StiffnessModel::DRIVES, NOMINAL, |question| {
             let mut batch = batch(question, Backend::fastest());
             let mut four: [Envelopes<f64>; 4] = Default::default();
             batch.envelopes_of_all(&free(&arrays), &mut four);
@@ -297,13 +297,13 @@ fn a_plane_is_filled_with_the_last_value() {
 
 #[test]
 fn cosines_tell_limits_where_coupling_lets_them() {
-    for (robot, told) in [
+    for (robot, given) in [
         (arms::mh12(), true),
         (arms::r2000ic(), true),
         (arms::hung(), false),
     ] {
         let arm = Arm::new(&robot, robot.ortho_parallel().unwrap(), &Isometry::identity());
-        assert_eq!(CosineLimits::new(&arm).is_some(), told, "{}", robot.name());
+        assert_eq!(CosineLimits::new(&arm).is_some(), given, "{}", robot.name());
     }
 }
 

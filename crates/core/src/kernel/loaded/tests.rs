@@ -1,10 +1,10 @@
 //! Loads of their own at every point: by unit loads as one by one.
 
-use super::super::tests::{NOMINAL, ask, cancelled_after, poses, springy};
+use super::super::tests::{NOMINAL, analysis, cancelled_after, poses, springy};
 use super::*;
 use crate::arms::{self, Stream};
 use crate::frame::Isometry;
-use crate::robot::{Mass, Robot, Seat};
+use crate::robot::{Mass, Robot, Attachment};
 use crate::source::{Gravity, StiffnessModel};
 use nalgebra::Unit;
 
@@ -37,7 +37,7 @@ fn rows<'a>(answers: &'a mut Answers, question: &Question<'_>) -> Rows<'a> {
 fn weighing() -> StiffnessModel {
     let mut model = springy();
     model.structure.masses = vec![Mass {
-        seat: Seat::Joint(2),
+        attachment: Attachment::Joint(2),
         mass: 60.0,
         centre: nalgebra::Point3::new(0.1, 0.0, 0.2),
     }];
@@ -56,7 +56,7 @@ fn unit_loads_say_what_each_load_says_by_itself() {
         (&arms::ALL[2], weighing()),
     ] {
         let poses = poses(robot, 100, 21);
-        ask(robot, &model, NOMINAL, |question| {
+        analysis(robot, &model, NOMINAL, |question| {
             assert!(model.is_affine());
             let mut by_units = Answers::new(question, 100, Told::DeviationsAlone);
             let mut one_by_one = by_units.clone();
@@ -67,7 +67,7 @@ fn unit_loads_say_what_each_load_says_by_itself() {
             rows(&mut one_by_one, question)
                 .one_by_one(question, stop, |i, _, w| load(i, w), Watch::NONE)
                 .unwrap();
-            assert!(by_units.held().count() > 20);
+            assert!(by_units.evaluation().count() > 20);
             for i in 0..100 {
                 let (Ok(a), Ok(b)) = (by_units.points[i], one_by_one.points[i]) else {
                     assert_eq!(by_units.points[i], one_by_one.points[i]);
@@ -93,26 +93,26 @@ fn unit_loads_say_what_each_load_says_by_itself() {
 fn the_tip_that_a_load_is_asked_with_is_that_of_the_posture() {
     let (robot, model) = (&arms::ALL[2], weighing());
     let poses = poses(robot, 40, 22);
-    ask(robot, &model, NOMINAL, |question| {
-        let mut told = Vec::new();
+    analysis(robot, &model, NOMINAL, |question| {
+        let mut given = Vec::new();
         let answers = evaluate_loaded(
             question,
             40,
             |i| stop(&poses, i),
             |i, tip, wrenches| {
-                told.push((i, *tip.unwrap()));
+                given.push((i, *tip.unwrap()));
                 load(i, wrenches);
             },
             Watch::NONE,
         )
         .unwrap();
         // In order, and only where the arm holds the tool.
-        let reached: Vec<usize> = answers.held().map(|(i, _)| i).collect();
-        assert_eq!(told.iter().map(|(i, _)| *i).collect::<Vec<_>>(), reached);
-        let mut standing = crate::source::Standing::new(question.arm);
-        for (i, tip) in told {
-            standing.stand(answers.joints_at(i));
-            let expected = standing.tip_yield().unwrap();
+        let reached: Vec<usize> = answers.evaluation().map(|(i, _)| i).collect();
+        assert_eq!(given.iter().map(|(i, _)| *i).collect::<Vec<_>>(), reached);
+        let mut arm_state = crate::source::ArmState::new(question.arm);
+        for (i, tip) in given {
+            arm_state.set_joints(answers.joints_at(i));
+            let expected = arm_state.tip_compliance().unwrap();
             assert!((tip.by_force - expected.by_force).norm() < 1e-9 * expected.by_force.norm());
             assert!((tip.unloaded - expected.unloaded).norm() < 1e-12);
         }
@@ -127,8 +127,8 @@ fn a_model_that_the_load_changes_is_asked_without_a_tip_and_cancelled_between_po
     };
     let robot = &arms::ALL[4];
     let poses = poses(robot, 50, 23);
-    ask(robot, &model, NOMINAL, |question| {
-        let mut asked = 0;
+    analysis(robot, &model, NOMINAL, |question| {
+        let mut requested = 0;
         let (stopped, done) = cancelled_after(7, |watch| {
             evaluate_loaded(
                 question,
@@ -136,20 +136,20 @@ fn a_model_that_the_load_changes_is_asked_without_a_tip_and_cancelled_between_po
                 |i| stop(&poses, i),
                 |i, tip, wrenches| {
                     assert!(tip.is_none());
-                    asked += 1;
+                    requested += 1;
                     load(i, wrenches);
                 },
                 watch,
             )
         });
-        assert_eq!((stopped.unwrap_err(), done, asked), (Cancelled, 7, 7));
+        assert_eq!((stopped.unwrap_err(), done, requested), (Cancelled, 7, 7));
     });
 }
 
 #[test]
 #[should_panic(expected = "a question has a load case at least")]
 fn a_path_without_load_is_refused() {
-    ask(&arms::ALL[0], StiffnessModel::DRIVES, NOMINAL, |question| {
+    analysis(&arms::ALL[0], StiffnessModel::DRIVES, NOMINAL, |question| {
         let without = Question {
             cases: &[],
             ..*question
@@ -167,7 +167,7 @@ fn a_path_without_load_is_refused() {
 fn neither_normal_nor_cases_of_the_question_count_on_a_path() {
     let robot: &Robot = &arms::ALL[1];
     let poses = poses(robot, 90, 24);
-    ask(robot, StiffnessModel::DRIVES, NOMINAL, |question| {
+    analysis(robot, StiffnessModel::DRIVES, NOMINAL, |question| {
         let others = [Wrench::from_force(Vector3::x() * 1e3); 3];
         let other = Question {
             cases: &others,

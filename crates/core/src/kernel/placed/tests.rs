@@ -46,14 +46,14 @@ fn path(random: &mut Stream, [turned, each]: [bool; 2], told_in: ToldIn) -> Plac
 }
 
 /// A place whose first point is held by joints within their limits.
-fn within_reach(random: &mut Stream, robot: &crate::robot::Robot, tool: &Isometry, path: &PlacedPath) -> Lie {
+fn within_reach(random: &mut Stream, robot: &crate::robot::Robot, tool: &Isometry, path: &PlacedPath) -> PartPlacement {
     let joints = random.joints(robot);
     let stands = crate::robot::forward::forward(robot, &joints).base_from_flange;
     let base_from_flange = Isometry::from_parts(
         stands.translation,
         UnitQuaternion::from_rotation_matrix(&stands.rotation),
     );
-    Lie {
+    PartPlacement {
         base_from_part: base_from_flange * tool * path.points[0].part_from_tool.inverse(),
         spin: 0.0,
         rail: None,
@@ -67,7 +67,7 @@ fn lanes_judge_as_one_pose_after_the_other_does() {
         Translation3::new(0.03, -0.02, 0.15),
         UnitQuaternion::from_scaled_axis(Vector3::new(0.2, 0.4, -0.1)),
     );
-    let mut held = 0;
+    let mut evaluation = 0;
     for robot in arms::all() {
         let arm = arm(&robot, &tool);
         for (margin, wrist) in [(0.0, 0.05), (0.2, 0.05)] {
@@ -88,7 +88,7 @@ fn lanes_judge_as_one_pose_after_the_other_does() {
                     [round % 2 == 1, round % 4 > 1],
                     [ToldIn::Base, ToldIn::Part][round / 6],
                 );
-                let lie = Lie {
+                let placement = PartPlacement {
                     spin: 0.3 * round as f64,
                     ..within_reach(&mut random, &robot, &tool, &path)
                 };
@@ -98,8 +98,8 @@ fn lanes_judge_as_one_pose_after_the_other_does() {
                 };
                 let spins = [0.0, 1.0, -0.6];
                 let [a, b] = [
-                    lanes.judge_each(&path, &lie, open, &spins),
-                    plain.judge_each(&path, &lie, open, &spins),
+                    lanes.judge_each(&path, &placement, open, &spins),
+                    plain.judge_each(&path, &placement, open, &spins),
                 ];
                 assert_eq!(a.lost, b.lost, "{} {round} {margin}", robot.name());
                 for (a, b) in [(a.worst, b.worst), (a.sum, b.sum), (a.above, b.above)] {
@@ -109,8 +109,8 @@ fn lanes_judge_as_one_pose_after_the_other_does() {
                         robot.name()
                     );
                 }
-                let one = lanes.judge(&path, &lie, open, |_| true);
-                let other = plain.judge(&path, &lie, open, |_| true);
+                let one = lanes.judge(&path, &placement, open, |_| true);
+                let other = plain.judge(&path, &placement, open, |_| true);
                 for slot in 0..SLOTS {
                     let name = robot.name();
                     assert_eq!(one[slot].is_some(), open.matches(Branch::ALL[slot]));
@@ -122,7 +122,7 @@ fn lanes_judge_as_one_pose_after_the_other_does() {
                     if a.lost > 0 {
                         continue;
                     }
-                    held += 1;
+                    evaluation += 1;
                     for (a, b) in [(a.worst, b.worst), (a.sum, b.sum), (a.above, b.above)] {
                         assert!(
                             (a - b).abs() < 1e-10 * (b + 1e-4),
@@ -133,7 +133,7 @@ fn lanes_judge_as_one_pose_after_the_other_does() {
             }
         }
     }
-    assert!(held > 100, "{held}");
+    assert!(evaluation > 100, "{evaluation}");
 }
 
 #[test]
@@ -142,7 +142,7 @@ fn branches_that_are_not_worth_it_are_given_up() {
     let tool = Isometry::translation(0.0, 0.0, 0.2);
     let mut random = Stream(9);
     let path = path(&mut random, [false, false], ToldIn::Part);
-    let lie = Lie {
+    let placement = PartPlacement {
         base_from_part: Isometry::translation(1.0, 0.0, 0.5),
         spin: 0.0,
         rail: None,
@@ -153,12 +153,12 @@ fn branches_that_are_not_worth_it_are_given_up() {
         limit: 0.0,
     };
     let mut judge = Judge::new(arm(&robot, &tool), None, keeping);
-    let all = judge.judge(&path, &lie, BranchPattern::default(), |_| true);
+    let all = judge.judge(&path, &placement, BranchPattern::default(), |_| true);
     assert!(all.iter().all(Option::is_some));
-    let none = judge.judge(&path, &lie, BranchPattern::default(), |_| false);
+    let none = judge.judge(&path, &placement, BranchPattern::default(), |_| false);
     assert_eq!(none, [None; SLOTS]);
     // A judge keeps nothing from one place to the next.
-    assert_eq!(judge.judge(&path, &lie, BranchPattern::default(), |_| true), all);
+    assert_eq!(judge.judge(&path, &placement, BranchPattern::default(), |_| true), all);
 }
 
 #[test]
@@ -185,20 +185,20 @@ fn a_glance_loses_no_place_that_is_worth_it() {
                     [round % 2 == 1, round % 4 > 1],
                     [ToldIn::Base, ToldIn::Part][round / 100],
                 );
-                let lie = within_reach(&mut random, &robot, &tool, &path);
+                let placement = within_reach(&mut random, &robot, &tool, &path);
                 let strays = glance.strays(&path);
-                let truly = judge.judge(&path, &lie, BranchPattern::default(), |_| true);
-                let seen = by_lanes(&mut glance.0, (&path.single, &lie), [true; SLOTS], |_| true);
+                let truly = judge.judge(&path, &placement, BranchPattern::default(), |_| true);
+                let seen = by_lanes(&mut glance.0, (&path.single, &placement), [true; SLOTS], |_| true);
                 for (truly, seen) in truly.into_iter().flatten().zip(seen.into_iter().flatten()) {
                     assert!(seen.lost <= truly.lost, "{}: {seen:?} {truly:?}", robot.name());
                     if truly.lost > 0 {
                         continue;
                     }
-                    let held = path.len() as f64;
+                    let evaluation = path.len() as f64;
                     let off = [
                         seen.worst - truly.worst,
-                        (seen.sum - truly.sum) / held,
-                        (seen.above - truly.above) / held,
+                        (seen.sum - truly.sum) / evaluation,
+                        (seen.above - truly.above) / evaluation,
                     ];
                     let off = off.map(f64::abs).into_iter().fold(0.0, f64::max);
                     assert!(off <= strays, "{}: {off} {strays}", robot.name());

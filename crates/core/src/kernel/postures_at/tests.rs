@@ -13,23 +13,23 @@ fn postures_of_many_poses_are_those_of_each_pose_alone() {
         // A searched arm takes its time.
         (arms::other::iiwa14(), 3),
     ] {
-        let mut asked = poses(&robot, count, 5);
-        asked[1].translation.vector.x += 90.0;
-        let found = postures_at(&robot, count, |i| asked[i], None, Watch::NONE).unwrap();
+        let mut requested = poses(&robot, count, 5);
+        requested[1].translation.vector.x += 90.0;
+        let found = postures_at(&robot, count, |i| requested[i], None, Watch::NONE).unwrap();
         let dof = robot.joints().len();
         assert_eq!(found.joints.len(), found.names.len() * dof);
         assert_eq!(found.within_limits.len(), found.names.len());
         let mut first = 0;
-        for (pose, told) in asked.iter().zip(&found.poses) {
+        for (pose, given) in requested.iter().zip(&found.poses) {
             let witness = postures(&robot, pose, ToolAt::on(&flange));
-            assert_eq!(*told, witness.as_ref().map(Vec::len).map_err(|why| *why));
+            assert_eq!(*given, witness.as_ref().map(Vec::len).map_err(|why| *why));
             for (posture, index) in witness.unwrap_or_default().iter().zip(first..) {
                 assert_eq!(found.joints[index * dof..][..dof], posture.joints);
                 assert_eq!(found.names[index], posture.name);
                 let margin = robot.limit_margin(&posture.joints).unwrap().1;
                 assert_eq!(found.within_limits[index], margin >= -AT_LIMIT);
             }
-            first += told.unwrap_or(0);
+            first += given.unwrap_or(0);
         }
         assert!(found.poses[1].is_err(), "a pose 90 m away is held by nobody");
         assert_eq!(first, found.names.len());

@@ -1,6 +1,6 @@
 //! What lanes answer and what comes of the same points one after the other.
 
-use super::super::tests::{NOMINAL, ask, poses};
+use super::super::tests::{NOMINAL, analysis, poses};
 use super::*;
 use crate::arms;
 use crate::kernel::Answers;
@@ -27,7 +27,7 @@ fn lanes_and_single_points_say_the_same_of_every_arm() {
     for robot in arms::all() {
         let poses = poses(&robot, 190, 11);
         for choice in [NOMINAL, BranchChoice::Best] {
-            ask(&robot, StiffnessModel::DRIVES, choice, |question| {
+            analysis(&robot, StiffnessModel::DRIVES, choice, |question| {
                 let (lanes, single) = (
                     answered(question, &poses, true),
                     answered(question, &poses, false),
@@ -79,21 +79,21 @@ fn lanes_and_single_points_say_the_same_of_every_arm() {
 #[test]
 fn only_drives_without_doubt_go_through_lanes() {
     let springy = super::super::tests::springy();
-    ask(&arms::ALL[0], &springy, NOMINAL, |question| {
+    analysis(&arms::ALL[0], &springy, NOMINAL, |question| {
         assert!(Solver::new(question, Order::Any, Told::Shares).lanes.is_none());
     });
-    ask(&arms::ALL[0], StiffnessModel::DRIVES, NOMINAL, |question| {
+    analysis(&arms::ALL[0], StiffnessModel::DRIVES, NOMINAL, |question| {
         let doubted = Question {
-            doubt: crate::load::Doubt {
+            uncertainty: crate::load::InputUncertainty {
                 relative: 0.1,
-                ..question.doubt
+                ..question.uncertainty
             },
             ..*question
         };
         assert!(Solver::new(&doubted, Order::Any, Told::Shares).lanes.is_none());
     });
     let railed = arms::other::on_rail(&arms::ALL[0]);
-    ask(&railed, StiffnessModel::DRIVES, NOMINAL, |question| {
+    analysis(&railed, StiffnessModel::DRIVES, NOMINAL, |question| {
         assert!(Solver::new(question, Order::Any, Told::Shares).lanes.is_none());
     });
 }

@@ -19,7 +19,7 @@ use super::{Record, RecordError};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AirCut<'a> {
     /// From when to when, s, as told by who knows.
-    Told(&'a [[f64; 2]]),
+    Given(&'a [[f64; 2]]),
     /// The quietest stretches of both halves.
     Found,
 }
@@ -54,7 +54,7 @@ const QUIETER: f64 = 3.0;
 /// Told air cuts without two samples at different times; no stretch that is quiet enough.
 pub fn remove(record: &Record, air_cut: AirCut) -> Result<(Record, Drift), RecordError> {
     let through = match air_cut {
-        AirCut::Told(ranges) => ranges.to_vec(),
+        AirCut::Given(ranges) => ranges.to_vec(),
         AirCut::Found => quiet_stretches(record)?,
     };
     let start = record.time[0];
@@ -204,7 +204,7 @@ mod tests {
     #[test]
     fn a_known_drift_is_found_through_told_air_cuts() {
         let (record, pure) = record(0.0);
-        let (freed, drift) = remove(&record, AirCut::Told(&[[0.0, 0.9], [3.1, 4.0]])).unwrap();
+        let (freed, drift) = remove(&record, AirCut::Given(&[[0.0, 0.9], [3.1, 4.0]])).unwrap();
         // Rounding of sums of some thousand numbers of some newtons.
         assert!((drift.offset - OFFSET).norm() < 1e-11 && (drift.rate - RATE).norm() < 1e-11);
         assert!(
@@ -244,7 +244,7 @@ mod tests {
         let time = vec![0.0, 1.0, 2.0, 3.0];
         let ramp: Vec<Vector3<f64>> = time.iter().map(|t| Vector3::new(1.0 + t, 0.0, 2.0 * t)).collect();
         let record = Record::new(time, ramp.clone(), Some(ramp), ActsOn::Tool).unwrap();
-        let (freed, _) = remove(&record, AirCut::Told(&[[0.0, 3.0]])).unwrap();
+        let (freed, _) = remove(&record, AirCut::Given(&[[0.0, 3.0]])).unwrap();
         assert!(
             freed
                 .moment()
@@ -259,11 +259,11 @@ mod tests {
     fn records_without_air_cut_are_refused() {
         let (record, _) = record(0.0);
         assert_eq!(
-            remove(&record, AirCut::Told(&[[9.0, 10.0]])).unwrap_err(),
+            remove(&record, AirCut::Given(&[[9.0, 10.0]])).unwrap_err(),
             RecordError::NoSamplesOfAirCut(0)
         );
         assert_eq!(
-            remove(&record, AirCut::Told(&[[0.0, 1e-6]])).unwrap_err(),
+            remove(&record, AirCut::Given(&[[0.0, 1e-6]])).unwrap_err(),
             RecordError::NoSamplesOfAirCut(1)
         );
         let time: Vec<f64> = (0..4000).map(|k| f64::from(k) / 2000.0).collect();

@@ -225,10 +225,10 @@ mod tests {
         };
         let unsure = lag_within(&wave(0.001), &wave(0.0), [-0.04, 0.04]).unwrap();
         assert!(unsure.confidence() < 0.02, "{unsure:?}");
-        let sure = lag_within(&wave(0.001), &wave(0.0), [-0.006, 0.006]).unwrap();
+        let lag = lag_within(&wave(0.001), &wave(0.0), [-0.006, 0.006]).unwrap();
         assert!(
-            (sure.seconds - 0.001).abs() < 1e-5 && sure.confidence() > 0.9,
-            "{sure:?}"
+            (lag.seconds - 0.001).abs() < 1e-5 && lag.confidence() > 0.9,
+            "{lag:?}"
         );
     }
 

@@ -60,7 +60,7 @@ pub enum RecordError {
     NotFinite(usize),
     /// Time that does not go on.
     #[error("time does not go on at sample {0}")]
-    TimeStands(usize),
+    TimeNotIncreasing(usize),
     /// Steps of different length where equal ones are needed.
     #[error(
         "the step before sample {sample} is {step_s} s, but the mean step is {mean_s} s: equal steps are needed"
@@ -174,7 +174,7 @@ impl Record {
             return Err(RecordError::NotFinite(sample));
         }
         if let Some(before) = time.windows(2).position(|pair| pair[1] <= pair[0]) {
-            return Err(RecordError::TimeStands(before + 1));
+            return Err(RecordError::TimeNotIncreasing(before + 1));
         }
         Ok(Record {
             time,
@@ -287,7 +287,7 @@ mod tests {
     #[test]
     fn what_is_no_record_is_refused() {
         assert_eq!(plain(&[0.0]), Err(RecordError::TooShort { count: 1, least: 2 }));
-        assert_eq!(plain(&[0.0, 1.0, 1.0]), Err(RecordError::TimeStands(2)));
+        assert_eq!(plain(&[0.0, 1.0, 1.0]), Err(RecordError::TimeNotIncreasing(2)));
         assert_eq!(plain(&[0.0, f64::NAN]), Err(RecordError::NotFinite(1)));
         let two = vec![Vector3::zeros(); 2];
         let short = Record::new(
@@ -348,7 +348,7 @@ mod tests {
 
     #[test]
     fn every_refusal_tells_what_is_wrong_with_the_record() {
-        let told = [
+        let given = [
             (
                 RecordError::TooShort { count: 1, least: 2 },
                 "a record of 1 instants is too short: at least 2 are needed",
@@ -361,7 +361,7 @@ mod tests {
                 RecordError::NotFinite(7),
                 "sample 7 holds a number that is not finite",
             ),
-            (RecordError::TimeStands(4), "time does not go on at sample 4"),
+            (RecordError::TimeNotIncreasing(4), "time does not go on at sample 4"),
             (
                 RecordError::NoLag("a force never crosses the threshold"),
                 "no lag can be told: a force never crosses the threshold",
@@ -381,7 +381,7 @@ mod tests {
                 "4.2 samples a revolution are fewer than the 8 it needs, or the record holds no whole revolution",
             ),
         ];
-        for (error, text) in told {
+        for (error, text) in given {
             assert_eq!(error.to_string(), text);
         }
     }

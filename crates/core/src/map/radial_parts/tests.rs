@@ -5,10 +5,10 @@ use nalgebra::{DMatrix, Point3};
 use super::*;
 use crate::arms;
 use crate::kernel::BranchChoice;
-use crate::load::Doubt;
+use crate::load::InputUncertainty;
 use crate::map::along_path;
 use crate::path::{Placing, Shape, Spin};
-use crate::robot::{Amount, Backlash, Flank, JointCompliance, Motion, Robot};
+use crate::robot::{Amount, Backlash, BacklashSide, JointCompliance, Motion, Robot};
 use crate::source::StiffnessModel;
 use crate::workpiece::Plane;
 
@@ -50,9 +50,9 @@ fn compliance(robot: &Robot) -> Vec<JointCompliance> {
 }
 
 /// The outward deviation of the first case, what it has without load, and the curves of its unknowns.
-fn told(
+fn reported(
     robot: &Robot,
-    (compliance, model, doubt): (&[JointCompliance], &StiffnessModel, Doubt),
+    (compliance, model, uncertainty): (&[JointCompliance], &StiffnessModel, InputUncertainty),
     load: &PathLoad,
 ) -> (Vec<f64>, Option<WithoutLoad>, Vec<Vec<f64>>) {
     let tool = arms::bent_tool();
@@ -64,7 +64,7 @@ fn told(
     };
     let question = Question {
         choice: BranchChoice::Of(robot.nominal_branch()),
-        doubt,
+        uncertainty,
         ..Question::unloaded(arm, None)
     };
     let track = track();
@@ -74,8 +74,8 @@ fn told(
         .outward
         .clone();
     let without = radial_without_load(&question, (&track, &along), centre, Watch::NONE).unwrap();
-    let doubts = radial_doubts(&question, (&track, &along), centre, load.case_count());
-    (outward, without, doubts)
+    let uncertainties = radial_doubts(&question, (&track, &along), centre, load.case_count());
+    (outward, without, uncertainties)
 }
 
 fn farthest_apart(one: &[f64], other: &[f64]) -> f64 {
@@ -92,9 +92,9 @@ const FORCE: [f64; 3] = [40.0, 25.0, -60.0];
 fn what_the_load_makes_is_left_when_backlash_and_geometry_come_off() {
     let robot = arms::mh12();
     let springs = compliance(&robot);
-    let plain = told(
+    let plain = reported(
         &robot,
-        (&springs, StiffnessModel::DRIVES, Doubt::NONE),
+        (&springs, StiffnessModel::DRIVES, InputUncertainty::NONE),
         &push(&[FORCE]),
     );
     assert_eq!(plain.1, None);
@@ -111,19 +111,19 @@ fn what_the_load_makes_is_left_when_backlash_and_geometry_come_off() {
     let gap = Backlash {
         gap: 2e-4,
         standard_uncertainty: 0.0,
-        flank: Flank::Motion,
+        side: BacklashSide::Motion,
     };
     model.structure.backlash = vec![Some(gap); 6];
-    let (loaded, without, _) = told(&robot, (&springs, &model, Doubt::NONE), &push(&[FORCE]));
+    let (loaded, without, _) = reported(&robot, (&springs, &model, InputUncertainty::NONE), &push(&[FORCE]));
     let without = without.unwrap().outward;
     let load: Vec<f64> = loaded.iter().zip(&without).map(|(all, own)| all - own).collect();
     assert!(farthest_apart(&load, &plain.0) < 1e-15);
     // They are no little thing: a good part of what the load does, and more.
     assert!(farthest_apart(&loaded, &plain.0) > 5e-5);
     // The load does not matter to them.
-    let other = told(
+    let other = reported(
         &robot,
-        (&springs, &model, Doubt::NONE),
+        (&springs, &model, InputUncertainty::NONE),
         &push(&[[-9.0, 70.0, 5.0]]),
     );
     assert!(farthest_apart(&other.1.unwrap().outward, &without) < 1e-15);
@@ -136,24 +136,24 @@ fn a_gap_that_is_off_moves_the_unloaded_circle_as_its_curve_says() {
     let play = |gap: f64, standard_uncertainty| Backlash {
         gap,
         standard_uncertainty,
-        flank: Flank::Motion,
+        side: BacklashSide::Motion,
     };
     let of = |gaps: [Backlash; 2]| {
         let mut model = StiffnessModel::DRIVES.clone();
         model.structure.backlash = vec![Some(gaps[0]), None, Some(gaps[1])];
-        let told = told(&robot, (&springs, &model, Doubt::NONE), &push(&[FORCE]));
-        told.1.unwrap()
+        let reported = reported(&robot, (&springs, &model, InputUncertainty::NONE), &push(&[FORCE]));
+        reported.1.unwrap()
     };
     let as_is = of([play(2e-4, 3e-5), play(4e-4, 0.0)]);
     // A gap that is known has no curve.
-    assert_eq!(as_is.doubts.len(), 1);
+    assert_eq!(as_is.uncertainties.len(), 1);
     let off = of([play(2.3e-4, 0.0), play(4e-4, 0.0)]);
     let change: Vec<f64> = (off.outward.iter().zip(&as_is.outward))
         .map(|(off, is)| off - is)
         .collect();
     // Where the link crosses its gap it is not in proportion: a few points at the reversals.
     let apart = |(a, b): (&f64, &f64)| (a - b).abs() > 1e-12;
-    let crossing = (change.iter().zip(&as_is.doubts[0]))
+    let crossing = (change.iter().zip(&as_is.uncertainties[0]))
         .filter(|pair| apart(*pair))
         .count();
     assert!(
@@ -170,9 +170,9 @@ fn a_curve_is_the_change_when_its_compliance_is_off_by_its_uncertainty() {
     let springs = compliance(&robot);
     let load = push(&[FORCE]);
     let of =
-        |springs: &[JointCompliance]| told(&robot, (springs, StiffnessModel::DRIVES, Doubt::NONE), &load).0;
+        |springs: &[JointCompliance]| reported(&robot, (springs, StiffnessModel::DRIVES, InputUncertainty::NONE), &load).0;
     let as_is = of(&springs);
-    let curves = told(&robot, (&springs, StiffnessModel::DRIVES, Doubt::NONE), &load).2;
+    let curves = reported(&robot, (&springs, StiffnessModel::DRIVES, InputUncertainty::NONE), &load).2;
     assert_eq!(curves.len(), 6);
     for (joint, curve) in curves.iter().enumerate() {
         let mut off = springs.clone();
@@ -188,9 +188,9 @@ fn of_several_cases_the_mean_counts_and_opposite_ones_leave_nothing() {
     let robot = arms::mh12();
     let springs = compliance(&robot);
     let of = |forces: &[[f64; 3]]| {
-        told(
+        reported(
             &robot,
-            (&springs, StiffnessModel::DRIVES, Doubt::NONE),
+            (&springs, StiffnessModel::DRIVES, InputUncertainty::NONE),
             &push(forces),
         )
         .2
@@ -209,12 +209,12 @@ fn compliances_that_go_together_move_the_circle_as_their_covariance_says() {
     let robot = arms::mh12();
     let springs = compliance(&robot);
     let load = push(&[FORCE]);
-    let alone = told(&robot, (&springs, StiffnessModel::DRIVES, Doubt::NONE), &load).2;
+    let alone = reported(&robot, (&springs, StiffnessModel::DRIVES, InputUncertainty::NONE), &load).2;
     // All six off together by their uncertainties: one unknown, the sum of the curves.
     let u: Vec<f64> = springs.iter().map(|c| c.standard_uncertainty).collect();
     let mut model = StiffnessModel::DRIVES.clone();
     model.structure.covariance = Some(DMatrix::from_fn(6, 6, |i, j| u[i] * u[j]));
-    let together = told(&robot, (&springs, &model, Doubt::NONE), &load).2;
+    let together = reported(&robot, (&springs, &model, InputUncertainty::NONE), &load).2;
     for k in 0..alone[0].len() {
         let sum: f64 = alone.iter().map(|curve| curve[k]).sum();
         let found = together
@@ -236,14 +236,14 @@ fn a_load_of_uncertain_size_and_a_model_that_misses_scale_the_whole_curve() {
             ..*c
         })
         .collect();
-    let doubt = Doubt {
+    let uncertainty = InputUncertainty {
         relative: 0.05,
-        ..Doubt::NONE
+        ..InputUncertainty::NONE
     };
     let mut missing = StiffnessModel::DRIVES.clone();
     missing.structure.model_error = 0.05;
-    for (model, doubt) in [(StiffnessModel::DRIVES, doubt), (&missing, Doubt::NONE)] {
-        let (outward, _, curves) = told(&robot, (&sure, model, doubt), &push(&[FORCE]));
+    for (model, uncertainty) in [(StiffnessModel::DRIVES, uncertainty), (&missing, InputUncertainty::NONE)] {
+        let (outward, _, curves) = reported(&robot, (&sure, model, uncertainty), &push(&[FORCE]));
         assert_eq!(curves.len(), 1);
         let scaled: Vec<f64> = outward.iter().map(|by| 0.05 * by).collect();
         assert!(farthest_apart(&curves[0], &scaled) < 1e-16);

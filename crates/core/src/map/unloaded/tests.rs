@@ -11,7 +11,7 @@ use crate::map::{AlongPath, along_path};
 use crate::path::{Placing, Shape, Spin};
 use crate::robot::forward::forward;
 use crate::robot::inverse::tool_on;
-use crate::robot::{Amount, Backlash, Flank, Motion, Robot};
+use crate::robot::{Amount, Backlash, BacklashSide, Motion, Robot};
 use crate::source::StiffnessModel;
 use crate::watch::Watch;
 use crate::workpiece::Plane;
@@ -44,13 +44,13 @@ fn track(backwards: bool) -> Track {
     }
 }
 
-fn model(flank: Flank, gap: f64) -> StiffnessModel {
+fn model(side: BacklashSide, gap: f64) -> StiffnessModel {
     let mut model = StiffnessModel::DRIVES.clone();
     model.structure.backlash = vec![
         Some(Backlash {
             gap,
             standard_uncertainty: 0.1 * gap,
-            flank,
+            side,
         });
         6
     ];
@@ -94,10 +94,10 @@ fn tip(robot: &Robot, q: &[f64]) -> Vector3<f64> {
 #[test]
 fn links_that_lag_by_half_a_gap_put_the_tool_where_forward_kinematics_has_it() {
     let robot = arms::mh12();
-    let along = along(&robot, &model(Flank::Motion, GAP), false, push([0.0; 3]));
+    let along = along(&robot, &model(BacklashSide::Motion, GAP), false, push([0.0; 3]));
     let moved = &along.unloaded.as_ref().unwrap().moved;
     let last = along.answers.points.len() - 2;
-    let mut told = 0;
+    let mut given = 0;
     for index in 1..last {
         let q = along.answers.joints_at(index);
         let motor = |joint, at: usize| robot.theta(joint, along.answers.joints_at(at));
@@ -113,7 +113,7 @@ fn links_that_lag_by_half_a_gap_put_the_tool_where_forward_kinematics_has_it() {
             lags[joint] = robot.joint_position(joint, motor(joint, index) + lag, &lags);
         }
         if clear {
-            told += 1;
+            given += 1;
             let by = tip(&robot, &lags) - tip(&robot, q);
             // To the first order: gap squared, times a reach of 1 m and six joints.
             assert!(
@@ -124,7 +124,7 @@ fn links_that_lag_by_half_a_gap_put_the_tool_where_forward_kinematics_has_it() {
             assert!(by.norm() > 2e-5, "{by}");
         }
     }
-    assert!(told > 100, "{told}");
+    assert!(given > 100, "{given}");
     // Nothing pushes: all of the deviation is backlash.
     assert_eq!(along.answers.deviations, *moved);
 }
@@ -133,7 +133,7 @@ fn links_that_lag_by_half_a_gap_put_the_tool_where_forward_kinematics_has_it() {
 fn the_other_way_round_links_lag_the_other_way() {
     let robot = arms::mh12();
     let [one, other] = [false, true].map(|backwards| {
-        along(&robot, &model(Flank::Motion, GAP), backwards, push([0.0; 3]))
+        along(&robot, &model(BacklashSide::Motion, GAP), backwards, push([0.0; 3]))
             .unloaded
             .unwrap()
             .moved
@@ -151,7 +151,7 @@ fn a_torque_holds_its_flank_all_around_and_turns_with_the_load() {
     let robot = arms::mh12();
     let along = along(
         &robot,
-        &model(Flank::Torque, GAP),
+        &model(BacklashSide::Torque, GAP),
         false,
         push([30.0, -20.0, -80.0]),
     );
@@ -178,15 +178,15 @@ fn an_arm_that_is_not_as_believed_is_where_its_own_chain_has_it() {
     for index in 0..along.answers.points.len() {
         let q = along.answers.joints_at(index);
         let by = tip(&actual, q) - tip(&robot, q);
-        let told = along.answers.deviations_at(index)[0] - without.answers.deviations_at(index)[0];
-        assert!((told - by).norm() < 1e-12 && by.norm() > 1e-4, "{told} {by}");
+        let given = along.answers.deviations_at(index)[0] - without.answers.deviations_at(index)[0];
+        assert!((given - by).norm() < 1e-12 && by.norm() > 1e-4, "{given} {by}");
     }
 }
 
 #[test]
 fn a_point_asked_by_itself_deviates_as_on_the_path_and_its_shares_add_up() {
     let robot = arms::mh12();
-    let model = model(Flank::Motion, GAP);
+    let model = model(BacklashSide::Motion, GAP);
     let load = push([40.0, 10.0, -60.0]);
     let along = along(&robot, &model, false, load.clone());
     let tool = arms::bent_tool();
@@ -195,16 +195,16 @@ fn a_point_asked_by_itself_deviates_as_on_the_path_and_its_shares_add_up() {
         let stop = track.stop(index);
         let mut cases = vec![Wrench::ZERO; 2];
         track.wrenches(&load, index, &mut cases);
-        let asked = Question {
+        let requested = Question {
             cases: &cases,
             normal: stop.normal,
             ..question(&robot, &model, &tool)
         };
         let dragged = along.unloaded.as_ref().unwrap().dragged_at(index, 6);
-        let alone = evaluate_on_path(&asked, &stop.base_from_tool, dragged);
-        let (held, there) = (alone.points[0].unwrap(), along.answers.points[index].unwrap());
-        assert!((held.in_plane - there.in_plane).abs() < 1e-12);
-        assert!((alone.shares_at(0).iter().sum::<f64>() - held.in_plane).abs() < 1e-15);
+        let alone = evaluate_on_path(&requested, &stop.base_from_tool, dragged);
+        let (evaluation, there) = (alone.points[0].unwrap(), along.answers.points[index].unwrap());
+        assert!((evaluation.in_plane - there.in_plane).abs() < 1e-12);
+        assert!((alone.shares_at(0).iter().sum::<f64>() - evaluation.in_plane).abs() < 1e-15);
         // Gaps that are known to a tenth.
         let exact = StiffnessModel {
             structure: crate::robot::Structure {
@@ -226,12 +226,12 @@ fn a_point_asked_by_itself_deviates_as_on_the_path_and_its_shares_add_up() {
         let sure = Question {
             arm: Arm {
                 model: &exact,
-                ..asked.arm
+                ..requested.arm
             },
-            ..asked
+            ..requested
         };
         let sure = evaluate_on_path(&sure, &stop.base_from_tool, dragged).points[0].unwrap();
-        assert!(held.in_plane_uncertainty > sure.in_plane_uncertainty);
+        assert!(evaluation.in_plane_uncertainty > sure.in_plane_uncertainty);
     }
 }
 
@@ -239,8 +239,8 @@ fn a_point_asked_by_itself_deviates_as_on_the_path_and_its_shares_add_up() {
 #[test]
 fn at_a_point_by_itself_links_lie_where_they_move_the_tool_farthest() {
     let robot = arms::mh12();
-    let mut model = model(Flank::Motion, GAP);
-    model.structure.backlash[1].as_mut().unwrap().flank = Flank::Torque;
+    let mut model = model(BacklashSide::Motion, GAP);
+    model.structure.backlash[1].as_mut().unwrap().side = BacklashSide::Torque;
     model.structure.backlash[4] = None;
     let tool = arms::bent_tool();
     for index in [0, 60, 230] {
@@ -248,23 +248,23 @@ fn at_a_point_by_itself_links_lie_where_they_move_the_tool_farthest() {
         let stop = track.stop(index);
         let mut cases = vec![Wrench::ZERO; 2];
         track.wrenches(&load, index, &mut cases);
-        let asked = Question {
+        let requested = Question {
             cases: &cases,
             normal: stop.normal,
             ..question(&robot, &model, &tool)
         };
-        let told = evaluate(&asked, 1, |_| stop.base_from_tool, Watch::NONE).unwrap();
-        let held = told.points[0].unwrap();
+        let given = evaluate(&requested, 1, |_| stop.base_from_tool, Watch::NONE).unwrap();
+        let evaluation = given.points[0].unwrap();
         let flanks = (0..64).map(|flanks: usize| {
-            let lies = |joint: usize| {
+            let placements = |joint: usize| {
                 if flanks >> joint & 1 == 0 {
                     0.5 * GAP
                 } else {
                     -0.5 * GAP
                 }
             };
-            let dragged: Vec<f64> = (0..6).map(lies).collect();
-            evaluate_on_path(&asked, &stop.base_from_tool, &dragged).points[0]
+            let dragged: Vec<f64> = (0..6).map(placements).collect();
+            evaluate_on_path(&requested, &stop.base_from_tool, &dragged).points[0]
                 .unwrap()
                 .in_plane
         });
@@ -272,12 +272,12 @@ fn at_a_point_by_itself_links_lie_where_they_move_the_tool_farthest() {
         let farthest = all.iter().copied().fold(0.0, f64::max);
         let nearest = all.iter().copied().fold(f64::INFINITY, f64::min);
         assert!(
-            (held.in_plane - farthest).abs() < 1e-12,
+            (evaluation.in_plane - farthest).abs() < 1e-12,
             "{} {farthest}",
-            held.in_plane
+            evaluation.in_plane
         );
         assert!(nearest < 0.9 * farthest, "flanks matter: {nearest} {farthest}");
-        assert!((told.shares_at(0).iter().sum::<f64>() - held.in_plane).abs() < 1e-15);
+        assert!((given.shares_at(0).iter().sum::<f64>() - evaluation.in_plane).abs() < 1e-15);
     }
 }
 
@@ -291,7 +291,7 @@ fn an_arm_without_play_that_is_as_believed_is_moved_by_its_load_alone() {
     );
     // A gap of nothing is none.
     assert!(
-        along(&robot, &model(Flank::Motion, 0.0), false, push([1.0, 2.0, 3.0]))
+        along(&robot, &model(BacklashSide::Motion, 0.0), false, push([1.0, 2.0, 3.0]))
             .unloaded
             .is_none()
     );

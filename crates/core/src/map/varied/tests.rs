@@ -25,14 +25,14 @@ fn mean(cutter: Cutter, cut: Cut) -> Vector3<f64> {
 }
 
 /// A tip that yields by `a` (m/N) along the feed alone: nothing of the cut changes as it gives way.
-fn along_feed(a: f64) -> TipYield {
-    TipYield {
+fn along_feed(a: f64) -> TipCompliance {
+    TipCompliance {
         by_force: Matrix3::from_diagonal(&Vector3::new(a, 0.0, 0.0)),
         unloaded: Vector3::zeros(),
     }
 }
 
-fn varied(cutter: Cutter, cut: Cut, tip: TipYield, limit: f64) -> Varied {
+fn varied(cutter: Cutter, cut: Cut, tip: TipCompliance, limit: f64) -> Varied {
     let mean = mean(cutter, cut);
     let cuts = CutsAlong {
         cutters: vec![Cutter::flat(1.0 * MM, 1).unwrap(), cutter],
@@ -122,7 +122,7 @@ fn a_stiff_tip_permits_all_that_is_looked_at_and_one_that_hangs_too_low_nothing(
     assert_eq!(stiff.width, Some(Permitted::AtLeast(DIAMETER)));
     assert_eq!(stiff.feed_per_tooth, Permitted::AtLeast(0.05 * DIAMETER));
     assert_eq!(stiff.depth.value(), 3.0 * DIAMETER);
-    let hangs = TipYield {
+    let hangs = TipCompliance {
         unloaded: Vector3::new(12e-6, 0.0, -3e-6),
         ..along_feed(2e-7)
     };
@@ -136,7 +136,7 @@ fn a_stiff_tip_permits_all_that_is_looked_at_and_one_that_hangs_too_low_nothing(
 fn weight_along_the_tool_does_not_count_and_weight_against_the_force_makes_room() {
     let (a, limit, drawn) = (2e-7, 10e-6, cut(Immersion::Up(3.0 * MM)));
     let per_depth = a * mean(flat(), drawn).x.abs() / drawn.depth;
-    let hanging = |unloaded: Vector3<f64>| TipYield {
+    let hanging = |unloaded: Vector3<f64>| TipCompliance {
         unloaded,
         ..along_feed(a)
     };
@@ -188,10 +188,10 @@ fn a_slot_has_no_width_to_be_asked_for() {
 #[test]
 fn the_greatest_force_permits_as_many_times_less_as_it_is_the_mean() {
     let drawn = cut(Immersion::Down(3.0 * MM));
-    let mut asked = varied(flat(), drawn, along_feed(2e-7), 10e-6);
-    let mean_alone = asked.limits();
-    asked.greatest = Greatest::SecondCase;
-    let both = asked.limits();
+    let mut requested = varied(flat(), drawn, along_feed(2e-7), 10e-6);
+    let mean_alone = requested.limits();
+    requested.greatest = Greatest::SecondCase;
+    let both = requested.limits();
     // Three times the mean, in its direction.
     assert!((up_to(mean_alone.depth) / up_to(both.depth) / 3.0 - 1.0).abs() < 2.0 * RESOLUTION);
 }
@@ -232,14 +232,14 @@ fn a_tool_that_is_drawn_in_deviates_without_end() {
     let cutter = flat().with_helix(0.6, crate::load::Hand::Right).unwrap();
     let drawn = cut(Immersion::Slot);
     let force = mean(cutter, drawn);
-    let soft = TipYield {
+    let soft = TipCompliance {
         by_force: Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, 2.0 * drawn.depth / -force.z)),
         unloaded: Vector3::zeros(),
     };
-    let mut asked = varied(cutter, drawn, soft, 10e-6);
-    assert_eq!(asked.deviation(&drawn), f64::INFINITY);
+    let mut requested = varied(cutter, drawn, soft, 10e-6);
+    assert_eq!(requested.deviation(&drawn), f64::INFINITY);
     // No feed, no such cut; too deep, none either.
     let none = Cut { depth: 1e9, ..drawn };
-    assert_eq!(asked.deviation(&none), f64::INFINITY);
+    assert_eq!(requested.deviation(&none), f64::INFINITY);
     assert_eq!(fed(&drawn, 2.0).feed, 2.0 * drawn.feed);
 }

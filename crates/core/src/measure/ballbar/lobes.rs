@@ -79,15 +79,15 @@ pub fn lobes(test: &CircularTest, most: usize) -> Option<Lobes> {
 fn of_run(profile: &Profile, most: usize) -> Option<Vec<Complex<f64>>> {
     let (angle, deviation): (Vec<f64>, Vec<f64>) = profile.samples().unzip();
     let harmonics = Polar::of_deviations(&angle, &deviation).harmonics(most);
-    let told = Lobes { mean: 0.0, harmonics };
+    let given = Lobes { mean: 0.0, harmonics };
     // What they leave has the mean of the fit.
-    let left: f64 = angle.iter().zip(&deviation).map(|(a, dr)| dr - told.at(*a)).sum();
+    let left: f64 = angle.iter().zip(&deviation).map(|(a, dr)| dr - given.at(*a)).sum();
     let mean = Complex::new(left / angle.len() as f64, 0.0);
-    let lobes = told
+    let lobes = given
         .harmonics
         .iter()
         .map(|lobe| Complex::from_polar(lobe.amplitude, lobe.phase));
-    let known = profile.gaps().is_empty() && told.harmonics.len() == most;
+    let known = profile.gaps().is_empty() && given.harmonics.len() == most;
     known.then(|| [mean].into_iter().chain(lobes).collect())
 }
 

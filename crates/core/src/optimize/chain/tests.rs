@@ -265,7 +265,7 @@ fn joints_turn_back_less_where_that_has_a_price_and_a_tool_that_keeps_its_turn_h
             continue;
         }
         let states = |of: &Cheapest| of.states.iter().flatten().copied().collect::<Vec<_>>();
-        let told = |of: &Cheapest| of.cost + 0.4 * f64::from(backs(&made, &states(of)));
+        let given = |of: &Cheapest| of.cost + 0.4 * f64::from(backs(&made, &states(of)));
         let sum: f64 = states(&with)
             .iter()
             .zip(&made.costs)
@@ -276,7 +276,7 @@ fn joints_turn_back_less_where_that_has_a_price_and_a_tool_that_keeps_its_turn_h
             "seed {seed}: {sum} and {}",
             with.cost
         );
-        assert!(told(&with) <= told(&without) + 1e-12, "seed {seed}");
+        assert!(given(&with) <= given(&without) + 1e-12, "seed {seed}");
         // Each turn and slot is a chain of its own.
         let all = (0..made.turns.count * SLOTS).filter_map(|state| {
             let chain = vec![state; made.costs.len()];
@@ -288,9 +288,9 @@ fn joints_turn_back_less_where_that_has_a_price_and_a_tool_that_keeps_its_turn_h
         });
         let least = all.fold(f64::INFINITY, f64::min);
         assert!(
-            (told(&with) - least).abs() < 1e-12,
+            (given(&with) - least).abs() < 1e-12,
             "seed {seed}: {} {least}",
-            told(&with)
+            given(&with)
         );
         fewer += usize::from(backs(&made, &states(&with)) < backs(&made, &states(&without)));
     }

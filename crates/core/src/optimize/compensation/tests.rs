@@ -50,7 +50,7 @@ impl Cell {
     }
 
     /// The question of an arm whose compliances are these parts of the cell's.
-    fn with<T>(&self, parts: [f64; 6], ask: impl FnOnce(&Question<'_>) -> T) -> T {
+    fn with<T>(&self, parts: [f64; 6], analysis: impl FnOnce(&Question<'_>) -> T) -> T {
         let known = self.robot.compliance().unwrap();
         let compliance: Vec<JointCompliance> = known
             .iter()
@@ -66,7 +66,7 @@ impl Cell {
             flange_from_tool: &self.tool,
             model: StiffnessModel::DRIVES,
         };
-        ask(&Question::unloaded(arm, None))
+        analysis(&Question::unloaded(arm, None))
     }
 
     fn compensated(&self, load: &PathLoad) -> Compensated {

@@ -7,9 +7,9 @@ use super::*;
 use crate::arms;
 use crate::frame::{Isometry, from_xyz_and_fixed_angles};
 use crate::load::{LoadCases, LoadFrame};
-use crate::optimize::{Counts, Goal, Spins};
+use crate::optimize::{Component, Objective, Spins};
 use crate::path::{Hole, Placing, path_of_holes};
-use crate::robot::{Amount, Backlash, Flank, Motion};
+use crate::robot::{Amount, Backlash, BacklashSide, Motion};
 use crate::source::{Arm, StiffnessModel};
 use crate::spatial::Wrench;
 use crate::workpiece::Plane;
@@ -64,8 +64,8 @@ const SEARCH: PostureSearch = PostureSearch {
         step: PI / 12.0,
         count: 24,
     },
-    counts: Counts::InPlane,
-    goal: Goal::Worst,
+    component: Component::InPlane,
+    objective: Objective::Worst,
     branches: BranchPattern {
         shoulder: None,
         elbow: None,
@@ -100,14 +100,14 @@ fn question<'a>(robot: &'a Robot, tool: &'a Isometry, model: &'a StiffnessModel)
 /// Play of some joints, links longer than the controller has them: each moves the tool more than the thrust does.
 fn worn() -> StiffnessModel {
     let mut model = StiffnessModel::DRIVES.clone();
-    let gap = |flank| {
+    let gap = |side| {
         Some(Backlash {
             gap: 4e-4,
             standard_uncertainty: 0.0,
-            flank,
+            side,
         })
     };
-    model.structure.backlash = vec![gap(Flank::Motion), gap(Flank::Torque), None, gap(Flank::Motion)];
+    model.structure.backlash = vec![gap(BacklashSide::Motion), gap(BacklashSide::Torque), None, gap(BacklashSide::Motion)];
     let robot = arms::mh12();
     let mut motions = robot.chain().motions().to_vec();
     for motion in &mut motions {
@@ -145,27 +145,27 @@ fn by_every_turn_and_branch(model: &StiffnessModel) {
         for turn in 0..SEARCH.spins.count {
             let pose = here.stop.base_from_tool * about_z(SEARCH.spins.at(turn));
             for branch in Branch::ALL {
-                let asked = Question {
+                let requested = Question {
                     cases: &here.cases,
                     normal: here.stop.normal,
                     choice: BranchChoice::Of(branch.into()),
                     ..question(&robot, &tool, model)
                 };
-                let answers = evaluate(&asked, 1, |_| pose, Watch::NONE).unwrap();
-                if let Ok(held) = &answers.points[0]
-                    && held.within_limits()
+                let answers = evaluate(&requested, 1, |_| pose, Watch::NONE).unwrap();
+                if let Ok(evaluation) = &answers.points[0]
+                    && evaluation.within_limits()
                 {
-                    least = least.min(held.in_plane);
+                    least = least.min(evaluation.in_plane);
                 }
             }
         }
-        let held = found.answers.points[index].as_ref().unwrap();
-        assert!(found.stands[index] == Stand::Holds && held.within_limits());
+        let evaluation = found.answers.points[index].as_ref().unwrap();
+        assert!(found.stands[index] == Stand::Holds && evaluation.within_limits());
         // Postures near a singularity are no choice of the search; lanes and the general way differ by rounding.
         assert!(
-            held.in_plane >= least * (1.0 - 1e-9) && held.in_plane <= least * 1.02,
+            evaluation.in_plane >= least * (1.0 - 1e-9) && evaluation.in_plane <= least * 1.02,
             "{index}: {} m where {least} m is",
-            held.in_plane
+            evaluation.in_plane
         );
     }
 }
@@ -206,11 +206,11 @@ fn turning_gains_and_a_bounded_search_keeps_its_branch() {
         branches: BranchPattern::FRONT_ELBOW_UP,
         ..SEARCH
     };
-    let (free, held) = (found(&holes()[..4], &SEARCH), found(&holes()[..4], &still));
+    let (free, evaluation) = (found(&holes()[..4], &SEARCH), found(&holes()[..4], &still));
     let in_plane = |found: &HolesFound, i: usize| found.answers.points[i].as_ref().unwrap().in_plane;
-    assert!((0..4).all(|i| in_plane(&free, i) <= in_plane(&held, i) * (1.0 + 1e-9)));
-    assert!((0..4).any(|i| in_plane(&free, i) < 0.9 * in_plane(&held, i)));
-    for point in held.answers.points.iter().flatten() {
+    assert!((0..4).all(|i| in_plane(&free, i) <= in_plane(&evaluation, i) * (1.0 + 1e-9)));
+    assert!((0..4).any(|i| in_plane(&free, i) < 0.9 * in_plane(&evaluation, i)));
+    for point in evaluation.answers.points.iter().flatten() {
         let crate::robot::PostureName::Branch(branch) = point.name else {
             panic!("a named branch");
         };

@@ -83,14 +83,14 @@ fn moved(track: &Track, base_from_part: Isometry) -> Track {
     }
 }
 
-fn goal(goal: Goal) -> PlacementGoal {
-    PlacementGoal {
-        counts: Counts::InPlane,
-        goal,
+fn objective(objective: Objective) -> PlacementObjective {
+    PlacementObjective {
+        component: Component::InPlane,
+        objective,
         branches: BranchPattern::default(),
         margin: 0.0,
         wrist: 0.05,
-        sure: Sure::Nominal,
+        rank_by: RankBy::Nominal,
         holding: Holding::InOneBranch,
     }
 }
@@ -112,7 +112,7 @@ fn a_place_is_worth_what_the_path_comes_to_there() {
     let cell = Cell::new();
     let question = cell.question();
     let mut random = Stream(3);
-    let mut held = 0;
+    let mut evaluation = 0;
     for (frame, spin, lean) in [
         (LoadFrame::Base, Spin::Fixed(0.4), 0.0),
         (LoadFrame::Part, Spin::AlongFeed(0.2), 0.0),
@@ -122,27 +122,27 @@ fn a_place_is_worth_what_the_path_comes_to_there() {
     ] {
         let (track, load) = (track(drawn(), spin, lean), load(frame));
         let all: Vec<usize> = (0..track.len()).collect();
-        for counts in [Counts::InPlane, Counts::CrossTrack, Counts::Axial] {
-            let path = on_part((&track, &load), counts, &all);
+        for component in [Component::InPlane, Component::CrossTrack, Component::Axial] {
+            let path = on_part((&track, &load), component, &all);
             let turn = ToolTurn::of(&track);
             for _ in 0..6 {
                 let base_from_part = place(&mut random);
-                let lie = turn.lie(base_from_part, 0.0);
+                let placement = turn.placement(base_from_part, 0.0);
                 let there = moved(&track, base_from_part);
-                let merits = [Goal::Worst, Goal::Mean, Goal::Above(1e-4)].map(|of| {
-                    let goal = PlacementGoal { counts, ..goal(of) };
+                let scores = [Objective::Worst, Objective::Mean, Objective::Above(1e-4)].map(|of| {
+                    let objective = PlacementObjective { component, ..objective(of) };
                     let placeable = Placeable {
                         question: &question,
                         path: &path,
-                        goal,
+                        objective,
                     };
-                    placeable.merits(&[lie], None, Watch::NONE).unwrap()[0].unwrap()
+                    placeable.scores(&[placement], None, Watch::NONE).unwrap()[0].unwrap()
                 });
-                let [worst, mean, above] = merits;
+                let [worst, mean, above] = scores;
                 if worst.lost > 0 {
                     continue;
                 }
-                held += 1;
+                evaluation += 1;
                 let deviations = |branch: Branch| -> Vec<f64> {
                     let choice = vec![(0, BranchChoice::Of(branch.into()))];
                     let along =
@@ -150,10 +150,10 @@ fn a_place_is_worth_what_the_path_comes_to_there() {
                     let cases = along.answers.case_count;
                     let size = |index: usize, deviation: &Vector3<f64>| {
                         let parts = there.parts(index, deviation);
-                        match counts {
-                            Counts::InPlane => parts.along.hypot(parts.cross),
-                            Counts::CrossTrack => parts.cross.abs(),
-                            Counts::Axial => parts.axial.abs(),
+                        match component {
+                            Component::InPlane => parts.along.hypot(parts.cross),
+                            Component::CrossTrack => parts.cross.abs(),
+                            Component::Axial => parts.axial.abs(),
                         }
                     };
                     let of_point = |(index, cases): (usize, &[Vector3<f64>])| {
@@ -179,7 +179,7 @@ fn a_place_is_worth_what_the_path_comes_to_there() {
             }
         }
     }
-    assert!(held > 40, "{held}");
+    assert!(evaluation > 40, "{evaluation}");
 }
 
 /// The tool is judged as the path holds it at the place, whether its turn goes with the part or with the base.
@@ -191,17 +191,17 @@ fn the_tool_is_turned_as_the_path_at_the_place_turns_it() {
         let turn = ToolTurn::of(&track);
         for _ in 0..20 {
             let base_from_part = place(&mut random);
-            let lie = turn.lie(base_from_part, 0.3);
-            let about = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), lie.spin);
+            let placement = turn.placement(base_from_part, 0.3);
+            let about = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), placement.spin);
             let there = moved(&track, base_from_part);
             for index in [0, track.len() / 2] {
                 let judged = base_from_part
                     * (track.base_from_part.inverse() * track.stop(index).base_from_tool)
                     * about;
                 let more = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), 0.3);
-                let held = there.stop(index).base_from_tool * more;
+                let evaluation = there.stop(index).base_from_tool * more;
                 assert!(
-                    (judged.to_homogeneous() - held.to_homogeneous()).norm() < 1e-12,
+                    (judged.to_homogeneous() - evaluation.to_homogeneous()).norm() < 1e-12,
                     "{spin:?}"
                 );
             }
@@ -216,27 +216,27 @@ fn a_bar_hides_no_better_place() {
     let mut random = Stream(7);
     let (track, load) = (track(drawn(), Spin::AlongFeed(0.0), 0.0), load(LoadFrame::Part));
     let all: Vec<usize> = (0..track.len()).collect();
-    let path = on_part((&track, &load), Counts::InPlane, &all);
-    let places: Vec<Lie> = (0..200)
-        .map(|_| ToolTurn::WithPart.lie(place(&mut random), random.vector(PI).x))
+    let path = on_part((&track, &load), Component::InPlane, &all);
+    let places: Vec<PartPlacement> = (0..200)
+        .map(|_| ToolTurn::WithPart.placement(place(&mut random), random.vector(PI).x))
         .collect();
-    for of in [Goal::Worst, Goal::Mean] {
+    for of in [Objective::Worst, Objective::Mean] {
         let placeable = Placeable {
             question: &question,
             path: &path,
-            goal: goal(of),
+            objective: objective(of),
         };
-        let merits = placeable.merits(&places, None, Watch::NONE).unwrap();
-        let mut sorted: Vec<Merit> = merits.iter().flatten().copied().collect();
+        let scores = placeable.scores(&places, None, Watch::NONE).unwrap();
+        let mut sorted: Vec<Score> = scores.iter().flatten().copied().collect();
         sorted.sort_by(|a, b| a.lost.cmp(&b.lost).then(a.cost.total_cmp(&b.cost)));
         assert!(sorted[0].lost == 0 && sorted[199].lost > 0);
         for bar in [sorted[20], sorted[60], sorted[199]] {
-            let judged = placeable.merits(&places, Some(&bar), Watch::NONE).unwrap();
-            for (judged, merit) in judged.iter().zip(&merits) {
-                let merit = merit.unwrap();
+            let judged = placeable.scores(&places, Some(&bar), Watch::NONE).unwrap();
+            for (judged, score) in judged.iter().zip(&scores) {
+                let score = score.unwrap();
                 assert_eq!(
                     judged.filter(|judged| judged.beats(&bar)),
-                    Some(merit).filter(|m| m.beats(&bar))
+                    Some(score).filter(|m| m.beats(&bar))
                 );
             }
         }
@@ -245,14 +245,14 @@ fn a_bar_hides_no_better_place() {
 
 #[test]
 fn a_place_that_loses_fewer_points_is_better_whatever_it_costs() {
-    let merit = |lost, cost| Merit {
+    let score = |lost, cost| Score {
         lost,
         cost,
         branch: None,
     };
-    assert!(merit(0, 1.0).beats(&merit(1, 0.0)) && !merit(1, 0.0).beats(&merit(0, 1.0)));
-    assert!(merit(2, 0.5).beats(&merit(2, 0.6)) && !merit(2, 0.5).beats(&merit(2, 0.5)));
-    assert!(merit(7, 1.0).beats(&Merit::NONE));
+    assert!(score(0, 1.0).beats(&score(1, 0.0)) && !score(1, 0.0).beats(&score(0, 1.0)));
+    assert!(score(2, 0.5).beats(&score(2, 0.6)) && !score(2, 0.5).beats(&score(2, 0.5)));
+    assert!(score(7, 1.0).beats(&Score::NONE));
 }
 
 #[test]
@@ -260,19 +260,19 @@ fn a_watch_stops_the_judging() {
     let cell = Cell::new();
     let question = cell.question();
     let (track, load) = (track(drawn(), Spin::Fixed(0.0), 0.0), load(LoadFrame::Part));
-    let path = on_part((&track, &load), Counts::InPlane, &[0, 5]);
+    let path = on_part((&track, &load), Component::InPlane, &[0, 5]);
     let cancel = std::sync::atomic::AtomicBool::new(true);
     let placeable = Placeable {
         question: &question,
         path: &path,
-        goal: goal(Goal::Worst),
+        objective: objective(Objective::Worst),
     };
     let watch = Watch {
         cancel: &cancel,
         ..Watch::NONE
     };
-    let lie = ToolTurn::WithPart.lie(drawn(), 0.0);
-    assert_eq!(placeable.merits(&[lie], None, watch), Err(Cancelled));
+    let placement = ToolTurn::WithPart.placement(drawn(), 0.0);
+    assert_eq!(placeable.scores(&[placement], None, watch), Err(Cancelled));
 }
 
 /// The differences that the uncertainty is made of against those of arms whose compliances are drawn at random: the spread of
@@ -286,20 +286,20 @@ fn a_cost_is_as_unsure_as_the_costs_of_arms_drawn_at_random_differ() {
     }
     let mut question = cell.question();
     question.arm.compliance = &joints;
-    question.doubt.relative = 0.03;
+    question.uncertainty.relative = 0.03;
     let (track, load) = (track(drawn(), Spin::Fixed(0.0), 0.0), load(LoadFrame::Part));
-    let path = on_part((&track, &load), Counts::InPlane, &[0, 7, 15, 30]);
-    let placeable = |sure| Placeable {
+    let path = on_part((&track, &load), Component::InPlane, &[0, 7, 15, 30]);
+    let placeable = |rank_by| Placeable {
         question: &question,
         path: &path,
-        goal: PlacementGoal {
-            sure,
-            ..goal(Goal::Worst)
+        objective: PlacementObjective {
+            rank_by,
+            ..objective(Objective::Worst)
         },
     };
-    let lie = ToolTurn::of(&track).lie(drawn(), 0.0);
-    let told = placeable(Sure::Nominal).appraised(&lie);
-    let branch = told.merit.branch.unwrap();
+    let placement = ToolTurn::of(&track).placement(drawn(), 0.0);
+    let given = placeable(RankBy::Nominal).appraised(&placement);
+    let branch = given.score.branch.unwrap();
     let mut random = Stream(99);
     // Twelve evenly drawn numbers less six are near to normal; so the sum of twelve from -1 to 1 halved.
     let mut normal = || (0..4).map(|_| random.vector(0.5).sum()).sum::<f64>();
@@ -314,32 +314,32 @@ fn a_cost_is_as_unsure_as_the_costs_of_arms_drawn_at_random_differ() {
             let one = Placeable {
                 question: &question,
                 path: &path,
-                goal: PlacementGoal {
+                objective: PlacementObjective {
                     branches: branch.into(),
-                    ..goal(Goal::Worst)
+                    ..objective(Objective::Worst)
                 },
             };
-            one.appraised(&lie).merit.cost * (1.0 + 0.03 * normal())
+            one.appraised(&placement).score.cost * (1.0 + 0.03 * normal())
         })
         .collect();
     let mean = costs.iter().sum::<f64>() / costs.len() as f64;
     let spread = (costs.iter().map(|c| (c - mean).powi(2)).sum::<f64>() / costs.len() as f64).sqrt();
     // A standard deviation of 4000 is known to 1.1 %; the largest of some points bends the propagation a little.
     assert!(
-        (told.uncertainty - spread).abs() < 0.05 * spread,
+        (given.uncertainty - spread).abs() < 0.05 * spread,
         "{} {spread}",
-        told.uncertainty
+        given.uncertainty
     );
-    let compared = |sure| {
-        let all = placeable(sure).merits(&[lie], None, Watch::NONE).unwrap();
+    let compared = |rank_by| {
+        let all = placeable(rank_by).scores(&[placement], None, Watch::NONE).unwrap();
         all[0].unwrap().cost
     };
-    let (cost, u) = (told.merit.cost, told.uncertainty);
-    assert!((compared(Sure::PlusTwoSigma) - (cost + 2.0 * u)).abs() < 1e-15);
-    assert!((compared(Sure::WithinLimit(2.0 * cost)) + cost / u).abs() < 1e-9 * cost / u);
-    assert_eq!(compared(Sure::Nominal), cost);
+    let (cost, u) = (given.score.cost, given.uncertainty);
+    assert!((compared(RankBy::PlusTwoSigma) - (cost + 2.0 * u)).abs() < 1e-15);
+    assert!((compared(RankBy::WithinLimit(2.0 * cost)) + cost / u).abs() < 1e-9 * cost / u);
+    assert_eq!(compared(RankBy::Nominal), cost);
     // Phi(-1) and Phi(1.96) of tables of the normal distribution.
-    let above = |z: f64| told.probability_above(cost - z * u).unwrap();
+    let above = |z: f64| given.probability_above(cost - z * u).unwrap();
     assert!((above(-1.0) - 0.158_655_3).abs() < 1e-7 && (above(1.96) - 0.975_002_1).abs() < 1e-7);
 }
 
@@ -356,40 +356,40 @@ fn points_held_for_themselves_come_to_the_best_of_each() {
     };
     let mut random = Stream(31);
     for branches in [BranchPattern::default(), BranchPattern::FRONT_ELBOW_UP] {
-        let goal = PlacementGoal {
+        let objective = PlacementObjective {
             branches,
-            ..goal(Goal::Mean)
+            ..objective(Objective::Mean)
         };
-        let of = |indices: &[usize]| on_part((&track, &load), Counts::InPlane, indices);
+        let of = |indices: &[usize]| on_part((&track, &load), Component::InPlane, indices);
         let all: Vec<usize> = (0..track.len()).collect();
         let whole = of(&all);
         for _ in 0..4 {
-            let lie = ToolTurn::of(&track).lie(place(&mut random), 0.1);
+            let placement = ToolTurn::of(&track).placement(place(&mut random), 0.1);
             let each = Placeable {
                 question: &question,
                 path: &whole,
-                goal: PlacementGoal {
+                objective: PlacementObjective {
                     holding: Holding::EachForItself(spins),
-                    ..goal
+                    ..objective
                 },
             };
-            let held = each.merits(&[lie], None, Watch::NONE).unwrap()[0].unwrap();
+            let evaluation = each.scores(&[placement], None, Watch::NONE).unwrap()[0].unwrap();
             let (mut lost, mut sum) = (0, 0.0);
             for index in &all {
                 let single = of(&[*index]);
                 let one = Placeable {
                     question: &question,
                     path: &single,
-                    goal,
+                    objective,
                 };
-                let turned: Vec<Lie> = (0..spins.count)
-                    .map(|k| Lie {
-                        spin: lie.spin + spins.at(k),
-                        ..lie
+                let turned: Vec<PartPlacement> = (0..spins.count)
+                    .map(|k| PartPlacement {
+                        spin: placement.spin + spins.at(k),
+                        ..placement
                     })
                     .collect();
-                let merits = one.merits(&turned, None, Watch::NONE).unwrap();
-                let best = merits
+                let scores = one.scores(&turned, None, Watch::NONE).unwrap();
+                let best = scores
                     .into_iter()
                     .flatten()
                     .reduce(|a, b| if b.beats(&a) { b } else { a });
@@ -397,12 +397,12 @@ fn points_held_for_themselves_come_to_the_best_of_each() {
                 lost += best.lost;
                 sum += if best.lost == 0 { best.cost } else { 0.0 };
             }
-            assert_eq!((held.lost, held.branch), (lost, None));
+            assert_eq!((evaluation.lost, evaluation.branch), (lost, None));
             let mean = sum / all.len() as f64;
             assert!(
-                (held.cost - mean).abs() < 1e-12 * mean + 1e-18,
+                (evaluation.cost - mean).abs() < 1e-12 * mean + 1e-18,
                 "{} {mean}",
-                held.cost
+                evaluation.cost
             );
         }
     }

@@ -97,15 +97,15 @@ fn track(mut path: SampledPath, centre: Point3<f64>) -> Track {
     }
 }
 
-fn search(goal: Goal) -> PostureSearch {
+fn search(objective: Objective) -> PostureSearch {
     PostureSearch {
         spins: Spins {
             first: -PI,
             step: PI / 18.0,
             count: 36,
         },
-        counts: Counts::InPlane,
-        goal,
+        component: Component::InPlane,
+        objective,
         branches: BranchPattern::default(),
         turn_rate: 20.0,
         turn_price: 1e-9,
@@ -116,7 +116,7 @@ fn search(goal: Goal) -> PostureSearch {
 
 /// In-plane deviations at the points that are held.
 fn in_plane(along: &AlongPath) -> Vec<f64> {
-    along.answers.held().map(|(_, held)| held.in_plane).collect()
+    along.answers.evaluation().map(|(_, evaluation)| evaluation.in_plane).collect()
 }
 
 fn largest(values: &[f64]) -> f64 {
@@ -130,27 +130,27 @@ fn mean(values: &[f64]) -> f64 {
 #[test]
 fn no_turn_and_branch_held_throughout_is_better_than_the_chain() {
     let (cell, track) = (Cell::new(), square());
-    let found = cell.found(&track, &search(Goal::Worst));
+    let found = cell.found(&track, &search(Objective::Worst));
     assert!(
         found.lost.is_empty() && found.breaks.is_empty(),
         "{:?} {:?}",
         found.lost,
         found.breaks
     );
-    let mut held = 0;
+    let mut evaluation = 0;
     for turn in 0..36 {
-        let spin = search(Goal::Worst).spins.at(turn);
+        let spin = search(Objective::Worst).spins.at(turn);
         for branch in Branch::ALL {
             let along = cell.answered(
                 &track,
                 vec![spin; track.len()],
                 vec![(0, BranchChoice::Of(branch.into()))],
             );
-            let fine = |held: &crate::kernel::Held| held.within_limits() && held.singularity.is_none();
-            if along.answers.held().filter(|(_, held)| fine(held)).count() < track.len() {
+            let fine = |evaluation: &crate::kernel::Held| evaluation.within_limits() && evaluation.singularity.is_none();
+            if along.answers.evaluation().filter(|(_, evaluation)| fine(evaluation)).count() < track.len() {
                 continue;
             }
-            held += 1;
+            evaluation += 1;
             let worst = largest(&in_plane(&along));
             assert!(
                 found.reached <= worst * (1.0 + 1e-9),
@@ -159,19 +159,19 @@ fn no_turn_and_branch_held_throughout_is_better_than_the_chain() {
             );
         }
     }
-    assert!(held > 10, "{held} turns and branches hold the whole path");
+    assert!(evaluation > 10, "{evaluation} turns and branches hold the whole path");
 }
 
 #[test]
 fn the_path_answered_with_what_was_found_deviates_as_told_and_keeps_the_limits() {
     let (cell, track) = (Cell::new(), square());
-    for goal in [Goal::Worst, Goal::Mean] {
-        let search = search(goal);
+    for objective in [Objective::Worst, Objective::Mean] {
+        let search = search(objective);
         let found = cell.found(&track, &search);
         let along = cell.answered(&track, found.spins.clone(), found.choices());
         let deviations = in_plane(&along);
         assert_eq!(deviations.len(), track.len());
-        let reached = if goal == Goal::Worst {
+        let reached = if objective == Objective::Worst {
             largest(&deviations)
         } else {
             mean(&deviations)
@@ -179,7 +179,7 @@ fn the_path_answered_with_what_was_found_deviates_as_told_and_keeps_the_limits()
         // Turns are smoothed between the steps of the lattice, 10 deg apart: that changes a deviation by some percent.
         assert!(
             (reached / found.reached - 1.0).abs() < 0.05,
-            "{goal:?}: {reached} {}",
+            "{objective:?}: {reached} {}",
             found.reached
         );
         let rate = |i: usize| {
@@ -204,7 +204,7 @@ fn the_path_answered_with_what_was_found_deviates_as_told_and_keeps_the_limits()
                 );
             }
         }
-        assert!(along.answers.held().all(|(_, held)| held.within_limits()));
+        assert!(along.answers.evaluation().all(|(_, evaluation)| evaluation.within_limits()));
     }
 }
 
@@ -212,14 +212,14 @@ fn the_path_answered_with_what_was_found_deviates_as_told_and_keeps_the_limits()
 fn each_goal_is_the_best_at_its_own() {
     let (cell, track) = (Cell::new(), square());
     let limit = 60e-6;
-    let goals = [Goal::Worst, Goal::Mean, Goal::Above(limit)];
-    let told: Vec<Vec<f64>> = goals
+    let goals = [Objective::Worst, Objective::Mean, Objective::Above(limit)];
+    let given: Vec<Vec<f64>> = goals
         .iter()
-        .map(|goal| {
+        .map(|objective| {
             // No smoothing: the lattice alone is compared.
             let search = PostureSearch {
                 turn_price: 0.0,
-                ..search(*goal)
+                ..search(*objective)
             };
             let found = cell.found(&track, &search);
             let turns = found.lattice.spins.len();
@@ -230,23 +230,23 @@ fn each_goal_is_the_best_at_its_own() {
         .collect();
     let above = |values: &[f64]| values.iter().map(|value| (value - limit).max(0.0)).sum::<f64>();
     let rounding = 1.0 + 1e-9;
-    for other in &told {
-        assert!(largest(&told[0]) <= largest(other) * rounding);
-        assert!(mean(&told[1]) <= mean(other) * rounding);
+    for other in &given {
+        assert!(largest(&given[0]) <= largest(other) * rounding);
+        assert!(mean(&given[1]) <= mean(other) * rounding);
         // What is within the limit counts a thousandth.
-        let within = WITHIN * told[2].iter().sum::<f64>();
-        assert!(above(&told[2]) <= above(other) + within);
+        let within = WITHIN * given[2].iter().sum::<f64>();
+        assert!(above(&given[2]) <= above(other) + within);
     }
 }
 
 #[test]
 fn joints_turn_back_less_often_for_a_price_and_the_worst_point_gets_no_worse() {
     let (cell, track) = (Cell::new(), square());
-    for goal in [Goal::Worst, Goal::Mean] {
+    for objective in [Objective::Worst, Objective::Mean] {
         let with = |back_price: f64| {
             let search = PostureSearch {
                 back_price,
-                ..search(goal)
+                ..search(objective)
             };
             let found = cell.found(&track, &search);
             let along = cell.answered(&track, found.turned(&track).spins.unwrap(), found.choices());
@@ -257,19 +257,19 @@ fn joints_turn_back_less_often_for_a_price_and_the_worst_point_gets_no_worse() {
         // A micrometre over a tenth of the path, and so much that nothing else counts.
         for price in [1e-6 * 0.12, 1e-3] {
             let (dear, after, fewer) = with(price);
-            assert!(fewer <= backs, "{goal:?}: {fewer} {backs}");
+            assert!(fewer <= backs, "{objective:?}: {fewer} {backs}");
             let worth = |mean: f64, backs: usize| mean + price / track.path.length() * backs as f64;
             // The lattice is compared by its steps, the path here without them: within the price of a turn or two.
             assert!(
                 worth(after, fewer) <= worth(before, backs) * 1.02,
-                "{goal:?} {price}"
+                "{objective:?} {price}"
             );
-            if goal == Goal::Worst {
+            if objective == Objective::Worst {
                 assert!((dear - reached).abs() < 1e-15, "{dear} {reached}");
             }
         }
         let most = with(1e-3).2;
-        assert!(most < backs, "{goal:?}: {most} of {backs}");
+        assert!(most < backs, "{objective:?}: {most} of {backs}");
     }
 }
 
@@ -277,7 +277,7 @@ fn joints_turn_back_less_often_for_a_price_and_the_worst_point_gets_no_worse() {
 fn points_without_posture_are_told_with_what_stands_in_the_way() {
     let cell = Cell::new();
     let far = Shape::Polyline(vec![Point2::new(0.0, -0.3), Point2::new(0.0, 0.9)]).sampled(0.05);
-    let found = cell.found(&track(far, Point3::new(0.9, 0.0, 0.3)), &search(Goal::Mean));
+    let found = cell.found(&track(far, Point3::new(0.9, 0.0, 0.3)), &search(Objective::Mean));
     let (index, stand) = found.lost[0];
     assert!(index > 3 && stand == Stand::OutOfReach, "{:?}", found.lost);
     let last = found.branches.len();
@@ -295,7 +295,7 @@ fn points_without_posture_are_told_with_what_stands_in_the_way() {
         lower: 2.6,
         upper: 2.61,
     });
-    let found = Cell::with(joints).found(&square(), &search(Goal::Mean));
+    let found = Cell::with(joints).found(&square(), &search(Objective::Mean));
     assert_eq!(found.lost.len(), square().len());
     assert!(found.lost.iter().all(|(_, stand)| *stand == Stand::OutsideLimits));
     assert!(found.reached == 0.0 && found.breaks.is_empty());
@@ -308,7 +308,7 @@ fn an_arm_too_slow_for_the_feed_breaks_off() {
         joint.max_speed = Some(1e-3);
     }
     let track = square();
-    let found = Cell::with(joints).found(&track, &search(Goal::Mean));
+    let found = Cell::with(joints).found(&track, &search(Objective::Mean));
     assert_eq!(found.breaks, (1..track.len()).collect::<Vec<_>>());
     assert!(found.lost.is_empty());
 }
@@ -331,7 +331,7 @@ fn a_rapid_may_change_turn_and_branch() {
     let track = track(path, Point3::new(0.7, 0.0, 0.3));
     let slow = PostureSearch {
         turn_rate: 1e-3,
-        ..search(Goal::Worst)
+        ..search(Objective::Worst)
     };
     let found = cell.found(&track, &slow);
     assert!(found.lost.is_empty() && found.breaks.is_empty());
@@ -354,7 +354,7 @@ fn any_number_of_threads_finds_the_same_and_it_stops_when_told() {
             .num_threads(threads)
             .build()
             .unwrap();
-        pool.install(|| cell.found(&track, &search(Goal::Worst)))
+        pool.install(|| cell.found(&track, &search(Objective::Worst)))
     };
     let (one, two) = (with(1), with(2));
     assert_eq!(one.spins, two.spins);
@@ -365,6 +365,6 @@ fn any_number_of_threads_finds_the_same_and_it_stops_when_told() {
         finished: &|_| (),
         cancel: &cancel,
     };
-    let stopped = postures_along(&cell.question(), (&track, &load()), &search(Goal::Mean), watch);
+    let stopped = postures_along(&cell.question(), (&track, &load()), &search(Objective::Mean), watch);
     assert_eq!(stopped.unwrap_err(), Cancelled);
 }

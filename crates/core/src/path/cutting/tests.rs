@@ -74,14 +74,14 @@ fn forces(cutting: &Cutting, points: &[PathPoint], operations: &[(usize, Operati
 #[test]
 fn the_mean_force_is_the_published_one_wherever_the_feed_goes() {
     for direction in [[1.0, 0.0, 0.0], [-0.3, 0.8, 0.0]] {
-        let both = forces(&cutting(), &[point(direction, Pace::Untold)], &[]);
+        let both = forces(&cutting(), &[point(direction, Pace::EvaluateError)], &[]);
         assert!((both[0].norm() - 155.6207).abs() < 5e-5, "{}", both[0]);
         assert!(both[1].norm() > both[0].norm());
         let alone = Cutting {
             greatest: Greatest::LeftOut,
             ..cutting()
         };
-        assert_eq!(forces(&alone, &[point(direction, Pace::Untold)], &[]), both[..1]);
+        assert_eq!(forces(&alone, &[point(direction, Pace::EvaluateError)], &[]), both[..1]);
     }
 }
 
@@ -107,17 +107,17 @@ fn feed_spindle_and_depths_are_those_of_the_program_where_it_tells_them() {
 #[test]
 fn a_ramp_keeps_the_share_of_its_greatest_force_and_a_plunge_has_none() {
     let points = [
-        point([1.0, 0.0, -0.2], Pace::Untold),
-        point([0.0, 0.0, -1.0], Pace::Untold),
+        point([1.0, 0.0, -0.2], Pace::EvaluateError),
+        point([0.0, 0.0, -1.0], Pace::EvaluateError),
     ];
     let found = along(&cutting(), &points, &[], None).unwrap();
-    assert_eq!(found.told.without_force, 1);
+    assert_eq!(found.given.without_force, 1);
     let level = along(&cutting(), &points[..1], &[], None).unwrap();
-    assert!((level.told.relative_uncertainty - 0.2).abs() < 0.1);
+    assert!((level.given.relative_uncertainty - 0.2).abs() < 0.1);
     let [ramp, plunge] = &found.cuts.points[..] else {
         panic!("two points")
     };
-    let flat = forces(&cutting(), &[point([1.0, 0.0, 0.0], Pace::Untold)], &[]);
+    let flat = forces(&cutting(), &[point([1.0, 0.0, 0.0], Pace::EvaluateError)], &[]);
     let (mean, peak) = (ramp.mean.norm(), ramp.greatest.norm());
     assert!((peak / mean - flat[1].norm() / flat[0].norm()).abs() < 1e-12);
     assert_eq!(*plunge, CutHere::NOTHING);
@@ -125,7 +125,7 @@ fn a_ramp_keeps_the_share_of_its_greatest_force_and_a_plunge_has_none() {
 
 #[test]
 fn what_nobody_tells_is_named_with_its_line() {
-    let points = [point([1.0, 0.0, 0.0], Pace::Untold)];
+    let points = [point([1.0, 0.0, 0.0], Pace::EvaluateError)];
     let no_feed = Cutting {
         feed: None,
         ..cutting()
@@ -185,7 +185,7 @@ fn in_a_stock_the_cut_begins_in_the_air_is_a_slot_and_then_a_step_over() {
     let mut stock = Stock::new(corners, 0.25e-3).unwrap();
     let points = pocket();
     let found = along(&cutting(), &points, &[], Some(&mut stock)).unwrap();
-    let met = found.told.met.unwrap();
+    let met = found.given.met.unwrap();
     assert!(met.in_air > 10 && met.slots > 50 && met.leaning == 0, "{met:?}");
     assert!((met.largest_depth - 1e-3).abs() < 1e-6 && (met.largest_width - 16e-3).abs() < 1e-9);
     assert_eq!(found.cuts.points[0], CutHere::NOTHING);
@@ -198,7 +198,7 @@ fn in_a_stock_the_cut_begins_in_the_air_is_a_slot_and_then_a_step_over() {
             immersion,
             ..cutting()
         };
-        forces(&alone, &[point([1.0, 0.0, 0.0], Pace::Untold)], &[])
+        forces(&alone, &[point([1.0, 0.0, 0.0], Pace::EvaluateError)], &[])
     };
     let slot = at(-10e-3, 0.0);
     // Heights are kept to 6e-8 of the box.
@@ -230,10 +230,10 @@ fn a_leaning_tool_has_the_engagement_that_was_told() {
     let mut stock = Stock::new(corners, 1e-3).unwrap();
     let leaning = PathPoint {
         axis: Some(Unit::new_normalize(Vector3::new(0.0, 0.3, 1.0))),
-        ..point([1.0, 0.0, 0.0], Pace::Untold)
+        ..point([1.0, 0.0, 0.0], Pace::EvaluateError)
     };
     let found = along(&cutting(), &[leaning], &[], Some(&mut stock)).unwrap();
-    assert_eq!(found.told.met.unwrap().leaning, 1);
+    assert_eq!(found.given.met.unwrap().leaning, 1);
     assert_eq!(found.cuts, along(&cutting(), &[leaning], &[], None).unwrap().cuts);
 }
 
@@ -288,15 +288,15 @@ fn a_shallow_ball_cuts_with_the_force_of_the_strip_that_it_meets() {
         ..cutting()
     };
     let at = |immersion| {
-        let told = along(
+        let given = along(
             &Cutting { immersion, ..ball },
-            &[point([1.0, 0.0, 0.0], Pace::Untold)],
+            &[point([1.0, 0.0, 0.0], Pace::EvaluateError)],
             &[],
             None,
         )
         .unwrap();
-        assert_eq!(told.told.without_force, 0);
-        told.cuts.points[0].mean
+        assert_eq!(given.given.without_force, 0);
+        given.cuts.points[0].mean
     };
     let shallow = at(Immersion::Up(0.5e-3));
     assert!(shallow.norm() > 1.0, "{shallow}");
@@ -320,7 +320,7 @@ fn a_shallow_ball_cuts_with_the_force_of_the_strip_that_it_meets() {
         at: Point3::new(x, y, -0.2e-3),
         // Each groove begins anew.
         along: if k == 2 { 0.0 } else { k as f64 },
-        ..point([1.0, 0.0, 0.0], Pace::Untold)
+        ..point([1.0, 0.0, 0.0], Pace::EvaluateError)
     })
     .collect();
     let found = along(&ball, &grooves, &[], Some(&mut stock)).unwrap();
@@ -338,8 +338,8 @@ fn a_tool_whose_edges_pass_beside_the_material_has_no_force_and_is_counted() {
         law: CuttingLaw::Mechanistic(soft),
         ..cutting()
     };
-    let found = along(&nothing, &[point([1.0, 0.0, 0.0], Pace::Untold)], &[], None).unwrap();
-    assert_eq!((found.told.without_force, found.told.largest_mean), (1, 0.0));
+    let found = along(&nothing, &[point([1.0, 0.0, 0.0], Pace::EvaluateError)], &[], None).unwrap();
+    assert_eq!((found.given.without_force, found.given.largest_mean), (1, 0.0));
     assert_eq!(found.cuts.points[0].greatest, Vector3::zeros());
 }
 
@@ -353,13 +353,13 @@ fn what_was_met_in_a_stock_adds_up_to_what_is_gone() {
     let (full, points) = (stock.volume(), pocket());
     let met = along(&cutting(), &points, &[], Some(&mut stock))
         .unwrap()
-        .told
+        .given
         .met
         .unwrap();
     assert!((full - stock.volume() - met.removed).abs() < 1e-7 * full);
     // Once more there is nothing left.
     let again = along(&cutting(), &points, &[], Some(&mut stock)).unwrap();
-    let met = again.told.met.unwrap();
+    let met = again.given.met.unwrap();
     assert_eq!(met.removed, 0.0);
     // Short steps see the wall ahead of a corner two pitches early, which is two points of this path.
     assert!(met.in_air + 2 >= points.len(), "{met:?}");
@@ -380,9 +380,9 @@ fn the_greatest_force_is_told_where_the_mean_is_largest_even_if_it_is_no_case() 
         ..cutting()
     };
     let mean = along(&alone, &points, &[], None).unwrap();
-    assert_eq!(mean.told.largest_mean, both.told.largest_mean);
-    assert!((mean.told.greatest / both.told.greatest - 1.0).abs() < 1e-12);
-    assert_eq!(mean.told.largest_mean, mean.cuts.points[1].mean.norm());
+    assert_eq!(mean.given.largest_mean, both.given.largest_mean);
+    assert!((mean.given.greatest / both.given.greatest - 1.0).abs() < 1e-12);
+    assert_eq!(mean.given.largest_mean, mean.cuts.points[1].mean.norm());
     assert!(
         mean.cuts
             .points
@@ -406,6 +406,6 @@ fn a_tool_that_comes_back_is_held_once() {
         (3, of(Some(-1.0))),
     ];
     let found = along(&cutting(), &points, &operations, None).unwrap();
-    let held: Vec<usize> = found.cuts.points.iter().map(|here| here.cutter).collect();
-    assert_eq!((found.cuts.cutters.len(), held), (2, vec![1, 0, 1, 0]));
+    let evaluation: Vec<usize> = found.cuts.points.iter().map(|here| here.cutter).collect();
+    assert_eq!((found.cuts.cutters.len(), evaluation), (2, vec![1, 0, 1, 0]));
 }

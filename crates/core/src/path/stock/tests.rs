@@ -1,5 +1,5 @@
 use super::*;
-use crate::path::{Bite, BiteKind, Pass};
+use crate::path::{Bite, EngagementKind, Pass};
 use nalgebra::{Unit, Vector3};
 use std::f64::consts::PI;
 
@@ -39,7 +39,7 @@ fn a_step_inside_takes_a_rectangle_and_two_half_discs() {
         let mut stock = stock_mm([0.0, 0.0, -20.0], [45.0, 40.0, 0.0], 0.25);
         let full = stock.volume();
         let from = [13.07, 12.11, -4.0];
-        let bite = step(
+        let engagement = step(
             &mut stock,
             from,
             [corner[0], corner[1], -4.0],
@@ -50,18 +50,18 @@ fn a_step_inside_takes_a_rectangle_and_two_half_discs() {
         let swept = depth * (2.0 * radius * length + PI * radius * radius);
         let wall = 2.0 * length + 2.0 * PI * radius;
         assert!(
-            (bite.volume - swept).abs() < wall_error(wall, depth, &stock),
+            (engagement.volume - swept).abs() < wall_error(wall, depth, &stock),
             "{corner:?}"
         );
         // Some 3e4 cells, each rounded in single precision to 6e-8 of 20 mm.
-        assert!((full - stock.volume() - bite.volume).abs() < 1e-7 * full);
+        assert!((full - stock.volume() - engagement.volume).abs() < 1e-7 * full);
     }
 }
 
 #[test]
 fn the_volume_of_a_ball_that_goes_in_is_that_of_a_half_ball_and_a_cylinder() {
     let mut stock = stock_mm([0.0, 0.0, -20.0], [20.0, 20.0, 0.0], 0.1);
-    let bite = step(
+    let engagement = step(
         &mut stock,
         [10.03, 9.96, 5.0],
         [10.03, 9.96, -8.0],
@@ -69,9 +69,9 @@ fn the_volume_of_a_ball_that_goes_in_is_that_of_a_half_ball_and_a_cylinder() {
     );
     let radius = 5.0 * MM;
     let body = 2.0 / 3.0 * PI * radius.powi(3) + PI * radius * radius * 3.0 * MM;
-    assert!((bite.volume - body).abs() < wall_error(2.0 * PI * radius, 8.0 * MM, &stock));
-    assert_eq!(bite.kind, BiteKind::Plunge);
-    assert!((bite.depth - 8.0 * MM).abs() < 0.001 * MM, "{bite:?}");
+    assert!((engagement.volume - body).abs() < wall_error(2.0 * PI * radius, 8.0 * MM, &stock));
+    assert_eq!(engagement.kind, EngagementKind::Plunge);
+    assert!((engagement.depth - 8.0 * MM).abs() < 0.001 * MM, "{engagement:?}");
 }
 
 #[test]
@@ -127,8 +127,8 @@ fn volumes_converge_with_the_pitch() {
             let mut stock = stock_mm([0.0; 3], [24.0, 24.0, 1.0], pitch);
             let at = 12.0 + 0.073 * f64::from(k);
             let cutter = cutter_mm(10.0, 0.0);
-            let bite = step(&mut stock, [at, 12.03, 2.0], [at, 12.03, 0.0], &cutter);
-            (bite.volume / (PI * 25.0 * MM.powi(3)) - 1.0).abs()
+            let engagement = step(&mut stock, [at, 12.03, 2.0], [at, 12.03, 0.0], &cutter);
+            (engagement.volume / (PI * 25.0 * MM.powi(3)) - 1.0).abs()
         });
         errors.fold(0.0, f64::max)
     };
@@ -189,7 +189,7 @@ fn boxes_that_cannot_be_are_refused() {
     ] {
         let refused = boxed([0.0; 3], high, 0.1);
         assert!(
-            matches!(refused, StockError::Box { axis: told, .. } if told == axis),
+            matches!(refused, StockError::Box { axis: given, .. } if given == axis),
             "{refused}"
         );
     }
@@ -254,11 +254,11 @@ fn places_and_cutters_at_the_ends_of_what_is_allowed_cut_without_fault() {
         for x in places {
             for z in places {
                 let (from, to) = (Point3::new(-x, x, z), Point3::new(x, z, -z));
-                let bite = stock.cut(&pass(from, to), &cutter).unwrap();
-                let told = [bite.depth, bite.width, bite.volume];
+                let engagement = stock.cut(&pass(from, to), &cutter).unwrap();
+                let given = [engagement.depth, engagement.width, engagement.volume];
                 assert!(
-                    told.iter().all(|value| value.is_finite() && *value >= 0.0),
-                    "{bite:?}"
+                    given.iter().all(|value| value.is_finite() && *value >= 0.0),
+                    "{engagement:?}"
                 );
             }
         }
@@ -280,19 +280,19 @@ fn what_bites_take_is_what_the_stock_loses_on_any_way_of_any_cutter() {
                 15.0 + 12.0 * (1.3 * turn).sin(),
                 -3.0 + 4.0 * (0.37 * turn).cos(),
             ];
-            let bite = step(&mut stock, before, at, &cutter);
+            let engagement = step(&mut stock, before, at, &cutter);
             let lost = left - stock.volume();
             // 13 000 cells, each rounded in single precision to 6e-8 of 12 mm.
             assert!(
-                (bite.volume - lost).abs() < 1e-7 * full,
+                (engagement.volume - lost).abs() < 1e-7 * full,
                 "{k}: {} {lost}",
-                bite.volume
+                engagement.volume
             );
             // It takes no more than the cutter sweeps: its widest section along its way, and itself.
             let length = (Point3::from(at) - Point3::from(before)).norm() * MM;
             let swept = 2.0 * cutter.radius() * 13.0 * MM * length + PI * cutter.radius().powi(2) * 13.0 * MM;
-            assert!(bite.volume <= swept && bite.depth <= 12.0 * MM * (1.0 + 1e-6));
-            (sum, left, before) = (sum + bite.volume, stock.volume(), at);
+            assert!(engagement.volume <= swept && engagement.depth <= 12.0 * MM * (1.0 + 1e-6));
+            (sum, left, before) = (sum + engagement.volume, stock.volume(), at);
         }
         assert!(
             (full - stock.volume() - sum).abs() < 1e-6 * full && sum > 0.1 * full,
@@ -351,7 +351,7 @@ fn the_highest_material_about_a_place_is_that_of_its_cells() {
 
 #[test]
 fn every_refusal_tells_what_cannot_be_cut() {
-    let told = [
+    let given = [
         (
             StockError::Box {
                 axis: 'y',
@@ -376,7 +376,7 @@ fn every_refusal_tells_what_cannot_be_cut() {
             "the stock has 4.000e8 cells: at most 1e8 are kept; take a coarser pitch",
         ),
     ];
-    for (error, text) in told {
+    for (error, text) in given {
         assert_eq!(error.to_string(), text);
     }
 }

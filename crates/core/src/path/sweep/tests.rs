@@ -102,15 +102,15 @@ proptest! {
         prop_assume!(to.xy().coords.norm() > 0.01 * MM);
         let at = Point2::new(at.0, at.1) * MM;
         // Near the rim rounding of the place decides: 1e-9 of it is as much as the square root makes of that.
-        let wanted = searched(from, to, &cutter, at);
+        let expected = searched(from, to, &cutter, at);
         let near = |way: f64| searched(from, to, &cutter, Point2::from(at.coords * (1.0 + way)));
         prop_assume!(near(1e-12).is_some() == near(-1e-12).is_some());
         for (from, to) in [(from, to), (to, from)] {
             let found = bottom(&Sweep::of(from, to, &cutter, 1e-6 * MM), at);
-            prop_assert_eq!(found.is_some(), wanted.is_some());
-            if let (Some(found), Some(wanted)) = (found, wanted) {
+            prop_assert_eq!(found.is_some(), expected.is_some());
+            if let (Some(found), Some(expected)) = (found, expected) {
                 // Single precision of 31 mm at most, 6e-8 of it; the search stops where heights round to the same.
-                prop_assert!((found - wanted).abs() < 3e-9, "{} {}", found, wanted);
+                prop_assert!((found - expected).abs() < 3e-9, "{} {}", found, expected);
             }
         }
     }

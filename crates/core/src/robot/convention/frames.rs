@@ -54,11 +54,11 @@ pub fn fit(comparison: &Comparison<'_>, flanges: &[Isometry], free: Free) -> Opt
         .readings
         .iter()
         .map(|reading| {
-            let mut pose = reading.counted_from_tool;
+            let mut pose = reading.reference_from_tool;
             if free.inches {
                 pose.translation.vector *= MM_PER_INCH;
             }
-            comparison.base_from_counted * pose
+            comparison.base_from_reference * pose
         })
         .collect();
     let mut changes = Vec::new();

@@ -35,7 +35,7 @@ pub struct Reading {
     /// One a joint.
     pub joints: Vec<f64>,
     /// Pose of the tool.
-    pub counted_from_tool: Isometry,
+    pub reference_from_tool: Isometry,
 }
 
 /// How far a position (m) and an orientation (rad) lie apart.
@@ -74,7 +74,7 @@ pub struct Comparison<'a> {
     /// The robot as its file has it.
     pub robot: &'a Robot,
     /// The frame that the pendant is believed to count from, in base.
-    pub base_from_counted: &'a Isometry,
+    pub base_from_reference: &'a Isometry,
     /// Flange to tool centre point of the readings.
     pub flange_from_tool: &'a Isometry,
     /// What the pendant shows; each with as many joints as the robot.

@@ -84,7 +84,7 @@ pub fn inspect(comparison: &Comparison<'_>, watch: Watch<'_>) -> Result<Inspecti
     }
     let as_the_file_has_it = comparison.readings.iter().map(|reading| {
         let found = posture_at(comparison.robot, &reading.joints, comparison.flange_from_tool);
-        let read = comparison.base_from_counted * reading.counted_from_tool;
+        let read = comparison.base_from_reference * reading.reference_from_tool;
         Apart::between(&found.base_from_tool, &read)
     });
     Ok(Inspection {
@@ -169,7 +169,7 @@ fn with_one_zero_free(comparison: &Comparison<'_>, joints: &[Change], free: Free
     let positions = positions_of_the_file(robot, joints, &first.joints);
     let frames = forward(robot, &positions);
     let found = posture_at(robot, &positions, comparison.flange_from_tool);
-    let read = comparison.base_from_counted.rotation * first.counted_from_tool.rotation;
+    let read = comparison.base_from_reference.rotation * first.reference_from_tool.rotation;
     let turned = (read * found.base_from_tool.rotation.inverse()).scaled_axis();
     let zero_of = |joint: usize| {
         let by = turned.dot(&joint_axis(robot, &frames, joint));

@@ -53,7 +53,7 @@ fn flanges(robot: &Robot) -> Vec<Isometry> {
 fn readings(poses: &[Isometry]) -> Vec<Reading> {
     let reading = |(q, pose): (&[f64; 6], &Isometry)| Reading {
         joints: q.to_vec(),
-        counted_from_tool: *pose,
+        reference_from_tool: *pose,
     };
     Q.iter().zip(poses).map(reading).collect()
 }
@@ -61,7 +61,7 @@ fn readings(poses: &[Isometry]) -> Vec<Reading> {
 fn compared<R>(robot: &Robot, read: &[Reading], use_it: impl Fn(&Comparison<'_>) -> R) -> R {
     use_it(&Comparison {
         robot,
-        base_from_counted: &Isometry::identity(),
+        base_from_reference: &Isometry::identity(),
         flange_from_tool: &Isometry::identity(),
         readings: read,
         within: Apart {
@@ -226,7 +226,7 @@ fn shown(file: &Robot, changes: &[Change], at: &[[f64; 6]]) -> Vec<Reading> {
         let positions = positions_of_the_file(file, changes, q);
         Reading {
             joints: q.to_vec(),
-            counted_from_tool: posture_at(file, &positions, &Isometry::identity()).base_from_tool,
+            reference_from_tool: posture_at(file, &positions, &Isometry::identity()).base_from_tool,
         }
     };
     at.iter().map(reading).collect()
@@ -253,7 +253,7 @@ fn a_zero_of_any_value_and_a_coupling_are_found() {
     let readings = |pendant: &Robot| -> Vec<Reading> {
         let of = |q: &[f64; 6]| Reading {
             joints: q.to_vec(),
-            counted_from_tool: posture_at(pendant, q, &Isometry::identity()).base_from_tool,
+            reference_from_tool: posture_at(pendant, q, &Isometry::identity()).base_from_tool,
         };
         MORE.iter().map(of).collect()
     };
@@ -315,7 +315,7 @@ fn an_axis_that_is_tilted_is_unexplained() {
         .iter()
         .map(|q| Reading {
             joints: q.to_vec(),
-            counted_from_tool: posture_at(&tilted, q, &Isometry::identity()).base_from_tool,
+            reference_from_tool: posture_at(&tilted, q, &Isometry::identity()).base_from_tool,
         })
         .collect();
     assert_eq!(verdict(&file, &read), Verdict::Unexplained);
@@ -372,7 +372,7 @@ fn a_joint_that_stood_at_zero_hides_its_sign() {
 fn readings_of_a_right_file_agree_and_others_tell_how_far_they_lie() {
     let file = arm(|_| {});
     let mut read = shown(&file, &[], &MORE);
-    read[2].counted_from_tool = Isometry::translation(0.0, 0.03, 0.04) * read[2].counted_from_tool;
+    read[2].reference_from_tool = Isometry::translation(0.0, 0.03, 0.04) * read[2].reference_from_tool;
     let apart = compared(&file, &read, |comparison| {
         inspect(comparison, Watch::NONE).unwrap().as_the_file_has_it
     });

@@ -15,7 +15,7 @@ use super::super::chain::{Chain, Motion};
 use super::closed_form::ClosedForm;
 use super::ortho_parallel::OrthoParallel;
 use super::spherical_wrist::SphericalWrist;
-use super::standing_joint::StandingJoint;
+use super::fixed_joint::FixedJoint;
 
 /// How the postures of a chain are found.
 #[derive(Clone, Debug)]
@@ -27,7 +27,7 @@ pub enum Inverse {
     /// In closed form, or from the closed form of the arm whose wrist axes meet.
     SphericalWrist(Box<SphericalWrist>),
     /// One joint to spare stands still, the others have a spherical wrist.
-    OneStands(Box<StandingJoint>),
+    OneStands(Box<FixedJoint>),
     /// From many starts.
     Searched,
     /// On sliding joints that stand still.
@@ -66,7 +66,7 @@ impl Inverse {
     fn with_wrist(chain: &Chain) -> Option<Inverse> {
         let wrist = SphericalWrist::recognise(chain).or_else(|| SphericalWrist::next_to(chain));
         let six = wrist.map(|wrist| Inverse::SphericalWrist(Box::new(wrist)));
-        six.or_else(|| Some(Inverse::OneStands(Box::new(StandingJoint::recognise(chain)?))))
+        six.or_else(|| Some(Inverse::OneStands(Box::new(FixedJoint::recognise(chain)?))))
     }
 
     fn on_rail(chain: &Chain) -> Option<Inverse> {
@@ -127,7 +127,7 @@ impl Inverse {
         match self.of_arm() {
             Inverse::Closed(_) => "closed_form",
             Inverse::SphericalWrist(form) if form.is_exact() => "closed_form",
-            Inverse::OneStands(standing) if standing.is_exact() => "closed_form",
+            Inverse::OneStands(arm_state) if arm_state.is_exact() => "closed_form",
             Inverse::Polished(_) | Inverse::SphericalWrist(_) | Inverse::OneStands(_) => "polished",
             _ => "searched",
         }
@@ -153,15 +153,15 @@ impl fmt::Display for Inverse {
             Inverse::SphericalWrist(_) => f.write_str(
                 "numeric from a closed form, up to 8 postures without names (nearly a spherical wrist)",
             ),
-            Inverse::OneStands(standing) => write!(
+            Inverse::OneStands(arm_state) => write!(
                 f,
                 "{}, up to 8 postures without names (spherical wrist); joint {} stands still",
-                if standing.is_exact() {
+                if arm_state.is_exact() {
                     "closed form"
                 } else {
                     "numeric from a closed form"
                 },
-                standing.joint + 1
+                arm_state.joint + 1
             ),
             Inverse::Searched => f.write_str("numeric from many starts: the postures that are found"),
             Inverse::OnRail(rail) => write!(

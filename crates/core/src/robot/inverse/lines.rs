@@ -226,10 +226,10 @@ mod tests {
     fn a_line_told_near_a_point_is_the_same_line() {
         let other = Point3::new(0.3, 2.0, -0.4);
         for line in lines() {
-            let told = line.told_near(other);
-            assert!(line.distance(told.point) < 1e-14 && told.axis == line.axis);
+            let given = line.told_near(other);
+            assert!(line.distance(given.point) < 1e-14 && given.axis == line.axis);
             // No point of the line is nearer.
-            assert!(((other - told.point).norm() - line.distance(other)).abs() < 1e-14);
+            assert!(((other - given.point).norm() - line.distance(other)).abs() < 1e-14);
         }
     }
 

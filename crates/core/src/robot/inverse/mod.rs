@@ -2,7 +2,7 @@
 //!
 //! [`kind`] is the closed list of ways: [`closed_form`] ([`ortho_parallel`], [`three_parallel`]) with names,
 //! [`spherical_wrist`] without, the same followed by damped least squares for calibrated arms, a
-//! [`standing_joint`] to spare, a search for any other chain, and rails. A [`Finder`] takes one pose after
+//! [`fixed_joint`] to spare, a search for any other chain, and rails. A [`Finder`] takes one pose after
 //! the other; [`postures`] gives everything about the postures of one. Each is checked by forward kinematics before
 //! it leaves.
 //!
@@ -17,7 +17,7 @@ mod lines;
 pub mod ortho_parallel;
 mod roots;
 pub mod spherical_wrist;
-pub mod standing_joint;
+pub mod fixed_joint;
 mod starts;
 pub mod three_parallel;
 mod three_turns;
@@ -28,7 +28,7 @@ pub use finder::{Finder, Found, Wanted};
 pub use kind::Inverse;
 pub use ortho_parallel::OrthoParallel;
 pub use spherical_wrist::SphericalWrist;
-pub use standing_joint::StandingJoint;
+pub use fixed_joint::FixedJoint;
 pub use three_parallel::ThreeParallel;
 
 use nalgebra::UnitQuaternion;
@@ -84,7 +84,7 @@ pub fn postures(
     base_from_tool: &Isometry,
     tool: ToolAt<'_>,
 ) -> Result<Vec<Posture>, Unreachable> {
-    let wanted = Wanted {
+    let requested = Wanted {
         base_from_flange: base_from_tool * tool.flange_from_tool.inverse(),
         near: tool.near,
         home: tool.home,
@@ -101,7 +101,7 @@ pub fn postures(
             singularity: found.singularity,
         }
     };
-    Ok(finder.all(&wanted)?.iter().map(&mut posture).collect())
+    Ok(finder.all(&requested)?.iter().map(&mut posture).collect())
 }
 
 /// Checks that these frames bring the flange to where it was asked to be, within 1e-9 m and rad.
@@ -111,8 +111,8 @@ pub fn postures(
 pub fn holds(frames: &Frames, base_from_flange: &Isometry) -> Result<(), Unreachable> {
     let reached = &frames.base_from_flange;
     let away = reached.translation.vector - base_from_flange.translation.vector;
-    let wanted = base_from_flange.rotation.to_rotation_matrix();
-    let turned = turn_between(reached.rotation.matrix(), wanted.matrix());
+    let requested = base_from_flange.rotation.to_rotation_matrix();
+    let turned = turn_between(reached.rotation.matrix(), requested.matrix());
     if away.norm() < VERIFIED && turned.norm() < VERIFIED {
         Ok(())
     } else {

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::*;
 use crate::arms;
 use crate::robot::joint::{Coupling, Limits, Sign};
-use crate::robot::{Axis, Mass, Seat, Spring};
+use crate::robot::{Axis, Mass, Attachment, Spring};
 
 /// A turning joint, a slide and another turning joint.
 fn motions() -> Vec<Motion> {
@@ -161,7 +161,7 @@ fn compliances_are_one_a_joint_from_zero_to_the_softest() {
 fn a_structure_is_checked_against_the_robot_that_gets_it() {
     let structure = Structure {
         masses: vec![Mass {
-            seat: Seat::Joint(3),
+            attachment: Attachment::Joint(3),
             mass: 1.0,
             centre: nalgebra::Point3::origin(),
         }],
@@ -174,7 +174,7 @@ fn a_structure_is_checked_against_the_robot_that_gets_it() {
     );
     // The same structure fits an arm with a joint more.
     arms::mh12().with_structure(structure).unwrap();
-    let spring = Spring::about(Seat::Joint(1), nalgebra::Vector3::x(), compliance(1e-7, 0.0));
+    let spring = Spring::about(Attachment::Joint(1), nalgebra::Vector3::x(), compliance(1e-7, 0.0));
     let with_spring = Structure {
         springs: vec![spring],
         ..Structure::EMPTY
@@ -301,7 +301,7 @@ fn other_compliances_take_curves_and_covariance_with_them() {
         falling: None,
     };
     let structure = Structure {
-        springs: vec![Spring::about(Seat::Base, nalgebra::Vector3::x(), DRIVE)],
+        springs: vec![Spring::about(Attachment::Base, nalgebra::Vector3::x(), DRIVE)],
         curves: vec![Some(curve)],
         covariance: Some(nalgebra::DMatrix::identity(2, 2) * 1e-14),
         ..Structure::EMPTY

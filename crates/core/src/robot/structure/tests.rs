@@ -5,14 +5,14 @@ use nalgebra::{Point3, Vector3};
 use super::*;
 use crate::arms;
 use crate::robot::torque_curve::TorqueCurve;
-use crate::robot::{Flank, JointCompliance};
+use crate::robot::{BacklashSide, JointCompliance};
 
 fn spring(value: f64) -> Spring {
     let compliance = JointCompliance {
         value,
         standard_uncertainty: 0.1 * value,
     };
-    Spring::about(Seat::Flange, Vector3::x(), compliance)
+    Spring::about(Attachment::Flange, Vector3::x(), compliance)
 }
 
 fn compensator() -> Compensator {
@@ -36,7 +36,7 @@ fn curve() -> Option<JointCurve> {
 
 fn mass(mass: f64) -> Mass {
     Mass {
-        seat: Seat::Tool,
+        attachment: Attachment::Tool,
         mass,
         centre: Point3::new(0.0, 0.1, 0.2),
     }
@@ -60,16 +60,16 @@ fn backlash(gap: f64) -> Option<Backlash> {
     Some(Backlash {
         gap,
         standard_uncertainty: 1e-5,
-        flank: Flank::Motion,
+        side: BacklashSide::Motion,
     })
 }
 
 #[test]
 fn a_model_error_is_a_fraction_of_ten_at_most() {
     for value in [-1e-9, 10.0_f64.next_up(), f64::NAN] {
-        let told = refused(|s| s.model_error = value);
+        let given = refused(|s| s.model_error = value);
         assert_eq!(
-            told,
+            given,
             format!("a model error of {value} is not a fraction from 0 to 10")
         );
     }
@@ -78,8 +78,8 @@ fn a_model_error_is_a_fraction_of_ten_at_most() {
 #[test]
 fn repeatability_is_a_length() {
     for refused_value in [-1e-9, 0.02, f64::NAN] {
-        let told = refused(|s| s.repeatability = refused_value);
-        assert!(told.ends_with("m is not a number from 0 to 0.01"), "{told}");
+        let given = refused(|s| s.repeatability = refused_value);
+        assert!(given.ends_with("m is not a number from 0 to 0.01"), "{given}");
     }
 }
 
@@ -125,13 +125,13 @@ fn curves_are_found_by_joint_and_a_list_may_end_early() {
 
 #[test]
 fn parts_sit_at_joints_that_exist() {
-    let at = |joint| Seat::Joint(joint);
+    let at = |joint| Attachment::Joint(joint);
     assert_eq!(
-        refused(|s| s.springs[1].seat = at(6)),
+        refused(|s| s.springs[1].attachment = at(6)),
         "a spring names joint number 7, which does not exist or slides"
     );
     assert_eq!(
-        refused(|s| s.masses[0].seat = at(9)),
+        refused(|s| s.masses[0].attachment = at(9)),
         "a mass names joint number 10, which does not exist or slides"
     );
     assert_eq!(
@@ -146,7 +146,7 @@ fn parts_sit_at_joints_that_exist() {
         "the compensator names joint number 7, which does not exist or slides"
     );
     let mut last = sound();
-    (last.springs[0].seat, last.masses[0].seat) = (at(5), at(5));
+    (last.springs[0].attachment, last.masses[0].attachment) = (at(5), at(5));
     assert_eq!(last.check(&arms::ALL[0]), Ok(()));
 }
 
@@ -161,11 +161,11 @@ fn a_rail_carries_springs_and_masses_but_no_torque_curve_and_no_compensator() {
     assert_eq!(
         on(|s| {
             s.springs = vec![Spring {
-                seat: Seat::Joint(0),
+                attachment: Attachment::Joint(0),
                 ..spring(1e-7)
             }];
             s.masses = vec![Mass {
-                seat: Seat::Joint(0),
+                attachment: Attachment::Joint(0),
                 ..mass(400.0)
             }];
         }),

@@ -8,7 +8,7 @@ use crate::frame::Isometry;
 use crate::robot::{
     Amount, Axis, Compensator, Joint, JointCompliance, Mass, Motion, Robot, Spring, Structure,
 };
-use crate::source::{Gravity, Standing, StiffnessModel};
+use crate::source::{Gravity, ArmState, StiffnessModel};
 
 const LINK: f64 = 0.5;
 
@@ -38,7 +38,7 @@ fn loaded() -> StiffnessModel {
     }
 }
 
-fn held<'a>(robot: &'a Robot, model: &'a StiffnessModel, tool: &'a Isometry) -> Arm<'a> {
+fn evaluation<'a>(robot: &'a Robot, model: &'a StiffnessModel, tool: &'a Isometry) -> Arm<'a> {
     Arm {
         robot,
         compliance: robot.compliance().unwrap(),
@@ -57,9 +57,9 @@ fn links_in_a_row_buckle_under_the_force_of_the_closed_form() {
     // K - F L [[2, 1], [1, 1]] loses its sign at F = k / (L (3 + sqrt 5) / 2).
     let critical = 1e4 / (LINK * (3.0 + 5_f64.sqrt()) / 2.0);
     let (robot, model, tool) = (two_links(), loaded(), Isometry::identity());
-    let mut standing = Standing::new(held(&robot, &model, &tool));
-    standing.stand(&[0.0; 2]);
-    let mut press = |force: f64| standing.elastic(&Wrench::from_force(-Vector3::x() * force));
+    let mut arm_state = ArmState::new(evaluation(&robot, &model, &tool));
+    arm_state.set_joints(&[0.0; 2]);
+    let mut press = |force: f64| arm_state.elastic(&Wrench::from_force(-Vector3::x() * force));
     assert_eq!(press(0.999 * critical).unwrap(), Twist::ZERO);
     assert_eq!(press(1.001 * critical).unwrap_err(), Unstable::Buckles);
     // Pulled they never buckle.
@@ -69,16 +69,16 @@ fn links_in_a_row_buckle_under_the_force_of_the_closed_form() {
 #[test]
 fn the_tangent_of_pressed_links_is_that_of_the_closed_form() {
     let (robot, model, tool) = (two_links(), loaded(), Isometry::identity());
-    let mut standing = Standing::new(held(&robot, &model, &tool));
-    standing.stand(&[0.0; 2]);
+    let mut arm_state = ArmState::new(evaluation(&robot, &model, &tool));
+    arm_state.set_joints(&[0.0; 2]);
     for force in [-5000.0, -100.0, 1000.0, 5000.0] {
-        standing
+        arm_state
             .elastic(&Wrench::from_force(-Vector3::x() * force))
             .unwrap();
         let stiffness = Matrix2::identity() * 1e4 - toggle() * (force * LINK);
         let lever = Vector2::new(2.0 * LINK, LINK);
         let sideways = lever.dot(&(stiffness.try_inverse().unwrap() * lever));
-        let found = standing.loaded_compliance().unwrap()[(1, 1)];
+        let found = arm_state.loaded_compliance().unwrap()[(1, 1)];
         assert!(
             (found / sideways - 1.0).abs() < 1e-12,
             "{force} N: {found} {sideways}"
@@ -89,14 +89,14 @@ fn the_tangent_of_pressed_links_is_that_of_the_closed_form() {
 #[test]
 fn an_arm_far_too_soft_has_no_equilibrium() {
     let (robot, model, tool) = (two_links(), loaded(), Isometry::identity());
-    let mut standing = Standing::new(held(&robot, &model, &tool));
-    standing.stand(&[0.0; 2]);
+    let mut arm_state = ArmState::new(evaluation(&robot, &model, &tool));
+    arm_state.set_joints(&[0.0; 2]);
     // 1e-4 rad/(N m) under 1e5 N m: ten radians by the linear law.
     let push = Wrench::from_force(Vector3::y() * 1e5);
-    assert_eq!(standing.elastic(&push).unwrap_err(), Unstable::NoEquilibrium);
-    assert!(standing.elastic(&(push * f64::NAN)).is_err());
+    assert_eq!(arm_state.elastic(&push).unwrap_err(), Unstable::NoEquilibrium);
+    assert!(arm_state.elastic(&(push * f64::NAN)).is_err());
     // The arm is as it was: a load that it bears is borne.
-    assert!(standing.elastic(&(push * 1e-3)).is_ok());
+    assert!(arm_state.elastic(&(push * 1e-3)).is_ok());
     assert_eq!(
         Unstable::NoEquilibrium.to_string(),
         "the arm finds no equilibrium under this load"
@@ -119,7 +119,7 @@ fn the_load_stiffness_is_symmetric_but_for_the_moment() {
     let model = loaded();
     let mut stream = Stream(51);
     for robot in arms::all() {
-        let arm = held(&robot, &model, &tool);
+        let arm = evaluation(&robot, &model, &tool);
         let mut equilibrium = Equilibrium::for_arm(&arm);
         for _ in 0..20 {
             let (q, wrench) = somewhere(&robot, &mut stream);
@@ -152,16 +152,16 @@ fn springs() -> Vec<Spring> {
         standard_uncertainty: 0.0,
     };
     vec![
-        Spring::about(Seat::Joint(1), Vector3::x(), c(2.4e-7)),
-        Spring::about(Seat::Base, Vector3::y(), c(4e-8)),
-        Spring::along(Seat::Tool, Vector3::x(), c(9e-7)),
+        Spring::about(Attachment::Joint(1), Vector3::x(), c(2.4e-7)),
+        Spring::about(Attachment::Base, Vector3::y(), c(4e-8)),
+        Spring::along(Attachment::Tool, Vector3::x(), c(9e-7)),
     ]
 }
 
 /// Springs, masses under gravity and a compensator, all with a potential.
 fn with_everything() -> StiffnessModel {
-    let mass = |seat, mass, z| Mass {
-        seat,
+    let mass = |attachment, mass, z| Mass {
+        attachment,
         mass,
         centre: Point3::new(0.1, -0.05, z),
     };
@@ -169,9 +169,9 @@ fn with_everything() -> StiffnessModel {
         structure: Structure {
             springs: springs(),
             masses: vec![
-                mass(Seat::Joint(1), 150.0, 0.2),
-                mass(Seat::Joint(3), 80.0, 0.0),
-                mass(Seat::Tool, 20.0, 0.1),
+                mass(Attachment::Joint(1), 150.0, 0.2),
+                mass(Attachment::Joint(3), 80.0, 0.0),
+                mass(Attachment::Tool, 20.0, 0.1),
             ],
             compensator: Some(Compensator {
                 joint: 1,
@@ -199,14 +199,14 @@ fn the_potential_of_springs_load_weight_and_compensator_is_least_at_rest() {
     let mut stream = Stream(52);
     let mut rests = 0;
     for robot in [&arms::ALL[1], &arms::ALL[3]] {
-        let arm = held(robot, &model, &tool);
+        let arm = evaluation(robot, &model, &tool);
         let (c, body) = (arm.compliances(), (robot, &structure.springs[..], &tool));
-        let mut standing = Standing::new(arm);
+        let mut arm_state = ArmState::new(arm);
         for _ in 0..10 {
             let (q, Wrench { force, .. }) = somewhere(robot, &mut stream);
             let theta: Vec<f64> = (0..6).map(|i| robot.theta(i, &q)).collect();
-            standing.stand(&q);
-            let before = standing.gravity_torques().to_vec();
+            arm_state.set_joints(&q);
+            let before = arm_state.gravity_torques().to_vec();
             let mut equilibrium = Equilibrium::for_arm(&arm);
             let law = |k: usize, torque: f64| (c[k].value * torque, c[k].value);
             let wrench = Wrench::from_force(force);
@@ -215,15 +215,15 @@ fn the_potential_of_springs_load_weight_and_compensator_is_least_at_rest() {
             }
             rests += 1;
             let potential = |x: &[f64]| -> f64 {
-                let mut there = Yielded::for_robot(robot, 3);
-                yield_into(body, &theta, x, &mut there);
+                let mut there = DeflectedArm::for_robot(robot, 3);
+                deflect_into(body, &theta, x, &mut there);
                 let own: f64 = x.iter().zip(&c).map(|(x, c)| 0.5 * x * x / c.value).sum();
                 // What gravity and compensator did before the load came is taken off: springs are told from there.
                 let taken_off: f64 = x.iter().zip(&before).map(|(x, before)| x * before).sum();
                 let weight: f64 = structure
                     .masses
                     .iter()
-                    .map(|mass| 9.81 * mass.mass * (there.seats[mass.seat.rank(6)] * mass.centre).z)
+                    .map(|mass| 9.81 * mass.mass * (there.attachments[mass.attachment.rank(6)] * mass.centre).z)
                     .sum();
                 let compensator = structure.compensator.unwrap();
                 let spring = compensator.energy(theta[1] + x[1]);
@@ -261,13 +261,13 @@ fn the_tangent_becomes_the_compliance_of_the_unloaded_arm_as_the_load_goes() {
     };
     let mut stream = Stream(53);
     for robot in arms::all() {
-        let mut standing = Standing::new(held(&robot, &model, &tool));
+        let mut arm_state = ArmState::new(evaluation(&robot, &model, &tool));
         let (q, wrench) = somewhere(&robot, &mut stream);
-        standing.stand(&q);
-        let unloaded = standing.compliance().unwrap();
+        arm_state.set_joints(&q);
+        let unloaded = arm_state.compliance().unwrap();
         let mut off = |part: f64| {
-            standing.elastic(&(wrench * part)).unwrap();
-            (standing.loaded_compliance().unwrap() - unloaded).norm() / unloaded.norm()
+            arm_state.elastic(&(wrench * part)).unwrap();
+            (arm_state.loaded_compliance().unwrap() - unloaded).norm() / unloaded.norm()
         };
         let (first, second) = (off(2e-3), off(1e-3));
         assert!(second < 1e-4, "{}: {second}", robot.name());
@@ -284,7 +284,7 @@ fn the_tangent_becomes_the_compliance_of_the_unloaded_arm_as_the_load_goes() {
 fn drives_come_before_the_springs_of_their_seat_and_those_in_their_order() {
     let (tool, model) = (Isometry::identity(), with_everything());
     let robot = &arms::ALL[0];
-    let equilibrium = Equilibrium::for_arm(&held(robot, &model, &tool));
+    let equilibrium = Equilibrium::for_arm(&evaluation(robot, &model, &tool));
     // Base spring, drives 1 and 2, spring of joint 2, drives 3 to 6, spring of the tool.
     assert_eq!(equilibrium.place, [1, 2, 4, 5, 6, 7, 3, 0, 8]);
     assert_eq!(equilibrium.rank, [1, 2, 3, 4, 5, 6, 2, 0, 8]);

@@ -4,11 +4,11 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::super::Document;
-use super::{Ask, Plane, assert_hint, assert_told, read};
+use super::{Analysis, Plane, assert_hint, assert_problems, read};
 
 #[test]
-fn all_problems_are_told_at_once_in_the_order_of_the_text() {
-    let text = "nam = 3\nversion = 2\n[plane]\nstep = 1\n[[ask]]\nkind = 'mapp'\n[[ask]]\nkind = 'map'\nlimit_um = nan\n";
+fn all_problems_are_reported_at_once_in_the_order_of_the_text() {
+    let text = "nam = 3\nversion = 2\n[plane]\nstep = 1\n[[analysis]]\nkind = 'mapp'\n[[analysis]]\nkind = 'map'\ntolerance_um = nan\n";
     let problems = read(text).unwrap_err();
     let messages: Vec<String> = problems.as_slice().iter().map(ToString::to_string).collect();
     assert_eq!(
@@ -17,8 +17,8 @@ fn all_problems_are_told_at_once_in_the_order_of_the_text() {
             "study.toml:1:1: unknown field `nam`",
             "study.toml:2:11: `version` is the number 2: must be 1",
             "study.toml:4:1: unknown field `plane.step`",
-            "study.toml:6:8: `ask[0].kind` is the string \"mapp\": must be one of \"map\", \"path\", \"again\"",
-            "study.toml:9:12: `ask[1].limit_um` is nan: must be a finite number",
+            "study.toml:6:8: `analysis[0].kind` is the string \"mapp\": must be one of \"map\", \"path\", \"again\"",
+            "study.toml:9:12: `analysis[1].tolerance_um` is nan: must be a finite number",
         ]
     );
 }
@@ -45,7 +45,7 @@ fn an_unknown_field_comes_with_the_one_that_was_meant() {
 
 #[test]
 fn an_unknown_field_is_shown_by_its_key() {
-    assert_told(
+    assert_problems(
         "cooled = true",
         "cooled = true\n\"a b\".c = 1",
         &["17:1: unknown field `tool.\"a b\"`"],
@@ -53,43 +53,43 @@ fn an_unknown_field_is_shown_by_its_key() {
 }
 
 #[test]
-fn a_missing_field_is_told_at_the_header_of_its_table() {
-    assert_told(
+fn a_missing_field_is_reported_at_the_header_of_its_table() {
+    assert_problems(
         "step_mm = 5",
         "",
         &["9:1: missing field `plane.step_mm`: a number in mm"],
     );
     assert_hint("step_mm = 5", "", "`step_mm` is: Distance of neighbouring points");
-    assert_told("name = \"groove\"", "", &["1:1: missing field `name`: a string"]);
-    assert_told(
-        "limit_um = 20",
+    assert_problems("name = \"groove\"", "", &["1:1: missing field `name`: a string"]);
+    assert_problems(
+        "tolerance_um = 20",
         "",
-        &["18:1: missing field `ask[0].limit_um`: a number in um"],
+        &["18:1: missing field `analysis[0].tolerance_um`: a number in um"],
     );
 }
 
 #[test]
 fn the_fields_of_another_kind_are_refused() {
-    assert_told(
-        "limit_um = 20",
-        "limit_um = 20\nfeed_mm_per_min = 3.0",
-        &["21:1: unknown field `ask[0].feed_mm_per_min`"],
+    assert_problems(
+        "tolerance_um = 20",
+        "tolerance_um = 20\nfeed_mm_per_min = 3.0",
+        &["21:1: unknown field `analysis[0].feed_mm_per_min`"],
     );
-    assert_told(
+    assert_problems(
         "kind = \"again\"\nstep_mm = 1.0",
         "kind = \"again\"\nstep_mm = 0",
-        &["29:11: `ask[2].step_mm` is 0 mm: must be above 0 mm"],
+        &["29:11: `analysis[2].step_mm` is 0 mm: must be above 0 mm"],
     );
 }
 
 #[test]
 fn an_untagged_table_is_compared_with_the_table_among_its_alternatives() {
-    assert_told(
+    assert_problems(
         "speed = 3",
         "speed = { step_mm = 1.0, tilt = 3 }",
         &["6:26: unknown field `speed.tilt`"],
     );
-    assert_told(
+    assert_problems(
         "speed = 3",
         "speed = { step_mm = -1 }",
         &["6:21: `speed.step_mm` is -1 mm: must be above 0 mm"],
@@ -98,7 +98,7 @@ fn an_untagged_table_is_compared_with_the_table_among_its_alternatives() {
 
 #[test]
 fn a_type_that_contains_itself_is_checked_all_the_way_down() {
-    assert_told(
+    assert_problems(
         "step_mm = 5",
         "step_mm = 5\ninner = { step_mm = 1, inner = { step_mm = 'x' } }",
         &["11:44: `plane.inner.inner.step_mm`: expected a number in mm, found the string \"x\""],
@@ -114,7 +114,7 @@ fn the_fields_of_a_flattened_struct_and_enum_are_known() {
         #[serde(flatten)]
         plane: Plane,
         #[serde(flatten)]
-        ask: Ask,
+        analysis: Analysis,
     }
     let read = |text: &str| {
         Document::parse("a.toml", text)
@@ -123,13 +123,13 @@ fn the_fields_of_a_flattened_struct_and_enum_are_known() {
             .unwrap_err()
             .to_string()
     };
-    let problems = read("name = 'x'\nstep_mm = -1\nkind = 'map'\nlimit_um = 'y'\n");
+    let problems = read("name = 'x'\nstep_mm = -1\nkind = 'map'\ntolerance_um = 'y'\n");
     assert!(
         problems.contains("a.toml:2:11: `step_mm` is -1 mm: must be above 0 mm"),
         "{problems}"
     );
     assert!(
-        problems.contains("a.toml:4:12: `limit_um`: expected a number in um"),
+        problems.contains("a.toml:4:12: `tolerance_um`: expected a number in um"),
         "{problems}"
     );
 }

@@ -24,7 +24,7 @@ struct Study {
     plane: Plane,
     tool: Option<Tool>,
     #[serde(default)]
-    ask: Vec<Ask>,
+    analysis: Vec<Analysis>,
     #[serde(default)]
     limits_um: BTreeMap<String, f64>,
     #[serde(default)]
@@ -62,10 +62,10 @@ struct Tool {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 #[allow(dead_code, reason = "as above")]
-enum Ask {
+enum Analysis {
     /// A map of the plane.
     Map {
-        limit_um: f64,
+        tolerance_um: f64,
     },
     Path {
         feed_mm_per_min: f64,
@@ -108,16 +108,16 @@ name = "cutter"
 distances_mm = [1.0, 2.0]
 cooled = true
 
-[[ask]]
+[[analysis]]
 kind = "map"
-limit_um = 20
+tolerance_um = 20
 
-[[ask]]
+[[analysis]]
 kind = "path"
 feed_mm_per_min = 300.0
 points_mm = [[0, 0, 0], [1, 2, 3]]
 
-[[ask]]
+[[analysis]]
 kind = "again"
 step_mm = 1.0
 "#;
@@ -127,7 +127,7 @@ fn read(text: &str) -> Result<Study, Problems> {
 }
 
 /// The problems of [`GOOD`] with one piece of it replaced, as `line:column: message` and hint.
-fn told(old: &str, new: &str) -> Vec<(String, Option<String>)> {
+fn reported(old: &str, new: &str) -> Vec<(String, Option<String>)> {
     assert!(GOOD.contains(old), "the test replaces nothing");
     let problems = read(&GOOD.replacen(old, new, 1)).unwrap_err();
     problems
@@ -142,14 +142,14 @@ fn told(old: &str, new: &str) -> Vec<(String, Option<String>)> {
 }
 
 #[track_caller]
-fn assert_told(old: &str, new: &str, expected: &[&str]) {
-    let messages: Vec<String> = told(old, new).into_iter().map(|(message, _)| message).collect();
+fn assert_problems(old: &str, new: &str, expected: &[&str]) {
+    let messages: Vec<String> = reported(old, new).into_iter().map(|(message, _)| message).collect();
     assert_eq!(messages, expected);
 }
 
 #[track_caller]
 fn assert_hint(old: &str, new: &str, expected: &str) {
-    let problems = told(old, new);
+    let problems = reported(old, new);
     assert_eq!(problems.len(), 1, "{problems:?}");
     assert_eq!(problems[0].1.as_deref(), Some(expected));
 }

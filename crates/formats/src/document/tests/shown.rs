@@ -12,12 +12,12 @@ fn a_problem_of_the_caller_stands_at_its_value_or_the_nearest_parent() {
     };
     assert_eq!(place("plane.step_mm"), (10, 11, "5".to_owned()));
     assert_eq!(place("tool.distances_mm[1]"), (15, 22, "2.0".to_owned()));
-    assert_eq!(place("ask[1].points_mm[1][2]"), (25, 32, "3".to_owned()));
+    assert_eq!(place("analysis[1].points_mm[1][2]"), (25, 32, "3".to_owned()));
     assert_eq!(place("limits_um.\"EN AW-6082\""), (4, 30, "1e2".to_owned()));
-    assert_eq!(place("ask[1].speed"), (22, 1, "[[ask]]".to_owned()));
+    assert_eq!(place("analysis[1].speed"), (22, 1, "[[analysis]]".to_owned()));
     assert_eq!(place("plane.inner.step_mm"), (9, 1, "[plane]".to_owned()));
     assert_eq!(place("nowhere.at.all"), (1, 1, String::new()));
-    assert!(document.contains("ask[2].step_mm") && !document.contains("ask[3]"));
+    assert!(document.contains("analysis[2].step_mm") && !document.contains("analysis[3]"));
 }
 
 #[test]
@@ -37,7 +37,7 @@ error: study.toml:10:1: unknown field `plane.step`
 }
 
 #[test]
-fn of_a_file_that_may_not_be_quoted_only_the_number_of_problems_and_the_first_place_are_told() {
+fn of_a_file_that_may_not_be_quoted_only_the_number_of_problems_and_the_first_place_are_reported() {
     let source = |name: &str| Source::new(name, "one\nsecret\n");
     let problems: Problems = [
         source("a.toml").problem(0..3, "about one", None),
@@ -48,8 +48,8 @@ fn of_a_file_that_may_not_be_quoted_only_the_number_of_problems_and_the_first_pl
     ]
     .into_iter()
     .collect();
-    let told = problems.quoting_only(|file| file == "a.toml" || file == "d.toml");
-    let lines: Vec<String> = told.as_slice().iter().map(ToString::to_string).collect();
+    let given = problems.quoting_only(|file| file == "a.toml" || file == "d.toml");
+    let lines: Vec<String> = given.as_slice().iter().map(ToString::to_string).collect();
     let expected = [
         "a.toml:1:1: about one",
         "b.toml:1:1: the file has 2 problems, the first one here",
@@ -57,7 +57,7 @@ fn of_a_file_that_may_not_be_quoted_only_the_number_of_problems_and_the_first_pl
         "d.toml:1:1: about d",
     ];
     assert_eq!(lines, expected);
-    assert!(!told.to_string().contains("secret") && !told.to_json().to_string().contains("secret"));
+    assert!(!given.to_string().contains("secret") && !given.to_json().to_string().contains("secret"));
 }
 
 #[test]
@@ -77,7 +77,7 @@ fn the_place_shown_above_the_source_is_that_of_the_problem() {
 }
 
 #[test]
-fn colour_is_only_where_it_is_asked_for() {
+fn colour_is_only_where_it_is_requested() {
     let problems = read("").unwrap_err();
     assert!(!problems.to_string().contains('\u{1b}'));
     assert!(problems.in_colour().contains('\u{1b}'));

@@ -17,7 +17,7 @@ fn a_byte_order_mark_and_windows_line_ends_change_nothing() {
 }
 
 #[test]
-fn what_is_not_toml_is_told_line_by_line() {
+fn what_is_not_toml_is_reported_line_by_line() {
     let problems = Document::parse("a.toml", "x = 3 mm\ny = \nz = 1\nz = 2\n").unwrap_err();
     let lines: Vec<usize> = problems.as_slice().iter().map(Problem::line).collect();
     assert_eq!(lines, [1, 2, 4]);
@@ -32,20 +32,20 @@ fn what_is_not_toml_is_told_line_by_line() {
 }
 
 #[test]
-fn bytes_that_are_not_text_are_told_with_their_place() {
-    let told = |bytes: &[u8]| Document::from_bytes("a.toml", bytes).unwrap_err();
-    let problems = told(b"x = 1\ny = \"\xc3\xa4\xff\"\n");
+fn bytes_that_are_not_text_are_reported_with_their_place() {
+    let given = |bytes: &[u8]| Document::from_bytes("a.toml", bytes).unwrap_err();
+    let problems = given(b"x = 1\ny = \"\xc3\xa4\xff\"\n");
     assert_eq!(
         problems.as_slice()[0].to_string(),
         "a.toml:2:7: the byte 0xff is not UTF-8 text"
     );
-    let marked = told(b"\xef\xbb\xbfx = 1\ny = \"\xff\"\n");
+    let marked = given(b"\xef\xbb\xbfx = 1\ny = \"\xff\"\n");
     assert_eq!(
         (marked.as_slice()[0].line(), marked.as_slice()[0].column()),
         (2, 6)
     );
     assert!(
-        told(b"\xff\xfex\0=\0")
+        given(b"\xff\xfex\0=\0")
             .to_string()
             .contains("this file is UTF-16")
     );

@@ -27,7 +27,7 @@ use armill_core::measure::ballbar::{CircularTest, Direction, Run};
 
 use super::columns::{Column, Columns, HEADER_HINT};
 use super::remarks::Remarks;
-use super::{Recorded, Told, direction_of};
+use super::{BallbarRuns, BallbarReadOptions, direction_of};
 use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
 use crate::measurement::columns::measured;
@@ -45,9 +45,9 @@ const RADIANS: f64 = 6.5;
 /// # Errors
 /// Every problem of the file, at most 200: missing and double columns, cells that are no numbers or directions, rows of
 /// another length, a direction, a nominal radius or a start that nothing tells, runs that are too short or too many.
-pub fn read(path: &str, reader: impl BufRead, told: &Told) -> Result<Recorded, Problems> {
+pub fn read(path: &str, reader: impl BufRead, given: &BallbarReadOptions) -> Result<BallbarRuns, Problems> {
     let mut lines = Lines::new(path, reader);
-    let mut remarks = Remarks::beside(told);
+    let mut remarks = Remarks::beside(given);
     let mut problems = Vec::new();
     let mut table: Option<Table> = None;
     while problems.len() < MOST_PROBLEMS {
@@ -109,7 +109,7 @@ struct Group {
     /// Where a run without angles begins, rad.
     start: Option<f64>,
     /// Whether its numbers were told to be out of order.
-    told: bool,
+    given: bool,
     /// rad, or the number of the sample.
     angle: Vec<f64>,
     /// m: deviations, or radii.
@@ -203,7 +203,7 @@ impl Table {
         let Some(direction) = direction else {
             let hint = "a column `direction`, a line `# direction: CW` above, or the option --direction";
             return match self.groups.is_empty() && self.samples == 0 {
-                // Told once, not for every row.
+                // BallbarReadOptions once, not for every row.
                 true => {
                     self.samples = 1;
                     let message = "nothing tells which way round this was".to_owned();
@@ -274,7 +274,7 @@ impl Table {
                     key: (name.to_owned(), direction, part),
                     first: line.clone(),
                     start: remarks.start,
-                    told: false,
+                    given: false,
                     angle: Vec::new(),
                     radius: Vec::new(),
                 });
@@ -290,8 +290,8 @@ impl Table {
         group.radius.push(radius);
         match wrong {
             // Once a run.
-            Some((message, hint)) if !group.told => {
-                group.told = true;
+            Some((message, hint)) if !group.given => {
+                group.given = true;
                 Err(Refused::Row(vec![self.at(line, message, hint)]))
             }
             _ => Ok(()),
@@ -318,8 +318,8 @@ impl Table {
     }
 
     /// The runs, now that all rows are read; what they lack goes to `problems`.
-    fn finish(self, remarks: &Remarks, problems: &mut Vec<Problem>) -> Recorded {
-        let mut recorded = Recorded {
+    fn finish(self, remarks: &Remarks, problems: &mut Vec<Problem>) -> BallbarRuns {
+        let mut recorded = BallbarRuns {
             radius: remarks.radius,
             feed: remarks.feed,
             plane: remarks.plane.clone(),

@@ -23,7 +23,7 @@ pub use b5r::{Feature, Results};
 
 /// What a file does not tell, or what is told beside it.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Told {
+pub struct BallbarReadOptions {
     /// Nominal radius, m.
     pub radius: Option<f64>,
     /// Which way all runs went.
@@ -34,7 +34,7 @@ pub struct Told {
 
 /// Runs that a file holds.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Recorded {
+pub struct BallbarRuns {
     /// Nominal radius, m; none where only deviations are told.
     pub radius: Option<f64>,
     /// Speed along the circle, m/s.
@@ -53,9 +53,9 @@ pub struct Recorded {
 
 /// What a file holds.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Held {
+pub enum BallbarFile {
     /// Radii.
-    Runs(Recorded),
+    Runs(BallbarRuns),
     /// Results of another program.
     Results(Results),
 }
@@ -74,12 +74,12 @@ pub fn direction_of(word: &str) -> Option<Direction> {
 ///
 /// # Errors
 /// The problems of the file, those of [`csv::read`] or [`b5r::read`].
-pub fn read(path: &str, mut reader: impl BufRead, told: &Told) -> Result<Held, Problems> {
+pub fn read(path: &str, mut reader: impl BufRead, given: &BallbarReadOptions) -> Result<BallbarFile, Problems> {
     let head = reader.fill_buf().map_err(|error| unreadable(path, &error))?;
     let head = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head);
     let first = head.iter().find(|byte| !byte.is_ascii_whitespace());
     if first != Some(&b'<') {
-        return csv::read(path, reader, told).map(Held::Runs);
+        return csv::read(path, reader, given).map(BallbarFile::Runs);
     }
-    b5r::read(path, &xml::text_of(path, reader)?).map(Held::Results)
+    b5r::read(path, &xml::text_of(path, reader)?).map(BallbarFile::Results)
 }

@@ -11,7 +11,7 @@
 //!
 //! Other remarks are for people.
 
-use super::{Told, direction_of};
+use super::{BallbarReadOptions, direction_of};
 use armill_core::measure::ballbar::Direction;
 
 use crate::document::Problems;
@@ -41,15 +41,15 @@ pub(super) struct Remarks {
 
 impl Remarks {
     /// What is told beside the file.
-    pub fn beside(told: &Told) -> Remarks {
+    pub fn beside(given: &BallbarReadOptions) -> Remarks {
         Remarks {
-            radius: told.radius,
+            radius: given.radius,
             feed: None,
             plane: None,
-            direction: told.direction,
+            direction: given.direction,
             run: None,
-            start: told.start,
-            start_beside: told.start,
+            start: given.start,
+            start_beside: given.start,
             parts: 0,
         }
     }

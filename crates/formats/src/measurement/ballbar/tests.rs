@@ -24,20 +24,20 @@ fn rows(separator: char, direction: &str, run: &str) -> String {
 
 const NAMES: &str = "angle_deg,radius_dev_um,direction,run\n";
 
-fn read_as(text: &str, told: &Told) -> Result<Recorded, String> {
-    match read("bar.csv", text.as_bytes(), told) {
-        Ok(Held::Runs(recorded)) => Ok(recorded),
-        Ok(Held::Results(_)) => panic!("no results here"),
+fn read_as(text: &str, given: &BallbarReadOptions) -> Result<BallbarRuns, String> {
+    match read("bar.csv", text.as_bytes(), given) {
+        Ok(BallbarFile::Runs(recorded)) => Ok(recorded),
+        Ok(BallbarFile::Results(_)) => panic!("no results here"),
         Err(problems) => Err(problems.to_string()),
     }
 }
 
-fn recorded(text: &str) -> Recorded {
-    read_as(text, &Told::default()).unwrap_or_else(|problems| panic!("{problems}"))
+fn recorded(text: &str) -> BallbarRuns {
+    read_as(text, &BallbarReadOptions::default()).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
 fn problems(text: &str) -> String {
-    read_as(text, &Told::default()).unwrap_err()
+    read_as(text, &BallbarReadOptions::default()).unwrap_err()
 }
 
 #[test]
@@ -110,12 +110,12 @@ fn remarks_and_changes_of_direction_part_runs_without_names() {
 #[test]
 fn numbers_of_samples_are_angles_along_the_way_round() {
     let bare: String = (1..=36).fold(String::new(), |text, k| text + &format!("{k},2\n"));
-    let told = Told {
+    let given = BallbarReadOptions {
         direction: Some(Direction::Clockwise),
         start: Some(1.0),
         radius: None,
     };
-    let found = read_as(&format!("index,radius_dev_um\n{bare}"), &told).unwrap();
+    let found = read_as(&format!("index,radius_dev_um\n{bare}"), &given).unwrap();
     let angle = found.runs[0].angle();
     assert!((angle[0] - 1.0).abs() < 1e-12 && (angle[1] - 1.0 + TAU / 36.0).abs() < 1e-12);
     let unknown = problems(&format!("# direction: CW\nindex,radius_dev_um\n{bare}"));
@@ -139,14 +139,14 @@ fn each_run_of_numbered_samples_begins_where_the_line_above_it_says() {
         .collect();
     assert_eq!(starts, [0.0, 180.0, 90.0]);
     assert!((found.runs[0].angle()[1] + TAU / 36.0).abs() < 1e-12);
-    // Told beside, it is that of all runs.
-    let beside = Told {
+    // BallbarReadOptions beside, it is that of all runs.
+    let beside = BallbarReadOptions {
         start: Some(0.0),
         direction: Some(Direction::Clockwise),
         radius: None,
     };
-    let told = read_as(&format!("# start_deg: 90\nindex,radius_dev_um\n{bare}"), &beside).unwrap_err();
-    assert!(told.contains("another start was told before"), "{told}");
+    let given = read_as(&format!("# start_deg: 90\nindex,radius_dev_um\n{bare}"), &beside).unwrap_err();
+    assert!(given.contains("another start was told before"), "{given}");
     assert!(read_as(&format!("# start_deg: 0\nindex,radius_dev_um\n{bare}"), &beside).is_ok());
 }
 
@@ -154,9 +154,9 @@ fn each_run_of_numbered_samples_begins_where_the_line_above_it_says() {
 fn samples_that_are_not_numbered_one_by_one_are_refused() {
     let head = "# start_deg: 0\n# direction: CW\nindex,radius_dev_um\n";
     let tens: String = (0..36).fold(String::new(), |text, k| text + &format!("{},2\n", 10 * k));
-    let told = problems(&format!("{head}{tens}"));
-    assert!(told.contains("bar.csv:5:1: sample 10 follows sample 0"), "{told}");
-    assert_eq!(told.matches("follows sample").count(), 1, "once a run");
+    let given = problems(&format!("{head}{tens}"));
+    assert!(given.contains("bar.csv:5:1: sample 10 follows sample 0"), "{given}");
+    assert_eq!(given.matches("follows sample").count(), 1, "once a run");
     let halves: String = (0..36).fold(String::new(), |text, k| text + &format!("{k}.5,2\n"));
     assert!(problems(&format!("{head}{halves}")).contains("sample 0.5 is not a whole number"));
     let named = "# start_deg: 0\n# direction: CW\nindex,radius_dev_um,run\n0,1,a\n# start_deg: 5\n1,1,a\n";
@@ -166,32 +166,32 @@ fn samples_that_are_not_numbered_one_by_one_are_refused() {
 #[test]
 fn a_run_for_each_row_is_told_once() {
     let rows: String = (0..100_000).fold(String::new(), |text, k| text + &format!("{},1,CW,{k}\n", k % 360));
-    let told = problems(&format!("{NAMES}{rows}"));
-    assert!(told.contains("bar.csv:102:1: more than 100 runs"), "{told}");
-    assert_eq!(told.matches("error:").count(), 1, "{told}");
+    let given = problems(&format!("{NAMES}{rows}"));
+    assert!(given.contains("bar.csv:102:1: more than 100 runs"), "{given}");
+    assert_eq!(given.matches("error:").count(), 1, "{given}");
 }
 
 #[test]
 fn a_radius_that_no_test_has_is_told_at_its_cell() {
     let text = format!("# radius_mm: 100\n{NAMES}{}7,51000,CW,1\n", rows(',', "CW", "1"));
-    let told = problems(&text);
+    let given = problems(&text);
     assert!(
-        told.contains("bar.csv:75:3: the radius is off by 51 mm, more than half the nominal 100 mm"),
-        "{told}"
+        given.contains("bar.csv:75:3: the radius is off by 51 mm, more than half the nominal 100 mm"),
+        "{given}"
     );
 }
 
 #[test]
 fn everything_that_is_wrong_is_told_at_once_with_its_place() {
     let text = format!("{NAMES}{}5,x,CW,1\n6,7,left,1\n7,8,CW\n", rows(',', "CW", "1"));
-    let told = problems(&text);
+    let given = problems(&text);
     for part in [
         "bar.csv:74:3: `x` is not a number",
         "bar.csv:75:5: `left` is no direction",
         "bar.csv:76:1: 3 cells under 4 names",
         "decimal commas need `;`",
     ] {
-        assert!(told.contains(part), "no `{part}` in\n{told}");
+        assert!(given.contains(part), "no `{part}` in\n{given}");
     }
 }
 
@@ -261,21 +261,21 @@ fn what_is_wrong_is_told_with_what_to_do() {
             "`nan` is not a number",
         ),
     ] {
-        let told = problems(&text);
-        assert!(told.contains(part), "no `{part}` in\n{told}");
-        assert!(told.contains("help: "), "{told}");
+        let given = problems(&text);
+        assert!(given.contains(part), "no `{part}` in\n{given}");
+        assert!(given.contains("help: "), "{given}");
     }
-    let beside = Told {
+    let beside = BallbarReadOptions {
         radius: Some(0.15),
         direction: Some(Direction::Clockwise),
         start: None,
     };
-    let told = read_as(
+    let given = read_as(
         &format!("# radius_mm: 100\nangle_deg,radius_dev_um\n{bare}"),
         &beside,
     )
     .unwrap_err();
-    assert!(told.contains("another nominal radius was told before"), "{told}");
+    assert!(given.contains("another nominal radius was told before"), "{given}");
 }
 
 #[test]
@@ -293,18 +293,18 @@ const RESULTS: &str = "<?xml version='1.0'?><BALLBAR><TEST_SPEC NAME='XY 100mm'/
 
 #[test]
 fn results_of_a_bar_are_read_with_their_units() {
-    let Ok(Held::Results(found)) = read("a.b5r", RESULTS.as_bytes(), &Told::default()) else {
+    let Ok(BallbarFile::Results(found)) = read("a.b5r", RESULTS.as_bytes(), &BallbarReadOptions::default()) else {
         panic!("results are wanted");
     };
     assert_eq!(found.machine.as_deref(), Some("MH12"));
     assert_eq!(found.plane.as_deref(), Some("XY"));
-    let told: Vec<_> = found
+    let given: Vec<_> = found
         .features
         .iter()
         .map(|of| (of.name.as_str(), of.value, of.unit.as_str()))
         .collect();
     assert_eq!(
-        told,
+        given,
         [
             ("AF_CIRCULARITY", 96.4, "um"),
             ("AF_SQUARENESS", -120.5, "um/m"),
@@ -322,9 +322,9 @@ fn xml_that_is_no_result_is_refused_at_its_place() {
         ("<r><FEATURE DT='x'>1</FEATURE></r>", "has no attribute `NAME`"),
         ("<r><FEATURE NAME='x'>1e300</FEATURE></r>", "x is 1e300"),
     ] {
-        let told = read("a.b5r", text.as_bytes(), &Told::default())
+        let given = read("a.b5r", text.as_bytes(), &BallbarReadOptions::default())
             .unwrap_err()
             .to_string();
-        assert!(told.contains(part), "no `{part}` in\n{told}");
+        assert!(given.contains(part), "no `{part}` in\n{given}");
     }
 }

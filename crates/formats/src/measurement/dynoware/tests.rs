@@ -30,8 +30,8 @@ fn header(separator: &str, samples: usize) -> String {
     .concat()
 }
 
-fn export(text: &str) -> Result<Measured, Problems> {
-    read("a.txt", text.as_bytes(), ActsOn::Part, &Wanted::default())
+fn export(text: &str) -> Result<ForceRecords, Problems> {
+    read("a.txt", text.as_bytes(), ActsOn::Part, &ForceReadOptions::default())
 }
 
 fn problems(text: &str) -> String {
@@ -74,7 +74,7 @@ fn the_same_samples_with_every_separator_and_mark_are_the_same() {
             "\"Time\";\"Fx\";\"Fy\";\"Fz\";\ns;N;N;N;\n0;-0.0435965;1.5;0.25;\n0.00001;-0.05;12;-0.03125;\n",
         ),
     ] {
-        let found = export(&(header(separator, 2) + table)).unwrap_or_else(|told| panic!("{told}"));
+        let found = export(&(header(separator, 2) + table)).unwrap_or_else(|given| panic!("{given}"));
         for (a, b) in found.records[0].force().iter().zip(first.records[0].force()) {
             assert!((a - b).norm() < 1e-15, "{table}");
         }
@@ -95,8 +95,8 @@ fn a_value_without_fraction_makes_commas_ambiguous() {
         "0,000000,-0.5,5,1,5,0,25\n0,000010,-0,5,1,5,0,25\n",
         "0,000000,-0,5,1,5,0,25\n0,000010,-0,5,,5,0,25\n",
     ] {
-        let told = problems(&format!("{head}Time,Fx,Fy,Fz\ns,N,N,N\n{rows}"));
-        assert!(told.contains("export with tab or semicolon"), "{rows}: {told}");
+        let given = problems(&format!("{head}Time,Fx,Fy,Fz\ns,N,N,N\n{rows}"));
+        assert!(given.contains("export with tab or semicolon"), "{rows}: {given}");
     }
 }
 
@@ -121,7 +121,7 @@ fn any_numbers_written_with_commas_come_back_or_are_refused_but_never_become_oth
                 assert_eq!(pattern, 63, "only where every number has its fraction");
                 assert_eq!(found.records[0].force()[1], Vector3::new(10.5, 11.5, 12.5));
             }
-            Err(told) => assert!(pattern != 63, "{told}"),
+            Err(given) => assert!(pattern != 63, "{given}"),
         }
     }
 }
@@ -144,16 +144,16 @@ fn further_cycles_are_records_of_their_own() {
 fn channels_may_have_other_names_and_more_of_them_are_listed() {
     let text = header(";", 2)
         + "Time;Kraft1;Kraft2;Kraft3;AE;Mx;My;Mz\ns;N;N;N;V;Nm;Nm;N.m\n0;1;2;3;9;4;5;6\n1;1;2;3;9;4;5;6\n";
-    let told = problems(&text);
+    let given = problems(&text);
     assert!(
-        told.contains("missing channels: `Fx`, `Fy`, `Fz`") && told.contains("Kraft1, Kraft2"),
-        "{told}"
+        given.contains("missing channels: `Fx`, `Fy`, `Fz`") && given.contains("Kraft1, Kraft2"),
+        "{given}"
     );
-    let wanted = Wanted {
+    let expected = ForceReadOptions {
         channels: Some(["kraft1", "kraft2", "kraft3"].map(str::to_owned).to_vec()),
-        ..Wanted::default()
+        ..ForceReadOptions::default()
     };
-    let found = read("a.txt", text.as_bytes(), ActsOn::Tool, &wanted).unwrap();
+    let found = read("a.txt", text.as_bytes(), ActsOn::Tool, &expected).unwrap();
     assert_eq!(found.unused, ["AE"]);
     assert_eq!(found.records[0].moment().unwrap()[1], Vector3::new(4.0, 5.0, 6.0));
 }
@@ -189,9 +189,9 @@ fn what_is_wrong_is_told_with_its_place() {
             "ends after 1 samples, but its header tells 2",
         ),
     ] {
-        let told = problems(&format!("{head}{table}"));
-        assert!(told.contains(part), "{table}: {told}");
-        assert!(told.contains("help: "), "{told}");
+        let given = problems(&format!("{head}{table}"));
+        assert!(given.contains(part), "{table}: {given}");
+        assert!(given.contains("help: "), "{given}");
     }
     let three = header("\t", 3) + "Time\tFx\tFy\tFz\ns\tN\tN\tN\n0\t1\t2\t3\n1\t1\t2\t3\n5\t1\t2\t3\n";
     assert!(problems(&three).contains("equal steps are needed"));
@@ -204,11 +204,11 @@ fn all_problems_are_told_at_once_and_a_cycle_with_one_is_not_judged_further() {
     let rows = "0\t1\t2\t3\n1\tx\t2\t3\n2\t1\t2\n3\t1\t2\t3\n";
     let text = header("\t", 4) + "Time\tFx\tFy\tFz\ns\tN\tN\tN\n" + rows;
     let again = "Cycle No:\t2\n0\t1\t2\t3\n1\t1\t2\t3\n";
-    let told = export(&format!("{text}{again}")).unwrap_err();
-    let lines: Vec<usize> = told.as_slice().iter().map(Problem::line).collect();
+    let given = export(&format!("{text}{again}")).unwrap_err();
+    let lines: Vec<usize> = given.as_slice().iter().map(Problem::line).collect();
     assert_eq!(lines, [22, 23, 27], "two cells, and a second cycle of 2 samples");
     assert!(
-        told.as_slice()[2]
+        given.as_slice()[2]
             .message()
             .starts_with("cycle 2 ends after 2 samples")
     );

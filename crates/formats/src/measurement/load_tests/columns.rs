@@ -140,8 +140,8 @@ impl Columns {
     }
 
     /// Whether a column is of this kind.
-    fn has(&self, wanted: impl Fn(Column) -> bool) -> bool {
-        self.columns.iter().flatten().any(|column| wanted(*column))
+    fn has(&self, requested: impl Fn(Column) -> bool) -> bool {
+        self.columns.iter().flatten().any(|column| requested(*column))
     }
 
     /// What no column tells, and what to add.

@@ -77,53 +77,53 @@ fn a_turn_of_one_link_is_read_with_its_joint() {
 
 #[test]
 fn missing_columns_are_named_all_at_once() {
-    let told = problems("A1_deg,note\n10,x\n");
+    let given = problems("A1_deg,note\n10,x\n");
     for part in [
         "tests.csv:1:1: missing joint positions: `A2_deg`, `Z_mm`",
         "missing forces",
         "missing readings",
     ] {
-        assert!(told.contains(part), "{told}");
+        assert!(given.contains(part), "{given}");
     }
 }
 
 #[test]
 fn unknown_and_double_columns_are_told_with_what_was_meant() {
-    let told = problems("A1,A2_deg,q2_rad,Z_mm,fz_n,dz_mm,colour\n1,2,3,4,5,6,7\n");
+    let given = problems("A1,A2_deg,q2_rad,Z_mm,fz_n,dz_mm,colour\n1,2,3,4,5,6,7\n");
     assert!(
-        told.contains("1:1: unknown column `A1`") && told.contains("angles carry their unit: write `a1_deg`"),
-        "{told}"
+        given.contains("1:1: unknown column `A1`") && given.contains("angles carry their unit: write `a1_deg`"),
+        "{given}"
     );
     assert!(
-        told.contains("1:11: `q2_rad` tells what `A2_deg` tells"),
-        "{told}"
+        given.contains("1:11: `q2_rad` tells what `A2_deg` tells"),
+        "{given}"
     );
-    assert!(told.contains("unknown column `colour`"), "{told}");
+    assert!(given.contains("unknown column `colour`"), "{given}");
 }
 
 #[test]
 fn cells_that_are_no_numbers_are_told_with_line_and_column() {
-    let told =
+    let given =
         problems("A1_deg,A2_deg,Z_mm,fz_n,dz_mm\n10,20,0,-98.1 N,0.1\n,20,0,nan,0.1\n10,20,0,-98,1,0,2\n");
     assert!(
-        told.contains("tests.csv:2:9: `-98.1 N` is not a number"),
-        "{told}"
+        given.contains("tests.csv:2:9: `-98.1 N` is not a number"),
+        "{given}"
     );
-    assert!(told.contains("tests.csv:3:1: no position of joint A1"), "{told}");
+    assert!(given.contains("tests.csv:3:1: no position of joint A1"), "{given}");
     assert!(
-        told.contains("tests.csv:3:7: `nan` is not a number from"),
-        "{told}"
+        given.contains("tests.csv:3:7: `nan` is not a number from"),
+        "{given}"
     );
     assert!(
-        told.contains("tests.csv:4:1: 7 cells in a table of 5 columns"),
-        "{told}"
+        given.contains("tests.csv:4:1: 7 cells in a table of 5 columns"),
+        "{given}"
     );
-    assert!(told.contains("decimal commas need `;`"), "{told}");
+    assert!(given.contains("decimal commas need `;`"), "{given}");
 }
 
 #[test]
 fn uncertainties_and_weights_that_cannot_be_are_told() {
-    let told = problems(
+    let given = problems(
         "A1_deg,A2_deg,Z_mm,fz_n,dz_mm,d_u_mm,weight\n10,20,0,-98,0.1,1e-10,1\n10,20,0,-98,0.1,2000,1e7\n\
          10,20,0,-98,0.1,-1,0\n",
     );
@@ -134,7 +134,7 @@ fn uncertainties_and_weights_that_cannot_be_are_told() {
         "4:17: `-1` is not above 0",
         "4:20: `0` is not above 0",
     ] {
-        assert!(told.contains(part), "{told}");
+        assert!(given.contains(part), "{given}");
     }
 }
 
@@ -147,36 +147,36 @@ fn latin_letters_and_lone_carriage_returns_are_read() {
 
 #[test]
 fn degrees_called_radians_and_radians_called_degrees_are_seen() {
-    let told = problems("A1_rad,A2_rad,Z_mm,fz_n,dz_mm\n90,20,0,-98,0.1\n-45,30,0,-98,0.1\n");
+    let given = problems("A1_rad,A2_rad,Z_mm,fz_n,dz_mm\n90,20,0,-98,0.1\n-45,30,0,-98,0.1\n");
     assert!(
-        told.contains("`A1_rad` holds 90 rad") && told.contains("call the column `A1_deg`"),
-        "{told}"
+        given.contains("`A1_rad` holds 90 rad") && given.contains("call the column `A1_deg`"),
+        "{given}"
     );
-    let told = problems("A1_deg,A2_deg,Z_mm,fz_n,dz_mm\n1.57,0.3,0,-98,0.1\n-0.7,0.5,0,-98,0.1\n");
+    let given = problems("A1_deg,A2_deg,Z_mm,fz_n,dz_mm\n1.57,0.3,0,-98,0.1\n-0.7,0.5,0,-98,0.1\n");
     assert!(
-        told.contains("no joint is further than 1.57 deg") && told.contains("radians?"),
-        "{told}"
+        given.contains("no joint is further than 1.57 deg") && given.contains("radians?"),
+        "{given}"
     );
 }
 
 #[test]
 fn a_posture_outside_the_limits_is_told_with_value_limit_and_unit() {
-    let told = problems("A1_deg,A2_deg,Z_mm,fz_n,dz_mm\n175,20,900,-98,0.1\n");
+    let given = problems("A1_deg,A2_deg,Z_mm,fz_n,dz_mm\n175,20,900,-98,0.1\n");
     assert!(
-        told.contains("joint A1 at 175.0 deg is outside its limits -170.0 to 170.0 deg"),
-        "{told}"
+        given.contains("joint A1 at 175.0 deg is outside its limits -170.0 to 170.0 deg"),
+        "{given}"
     );
     assert!(
-        told.contains("joint Z at 900.0 mm is outside its limits -800.0 to 800.0 mm"),
-        "{told}"
+        given.contains("joint Z at 900.0 mm is outside its limits -800.0 to 800.0 mm"),
+        "{given}"
     );
 }
 
 #[test]
 fn files_without_a_table_or_a_reading_are_refused() {
     assert!(problems("# nothing\n\n").contains("no table in this file"));
-    let told = problems("A1_deg,A2_deg,Z_mm,fz_n,dz_mm\n10,20,0,-98,\n");
-    assert!(told.contains("none of the 1 rows holds a reading"), "{told}");
+    let given = problems("A1_deg,A2_deg,Z_mm,fz_n,dz_mm\n10,20,0,-98,\n");
+    assert!(given.contains("none of the 1 rows holds a reading"), "{given}");
 }
 
 #[test]
@@ -200,11 +200,11 @@ fn a_table_that_is_wrong_everywhere_is_not_told_in_full() {
     let wide = "x,".repeat(200) + "x\n1\n";
     assert!(problems(&wide).contains("more than 200 columns"));
     let long = format!("A1_deg,A2_deg,Z_mm,fz_n,dz_mm\n{}", "a,b,c,d,e\n".repeat(5000));
-    let told = table(&long).unwrap_err();
+    let given = table(&long).unwrap_err();
     // One row may bring several beyond the thousand.
     assert!(
-        (1000..1010).contains(&told.as_slice().len()),
+        (1000..1010).contains(&given.as_slice().len()),
         "{}",
-        told.as_slice().len()
+        given.as_slice().len()
     );
 }

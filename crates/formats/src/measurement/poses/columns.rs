@@ -28,7 +28,7 @@ pub struct Mapping {
 
 /// A text that is no mapping.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("a column is mapped by OURS=THEIRS, such as x_mm=Measured X")]
+#[error("a column is mapped by OURS=THEIRS, such as x_mm=MeasuredPoses X")]
 pub struct NoMapping;
 
 impl FromStr for Mapping {
@@ -52,7 +52,7 @@ pub(super) enum Quantity {
     /// Of the joint with this index, turning or sliding.
     Joint(usize),
     /// Measured along x, y, z: 0, 1, 2; turned: 3, 4, 5.
-    Measured(usize),
+    MeasuredPoses(usize),
     /// Commanded, likewise.
     Commanded(usize),
     /// Name of the commanded pose.
@@ -78,7 +78,7 @@ impl Quantity {
     pub fn turns(self, robot: &Robot) -> bool {
         match self {
             Quantity::Joint(joint) => matches!(robot.chain().links()[joint].motion, Motion::About(..)),
-            Quantity::Measured(component) | Quantity::Commanded(component) => component > 2,
+            Quantity::MeasuredPoses(component) | Quantity::Commanded(component) => component > 2,
             Quantity::Pose | Quantity::Direction => false,
         }
     }
@@ -87,7 +87,7 @@ impl Quantity {
     pub fn name(self, robot: &Robot) -> String {
         match self {
             Quantity::Joint(joint) => robot.joints()[joint].name.clone(),
-            Quantity::Measured(component) => COMPONENTS[component].to_owned(),
+            Quantity::MeasuredPoses(component) => COMPONENTS[component].to_owned(),
             Quantity::Commanded(component) => format!("commanded_{}", COMPONENTS[component]),
             Quantity::Pose => "pose".to_owned(),
             Quantity::Direction => "direction".to_owned(),
@@ -98,7 +98,7 @@ impl Quantity {
     fn of_name(name: &str, robot: &Robot) -> Option<Quantity> {
         let component = |name: &str| COMPONENTS.iter().position(|component| *component == name);
         if let Some(found) = component(name) {
-            return Some(Quantity::Measured(found));
+            return Some(Quantity::MeasuredPoses(found));
         }
         if let Some(commanded) = name.strip_prefix("commanded_") {
             return component(commanded).map(Quantity::Commanded);
@@ -196,17 +196,17 @@ pub(super) fn named(name: &str, robot: &Robot) -> Result<Option<Column>, (String
 /// Columns that are missing, by name; nothing if poses can be made of them.
 pub(super) fn missing(columns: &[Option<Column>], robot: &Robot) -> Vec<String> {
     let has = |quantity: Quantity| columns.iter().flatten().any(|column| column.quantity == quantity);
-    let mut wanted: Vec<Quantity> = (0..robot.joints().len()).map(Quantity::Joint).collect();
-    wanted.extend((0..3).map(Quantity::Measured));
-    for kind in [Quantity::Measured, Quantity::Commanded] {
+    let mut requested: Vec<Quantity> = (0..robot.joints().len()).map(Quantity::Joint).collect();
+    requested.extend((0..3).map(Quantity::MeasuredPoses));
+    for kind in [Quantity::MeasuredPoses, Quantity::Commanded] {
         if (3..6).any(|component| has(kind(component))) {
-            wanted.extend((3..6).map(kind));
+            requested.extend((3..6).map(kind));
         }
     }
     if (0..6).any(|component| has(Quantity::Commanded(component))) {
-        wanted.extend((0..3).map(Quantity::Commanded));
+        requested.extend((0..3).map(Quantity::Commanded));
     }
-    let absent = wanted.into_iter().filter(|quantity| !has(*quantity));
+    let absent = requested.into_iter().filter(|quantity| !has(*quantity));
     absent
         .map(|quantity| {
             let unit = if quantity.turns(robot) { "deg" } else { "mm" };

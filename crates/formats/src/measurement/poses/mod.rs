@@ -9,4 +9,4 @@ mod columns;
 pub mod table;
 
 pub use self::columns::{Mapping, NoMapping};
-pub use self::table::{Measured, Told, TurnOrder, read};
+pub use self::table::{MeasuredPoses, PoseReadOptions, TurnOrder, read};

@@ -41,7 +41,7 @@ pub enum TurnOrder {
 
 /// What a file does not tell.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Told {
+pub struct PoseReadOptions {
     /// Columns of other names.
     pub columns: Vec<Mapping>,
     /// Of measured angles; without it they are about fixed axes, and in the data set of Landgraf et al. about moving ones.
@@ -51,7 +51,7 @@ pub struct Told {
 
 /// What a file held.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Measured {
+pub struct MeasuredPoses {
     /// In the order of the file.
     pub poses: Vec<MeasuredPose>,
     /// Line of each, from 1.
@@ -87,13 +87,13 @@ impl TurnOrder {
 /// # Errors
 /// Every problem of the file, at most 200: columns that are missing, double or mapped in vain, units that are missing or
 /// unknown, cells that are no numbers, rows of another length, angles and lengths that no arm has.
-pub fn read(path: &str, reader: impl BufRead, robot: &Robot, told: &Told) -> Result<Measured, Problems> {
+pub fn read(path: &str, reader: impl BufRead, robot: &Robot, given: &PoseReadOptions) -> Result<MeasuredPoses, Problems> {
     let mut lines = Lines::new(path, reader);
     let Some(first) = lines.next_row()? else {
         return Err(Problem::of_file(path, "no poses in this file", COLUMNS_HINT).into());
     };
-    let table = Table::of(path, &first, robot, told)?;
-    let mut measured = Measured {
+    let table = Table::of(path, &first, robot, given)?;
+    let mut measured = MeasuredPoses {
         poses: Vec::new(),
         lines: Vec::new(),
         commanded: table.has(Quantity::Commanded(0)).then(Vec::new),
@@ -144,7 +144,7 @@ struct Table<'a> {
 
 impl<'a> Table<'a> {
     /// From the line of names.
-    fn of(path: &'a str, line: &Line, robot: &'a Robot, told: &Told) -> Result<Table<'a>, Problems> {
+    fn of(path: &'a str, line: &Line, robot: &'a Robot, given: &PoseReadOptions) -> Result<Table<'a>, Problems> {
         let separator = separator_of(&line.text);
         let whole = 0..line.text.len();
         let found = cells(&line.text, separator);
@@ -156,7 +156,7 @@ impl<'a> Table<'a> {
         });
         let (mut columns, mut unused, mut problems) = (Vec::new(), Vec::new(), Vec::new());
         for cell in &found {
-            let mapped = told.columns.iter().find(|mapping| mapping.theirs == cell.text);
+            let mapped = given.columns.iter().find(|mapping| mapping.theirs == cell.text);
             let name = match mapped {
                 Some(mapping) => &mapping.ours,
                 None => match of_data_set(&cell.text).filter(|_| is_data_set) {
@@ -188,7 +188,7 @@ impl<'a> Table<'a> {
             }
             columns.push(column);
         }
-        for mapping in &told.columns {
+        for mapping in &given.columns {
             if found.iter().all(|cell| cell.text != mapping.theirs) {
                 let message = format!("no column is called `{}`", mapping.theirs);
                 let hint = format!("it was mapped to `{}`", mapping.ours);
@@ -205,7 +205,7 @@ impl<'a> Table<'a> {
         Ok(Table {
             path,
             robot,
-            turns: told.turns.unwrap_or(match is_data_set {
+            turns: given.turns.unwrap_or(match is_data_set {
                 true => TurnOrder::MovingXyz,
                 false => TurnOrder::FixedXyz,
             }),
@@ -223,7 +223,7 @@ impl<'a> Table<'a> {
     }
 
     /// Takes a row; nothing of one with a problem.
-    fn row(&self, line: &Line, measured: &mut Measured) -> Result<(), Problems> {
+    fn row(&self, line: &Line, measured: &mut MeasuredPoses) -> Result<(), Problems> {
         let found = cells(&line.text, self.separator);
         if found.len() != self.columns.len() {
             let message = format!(
@@ -241,7 +241,7 @@ impl<'a> Table<'a> {
             let both = found.iter().zip(&self.columns);
             both.filter_map(|(cell, column)| Some((cell, (*column)?)))
         };
-        let of_point = |quantity| matches!(quantity, Quantity::Measured(_));
+        let of_point = |quantity| matches!(quantity, Quantity::MeasuredPoses(_));
         if meant().all(|(cell, column)| !of_point(column.quantity) || cell.text.is_empty()) {
             measured.not_measured += 1;
             return Ok(());
@@ -259,7 +259,7 @@ impl<'a> Table<'a> {
             };
             match column.quantity {
                 Quantity::Joint(joint) => joints[joint] = value,
-                Quantity::Measured(component) => point[component] = value,
+                Quantity::MeasuredPoses(component) => point[component] = value,
                 Quantity::Commanded(component) => commanded[component] = value,
                 Quantity::Pose | Quantity::Direction => {}
             }
@@ -270,7 +270,7 @@ impl<'a> Table<'a> {
             joints,
             position: Vector3::new(x, y, z),
             rotation: self
-                .has(Quantity::Measured(3))
+                .has(Quantity::MeasuredPoses(3))
                 .then(|| self.turns.rotation(angles)),
         });
         measured.lines.push(line.number);

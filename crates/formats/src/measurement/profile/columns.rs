@@ -12,7 +12,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use super::Wanted;
+use super::ProfileReadOptions;
 
 /// No coordinate is larger, m: what [`armill_core::roundness::Profile`] takes.
 const FARTHEST: f64 = 1e6;
@@ -183,14 +183,14 @@ impl Layout {
     /// # Errors
     /// Columns that make no point, or more than one; a radius that is missing, idle or not above 0: what is wrong, and
     /// what to do.
-    pub fn of(columns: &[Quantity], wanted: &Wanted) -> Result<Layout, (String, &'static str)> {
+    pub fn of(columns: &[Quantity], requested: &ProfileReadOptions) -> Result<Layout, (String, &'static str)> {
         let has = IN_ORDER.map(|quantity| columns.contains(&quantity));
         let layout = match has {
             [true, true, false, false, false, false] => Layout::Plane,
             [true, true, true, false, false, false] => Layout::Space,
             [false, false, false, true, true, false] => Layout::Polar,
             [false, false, false, true, false, true] => {
-                let Some(radius_mm) = wanted.radius_mm.or(wanted.else_radius_mm) else {
+                let Some(radius_mm) = requested.radius_mm.or(requested.else_radius_mm) else {
                     let message = "deviations need the radius that they are told from".to_owned();
                     return Err((message, "tell it (option `radius_mm`)"));
                 };
@@ -205,7 +205,7 @@ impl Layout {
                 return Err((message, COLUMNS_HINT));
             }
         };
-        match wanted.radius_mm {
+        match requested.radius_mm {
             Some(radius_mm) => {
                 let message =
                     format!("a radius of {radius_mm} mm was told, but no column holds deviations from it");

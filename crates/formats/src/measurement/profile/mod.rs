@@ -43,7 +43,7 @@ impl Format {
 
 /// What a file does not tell.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Wanted {
+pub struct ProfileReadOptions {
     /// The radius that deviations are told from, mm.
     pub radius_mm: Option<f64>,
     /// The same where deviations are told and nothing else is known, mm.
@@ -63,7 +63,7 @@ pub enum Points {
 
 /// What a file held.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Measured {
+pub struct MeasuredProfile {
     /// Its format.
     pub format: Format,
     /// The points, in order.
@@ -100,7 +100,7 @@ impl Points {
 /// # Errors
 /// Every problem of the file, at most 200. Of a QIF file: the circles that it holds in place of points, for it tells no
 /// points that were measured.
-pub fn read(path: &str, mut reader: impl BufRead, wanted: &Wanted) -> Result<Measured, Problems> {
+pub fn read(path: &str, mut reader: impl BufRead, requested: &ProfileReadOptions) -> Result<MeasuredProfile, Problems> {
     let head = reader.fill_buf().map_err(|error| unreadable(path, &error))?;
     let head = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head);
     if head.iter().find(|byte| !byte.is_ascii_whitespace()) == Some(&b'<') {
@@ -109,8 +109,8 @@ pub fn read(path: &str, mut reader: impl BufRead, wanted: &Wanted) -> Result<Mea
     let mut lines = Lines::new(path, reader);
     match lines.next_row()? {
         None => Err(Problem::of_file(path, "no points in this file", COLUMNS_HINT).into()),
-        Some(first) if begins_with_number(&first.text) => plain::read((first, lines), wanted),
-        Some(first) => table::read((first, lines), wanted),
+        Some(first) if begins_with_number(&first.text) => plain::read((first, lines), requested),
+        Some(first) => table::read((first, lines), requested),
     }
 }
 
@@ -127,9 +127,9 @@ mod tests {
 
     #[test]
     fn the_format_is_seen_in_the_first_line_that_is_no_remark() {
-        let wanted = Wanted {
+        let requested = ProfileReadOptions {
             unit: Some(LengthUnit::Millimetre),
-            ..Wanted::default()
+            ..ProfileReadOptions::default()
         };
         let remarks = "# by hand, with much to say\n".repeat(10_000);
         for (text, format) in [
@@ -142,17 +142,17 @@ mod tests {
             ("<?xml version=\"1.0\"?>\n", None),
             ("\u{feff}\n <QIFDocument>", None),
         ] {
-            let told = match format {
-                Some(Format::Plain) => wanted,
-                _ => Wanted::default(),
+            let given = match format {
+                Some(Format::Plain) => requested,
+                _ => ProfileReadOptions::default(),
             };
-            match (read("f", text.as_bytes(), &told), format) {
+            match (read("f", text.as_bytes(), &given), format) {
                 (Ok(measured), Some(format)) => assert_eq!(measured.format, format),
                 (Err(problems), None) => assert!(problems.to_string().contains("not XML"), "{problems}"),
                 (found, _) => panic!("{found:?}"),
             }
         }
-        let empty = read("f", "# nothing\n".as_bytes(), &wanted).unwrap_err();
+        let empty = read("f", "# nothing\n".as_bytes(), &requested).unwrap_err();
         assert!(empty.to_string().contains("no points in this file"));
     }
 }

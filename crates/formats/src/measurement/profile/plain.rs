@@ -13,7 +13,7 @@ use std::io::BufRead;
 
 use super::columns::Layout;
 use super::table::too_many;
-use super::{Format, MOST_POINTS, Measured, Points, Wanted};
+use super::{Format, MOST_POINTS, MeasuredProfile, Points, ProfileReadOptions};
 use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
 use crate::table::sheet::number;
@@ -25,16 +25,16 @@ use crate::table::sheet::number;
 /// count of rows than the first line tells, coordinates that no part has.
 pub(super) fn read(
     (mut line, mut lines): (Line, Lines<impl BufRead>),
-    wanted: &Wanted,
-) -> Result<Measured, Problems> {
+    requested: &ProfileReadOptions,
+) -> Result<MeasuredProfile, Problems> {
     let path = &lines.name().to_owned();
     let mut problems = Vec::new();
-    let factor = wanted.unit.map_or(1.0, super::LengthUnit::factor);
-    if wanted.unit.is_none() {
+    let factor = requested.unit.map_or(1.0, super::LengthUnit::factor);
+    if requested.unit.is_none() {
         let message = "nothing tells the unit of these numbers";
         problems.push(line.problem(path, 0..line.text.len(), message, UNIT_HINT));
     }
-    if let Some(radius_mm) = wanted.radius_mm {
+    if let Some(radius_mm) = requested.radius_mm {
         let message = format!("a radius of {radius_mm} mm was told, but these are coordinates");
         problems.push(line.problem(path, 0..line.text.len(), message, "leave the radius out"));
     }
@@ -58,7 +58,7 @@ pub(super) fn read(
             return Err(problems.into());
         }
     };
-    let mut measured = Measured {
+    let mut measured = MeasuredProfile {
         format: Format::Plain,
         points: match layout.is_space() {
             true => Points::Space(Vec::new()),
@@ -161,13 +161,13 @@ mod tests {
     use super::super::LengthUnit;
     use super::*;
 
-    fn read_in(unit: Option<LengthUnit>, text: &str) -> Result<Measured, String> {
-        let wanted = Wanted {
+    fn read_in(unit: Option<LengthUnit>, text: &str) -> Result<MeasuredProfile, String> {
+        let requested = ProfileReadOptions {
             radius_mm: None,
             else_radius_mm: None,
             unit,
         };
-        super::super::read("cir.ds", text.as_bytes(), &wanted).map_err(|problems| problems.to_string())
+        super::super::read("cir.ds", text.as_bytes(), &requested).map_err(|problems| problems.to_string())
     }
 
     #[test]
@@ -216,17 +216,17 @@ mod tests {
             (mm, "1 2 3\n1 2 inf\n", "2:5: `inf` is not a number"),
             (mm, "1 2 3\n1 2 1e300\n", "2:1: a coordinate of"),
         ] {
-            let told = read_in(unit, text).unwrap_err();
-            assert!(told.contains(part) && told.contains("help: "), "{text}: {told}");
+            let given = read_in(unit, text).unwrap_err();
+            assert!(given.contains(part) && given.contains("help: "), "{text}: {given}");
         }
-        let told = read_in(None, "9\n1 2 3\n1 x 3\n1 2\n").unwrap_err();
+        let given = read_in(None, "9\n1 2 3\n1 x 3\n1 2\n").unwrap_err();
         for part in [
             "nothing tells the unit",
             "9 points are announced, but 3",
             "3:3",
             "4:1",
         ] {
-            assert!(told.contains(part), "{part}: {told}");
+            assert!(given.contains(part), "{part}: {given}");
         }
     }
 }

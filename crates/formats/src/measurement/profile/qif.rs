@@ -51,11 +51,11 @@ pub(super) fn refusal(path: &str, reader: impl Read) -> Problems {
         0 => "this QIF file holds neither points nor circles".to_owned(),
         1 => format!(
             "this QIF file holds a circle, but no points of it: {}",
-            told(&found)
+            reported(&found)
         ),
         count => format!(
             "this QIF file holds {count} circles, but no points of them: {}",
-            told(&found)
+            reported(&found)
         ),
     };
     Problem::of_file(
@@ -113,7 +113,7 @@ fn unit(source: &Source, document: &Document<'_>) -> Result<f64, Problems> {
         .and_then(|conversion| children(conversion, "Factor").next());
     let Some(factor) = factor else { return Ok(1.0) };
     match numbers::<1>(factor) {
-        Some([told]) if told > 0.0 => Ok(told),
+        Some([reported]) if reported > 0.0 => Ok(reported),
         _ => {
             let message = "the factor of the unit of length is no number above 0";
             let hint = "0.001 for mm".to_owned();
@@ -146,7 +146,7 @@ fn numbers<const N: usize>(node: Node<'_, '_>) -> Option<[f64; N]> {
 }
 
 /// Circles in words.
-fn told(circles: &[ActualCircle]) -> String {
+fn reported(circles: &[ActualCircle]) -> String {
     let one = |circle: &ActualCircle| {
         let mut words = vec![circle.name.clone()];
         words.extend(circle.diameter.map(|d| format!("diameter {:.4} mm", d * 1e3)));
@@ -197,11 +197,11 @@ mod tests {
 
     #[test]
     fn results_without_points_are_refused_with_what_they_hold() {
-        let told = refusal("r.qif", RESULTS.as_bytes()).to_string();
-        assert!(told.contains("2 circles, but no points of them: BORE diameter 19.0070 mm at (1.0000, 2.5000, -3.0000) mm form 12.00 um"), "{told}");
-        assert!(told.contains("export them as a table"));
-        let told = refusal("r.qif", "<QIFDocument/>".as_bytes()).to_string();
-        assert!(told.contains("neither points nor circles"));
+        let reported = refusal("r.qif", RESULTS.as_bytes()).to_string();
+        assert!(reported.contains("2 circles, but no points of them: BORE diameter 19.0070 mm at (1.0000, 2.5000, -3.0000) mm form 12.00 um"), "{reported}");
+        assert!(reported.contains("export them as a table"));
+        let reported = refusal("r.qif", "<QIFDocument/>".as_bytes()).to_string();
+        assert!(reported.contains("neither points nor circles"));
     }
 
     #[test]
@@ -211,8 +211,8 @@ mod tests {
             ("<QIFDocument>", "not XML"),
             (&RESULTS.replace(">0.001<", ">-1<"), "no number above 0"),
         ] {
-            let told = refusal("r.qif", text.as_bytes()).to_string();
-            assert!(told.contains(part), "{told}");
+            let reported = refusal("r.qif", text.as_bytes()).to_string();
+            assert!(reported.contains(part), "{reported}");
         }
     }
 }

@@ -12,7 +12,7 @@
 use std::io::BufRead;
 
 use super::columns::{COLUMNS_HINT, Column, Layout, Quantity, named};
-use super::{Format, MOST_POINTS, Measured, Points, Wanted};
+use super::{Format, MOST_POINTS, MeasuredProfile, Points, ProfileReadOptions};
 use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
 use crate::table::sheet::{cells, is_blank_row, number, separator_of};
@@ -24,11 +24,11 @@ use crate::table::sheet::{cells, is_blank_row, number, separator_of};
 /// cells that are no numbers, rows of another length, points that no profile has.
 pub(super) fn read(
     (first, mut lines): (Line, Lines<impl BufRead>),
-    wanted: &Wanted,
-) -> Result<Measured, Problems> {
+    requested: &ProfileReadOptions,
+) -> Result<MeasuredProfile, Problems> {
     let path = &lines.name().to_owned();
-    let table = Table::of(path, &first, wanted)?;
-    let mut measured = Measured {
+    let table = Table::of(path, &first, requested)?;
+    let mut measured = MeasuredProfile {
         format: Format::Table,
         points: match table.layout.is_space() {
             true => Points::Space(Vec::new()),
@@ -84,7 +84,7 @@ struct Table<'a> {
 
 impl<'a> Table<'a> {
     /// From the line of names.
-    fn of(path: &'a str, line: &Line, wanted: &Wanted) -> Result<Table<'a>, Problems> {
+    fn of(path: &'a str, line: &Line, requested: &ProfileReadOptions) -> Result<Table<'a>, Problems> {
         let whole = 0..line.text.len();
         let separator = separator_of(&line.text);
         let (mut columns, mut unused, mut problems) = (Vec::new(), Vec::new(), Vec::new());
@@ -105,14 +105,14 @@ impl<'a> Table<'a> {
             }
             columns.push(column);
         }
-        if let Some(unit) = wanted.unit {
+        if let Some(unit) = requested.unit {
             let message = format!("the unit {unit} was told, but columns name theirs");
             problems.push(line.problem(path, whole.clone(), message, "leave the unit out"));
         }
         // What is wrong with a name is wrong with what its columns make, too.
         Problems::from(problems).into_result()?;
         let quantities: Vec<Quantity> = columns.iter().flatten().map(|c: &Column| c.quantity).collect();
-        let layout = Layout::of(&quantities, wanted)
+        let layout = Layout::of(&quantities, requested)
             .map_err(|(message, hint)| line.problem(path, whole, message, hint))?;
         Ok(Table {
             path,
@@ -155,8 +155,8 @@ impl<'a> Table<'a> {
             }
         }
         Problems::from(problems).into_result()?;
-        let value = |wanted: Quantity| {
-            let found = values.iter().find(|(quantity, _)| *quantity == wanted);
+        let value = |requested: Quantity| {
+            let found = values.iter().find(|(quantity, _)| *quantity == requested);
             found.map_or(0.0, |(_, value)| *value)
         };
         self.layout.point(value).map_err(|(quantity, message)| {
@@ -179,13 +179,13 @@ mod tests {
 
     use super::*;
 
-    fn read_with(text: &str, radius_mm: Option<f64>) -> Result<Measured, String> {
-        let wanted = Wanted {
+    fn read_with(text: &str, radius_mm: Option<f64>) -> Result<MeasuredProfile, String> {
+        let requested = ProfileReadOptions {
             radius_mm,
             else_radius_mm: None,
             unit: None,
         };
-        super::super::read("bore.csv", text.as_bytes(), &wanted).map_err(|problems| problems.to_string())
+        super::super::read("bore.csv", text.as_bytes(), &requested).map_err(|problems| problems.to_string())
     }
 
     fn plane(text: &str) -> Vec<Point2<f64>> {
@@ -291,25 +291,25 @@ mod tests {
                 "no column holds deviations from it",
             ),
         ] {
-            let told = read_with(text, radius_mm).unwrap_err();
-            assert!(told.contains(part) && told.contains("help: "), "{text}: {told}");
+            let given = read_with(text, radius_mm).unwrap_err();
+            assert!(given.contains(part) && given.contains("help: "), "{text}: {given}");
         }
-        let unit = Wanted {
+        let unit = ProfileReadOptions {
             radius_mm: None,
             else_radius_mm: None,
             unit: Some(super::super::LengthUnit::Inch),
         };
-        let told = super::super::read("f", "x_mm,y_mm\n1,2\n".as_bytes(), &unit)
+        let given = super::super::read("f", "x_mm,y_mm\n1,2\n".as_bytes(), &unit)
             .unwrap_err()
             .to_string();
-        assert!(told.contains("the unit in was told"), "{told}");
+        assert!(given.contains("the unit in was told"), "{given}");
     }
 
     #[test]
     fn all_problems_are_told_at_once() {
-        let told = read_with("x_mm,y_mm\na,b\n1,2\n3\n4,c\n", None).unwrap_err();
+        let given = read_with("x_mm,y_mm\na,b\n1,2\n3\n4,c\n", None).unwrap_err();
         for place in ["2:1", "2:3", "4:1", "5:3"] {
-            assert!(told.contains(&format!("bore.csv:{place}:")), "{told}");
+            assert!(given.contains(&format!("bore.csv:{place}:")), "{given}");
         }
     }
 }

@@ -30,7 +30,7 @@ const PLACES: usize = 8;
 /// The file that comes out has been read once more, so that it is one that `read` takes.
 ///
 /// # Errors
-/// A text that is not TOML, or no robot file once the motions stand in it.
+/// A text that is not TOML, or no robot file once the motions are in it.
 pub fn with_geometry(path: &str, text: &str, geometry: &Geometry) -> Result<String, Problems> {
     let checked = Document::parse(path, text)?;
     let mut document: DocumentMut = text
@@ -68,14 +68,14 @@ pub fn with_geometry(path: &str, text: &str, geometry: &Geometry) -> Result<Stri
 fn nominal_source(document: &DocumentMut) -> Option<String> {
     let key = document.get("chain")?.get("source")?.as_str()?;
     let source = document.get("sources")?.get(key)?;
-    let told = |field| source.get(field).and_then(Item::as_str);
+    let given = |field| source.get(field).and_then(Item::as_str);
     match key {
-        // Calibrated once more: what was told then tells the nominal lengths too.
-        KEY => told("what").map(str::to_owned),
+        // Calibrated once more: what was reported then tells the nominal lengths too.
+        KEY => given("what").map(str::to_owned),
         _ => Some(format!(
             "lengths and angles: {} ({})",
-            told("what")?,
-            told("where")?
+            given("what")?,
+            given("where")?
         )),
     }
 }
@@ -113,7 +113,7 @@ fn table(motion: &Motion) -> InlineTable {
     };
     let mut table = InlineTable::new();
     table.insert(word, axis.letter().to_string().into());
-    // Written so that it comes back as it stands here.
+    // Written so that it comes back unchanged here.
     let rounded: f64 = format!("{by:.PLACES$}").parse().unwrap_or(by);
     table.insert(field, (rounded + 0.0).into());
     table.insert("symbol", KEY.into());

@@ -6,7 +6,7 @@
 //!
 //! - The chain names every joint once, in the order of `[[joint]]`; names differ.
 //! - A motion is `along` or `about` an axis, by exactly one of length, angle and joint.
-//! - What turns is told in degrees, what slides in mm; a coupling names an earlier joint.
+//! - What turns is reported in degrees, what slides in mm; a coupling names an earlier joint.
 //! - All joints have a compliance, or none has: one left out is not taken for rigid. A compliance has a source.
 //!
 //! In SI: m, rad, rad/(N m), m/N; speeds in m/s and rad/s.
@@ -34,7 +34,7 @@ impl Checks<'_> {
 
     /// The chain, base to flange; every joint moves once, in the order of the tables.
     ///
-    /// That a joint never moves is told only where nothing else is wrong: a motion that was refused may have been its
+    /// That a joint never moves is reported only where nothing else is wrong: a motion that was refused may have been its
     /// own.
     pub(super) fn motions(&mut self, file: &RobotFile) -> Vec<Motion> {
         let mut motions = Vec::new();
@@ -56,7 +56,7 @@ impl Checks<'_> {
 
     /// One motion of the chain; `used` joints have moved before it.
     ///
-    /// `None` where it is refused; the problem then stands at `path`.
+    /// `None` where it is refused; the problem then is at `path`.
     fn motion(
         &mut self,
         path: &str,
@@ -168,9 +168,9 @@ impl Checks<'_> {
         joints
     }
 
-    /// A turning joint is told in degrees, a sliding one in millimetres.
+    /// A turning joint is reported in degrees, a sliding one in millimetres.
     ///
-    /// Decided by the motion that names the joint; a joint that no motion names is told as such elsewhere.
+    /// Decided by the motion that names the joint; a joint that no motion names is reported as such elsewhere.
     fn units(&mut self, path: &str, entry: &JointEntry, motions: &[MotionEntry]) {
         let motion = motions
             .iter()
@@ -288,7 +288,7 @@ impl Checks<'_> {
         let mut known = Vec::new();
         for (index, entry) in file.joint.iter().enumerate() {
             let path = format!("joint[{index}]");
-            // Where a torque curve stands in place of a compliance, its slope without load is told for it.
+            // Where a torque curve is in place of a compliance, its slope without load is reported for it.
             let points = entry.torque_curve_n_m_rad.clone();
             let curve = points.and_then(|points| TorqueCurve::new(points).ok());
             let value = entry.compliance();
@@ -319,7 +319,7 @@ impl Checks<'_> {
         (known.len() == file.joint.len()).then_some(known)
     }
 
-    /// The branch that stands for the robot where none is asked for.
+    /// The branch that represents the robot where none is requested.
     ///
     /// Front and elbow up where the file does not say.
     pub(super) fn nominal(&mut self, file: &RobotFile) -> BranchPattern {

@@ -1,4 +1,4 @@
-//! The robot file as it stands: its tables and keys.
+//! The robot file unchanged: its tables and keys.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -18,7 +18,7 @@ pub(super) struct RobotFile {
     pub name: String,
     /// What a user should know before trusting the numbers.
     pub note: Option<String>,
-    /// Branch that stands for the robot where none is asked for, such as `front elbow-up`.
+    /// Branch that represents the robot where none is requested, such as `front elbow-up`.
     pub nominal_branch: Option<String>,
     /// Elementary motions from base to flange.
     pub chain: ChainTable,
@@ -37,7 +37,7 @@ pub(super) struct RobotFile {
     #[schemars(length(max = 1000))]
     #[serde(default)]
     pub mass: Vec<MassTable>,
-    /// The spring that holds a joint against gravity.
+    /// The spring that contains a joint against gravity.
     pub compensator: Option<CompensatorTable>,
     /// Covariance of compliances that were identified together.
     pub covariance: Option<CovarianceTable>,
@@ -144,7 +144,7 @@ pub(super) struct JointEntry {
     #[schemars(range(min = 0.0, max = 100.0))]
     pub backlash_u_mm: Option<f64>,
     /// What decides on which flank the link lies; `motion` if left out.
-    pub backlash_flank: Option<FlankName>,
+    pub backlash_side: Option<BacklashSideName>,
     /// Key of the source of the backlash.
     pub backlash_source: Option<String>,
     /// Limits by other sources; told to the user, never enforced.
@@ -155,7 +155,7 @@ pub(super) struct JointEntry {
 /// What decides on which flank of its gap a link lies.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub(super) enum FlankName {
+pub(super) enum BacklashSideName {
     /// Friction: the link lags behind the motor.
     Motion,
     /// The torque of load and gravity on the link.
@@ -169,7 +169,7 @@ impl JointEntry {
         self.compliance_rad_per_n_m.or(sliding)
     }
 
-    /// Its standard uncertainty, same unit; zero where none is told.
+    /// Its standard uncertainty, same unit; zero where none is reported.
     pub(super) fn compliance_uncertainty(&self) -> f64 {
         let sliding = self.compliance_u_um_per_n.map(|um| um * 1e-6);
         self.compliance_u_rad_per_n_m.or(sliding).unwrap_or(0.0)

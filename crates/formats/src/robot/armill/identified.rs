@@ -9,7 +9,7 @@ use armill_core::robot::Axis;
 use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, Value, value};
 
 use crate::document::{Document, Problems};
-use crate::robot::spring_tables::Yields;
+use crate::robot::spring_tables::SpringKind;
 use crate::sources;
 
 /// What was identified of an arm.
@@ -33,7 +33,7 @@ pub struct IdentifiedSpring {
     /// `base`, a joint's name, or `flange`.
     pub at: String,
     /// How it yields there.
-    pub yields: Yields,
+    pub kind: SpringKind,
     /// rad/(N m), or m/N where it slides.
     pub compliance: f64,
     /// Standard uncertainty, same unit.
@@ -43,7 +43,7 @@ pub struct IdentifiedSpring {
 impl IdentifiedSpring {
     /// Whether its compliance is in rad/(N m), else m/N.
     fn turns(&self) -> bool {
-        matches!(self.yields, Yields::Drive | Yields::About(_))
+        matches!(self.kind, SpringKind::Drive | SpringKind::About(_))
     }
 }
 
@@ -63,8 +63,8 @@ const DIGITS: usize = 7;
 /// read once more, so that it is one that `read` takes.
 ///
 /// # Errors
-/// A text that is not TOML; what no robot file may say once the compliances stand in it, as when some joints have one
-/// and others have none: such problems stand at their place in the new text, told as that of `path (identified)`.
+/// A text that is not TOML; what no robot file may say once the compliances are in it, as when some joints have one
+/// and others have none: such problems are at their place in the new text, told as that of `path (identified)`.
 pub fn with_springs(path: &str, text: &str, identified: &Identified) -> Result<String, Problems> {
     let Identified {
         springs,
@@ -95,9 +95,9 @@ pub fn with_springs(path: &str, text: &str, identified: &Identified) -> Result<S
     let mut others = ArrayOfTables::new();
     for spring in springs {
         match spring.yields {
-            Yields::About(axis) => others.push(spring_table(spring, "about", axis)),
-            Yields::Along(axis) => others.push(spring_table(spring, "along", axis)),
-            Yields::Drive | Yields::SlidingDrive => {}
+            SpringKind::About(axis) => others.push(spring_table(spring, "about", axis)),
+            SpringKind::Along(axis) => others.push(spring_table(spring, "along", axis)),
+            SpringKind::Drive | SpringKind::PrismaticDrive => {}
         }
     }
     if !others.is_empty() {
@@ -157,7 +157,7 @@ fn set_drive(joint: &mut Table, springs: &[IdentifiedSpring]) {
         .unwrap_or_default()
         .to_owned();
     let drive = |spring: &&IdentifiedSpring| {
-        spring.at == name && matches!(spring.yields, Yields::Drive | Yields::SlidingDrive)
+        spring.at == name && matches!(spring.kind, SpringKind::Drive | SpringKind::PrismaticDrive)
     };
     let Some(spring) = springs.iter().find(drive) else {
         return;
@@ -208,7 +208,7 @@ fn covariance_table<'a>(
         "of",
         value(
             springs
-                .map(|spring| spring.yields.name_at(&spring.at))
+                .map(|spring| spring.kind.name_at(&spring.at))
                 .collect::<Array>(),
         ),
     );
@@ -243,10 +243,10 @@ mod tests {
         [sources.drawing]\nwhat = \"lengths\"\nwhere = \"here\"\nlicence = \"ours\"\n\n\
         [sources.guess]\nwhat = \"a guess\"\nwhere = \"nowhere\"\nlicence = \"ours\"\n";
 
-    fn spring(at: &str, yields: Yields, compliance: f64) -> IdentifiedSpring {
+    fn spring(at: &str, kind: SpringKind, compliance: f64) -> IdentifiedSpring {
         IdentifiedSpring {
             at: at.to_owned(),
-            yields,
+            kind,
             compliance,
             standard_uncertainty: 0.1 * compliance,
         }
@@ -265,8 +265,8 @@ mod tests {
     #[test]
     fn drives_are_replaced_and_the_file_reads_with_them() {
         let springs = [
-            spring("A", Yields::Drive, 2.5e-6),
-            spring("B", Yields::SlidingDrive, 3e-8),
+            spring("A", SpringKind::Drive, 2.5e-6),
+            spring("B", SpringKind::PrismaticDrive, 3e-8),
         ];
         let text = with_springs("lever.toml", FILE, &identified(&springs, &[])).unwrap();
         assert!(
@@ -292,8 +292,8 @@ mod tests {
     #[test]
     fn a_model_error_replaces_the_one_before_and_goes_where_none_is_known() {
         let drives = [
-            spring("A", Yields::Drive, 2.5e-6),
-            spring("B", Yields::SlidingDrive, 3e-8),
+            spring("A", SpringKind::Drive, 2.5e-6),
+            spring("B", SpringKind::PrismaticDrive, 3e-8),
         ];
         let of = |text: &str, model_error| {
             let found = Identified {
@@ -327,8 +327,8 @@ mod tests {
             "{ about = \"x\", joint = \"B\" }",
         );
         let springs = [
-            spring("A", Yields::Drive, 2.5e-6),
-            spring("B", Yields::Drive, 3e-6),
+            spring("A", SpringKind::Drive, 2.5e-6),
+            spring("B", SpringKind::Drive, 3e-6),
         ];
         let known = identified(&springs, &[[1e-14, 4e-15], [4e-15, 9e-14]]);
         let text = with_springs("lever.toml", &two, &known).unwrap();
@@ -341,9 +341,9 @@ mod tests {
     #[test]
     fn other_springs_stand_in_tables_of_their_own_with_their_covariance() {
         let springs = [
-            spring("A", Yields::Drive, 2.5e-6),
-            spring("A", Yields::About(Axis::X), 1e-7),
-            spring("flange", Yields::Along(Axis::Z), 2e-8),
+            spring("A", SpringKind::Drive, 2.5e-6),
+            spring("A", SpringKind::About(Axis::X), 1e-7),
+            spring("flange", SpringKind::Along(Axis::Z), 2e-8),
         ];
         let known = identified(&springs, &[[1e-14, -2e-16], [-2e-16, 1e-16]]);
         let text = with_springs("lever.toml", FILE, &known).unwrap();
@@ -365,8 +365,8 @@ mod tests {
         assert!((read.robot.structure().springs[1].compliance.value - 2e-8).abs() < 1e-14);
         // Identified once more, nothing of the first time is left.
         let drives = [
-            spring("A", Yields::Drive, 1e-6),
-            spring("B", Yields::SlidingDrive, 3e-8),
+            spring("A", SpringKind::Drive, 1e-6),
+            spring("B", SpringKind::PrismaticDrive, 3e-8),
         ];
         let again = with_springs("lever.toml", &text, &identified(&drives, &[])).unwrap();
         assert!(
@@ -379,7 +379,7 @@ mod tests {
     fn a_torque_curve_goes_with_the_compliance_that_it_stood_for() {
         let curves = "torque_curve_n_m_rad = [[0, 0], [10, 1e-5]]\ntorque_curve_falling_n_m_rad = [[0, 0], [10, 2e-5]]";
         let curved = FILE.replace("compliance_rad_per_n_m = 1e-3", curves);
-        let springs = [spring("A", Yields::Drive, 2.5e-6)];
+        let springs = [spring("A", SpringKind::Drive, 2.5e-6)];
         let text = with_springs("lever.toml", &curved, &identified(&springs, &[])).unwrap();
         assert!(!text.contains("torque_curve"), "{text}");
         let robot = super::super::read("lever.toml", "lever", &text).unwrap().robot;
@@ -400,7 +400,7 @@ mod tests {
 "#;
         let inline = FILE[..start].replace("format = 1\n", &format!("format = 1\n{joints}")) + &FILE[end..];
         let inline = inline.split("[sources.guess]").next().unwrap();
-        let springs = [spring("B", Yields::SlidingDrive, 3e-8)];
+        let springs = [spring("B", SpringKind::PrismaticDrive, 3e-8)];
         let text = with_springs("lever.toml", inline, &identified(&springs, &[])).unwrap();
         let robot = super::super::read("lever.toml", "lever", &text).unwrap().robot;
         assert!(
@@ -418,12 +418,12 @@ mod tests {
             )
             .replace("compliance_um_per_n = 1\ncompliance_source = \"guess\"\n", "");
         let bare = bare.split("[sources.guess]").next().unwrap();
-        let springs = [spring("A", Yields::Drive, 2.5e-6)];
+        let springs = [spring("A", SpringKind::Drive, 2.5e-6)];
         let problems = with_springs("lever.toml", bare, &identified(&springs, &[])).unwrap_err();
-        let told = problems.to_string();
+        let given = problems.to_string();
         assert!(
-            told.contains("lever.toml (identified):") && told.contains("1 of 2 joints have a compliance"),
-            "{told}"
+            given.contains("lever.toml (identified):") && given.contains("1 of 2 joints have a compliance"),
+            "{given}"
         );
     }
 }

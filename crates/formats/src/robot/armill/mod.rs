@@ -3,7 +3,7 @@
 //! Lengths in mm, angles in degrees, compliances in rad/(N m); a sliding joint uses mm and um/N instead. What yields
 //! and weighs beside the drives (springs, masses, compensator, torque curves, covariance) is read by `structure`.
 //!
-//! In reading order: `file` (the file as it stands), `checks` (what no schema can say, and SI), `structure`; `write` (a
+//! In reading order: `file` (the file unchanged), `checks` (what no schema can say, and SI), `structure`; `write` (a
 //! robot of another format as such a file), `identified` (such a file with compliances that were identified),
 //! `calibrated` (with small motions that were).
 //!

@@ -6,11 +6,11 @@
 //! others stay independent, with their own standard uncertainty.
 
 use armill_core::nalgebra::DMatrix;
-use armill_core::robot::{Backlash, Compensator, Flank, JointCurve, Structure, TorqueCurve};
+use armill_core::robot::{Backlash, Compensator, BacklashSide, JointCurve, Structure, TorqueCurve};
 use armill_core::source::repeatability;
 
 use super::checks::Checks;
-use super::file::{CovarianceTable, FlankName, JointEntry, RobotFile};
+use super::file::{CovarianceTable, BacklashSideName, JointEntry, RobotFile};
 use crate::robot::spring_tables::Fault;
 
 impl Checks<'_> {
@@ -55,7 +55,7 @@ impl Checks<'_> {
         structure
     }
 
-    /// Keeps what is wrong with a spring or mass that stands at `table`.
+    /// Keeps what is wrong with a spring or mass that is at `table`.
     fn fault(&mut self, table: &str, fault: &Fault) {
         self.problem(&fault.path_in(table), &fault.message, &fault.hint);
     }
@@ -96,7 +96,7 @@ impl Checks<'_> {
         let path = format!("joint[{joint}]");
         let uncertainty = entry.backlash_u_deg.or(entry.backlash_u_mm);
         let Some([gap, standard_uncertainty]) = entry.backlash() else {
-            if uncertainty.is_some() || entry.backlash_flank.is_some() || entry.backlash_source.is_some() {
+            if uncertainty.is_some() || entry.backlash_side.is_some() || entry.backlash_source.is_some() {
                 let message = format!(
                     "joint {}: something is said of a backlash that is not there",
                     entry.name
@@ -112,9 +112,9 @@ impl Checks<'_> {
         Some(Backlash {
             gap,
             standard_uncertainty,
-            flank: match entry.backlash_flank {
-                Some(FlankName::Torque) => Flank::Torque,
-                Some(FlankName::Motion) | None => Flank::Motion,
+            side: match entry.backlash_side {
+                Some(BacklashSideName::Torque) => BacklashSide::Torque,
+                Some(BacklashSideName::Motion) | None => BacklashSide::Motion,
             },
         })
     }

@@ -54,7 +54,7 @@ fn lengths_angles_signs_zeros_and_couplings_arrive_in_si() {
 }
 
 #[test]
-fn every_problem_is_told_at_once_with_its_place() {
+fn every_problem_is_reported_at_once_with_its_place() {
     let broken = SMALL
         .replace("limits_deg = [-100, 120]", "limits_deg = [120, -100]")
         .replace("joint = \"B\" }", "joint = \"C\" }")
@@ -198,16 +198,16 @@ fn structured(from: &str, to: &str) -> Result<RobotDescription, Problems> {
 
 #[test]
 fn springs_masses_compensator_and_covariance_arrive_in_si() {
-    use armill_core::robot::Seat;
+    use armill_core::robot::Attachment;
     let robot = structured("", "").unwrap().robot;
     let s = robot.structure();
     // One about, one along, and the four directions in which the matrix yields.
     assert_eq!(s.springs.len(), 6);
-    assert_eq!(s.springs[0].seat, Seat::Joint(0));
+    assert_eq!(s.springs[0].attachment, Attachment::Joint(0));
     assert_eq!(s.springs[0].direction.angular, Vector3::x());
     assert_eq!(s.springs[0].compliance.standard_uncertainty, 1e-8);
     assert_eq!(s.springs[1].compliance.value, 0.02 * 1e-6);
-    assert!(s.springs[2..].iter().all(|spring| spring.seat == Seat::Base));
+    assert!(s.springs[2..].iter().all(|spring| spring.attachment == Attachment::Base));
     assert_eq!(s.masses[0].mass, 12.5);
     assert!((s.masses[0].centre.z + 0.05).abs() < 1e-17);
     let compensator = s.compensator.unwrap();
@@ -272,19 +272,19 @@ fn backlash_is_read_in_the_unit_of_its_joint_and_needs_a_source() {
     let of_a = sourced("backlash_deg = 0.018\nbacklash_u_deg = 0.0018\nbacklash_flank = \"torque\"");
     let robot = with(&of_a, &sourced("backlash_mm = 0.05")).unwrap().robot;
     let gaps: Vec<_> = robot.structure().gaps().map(|(_, backlash)| *backlash).collect();
-    assert_eq!(gaps[0].flank, armill_core::robot::Flank::Torque);
-    assert_eq!(gaps[1].flank, armill_core::robot::Flank::Motion);
-    let told = [
+    assert_eq!(gaps[0].side, armill_core::robot::BacklashSide::Torque);
+    assert_eq!(gaps[1].side, armill_core::robot::BacklashSide::Motion);
+    let given = [
         gaps[0].gap,
         gaps[0].standard_uncertainty,
         gaps[1].gap,
         gaps[1].standard_uncertainty,
     ];
-    for (told, meant) in told
+    for (given, meant) in given
         .into_iter()
         .zip([0.018_f64.to_radians(), 0.0018_f64.to_radians(), 5e-5, 0.0])
     {
-        assert!((told - meant).abs() < 1e-18, "{told} {meant}");
+        assert!((given - meant).abs() < 1e-18, "{given} {meant}");
     }
     assert!(
         read("lever.toml", "lever", SMALL)

@@ -4,7 +4,7 @@
 //! 1e-15 m and rad, limits and speeds within 1e-9.
 //!
 //! Order: comments on origin, what was assumed and what is missing; `format`, `name`, `nominal_branch`, `note`;
-//! `[chain]`; a `[[joint]]` each; a `[[frame]]` each; `[sources]`. Keys that a user has to fill in stand in comments.
+//! `[chain]`; a `[[joint]]` each; a `[[frame]]` each; `[sources]`. Keys that a user has to fill in are in comments.
 
 use armill_core::frame::{Isometry, fixed_angles};
 use armill_core::robot::{Amount, Joint, Motion};
@@ -54,7 +54,7 @@ fn line(text: &mut String, content: &str) {
 
 /// Comments on what was assumed and what is missing, and the fields of the file as a whole.
 ///
-/// What a foreign file says may hold any character, so it is brought onto one line before it goes into a comment.
+/// What a foreign file says may contain any character, so it is brought onto one line before it goes into a comment.
 fn head(text: &mut String, found: &RobotDescription) {
     let robot = &found.robot;
     let place = found.sources.first().map_or("", |source| source.place.as_str());
@@ -144,7 +144,7 @@ fn chain(text: &mut String, found: &RobotDescription) {
     line(text, "]");
 }
 
-/// A table `[[joint]]`; what is not known stands in comments, ready to be filled in.
+/// A table `[[joint]]`; what is not known is in comments, ready to be filled in.
 fn joint(text: &mut String, found: &RobotDescription, index: usize) {
     let Some(joint) = found.robot.joints().get(index) else {
         return;
@@ -183,7 +183,7 @@ fn joint(text: &mut String, found: &RobotDescription, index: usize) {
             // Limits that lie closer together than what is kept are written in full.
             let [lower, upper] = match ends(RANGE) {
                 [lower, upper] if lower == upper => ends(0.0),
-                told => told,
+                given => given,
             };
             line(text, &format!("limits_{unit} = [{lower}, {upper}]"));
         }

@@ -24,7 +24,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Where it stands, in bytes of the text.
+    /// Its position, in bytes of the text.
     pub fn at(&self) -> usize {
         self.at
     }
@@ -34,16 +34,16 @@ impl<'a> Cursor<'a> {
         self.text.get(self.at..self.end).unwrap_or_default()
     }
 
-    /// The character it stands at; `None` at the end.
+    /// The character it is at; `None` at the end.
     pub fn peek(&self) -> Option<char> {
         self.rest().chars().next()
     }
 
     /// Steps over `wanted` if it stands here.
-    pub fn take(&mut self, wanted: char) -> bool {
-        let here = self.peek() == Some(wanted);
+    pub fn take(&mut self, requested: char) -> bool {
+        let here = self.peek() == Some(requested);
         if here {
-            self.at += wanted.len_utf8();
+            self.at += requested.len_utf8();
         }
         here
     }

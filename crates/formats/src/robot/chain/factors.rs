@@ -65,7 +65,7 @@ pub(super) struct Factor {
     pub place: Range<usize>,
 }
 
-/// What stands in the brackets.
+/// What is in the brackets.
 #[derive(Debug, Default)]
 pub(super) struct Argument {
     /// mm or deg.
@@ -76,7 +76,7 @@ pub(super) struct Argument {
     pub symbol: Option<String>,
 }
 
-/// More problems than this are not told: what is no chain at all has one in every word.
+/// More problems than this are not told: what is not a chain at all has one in every word.
 const MOST_PROBLEMS: usize = 20;
 
 /// How a chain is written.
@@ -102,7 +102,7 @@ pub(super) fn read(file: &Source) -> Result<Vec<Factor>, Problems> {
         let range = start..start + content.len();
         start += line.len();
         match content.split_once('=') {
-            // `A = A3(H) A6(phi) ...`: what stands before is the name of the whole.
+            // `A = A3(H) A6(phi) ...`: what precedes is the name of the whole.
             Some((before, after)) if after.contains('(') => {
                 products.push(range.start + before.len() + 1..range.end);
             }
@@ -158,7 +158,7 @@ fn definition<'a>(name: &'a str, value: &str) -> Option<(&'a str, f64)> {
     whole.then_some((name, value))
 }
 
-/// The factor that begins where the cursor stands, which then stands behind it.
+/// The factor that begins where the cursor stands, which then follows it.
 fn factor(file: &Source, cursor: &mut Cursor<'_>, symbols: &Symbols<'_>) -> Result<Factor, Problems> {
     let start = cursor.at();
     let word = cursor.while_of(|c| !c.is_whitespace() && c != '(' && c != ')');

@@ -31,7 +31,7 @@ use crate::document::{Problems, Source};
 /// Joints are in the order of the chain; they have no limits, no speeds and no compliance, which no chain tells.
 ///
 /// # Errors
-/// What is no factor, a length without value, a joint that moves twice, no joint at all.
+/// What is not a factor, a length without value, a joint that moves twice, no joint at all.
 pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Problems> {
     let file = Source::new(path, text);
     let factors = factors::read(&file)?;

@@ -87,7 +87,7 @@ fn a_length_without_value_is_no_slide() {
 }
 
 #[test]
-fn every_word_that_is_no_factor_is_told() {
+fn every_word_that_is_no_factor_is_reported() {
     let text = refusal("Tz(450) Rw(q1) Tx 155 Ry(q2 Tz(q2*3) A7(1) Rz(q1+q2) Rz() Rz(q9) Rx(q9) Tx(1e9)");
     for words in [
         "`Rw` is no elementary motion",
@@ -106,16 +106,16 @@ fn every_word_that_is_no_factor_is_told() {
 }
 
 #[test]
-fn a_second_sign_is_told_rather_than_dropped() {
+fn a_second_sign_is_reported_rather_than_dropped() {
     for (text, place) in [
         ("Rz(q1--90)", "a.chain:1:7:"),
         ("Rz(q1) Tz(--5)", "a.chain:1:12:"),
         ("Rz(q1 + -90)", "a.chain:1:9:"),
     ] {
-        let told = refusal(text);
+        let given = refusal(text);
         assert!(
-            told.contains(place) && told.contains("no number, joint or symbol stands here"),
-            "{told}"
+            given.contains(place) && given.contains("no number, joint or symbol stands here"),
+            "{given}"
         );
     }
 }

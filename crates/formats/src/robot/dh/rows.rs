@@ -87,7 +87,7 @@ const COLUMNS: &str = "columns: a_mm, alpha_deg, d_mm, theta_deg (or _m, _rad); 
 /// The rows of the table.
 ///
 /// # Errors
-/// Every column that is unknown, missing or without unit; then every cell that holds something else.
+/// Every column that is unknown, missing or without unit; then every cell that contains something else.
 pub(super) fn read(file: &Source, table: &Table) -> Result<Vec<Row>, Problems> {
     let mut problems = Vec::new();
     let mut seen = BTreeSet::new();
@@ -260,7 +260,7 @@ impl RowReader<'_> {
     /// The number below the column of a quantity, in SI; zero where there is no such column.
     ///
     /// # Errors
-    /// As of [`Self::si`]; an angle beyond a turn, which no robot file may hold.
+    /// As of [`Self::si`]; an angle beyond a turn, which no robot file may contain.
     fn value(&self, of: &str) -> Result<f64, Problems> {
         let Some((name, cell)) = self.cell(of) else {
             return Ok(0.0);
@@ -275,7 +275,7 @@ impl RowReader<'_> {
     /// A limit in SI; `None` where the column or the cell is empty.
     ///
     /// # Errors
-    /// An angle for a joint that slides, a length for one that turns, a cell that holds no number.
+    /// An angle for a joint that slides, a length for one that turns, a cell that contains no number.
     fn limit(&self, of: &str, moves: Moves) -> Result<Option<(f64, &Cell)>, Problems> {
         let Some((name, cell)) = self.cell(of).filter(|(_, cell)| !cell.text.is_empty()) else {
             return Ok(None);

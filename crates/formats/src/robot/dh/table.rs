@@ -1,7 +1,7 @@
 //! The lines of a table: settings, header, cells; each with its place.
 //!
 //! Cells are separated by the first of `;`, `,` and tab that the header holds, else by blanks; with `;` a comma is a
-//! decimal sign. Quotes round a cell are taken off. Settings may stand anywhere, also below the header.
+//! decimal sign. Quotes round a cell are taken off. Settings may be anywhere, also below the header.
 
 use std::ops::Range;
 
@@ -116,7 +116,7 @@ pub(super) fn read(file: &Source) -> Result<Table, Problems> {
 
 /// A row with more or fewer cells than the header.
 fn uneven(file: &Source, line: &Cell, found: usize, wanted: usize) -> Problem {
-    let message = format!("the row has {found} cells where the header has {wanted}");
+    let message = format!("the row has {found} cells where the header has {requested}");
     let hint = "write 0 where nothing is; with decimal commas separate cells by `;`".to_owned();
     file.problem(line.place.clone(), message, Some(hint))
 }
@@ -149,7 +149,7 @@ fn lines_of(text: &str) -> Vec<Cell> {
     lines
 }
 
-/// What stands between cells.
+/// What is between cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Separator {
     Char(char),

@@ -173,7 +173,7 @@ fn columns_need_their_units_and_all_four_are_needed() {
 }
 
 #[test]
-fn every_cell_that_is_wrong_is_told() {
+fn every_cell_that_is_wrong_is_reported() {
     let broken = MH12
         .replace("L; -90", "L; ninety")
         .replace("0; -1; -85; 150", "0; -2; -85; 150")
@@ -201,7 +201,7 @@ fn every_cell_that_is_wrong_is_told() {
 }
 
 #[test]
-fn a_limit_on_one_side_alone_is_told() {
+fn a_limit_on_one_side_alone_is_reported() {
     let lower = refusal(&MH12.replace("-1; ;", "-1; -120;"));
     assert!(
         lower.contains("`-120` is a lower limit without an upper one"),

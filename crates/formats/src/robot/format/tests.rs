@@ -88,16 +88,16 @@ fn marks_line_ends_and_foreign_letters_in_comments_are_tolerated() {
 
 #[test]
 fn a_format_that_is_said_goes_before_the_ending_and_tips_are_for_links() {
-    let wanted = Wanted {
+    let expected = Wanted {
         format: Some(Format::Urdf),
         tip: Some("b".to_owned()),
     };
-    assert!(read(Path::new("robot"), "r", URDF.as_bytes(), &wanted).is_ok());
-    let wanted = Wanted {
+    assert!(read(Path::new("robot"), "r", URDF.as_bytes(), &expected).is_ok());
+    let expected = Wanted {
         format: Some(Format::Chain),
         tip: Some("b".to_owned()),
     };
-    let text = read(Path::new("a"), "r", b"Rz(q1)", &wanted)
+    let text = read(Path::new("a"), "r", b"Rz(q1)", &expected)
         .unwrap_err()
         .to_string();
     assert!(text.contains("--tip"), "{text}");

@@ -55,7 +55,7 @@ const SIGNS: &str = "opw_kinematics_joint_sign_corrections";
 /// Six joints, `joint_1` to `joint_6`; each length is a motion of its own, with its key as symbol.
 ///
 /// # Errors
-/// A YAML file of another kind, keys that are missing or double, what is no number, length, angle or sign.
+/// A YAML file of another kind, keys that are missing or double, what is not a number, length, angle or sign.
 pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Problems> {
     let file = Source::new(path, text);
     let mut keys = Keys::of(&file)?;
@@ -117,13 +117,13 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
     Ok(found)
 }
 
-/// The keys of a file, and what was wrong with those that were asked for.
+/// The keys of a file, and what was wrong with those that were requested.
 struct Keys<'a> {
     /// Finds places.
     file: &'a Source,
     /// In the order of the file.
     entries: Vec<Entry<'a>>,
-    /// Of the keys that were asked for so far.
+    /// Of the keys that were requested so far.
     problems: Vec<Problem>,
 }
 
@@ -134,7 +134,7 @@ impl<'a> Keys<'a> {
     /// A YAML file of another kind.
     fn of(file: &'a Source) -> Result<Keys<'a>, Problems> {
         let entries = yaml::entries(file.text());
-        let has = |wanted: fn(&str) -> bool| entries.iter().any(|entry| wanted(entry.key));
+        let has = |requested: fn(&str) -> bool| entries.iter().any(|entry| requested(entry.key));
         if has(|key| key.starts_with("opw_kinematics")) {
             return Ok(Keys {
                 file,
@@ -193,7 +193,7 @@ impl<'a> Keys<'a> {
     }
 }
 
-/// A length in m; refused is what is no number, or beyond [`LONGEST_LINK`].
+/// A length in m; refused is what is not a number, or beyond [`LONGEST_LINK`].
 fn length(text: &str) -> Result<f64, &'static str> {
     let value = text.parse::<f64>().ok();
     value

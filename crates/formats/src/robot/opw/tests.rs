@@ -86,7 +86,7 @@ fn lists_may_stand_on_lines_of_their_own_and_under_other_keys() {
 }
 
 #[test]
-fn every_problem_is_told_at_its_place() {
+fn every_problem_is_reported_at_its_place() {
     let broken = MH12
         .replace("a1: 0.155", "a1: 155.0")
         .replace("c2: 0.614", "c2: 0,614")
@@ -108,7 +108,7 @@ fn every_problem_is_told_at_its_place() {
 }
 
 #[test]
-fn missing_and_double_keys_are_told() {
+fn missing_and_double_keys_are_reported() {
     assert!(refusal(&MH12.replace("  b: 0.000\n", "")).contains("`b` is missing"));
     assert!(refusal(&format!("{MH12}a1: 0.2\n")).contains("a.yaml:12:1: `a1` stands twice"));
     assert!(refusal(&MH12.replace(", deg(180.0)]", "]")).contains("has 5 values where 6 are wanted"));

@@ -66,7 +66,7 @@ pub(super) fn entries(text: &str) -> Vec<Entry<'_>> {
             _ => rest,
         };
         let item_start = rest_start + rest.len() - item.len();
-        // A line that is neither key nor list item holds nothing that anybody asked for.
+        // A line that is neither key nor list item holds nothing that anybody requested.
         if key.is_some() || in_brackets || item.len() < rest.len() {
             entry.values.extend(scalars(item, item_start));
         }

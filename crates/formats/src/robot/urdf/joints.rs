@@ -1,4 +1,4 @@
-//! The joints of a URDF as they stand in the file, each with its place.
+//! The joints of a URDF as they are in the file, each with its place.
 //!
 //! What the file leaves out is as the specification of URDF has it:
 //!
@@ -10,7 +10,7 @@
 //! | `velocity`, or `velocity="0"` | not known |
 //! | `<limit>` of a `continuous` joint | whatever it says, none |
 //!
-//! `inf`, and numbers beyond 1000, stand for an open end.
+//! `inf`, and numbers beyond 1000, represent an open end.
 
 use std::ops::Range;
 
@@ -48,13 +48,13 @@ pub(super) struct JointElement {
     pub parent: String,
     /// Name of the link that it moves.
     pub child: String,
-    /// Where it stands in its parent link, m.
+    /// Where it is in its parent link, m.
     pub xyz: [f64; 3],
     /// Turns about the fixed axes x, y, z of its parent link, rad.
     pub rpy: [f64; 3],
     /// Direction in its own frame, of any length, zero included.
     pub axis: [f64; 3],
-    /// Lower and upper end as they are told, infinite where open; `None` where there are none.
+    /// Lower and upper end as they are reported, infinite where open; `None` where there are none.
     pub limits: Option<[f64; 2]>,
     /// Greatest speed, rad/s or m/s.
     pub velocity: Option<f64>,
@@ -72,7 +72,7 @@ const MOST_ELEMENTS: usize = 10_000;
 /// Every `<joint>` below the root.
 ///
 /// # Errors
-/// All that lack a name, a type or their links, or hold what is no number.
+/// All that lack a name, a type or their links, or hold what is not a number.
 pub(super) fn read(file: &Source, root: Node<'_, '_>) -> Result<Vec<JointElement>, Problems> {
     let mut problems = Vec::new();
     let mut joints = Vec::new();
@@ -92,7 +92,7 @@ pub(super) fn read(file: &Source, root: Node<'_, '_>) -> Result<Vec<JointElement
 /// One `<joint>` element.
 ///
 /// # Errors
-/// The first thing that is missing or no number. An axis of length zero is told later, and only of a joint of the
+/// The first thing that is missing or no number. An axis of length zero is reported later, and only of a joint of the
 /// chain.
 fn joint(file: &Source, node: Node<'_, '_>) -> Result<JointElement, Problems> {
     let name = required(file, node, "name")?.to_owned();
@@ -166,10 +166,10 @@ fn axis_of(file: &Source, axis: Node<'_, '_>) -> Result<[f64; 3], Problems> {
     }
 }
 
-/// A number of `<limit>`, infinite where it stands for an open end; zero where it is left out.
+/// A number of `<limit>`, infinite where it represents an open end; zero where it is left out.
 ///
 /// # Errors
-/// What is no number; `inf` and `-inf` are two.
+/// What is not a number; `inf` and `-inf` are two.
 fn end_of(file: &Source, limit: Option<Node<'_, '_>>, attribute: &str) -> Result<f64, Problems> {
     let Some(limit) = limit else { return Ok(0.0) };
     match limit.attribute(attribute).map(str::trim) {
@@ -207,7 +207,7 @@ pub(super) fn origin_of(file: &Source, origin: Node<'_, '_>) -> Result<([f64; 3]
     if origin.attribute("quat_xyzw").is_none() {
         return Ok((xyz, rpy));
     }
-    // Since URDF 1.1 a quaternion may stand there, and goes before `rpy`.
+    // Since URDF 1.1 a quaternion may be there, and goes before `rpy`.
     let [x, y, z, w] = numbers(file, origin, "quat_xyzw", [0.0, 0.0, 0.0, 1.0])?;
     let Some(turn) = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-9) else {
         let message = "a quaternion of length zero is no orientation";

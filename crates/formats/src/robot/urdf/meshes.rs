@@ -1,13 +1,13 @@
 //! The shapes that links of a URDF show: mesh files, each with where it stands as the joints move.
 //!
 //! Boxes, cylinders and spheres are left out, and so are textures and colours. Joints that are not on the chain of the
-//! robot stand at zero, and so do those that mimic others.
+//! robot are at zero, and so do those that mimic others.
 //!
 //! | element | means |
 //! |---|---|
 //! | `visual` | how the link looks |
 //! | `collision` | a coarser shape of it, often in a plainer format |
-//! | `origin` | where the shape stands in its link |
+//! | `origin` | where the shape is in its link |
 //! | `mesh filename`, `scale` | the file, m where `scale` is 1 |
 
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
@@ -47,7 +47,7 @@ struct Hop {
 }
 
 impl Mesh {
-    /// Where it stands, its root link being the base, with the joint of each name at this position (rad, m); `None`: at
+    /// Its position, its root link being the base, with the joint of each name at this position (rad, m); `None`: at
     /// zero.
     pub fn base_from_mesh(&self, position: impl Fn(&str) -> Option<f64>) -> Isometry {
         let through = |base: Isometry, hop: &Hop| {
@@ -161,7 +161,7 @@ mod tests {
     #[test]
     fn every_mesh_is_found_with_its_scale_and_kind() {
         let found = meshes("two.urdf", ARM).unwrap();
-        let told: Vec<_> = found
+        let given: Vec<_> = found
             .iter()
             .map(|m| (m.link.as_str(), m.file.as_str(), m.scale[0], m.looks))
             .collect();
@@ -172,7 +172,7 @@ mod tests {
             ("lid", "lid.stl", 1.0, true),
             ("hand", "hand.stl", 1.0, true),
         ];
-        assert_eq!(told, expected);
+        assert_eq!(given, expected);
     }
 
     #[test]
@@ -214,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn all_that_is_wrong_is_told_at_its_place() {
+    fn all_that_is_wrong_is_reported_at_its_place() {
         let text = ARM
             .replace("filename=\"lid.stl\"", "file=\"lid.stl\"")
             .replace("scale=\"0.001 0.001 0.001\"", "scale=\"small\"");

@@ -1,6 +1,6 @@
 //! URDF: XML robot descriptions of ROS, in m and rad.
 //!
-//! The chain runs from the root link to a tip: the one asked for, or the one with the most moving joints
+//! The chain runs from the root link to a tip: the one requested, or the one with the most moving joints
 //! (`tool0` among equals). Side branches are left out, as are masses, meshes and collision shapes. `origin rpy`
 //! turns about fixed axes: `R = Rz(y) Ry(p) Rx(r)`. An axis that counts against a coordinate axis becomes a joint
 //! of negative sign. URDF knows no compliance; `effort="0"` and `velocity="0"` mean not given. A link `base` that
@@ -277,7 +277,7 @@ impl Arm {
     }
 }
 
-/// Where a joint stands in its parent link.
+/// Where a joint is in its parent link.
 fn origin(joint: &JointElement) -> Isometry {
     from_xyz_and_fixed_angles(joint.xyz.into(), joint.rpy.into())
 }

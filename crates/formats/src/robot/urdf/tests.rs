@@ -69,18 +69,18 @@ fn an_axis_within_the_digits_of_a_file_is_a_coordinate_axis_and_any_other_keeps_
         let text = urdf(&sound()).replace("<axis xyz=\"0 0 -1\"/>", &format!("<axis xyz=\"{axis}\"/>"));
         read("s.urdf", "s", &text).unwrap()
     };
-    let told = |found: &RobotDescription| {
+    let given = |found: &RobotDescription| {
         let remark = "axes within 1e-6 of a coordinate axis are taken as that axis: j1";
-        found.remarks.iter().any(|told| told == remark)
+        found.remarks.iter().any(|given| given == remark)
     };
     let near = read("0.0000005 0 -1");
-    assert!(told(&near), "{:?}", near.remarks);
+    assert!(given(&near), "{:?}", near.remarks);
     assert_eq!(near.robot.joints()[0].sign, Sign::Negative);
     let exact = read("0 0 -3");
-    assert!(!told(&exact) && exact.robot.chain().motions() == near.robot.chain().motions());
+    assert!(!given(&exact) && exact.robot.chain().motions() == near.robot.chain().motions());
     // 40 um in a metre: no rounding, and kept.
     let tilted = read("0.00004 0 1");
-    assert!(!told(&tilted));
+    assert!(!given(&tilted));
     let turned = posture_at(&tilted.robot, &[1.0, 0.0], &Isometry::identity()).base_from_tool;
     let axis = Vector3::new(4e-5, 0.0, 1.0).normalize();
     let start = posture_at(&tilted.robot, &[0.0, 0.0], &Isometry::identity()).base_from_tool;
@@ -89,9 +89,9 @@ fn an_axis_within_the_digits_of_a_file_is_a_coordinate_axis_and_any_other_keeps_
 }
 
 #[test]
-fn limits_are_read_as_urdf_means_them_and_what_is_no_range_is_told() {
+fn limits_are_read_as_urdf_means_them_and_what_is_no_range_is_reported() {
     let inner = "lower=\"-1\" upper=\"2\"";
-    for (to, limits, told) in [
+    for (to, limits, given) in [
         (inner, Some((-1.0, 2.0)), false),
         ("upper=\"2\"", Some((0.0, 2.0)), false),
         ("lower=\"0\" upper=\"0\"", None, false),
@@ -107,7 +107,7 @@ fn limits_are_read_as_urdf_means_them_and_what_is_no_range_is_told() {
         let remark = found
             .remarks
             .contains(&"limits that are no range are left out: j1".to_owned());
-        assert_eq!(remark, told, "{to}: {:?}", found.remarks);
+        assert_eq!(remark, given, "{to}: {:?}", found.remarks);
     }
 }
 
@@ -194,7 +194,7 @@ fn joints_in_a_circle_are_named() {
 }
 
 #[test]
-fn the_chain_ends_at_the_tip_that_is_asked_for() {
+fn the_chain_ends_at_the_tip_that_is_requested() {
     let found = read_to_tip("s.urdf", "s", &urdf(&sound()), Some("a")).unwrap();
     assert_eq!(found.robot.joints().len(), 1);
     assert!(
@@ -224,7 +224,7 @@ fn the_chain_ends_at_the_tip_that_is_asked_for() {
 }
 
 #[test]
-fn what_is_no_number_is_told_with_its_place() {
+fn what_is_no_number_is_reported_with_its_place() {
     for (from, to, words) in [
         (
             "xyz=\"0 0 0.4\"",
@@ -268,7 +268,7 @@ fn what_is_no_number_is_told_with_its_place() {
 }
 
 #[test]
-fn broken_xml_is_told_where_it_breaks() {
+fn broken_xml_is_reported_where_it_breaks() {
     let text = read("s.urdf", "s", "<robot>\n<link name=\"a\">\n</robot>\n")
         .unwrap_err()
         .to_string();
@@ -320,7 +320,7 @@ fn more_joints_and_attributes_than_any_arm_has_are_refused() {
     let attributes: String = (0..201).map(|index| format!(" a{index}=\"1\"")).collect();
     let text = refusal(&format!("<robot{attributes}/>"));
     assert!(text.contains("more than 200 attributes"), "{text}");
-    // Text in a comment is no attribute.
+    // Text in a comment is not an attribute.
     let comment = format!("<robot name=\"r\"><!--{}-->", "''".repeat(300));
     assert!(
         read(

@@ -81,7 +81,7 @@ impl<'a> Tree<'a> {
                 Err(file.problem(place, "the file has no link", Some(hint)).into())
             }
             [] => refused("the joints form a loop: every link is the child of another".to_owned()),
-            [root] => match unreached(root, joints, &known)[..] {
+            [root] => match unreachable(root, joints, &known)[..] {
                 [] => Ok(Tree {
                     root,
                     links,
@@ -164,8 +164,8 @@ impl<'a> Tree<'a> {
 
 /// The links that no way from the root leads to.
 ///
-/// Such links stand in a loop or hang on one: each has a parent, or it would be a root.
-fn unreached<'a>(root: &'a str, joints: &'a [JointElement], links: &BTreeSet<&'a str>) -> Vec<&'a str> {
+/// Such links are in a loop or hang on one: each has a parent, or it would be a root.
+fn unreachable<'a>(root: &'a str, joints: &'a [JointElement], links: &BTreeSet<&'a str>) -> Vec<&'a str> {
     let mut below: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for joint in joints {
         below.entry(&joint.parent).or_default().push(&joint.child);

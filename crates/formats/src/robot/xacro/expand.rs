@@ -21,13 +21,13 @@ const MOST_BRACKETS: usize = 40;
 const STACK_BYTES: usize = 64 << 20;
 /// Name of the thread that works expressions out: a panic there becomes a problem of the file.
 pub const EXPANDER: &str = "xacro";
-/// A longer text is no robot: the longest of ROS-Industrial has 20 kB without meshes.
+/// A longer text is not a robot: the longest of ROS-Industrial has 20 kB without meshes.
 const LONGEST_BYTES: usize = 4 << 20;
 
 /// The expanded text.
 ///
 /// # Errors
-/// The expression or macro that cannot be worked out, where it stands in `main` or in a file that it includes.
+/// The expression or macro that cannot be worked out, where it is in `main` or in a file that it includes.
 pub(super) fn expand(main: &Source, path: &Path, flat: &Flat) -> Result<String, Problems> {
     let (xml, included) = (&flat.xml, &flat.sources[..]);
     if xml.len() > LONGEST_BYTES {
@@ -68,7 +68,7 @@ pub(super) fn expand(main: &Source, path: &Path, flat: &Flat) -> Result<String, 
                 .with_extension(Box::new(Find(folder)))
                 .with_compat_all()
                 .build();
-            processor.run_from_string(&xml).map_err(|error| told(&error))
+            processor.run_from_string(&xml).map_err(|error| reported(&error))
         });
     match worker.map(std::thread::JoinHandle::join) {
         Ok(Ok(Ok(expanded))) => Ok(expanded),
@@ -108,7 +108,7 @@ impl ExtensionHandler for Find {
 /// An error in one line, with the macro it came up in.
 ///
 /// Line ends become blanks, and what the crate repeats of its own message is cut off.
-fn told(error: &XacroError) -> String {
+fn reported(error: &XacroError) -> String {
     let (error, place) = match error {
         XacroError::WithContext { source, context } => (
             source.as_ref(),
@@ -141,7 +141,7 @@ fn told(error: &XacroError) -> String {
 
 /// The problem at the first text that the message quotes and a file holds.
 ///
-/// Words in quotes are tried in their order, each in the main file first; where none is found, the problem stands at
+/// Words in quotes are tried in their order, each in the main file first; where none is found, the problem is at
 /// the start of the main file.
 fn placed(main: &Source, included: &[Source], message: &str) -> Problem {
     let hint = "mend the expression, give the file that defines what is missing, or expand it with ROS (`xacro FILE > x.urdf`)";
@@ -162,7 +162,7 @@ fn placed(main: &Source, included: &[Source], message: &str) -> Problem {
 
 /// The first expression whose brackets go too deep.
 ///
-/// Any bracket counts, whether it stands in an expression or not.
+/// Any bracket counts, whether it is in an expression or not.
 fn too_deep(source: &Source) -> Option<Problem> {
     let text = source.text();
     let mut depth = 0_usize;

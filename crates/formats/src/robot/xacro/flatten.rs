@@ -39,7 +39,7 @@ const NOT_NEEDED: [&str; 7] = [
 
 /// What is kept inside a joint.
 const OF_JOINTS: [&str; 6] = ["origin", "parent", "child", "axis", "limit", "mimic"];
-/// What is dropped wherever it stands outside a link.
+/// What is dropped anywhere outside a link.
 const DROPPED: [&str; 5] = ["material", "gazebo", "transmission", "ros2_control", "sensor"];
 
 /// Everything of a xacro file in one text.
@@ -50,13 +50,13 @@ pub(super) struct Flat {
     pub sources: Vec<Source>,
     /// Files that were not found and are not needed.
     pub remarks: Vec<String>,
-    /// Calls of `load_yaml`, in the order of the properties that stand for their data.
+    /// Calls of `load_yaml`, in the order of the properties that represent their data.
     pub calls: Vec<Call>,
 }
 
 /// Writes one text while it walks through all files.
 struct Writer<'a> {
-    /// The file that was asked for.
+    /// The file that was requested.
     main: &'a Source,
     /// What was written so far, without the root element.
     xml: String,
@@ -83,7 +83,7 @@ struct Macro {
     name: String,
     /// As the file has it: words between blanks, with `:=` or `=` where there is a default.
     params: String,
-    /// Where its name stands in its file.
+    /// Where its name is in its file.
     place: std::ops::Range<usize>,
     /// Whether `place` is in the main file.
     of_main: bool,
@@ -92,7 +92,7 @@ struct Macro {
 /// The text of `main`, read from `path`, and of all it includes.
 ///
 /// Reads the included files from the disk. If nothing but macros is defined and one of them holds joints, a call of it
-/// stands at the end.
+/// is at the end.
 ///
 /// # Errors
 /// What is not XML, files that are missing, no robot or several.

@@ -27,9 +27,9 @@ use super::DIRECTIVES;
 use super::flatten::is_xacro;
 use super::load_yaml::Data;
 
-/// More text than this is no robot: what a macro of ROS-Industrial expands to has 10 kB without meshes.
+/// More text than this is not a robot: what a macro of ROS-Industrial expands to has 10 kB without meshes.
 const MOST_BYTES: u64 = 1 << 20;
-/// A longer value is no name and no list of numbers.
+/// A longer value is not a name and no list of numbers.
 pub(super) const LONGEST_VALUE: u64 = 64 << 10;
 /// A longer expression is none that a person wrote; the evaluator calls itself for each sign.
 const LONGEST_EXPRESSION: usize = 2000;
@@ -52,7 +52,7 @@ const REFUSED: [&str; 11] = [
     "zfill",
 ];
 
-/// What stands against expanding the document with this data, if anything does; names stand in quotes.
+/// What stands against expanding the document with this data, if anything does; names are in quotes.
 pub(super) fn refusal<'a>(root: Node<'a, '_>, data: &'a [Data]) -> Option<String> {
     let texts = root.descendants().flat_map(|node| {
         let attributes = node.attributes().map(|attribute| attribute.value());
@@ -68,7 +68,7 @@ pub(super) fn refusal<'a>(root: Node<'a, '_>, data: &'a [Data]) -> Option<String
 fn refused_expression(text: &str) -> Option<String> {
     for (at, _) in text.match_indices('$') {
         let rest = text.get(at + 1..).unwrap_or_default();
-        // To the last bracket: braces and quotes may hold others.
+        // To the last bracket: braces and quotes may contain others.
         let expression = match rest.chars().next() {
             Some('{') => rest.rsplit_once('}').map_or(rest, |(inside, _)| inside),
             Some('(') => rest.rsplit_once(')').map_or(rest, |(inside, _)| inside),
@@ -198,7 +198,7 @@ impl<'a> Lengths<'a> {
         Ok(lengths)
     }
 
-    /// How long a text can get: any name in it may stand for its value.
+    /// How long a text can get: any name in it may be for its value.
     ///
     /// Without a `$` its own letters. With one, every word is taken as a name that may be one of the file's, and every
     /// `$` as a number besides.

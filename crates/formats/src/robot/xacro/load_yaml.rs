@@ -1,4 +1,4 @@
-//! `xacro.load_yaml(FILE)` without the loader of the evaluator: each call is replaced by a property that holds the data of
+//! `xacro.load_yaml(FILE)` without the loader of the evaluator: each call is replaced by a property that contains the data of
 //! the file, which was checked before.
 //!
 //! ```text
@@ -47,7 +47,7 @@ const FUNCTION: [&str; 2] = ["xacro.load_yaml", "load_yaml"];
 /// A call of `load_yaml`.
 #[derive(PartialEq)]
 pub(super) struct Call {
-    /// Folder of the file that holds it.
+    /// Folder of the file that contains it.
     pub folder: PathBuf,
     /// What is between its brackets.
     pub argument: String,
@@ -55,13 +55,13 @@ pub(super) struct Call {
 
 /// The data of a call.
 pub(super) struct Data {
-    /// The property that holds it.
+    /// The property that contains it.
     pub property: String,
     /// As an expression.
     pub value: String,
 }
 
-/// `text` with each call of `load_yaml` replaced by the property that holds its data. New calls are added to `calls`.
+/// `text` with each call of `load_yaml` replaced by the property that contains its data. New calls are added to `calls`.
 pub(super) fn replaced(text: &str, folder: &Path, calls: &mut Vec<Call>) -> String {
     let mut out = String::new();
     let mut rest = text;
@@ -120,12 +120,12 @@ pub(super) fn data(calls: &[Call], values: &Values<'_>) -> Result<Vec<Data>, Str
         return Err(format!("more than {MOST_CALLS} calls of `load_yaml`"));
     }
     let each = calls.iter().enumerate().map(|(index, call)| {
-        let told = |message: String| format!("`load_yaml({})`: {message}", call.argument);
+        let given = |message: String| format!("`load_yaml({})`: {message}", call.argument);
         let name = file_name(&call.argument, values, 0).ok_or_else(|| {
-            told("the name of the file is not known before the expression is evaluated".to_owned())
+            given("the name of the file is not known before the expression is evaluated".to_owned())
         })?;
-        let text = text_of(&call.folder, &name).map_err(told)?;
-        let data = expression(&text).map_err(|error| told(format!("{name}: {error}")))?;
+        let text = text_of(&call.folder, &name).map_err(given)?;
+        let data = expression(&text).map_err(|error| given(format!("{name}: {error}")))?;
         Ok(Data {
             property: format!("{PROPERTY}{index}"),
             value: data,

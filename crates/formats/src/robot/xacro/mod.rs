@@ -37,7 +37,7 @@ const DIRECTIVES: [&str; 9] = [
 /// The robot of this xacro text, which was read from `path`, with its flange at the link `tip`, or at the end of the
 /// longest chain; `id` is the robot's name in results.
 ///
-/// Problems of the expanded text stand in `PATH (expanded)`: no line of it is in a file. The one source is called
+/// Problems of the expanded text are in `PATH (expanded)`: no line of it is in a file. The one source is called
 /// `xacro`.
 ///
 /// # Errors
@@ -76,7 +76,7 @@ pub struct Expanded {
     pub remarks: Vec<String>,
 }
 
-/// The URDF that this xacro text, which was read from `path`, stands for.
+/// The URDF that this xacro text, which was read from `path`, represents.
 ///
 /// Reads the files that it includes from the disk.
 ///

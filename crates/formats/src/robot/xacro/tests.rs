@@ -99,7 +99,7 @@ fn files_are_found_beside_and_in_the_packages_around() {
 }
 
 #[test]
-fn what_cannot_be_worked_out_is_told_where_it_stands() {
+fn what_cannot_be_worked_out_is_reported_where_it_stands() {
     for (from, to, words) in [
         (
             "${h + 0.1",
@@ -126,7 +126,7 @@ fn what_cannot_be_worked_out_is_told_where_it_stands() {
 }
 
 #[test]
-fn files_without_robot_or_with_several_are_told() {
+fn files_without_robot_or_with_several_are_reported() {
     let colours = "<robot xmlns:xacro=\"http://ros.org/wiki/xacro\"><xacro:property name=\"red\" value=\"1 0 0 1\"/>\
          <xacro:macro name=\"material_red\"><material name=\"\"><color rgba=\"${red}\"/></material></xacro:macro></robot>";
     let text = refusal(colours);
@@ -372,7 +372,7 @@ fn data_of_yaml_files_that_are_not_the_robots_own_is_refused() {
             .to_string()
             .contains("is not known before")
     );
-    // A name that is made of parts is no call that is replaced, and the evaluator has no reader of its own.
+    // A name that is made of parts is not a call that is replaced, and the evaluator has no reader of its own.
     let text =
         with("<xacro:property name=\"p\" value=\"load_ya\"/><link name=\"${${p}ml('a.yaml')['s']}\"/>");
     assert!(expand(&path, &text).is_err());
@@ -402,7 +402,7 @@ fn links_and_pipes_are_no_way_to_other_files() {
 }
 
 #[test]
-fn many_includes_of_one_file_are_told_from_a_circle() {
+fn many_includes_of_one_file_are_reported_from_a_circle() {
     let include = |name: &str| format!("<xacro:include filename=\"{name}\"/>");
     let empty = "<robot xmlns:xacro=\"http://ros.org/wiki/xacro\"></robot>";
     let (_folder, path, _) = folder_with("", &[("robot/other.xacro", empty)]);

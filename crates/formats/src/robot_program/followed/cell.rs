@@ -48,15 +48,15 @@ impl Cell {
     /// # Errors
     /// Frames that nobody tells, or both; cuts with another tip.
     pub(super) fn placed(&self, program: &RobotProgram) -> Result<Placed, Vec<FollowError>> {
-        let poses = || program.moves.iter().filter(|told| tells_pose(told));
+        let poses = || program.moves.iter().filter(|given| tells_pose(given));
         // Rapids may come from a home in another frame: what is cut decides.
         let first = poses()
-            .find(|told| told.motion != Motion::Joint)
+            .find(|given| given.motion != Motion::Joint)
             .or_else(|| poses().next());
         let mut known: Vec<(Frame, u32)> = Vec::new();
-        for told in first.into_iter().chain(poses()) {
-            if !known.iter().any(|(frame, _)| *frame == told.frame) {
-                known.push((told.frame, told.line));
+        for given in first.into_iter().chain(poses()) {
+            if !known.iter().any(|(frame, _)| *frame == given.frame) {
+                known.push((given.frame, given.line));
             }
         }
         let mut errors = self.lacks(&known);
@@ -71,14 +71,14 @@ impl Cell {
             turned: 0.0,
         };
         let mut tips: Vec<Frame> = Vec::new();
-        for told in poses() {
-            if !tips.contains(&told.tool) {
-                match placed.tcp_from_tool(told) {
-                    Ok(between) => placed.hear_tool(told, &between),
+        for given in poses() {
+            if !tips.contains(&given.tool) {
+                match placed.tcp_from_tool(given) {
+                    Ok(between) => placed.hear_tool(given, &between),
                     Err(error) => errors.push(error),
                 }
-                if told.motion != Motion::Joint {
-                    tips.push(told.tool);
+                if given.motion != Motion::Joint {
+                    tips.push(given.tool);
                 }
             }
         }
@@ -117,7 +117,7 @@ impl Cell {
                 line: *line,
                 number: *number,
             },
-            _ => FollowError::Untold { line: *line },
+            _ => FollowError::EvaluateError { line: *line },
         })
         .collect()
     }
@@ -125,17 +125,17 @@ impl Cell {
 
 impl Placed {
     /// Base to what the targets of this move count from.
-    pub fn base_from_frame(&self, told: &RobotMove) -> Isometry {
+    pub fn base_from_frame(&self, given: &RobotMove) -> Isometry {
         let by_program = |frame: &Frame| match frame {
             Frame::Told(frame) => self.base_from_controller * frame,
-            Frame::Numbered(_) | Frame::Untold => {
+            Frame::Numbered(_) | Frame::EvaluateError => {
                 self.base_from_controller * self.controller_from_frame.unwrap_or_else(Isometry::identity)
             }
         };
         let (Some(base_from_first), Some((first, _))) = (self.replaced, self.first) else {
-            return by_program(&told.frame);
+            return by_program(&given.frame);
         };
-        match (first, told.frame) {
+        match (first, given.frame) {
             (first, frame) if first == frame => base_from_first,
             // What lies beside it goes with it.
             (Frame::Told(_), frame) => base_from_first * by_program(&first).inverse() * by_program(&frame),
@@ -147,35 +147,35 @@ impl Placed {
     ///
     /// # Errors
     /// A cut with another tip.
-    pub fn tcp_from_tool(&self, told: &RobotMove) -> Result<Isometry, FollowError> {
-        let Frame::Told(flange_from_tcp) = told.tool else {
+    pub fn tcp_from_tool(&self, given: &RobotMove) -> Result<Isometry, FollowError> {
+        let Frame::Told(flange_from_tcp) = given.tool else {
             return Ok(Isometry::identity());
         };
         let between = flange_from_tcp.inverse() * self.flange_from_tool;
         let apart = between.translation.vector.norm();
-        if told.motion == Motion::Joint || apart <= SAME_TIP {
+        if given.motion == Motion::Joint || apart <= SAME_TIP {
             return Ok(between);
         }
         let [x, y, z, rx, ry, rz] = mm_deg(&flange_from_tcp);
         Err(FollowError::Tip {
-            line: told.line,
+            line: given.line,
             told_mm: format!("{x}, {y}, {z}"),
             apart_mm: apart * 1e3,
             tool_mm_deg: format!("[{x}, {y}, {z}, {rx}, {ry}, {rz}]"),
         })
     }
 
-    fn hear_tool(&mut self, told: &RobotMove, between: &Isometry) {
-        if told.motion == Motion::Joint {
+    fn hear_tool(&mut self, given: &RobotMove, between: &Isometry) {
+        if given.motion == Motion::Joint {
             return;
         }
-        match told.tool {
+        match given.tool {
             Frame::Told(_) => {
                 let turned = angle(&between.rotation, &Isometry::identity().rotation);
                 self.turned = self.turned.max(turned);
             }
             Frame::Numbered(number) => self.taken.push(Some(number)),
-            Frame::Untold => self.taken.push(None),
+            Frame::EvaluateError => self.taken.push(None),
         }
     }
 
@@ -206,12 +206,12 @@ impl Placed {
 }
 
 /// Whether a target or via point of this move is told as a pose.
-fn tells_pose(told: &RobotMove) -> bool {
-    let via = match &told.motion {
+fn tells_pose(given: &RobotMove) -> bool {
+    let via = match &given.motion {
         Motion::Circular { via } => via.pose(),
         Motion::Joint | Motion::Linear => None,
     };
-    let Target::Pose { .. } = &told.target else {
+    let Target::Pose { .. } = &given.target else {
         return via.is_some();
     };
     true

@@ -15,7 +15,7 @@ pub enum FollowError {
     },
     /// Nothing is said of the frame.
     #[error("line {line}: the program does not tell which frame its places count from")]
-    Untold {
+    EvaluateError {
         /// Line of the first such move.
         line: u32,
     },

@@ -135,46 +135,46 @@ struct Follower<'a> {
 }
 
 impl Follower<'_> {
-    fn take(&mut self, index: usize, told: &RobotMove) {
-        self.hear_posture(told);
-        let cuts = told.motion != Motion::Joint;
-        let end = match self.place(told, &told.target) {
+    fn take(&mut self, index: usize, given: &RobotMove) {
+        self.hear_posture(given);
+        let cuts = given.motion != Motion::Joint;
+        let end = match self.place(given, &given.target) {
             Ok(Some(end)) => end,
             Ok(None) => {
-                if let Target::Elsewhere { name } = &told.target {
+                if let Target::Elsewhere { name } = &given.target {
                     self.noted
-                        .note(What::Elsewhere, told.line, || format!("`{name}`"));
+                        .note(What::Elsewhere, given.line, || format!("`{name}`"));
                 }
                 self.stands = None;
                 return;
             }
             Err(error) => return self.errors.push(error),
         };
-        let pace = match told.speed {
+        let pace = match given.speed {
             _ if !cuts => Pace::Rapid,
             Speed::Tip(speed) => Pace::Feed(speed),
-            Speed::Joints | Speed::Untold => Pace::Untold,
+            Speed::Joints | Speed::EvaluateError => Pace::EvaluateError,
         };
         let (mut course, mut pace, mut passed) = (Course::Line, pace, None);
-        match (&told.motion, self.stands) {
+        match (&given.motion, self.stands) {
             (Motion::Joint, _) => {}
             (_, None) => {
                 // From where is not known: it ends there, as if by a rapid.
                 self.noted
-                    .note(What::FromNowhere, told.line, || match self.moves.is_empty() {
+                    .note(What::FromNowhere, given.line, || match self.moves.is_empty() {
                         true => "the first move".to_owned(),
                         false => "a move".to_owned(),
                     });
                 pace = Pace::Rapid;
             }
             (Motion::Linear, Some(_)) => {}
-            (Motion::Circular { via }, Some(from)) => match self.place(told, via) {
+            (Motion::Circular { via }, Some(from)) => match self.place(given, via) {
                 Ok(Some(via)) => {
                     passed = Some(via.point());
-                    course = self.arc(told.line, [from, via.path_from_tool, end.path_from_tool]);
+                    course = self.arc(given.line, [from, via.path_from_tool, end.path_from_tool]);
                 }
                 Ok(None) => {
-                    self.noted.note(What::NoVia, told.line, || "an arc".to_owned());
+                    self.noted.note(What::NoVia, given.line, || "an arc".to_owned());
                     pace = Pace::Rapid;
                 }
                 Err(error) => return self.errors.push(error),
@@ -191,7 +191,7 @@ impl Follower<'_> {
                 spin: Some(ToldSpin::Orientation(turned)),
                 course,
                 pace,
-                line: told.line,
+                line: given.line,
             },
             path_from_frame: end.path_from_frame,
             via: passed.filter(|_| course != Course::Line),
@@ -199,13 +199,13 @@ impl Follower<'_> {
     }
 
     /// Where a target of this move is; `None` where the program does not tell.
-    fn place(&mut self, told: &RobotMove, target: &Target) -> Result<Option<Place>, FollowError> {
+    fn place(&mut self, given: &RobotMove, target: &Target) -> Result<Option<Place>, FollowError> {
         let path_from_base = self.placed.base_from_path.inverse();
         match target {
             Target::Elsewhere { .. } => Ok(None),
             Target::Pose { pose, .. } => {
-                let path_from_frame = path_from_base * self.placed.base_from_frame(told);
-                let tcp_from_tool = self.placed.tcp_from_tool(told)?;
+                let path_from_frame = path_from_base * self.placed.base_from_frame(given);
+                let tcp_from_tool = self.placed.tcp_from_tool(given)?;
                 Ok(Some(Place {
                     path_from_tool: path_from_frame * pose * tcp_from_tool,
                     path_from_frame: Some(path_from_frame),
@@ -215,14 +215,14 @@ impl Follower<'_> {
                 let robot = self.robot;
                 if joints.len() != robot.joints().len() {
                     return Err(FollowError::Joints {
-                        line: told.line,
+                        line: given.line,
                         found: joints.len(),
                         robot: robot.name().to_owned(),
                         expected: robot.joints().len(),
                     });
                 }
                 self.noted
-                    .note(What::Joints, told.line, || "joint positions".to_owned());
+                    .note(What::Joints, given.line, || "joint positions".to_owned());
                 let base_from_tool = tool_on(&forward(robot, joints), &self.cell.flange_from_tool);
                 Ok(Some(Place {
                     path_from_tool: path_from_base * base_from_tool,
@@ -233,11 +233,11 @@ impl Follower<'_> {
     }
 
     /// Until the first cut: how the arm stands. Straight moves keep the posture, whatever they say of it.
-    fn hear_posture(&mut self, told: &RobotMove) {
-        if self.begun || (told.motion != Motion::Joint && self.posture.is_some()) {
+    fn hear_posture(&mut self, given: &RobotMove) {
+        if self.begun || (given.motion != Motion::Joint && self.posture.is_some()) {
             return;
         }
-        let pattern = match &told.target {
+        let pattern = match &given.target {
             Target::Joints(joints) if joints.len() == self.robot.joints().len() => {
                 let posture = posture_at(self.robot, joints, &self.cell.flange_from_tool);
                 posture.name.branch().map(BranchPattern::from)
@@ -246,8 +246,8 @@ impl Follower<'_> {
             Target::Joints(_) | Target::Elsewhere { .. } => None,
         };
         if let Some(pattern) = pattern {
-            self.posture = Some((pattern, told.line));
-        } else if told.motion == Motion::Joint {
+            self.posture = Some((pattern, given.line));
+        } else if given.motion == Motion::Joint {
             // It may have changed, and how is not told.
             self.posture = None;
         }

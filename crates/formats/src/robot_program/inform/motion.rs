@@ -16,8 +16,8 @@ impl<'a> Reader<'a> {
     ) {
         let mut position = None;
         let mut external = false;
-        let mut speed = Speed::Untold;
-        let mut ends_arc = ArcEnd::Untold;
+        let mut speed = Speed::EvaluateError;
+        let mut ends_arc = ArcEnd::EvaluateError;
         for part in words {
             let text = part.text.to_ascii_uppercase();
             if text.starts_with("//") || text.starts_with('\'') {
@@ -25,13 +25,13 @@ impl<'a> Reader<'a> {
             }
             if text.starts_with('+') {
                 let what = "what a second robot or a station does beside (+MOV..) is passed over";
-                self.told.note((job.text, line.number), what);
+                self.given.note((job.text, line.number), what);
                 break;
             }
             match (text.as_str(), text.split_once('=')) {
                 ("UNTIL" | "SRCH", _) => {
                     let what = format!("{text} is passed over: the move goes to its end");
-                    self.told.note((job.text, line.number), what);
+                    self.given.note((job.text, line.number), what);
                     break;
                 }
                 ("FPT", _) => ends_arc = ArcEnd::Told,
@@ -52,13 +52,13 @@ impl<'a> Reader<'a> {
         }
         if external {
             let what = "positions of rails and stations (BC, EC, BP, EX) are passed over: they are taken as standing still";
-            self.told.note((job.text, line.number), what);
+            self.given.note((job.text, line.number), what);
         }
         let Some(position) = position else {
             if !external {
                 let message = format!("`{word}` names no position");
                 let hint = "a move names one: `MOVL C00001 V=100.0`";
-                self.told.problem(job.text, line.span(), message, hint);
+                self.given.problem(job.text, line.span(), message, hint);
             }
             return;
         };
@@ -68,7 +68,7 @@ impl<'a> Reader<'a> {
         self.end_row(job);
         if word == "MOVS" {
             let what = "MOVS is taken as straight between its points";
-            self.told.note((job.text, line.number), what);
+            self.given.note((job.text, line.number), what);
         }
         let motion = match word {
             "MOVJ" => Motion::Joint,
@@ -90,7 +90,7 @@ impl<'a> Reader<'a> {
             (None, _) => {
                 let message = format!("the position {} is not in the list of this job", part.text);
                 let hint = "its line stands below //POS: give the whole job, as the controller saves it";
-                self.told.problem(job.text, line.span_of(part), message, hint);
+                self.given.problem(job.text, line.span_of(part), message, hint);
                 None
             }
         }
@@ -99,20 +99,20 @@ impl<'a> Reader<'a> {
     fn speed(&mut self, job: &Job<'a>, line: &Line, (part, value): (&Part, &str)) -> Speed {
         if value.starts_with(|c: char| c.is_ascii_alphabetic()) {
             let what = "a speed out of a variable is not known";
-            self.told.note((job.text, line.number), what);
-            return Speed::Untold;
+            self.given.note((job.text, line.number), what);
+            return Speed::EvaluateError;
         }
         match number(value).filter(|value| *value >= 0.0) {
             Some(value) => {
                 let what = "speeds V= are taken as mm/s; a parameter of the controller may make them cm/min or inch/min";
-                self.told.note((job.text, line.number), what);
+                self.given.note((job.text, line.number), what);
                 Speed::Tip(value * 1e-3)
             }
             None => {
                 let message = format!("`{value}` is no speed");
                 let hint = "write it in mm/s: `V=100.0`";
-                self.told.problem(job.text, line.span_of(part), message, hint);
-                Speed::Untold
+                self.given.problem(job.text, line.span_of(part), message, hint);
+                Speed::EvaluateError
             }
         }
     }
@@ -129,13 +129,13 @@ impl<'a> Reader<'a> {
                 let message =
                     "the points of this arc count in different frames or have different tools".to_owned();
                 let hint = "teach the three points of an arc in one frame with one tool";
-                self.told.problem(job.text, line.span(), message, hint);
+                self.given.problem(job.text, line.span(), message, hint);
             }
             Next::Uncertain => {
                 let message = "a fourth MOVC in a row: which points make which arc is not certain".to_owned();
                 let hint =
                     "end an arc by FPT, or begin the next with a MOVL to the place where the tip stands";
-                self.told.problem(job.text, line.span(), message, hint);
+                self.given.problem(job.text, line.span(), message, hint);
             }
         }
     }

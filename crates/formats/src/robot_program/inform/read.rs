@@ -7,7 +7,7 @@ use crate::robot_program::language::Language;
 use crate::robot_program::program::{RobotMove, RobotProgram, Target};
 use crate::robot_program::spelling::{Line, Part, lines};
 use crate::robot_program::text::ProgramText;
-use crate::robot_program::told::Told;
+use crate::robot_program::given::Told;
 
 /// Jobs that call jobs are followed so deep.
 const DEEPEST: usize = 30;
@@ -69,12 +69,12 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
         names: texts.iter().map(job_name).collect(),
         done: vec![false; texts.len()],
         moves: Vec::new(),
-        told: Told::default(),
+        given: Told::default(),
     };
     reader.job(0, 0);
-    let told = |one: &RobotMove| !matches!(one.target, Target::Elsewhere { .. });
+    let given = |one: &RobotMove| !matches!(one.target, Target::Elsewhere { .. });
     if let (Some(first), Some(text)) = (reader.moves.first(), texts.first())
-        && !reader.moves.iter().any(told)
+        && !reader.moves.iter().any(given)
     {
         let message = format!(
             "line {}: no target of this job is told in coordinates",
@@ -82,12 +82,12 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
         );
         let hint = "pulses and variables are known to the controller alone: save the job as a relative job, with positions in \
                     BASE, ROBOT or USER";
-        reader.told.problem(text, 0..0, message, hint);
+        reader.given.problem(text, 0..0, message, hint);
     }
     let Reader {
-        names, moves, told, ..
+        names, moves, given, ..
     } = reader;
-    let notes = told.finish()?;
+    let notes = given.finish()?;
     Ok(RobotProgram {
         language: Language::Inform,
         name: names.into_iter().next().unwrap_or_default(),
@@ -99,12 +99,12 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
 
 /// What a job calls itself, or its file.
 fn job_name(text: &ProgramText) -> String {
-    let told = text.text().lines().take(50).find_map(|line| {
+    let given = text.text().lines().take(50).find_map(|line| {
         let rest = line.trim_start().strip_prefix("//NAME")?;
         let name = rest.trim();
         (!name.is_empty()).then(|| name.to_owned())
     });
-    told.unwrap_or_else(|| {
+    given.unwrap_or_else(|| {
         let name = text.name().rsplit(['/', '\\']).next().unwrap_or_default();
         name.rsplit_once('.').map_or(name, |(stem, _)| stem).to_owned()
     })
@@ -116,7 +116,7 @@ pub(super) struct Reader<'a> {
     names: Vec<String>,
     done: Vec<bool>,
     pub moves: Vec<RobotMove>,
-    pub told: Told,
+    pub given: Told,
 }
 
 /// A job on its way.
@@ -146,7 +146,7 @@ impl<'a> Reader<'a> {
             if said.text.starts_with("/JOB") {
                 jobs += 1;
                 if jobs == 2 {
-                    self.told.note(
+                    self.given.note(
                         (text, line.number),
                         "a second job in the same file is passed over",
                     );
@@ -157,9 +157,9 @@ impl<'a> Reader<'a> {
             } else if instructions && !said.text.starts_with("//") {
                 self.instruction(&mut job, &line);
             } else if !instructions {
-                job.positions.take(&line, &mut self.told);
+                job.positions.take(&line, &mut self.given);
             }
-            if self.told.is_full() {
+            if self.given.is_full() {
                 return;
             }
         }
@@ -173,7 +173,7 @@ impl<'a> Reader<'a> {
         }
         if said.text.starts_with('*') {
             let what = "labels and jumps are passed over: what stands here runs once";
-            return self.told.note((job.text, line.number), what);
+            return self.given.note((job.text, line.number), what);
         }
         let mut words = said.words();
         let Some(first) = words.next() else {
@@ -185,7 +185,7 @@ impl<'a> Reader<'a> {
             "CALL" => self.call(job, line, words.next()),
             _ if word.starts_with("+MOV") => {
                 let what = "what a second robot or a station does beside (+MOV..) is passed over";
-                self.told.note((job.text, line.number), what);
+                self.given.note((job.text, line.number), what);
             }
             _ if word.contains("MOV") => {
                 let message = format!("the move `{word}` is not followed");
@@ -193,20 +193,20 @@ impl<'a> Reader<'a> {
                     "IMOV" => "it goes by an increment: write it as MOVL to a position",
                     _ => "understood are MOVJ, MOVL, MOVC and MOVS of one robot",
                 };
-                self.told.problem(job.text, line.span_of(&first), message, hint);
+                self.given.problem(job.text, line.span_of(&first), message, hint);
             }
             _ if CHOICES.contains(&word.as_str()) => {
                 let what = format!("{word} is passed over: what stands here runs once");
-                self.told.note((job.text, line.number), what);
+                self.given.note((job.text, line.number), what);
             }
             _ if SHIFTS.contains(&word.as_str()) => {
                 let what = format!("{word} is passed over: positions are taken as they are listed");
-                self.told.note((job.text, line.number), what);
+                self.given.note((job.text, line.number), what);
             }
             _ if COMPUTES.contains(&word.as_str()) && words.any(|word| word.text.starts_with(['P', 'p'])) => {
                 let what =
                     format!("{word} of a position variable is passed over: it is taken as it is listed");
-                self.told.note((job.text, line.number), what);
+                self.given.note((job.text, line.number), what);
             }
             _ => {}
         }
@@ -224,11 +224,11 @@ impl<'a> Reader<'a> {
             Some(index) if !self.done[index] && job.depth < DEEPEST => self.job(index, job.depth + 1),
             Some(_) => {
                 let what = format!("the job {name} is called again: it is read once");
-                self.told.note((job.text, line.number), what);
+                self.given.note((job.text, line.number), what);
             }
             None => {
                 let what = format!("the job {name} is called, but not given: what it does is passed over");
-                self.told.note((job.text, line.number), what);
+                self.given.note((job.text, line.number), what);
             }
         }
     }
@@ -238,7 +238,7 @@ impl<'a> Reader<'a> {
         if let Some(span) = job.row.end() {
             let message = "this row of MOVC has no three points".to_owned();
             let hint = "an arc goes through three MOVC in a row";
-            self.told.problem(job.text, span, message, hint);
+            self.given.problem(job.text, span, message, hint);
         }
     }
 }

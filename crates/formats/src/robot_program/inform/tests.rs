@@ -89,14 +89,14 @@ fn every_move_of_a_job_is_read_with_what_lasts_over_it() {
     assert_eq!(
         said,
         [
-            (Motion::Joint, Frame::Untold, tool, Speed::Joints, 33),
+            (Motion::Joint, Frame::EvaluateError, tool, Speed::Joints, 33),
             (straight.clone(), user, tool, Speed::Tip(0.138), 34),
             (straight.clone(), user, tool, Speed::Tip(0.0105), 35),
             (arc.clone(), user, tool, Speed::Tip(0.0105), 37),
             (arc, user, tool, Speed::Tip(0.02), 39),
-            (straight.clone(), base, other, Speed::Untold, 40),
+            (straight.clone(), base, other, Speed::EvaluateError, 40),
             (straight.clone(), base, other, Speed::Joints, 41),
-            (straight, Frame::Untold, Frame::Untold, Speed::Tip(0.005), 42),
+            (straight, Frame::EvaluateError, Frame::EvaluateError, Speed::Tip(0.005), 42),
         ]
     );
     let place = |index: usize| program.moves[index].target.pose().unwrap().translation.vector;
@@ -376,10 +376,10 @@ proptest! {
             prop_assert_eq!(turns, &beyond);
             prop_assert_eq!((one.frame, one.tool), (Frame::Numbered(draft.frame_number), Frame::Numbered(draft.tool_number)));
             match (point.speed, one.speed) {
-                (Some(told), Speed::Tip(speed)) if at > 0 => {
+                (Some(given), Speed::Tip(speed)) if at > 0 => {
                     prop_assert_eq!(&one.motion, &Motion::Linear);
                     // One decimal of mm/s.
-                    prop_assert!((told - speed).abs() <= 0.05001e-3);
+                    prop_assert!((given - speed).abs() <= 0.05001e-3);
                 }
                 (_, speed) => {
                     prop_assert!(at == 0 || point.speed.is_none());

@@ -146,7 +146,7 @@ fn instructions(draft: &Draft, attributes: &[&str], out: &mut String) {
             line(out, &format!("'{piece}"));
         }
     }
-    let told = [
+    let given = [
         (
             format!("USER {} from the base:", draft.frame_number),
             &draft.base_from_frame,
@@ -156,7 +156,7 @@ fn instructions(draft: &Draft, attributes: &[&str], out: &mut String) {
             &draft.flange_from_tool,
         ),
     ];
-    for (what, pose) in told {
+    for (what, pose) in given {
         for piece in std::iter::once(what).chain(numbers(pose)) {
             line(out, &format!("'{piece}"));
         }

@@ -85,7 +85,7 @@ impl Aggregate {
         let mut missing = Vec::new();
         for (number, name) in numbers.iter_mut().zip(names) {
             match self.number(name) {
-                Some(told) => *number = told,
+                Some(given) => *number = given,
                 None if former.is_none() || self.field(name).is_some() => missing.push(name),
                 None => {}
             }
@@ -242,12 +242,12 @@ pub(in crate::robot_program) fn spell((pose, anew): (&Isometry, Anew), before: &
         return whole(&numbers, out);
     }
     // Of an orientation that is told in part the rest comes from the move before, which may be spelled otherwise now.
-    let told = found
+    let given = found
         .iter()
         .filter(|token| token.kind == Kind::Word)
         .filter(|token| POSE[3..].contains(&before[token.span()].to_ascii_uppercase().as_str()))
         .count();
-    let anew = if matches!(told, 0 | 3) { anew } else { Anew::Pose };
+    let anew = if matches!(given, 0 | 3) { anew } else { Anew::Pose };
     let mut done = 0;
     let mut last = None;
     let mut spelled = [false; 6];

@@ -8,7 +8,7 @@ use super::read::Reader;
 use crate::convention::Convention;
 use crate::robot_program::program::{Frame, Speed};
 use crate::robot_program::tokens::{Cursor, Kind, Token};
-use crate::robot_program::told::shown;
+use crate::robot_program::given::shown;
 
 /// Frames that a controller has from the start; all are the base of the robot where `$ROBROOT` is null.
 const NULL_FRAMES: [&str; 3] = ["$NULLFRAME", "$WORLD", "$ROBROOT"];
@@ -26,9 +26,9 @@ pub(super) struct Modal {
 impl Default for Modal {
     fn default() -> Modal {
         Modal {
-            base: Frame::Untold,
-            tool: Frame::Untold,
-            speed: Speed::Untold,
+            base: Frame::EvaluateError,
+            tool: Frame::EvaluateError,
+            speed: Speed::EvaluateError,
             tool_stands: false,
         }
     }
@@ -65,14 +65,14 @@ impl<'a> Reader<'a> {
             ("$TOOL", field) => self.modal.tool = self.frame((at, What::Tool), value, field.is_some()),
             ("$VEL", Some("CP")) => self.speed(at, value.number()),
             ("$VEL", None) => {
-                let told = match Aggregate::read(&mut value.clone()) {
+                let given = match Aggregate::read(&mut value.clone()) {
                     Ok(all) => all.number("CP"),
                     Err(_) => {
                         let is_call = value.word().is_some_and(|word| word == "SVEL_CP") && value.pass('(');
                         is_call.then(|| value.number()).flatten()
                     }
                 };
-                self.speed(at, told);
+                self.speed(at, given);
             }
             ("FDAT_ACT", None) => {
                 if let Some(set) = self.set(at, value) {
@@ -90,8 +90,8 @@ impl<'a> Reader<'a> {
             (name, field) if !name.starts_with('$') => {
                 let name = name.to_owned();
                 let is_whole = field.is_none() && value.peek().is_some_and(|token| token.is('{'));
-                let told = is_whole.then(|| self.aggregate(&mut value)).flatten();
-                let known = match told {
+                let given = is_whole.then(|| self.aggregate(&mut value)).flatten();
+                let known = match given {
                     Some(aggregate) => Known::Told {
                         aggregate,
                         text: self.text,
@@ -150,7 +150,7 @@ impl<'a> Reader<'a> {
             "VEL_CP" | "CP_PARAMS" => self.speed(at, number),
             "CP_DAT" => self.speed(at, self.path_speed),
             "EX_BASE" => {
-                self.modal.base = Frame::Untold;
+                self.modal.base = Frame::EvaluateError;
                 self.note(
                     at,
                     "`BAS(#EX_BASE`: the frame hangs on another axis, which is not followed".to_owned(),
@@ -160,15 +160,15 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn speed(&mut self, at: Token, told: Option<f64>) {
-        self.modal.speed = match told {
+    fn speed(&mut self, at: Token, given: Option<f64>) {
+        self.modal.speed = match given {
             Some(speed) if speed > 0.0 => Speed::Tip(speed),
             _ => {
                 self.note(
                     at,
                     "the speed of the tip is no number here: it is not known".to_owned(),
                 );
-                Speed::Untold
+                Speed::EvaluateError
             }
         };
     }
@@ -217,14 +217,14 @@ impl<'a> Reader<'a> {
         let number = number.filter(|number| number.fract() == 0.0 && (0.0..=1e4).contains(number));
         let Some(number) = number.map(|number| number as u32) else {
             self.note(at, format!("{} is not told by a number here", what.field()));
-            return Frame::Untold;
+            return Frame::EvaluateError;
         };
         let name = format!("{}[{number}]", what.data());
-        let told = match self.names.find(&self.module, &name) {
+        let given = match self.names.find(&self.module, &name) {
             Some(Known::Told { aggregate, .. }) => aggregate.numbers(POSE, None).ok(),
             _ => None,
         };
-        match told.and_then(|numbers| Convention::Kuka.pose(&numbers).ok()) {
+        match given.and_then(|numbers| Convention::Kuka.pose(&numbers).ok()) {
             Some(pose) => Frame::Told(pose),
             None if number == 0 => Frame::Told(Isometry::identity()),
             None => Frame::Numbered(number),
@@ -253,7 +253,7 @@ impl<'a> Reader<'a> {
                     at,
                     format!("`{text}` is computed on the controller: what counts from it is not known"),
                 );
-                Frame::Untold
+                Frame::EvaluateError
             }
         }
     }
@@ -267,7 +267,7 @@ impl<'a> Reader<'a> {
             };
             let former = match former {
                 Frame::Told(pose) => <[f64; 6]>::try_from(Convention::Kuka.numbers_of(&pose)).ok(),
-                Frame::Numbered(_) | Frame::Untold => None,
+                Frame::Numbered(_) | Frame::EvaluateError => None,
             };
             let aggregate = self.aggregate(value)?;
             let numbers = self.complete((&aggregate, self.text), POSE, former)?;

@@ -73,7 +73,7 @@ impl<'a> Reader<'a> {
         if self.modal.tool_stands && matches!(target, Target::Pose { .. }) {
             let message = "the tool stands still here and the workpiece is on the flange (`#TCP`)".to_owned();
             let hint = "only programs whose tool is on the flange are read: IPO_FRAME #BASE";
-            self.told.problem(self.here(), at.span(), message, hint);
+            self.given.problem(self.here(), at.span(), message, hint);
             return;
         }
         let speed = match motion {
@@ -99,7 +99,7 @@ impl<'a> Reader<'a> {
         };
         if matches!((&motion, &goal), (Motion::Linear, Goal::Axes(_))) {
             let message = format!("`{word}` goes to axes, where a pose is wanted");
-            self.told
+            self.given
                 .problem(self.here(), at.span(), message, "only PTP goes to axes");
             return None;
         }
@@ -111,7 +111,7 @@ impl<'a> Reader<'a> {
         let place = cursor.place();
         if !cursor.pass(',') {
             let message = "a circle needs a point on its way and its end".to_owned();
-            self.told
+            self.given
                 .problem(self.here(), place, message, "`CIRC {via},{end}`");
             return None;
         }
@@ -119,14 +119,14 @@ impl<'a> Reader<'a> {
         if cursor.pass(',') {
             let message = "the circle goes on behind its end (`CA`), to a place that is not told".to_owned();
             let hint = "write the place where it ends, without CA";
-            self.told.problem(self.here(), at.span(), message, hint);
+            self.given.problem(self.here(), at.span(), message, hint);
             return None;
         }
         match (via, end) {
             (Goal::Pose(_, via), end @ Goal::Pose(..)) => Some((Motion::Circular { via }, end)),
             _ => {
                 let message = "a circle goes through poses, not axes".to_owned();
-                self.told.problem(self.here(), at.span(), message, HINT_TARGET);
+                self.given.problem(self.here(), at.span(), message, HINT_TARGET);
                 None
             }
         }
@@ -146,7 +146,7 @@ impl<'a> Reader<'a> {
             },
             _ => {
                 let message = "a target is missing here".to_owned();
-                self.told.problem(self.here(), place, message, HINT_TARGET);
+                self.given.problem(self.here(), place, message, HINT_TARGET);
                 return None;
             }
         };
@@ -159,7 +159,7 @@ impl<'a> Reader<'a> {
         let (is_pose, is_axes) = (named.aggregate.has_any(&POSE), named.aggregate.has_any(&AXES));
         if is_pose == is_axes {
             let message = "neither a pose (X, Y, Z, A, B, C) nor axes (A1 to A6)".to_owned();
-            self.told.problem(self.here(), place, message, HINT_TARGET);
+            self.given.problem(self.here(), place, message, HINT_TARGET);
             return None;
         }
         if is_axes {
@@ -231,7 +231,7 @@ impl<'a> Reader<'a> {
 
     fn too_large(&mut self, place: std::ops::Range<usize>) {
         let message = "a component beyond 1e9 mm or deg is no pose".to_owned();
-        self.told.problem(self.here(), place, message, HINT_TARGET);
+        self.given.problem(self.here(), place, message, HINT_TARGET);
     }
 
     /// The components of these names; those that are missing are told.
@@ -247,7 +247,7 @@ impl<'a> Reader<'a> {
                 let message = format!("{missing} of this target is not told, nor by the move before");
                 let hint = "a component left out keeps the value of the move before, in the same frame with the same tool";
                 let text = &self.texts[text];
-                self.told.problem(text, aggregate.bytes.clone(), message, hint);
+                self.given.problem(text, aggregate.bytes.clone(), message, hint);
                 None
             }
         }
@@ -257,7 +257,7 @@ impl<'a> Reader<'a> {
     pub fn aggregate(&mut self, cursor: &mut Cursor<'a>) -> Option<Aggregate> {
         let read = Aggregate::read(cursor);
         read.map_err(|wrong| {
-            self.told
+            self.given
                 .problem(self.here(), wrong.bytes, wrong.message, HINT_TARGET);
         })
         .ok()
@@ -269,7 +269,7 @@ impl<'a> Reader<'a> {
         let reference = Reference::read(cursor)?;
         let name = reference.name;
         let mut wrong = |message: String, hint: &str| {
-            self.told
+            self.given
                 .problem(&self.texts[self.text], token.span(), message, hint);
             None
         };
@@ -313,7 +313,7 @@ impl<'a> Reader<'a> {
             while cursor.next().is_some() {}
             let message = "what stands behind the target is not understood".to_owned();
             let hint = "behind a target stand C_DIS, C_ORI, C_VEL, C_PTP, C_SPL or WITH";
-            self.told
+            self.given
                 .problem(self.here(), place.start..cursor.end, message, hint);
         }
         ends

@@ -108,8 +108,8 @@ pub(super) fn declared<'a>(line: &Cursor<'a>) -> Option<Declared<'a>> {
         loop {
             match cursor.next().map(|token| token.kind) {
                 None => {
-                    let told = kind.is_some() || !values.is_empty();
-                    return told.then_some(Declared { kind, values });
+                    let given = kind.is_some() || !values.is_empty();
+                    return given.then_some(Declared { kind, values });
                 }
                 Some(Kind::Mark('{' | '(' | '[')) => depth += 1,
                 Some(Kind::Mark('}' | ')' | ']')) => depth = depth.saturating_sub(1),

@@ -11,7 +11,7 @@ use crate::robot_program::language::Language;
 use crate::robot_program::program::{RobotMove, RobotProgram};
 use crate::robot_program::text::ProgramText;
 use crate::robot_program::tokens::{Cursor, Kind, Token, tokens};
-use crate::robot_program::told::Told;
+use crate::robot_program::given::Told;
 
 /// Words of control: what they enclose is read once.
 const CONTROL: [&str; 7] = ["IF", "FOR", "WHILE", "LOOP", "REPEAT", "SWITCH", "GOTO"];
@@ -36,7 +36,7 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
             let broken = points::take_data(&mut reader.names, (&module_of(text), index), &lines);
             for wrong in broken {
                 let hint = "components are numbers, as `{X 100.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}`";
-                reader.told.problem(text, wrong.bytes, wrong.message, hint);
+                reader.given.problem(text, wrong.bytes, wrong.message, hint);
             }
         } else {
             reader.routines.extend(
@@ -60,8 +60,8 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
             reader.statement(line.clone());
         }
     }
-    let Reader { told, moves, .. } = reader;
-    let notes = told.finish()?;
+    let Reader { given, moves, .. } = reader;
+    let notes = given.finish()?;
     if moves.is_empty() {
         let name = texts.first().map_or("", ProgramText::name);
         let hint = "give the .src that moves the robot, with the .dat of its points";
@@ -102,7 +102,7 @@ pub(super) struct Reader<'a> {
     /// Where the move before ended.
     pub former: Option<Former>,
     routines: HashSet<String>,
-    pub told: Told,
+    pub given: Told,
     pub moves: Vec<RobotMove>,
 }
 
@@ -118,7 +118,7 @@ impl<'a> Reader<'a> {
             path_speed: None,
             former: None,
             routines: HashSet::new(),
-            told: Told::default(),
+            given: Told::default(),
             moves: Vec::new(),
         }
     }
@@ -161,7 +161,7 @@ impl<'a> Reader<'a> {
             _ if follows == Some(Kind::Mark('{')) || is_like_a_move(&word) && follows == Some(Kind::Word) => {
                 let message = format!("`{word}` is a move that is not understood");
                 let hint = "understood are PTP, LIN, CIRC, SPTP, SLIN, SCIRC, SPL and PTP_REL, LIN_REL";
-                self.told.problem(self.here(), first.span(), message, hint);
+                self.given.problem(self.here(), first.span(), message, hint);
             }
             _ => match declared(&line) {
                 Some(declared) => {
@@ -187,7 +187,7 @@ impl<'a> Reader<'a> {
 
     /// A remark on what stands at this token.
     pub fn note(&mut self, token: Token, sentence: String) {
-        self.told.note((self.here(), token.line), sentence);
+        self.given.note((self.here(), token.line), sentence);
     }
 }
 

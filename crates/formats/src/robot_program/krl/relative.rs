@@ -44,7 +44,7 @@ impl<'a> Reader<'a> {
         if goal.is_none() {
             let message = format!("where `{word}` goes to is not known");
             let hint = "it is read behind a move to a pose of the same frame and tool (to axes for axes), and turns in #TOOL alone";
-            self.told.problem(self.here(), at.span(), message, hint);
+            self.given.problem(self.here(), at.span(), message, hint);
         }
         goal.map(|goal| (motion, goal))
     }

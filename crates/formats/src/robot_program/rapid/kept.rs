@@ -6,7 +6,7 @@ use super::read::Reader;
 use super::value::{Node, Value};
 use crate::robot_program::program::Frame;
 use crate::robot_program::tokens::Token;
-use crate::robot_program::told::shown;
+use crate::robot_program::given::shown;
 
 /// What a move keeps while it lasts.
 pub(super) struct Kept {
@@ -49,7 +49,7 @@ impl Reader<'_> {
                 at,
                 "the work object is moved by another axis, which is not followed".to_owned(),
             );
-            return Some(Frame::Untold);
+            return Some(Frame::EvaluateError);
         }
         Some(match (user, object) {
             (Some(user), Some(object)) => Frame::Told(user * object),
@@ -60,7 +60,7 @@ impl Reader<'_> {
     fn stands_still(&mut self, at: Token) -> Option<Frame> {
         let message = "the tool stands still here and the workpiece is on the flange".to_owned();
         let hint = "only programs whose tool is on the flange are read: robhold TRUE of the tool, FALSE of the work object";
-        self.told.problem(self.here(), at.span(), message, hint);
+        self.given.problem(self.here(), at.span(), message, hint);
         None
     }
 
@@ -73,7 +73,7 @@ impl Reader<'_> {
             at,
             format!("`{text}` is not told by numbers: where it lies is not known"),
         );
-        Frame::Untold
+        Frame::EvaluateError
     }
 
     /// `[[x, y, z], [q1, q2, q3, q4]]`

@@ -8,7 +8,7 @@ use super::statement::is_move;
 use super::value::{Argument, Node, Value};
 use crate::robot_program::program::{Frame, Motion, RobotMove, Speed, Target};
 use crate::robot_program::tokens::{Cursor, Token};
-use crate::robot_program::told::shown;
+use crate::robot_program::given::shown;
 
 /// Moves of the joints to a pose, straight moves, circular moves.
 const JOINT: [&str; 6] = ["MOVEJ", "MOVEJAO", "MOVEJDO", "MOVEJGO", "MOVEJSYNC", "TRIGGJ"];
@@ -61,19 +61,19 @@ impl<'a> Reader<'a> {
                 let message = format!("`{name}` is a move that is not understood");
                 let hint =
                     "understood are MoveAbsJ, MoveJ, MoveL, MoveC and their like with signals, TriggL, ArcL";
-                self.told.problem(self.here(), at.span(), message, hint);
+                self.given.problem(self.here(), at.span(), message, hint);
             }
             return moves;
         }
-        let before = self.told.count();
+        let before = self.given.count();
         let arguments = self.arguments(&mut cursor, 0);
-        if self.told.count() > before {
+        if self.given.count() > before {
             return true;
         }
         if cursor.peek().is_some() {
             let message = format!("a closing bracket too many in this {name}");
             let hint = "every bracket is closed, in the order in which they were opened";
-            self.told.problem(self.here(), cursor.place(), message, hint);
+            self.given.problem(self.here(), cursor.place(), message, hint);
             return true;
         }
         let plain: Vec<&Node> = arguments
@@ -117,7 +117,7 @@ impl<'a> Reader<'a> {
     fn too_few(&mut self, (at, name): (Token, &str), found: usize) -> bool {
         let message = format!("{found} arguments of `{name}`");
         let hint = "a move has its target, speed, zone and tool: `MoveL p10,v100,z1,tool1\\WObj:=wobj1;`";
-        self.told.problem(self.here(), at.span(), message, hint);
+        self.given.problem(self.here(), at.span(), message, hint);
         true
     }
 
@@ -147,7 +147,7 @@ impl<'a> Reader<'a> {
         }
         let node = named(arguments, "v").unwrap_or(node);
         let found = self.names.look(node, self.text);
-        let told = found.and_then(|found| match &found.node.value {
+        let given = found.and_then(|found| match &found.node.value {
             Value::Number(speed) => Some(*speed),
             Value::List(all) => self.number(all.first()?, found.text),
             _ => None,
@@ -161,7 +161,7 @@ impl<'a> Reader<'a> {
             }
             _ => None,
         };
-        match told {
+        match given {
             Some(speed) if speed > 0.0 => Speed::Tip(speed * 1e-3),
             _ => ready().unwrap_or_else(|| {
                 let text = shown(&self.here().text()[node.bytes.clone()]);
@@ -169,7 +169,7 @@ impl<'a> Reader<'a> {
                     at,
                     format!("the speed `{text}` is not told: how fast the tip is is not known"),
                 );
-                Speed::Untold
+                Speed::EvaluateError
             }),
         }
     }

@@ -10,7 +10,7 @@ use crate::robot_program::language::Language;
 use crate::robot_program::program::{RobotMove, RobotProgram};
 use crate::robot_program::text::ProgramText;
 use crate::robot_program::tokens::{Cursor, Kind, Token, tokens};
-use crate::robot_program::told::Told;
+use crate::robot_program::given::Told;
 
 /// Words of control: what they govern is read once.
 const CONTROL: [&str; 8] = ["IF", "ELSEIF", "ELSE", "FOR", "WHILE", "TEST", "GOTO", "ERROR"];
@@ -102,7 +102,7 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
         routines: HashSet::new(),
         name: None,
         in_routine: false,
-        told: Told::default(),
+        given: Told::default(),
         moves: Vec::new(),
     };
     for pass in [Pass::Data, Pass::Routines] {
@@ -114,9 +114,9 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
         }
     }
     let Reader {
-        told, moves, name, ..
+        given, moves, name, ..
     } = reader;
-    let notes = told.finish()?;
+    let notes = given.finish()?;
     let file = texts.first().map_or("", ProgramText::name);
     if moves.is_empty() {
         let hint = "give the module whose routines move the robot: MoveJ, MoveL, MoveC, MoveAbsJ";
@@ -147,7 +147,7 @@ pub(super) struct Reader<'a> {
     pub routines: HashSet<String>,
     name: Option<String>,
     in_routine: bool,
-    pub told: Told,
+    pub given: Told,
     pub moves: Vec<RobotMove>,
 }
 
@@ -159,7 +159,7 @@ impl<'a> Reader<'a> {
 
     /// A remark on what stands at this token.
     pub fn note(&mut self, token: Token, sentence: String) {
-        self.told.note((self.here(), token.line), sentence);
+        self.given.note((self.here(), token.line), sentence);
     }
 
     fn statement(&mut self, pass: Pass, statement: Cursor<'a>) {
@@ -199,7 +199,7 @@ impl<'a> Reader<'a> {
             "PDISPON" | "PDISPSET" | "EOFFSON" | "EOFFSSET" => {
                 let message = format!("`{word}` displaces every target behind it");
                 let hint = "write the places where the tool goes, without program displacement";
-                self.told.problem(self.here(), at.span(), message, hint);
+                self.given.problem(self.here(), at.span(), message, hint);
             }
             "VELSET" => self.note(at, "`VelSet`: speeds are read as moves tell them".to_owned()),
             _ if QUIET.contains(&word.as_str()) => {}

@@ -44,11 +44,11 @@ pub(super) fn statements<'a>(text: &'a str, tokens: &'a [Token]) -> Vec<Cursor<'
 fn length(text: &str, rest: &[Token]) -> usize {
     let first = &text[rest[0].span()];
     let word = first.to_ascii_uppercase();
-    let after = |wanted: &dyn Fn(&Token) -> bool| {
-        let end = rest.iter().position(|token| token.is(';') || wanted(token));
+    let after = |requested: &dyn Fn(&Token) -> bool| {
+        let end = rest.iter().position(|token| token.is(';') || requested(token));
         end.map_or(rest.len(), |index| index + usize::from(!rest[index].is(';')))
     };
-    let is = |token: &Token, wanted: &str| text[token.span()].eq_ignore_ascii_case(wanted);
+    let is = |token: &Token, requested: &str| text[token.span()].eq_ignore_ascii_case(requested);
     let is_label =
         rest.get(1).is_some_and(|token| token.is(':')) && !rest.get(2).is_some_and(|token| token.is('='));
     match word.as_str() {

@@ -10,7 +10,7 @@ use crate::convention::Convention;
 use crate::robot_program::posture::Configuration;
 use crate::robot_program::program::{Spelled, Target};
 use crate::robot_program::tokens::Token;
-use crate::robot_program::told::shown;
+use crate::robot_program::given::shown;
 
 /// Places beside places beside places, more than anybody writes.
 const MOST_LINKS: usize = 16;
@@ -66,7 +66,7 @@ impl<'a> Reader<'a> {
 
     /// The joints of a jointtarget, rad.
     pub fn joints(&mut self, at: Token, node: &Node) -> Option<Vec<f64>> {
-        let wanted = "[[j1,j2,j3,j4,j5,j6],[9E9,9E9,9E9,9E9,9E9,9E9]]";
+        let requested = "[[j1,j2,j3,j4,j5,j6],[9E9,9E9,9E9,9E9,9E9,9E9]]";
         let found = self.names.look(node, self.text);
         let axes = found.and_then(|found| match &found.node.value {
             Value::List(all) => {
@@ -84,7 +84,7 @@ impl<'a> Reader<'a> {
             }
             None => {
                 let missing = self.why(node, self.text);
-                self.missing(node, missing, wanted);
+                self.missing(node, missing, requested);
                 None
             }
         }
@@ -199,10 +199,10 @@ impl<'a> Reader<'a> {
             ("ry", Vector3::y_axis()),
             ("rz", Vector3::z_axis()),
         ] {
-            let told = arguments
+            let given = arguments
                 .iter()
                 .find(|argument| argument.name.as_deref() == Some(name));
-            if let Some(node) = told.and_then(|argument| argument.value.as_ref()) {
+            if let Some(node) = given.and_then(|argument| argument.value.as_ref()) {
                 let deg = self.number(node, text).ok_or(Missing::Computed)?;
                 turn *= UnitQuaternion::from_axis_angle(&axis, deg.to_radians());
             }
@@ -226,7 +226,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn missing(&mut self, node: &Node, missing: Missing, wanted: &str) {
+    fn missing(&mut self, node: &Node, missing: Missing, requested: &str) {
         let text = shown(&self.here().text()[node.bytes.clone()]);
         let (message, hint) = match missing {
             // Told where it stands; a file with problems only in unused data is refused all the same.
@@ -237,11 +237,11 @@ impl<'a> Reader<'a> {
             ),
             Missing::Computed => (
                 format!("`{text}` is computed while the program runs, or is no such target"),
-                format!("a target here is `{wanted}`, or a name that stands for one"),
+                format!("a target here is `{requested}`, or a name that stands for one"),
             ),
-            Missing::Pose(why) => (why, format!("a target here is `{wanted}`")),
+            Missing::Pose(why) => (why, format!("a target here is `{requested}`")),
         };
-        self.told
+        self.given
             .problem(&self.texts[self.text], node.bytes.clone(), message, &hint);
     }
 }

@@ -91,7 +91,7 @@ impl<'a> Reader<'a> {
                 cursor.next();
                 let message = format!("`{}` is not a number", &cursor.text[token.span()]);
                 let hint = "numbers are written `100`, `-0.5`, `9E9`";
-                self.told.problem(self.here(), token.span(), message, hint);
+                self.given.problem(self.here(), token.span(), message, hint);
                 Value::Wrong
             }
             Kind::Mark('[') => {
@@ -128,7 +128,7 @@ impl<'a> Reader<'a> {
     fn unclosed(&mut self, cursor: &Cursor<'a>, mark: char) -> Value {
         let message = format!("`{mark}` is missing here");
         let hint = "every bracket is closed, in the order in which they were opened";
-        self.told.problem(self.here(), cursor.place(), message, hint);
+        self.given.problem(self.here(), cursor.place(), message, hint);
         Value::Wrong
     }
 
@@ -176,12 +176,12 @@ impl<'a> Reader<'a> {
                 if name.is_none() {
                     let message = "the name of an argument is missing behind this `\\`".to_owned();
                     let hint = "optional arguments are written `\\WObj:=wobj1`, `\\NoEOffs`";
-                    self.told.problem(self.here(), place, message, hint);
+                    self.given.problem(self.here(), place, message, hint);
                 }
-                let told = cursor.pass(':') && cursor.pass('=');
+                let given = cursor.pass(':') && cursor.pass('=');
                 all.push(Argument {
                     name: Some(name.unwrap_or_default()),
-                    value: told.then(|| self.expression(cursor, level)),
+                    value: given.then(|| self.expression(cursor, level)),
                 });
                 continue;
             }

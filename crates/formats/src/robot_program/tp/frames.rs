@@ -29,7 +29,7 @@ const NAMES: [(Which, &str); 4] = [
 #[derive(Debug, Default)]
 pub(super) struct Frames {
     registers: BTreeMap<u32, [Option<f64>; 6]>,
-    told: [BTreeMap<u32, Isometry>; 2],
+    given: [BTreeMap<u32, Isometry>; 2],
     chosen: [Option<u32>; 2],
 }
 
@@ -45,13 +45,13 @@ impl Frames {
                 let pose = single(right, "PR").and_then(|register| self.pose(register));
                 match (single_index(&at), pose) {
                     (Some(at), Some(pose)) => {
-                        self.told[which as usize].insert(at, pose);
+                        self.given[which as usize].insert(at, pose);
                     }
                     (Some(at), None) => {
-                        self.told[which as usize].remove(&at);
+                        self.given[which as usize].remove(&at);
                     }
                     // Which one was set is not known.
-                    (None, _) => self.told[which as usize].clear(),
+                    (None, _) => self.given[which as usize].clear(),
                 }
                 return true;
             }
@@ -117,9 +117,9 @@ impl Frames {
     /// The frame or tool of this number; the chosen one where a position has none of its own.
     pub fn get(&self, which: Which, own: Option<u32>) -> Frame {
         match own.or(self.chosen(which)) {
-            None => Frame::Untold,
+            None => Frame::EvaluateError,
             Some(0) => Frame::Told(Isometry::identity()),
-            Some(number) => self.told[which as usize]
+            Some(number) => self.given[which as usize]
                 .get(&number)
                 .map_or(Frame::Numbered(number), |pose| Frame::Told(*pose)),
         }

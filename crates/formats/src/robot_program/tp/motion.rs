@@ -39,7 +39,7 @@ impl<'a> Reader<'a> {
         if !matches!(kind.as_str(), "J" | "L" | "C" | "A" | "S") {
             let message = format!("the move `{kind}` is not followed");
             let hint = "understood are J, L, C, A and S";
-            self.told
+            self.given
                 .problem(program.text, statement.span.clone(), message, hint);
             return;
         }
@@ -66,13 +66,13 @@ impl<'a> Reader<'a> {
             ("C", None) => {
                 let message = "an arc with one position".to_owned();
                 let hint = "it goes through one to another: `C P[1] P[2] 100mm/sec FINE`";
-                self.told
+                self.given
                     .problem(program.text, statement.span.clone(), message, hint);
                 return;
             }
             ("S", _) => {
                 let what = "S is taken as straight between its positions";
-                self.told.note((program.text, statement.line), what);
+                self.given.note((program.text, statement.line), what);
                 Motion::Linear
             }
             _ => Motion::Linear,
@@ -95,7 +95,7 @@ impl<'a> Reader<'a> {
             }
             let message = format!("`{}` is no position", word.text);
             let hint = "a move names one: `L P[1] 100mm/sec FINE`; an arc two";
-            self.told.problem(program.text, word.range(), message, hint);
+            self.given.problem(program.text, word.range(), message, hint);
             return None;
         };
         let Some(number) = at.first().and_then(|at| at.parse::<u32>().ok()) else {
@@ -112,7 +112,7 @@ impl<'a> Reader<'a> {
                         let what = format!(
                             "positions of {what} {own} are gone to while {what} {chosen} is chosen: they are taken in their own"
                         );
-                        self.told.note((program.text, statement.line), what);
+                        self.given.note((program.text, statement.line), what);
                     }
                 }
                 return Some(Goal {
@@ -131,7 +131,7 @@ impl<'a> Reader<'a> {
                 "it stands behind /POS: save the whole program as ASCII (.LS)",
             ),
         };
-        self.told.problem(program.text, word.range(), message, hint);
+        self.given.problem(program.text, word.range(), message, hint);
         None
     }
 
@@ -149,32 +149,32 @@ impl<'a> Reader<'a> {
         if let Some(word) = rest.get(usize::from(apart)) {
             let lower = word.text.to_ascii_lowercase();
             let unit = UNITS.iter().find(|(unit, _)| lower.ends_with(unit));
-            let told = match (apart, unit) {
+            let given = match (apart, unit) {
                 (true, _) => rest.first().map_or("", |word| word.text),
                 (false, Some((unit, _))) => word.text.get(..lower.len() - unit.len()).unwrap_or_default(),
                 (false, None) => "",
             };
-            let computed = told.starts_with(['R', 'r', 'A', 'a']) && told.contains('[');
-            match (unit, number(told).filter(|value| *value >= 0.0)) {
+            let computed = given.starts_with(['R', 'r', 'A', 'a']) && given.contains('[');
+            match (unit, number(given).filter(|value| *value >= 0.0)) {
                 (None, _) => {}
                 (Some((_, None)), _) => return Speed::Joints,
                 (Some((_, Some([length, time]))), Some(value)) => return Speed::Tip(value * length / time),
                 (Some(_), None) if computed => {
                     let what = "a speed out of a register is not known";
-                    self.told.note((program.text, statement.line), what);
-                    return Speed::Untold;
+                    self.given.note((program.text, statement.line), what);
+                    return Speed::EvaluateError;
                 }
                 (Some(_), None) => {
-                    let message = format!("`{told}` is no speed");
-                    self.told
+                    let message = format!("`{given}` is no speed");
+                    self.given
                         .problem(program.text, word.range(), message, "write it as `100mm/sec`");
-                    return Speed::Untold;
+                    return Speed::EvaluateError;
                 }
             }
         }
         let what = "a speed that the program does not tell (WELD_SPEED, max_speed, ...) is not known";
-        self.told.note((program.text, statement.line), what);
-        Speed::Untold
+        self.given.note((program.text, statement.line), what);
+        Speed::EvaluateError
     }
 
     /// Whether a move goes to its position, whatever else is said of it.
@@ -190,12 +190,12 @@ impl<'a> Reader<'a> {
             if let Some(refused) = refused {
                 let message = format!("this move {refused}, which is not followed");
                 let hint = "write it as a move of a tool at the flange to a position of its own";
-                self.told.problem(program.text, word.range(), message, hint);
+                self.given.problem(program.text, word.range(), message, hint);
                 return false;
             }
             if SHIFTS.contains(&name) || name == "COORD" {
                 let what = format!("{name} of moves is passed over: they go to their positions as taught");
-                self.told.note((program.text, statement.line), what);
+                self.given.note((program.text, statement.line), what);
             }
         }
         true
@@ -203,14 +203,14 @@ impl<'a> Reader<'a> {
 
     /// One more A of a row.
     fn arc(&mut self, program: &mut Program<'a>, statement: &Statement, (goal, speed): (Goal, Speed)) {
-        match program.row.next(goal, ArcEnd::Untold, statement.span.clone()) {
+        match program.row.next(goal, ArcEnd::EvaluateError, statement.span.clone()) {
             Next::Straight(goal) => self.push((Motion::Linear, goal, speed), statement),
             Next::Waits => {}
             Next::Arc { via, end } => self.circle(program, statement, (via, end, speed)),
             Next::Uncertain => {
                 let message = "a fourth A in a row: which positions make which arc is not certain".to_owned();
                 let hint = "write arcs as C with two positions";
-                self.told
+                self.given
                     .problem(program.text, statement.span.clone(), message, hint);
             }
         }
@@ -226,7 +226,7 @@ impl<'a> Reader<'a> {
             let message =
                 "the positions of this arc count in different frames or have different tools".to_owned();
             let hint = "teach the positions of an arc in one frame with one tool";
-            self.told
+            self.given
                 .problem(program.text, statement.span.clone(), message, hint);
             return;
         }

@@ -8,7 +8,7 @@ use crate::robot_program::posture::Configuration;
 use crate::robot_program::program::{Spelled, Target};
 use crate::robot_program::spelling::{Line, Part, number};
 use crate::robot_program::text::ProgramText;
-use crate::robot_program::told::Told;
+use crate::robot_program::given::Told;
 
 /// A position of the first group.
 #[derive(Clone, Debug)]
@@ -62,12 +62,12 @@ struct Open {
 pub(super) fn positions(
     (text, index): (&ProgramText, usize),
     lines: &[Line],
-    told: &mut Told,
+    given: &mut Told,
 ) -> BTreeMap<u32, Position> {
     let mut done = BTreeMap::new();
     let mut open: Option<Open> = None;
     for line in lines {
-        if told.is_full() {
+        if given.is_full() {
             break;
         }
         let said = line.trimmed();
@@ -75,9 +75,9 @@ pub(super) fn positions(
         if said.text.starts_with("P[") || said.text.starts_with("p[") {
             if let Some(open) = open.take() {
                 let message = format!("the position P[{}] has no end", open.number);
-                told.problem(text, open.span, message, "a position ends with `};`");
+                given.problem(text, open.span, message, "a position ends with `};`");
             }
-            open = begin(text, line, told);
+            open = begin(text, line, given);
             rest = said
                 .text
                 .find('{')
@@ -96,24 +96,24 @@ pub(super) fn positions(
             ),
             None => (rest, false),
         };
-        fields((text, line), inside, position, told);
+        fields((text, line), inside, position, given);
         if ends && let Some(position) = open.take() {
-            end((text, index), position, &mut done, told);
+            end((text, index), position, &mut done, given);
         }
     }
     if let Some(open) = open {
         let message = format!("the position P[{}] has no end", open.number);
-        told.problem(text, open.span, message, "a position ends with `};`");
+        given.problem(text, open.span, message, "a position ends with `};`");
     }
     done
 }
 
-fn begin(text: &ProgramText, line: &Line, told: &mut Told) -> Option<Open> {
+fn begin(text: &ProgramText, line: &Line, given: &mut Told) -> Option<Open> {
     let said = line.trimmed();
     let inside = said.text[2..].split([']', ':']).next().unwrap_or_default().trim();
     let Ok(number) = inside.parse() else {
         let message = format!("`{inside}` is no number of a position");
-        told.problem(text, line.span(), message, "positions are written `P[1]{`");
+        given.problem(text, line.span(), message, "positions are written `P[1]{`");
         return None;
     };
     Some(Open {
@@ -133,7 +133,7 @@ fn begin(text: &ProgramText, line: &Line, told: &mut Told) -> Option<Open> {
 }
 
 /// What one line says of a position.
-fn fields((text, line): (&ProgramText, &Line), inside: Part, position: &mut Open, told: &mut Told) {
+fn fields((text, line): (&ProgramText, &Line), inside: Part, position: &mut Open, given: &mut Told) {
     // Commas of the configuration stand between quotes.
     let mut quoted = false;
     let begin = inside.at;
@@ -159,10 +159,10 @@ fn fields((text, line): (&ProgramText, &Line), inside: Part, position: &mut Open
         let part = group(part, position);
         if position.group > 1 && before <= 1 {
             let what = "what further groups (GP2, ...) do is passed over: they are taken as standing still";
-            told.note((text, line.number), what);
+            given.note((text, line.number), what);
         }
         if position.group <= 1 {
-            one_field((text, line), part, position, told);
+            one_field((text, line), part, position, given);
         }
     }
 }
@@ -170,11 +170,11 @@ fn fields((text, line): (&ProgramText, &Line), inside: Part, position: &mut Open
 /// What stands behind `GP1:`, if that is told; a group that was left is not come back to.
 fn group<'a>(part: Part<'a>, position: &mut Open) -> Part<'a> {
     let said = part.trimmed();
-    let told = said
+    let given = said
         .text
         .get(..2)
         .filter(|begin| begin.eq_ignore_ascii_case("gp"));
-    match (told, said.text.find(':')) {
+    match (given, said.text.find(':')) {
         (Some(_), Some(colon)) => {
             let number = said.text[2..colon].trim().parse().unwrap_or(u32::MAX);
             position.group = position.group.max(number);
@@ -184,7 +184,7 @@ fn group<'a>(part: Part<'a>, position: &mut Open) -> Part<'a> {
     }
 }
 
-fn one_field((text, line): (&ProgramText, &Line), part: Part, position: &mut Open, told: &mut Told) {
+fn one_field((text, line): (&ProgramText, &Line), part: Part, position: &mut Open, given: &mut Told) {
     let Some((key, value)) = field(part) else {
         return;
     };
@@ -195,7 +195,7 @@ fn one_field((text, line): (&ProgramText, &Line), part: Part, position: &mut Ope
         ("UT", _) => position.numbers[1] = value.text.parse().ok(),
         ("CONFIG", _) => configure(part, position),
         (_, Some(axis)) => {
-            if let Some(value) = taught((text, line), (&key, value), position, told) {
+            if let Some(value) = taught((text, line), (&key, value), position, given) {
                 let turning = part.text.trim_end().to_ascii_lowercase().ends_with("deg");
                 let value = if turning { value.to_radians() } else { value * 1e-3 };
                 position.joints.insert(axis, value);
@@ -207,10 +207,10 @@ fn one_field((text, line): (&ProgramText, &Line), part: Part, position: &mut Ope
                 if position.pose[at].is_some() {
                     position.broken = true;
                     let message = format!("{key} is told twice in P[{}]", position.number);
-                    return told.problem(text, line.span_of(&value), message, "tell each number once");
+                    return given.problem(text, line.span_of(&value), message, "tell each number once");
                 }
                 let place = line.span_of(&value);
-                position.pose[at] = taught((text, line), (&key, value), position, told);
+                position.pose[at] = taught((text, line), (&key, value), position, given);
                 let spelled = position
                     .spelled
                     .get_or_insert_with(|| line.start + key_at(part)..place.end);
@@ -222,7 +222,7 @@ fn one_field((text, line): (&ProgramText, &Line), part: Part, position: &mut Ope
                 position.relative = true;
             } else if key.starts_with('E') {
                 let what = "extended axes (E1, ...) are passed over: they are taken as standing still";
-                told.note((text, line.number), what);
+                given.note((text, line.number), what);
             }
         }
     }
@@ -237,7 +237,7 @@ fn taught(
     (text, line): (&ProgramText, &Line),
     (key, value): (&str, Part),
     position: &mut Open,
-    told: &mut Told,
+    given: &mut Told,
 ) -> Option<f64> {
     let found = number(value.text);
     if found.is_some() {
@@ -249,7 +249,7 @@ fn taught(
         position.broken = true;
         let message = format!("`{}` is no number of {key} in P[{}]", value.text, position.number);
         let hint = "write it as `X = 200.000 mm`";
-        told.problem(text, line.span_of(&value), message, hint);
+        given.problem(text, line.span_of(&value), message, hint);
     }
     None
 }
@@ -276,7 +276,7 @@ fn end(
     (text, index): (&ProgramText, usize),
     open: Open,
     done: &mut BTreeMap<u32, Position>,
-    told: &mut Told,
+    given: &mut Told,
 ) {
     let values = open.pose.iter().copied().collect::<Option<Vec<f64>>>();
     let values = values.and_then(|values| <[f64; 6]>::try_from(values).ok());
@@ -296,7 +296,7 @@ fn end(
             }),
             Err(error) => {
                 let message = format!("the position P[{}] is no pose: {error}", open.number);
-                told.problem(
+                given.problem(
                     text,
                     open.span.clone(),
                     message,
@@ -326,7 +326,7 @@ fn end(
     };
     if done.insert(open.number, position).is_some() {
         let message = format!("the position P[{}] is told twice", open.number);
-        told.problem(text, open.span, message, "give each position a number of its own");
+        given.problem(text, open.span, message, "give each position a number of its own");
     }
 }
 

@@ -12,7 +12,7 @@ use crate::robot_program::language::Language;
 use crate::robot_program::program::{RobotMove, RobotProgram};
 use crate::robot_program::spelling::Part;
 use crate::robot_program::text::ProgramText;
-use crate::robot_program::told::Told;
+use crate::robot_program::given::Told;
 
 /// Programs that call programs are followed so deep.
 const DEEPEST: usize = 30;
@@ -37,10 +37,10 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
             .lines()
             .take(50)
             .find_map(|line| line.trim_start().strip_prefix("/PROG"));
-        let told = head
+        let given = head
             .and_then(|rest| rest.split_whitespace().next())
             .unwrap_or_default();
-        names.push(told.to_owned());
+        names.push(given.to_owned());
     }
     let mut reader = Reader {
         texts: &texts,
@@ -48,11 +48,11 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
         done: vec![false; texts.len()],
         frames: Frames::default(),
         moves: Vec::new(),
-        told: Told::default(),
+        given: Told::default(),
     };
     reader.program(0, 0)?;
-    let Reader { moves, told, .. } = reader;
-    let notes = told.finish()?;
+    let Reader { moves, given, .. } = reader;
+    let notes = given.finish()?;
     Ok(RobotProgram {
         language: Language::Tp,
         name: names.into_iter().next().unwrap_or_default(),
@@ -69,7 +69,7 @@ pub(super) struct Reader<'a> {
     done: Vec<bool>,
     pub frames: Frames,
     pub moves: Vec<RobotMove>,
-    pub told: Told,
+    pub given: Told,
 }
 
 /// A program on its way.
@@ -93,12 +93,12 @@ impl<'a> Reader<'a> {
         };
         let mut program = Program {
             text,
-            positions: positions((text, at), &sections.positions, &mut self.told),
+            positions: positions((text, at), &sections.positions, &mut self.given),
             row: ArcRow::default(),
             depth,
         };
         for statement in &sections.statements {
-            if self.told.is_full() {
+            if self.given.is_full() {
                 break;
             }
             self.statement(&mut program, statement)?;
@@ -140,13 +140,13 @@ impl<'a> Reader<'a> {
         }
         if CHOICES.contains(&name.as_str()) {
             let what = format!("{name} is passed over: what stands here runs once");
-            self.told.note((program.text, statement.line), what);
+            self.given.note((program.text, statement.line), what);
         } else if SHIFTS.contains(&name.as_str()) {
             let what = format!("{name} is passed over: moves go to their positions as taught");
-            self.told.note((program.text, statement.line), what);
+            self.given.note((program.text, statement.line), what);
         } else if index(first, "P").is_some_and(|(_, behind)| behind.starts_with('=')) {
             let what = "a position is computed, and passed over: it is taken as taught";
-            self.told.note((program.text, statement.line), what);
+            self.given.note((program.text, statement.line), what);
         }
         Ok(())
     }
@@ -163,11 +163,11 @@ impl<'a> Reader<'a> {
             }
             Some(_) => {
                 let what = format!("{name} is called again: it is read once");
-                self.told.note((program.text, statement.line), what);
+                self.given.note((program.text, statement.line), what);
             }
             None => {
                 let what = format!("{name} is called, but not given: what it does is passed over");
-                self.told.note((program.text, statement.line), what);
+                self.given.note((program.text, statement.line), what);
             }
         }
         Ok(())
@@ -177,7 +177,7 @@ impl<'a> Reader<'a> {
     pub fn end_row(&mut self, program: &mut Program<'a>) {
         if let Some(span) = program.row.end() {
             let message = "this row of A has no three positions".to_owned();
-            self.told.problem(
+            self.given.problem(
                 program.text,
                 span,
                 message,

@@ -172,8 +172,8 @@ pub(super) fn index<'a>(word: &'a str, name: &str) -> Option<(Vec<&'a str>, &'a 
         _ => inside,
     };
     // The name of a register stands behind what it is told by; one with a register inside has no such name here.
-    let told = inside.split_once(':').map_or(inside, |(told, _)| told);
-    Some((told.split(',').map(str::trim).collect(), behind))
+    let given = inside.split_once(':').map_or(inside, |(given, _)| given);
+    Some((given.split(',').map(str::trim).collect(), behind))
 }
 
 #[cfg(test)]

@@ -116,7 +116,7 @@ fn every_move_of_a_listing_is_read_with_its_frame_and_tool() {
             (motion, one.frame, one.tool, one.speed, one.line)
         })
         .collect();
-    let told = Frame::Told(
+    let given = Frame::Told(
         Convention::Fanuc
             .pose(&[100.0, -20.5, 0.0, 0.0, 0.0, 90.0])
             .unwrap(),
@@ -130,12 +130,12 @@ fn every_move_of_a_listing_is_read_with_its_frame_and_tool() {
             ("joint", two, one, Speed::Joints, 13),
             ("straight", two, one, Speed::Tip(0.25), 14),
             ("arc", two, one, Speed::Tip(0.1), 15),
-            ("straight", told, one, Speed::Tip(2.54 / 60.0), 24),
+            ("straight", given, one, Speed::Tip(2.54 / 60.0), 24),
             ("straight", base, three, Speed::Tip(0.05), 26),
-            ("arc", base, three, Speed::Untold, 28),
-            ("straight", base, three, Speed::Untold, 29),
+            ("arc", base, three, Speed::EvaluateError, 28),
+            ("straight", base, three, Speed::EvaluateError, 29),
             ("straight", base, three, Speed::Joints, 31),
-            ("straight", told, three, Speed::Untold, 32),
+            ("straight", given, three, Speed::EvaluateError, 32),
         ]
     );
     assert_eq!(
@@ -439,9 +439,9 @@ proptest! {
             match &one.target {
                 Target::Joints(joints) => {
                     prop_assert_eq!(at, 0);
-                    for (joint, told) in joints.iter().zip(&point.joints) {
+                    for (joint, given) in joints.iter().zip(&point.joints) {
                         // Three decimals of a degree.
-                        prop_assert!((joint - told).abs() <= 0.000_501_f64.to_radians());
+                        prop_assert!((joint - given).abs() <= 0.000_501_f64.to_radians());
                     }
                 }
                 Target::Pose { pose, branch, turns, .. } => {
@@ -456,10 +456,10 @@ proptest! {
                 Target::Elsewhere { .. } => panic!(),
             }
             match (point.speed, one.speed) {
-                (Some(told), Speed::Tip(speed)) if at > 0 => {
+                (Some(given), Speed::Tip(speed)) if at > 0 => {
                     prop_assert_eq!(&one.motion, &Motion::Linear);
                     // Whole cm/min: half of one is 0.0833 mm/s.
-                    prop_assert!((told - speed).abs() <= 0.084e-3);
+                    prop_assert!((given - speed).abs() <= 0.084e-3);
                 }
                 (_, speed) => {
                     prop_assert!(at == 0 || point.speed.is_none());

@@ -7,7 +7,7 @@ use super::read::Reader;
 use super::value::{Argument, Value};
 use crate::robot_program::program::{Frame, Motion, RobotMove, Speed, Target};
 use crate::robot_program::tokens::Token;
-use crate::robot_program::told::shown;
+use crate::robot_program::given::shown;
 
 /// Joints of an arm of Universal Robots.
 const JOINTS: usize = 6;
@@ -21,7 +21,7 @@ impl<'a> Reader<'a> {
             _ => {
                 let message = format!("`{word}` without its target");
                 let hint = "`movel(p[...], a=1.2, v=0.25)`, `movec(p[...], p[...])`";
-                self.told.problem(self.here(), at.span(), message, hint);
+                self.given.problem(self.here(), at.span(), message, hint);
                 return;
             }
         };
@@ -34,7 +34,7 @@ impl<'a> Reader<'a> {
             Some(Some(_)) => {
                 let message = "the two places of this circle count in different frames".to_owned();
                 let hint = "tell both in one frame, or both in the base";
-                self.told.problem(self.here(), at.span(), message, hint);
+                self.given.problem(self.here(), at.span(), message, hint);
                 return;
             }
             Some(None) => return,
@@ -59,7 +59,7 @@ impl<'a> Reader<'a> {
     fn target(&mut self, argument: &Argument) -> Option<(Target, Isometry)> {
         let text = &self.here().text()[argument.bytes.clone()];
         let mut wrong = |message: String, hint: &str| {
-            self.told
+            self.given
                 .problem(&self.texts[self.text], argument.bytes.clone(), message, hint);
             None
         };
@@ -92,7 +92,7 @@ impl<'a> Reader<'a> {
                     false => format!("`{}` is computed while the program runs", shown(text)),
                 };
                 let hint = "a target is `p[x, y, z, rx, ry, rz]`, joints, or a name that stands for them";
-                self.told
+                self.given
                     .problem(&self.texts[self.text], argument.bytes.clone(), message, hint);
                 None
             }
@@ -117,6 +117,6 @@ fn speed(word: &str, rest: &[Argument]) -> Speed {
     }
     match number("v", 1) {
         Some(speed) if speed > 0.0 => Speed::Tip(speed),
-        _ => Speed::Untold,
+        _ => Speed::EvaluateError,
     }
 }

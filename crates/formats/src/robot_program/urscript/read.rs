@@ -9,7 +9,7 @@ use crate::robot_program::language::Language;
 use crate::robot_program::program::{Frame, RobotMove, RobotProgram};
 use crate::robot_program::text::ProgramText;
 use crate::robot_program::tokens::{Cursor, Kind, Token, tokens};
-use crate::robot_program::told::Told;
+use crate::robot_program::given::Told;
 
 /// Words that govern what follows their colon.
 const CONTROL: [&str; 5] = ["if", "elif", "while", "for", "thread"];
@@ -31,10 +31,10 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
         texts: &texts,
         text: 0,
         known: HashMap::new(),
-        tool: Frame::Untold,
+        tool: Frame::EvaluateError,
         routines: HashSet::new(),
         name: None,
-        told: Told::default(),
+        given: Told::default(),
         moves: Vec::new(),
     };
     let found: Vec<Vec<Token>> = texts
@@ -59,9 +59,9 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
         }
     }
     let Reader {
-        told, moves, name, ..
+        given, moves, name, ..
     } = reader;
-    let notes = told.finish()?;
+    let notes = given.finish()?;
     let file = texts.first().map_or("", ProgramText::name);
     if moves.is_empty() {
         let hint = "give the .script that moves the robot: movej, movel, movep, movec";
@@ -118,7 +118,7 @@ pub(super) struct Reader<'a> {
     pub tool: Frame,
     routines: HashSet<&'a str>,
     name: Option<&'a str>,
-    pub told: Told,
+    pub given: Told,
     pub moves: Vec<RobotMove>,
 }
 
@@ -130,7 +130,7 @@ impl<'a> Reader<'a> {
 
     /// A remark on what stands at this token.
     pub fn note(&mut self, token: Token, sentence: String) {
-        self.told.note((self.here(), token.line), sentence);
+        self.given.note((self.here(), token.line), sentence);
     }
 
     fn statement(&mut self, statement: Cursor<'a>) {
@@ -200,7 +200,7 @@ impl<'a> Reader<'a> {
                             at,
                             "the tool is computed on the controller: it is not known".to_owned(),
                         );
-                        Frame::Untold
+                        Frame::EvaluateError
                     }
                 };
             }
@@ -213,7 +213,7 @@ impl<'a> Reader<'a> {
             _ if FOLLOWING.contains(&word) || word.starts_with("move") => {
                 let message = format!("`{word}` moves the robot in a way that is not understood");
                 let hint = "understood are movej, movel, movep and movec";
-                self.told.problem(self.here(), at.span(), message, hint);
+                self.given.problem(self.here(), at.span(), message, hint);
             }
             _ if QUIET.iter().any(|begin| word.starts_with(begin)) => {}
             _ => self.note(at, format!("`{word}` is called: what it does is not known here")),

@@ -81,7 +81,7 @@ impl<'a> Reader<'a> {
     fn unclosed(&mut self, cursor: &Cursor<'a>, mark: char) {
         let message = format!("`{mark}` is missing here");
         let hint = "every bracket is closed, in the order in which they were opened";
-        self.told.problem(self.here(), cursor.place(), message, hint);
+        self.given.problem(self.here(), cursor.place(), message, hint);
     }
 
     /// Goes to the next of a list, past its comma, or to where the list is closed; what stands in between is not
@@ -166,7 +166,7 @@ impl<'a> Reader<'a> {
                 cursor.next();
                 let message = format!("`{}` is not a number", &cursor.text[token.span()]);
                 let hint = "numbers are written `0.25`, `-1.5`, `1e-3`; m and rad";
-                self.told.problem(self.here(), token.span(), message, hint);
+                self.given.problem(self.here(), token.span(), message, hint);
                 Value::Wrong
             }
             Kind::Mark('(') => {
@@ -263,7 +263,7 @@ impl<'a> Reader<'a> {
     fn pose(&mut self, all: &[Value], bytes: Range<usize>) -> Value {
         let mut wrong = |message: String| {
             let hint = "a pose is `p[x, y, z, rx, ry, rz]`, m and rad";
-            self.told
+            self.given
                 .problem(&self.texts[self.text], bytes.clone(), message, hint);
             Value::Wrong
         };

@@ -12,7 +12,7 @@ use crate::robot_program::posture::Configuration;
 use crate::robot_program::program::{Spelled, Target};
 use crate::robot_program::spelling::number;
 use crate::robot_program::text::ProgramText;
-use crate::robot_program::told::Told;
+use crate::robot_program::given::Told;
 
 /// Frames stand in frames so deep.
 const DEEPEST: usize = 30;
@@ -166,7 +166,7 @@ impl Data {
                     };
                     let shown = format!("{}[{}]", reference.name, reference.key);
                     if self.list.insert(reference, datum).is_some() {
-                        let message = format!("{shown} is told twice");
+                        let message = format!("{shown} is given twice");
                         told.problem(
                             text,
                             tag.inside.range(),
@@ -263,7 +263,7 @@ fn numbers(
             let Reference { name, key: at } = reference;
             let message = format!("`{}` is no number: {key} of {name}[{at}]", attribute.value.text);
             let hint = "numbers are written with a point: `x=\"100.5\"`";
-            told.problem(file.text, attribute.value.range(), message, hint);
+            given.problem(file.text, attribute.value.range(), message, hint);
             return None;
         };
         found.push(value);
@@ -271,13 +271,13 @@ fn numbers(
     Some(found)
 }
 
-fn pose(file: &File, (reference, said): (&Reference, &[Attribute]), told: &mut Told) -> Option<Isometry> {
-    let numbers = numbers(file, (reference, said), (&super::KEYS, told))?;
+fn pose(file: &File, (reference, said): (&Reference, &[Attribute]), given: &mut Told) -> Option<Isometry> {
+    let numbers = numbers(file, (reference, said), (&super::KEYS, given))?;
     match Convention::Staubli.pose(&numbers) {
         Ok(pose) => Some(pose),
         Err(error) => {
             let message = format!("{}[{}] is no pose: {error}", reference.name, reference.key);
-            told.problem(
+            given.problem(
                 file.text,
                 file.tag.clone(),
                 message,

@@ -65,8 +65,8 @@ pub(super) fn spell((pose, anew): (&Isometry, Anew), before: &str, out: &mut Str
     }
     numbers.sort_by_key(|(place, ..)| place.start);
     // Behind the closing quote of the last of them.
-    let told = numbers.last().map(|(place, ..)| place.end + 1);
-    let end = told.unwrap_or(before.trim_end().len()).min(before.len());
+    let given = numbers.last().map(|(place, ..)| place.end + 1);
+    let end = given.unwrap_or(before.trim_end().len()).min(before.len());
     respelled(before.get(..end).unwrap_or(before), &numbers, out);
     out.push_str(&missing);
     out.push_str(before.get(end..).unwrap_or_default());

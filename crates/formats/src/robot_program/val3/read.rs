@@ -10,7 +10,7 @@ use crate::robot_program::language::Language;
 use crate::robot_program::program::{Frame, Motion, RobotMove, RobotProgram, Speed, Target};
 use crate::robot_program::spelling::Part;
 use crate::robot_program::text::ProgramText;
-use crate::robot_program::told::Told;
+use crate::robot_program::given::Told;
 
 /// Programs that call programs are followed so deep.
 const DEEPEST: usize = 30;
@@ -33,14 +33,14 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
         names: BTreeMap::new(),
         done: Vec::new(),
         moves: Vec::new(),
-        told: Told::default(),
+        given: Told::default(),
     };
     let mut project = None;
     for (index, text) in texts.iter().enumerate() {
         match kind(text) {
             Kind::Data => {
                 reader.has_data = true;
-                reader.data.take((text, index), &mut reader.told);
+                reader.data.take((text, index), &mut reader.given);
             }
             Kind::Project => {
                 project.get_or_insert(stem(text));
@@ -73,12 +73,12 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
             if let Some(text) = texts.first() {
                 let message = "no program (.pgx) is among these files".to_owned();
                 let hint = "give the whole folder of the project: .pjx, .dtx and .pgx";
-                reader.told.problem(text, 0..0, message, hint);
+                reader.given.problem(text, 0..0, message, hint);
             }
         }
     }
-    let Reader { moves, told, .. } = reader;
-    let notes = told.finish()?;
+    let Reader { moves, given, .. } = reader;
+    let notes = given.finish()?;
     Ok(RobotProgram {
         language: Language::Val3,
         name,
@@ -122,7 +122,7 @@ struct Reader<'a> {
     names: BTreeMap<&'a str, usize>,
     done: Vec<bool>,
     moves: Vec<RobotMove>,
-    told: Told,
+    given: Told,
 }
 
 /// Where a move goes.
@@ -140,7 +140,7 @@ impl<'a> Reader<'a> {
             {
                 let message = "this project counts in inches, which is not read".to_owned();
                 let hint = "set its unit of length to mm (millimeterUnit) in the maker's suite";
-                self.told.problem(text, tag.inside.range(), message, hint);
+                self.given.problem(text, tag.inside.range(), message, hint);
             }
         }
     }
@@ -154,7 +154,7 @@ impl<'a> Reader<'a> {
         let mut lines = LineCount::new(text.text());
         for code in &program.code {
             for event in events(*code, &mut lines) {
-                if self.told.is_full() {
+                if self.given.is_full() {
                     return;
                 }
                 self.event((text, &program), &event, depth);
@@ -167,7 +167,7 @@ impl<'a> Reader<'a> {
             What::Move { word, arguments } => self.motion((text, program), (event, *word), arguments),
             What::Unclosed(word) => {
                 let message = format!("the bracket of `{}` is not closed", word.text);
-                self.told.problem(
+                self.given.problem(
                     text,
                     word.range(),
                     message,
@@ -180,17 +180,17 @@ impl<'a> Reader<'a> {
                     Some(at) if !self.done[at] && depth < DEEPEST => self.program(at, depth + 1),
                     Some(_) => {
                         let what = format!("{name} is called again: it is read once");
-                        self.told.note((text, event.line), what);
+                        self.given.note((text, event.line), what);
                     }
                     None => {
                         let what = format!("{name} is called, but not given: what it does is passed over");
-                        self.told.note((text, event.line), what);
+                        self.given.note((text, event.line), what);
                     }
                 }
             }
             What::Choice(word) => {
                 let what = format!("{word} is passed over: what stands here runs once");
-                self.told.note((text, event.line), what);
+                self.given.note((text, event.line), what);
             }
             What::Assign(name) => {
                 let first = Reference::of(name);
@@ -198,7 +198,7 @@ impl<'a> Reader<'a> {
                 if used.is_some() {
                     let what =
                         format!("{name} is computed, and passed over: it is taken as the data tell it");
-                    self.told.note((text, event.line), what);
+                    self.given.note((text, event.line), what);
                 }
             }
         }
@@ -216,14 +216,14 @@ impl<'a> Reader<'a> {
             _ => {
                 let message = format!("the move `{}` is not followed", word.text);
                 let hint = "understood are movej, movel and movec of one robot";
-                self.told.problem(text, word.range(), message, hint);
+                self.given.problem(text, word.range(), message, hint);
                 return;
             }
         };
         let (Some(goals), Some([tool, speed])) = (arguments.get(..goals), arguments.get(goals..)) else {
             let message = format!("`{}` with {} arguments", word.text, arguments.len());
             let hint = "written are `movel(point,tool,mdesc)` and `movec(via,point,tool,mdesc)`";
-            self.told.problem(text, word.range(), message, hint);
+            self.given.problem(text, word.range(), message, hint);
             return;
         };
         let mut found: Vec<Goal> = goals
@@ -247,7 +247,7 @@ impl<'a> Reader<'a> {
             (_, Some(_)) => {
                 let message = "the points of this arc count in different frames".to_owned();
                 let hint = "give both points of an arc one fatherId";
-                self.told.problem(text, word.range(), message, hint);
+                self.given.problem(text, word.range(), message, hint);
                 return;
             }
         };
@@ -267,7 +267,7 @@ impl<'a> Reader<'a> {
             let name = argument.text.chars().take(LONGEST_SHOWN).collect();
             Some(Goal {
                 target: Target::Elsewhere { name },
-                frame: Frame::Untold,
+                frame: Frame::EvaluateError,
             })
         };
         let Some(reference) = Reference::of(argument.text) else {
@@ -275,7 +275,7 @@ impl<'a> Reader<'a> {
         };
         let (message, hint) = match self.data.get(&reference) {
             Some(Datum::Point { target, father }) => {
-                let frame = self.data.pose_of(father).map_or(Frame::Untold, Frame::Told);
+                let frame = self.data.pose_of(father).map_or(Frame::EvaluateError, Frame::Told);
                 return Some(Goal {
                     target: target.clone(),
                     frame,
@@ -284,7 +284,7 @@ impl<'a> Reader<'a> {
             Some(Datum::Joints(target)) => {
                 return Some(Goal {
                     target: target.clone(),
-                    frame: Frame::Untold,
+                    frame: Frame::EvaluateError,
                 });
             }
             Some(Datum::Refused) => return None,
@@ -311,33 +311,33 @@ impl<'a> Reader<'a> {
                 "give all data files of the project, as pointRx or jointRx",
             ),
         };
-        self.told.problem(text, argument.range(), message, hint);
+        self.given.problem(text, argument.range(), message, hint);
         None
     }
 
     fn tool(&mut self, (text, line): (&ProgramText, u32), argument: Part) -> Frame {
-        let told = Reference::of(argument.text).and_then(|_| self.data.pose_of(argument.text));
-        told.map_or_else(
+        let given = Reference::of(argument.text).and_then(|_| self.data.pose_of(argument.text));
+        given.map_or_else(
             || {
                 let name: String = argument.text.chars().take(LONGEST_SHOWN).collect();
                 let what = format!("the tool `{name}` is not told in the data");
-                self.told.note((text, line), what);
-                Frame::Untold
+                self.given.note((text, line), what);
+                Frame::EvaluateError
             },
             Frame::Told,
         )
     }
 
     fn speed(&mut self, (text, line): (&ProgramText, u32), argument: Part) -> Speed {
-        let told = Reference::of(argument.text).and_then(|reference| self.data.get(&reference));
-        match told {
+        let given = Reference::of(argument.text).and_then(|reference| self.data.get(&reference));
+        match given {
             Some(Datum::Speed(Some(tip))) => Speed::Tip(*tip),
             Some(Datum::Speed(None)) => Speed::Joints,
             _ => {
                 let name: String = argument.text.chars().take(LONGEST_SHOWN).collect();
                 let what = format!("the description of moves `{name}` is not told in the data");
-                self.told.note((text, line), what);
-                Speed::Untold
+                self.given.note((text, line), what);
+                Speed::EvaluateError
             }
         }
     }

@@ -128,12 +128,12 @@ fn every_move_of_a_project_is_read_with_its_data() {
     assert_eq!(
         said,
         [
-            ("joint", Frame::Untold, tool, Speed::Joints, 10),
+            ("joint", Frame::EvaluateError, tool, Speed::Joints, 10),
             ("straight", part, tool, Speed::Tip(0.05), 11),
             ("arc", part, base, Speed::Joints, 12),
-            ("straight", Frame::Untold, tool, Speed::Tip(0.05), 14),
-            ("straight", Frame::Untold, Frame::Untold, Speed::Untold, 16),
-            ("joint", Frame::Untold, tool, Speed::Joints, 18),
+            ("straight", Frame::EvaluateError, tool, Speed::Tip(0.05), 14),
+            ("straight", Frame::EvaluateError, Frame::EvaluateError, Speed::EvaluateError, 16),
+            ("joint", Frame::EvaluateError, tool, Speed::Joints, 18),
             ("straight", base, tool, Speed::Tip(0.05), 20),
             ("joint", base, tool, Speed::Joints, 21),
             ("straight", part, tool, Speed::Tip(0.05), 2),
@@ -287,7 +287,7 @@ fn each_mistake_has_its_sentence() {
     assert!(problems(&[("a.pjx", PROJECT)])[0].contains("no program (.pgx) is among these files"));
     let circle = "<Database><Data name=\"f\" type=\"frame\"><Value fatherId=\"f\" /></Data><Data name=\"p\" type=\"pointRx\"><Value fatherId=\"f\" /></Data></Database>";
     let program = read(texts(&[("a.dtx", circle), ("start.pgx", "x=movel(p,flange,m)")])).unwrap();
-    assert_eq!(program.moves[0].frame, Frame::Untold);
+    assert_eq!(program.moves[0].frame, Frame::EvaluateError);
 }
 
 #[test]
@@ -369,9 +369,9 @@ proptest! {
             match &one.target {
                 Target::Joints(joints) => {
                     prop_assert_eq!(at, 0);
-                    for (joint, told) in joints.iter().zip(&point.joints) {
+                    for (joint, given) in joints.iter().zip(&point.joints) {
                         // Five decimals of a degree.
-                        prop_assert!((joint - told).abs() <= 0.000_005_01_f64.to_radians());
+                        prop_assert!((joint - given).abs() <= 0.000_005_01_f64.to_radians());
                     }
                 }
                 Target::Pose { pose, branch, .. } => {
@@ -382,10 +382,10 @@ proptest! {
                 Target::Elsewhere { .. } => panic!(),
             }
             match (point.speed, one.speed) {
-                (Some(told), Speed::Tip(speed)) if at > 0 => {
+                (Some(given), Speed::Tip(speed)) if at > 0 => {
                     prop_assert_eq!(&one.motion, &Motion::Linear);
                     // Three decimals of mm/s.
-                    prop_assert!((told - speed).abs() <= 0.501e-6);
+                    prop_assert!((given - speed).abs() <= 0.501e-6);
                 }
                 (_, speed) => {
                     prop_assert!(at == 0 || point.speed.is_none());

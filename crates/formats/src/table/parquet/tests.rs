@@ -208,8 +208,8 @@ fn foreign(
         .with_fields(fields)
         .build()
         .unwrap();
-    let told = columns.map(|text| vec![KeyValue::new("columns".to_owned(), text.to_owned())]);
-    let properties = WriterProperties::builder().set_key_value_metadata(told).build();
+    let given = columns.map(|text| vec![KeyValue::new("columns".to_owned(), text.to_owned())]);
+    let properties = WriterProperties::builder().set_key_value_metadata(given).build();
     let mut file = SerializedFileWriter::new(Vec::new(), Arc::new(schema), Arc::new(properties)).unwrap();
     let mut group = file.next_row_group().unwrap();
     let mut column = group.next_column().unwrap().unwrap();
@@ -219,7 +219,7 @@ fn foreign(
     file.into_inner().unwrap()
 }
 
-/// Why such a file is no table.
+/// Why such a file is not a table.
 fn refused(bytes: &[u8]) -> String {
     read(bytes).unwrap_err().to_string()
 }

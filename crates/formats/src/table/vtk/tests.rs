@@ -250,33 +250,33 @@ fn a_grid_of_one_row_and_no_points_at_all_are_files_too() {
 
 #[test]
 fn an_image_needs_points_spacing_and_a_finite_origin() {
-    let told = |origin: [f64; 3], spacing: [f64; 3], counts: [usize; 3]| {
+    let given = |origin: [f64; 3], spacing: [f64; 3], counts: [usize; 3]| {
         Image::new(origin, spacing, counts, vec![])
             .unwrap_err()
             .to_string()
     };
     assert_eq!(
-        told([0.0; 3], [1.0; 3], [3, 0, 2]),
+        given([0.0; 3], [1.0; 3], [3, 0, 2]),
         "the grid has 3 x 0 x 2 points: at least 1 is needed in each direction"
     );
     assert_eq!(
-        told([0.0; 3], [1.0, 0.0, 1.0], [1; 3]),
+        given([0.0; 3], [1.0, 0.0, 1.0], [1; 3]),
         "the grid spacing is 1 x 0 x 1 mm: each must be above 0 mm"
     );
-    assert!(told([0.0; 3], [f64::INFINITY, 1.0, 1.0], [1; 3]).contains("must be above 0 mm"));
-    assert!(told([0.0, f64::NAN, 0.0], [1.0; 3], [1; 3]).contains("must be finite"));
+    assert!(given([0.0; 3], [f64::INFINITY, 1.0, 1.0], [1; 3]).contains("must be above 0 mm"));
+    assert!(given([0.0, f64::NAN, 0.0], [1.0; 3], [1; 3]).contains("must be finite"));
 }
 
 #[test]
 fn arrays_must_fit_the_points_and_differ_in_name() {
-    let told = |arrays: Vec<PointArray>| {
+    let given = |arrays: Vec<PointArray>| {
         Image::new([0.0; 3], [1.0; 3], [2, 1, 1], arrays)
             .unwrap_err()
             .to_string()
     };
     let two = |name: &str| array(name, PointValues::Scalar(vec![Some(1.0), None]));
     assert_eq!(
-        told(vec![array("a", PointValues::Scalar(vec![None]))]),
+        given(vec![array("a", PointValues::Scalar(vec![None]))]),
         "array `a` has 1 values: there are 2 points"
     );
     let huge = Image::new([0.0; 3], [1.0; 3], [usize::MAX, 2, 1], vec![two("a")]);
@@ -288,9 +288,9 @@ fn arrays_must_fit_the_points_and_differ_in_name() {
             ..
         })
     ));
-    assert_eq!(told(vec![two("a"), two("a")]), "two arrays are called `a`");
+    assert_eq!(given(vec![two("a"), two("a")]), "two arrays are called `a`");
     assert_eq!(
-        told(vec![two("a"), two("a_valid")]),
+        given(vec![two("a"), two("a_valid")]),
         "two arrays are called `a_valid`"
     );
 }
@@ -312,21 +312,21 @@ fn values_that_are_not_finite_are_refused() {
 #[test]
 fn cells_must_name_points_that_exist() {
     let points = vec![[0.0; 3]; 3];
-    let told = |lines: Vec<Vec<usize>>, quads: Vec<[usize; 4]>| {
+    let given = |lines: Vec<Vec<usize>>, quads: Vec<[usize; 4]>| {
         PolyData::new(points.clone(), lines, quads, vec![])
             .unwrap_err()
             .to_string()
     };
     assert_eq!(
-        told(vec![vec![0, 3]], vec![]),
+        given(vec![vec![0, 3]], vec![]),
         "a cell names point 3: there are 3"
     );
     assert_eq!(
-        told(vec![], vec![[0, 1, 2, 7]]),
+        given(vec![], vec![[0, 1, 2, 7]]),
         "a cell names point 7: there are 3"
     );
     assert_eq!(
-        told(vec![vec![0, 1], vec![2]], vec![]),
+        given(vec![vec![0, 1], vec![2]], vec![]),
         "line 1 has 1 points: at least 2 are needed"
     );
     let error = PolyData::plane_grids(points.clone(), &[[2, 2]], vec![]).unwrap_err();

@@ -87,7 +87,7 @@ impl Interpreter<'_> {
     fn drill(&mut self, statement: &Statement, kind: &str) {
         let metres = self.metres(statement);
         let before = self.problems.len();
-        let mut told = Parameters::default();
+        let mut given = Parameters::default();
         let mut parameters = statement.parameters().skip(1);
         while let Some(key) = parameters.next() {
             let name = key.text.to_uppercase();
@@ -105,14 +105,14 @@ impl Interpreter<'_> {
                 continue;
             };
             match name.as_str() {
-                "FEDTO" => told.depth = Some(value * metres),
-                "RAPTO" => told.rapid_to = Some(value * metres),
-                "RTRCTO" => told.retract_to = Some(value * metres),
-                "INCR" if kind == "DEEP" => told.first_peck = Some(value * metres),
-                "1STPECK" if kind == "DEEP2" => told.first_peck = Some(value * metres),
-                "SUBPECK" if kind == "DEEP2" => told.next_peck = Some(value * metres),
+                "FEDTO" => given.depth = Some(value * metres),
+                "RAPTO" => given.rapid_to = Some(value * metres),
+                "RTRCTO" => given.retract_to = Some(value * metres),
+                "INCR" if kind == "DEEP" => given.first_peck = Some(value * metres),
+                "1STPECK" if kind == "DEEP2" => given.first_peck = Some(value * metres),
+                "SUBPECK" if kind == "DEEP2" => given.next_peck = Some(value * metres),
                 "DWELL" => {}
-                "MMPM" | "IPM" | "MMPR" | "IPR" => told.feed = self.feed_in(statement, &name, value),
+                "MMPM" | "IPM" | "MMPR" | "IPR" => given.feed = self.feed_in(statement, &name, value),
                 _ => {
                     let message = format!("`{name}` is not understood in the cycle {kind}");
                     let hint = "understood are FEDTO, RAPTO, RTRCTO, DWELL, MMPM, IPM, MMPR, IPR; in DEEP INCR, in \
@@ -125,7 +125,7 @@ impl Interpreter<'_> {
         if self.problems.len() > before {
             return;
         }
-        match made(&told, kind, self.dialect) {
+        match made(&given, kind, self.dialect) {
             Ok(cycle) => self.cycle = Some(cycle),
             Err((message, hint)) => self.tell(statement, statement.parameters_span(), message, hint),
         }
@@ -196,13 +196,13 @@ impl Interpreter<'_> {
 ///
 /// Refused are: no depth or height, nothing to cut below the point, a retract height below that where it begins to cut,
 /// more than 1000 pecks.
-fn made(told: &Parameters, kind: &str, dialect: Option<Dialect>) -> Result<Cycle, (String, &'static str)> {
+fn made(given: &Parameters, kind: &str, dialect: Option<Dialect>) -> Result<Cycle, (String, &'static str)> {
     let missing = |name: &str| {
         let hint = "a cycle tells how deep (FEDTO) and from which height above the point (RAPTO) it cuts";
         (format!("the cycle {kind} has no {name}"), hint)
     };
-    let fed_to = told.depth.ok_or_else(|| missing("FEDTO"))?;
-    let rapid_to = told.rapid_to.ok_or_else(|| missing("RAPTO"))?;
+    let fed_to = given.depth.ok_or_else(|| missing("FEDTO"))?;
+    let rapid_to = given.rapid_to.ok_or_else(|| missing("RAPTO"))?;
     let depth = match dialect {
         Some(Dialect::Nx) => -fed_to,
         _ => fed_to,
@@ -214,7 +214,7 @@ fn made(told: &Parameters, kind: &str, dialect: Option<Dialect>) -> Result<Cycle
         };
         return Err((format!("the cycle {kind} cuts nothing below its points"), hint));
     }
-    let retract_to = told.retract_to.unwrap_or(rapid_to);
+    let retract_to = given.retract_to.unwrap_or(rapid_to);
     if retract_to < rapid_to {
         let hint = "RTRCTO and RAPTO are heights above the point";
         return Err((
@@ -225,10 +225,10 @@ fn made(told: &Parameters, kind: &str, dialect: Option<Dialect>) -> Result<Cycle
     let pecks = match kind {
         "DRILL" => None,
         _ => {
-            let first = told
+            let first = given
                 .first_peck
                 .ok_or_else(|| missing(if kind == "DEEP" { "INCR" } else { "1STPECK" }))?;
-            let next = told.next_peck.unwrap_or(first);
+            let next = given.next_peck.unwrap_or(first);
             let most = (depth + rapid_to) / MOST_PECKS;
             if first < most || next < most {
                 let hint = "the depth of a peck is a length above 0";
@@ -244,7 +244,7 @@ fn made(told: &Parameters, kind: &str, dialect: Option<Dialect>) -> Result<Cycle
         depth,
         rapid_to,
         retract_to,
-        feed: told.feed,
+        feed: given.feed,
         pecks,
     })
 }

@@ -69,7 +69,7 @@ pub struct Wanted {
 pub fn read(
     path: &str,
     reader: impl BufRead,
-    wanted: &Wanted,
+    requested: &Wanted,
     out: &mut dyn FnMut(Step),
 ) -> Result<Summary, Problems> {
     let mut statements = Statements::new(path, reader);
@@ -78,7 +78,7 @@ pub fn read(
         summary.count(&step);
         out(step);
     };
-    let mut interpreter = Interpreter::new(path, wanted, &mut counted);
+    let mut interpreter = Interpreter::new(path, requested, &mut counted);
     while interpreter.problems.len() < MOST_PROBLEMS {
         match statements.next() {
             Ok(Some(statement)) => interpreter.take(&statement),

@@ -43,7 +43,7 @@ pub(super) struct Interpreter<'a> {
     /// The path that problems show.
     pub name: &'a str,
     /// What the user says where the file is silent.
-    pub wanted: &'a Wanted,
+    pub requested: &'a Wanted,
     /// Takes the steps.
     out: &'a mut dyn FnMut(Step),
     /// Those found so far.
@@ -98,17 +98,17 @@ pub(super) struct Interpreter<'a> {
 
 impl<'a> Interpreter<'a> {
     /// Before the first statement.
-    pub fn new(name: &'a str, wanted: &'a Wanted, out: &'a mut dyn FnMut(Step)) -> Interpreter<'a> {
+    pub fn new(name: &'a str, requested: &'a Wanted, out: &'a mut dyn FnMut(Step)) -> Interpreter<'a> {
         Interpreter {
             name,
-            wanted,
+            requested,
             out,
             problems: Vec::new(),
             ignored: Notes::default(),
             warnings: Notes::default(),
             points: 0,
             unit: None,
-            dialect: wanted.dialect,
+            dialect: requested.dialect,
             unit_asked: false,
             cutter: [None; 2],
             operation: Operation::default(),
@@ -210,7 +210,7 @@ impl<'a> Interpreter<'a> {
     ///
     /// Where nobody did, a file has a problem, and mm stand in so that the rest is looked at.
     pub fn metres(&mut self, statement: &Statement) -> f64 {
-        self.unit = self.unit.or(self.wanted.unit);
+        self.unit = self.unit.or(self.requested.unit);
         if self.unit.is_none() && !self.unit_asked {
             self.unit_asked = true;
             let message = "a length, but nothing before it tells the unit of this file";
@@ -226,7 +226,7 @@ impl<'a> Interpreter<'a> {
     pub fn evidence(&mut self, statement: &Statement, dialect: Dialect) {
         match self.dialect {
             None => self.dialect = Some(dialect),
-            Some(known) if known != dialect && self.wanted.dialect.is_none() => {
+            Some(known) if known != dialect && self.requested.dialect.is_none() => {
                 let message = format!(
                     "`{}` is a word of {dialect}, but those before are of {known}",
                     statement.word

@@ -51,10 +51,10 @@ impl Interpreter<'_> {
         let rapid = std::mem::take(&mut self.rapid) || statement.word != "GOTO";
         let circle = self.circle.take();
         self.points += 1;
-        let Some((end, told)) = self.point_and_axis(statement) else {
+        let Some((end, given)) = self.point_and_axis(statement) else {
             return;
         };
-        let axis = self.axis_of(statement, told);
+        let axis = self.axis_of(statement, given);
         if let Some(cycle) = self.cycle.clone() {
             if rapid || circle.is_some() {
                 let message = "RAPID or CIRCLE within a drilling cycle: is this a hole?";
@@ -170,7 +170,7 @@ impl Interpreter<'_> {
     /// Feed a turn is taken with the spindle as it turns here; without one it is a problem.
     pub fn pace(&mut self, statement: &Statement) -> Pace {
         match self.feed {
-            None => Pace::Untold,
+            None => Pace::EvaluateError,
             Some(Feed::Speed(speed)) => Pace::Feed(speed),
             Some(Feed::PerTurn(length)) => match self.operation.spindle.filter(|speed| *speed != 0.0) {
                 Some(speed) => Pace::Feed(length * speed.abs() / TAU),
@@ -180,7 +180,7 @@ impl Interpreter<'_> {
                     let message = "feed is told for each turn, but the spindle does not turn here";
                     let hint = "a `SPINDL/n,RPM,CLW` is missing before";
                     self.tell(statement, statement.word_span(), message, hint);
-                    Pace::Untold
+                    Pace::EvaluateError
                 }
             },
         }
@@ -208,8 +208,8 @@ impl Interpreter<'_> {
     /// The tool axis at a point that writes `told`, as the dialect has it.
     ///
     /// Where the dialect is not known, leaving out an axis that was written before is a problem: each means another.
-    fn axis_of(&mut self, statement: &Statement, told: ToldAxis) -> Option<Unit<Vector3<f64>>> {
-        match (told, self.dialect) {
+    fn axis_of(&mut self, statement: &Statement, given: ToldAxis) -> Option<Unit<Vector3<f64>>> {
+        match (given, self.dialect) {
             (Some(axis), _) => self.axis = Some(axis),
             (None, Some(Dialect::Nx)) => {}
             (None, Some(Dialect::SolidWorks)) => self.axis = Some(Vector3::z_axis()),

@@ -11,9 +11,9 @@ use armill_core::path::{Arc, Course, Move, Operation, Step};
 
 use super::*;
 
-fn steps(text: &str, wanted: &Wanted) -> Result<(Summary, Vec<Step>), Problems> {
+fn steps(text: &str, expected: &Wanted) -> Result<(Summary, Vec<Step>), Problems> {
     let mut steps = Vec::new();
-    let summary = read("part.apt", text.as_bytes(), wanted, &mut |step| steps.push(step))?;
+    let summary = read("part.apt", text.as_bytes(), expected, &mut |step| steps.push(step))?;
     Ok((summary, steps))
 }
 

@@ -56,7 +56,7 @@ fn rapids_axes_and_feeds_that_are_not_told_are_told_apart() {
     let found = moves(text);
     assert_eq!(found[0].pace, Pace::Rapid);
     assert_eq!(found[1].pace, Pace::Feed(0.001));
-    assert_eq!(found[2].pace, Pace::Untold);
+    assert_eq!(found[2].pace, Pace::EvaluateError);
     assert_eq!(found[0].axis, Some(Vector3::z_axis()));
     assert_eq!(found[1].axis, None);
     assert!((found[2].axis.unwrap().into_inner() - Vector3::new(0.0, 0.6, 0.8)).norm() < 1e-15);
@@ -104,9 +104,9 @@ fn names_without_unit_unknown_and_double_columns_are_told_with_what_was_meant() 
         ),
         ("1.0,2.0,3.0", "`1.0` is no name of a column"),
     ] {
-        let told = problems(&format!("{header}\n1,2,3\n"));
-        assert!(told.contains(part), "{header}: {told}");
-        assert!(told.contains("help: "), "{told}");
+        let given = problems(&format!("{header}\n1,2,3\n"));
+        assert!(given.contains(part), "{header}: {given}");
+        assert!(given.contains("help: "), "{given}");
     }
 }
 
@@ -127,8 +127,8 @@ fn cells_that_are_wrong_are_told_with_line_and_column() {
         ("1,5,2,3,,,,,,,", "11 cells in a table of 10 columns"),
         ("1,5,2,3,,,,,,,", "decimal commas need `;`"),
     ] {
-        let told = problems(&format!("{head}{row}\n"));
-        assert!(told.contains(part), "{row}: {told}");
+        let given = problems(&format!("{head}{row}\n"));
+        assert!(given.contains(part), "{row}: {given}");
     }
     assert!(problems("").contains("no point in this file"));
     assert!(problems("x_mm,y_mm,z_mm\n").contains("no point in this file"));

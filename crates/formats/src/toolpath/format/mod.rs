@@ -69,7 +69,7 @@ const MOST_LINES: usize = 2000;
 pub fn read(
     path: &str,
     mut reader: impl BufRead,
-    wanted: &Wanted<'_>,
+    requested: &Wanted<'_>,
     out: &mut dyn FnMut(Step),
 ) -> Result<Summary, Problems> {
     let mut head = Vec::new();
@@ -79,23 +79,23 @@ pub fn read(
     let whole = Cursor::new(head).chain(reader);
     match format {
         Format::Apt => {
-            let wanted = apt::Wanted {
-                unit: wanted.unit,
-                dialect: wanted.dialect,
+            let requested = apt::Wanted {
+                unit: requested.unit,
+                dialect: requested.dialect,
             };
-            apt::read(path, whole, &wanted, out)
+            apt::read(path, whole, &requested, out)
         }
         Format::Csv => csv::read(path, whole, out),
         Format::Gcode => {
-            let wanted = gcode::Wanted {
-                unit: wanted.unit.unwrap_or_default(),
-                rotaries: wanted.rotaries.clone(),
-                tools: wanted.tools.clone(),
-                subroutines: wanted.subroutines,
-                most_repeated_lines: wanted.most_repeated_lines,
+            let requested = gcode::Wanted {
+                unit: requested.unit.unwrap_or_default(),
+                rotaries: requested.rotaries.clone(),
+                tools: requested.tools.clone(),
+                subroutines: requested.subroutines,
+                most_repeated_lines: requested.most_repeated_lines,
                 ..gcode::Wanted::default()
             };
-            gcode::read(path, whole, &wanted, out)
+            gcode::read(path, whole, &requested, out)
         }
         Format::Robot(language) => Err(Problem::of_file(
             path,

@@ -30,10 +30,10 @@ fn the_name_tells_where_content_does_not() {
     assert_eq!(of("a.NGC", "(nothing yet)\n"), Ok(Format::Gcode));
     assert_eq!(of("a.cls", "$$ nothing yet\n"), Ok(Format::Apt));
     assert_eq!(of("a.csv", "1,2,3\n"), Ok(Format::Csv));
-    let told = of("a.pdf", "hello\n").unwrap_err();
+    let given = of("a.pdf", "hello\n").unwrap_err();
     assert!(
-        told.contains("neither content nor name") && told.contains("G-code, cutter locations"),
-        "{told}"
+        given.contains("neither content nor name") && given.contains("G-code, cutter locations"),
+        "{given}"
     );
 }
 
@@ -53,8 +53,8 @@ fn programs_of_robots_are_known_by_their_lines() {
         ),
     ] {
         assert_eq!(of("part.txt", text), Ok(Format::Robot(language)), "{text}");
-        let told = read("part.txt", text.as_bytes(), &Wanted::default(), &mut |_| ()).unwrap_err();
-        assert!(told.to_string().contains(language.title()), "{told}");
+        let given = read("part.txt", text.as_bytes(), &Wanted::default(), &mut |_| ()).unwrap_err();
+        assert!(given.to_string().contains(language.title()), "{given}");
     }
     assert_eq!(of("a.src", "hello\n"), Ok(Format::Robot(Language::Krl)));
     let val3 = "nTraj=movel(pPoint[0],tTool[0],mNomSpeed)\n";

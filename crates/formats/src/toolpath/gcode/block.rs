@@ -355,8 +355,8 @@ pub(super) fn within(word: char, value: f64) -> Result<(), Refusal> {
     if value.abs() <= LARGEST {
         return Ok(());
     }
-    let wanted = "within 1e9";
-    Err(Refusal::WordValue { word, value, wanted })
+    let requested = "within 1e9";
+    Err(Refusal::WordValue { word, value, requested })
 }
 
 /// A letter as people write it.

@@ -26,7 +26,7 @@ use super::cutter::Out;
 use super::groups;
 use super::machine::{FeedMode, Machine};
 use super::refusal::{Excess, Refusal};
-use super::wanted::Warning;
+use super::requested::Warning;
 
 /// Gap between the drill and the bottom it comes back to, mm and inch: 0.010 inch as in NISTIR 6556.
 const PECK_GAP: [f64; 2] = [0.254, 0.010];
@@ -92,11 +92,11 @@ impl Machine {
             None => 1.0,
             Some(repeats) if repeats >= 0.0 && repeats.fract() == 0.0 && repeats <= MOST_REPEATS => repeats,
             Some(value) => {
-                let wanted = "a whole number of holes, at most 100000";
+                let requested = "a whole number of holes, at most 100000";
                 return Err(Refusal::WordValue {
                     word: 'L',
                     value,
-                    wanted,
+                    requested,
                 });
             }
         };
@@ -195,7 +195,7 @@ impl Machine {
                     return Err(Refusal::WordValue {
                         word: 'Q',
                         value,
-                        wanted: "above 0",
+                        requested: "above 0",
                     });
                 }
             }

@@ -20,7 +20,7 @@ use super::groups;
 use super::machine::{FeedMode, Machine};
 use super::offsets::tool_number;
 use super::refusal::Refusal;
-use super::wanted::Warning;
+use super::requested::Warning;
 use crate::toolpath::LengthUnit;
 
 /// What follows a block.
@@ -91,7 +91,7 @@ impl Machine {
                 return Err(Refusal::WordValue {
                     word: 'F',
                     value: feed,
-                    wanted: "at least 0",
+                    requested: "at least 0",
                 });
             }
             if self.feed_mode != FeedMode::InverseTime {
@@ -104,7 +104,7 @@ impl Machine {
                 return Err(Refusal::WordValue {
                     word: 'S',
                     value: speed,
-                    wanted: "at least 0",
+                    requested: "at least 0",
                 });
             }
             self.speed = speed;
@@ -278,15 +278,15 @@ impl Machine {
         let once = block.g[groups::ONCE]
             .map(|(code, _)| code)
             .filter(|code| *code != 40);
-        let told = block.g[groups::MOTION].map(|(code, _)| code);
+        let given = block.g[groups::MOTION].map(|(code, _)| code);
         // G43.1 has taken the axis words of its block.
         let takes_axes = once.filter(|code| matches!(code, 100 | 280 | 300 | 520 | 920));
-        if let (Some(once), Some(told)) = (takes_axes, told.filter(|code| *code != 800))
+        if let (Some(once), Some(given)) = (takes_axes, given.filter(|code| *code != 800))
             && block.has_axes()
         {
             return Err(Refusal::AxesTwice(
                 groups::name(b'g', once),
-                groups::name(b'g', told),
+                groups::name(b'g', given),
             ));
         }
         match once {
@@ -300,7 +300,7 @@ impl Machine {
         let moving = takes_axes.is_none()
             && !block.has_g(431)
             && (block.has_axes() || self.vector && block.has_vector());
-        let code = match (told, moving) {
+        let code = match (given, moving) {
             (Some(code), _) => code,
             (None, true) => self.motion,
             (None, false) => return Ok(()),
@@ -341,11 +341,11 @@ impl Machine {
                 .ok_or(Refusal::WordMissing("M98".to_owned(), "P"))?;
             let times = block.take(b'l').unwrap_or(1.0);
             if !(0.0..=MOST_CALLS).contains(&times) || times.fract() != 0.0 {
-                let wanted = "a whole number, at most 9999";
+                let requested = "a whole number, at most 9999";
                 return Err(Refusal::WordValue {
                     word: 'L',
                     value: times,
-                    wanted,
+                    requested,
                 });
             }
             return Ok(Outcome::Call(NumberedCall {

@@ -75,18 +75,18 @@ impl<'a> Reader<'a> {
     }
 
     /// Steps over `wanted` if it stands here.
-    pub fn take(&mut self, wanted: u8) -> bool {
-        let here = self.peek() == Some(wanted);
+    pub fn take(&mut self, requested: u8) -> bool {
+        let here = self.peek() == Some(requested);
         self.at += usize::from(here);
         here
     }
 
     /// Steps over `wanted`, which must stand here.
-    fn expect(&mut self, wanted: u8) -> Read<()> {
-        if self.take(wanted) {
+    fn expect(&mut self, requested: u8) -> Read<()> {
+        if self.take(requested) {
             return Ok(());
         }
-        Err(Refusal::Expected(char::from(wanted)))
+        Err(Refusal::Expected(char::from(requested)))
     }
 
     /// What lies before it.

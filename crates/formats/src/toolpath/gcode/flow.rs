@@ -172,7 +172,7 @@ impl Body {
                 open.last()
                     .is_some_and(|(label, keyword, _)| *label == word.label && of.contains(keyword))
             };
-            let wanted: &[Keyword] = match word.keyword {
+            let requested: &[Keyword] = match word.keyword {
                 Keyword::While if matches(&open, &[Keyword::Do]) => {
                     if let Some(word) = &mut self.lines[index].word {
                         word.keyword = Keyword::DoWhile;
@@ -199,7 +199,7 @@ impl Body {
                 }
                 _ => continue,
             };
-            if !matches(&open, wanted) {
+            if !matches(&open, requested) {
                 return Err((index, Refusal::FlowUnopened(word.label)));
             }
             if matches!(word.keyword, Keyword::ElseIf | Keyword::Else) {

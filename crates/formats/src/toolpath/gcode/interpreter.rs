@@ -25,7 +25,7 @@ use super::messages;
 use super::parameters::{self, Parameters};
 use super::refusal::{Excess, Fault, Refusal};
 use super::subroutines::Labels;
-use super::wanted::{Wanted, Warning};
+use super::requested::{Wanted, Warning};
 use crate::toolpath::notes::Notes;
 
 /// Problems told of one program.
@@ -56,10 +56,10 @@ pub type Receiver<'a> = &'a mut dyn FnMut(Canonical, u32) -> Result<(), Refusal>
 /// Interprets a program; the calls go to `out` while it is read.
 ///
 /// Ends at M2 or M30, at a return outside of subroutines, at a second `%` or at the end of the text.
-pub fn interpret(reader: &mut dyn BufRead, wanted: &Wanted<'_>, out: Receiver<'_>) -> Interpreted {
+pub fn interpret(reader: &mut dyn BufRead, requested: &Wanted<'_>, out: Receiver<'_>) -> Interpreted {
     let mut interpreter = Interpreter {
-        machine: Machine::new(wanted),
-        wanted,
+        machine: Machine::new(requested),
+        requested,
         out,
         block: Block::new(),
         clean: Clean::default(),
@@ -84,7 +84,7 @@ pub fn interpret(reader: &mut dyn BufRead, wanted: &Wanted<'_>, out: Receiver<'_
 pub(super) struct Interpreter<'a> {
     /// Modes, offsets, position.
     pub machine: Machine,
-    pub wanted: &'a Wanted<'a>,
+    pub requested: &'a Wanted<'a>,
     /// Takes the calls.
     out: Receiver<'a>,
     /// The words of the line at hand.
@@ -170,7 +170,7 @@ impl Interpreter<'_> {
             self.fault(line, refused.refusal, refused.place);
             return Err(());
         }
-        if self.clean.deleted && self.wanted.block_delete {
+        if self.clean.deleted && self.requested.block_delete {
             self.clean.text.clear();
         }
         match o_word(&self.clean, &self.machine) {
@@ -299,7 +299,7 @@ impl Interpreter<'_> {
             // Told when it was kept.
             return Flow::Next;
         }
-        if self.clean.deleted && self.wanted.block_delete {
+        if self.clean.deleted && self.requested.block_delete {
             return Flow::Next;
         }
         self.execute_cleaned(line, None)

@@ -20,7 +20,7 @@ use super::expression::Values;
 use super::parameters::{self, Parameters};
 use super::refusal::Refusal;
 use super::tools::{Tool, ToolTable};
-use super::wanted::{Wanted, Warning};
+use super::requested::{Wanted, Warning};
 use crate::toolpath::LengthUnit;
 use crate::toolpath::direction::LARGEST;
 use crate::toolpath::notes::Notes;
@@ -118,21 +118,21 @@ pub(super) fn scaled(mut of: Axes, by: f64) -> Axes {
 
 impl Machine {
     /// Before the first block: G17, G90, G91.1, G94, G98, G64 and no motion, with the parameters that were told.
-    pub fn new(wanted: &Wanted<'_>) -> Machine {
+    pub fn new(requested: &Wanted<'_>) -> Machine {
         let mut parameters = Parameters::new();
-        for (number, value) in &wanted.parameters {
+        for (number, value) in &requested.parameters {
             if let Ok(index) = Parameters::index(f64::from(*number)) {
                 parameters.set_numbered(index, *value);
             }
         }
         let mut machine = Machine {
             parameters,
-            tools: wanted.tools.clone().unwrap_or(ToolTable {
-                unit: wanted.machine_unit,
+            tools: requested.tools.clone().unwrap_or(ToolTable {
+                unit: requested.machine_unit,
                 ..ToolTable::default()
             }),
-            tools_told: wanted.tools.is_some(),
-            unit: wanted.unit,
+            tools_told: requested.tools.is_some(),
+            unit: requested.unit,
             plane: Plane::Xy,
             absolute: true,
             arc_absolute: false,

@@ -35,7 +35,7 @@ pub mod interpreter;
 pub mod refusal;
 pub mod rotaries;
 pub mod tools;
-pub mod wanted;
+pub mod requested;
 
 use std::io::BufRead;
 
@@ -46,7 +46,7 @@ pub use self::interpreter::interpret;
 pub use self::refusal::{Fault, Refusal};
 pub use self::rotaries::{Rotaries, Rotary};
 pub use self::tools::{Tool, ToolTable};
-pub use self::wanted::{Lookup, Wanted, Warning};
+pub use self::requested::{Lookup, Wanted, Warning};
 
 use self::steps::Tracer;
 use super::Summary;
@@ -77,7 +77,7 @@ use crate::document::{Problem, Problems, Source};
 pub fn read(
     path: &str,
     mut reader: impl BufRead,
-    wanted: &Wanted<'_>,
+    requested: &Wanted<'_>,
     out: &mut dyn FnMut(Step),
 ) -> Result<Summary, Problems> {
     let mut summary = Summary::new(Format::Gcode);
@@ -85,8 +85,8 @@ pub fn read(
         summary.count(&step);
         out(step);
     };
-    let mut tracer = Tracer::new(wanted, &mut counted);
-    let mut found = interpret(&mut reader, wanted, &mut |call, line| tracer.take(call, line));
+    let mut tracer = Tracer::new(requested, &mut counted);
+    let mut found = interpret(&mut reader, requested, &mut |call, line| tracer.take(call, line));
     if !found.faults.is_empty() {
         return Err(found.faults.iter().map(|fault| problem(path, fault)).collect());
     }

@@ -22,7 +22,7 @@ use super::groups;
 use super::machine::{FeedMode, Machine};
 use super::parameters;
 use super::refusal::Refusal;
-use super::wanted::Warning;
+use super::requested::Warning;
 
 /// Least difference of radii that is looked at, per 2 sqrt(2): mm and inch.
 const RADII_APART: [f64; 2] = [0.01, 0.001];
@@ -152,7 +152,7 @@ impl Machine {
                 return Err(Refusal::WordValue {
                     word: 'P',
                     value,
-                    wanted: "a whole number of turns, 1 to 10000",
+                    requested: "a whole number of turns, 1 to 10000",
                 });
             }
         };

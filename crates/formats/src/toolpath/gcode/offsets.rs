@@ -21,7 +21,7 @@ use super::groups;
 use super::machine::{Machine, scaled};
 use super::parameters;
 use super::refusal::Refusal;
-use super::wanted::Warning;
+use super::requested::Warning;
 
 /// G59.3, which G10 L11 counts from.
 const FIXTURE: u8 = 9;
@@ -38,12 +38,12 @@ fn whole(
     word: char,
     value: f64,
     range: std::ops::RangeInclusive<f64>,
-    wanted: &'static str,
+    requested: &'static str,
 ) -> Result<u32, Refusal> {
     // Words may be computed.
     let whole = value.round();
     if (value - whole).abs() > 1e-6 || !range.contains(&whole) {
-        return Err(Refusal::WordValue { word, value, wanted });
+        return Err(Refusal::WordValue { word, value, requested });
     }
     Ok(whole as u32)
 }
@@ -80,7 +80,7 @@ impl Machine {
             _ => Err(Refusal::WordValue {
                 word: 'L',
                 value: kind,
-                wanted: "1, 2, 10, 11 or 20",
+                requested: "1, 2, 10, 11 or 20",
             }),
         }
     }
@@ -282,13 +282,13 @@ impl Machine {
         self.recount(|machine| machine.length = offset);
         self.call(Canonical::UseToolLengthOffset(offset), out)?;
         // G43 replaces G43.4 and G43.5, which are of its group, not M128; G49 ends them all.
-        let told = match code {
+        let given = match code {
             434 | 435 => Some(true),
             490 if self.centre => Some(false),
             _ if self.centre_by_length => Some(false),
             _ => None,
         };
-        if let Some(on) = told {
+        if let Some(on) = given {
             (self.centre, self.centre_by_length, self.vector) = (on, on, code == 435);
             self.call(Canonical::ToolCentreControl { on }, out)?;
         }

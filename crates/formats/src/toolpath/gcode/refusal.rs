@@ -50,11 +50,11 @@ pub enum Refusal {
     WordUnused(char),
     #[error("word {0} could belong to two codes of this block")]
     WordAmbiguous(char),
-    #[error("word {word} is {value}: must be {wanted}")]
+    #[error("word {word} is {value}: must be {requested}")]
     WordValue {
         word: char,
         value: f64,
-        wanted: &'static str,
+        requested: &'static str,
     },
     #[error("{0} and {1} in one block, where only one of their group may stand")]
     SameGroup(String, String),

@@ -21,7 +21,7 @@ use super::motion::sweep;
 use super::parameters;
 use super::refusal::Refusal;
 use super::rotaries::{Rotaries, Rotary};
-use super::wanted::{Wanted, Warning};
+use super::requested::{Wanted, Warning};
 use crate::toolpath::LengthUnit;
 use crate::toolpath::notes::Notes;
 
@@ -115,14 +115,14 @@ pub(super) struct Tracer<'a> {
 
 impl<'a> Tracer<'a> {
     /// Before the first call; a system counts as measured where a parameter of it was told.
-    pub fn new(wanted: &'a Wanted<'_>, out: &'a mut dyn FnMut(Step)) -> Tracer<'a> {
+    pub fn new(requested: &'a Wanted<'_>, out: &'a mut dyn FnMut(Step)) -> Tracer<'a> {
         let mut systems_measured = [false; 10];
         for (system, measured) in (0_u8..).zip(&mut systems_measured).skip(1) {
             let first = parameters::zero_of(system);
             *measured = (first..first + 10)
-                .any(|index| u16::try_from(index).is_ok_and(|index| wanted.parameters.contains_key(&index)));
+                .any(|index| u16::try_from(index).is_ok_and(|index| requested.parameters.contains_key(&index)));
         }
-        let diameters = wanted.tools.iter().flat_map(|table| {
+        let diameters = requested.tools.iter().flat_map(|table| {
             let unit = table.unit.metres();
             table
                 .tools
@@ -131,10 +131,10 @@ impl<'a> Tracer<'a> {
         });
         Tracer {
             out,
-            rotaries: wanted.rotaries.as_ref(),
+            rotaries: requested.rotaries.as_ref(),
             systems_measured,
             diameters: diameters.collect(),
-            unit: wanted.unit,
+            unit: requested.unit,
             frame: Frame {
                 system: 1,
                 zero: Vector3::zeros(),
@@ -228,7 +228,7 @@ impl<'a> Tracer<'a> {
         if per_minute > 0.0 {
             Pace::Feed(per_minute / MINUTE)
         } else {
-            Pace::Untold
+            Pace::EvaluateError
         }
     }
 

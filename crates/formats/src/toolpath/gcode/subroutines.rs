@@ -37,7 +37,7 @@ impl Interpreter<'_> {
         if let Some(body) = self.subroutines.get(name) {
             return Some(body.clone());
         }
-        let text = self.wanted.subroutines.and_then(|lookup| lookup(name))?;
+        let text = self.requested.subroutines.and_then(|lookup| lookup(name))?;
         let mut reader = text.as_bytes();
         let mut lines = Lines::new(&mut reader, Some(Rc::from(name)));
         let mut line = Line::default();

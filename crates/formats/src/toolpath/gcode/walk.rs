@@ -69,7 +69,7 @@ impl Interpreter<'_> {
         self.repeated += 1;
         let limit = if self.faults.is_empty() {
             self.repeated_until_fault = self.repeated;
-            self.wanted.most_repeated_lines.unwrap_or(MOST_REPEATED_LINES)
+            self.requested.most_repeated_lines.unwrap_or(MOST_REPEATED_LINES)
         } else {
             // A loop whose end was refused may have none.
             self.repeated_until_fault

@@ -161,7 +161,7 @@ fn decimals_are_three_and_four_or_those_that_stand_there() {
         let turn = kuka([0.0, 0.0, 0.0, 0.5, 0.0, 0.0]).rotation;
         Isometry::from_parts(pose.translation, turn * pose.rotation)
     };
-    for (files, wanted) in [
+    for (files, expected) in [
         (
             keeps_the_rest(&program, turned),
             "LIN {Z 3.123456, C 0.0000,X 1.000 ,Y 2.500,B -0.00001,A 0.5000,E1 7}",
@@ -172,7 +172,7 @@ fn decimals_are_three_and_four_or_those_that_stand_there() {
         ),
     ] {
         let text = String::from_utf8(files[0].1.clone()).unwrap();
-        assert!(text.contains(wanted), "{text}");
+        assert!(text.contains(expected), "{text}");
     }
 }
 
@@ -182,8 +182,8 @@ fn bytes_of_latin_1_stay() {
     let text = armill_formats::robot_program::ProgramText::new("a.src", bytes);
     let program = armill_formats::robot_program::read(vec![text]).unwrap();
     let files = keeps_the_rest(&program, |pose| *pose);
-    let wanted = b"DEF A()\r\n; \xfcber\r\nLIN {X 1.000,Y 2.000,Z 3.000,A 0,B 0,C 0} ; \xe4\r\nEND\r\n";
-    assert_eq!(files[0].1, wanted);
+    let expected = b"DEF A()\r\n; \xfcber\r\nLIN {X 1.000,Y 2.000,Z 3.000,A 0,B 0,C 0} ; \xe4\r\nEND\r\n";
+    assert_eq!(files[0].1, expected);
 }
 
 #[test]
@@ -282,33 +282,33 @@ fn points_are_composed_with_frames_and_written_whole() {
 fn frames_and_tools_are_told_or_numbered() {
     let frame = |lines: &str| of(&format!("{lines}\nLIN {POSE}")).moves[0].frame;
     let tool = |lines: &str| of(&format!("{lines}\nLIN {POSE}")).moves[0].tool;
-    let told = |found: Frame, numbers: [f64; 6]| match found {
+    let given = |found: Frame, numbers: [f64; 6]| match found {
         Frame::Told(found) => same(&found, &kuka(numbers)),
         other => panic!("{other:?}"),
     };
-    assert_eq!(frame(""), Frame::Untold);
+    assert_eq!(frame(""), Frame::EvaluateError);
     assert_eq!(frame("BAS(#BASE,4)"), Frame::Numbered(4));
     assert_eq!(tool("$TOOL=TOOL_DATA[16]"), Frame::Numbered(16));
     assert_eq!(
         frame("FDAT_ACT={TOOL_NO 1,BASE_NO 2,IPO_FRAME #BASE}"),
         Frame::Numbered(2)
     );
-    told(frame("BAS(#BASE,0)"), [0.0; 6]);
-    told(frame("$BASE=$NULLFRAME"), [0.0; 6]);
-    told(
+    given(frame("BAS(#BASE,0)"), [0.0; 6]);
+    given(frame("$BASE=$NULLFRAME"), [0.0; 6]);
+    given(
         frame("$BASE={X 1,Y 2,Z 3,A 4,B 5,C 6}\n$BASE={Z 7}"),
         [1.0, 2.0, 7.0, 4.0, 5.0, 6.0],
     );
-    told(
+    given(
         frame("BASE_DATA[2]={FRAME: X 1,Y 0,Z 0,A 90,B 0,C 0}\n$BASE=BASE_DATA[2]:{X 5,Y 0,Z 0,A 0,B 0,C 0}"),
         [1.0, 5.0, 0.0, 90.0, 0.0, 0.0],
     );
-    told(
+    given(
         tool("TOOL_DATA[3]={X 1,Y 0,Z 0,A 0,B 0,C 0}\nBAS(#TOOL,3)"),
         [1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
     );
     let computed = of(&format!("$BASE=EK(MACHINE_DEF[2].ROOT, #EASYS, X)\nLIN {POSE}"));
-    assert_eq!(computed.moves[0].frame, Frame::Untold);
+    assert_eq!(computed.moves[0].frame, Frame::EvaluateError);
     assert!(computed.notes[0].contains("`EK(MACHINE_DEF[2].ROOT, #EASYS, X)` is computed on the controller"));
     wrong(
         "$BASE={X 1}\nPTP {A1 0,A2 0,A3 0,A4 0,A5 0,A6 0}",
@@ -331,7 +331,7 @@ fn moves_of_a_spline_system_have_frames_and_speeds_of_their_own() {
         (program.moves[0].frame, program.moves[0].tool),
         (Frame::Numbered(5), Frame::Numbered(2))
     );
-    assert_eq!(program.moves[1].frame, Frame::Untold);
+    assert_eq!(program.moves[1].frame, Frame::EvaluateError);
     assert!(
         program
             .notes
@@ -347,8 +347,8 @@ fn speeds_are_metres_a_second() {
         ("$VEL={CP 1.5,ORI1 200,ORI2 200}", Speed::Tip(1.5)),
         ("BAS(#VEL_CP,.5)", Speed::Tip(0.5)),
         ("LDAT_ACT={VEL 0.75,ACC 100}\nBAS(#CP_DAT)", Speed::Tip(0.75)),
-        ("$VEL.CP=V_WORK", Speed::Untold),
-        ("", Speed::Untold),
+        ("$VEL.CP=V_WORK", Speed::EvaluateError),
+        ("", Speed::EvaluateError),
     ] {
         assert_eq!(of(&format!("{line}\nLIN {POSE}")).moves[0].speed, speed, "{line}");
     }
@@ -400,7 +400,7 @@ fn a_program_is_written_so() {
     let written = write(Language::Krl, &long(3)).unwrap();
     let (name, bytes) = &written.files[0];
     assert_eq!((written.files.len(), name.as_str()), (1, "PLATE.src"));
-    let wanted = "&ACCESS RVP\r\n&REL 1\r\nDEF PLATE()\r\n; made by armill\r\n; LIN {X 0}\r\n;FOLD INI\r\n\
+    let expected = "&ACCESS RVP\r\n&REL 1\r\nDEF PLATE()\r\n; made by armill\r\n; LIN {X 0}\r\n;FOLD INI\r\n\
         BAS(#INITMOV,0)\r\n;ENDFOLD (INI)\r\n$ADVANCE=3\r\nBAS(#BASE,1)\r\nBAS(#TOOL,2)\r\n\
         ; base 1 and tool 2 as this program was made with them\r\n\
         $BASE={FRAME: X 1.0000,Y 2.0000,Z 3.0000,A 0.000000,B 0.000000,C 0.000000}\r\n\
@@ -409,7 +409,7 @@ fn a_program_is_written_so() {
         $VEL.CP=0.050000\r\n$APO.CDIS=0.500\r\n\
         LIN {X 0.100,Y 0.000,Z 0.000,A 0.0000,B 90.0000,C 0.0000} C_DIS\r\n\
         LIN {X 0.200,Y 0.000,Z 0.000,A 0.0000,B 90.0000,C 0.0000}\r\nEND\r\n";
-    assert_eq!(std::str::from_utf8(bytes).unwrap(), wanted);
+    assert_eq!(std::str::from_utf8(bytes).unwrap(), expected);
 }
 
 #[test]
@@ -434,8 +434,8 @@ fn what_controllers_do_not_hold_is_refused() {
     let refused = |change: &dyn Fn(&mut Draft), part: &str| {
         let mut draft = long(2);
         change(&mut draft);
-        let told = write(Language::Krl, &draft).unwrap_err().to_string();
-        assert!(told.contains(part), "{told}");
+        let given = write(Language::Krl, &draft).unwrap_err().to_string();
+        assert!(given.contains(part), "{given}");
     };
     refused(
         &|draft| draft.name = "5TH".to_owned(),
@@ -458,6 +458,6 @@ fn what_controllers_do_not_hold_is_refused() {
     refused(&|draft| draft.points[1].blend = -1.0, "point 2: the blend is -1");
     let mut draft = long(5001);
     draft.name = "A".repeat(20);
-    let told = write(Language::Krl, &draft).unwrap_err().to_string();
-    assert!(told.contains("at most 19 for it is written in parts"), "{told}");
+    let given = write(Language::Krl, &draft).unwrap_err().to_string();
+    assert!(given.contains("at most 19 for it is written in parts"), "{given}");
 }

@@ -66,14 +66,14 @@ fn numbered_subroutines_behind_the_end_come_in_any_order_and_the_next_of_two_cou
 fn subroutines_come_from_other_files() {
     let lookup =
         |name: &str| (name == "far").then(|| "o<far> sub\nG0 X#1\nG1 Y1\no<far> endsub\n".to_owned());
-    let wanted = Wanted {
+    let expected = Wanted {
         subroutines: Some(&lookup),
         ..Wanted::default()
     };
-    let (path, _) = read("G21 F60\no<far> call [3]\n", &wanted).unwrap();
+    let (path, _) = read("G21 F60\no<far> call [3]\n", &expected).unwrap();
     assert_eq!(ends(&path), [[3.0, 0.0, 0.0], [3.0, 1.0, 0.0]]);
     assert_eq!(
-        first_problem("G21\no<far> call [3]\n", &wanted),
+        first_problem("G21\no<far> call [3]\n", &expected),
         "far:3:1: G1 with a feed of zero",
         "problems are told of the file they stand in"
     );
@@ -99,17 +99,17 @@ fn programs_that_never_end_are_stopped() {
 
 #[test]
 fn an_endless_loop_ends_and_sooner_after_a_line_that_was_refused() {
-    let told = |program: &str, most_repeated_lines| {
-        let wanted = Wanted {
+    let given = |program: &str, most_repeated_lines| {
+        let expected = Wanted {
             most_repeated_lines,
             ..Wanted::default()
         };
-        read(program, &wanted).unwrap_err().to_string()
+        read(program, &expected).unwrap_err().to_string()
     };
-    let endless = told("o1 while [1]\nG1 X1 F100\no1 endwhile\nM2\n", Some(1000));
+    let endless = given("o1 while [1]\nG1 X1 F100\no1 endwhile\nM2\n", Some(1000));
     assert!(endless.contains("1000"), "{endless}");
     // Its end was refused: nothing counts down.
-    let broken = told(
+    let broken = given(
         "#<n>=3\no1 while [#<n> GT 0]\n#<n>=[<->1]\no1 endwhile\nM2\n",
         None,
     );

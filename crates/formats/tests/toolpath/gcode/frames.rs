@@ -50,7 +50,7 @@ fn the_tool_axis_is_told_under_tool_centre_control() {
         table: vec![Rotary::B],
         head: vec![Rotary::A],
     });
-    let wanted = Wanted {
+    let expected = Wanted {
         rotaries,
         ..Wanted::default()
     };
@@ -61,7 +61,7 @@ fn the_tool_axis_is_told_under_tool_centre_control() {
         ("G43.4 H1", "G49"),
     ] {
         let program = format!("G21 F60\nG0 X0 A0 B0\n{on}\nG1 X1 A90 B0\nA0\n{off}\nX3\n");
-        let (path, _) = read(&program, &wanted).unwrap();
+        let (path, _) = read(&program, &expected).unwrap();
         let axes: Vec<_> = path.moves.iter().map(|next| next.axis).collect();
         assert_eq!(axes.len(), 4);
         assert_eq!((axes[0], axes[3]), (None, None));

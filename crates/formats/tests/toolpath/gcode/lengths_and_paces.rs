@@ -64,11 +64,11 @@ fn the_feed_of_a_block_counts_in_the_unit_of_that_block() {
     }
     // A line of the same number in another file is another line.
     let lookup = |name: &str| (name == "far").then(|| "(far)\nG20\nG1 X1\n".to_owned());
-    let wanted = Wanted {
+    let expected = Wanted {
         subroutines: Some(&lookup),
         ..Wanted::default()
     };
-    let (far, _) = read("G21 G0 X0\nF60\no<far> call\n", &wanted).unwrap();
+    let (far, _) = read("G21 G0 X0\nF60\no<far> call\n", &expected).unwrap();
     assert_eq!(
         far.moves[1].pace,
         Pace::Feed(1e-3),
@@ -85,7 +85,7 @@ fn an_operation_begins_with_its_tool_and_speed() {
             ..Tool::default()
         },
     )]);
-    let wanted = Wanted {
+    let expected = Wanted {
         tools: Some(ToolTable {
             unit: LengthUnit::Millimetre,
             tools,
@@ -93,7 +93,7 @@ fn an_operation_begins_with_its_tool_and_speed() {
         ..Wanted::default()
     };
     let program = "G21 T2 M6\nG0 X0\nS600 M3\nG1 X1 F60\nG0 Z9\nM5\nG0 X0\nS1200 M3\nG1 X5\nX6\nM2\n";
-    let (path, summary) = read(program, &wanted).unwrap();
+    let (path, summary) = read(program, &expected).unwrap();
     let speeds: Vec<_> = path
         .operations
         .iter()
@@ -124,7 +124,7 @@ fn inverse_time_is_length_by_time() {
 #[test]
 fn feed_per_revolution_needs_a_spindle_that_turns() {
     let (path, summary) = read("G21 G95 F0.5\nG1 X1\nX2\nS600 M3\nX4\n", &Wanted::default()).unwrap();
-    assert_eq!(path.moves[1].pace, Pace::Untold);
+    assert_eq!(path.moves[1].pace, Pace::EvaluateError);
     assert_eq!(path.moves[2].pace, Pace::Feed(5e-3));
     let note = format!("{} (twice, first in line 2)", Warning::SpindleStands.meaning());
     assert_eq!(summary.notes, [note]);
@@ -155,9 +155,9 @@ fn every_line_end_ends_a_block() {
 fn blocks_with_a_slash_are_left_out_where_wanted() {
     let program = "G21 F60 G0 X0\n/G1 X1\nG1 X2\n";
     assert_eq!(path(program).moves.len(), 3);
-    let wanted = Wanted {
+    let expected = Wanted {
         block_delete: true,
         ..Wanted::default()
     };
-    assert_eq!(read(program, &wanted).unwrap().0.moves.len(), 2);
+    assert_eq!(read(program, &expected).unwrap().0.moves.len(), 2);
 }

@@ -14,9 +14,9 @@ pub struct Program {
     pub starts: Vec<usize>,
 }
 
-pub fn read(program: &str, wanted: &Wanted<'_>) -> Result<(Program, Summary), Problems> {
+pub fn read(program: &str, expected: &Wanted<'_>) -> Result<(Program, Summary), Problems> {
     let mut path = Program::default();
-    let summary = gcode::read("p.ngc", program.as_bytes(), wanted, &mut |step| match step {
+    let summary = gcode::read("p.ngc", program.as_bytes(), expected, &mut |step| match step {
         Step::Operation(operation) => {
             path.operations.push(operation);
             path.starts.push(path.moves.len());
@@ -32,8 +32,8 @@ pub fn path(program: &str) -> Program {
         .0
 }
 
-pub fn first_problem(program: &str, wanted: &Wanted<'_>) -> String {
-    match read(program, wanted) {
+pub fn first_problem(program: &str, expected: &Wanted<'_>) -> String {
+    match read(program, expected) {
         Err(problems) => problems.as_slice()[0].to_string(),
         Ok(_) => panic!("accepted: {program}"),
     }

@@ -218,12 +218,12 @@ fn what_is_wrong_is_told_with_its_place() {
 
 #[test]
 fn a_machine_without_the_axis_refuses_it() {
-    let wanted = Wanted {
+    let expected = Wanted {
         rotaries: Some(Rotaries::table_ac()),
         ..Wanted::default()
     };
     assert_eq!(
-        first_problem("M128\nG0 B30\n", &wanted),
+        first_problem("M128\nG0 B30\n", &expected),
         "p.ngc:2:4: B turns, and the machine described has no such axis"
     );
 }
@@ -237,7 +237,7 @@ fn a_tool_table_knows_its_tools() {
             ..Tool::default()
         },
     )]);
-    let wanted = Wanted {
+    let expected = Wanted {
         tools: Some(ToolTable {
             unit: LengthUnit::Millimetre,
             tools,
@@ -245,11 +245,11 @@ fn a_tool_table_knows_its_tools() {
         ..Wanted::default()
     };
     assert_eq!(
-        first_problem("T7 M6\n", &wanted),
+        first_problem("T7 M6\n", &expected),
         "p.ngc:1:1: tool 7 is not in the tool table"
     );
     assert_eq!(
-        first_problem("G41 D2\n", &wanted),
+        first_problem("G41 D2\n", &expected),
         "p.ngc:1:5: tool 2 is a turning tool, with orientation 3"
     );
 }

@@ -9,9 +9,9 @@ use armill_formats::toolpath::gcode::{self, Rotaries, Wanted};
 
 use super::{bytes, linuxcnc};
 
-fn moves(file: &Path, wanted: &Wanted<'_>) -> Vec<Move> {
+fn moves(file: &Path, expected: &Wanted<'_>) -> Vec<Move> {
     let mut moves = Vec::new();
-    let summary = gcode::read("p", bytes(file).as_slice(), wanted, &mut |step| {
+    let summary = gcode::read("p", bytes(file).as_slice(), expected, &mut |step| {
         if let Step::Move(next) = step {
             moves.push(next);
         }
@@ -24,7 +24,7 @@ const FIVE_AXES: &str = "configs/sim/axis/vismach/5axis/table-rotary-tilting/dem
 
 /// Plunges and retracts along the tool axis: between a rapid and a cut, the rotary axes at rest and the tool tilted.
 fn plunges_along_axis(path: &Path, rotaries: Rotaries) -> usize {
-    let wanted = Wanted {
+    let expected = Wanted {
         rotaries: Some(rotaries),
         ..Wanted::default()
     };
@@ -42,7 +42,7 @@ fn plunges_along_axis(path: &Path, rotaries: Rotaries) -> usize {
             && way.norm() > 1.5e-3
             && way.cross(&axis).norm() < 0.01 * way.norm()
     };
-    moves(path, &wanted).windows(2).filter(along).count()
+    moves(path, &expected).windows(2).filter(along).count()
 }
 
 #[test]

@@ -112,11 +112,11 @@ fn every_larger_program_is_read_or_refused_for_the_reason_named() {
             if !name.ends_with(".ngc") {
                 continue;
             }
-            let wanted = Wanted {
+            let expected = Wanted {
                 rotaries: five_axes(&name),
                 ..simulated(None)
             };
-            let outcome = gcode::read("p", bytes(&file).as_slice(), &wanted, &mut |_| {});
+            let outcome = gcode::read("p", bytes(&file).as_slice(), &expected, &mut |_| {});
             let known = REFUSED.iter().find(|(file, _)| name.ends_with(file));
             match (outcome, known) {
                 (Ok(summary), None) => {

@@ -73,13 +73,13 @@ const BAD: &[(&str, Reason)] = &[
 fn what_the_other_interpreter_refuses_is_refused_for_the_same_reason() {
     let Some(folder) = linuxcnc() else { return };
     let folder = folder.join("tests/interp/bad");
-    let wanted = Wanted {
+    let expected = Wanted {
         unit: LengthUnit::Inch,
         ..simulated(None)
     };
     let mut wrong = Vec::new();
     for (file, reason) in BAD {
-        let found = interpret(&mut bytes(&folder.join(file)).as_slice(), &wanted, &mut |_, _| {
+        let found = interpret(&mut bytes(&folder.join(file)).as_slice(), &expected, &mut |_, _| {
             Ok(())
         });
         match found.faults.first() {

@@ -8,7 +8,7 @@ use armill_core::path::Met;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::file::path::PathAsk;
+use crate::file::path::PathAnalysis;
 use crate::number::without_rounding;
 use crate::run::PathFound;
 
@@ -50,7 +50,7 @@ pub struct StockAnswer {
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct RestAnswer {
     /// Largest deviation across the tool if the force stayed as drawn.
-    pub max_in_plane_if_drawn_um: f64,
+    pub nominal_max_in_plane_um: f64,
     /// Points at which force and tool do not rest: the cut draws the tool in.
     pub points_unsettled: usize,
     /// Line of the first of them.
@@ -62,9 +62,9 @@ const MATTERS: f64 = 0.05;
 
 impl CutAnswer {
     /// `None` where the study tells neither cut nor drill.
-    pub(super) fn of(ask: &PathAsk, found: &PathFound) -> Option<CutAnswer> {
-        let of_cut = ask.cut.as_ref().map(|cut| &cut.material);
-        let material = of_cut.or(ask.drill.as_ref().map(|drill| &drill.material))?;
+    pub(super) fn of(analysis: &PathAnalysis, found: &PathFound) -> Option<CutAnswer> {
+        let of_cut = analysis.cut.as_ref().map(|cut| &cut.material);
+        let material = of_cut.or(analysis.drill.as_ref().map(|drill| &drill.material))?;
         let forces = found.forces?;
         Some(CutAnswer {
             material: material.name.clone(),
@@ -72,7 +72,7 @@ impl CutAnswer {
             largest_peak_n: forces.greatest,
             points_without_force: forces.without_force,
             stock: forces.met.map(|met| StockAnswer::of(&met)),
-            rest: found.along.rested.map(|rested| RestAnswer::of(ask, &rested)),
+            rest: found.along.rested.map(|rested| RestAnswer::of(analysis, &rested)),
         })
     }
 }
@@ -93,13 +93,13 @@ impl StockAnswer {
 
 impl RestAnswer {
     /// How forces and tool rested, with the line where they first do not.
-    pub(super) fn of(ask: &PathAsk, rested: &Rested) -> RestAnswer {
+    pub(super) fn of(analysis: &PathAnalysis, rested: &Rested) -> RestAnswer {
         RestAnswer {
-            max_in_plane_if_drawn_um: rested.largest_if_drawn * 1e6,
+            nominal_max_in_plane_um: rested.largest_if_drawn * 1e6,
             points_unsettled: rested.unsettled,
             first_unsettled_line: rested
                 .first_unsettled
-                .map(|index| ask.track.path.points[index].line),
+                .map(|index| analysis.track.path.points[index].line),
         }
     }
 }
@@ -108,16 +108,16 @@ impl RestAnswer {
 const OTHER_DIAMETER: f64 = 0.01;
 
 /// Tools of the program of another size than the cutter of the study.
-fn other_tools(ask: &PathAsk) -> Option<String> {
-    let cutter_mm = ask.cut.as_ref()?.cutting.cutter.diameter() * 1e3;
+fn other_tools(analysis: &PathAnalysis) -> Option<String> {
+    let cutter_mm = analysis.cut.as_ref()?.cutting.cutter.diameter() * 1e3;
     let mut others: Vec<String> = Vec::new();
-    for (_, operation) in &ask.track.path.operations {
+    for (_, operation) in &analysis.track.path.operations {
         let Some(diameter_mm) = operation.diameter.map(|diameter| diameter * 1e3) else {
             continue;
         };
-        let told = format!("{} mm", without_rounding(diameter_mm));
-        if (diameter_mm / cutter_mm - 1.0).abs() > OTHER_DIAMETER && !others.contains(&told) {
-            others.push(told);
+        let given = format!("{} mm", without_rounding(diameter_mm));
+        if (diameter_mm / cutter_mm - 1.0).abs() > OTHER_DIAMETER && !others.contains(&given) {
+            others.push(given);
         }
     }
     (!others.is_empty()).then(|| {
@@ -131,20 +131,20 @@ fn other_tools(ask: &PathAsk) -> Option<String> {
 }
 
 /// What a user should know of cut or drill.
-pub(super) fn notes(ask: &PathAsk, found: &PathFound) -> Vec<String> {
-    let of_cut = ask.cut.as_ref().map(|cut| {
-        let mut notes = of_engagement(ask, found);
-        notes.extend(of_rest(ask, found));
+pub(super) fn notes(analysis: &PathAnalysis, found: &PathFound) -> Vec<String> {
+    let of_cut = analysis.cut.as_ref().map(|cut| {
+        let mut notes = of_engagement(analysis, found);
+        notes.extend(of_rest(analysis, found));
         notes.extend(cut.remarks.iter().cloned());
         notes
     });
-    let of_drill = ask.drill.as_ref().map(|drill| drill.remarks.clone());
+    let of_drill = analysis.drill.as_ref().map(|drill| drill.remarks.clone());
     of_cut.or(of_drill).unwrap_or_default()
 }
 
 /// What a user should know of the engagement.
-fn of_engagement(ask: &PathAsk, found: &PathFound) -> Vec<String> {
-    let mut notes: Vec<String> = other_tools(ask).into_iter().collect();
+fn of_engagement(analysis: &PathAnalysis, found: &PathFound) -> Vec<String> {
+    let mut notes: Vec<String> = other_tools(analysis).into_iter().collect();
     match found.forces.and_then(|forces| forces.met) {
         None => notes.push(
             "forces are those of the same engagement everywhere: what earlier passes took away is not looked at; \
@@ -169,9 +169,9 @@ fn of_engagement(ask: &PathAsk, found: &PathFound) -> Vec<String> {
 }
 
 /// What a user should know of how the force gave way.
-fn of_rest(ask: &PathAsk, found: &PathFound) -> Vec<String> {
+fn of_rest(analysis: &PathAnalysis, found: &PathFound) -> Vec<String> {
     let mut notes = Vec::new();
-    let largest = found.along.answers.worst().map_or(0.0, |(_, held)| held.in_plane);
+    let largest = found.along.answers.worst().map_or(0.0, |(_, evaluation)| evaluation.in_plane);
     match &found.along.rested {
         None => notes.push(
             "the force does not give way with the tool here: this stiffness model changes with the load"
@@ -191,7 +191,7 @@ fn of_rest(ask: &PathAsk, found: &PathFound) -> Vec<String> {
                 notes.push(format!(
                     "at {} points, the first on line {}, the cut draws the tool in and neither rests; the force of the cut \
                      as drawn stands there",
-                    rested.unsettled, ask.track.path.points[first].line
+                    rested.unsettled, analysis.track.path.points[first].line
                 ));
             }
         }

@@ -14,7 +14,7 @@ use armill_core::path::{Became, Strayed, became};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::file::path::{FeatureTable, PathAsk};
+use crate::file::path::{FeatureTable, PathAnalysis};
 use crate::number::without_rounding;
 use crate::run::PathFound;
 
@@ -49,18 +49,18 @@ pub struct FeatureAnswer {
 }
 
 /// Every feature under every load case, feature by feature, of the points whose lines it names.
-pub(super) fn features(ask: &PathAsk, found: &PathFound) -> Vec<FeatureAnswer> {
+pub(super) fn features(analysis: &PathAnalysis, found: &PathFound) -> Vec<FeatureAnswer> {
     let of = |feature: &FeatureTable| {
         let [first, last] = feature.lines;
-        let points = &ask.track.path.points;
+        let points = &analysis.track.path.points;
         let within = |i: &usize| (first..=last).contains(&points[*i].line);
         let within: Vec<usize> = (0..points.len()).filter(within).collect();
         let cases = 0..found.along.answers.case_count;
         cases
-            .map(|case| of_case((feature, case), &within, ask, found))
+            .map(|case| of_case((feature, case), &within, analysis, found))
             .collect::<Vec<_>>()
     };
-    ask.features.iter().flat_map(of).collect()
+    analysis.features.iter().flat_map(of).collect()
 }
 
 /// One feature under one case. Without a result, and with the reason, where a point of it is not reached or its points
@@ -68,10 +68,10 @@ pub(super) fn features(ask: &PathAsk, found: &PathFound) -> Vec<FeatureAnswer> {
 fn of_case(
     (feature, case): (&FeatureTable, usize),
     points: &[usize],
-    ask: &PathAsk,
+    analysis: &PathAnalysis,
     found: &PathFound,
 ) -> FeatureAnswer {
-    let mut told = FeatureAnswer {
+    let mut given = FeatureAnswer {
         name: feature.name.clone(),
         kind: feature.kind.word(),
         case: case + 1,
@@ -87,13 +87,13 @@ fn of_case(
     };
     let answers = &found.along.answers;
     if points.iter().any(|i| answers.points[*i].is_err()) {
-        told.missing = Some("not every point of it is reached");
-        return told;
+        given.missing = Some("not every point of it is reached");
+        return given;
     }
-    let placing = &ask.track.placing;
+    let placing = &analysis.track.placing;
     let path_from_base = placing.base_from_path.inverse();
     let strayed = |i: &usize| {
-        let point = &ask.track.path.points[*i];
+        let point = &analysis.track.path.points[*i];
         Strayed {
             at: point.at,
             axis: path_from_base.rotation * placing.spindle(point),
@@ -109,27 +109,27 @@ fn of_case(
             centre_shift,
             roundness,
         }) => {
-            told.radius_mm = Some(without_rounding(radius * 1e3));
-            told.radius_change_um = Some(radius_change * 1e6);
-            told.shift_um = um(centre_shift);
-            told.roundness_um = Some(roundness * 1e6);
+            given.radius_mm = Some(without_rounding(radius * 1e3));
+            given.radius_change_um = Some(radius_change * 1e6);
+            given.shift_um = um(centre_shift);
+            given.roundness_um = Some(roundness * 1e6);
         }
         Some(Became::Line {
             straightness_across,
             straightness_normal: straightness_axial,
             offset,
         }) => {
-            told.straightness_across_um = Some(straightness_across * 1e6);
-            told.straightness_axial_um = Some(straightness_axial * 1e6);
-            told.shift_um = um(offset);
+            given.straightness_across_um = Some(straightness_across * 1e6);
+            given.straightness_axial_um = Some(straightness_axial * 1e6);
+            given.shift_um = um(offset);
         }
         Some(Became::Plane { flatness, offset }) => {
-            told.flatness_um = Some(flatness * 1e6);
+            given.flatness_um = Some(flatness * 1e6);
             let normal = strayed.first().map_or_else(Vector3::z, |p| p.axis.into_inner());
-            told.shift_um = um(normal * offset);
+            given.shift_um = um(normal * offset);
         }
-        Some(Became::Hole { shift }) => told.shift_um = um(shift),
-        None => told.missing = Some("its points make no such feature"),
+        Some(Became::Hole { shift }) => given.shift_um = um(shift),
+        None => given.missing = Some("its points make no such feature"),
     }
-    told
+    given
 }

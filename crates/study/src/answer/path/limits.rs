@@ -7,7 +7,7 @@ use armill_core::map::{CutLimits, Permitted, PermittedForces, PointLimits};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::file::path::PathAsk;
+use crate::file::path::PathAnalysis;
 use crate::number::without_rounding;
 use crate::run::PathFound;
 
@@ -48,9 +48,9 @@ pub struct LimitAnswer {
 
 impl LimitsAnswer {
     /// `None` where it was not asked, or cannot be told: of a model that changes with the load.
-    pub(super) fn of(ask: &PathAsk, found: &PathFound) -> Option<LimitsAnswer> {
+    pub(super) fn of(analysis: &PathAnalysis, found: &PathFound) -> Option<LimitsAnswer> {
         let limits = found.limits.as_ref()?;
-        let line = |point: &PointLimits| ask.track.path.points[point.index].line;
+        let line = |point: &PointLimits| analysis.track.path.points[point.index].line;
         let force = |of: fn(&PermittedForces) -> f64| {
             let points = limits.points.iter();
             let least = points.min_by(|a, b| of(&a.forces).total_cmp(&of(&b.forces)))?;

@@ -34,7 +34,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::point::{PointAnswer, SettingAnswer};
-use crate::file::path::PathAsk;
+use crate::file::path::PathAnalysis;
 use crate::file::resolve::{Setting, Study};
 use crate::number::without_rounding;
 use crate::run::{MOST_JUMPS, PathFound};
@@ -51,7 +51,7 @@ pub struct PathAnswer {
     /// How many points.
     pub points: usize,
     /// Points without posture.
-    pub unreached: usize,
+    pub unreachable: usize,
     /// Points with a posture that stands outside joint limits.
     pub outside_joint_limits: usize,
     /// Length of all cuts, or of the shape.
@@ -119,30 +119,30 @@ pub struct CircleCase {
 }
 
 /// What became of the path that the ask called `name` asks for.
-pub(super) fn answer(study: &Study, name: &str, ask: &PathAsk, found: &PathFound) -> PathAnswer {
-    let (setting, answers) = (&ask.setting, &found.along.answers);
-    let held = || answers.held().map(|(_, held)| held);
+pub(super) fn answer(study: &Study, name: &str, analysis: &PathAnalysis, found: &PathFound) -> PathAnswer {
+    let (setting, answers) = (&analysis.setting, &found.along.answers);
+    let evaluation = || answers.evaluation().map(|(_, evaluation)| evaluation);
     let points = answers.points.len();
-    let within = held().filter(|held| held.in_plane <= setting.limit).count();
-    let features = feature::features(ask, found);
+    let within = evaluation().filter(|evaluation| evaluation.in_plane <= setting.limit).count();
+    let features = feature::features(analysis, found);
     let of_features = features.iter().filter_map(|feature| feature.roundness_um);
     let of_cases = found
         .radial
         .iter()
         .map(|radial| radial.roundness.peak_to_valley * 1e6);
-    let worst_points = worst::worst_points(study, ask, found);
-    let [along, cross, axial] = largest_parts(ask, found);
+    let worst_points = worst::worst_points(study, analysis, found);
+    let [along, cross, axial] = largest_parts(analysis, found);
     PathAnswer {
         name: name.to_owned(),
         branch: setting.branch(),
         followed_branch: followed(study, &found.along, setting),
         points,
-        unreached: points - held().count(),
-        outside_joint_limits: held().filter(|held| !held.within_limits()).count(),
-        length_mm: ask.length() * 1e3,
-        max_in_plane_um: answers.worst().map(|(_, held)| held.in_plane * 1e6),
-        min_in_plane_um: answers.best().map(|(_, held)| held.in_plane * 1e6),
-        max_full_um: held().map(|held| held.full * 1e6).max_by(f64::total_cmp),
+        unreachable: points - evaluation().count(),
+        outside_joint_limits: evaluation().filter(|evaluation| !evaluation.within_limits()).count(),
+        length_mm: analysis.length() * 1e3,
+        max_in_plane_um: answers.worst().map(|(_, evaluation)| evaluation.in_plane * 1e6),
+        min_in_plane_um: answers.best().map(|(_, evaluation)| evaluation.in_plane * 1e6),
+        max_full_um: evaluation().map(|evaluation| evaluation.full * 1e6).max_by(f64::total_cmp),
         max_along_um: along,
         max_cross_um: cross,
         max_axial_um: axial,
@@ -150,16 +150,16 @@ pub(super) fn answer(study: &Study, name: &str, ask: &PathAsk, found: &PathFound
         roundness_um: of_cases.chain(of_features).max_by(f64::total_cmp),
         circle_cases: circle_cases(found),
         worst: worst_points.first().map(|worst| worst.point.clone()),
-        jumps: jumps(study, ask, found),
+        jumps: jumps(study, analysis, found),
         setting: SettingAnswer::of(study, setting),
         joint_range_deg: joint_ranges(study, answers),
-        cut: CutAnswer::of(ask, found),
-        measured: ask.measured.as_deref().map(MeasuredAnswer::of),
-        limits: LimitsAnswer::of(ask, found),
-        program: ProgramAnswer::of(ask, found),
-        search: SearchAnswer::of(ask, found),
-        unloaded: UnloadedAnswer::of(study, ask, found),
-        notes: notes(ask, found),
+        cut: CutAnswer::of(analysis, found),
+        measured: analysis.measured.as_deref().map(MeasuredAnswer::of),
+        limits: LimitsAnswer::of(analysis, found),
+        program: ProgramAnswer::of(analysis, found),
+        search: SearchAnswer::of(analysis, found),
+        unloaded: UnloadedAnswer::of(study, analysis, found),
+        notes: notes(analysis, found),
         worst_points,
         features,
     }
@@ -185,12 +185,12 @@ fn followed(study: &Study, along: &AlongPath, setting: &Setting) -> Option<Strin
 }
 
 /// Largest deviation of all cases along the track, across it and along the tool, by size.
-fn largest_parts(ask: &PathAsk, found: &PathFound) -> [Option<f64>; 3] {
+fn largest_parts(analysis: &PathAnalysis, found: &PathFound) -> [Option<f64>; 3] {
     let answers = &found.along.answers;
     let mut largest: Option<[f64; 3]> = None;
-    for (index, _) in answers.held() {
+    for (index, _) in answers.evaluation() {
         for deviation in answers.deviations_at(index) {
-            let parts = ask.track.parts(index, deviation);
+            let parts = analysis.track.parts(index, deviation);
             let [along, cross, axial] = largest.unwrap_or_default();
             largest = Some([
                 along.max(parts.along.abs()),
@@ -216,19 +216,19 @@ fn circle_cases(found: &PathFound) -> Vec<CircleCase> {
 }
 
 /// Joints that jump between points next to each other on the path, in sentences.
-fn jumps(study: &Study, ask: &PathAsk, found: &PathFound) -> Vec<String> {
+fn jumps(study: &Study, analysis: &PathAnalysis, found: &PathFound) -> Vec<String> {
     let joints = study.robot.robot.joints();
-    let told = found.jumps.iter().take(MOST_JUMPS).map(|jump| {
+    let given = found.jumps.iter().take(MOST_JUMPS).map(|jump| {
         format!(
             "joint {} turns by {:.0} deg at once in line {}",
             joints[jump.joint].name,
             jump.by.to_degrees(),
-            ask.track.path.points[jump.index].line
+            analysis.track.path.points[jump.index].line
         )
     });
     // One more was looked for than is told.
     let more = (found.jumps.len() > MOST_JUMPS).then(|| "more jumps follow".to_owned());
-    told.chain(more).collect()
+    given.chain(more).collect()
 }
 
 /// Range of each joint, deg (mm); empty where no point is reached.
@@ -237,7 +237,7 @@ fn joint_ranges(study: &Study, answers: &Answers) -> Vec<[f64; 2]> {
         let slides = study.robot.robot.slides(joint);
         let scale = if slides { 1e3 } else { 1f64.to_degrees() };
         let positions = answers
-            .held()
+            .evaluation()
             .map(|(index, _)| answers.joints_at(index)[joint] * scale);
         let [low, high] = positions.fold([f64::MAX, f64::MIN], |[low, high], q| [low.min(q), high.max(q)]);
         (low <= high).then(|| [without_rounding(low), without_rounding(high)])
@@ -247,15 +247,15 @@ fn joint_ranges(study: &Study, answers: &Answers) -> Vec<[f64; 2]> {
 }
 
 /// What was passed over or taken for granted: in the program, in the cut, in the record.
-fn notes(ask: &PathAsk, found: &PathFound) -> Vec<String> {
-    let mut notes = program::notes(ask);
-    notes.extend(cut::notes(ask, found));
+fn notes(analysis: &PathAnalysis, found: &PathFound) -> Vec<String> {
+    let mut notes = program::notes(analysis);
+    notes.extend(cut::notes(analysis, found));
     if found.along.unloaded.is_some() && found.limits.is_some() {
         notes.push(
             "what keeps the tolerance (limits) is told of the load alone: backlash and geometry come on top"
                 .to_owned(),
         );
     }
-    notes.extend(ask.measured.as_deref().into_iter().flat_map(measured::notes));
+    notes.extend(analysis.measured.as_deref().into_iter().flat_map(measured::notes));
     notes
 }

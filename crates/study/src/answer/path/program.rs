@@ -4,7 +4,7 @@ use armill_core::path::Operation;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::file::path::{PathAsk, PathSource};
+use crate::file::path::{PathAnalysis, PathSource};
 use crate::run::PathFound;
 
 /// The program that tells a path.
@@ -39,27 +39,27 @@ pub struct OperationAnswer {
 
 impl ProgramAnswer {
     /// `None` of a shape.
-    pub(super) fn of(ask: &PathAsk, found: &PathFound) -> Option<ProgramAnswer> {
-        let PathSource::Program { file, summary, .. } = &ask.source else {
+    pub(super) fn of(analysis: &PathAnalysis, found: &PathFound) -> Option<ProgramAnswer> {
+        let PathSource::Program { file, summary, .. } = &analysis.source else {
             return None;
         };
         Some(ProgramAnswer {
             file: file.clone(),
             format: summary.format.name(),
-            moves: ask.track.path.moves,
-            cutting_time_s: ask.track.path.cutting_time,
-            operations: operations(ask, found),
+            moves: analysis.track.path.moves,
+            cutting_time_s: analysis.track.path.cutting_time,
+            operations: operations(analysis, found),
         })
     }
 }
 
 /// Each operation from its first point to the first of the next; those without a point are left out.
-fn operations(ask: &PathAsk, found: &PathFound) -> Vec<OperationAnswer> {
-    let (all, points) = (&ask.track.path.operations, &found.along.answers.points);
+fn operations(analysis: &PathAnalysis, found: &PathFound) -> Vec<OperationAnswer> {
+    let (all, points) = (&analysis.track.path.operations, &found.along.answers.points);
     let of = |(i, (first, operation)): (usize, &(usize, Operation))| {
         let end = all.get(i + 1).map_or(points.len(), |next| next.0);
         let points = &points[*first..end];
-        let largest = points.iter().flatten().map(|held| held.in_plane * 1e6);
+        let largest = points.iter().flatten().map(|evaluation| evaluation.in_plane * 1e6);
         OperationAnswer {
             name: operation.name.clone(),
             tool: operation.tool,
@@ -68,13 +68,13 @@ fn operations(ask: &PathAsk, found: &PathFound) -> Vec<OperationAnswer> {
             max_in_plane_um: largest.max_by(f64::total_cmp),
         }
     };
-    let told = all.iter().enumerate().map(of);
-    told.filter(|operation| operation.points > 0).collect()
+    let given = all.iter().enumerate().map(of);
+    given.filter(|operation| operation.points > 0).collect()
 }
 
 /// What was passed over in the program.
-pub(super) fn notes(ask: &PathAsk) -> Vec<String> {
-    match &ask.source {
+pub(super) fn notes(analysis: &PathAnalysis) -> Vec<String> {
+    match &analysis.source {
         PathSource::Program { summary, .. } => summary.notes.clone(),
         PathSource::Shape(_) | PathSource::Holes { .. } => Vec::new(),
     }

@@ -4,13 +4,13 @@
 //! limits and away from singularities at any turn; the path is answered there as if they had.
 
 use armill_core::kernel::{Answers, Stand};
-use armill_core::optimize::{Counts, Goal, reversals};
+use armill_core::optimize::{Component, Objective, reversals};
 use armill_core::path::PathPoint;
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::super::sentence::micrometres;
-use crate::file::path::PathAsk;
+use crate::file::path::PathAnalysis;
 use crate::number::decimals;
 use crate::run::PathFound;
 
@@ -18,9 +18,9 @@ use crate::run::PathFound;
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct SearchAnswer {
     /// Which part of the deviation counted: `in-plane`, `cross-track`, `axial`.
-    pub counts: &'static str,
-    /// What was to be least: `worst`, `mean`, `above-limit`.
-    pub goal: &'static str,
+    pub component: &'static str,
+    /// What was to be least: `worst`, `mean`, `above-tolerance`.
+    pub objective: &'static str,
     /// Turns that were tried at each point.
     pub turns: usize,
     /// Least and greatest turn of the tool that was chosen, beside the one it has without.
@@ -45,7 +45,7 @@ pub struct StatisticsAnswer {
     /// Points within the limit over all points.
     pub fraction_within: f64,
     /// Points without posture.
-    pub unreached: usize,
+    pub unreachable: usize,
     /// Points with a posture outside joint limits.
     pub outside_joint_limits: usize,
     /// Points near a singularity.
@@ -69,18 +69,18 @@ pub struct LostAnswer {
 
 impl SearchAnswer {
     /// What was found along this path; `None` where nothing was searched for.
-    pub(super) fn of(ask: &PathAsk, found: &PathFound) -> Option<SearchAnswer> {
-        let (search, searched) = (ask.setting.search.as_ref()?, found.searched.as_ref()?);
+    pub(super) fn of(analysis: &PathAnalysis, found: &PathFound) -> Option<SearchAnswer> {
+        let (search, searched) = (analysis.setting.search.as_ref()?, found.searched.as_ref()?);
         let spins = searched.posture.spins.iter().map(|spin| spin.to_degrees());
         let least = spins.clone().fold(f64::INFINITY, f64::min);
-        let points = &ask.track.path.points;
+        let points = &analysis.track.path.points;
         Some(SearchAnswer {
-            counts: counts_word(search.counts),
-            goal: goal_word(search.goal),
+            component: counts_word(search.component),
+            objective: goal_word(search.objective),
             turns: search.spins.count,
             turn_range_deg: [least, spins.fold(f64::NEG_INFINITY, f64::max)],
-            without: StatisticsAnswer::of(ask, &searched.as_asked),
-            with: StatisticsAnswer::of(ask, &found.along.answers),
+            without: StatisticsAnswer::of(analysis, &searched.as_asked),
+            with: StatisticsAnswer::of(analysis, &found.along.answers),
             lost: lost(points, &searched.posture.lost),
             breaks: searched
                 .posture
@@ -120,19 +120,19 @@ impl SearchAnswer {
 
 impl StatisticsAnswer {
     /// Of a path answered so.
-    pub fn of(ask: &PathAsk, answers: &Answers) -> StatisticsAnswer {
-        let held = || answers.held().map(|(_, held)| held);
-        let count = held().count();
-        let within = held().filter(|held| held.in_plane <= ask.setting.limit).count();
+    pub fn of(analysis: &PathAnalysis, answers: &Answers) -> StatisticsAnswer {
+        let evaluation = || answers.evaluation().map(|(_, evaluation)| evaluation);
+        let count = evaluation().count();
+        let within = evaluation().filter(|evaluation| evaluation.in_plane <= analysis.setting.limit).count();
         StatisticsAnswer {
-            max_in_plane_um: answers.worst().map(|(_, held)| held.in_plane * 1e6),
+            max_in_plane_um: answers.worst().map(|(_, evaluation)| evaluation.in_plane * 1e6),
             mean_in_plane_um: (count > 0)
-                .then(|| held().map(|held| held.in_plane).sum::<f64>() / count as f64 * 1e6),
+                .then(|| evaluation().map(|evaluation| evaluation.in_plane).sum::<f64>() / count as f64 * 1e6),
             fraction_within: within as f64 / answers.points.len().max(1) as f64,
-            unreached: answers.points.len() - count,
-            outside_joint_limits: held().filter(|held| !held.within_limits()).count(),
-            near_singularity: held().filter(|held| held.singularity.is_some()).count(),
-            reversals: reversals(&ask.track.path, answers),
+            unreachable: answers.points.len() - count,
+            outside_joint_limits: evaluation().filter(|evaluation| !evaluation.within_limits()).count(),
+            near_singularity: evaluation().filter(|evaluation| evaluation.singularity.is_some()).count(),
+            reversals: reversals(&analysis.track.path, answers),
         }
     }
 }
@@ -140,7 +140,7 @@ impl StatisticsAnswer {
 /// Points next to each other as one stretch each.
 fn lost(points: &[PathPoint], lost: &[(usize, Stand)]) -> Vec<LostAnswer> {
     let stretches = lost.chunk_by(|(a, _), (b, _)| a + 1 == *b);
-    let told = |stretch: &[(usize, Stand)]| {
+    let given = |stretch: &[(usize, Stand)]| {
         let [(first, stand), ..] = stretch else {
             return None;
         };
@@ -152,23 +152,23 @@ fn lost(points: &[PathPoint], lost: &[(usize, Stand)]) -> Vec<LostAnswer> {
             reason: stand.word(),
         })
     };
-    stretches.filter_map(told).collect()
+    stretches.filter_map(given).collect()
 }
 
 /// As the study calls it.
-pub(crate) fn counts_word(counts: Counts) -> &'static str {
-    match counts {
-        Counts::InPlane => "in-plane",
-        Counts::CrossTrack => "cross-track",
-        Counts::Axial => "axial",
+pub(crate) fn counts_word(component: Component) -> &'static str {
+    match component {
+        Component::InPlane => "in-plane",
+        Component::CrossTrack => "cross-track",
+        Component::Axial => "axial",
     }
 }
 
 /// As the study calls it.
-pub(crate) fn goal_word(goal: Goal) -> &'static str {
-    match goal {
-        Goal::Worst => "worst",
-        Goal::Mean => "mean",
-        Goal::Above(_) => "above-limit",
+pub(crate) fn goal_word(objective: Objective) -> &'static str {
+    match objective {
+        Objective::Worst => "worst",
+        Objective::Mean => "mean",
+        Objective::Above(_) => "above-tolerance",
     }
 }

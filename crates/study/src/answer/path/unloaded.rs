@@ -4,7 +4,7 @@ use armill_core::optimize::reversals;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::file::path::PathAsk;
+use crate::file::path::PathAnalysis;
 use crate::file::resolve::Study;
 use crate::run::PathFound;
 
@@ -36,16 +36,16 @@ pub struct PlayAnswer {
 
 impl UnloadedAnswer {
     /// What it was along this path; `None` where load and gravity alone move the tool.
-    pub(super) fn of(study: &Study, ask: &PathAsk, found: &PathFound) -> Option<UnloadedAnswer> {
+    pub(super) fn of(study: &Study, analysis: &PathAnalysis, found: &PathFound) -> Option<UnloadedAnswer> {
         let unloaded = found.along.unloaded.as_ref()?;
         let robot = &study.robot.robot;
         let cases = found.along.answers.case_count;
         let in_plane = |(at, moved): (usize, &armill_core::nalgebra::Vector3<f64>)| {
-            let parts = ask.track.parts(at / cases, moved);
+            let parts = analysis.track.parts(at / cases, moved);
             parts.along.hypot(parts.cross)
         };
-        let turned_back = reversals(&ask.track.path, &found.along.answers);
-        let model = &ask.setting.model;
+        let turned_back = reversals(&analysis.track.path, &found.along.answers);
+        let model = &analysis.setting.model;
         let play = model.structure.gaps().map(|(joint, backlash)| {
             let slides = robot.slides(joint);
             PlayAnswer {

@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::super::point::PointAnswer;
-use crate::file::path::PathAsk;
+use crate::file::path::PathAnalysis;
 use crate::file::resolve::Study;
 use crate::run::{InFull, PathFound};
 
@@ -38,22 +38,22 @@ const SHARP: f64 = 0.5;
 const NEAR_LIMIT: f64 = 0.087;
 
 /// Worst first; a point that was not held when asked by itself is left out.
-pub(super) fn worst_points(study: &Study, ask: &PathAsk, found: &PathFound) -> Vec<WorstPoint> {
-    let told = |worst: &InFull| of_point(study, ask, worst);
-    found.worst.iter().filter_map(told).collect()
+pub(super) fn worst_points(study: &Study, analysis: &PathAnalysis, found: &PathFound) -> Vec<WorstPoint> {
+    let given = |worst: &InFull| of_point(study, analysis, worst);
+    found.worst.iter().filter_map(given).collect()
 }
 
 /// One point; its in-plane coordinates are on the plane of the study, not on the one across the tool.
-fn of_point(study: &Study, ask: &PathAsk, worst: &InFull) -> Option<WorstPoint> {
-    let held = *worst.answers.points.first()?.as_ref().ok()?;
-    let here = &ask.track.path.points[worst.index];
-    let parts = ask
+fn of_point(study: &Study, analysis: &PathAnalysis, worst: &InFull) -> Option<WorstPoint> {
+    let evaluation = *worst.answers.points.first()?.as_ref().ok()?;
+    let here = &analysis.track.path.points[worst.index];
+    let parts = analysis
         .track
-        .parts(worst.index, &worst.answers.deviations_at(0)[held.deciding_case]);
+        .parts(worst.index, &worst.answers.deviations_at(0)[evaluation.deciding_case]);
     let at = worst.setting.plane.base_from_part.translation.vector.into();
     let point = PointAnswer {
-        in_plane_mm: PointAnswer::in_plane_mm(&ask.setting.plane, &at),
-        ..PointAnswer::of(study, &worst.setting, &worst.answers, (0, &held, at))
+        in_plane_mm: PointAnswer::in_plane_mm(&analysis.setting.plane, &at),
+        ..PointAnswer::of(study, &worst.setting, &worst.answers, (0, &evaluation, at))
     };
     Some(WorstPoint {
         line: here.line,
@@ -61,27 +61,27 @@ fn of_point(study: &Study, ask: &PathAsk, worst: &InFull) -> Option<WorstPoint> 
         along_um: parts.along * 1e6,
         cross_um: parts.cross * 1e6,
         axial_um: parts.axial * 1e6,
-        cause: cause(study, (ask, worst.index), &held, &point),
+        cause: cause(study, (analysis, worst.index), &evaluation, &point),
         point,
     })
 }
 
 /// In words, as far as they hold: whose share is largest, a singularity, a joint near its limit, a feed that turns
 /// sharply.
-fn cause(study: &Study, (ask, index): (&PathAsk, usize), held: &Held, point: &PointAnswer) -> String {
+fn cause(study: &Study, (analysis, index): (&PathAnalysis, usize), evaluation: &Held, point: &PointAnswer) -> String {
     let joints = study.robot.robot.joints();
-    let names = ask.setting.model.sharer_names(joints);
+    let names = analysis.setting.model.contributor_names(joints);
     let largest = point
         .mostly_by(&names)
         .and_then(|(name, part)| Some(format!("{name} {:.0} %", 100.0 * part?)));
     let mut parts: Vec<String> = largest.into_iter().collect();
-    if let Some(singularity) = held.singularity {
+    if let Some(singularity) = evaluation.singularity {
         parts.push(format!("near the {singularity}"));
     }
-    if held.limit_margin < NEAR_LIMIT {
-        parts.push(format!("joint {} at its limit", joints[held.limit_joint].name));
+    if evaluation.limit_margin < NEAR_LIMIT {
+        parts.push(format!("joint {} at its limit", joints[evaluation.limit_joint].name));
     }
-    let points = &ask.track.path.points;
+    let points = &analysis.track.path.points;
     if let Some(before) = index.checked_sub(1).map(|i| &points[i]) {
         let turn = before.direction.angle(&points[index].direction);
         if turn > SHARP {

@@ -206,11 +206,11 @@ const CELLS_ACROSS: f64 = 40.0;
 
 /// The stock, `Some(None)` where none is told.
 fn stock(places: &mut Places<'_>, table: &CutTable) -> Option<Option<Stock>> {
-    let Some(told) = &table.stock else {
+    let Some(reported) = &table.stock else {
         return Some(None);
     };
-    let corners = [told.from_mm, told.to_mm].map(|mm| Point3::from(mm.map(|c| c * 1e-3)));
-    let cell_mm = told.cell_mm.unwrap_or(table.cutter.diameter_mm / CELLS_ACROSS);
+    let corners = [reported.from_mm, reported.to_mm].map(|mm| Point3::from(mm.map(|c| c * 1e-3)));
+    let cell_mm = reported.cell_mm.unwrap_or(table.cutter.diameter_mm / CELLS_ACROSS);
     let refused = |error: StockError| {
         let hint = "from_mm = [-50, -50, -20], to_mm = [50, 50, 0]: two corners in the frame of the program";
         places.problem("cut.stock", error.to_string(), hint);
@@ -281,7 +281,7 @@ fn law(
     remarks: &mut Vec<String>,
 ) -> Option<CuttingLaw> {
     let given = table.u_percent.map(|percent| percent / 100.0);
-    let wanted = match (table.law, material.mechanistic()) {
+    let requested = match (table.law, material.mechanistic()) {
         (Some(LawName::Mechanistic) | None, Some(together)) => {
             if together.covariance.is_none() && given.is_none() {
                 remarks.push(one_set_remark(&material.name));
@@ -315,7 +315,7 @@ fn law(
             kienzle(&together, given, ratios).map(CuttingLaw::Kienzle)
         }
     };
-    wanted
+    requested
         .map_err(|error| places.problem("cut.material", error.to_string(), "is the number right?"))
         .ok()
 }

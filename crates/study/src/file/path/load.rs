@@ -22,10 +22,10 @@ use armill_core::watch::Watch;
 use super::cut::{self, CutTable};
 use super::drill::{self, DrillTable};
 use super::measured::{self, MeasuredTable, SynchroniseName};
-use super::{PathAsk, PathSource};
+use super::{PathAnalysis, PathSource};
 use crate::StudyError;
-use crate::file::ask::kind_noun;
-use crate::file::format::{AskKind, AskTable, LoadTable, StudyFile};
+use crate::file::analysis::kind_noun;
+use crate::file::format::{AnalysisKind, AnalysisTable, LoadTable, StudyFile};
 use crate::file::places::Places;
 
 /// What pushes on the tool, as the study tells it.
@@ -43,31 +43,31 @@ pub(in crate::file) enum Push<'a> {
 
 impl<'a> Push<'a> {
     /// What pushes in this ask: what it brings itself, else the cut of the study (along a path), else its load.
-    pub fn of(file: &'a StudyFile, ask: &'a AskTable) -> Option<Push<'a>> {
-        if ask.kind == AskKind::Holes {
-            let own = drill(ask).or(ask.load.as_ref().map(Push::Load));
+    pub fn of(file: &'a StudyFile, analysis: &'a AnalysisTable) -> Option<Push<'a>> {
+        if analysis.kind == AnalysisKind::Holes {
+            let own = drill(analysis).or(analysis.load.as_ref().map(Push::Load));
             return own.or(file.load.as_ref().map(Push::Load));
         }
-        let along = ask.kind == AskKind::Path;
-        let program = ask.program.as_ref().filter(|_| along);
-        let own_cut = ask.cut.as_ref().filter(|_| along);
+        let along = analysis.kind == AnalysisKind::Path;
+        let program = analysis.program.as_ref().filter(|_| along);
+        let own_cut = analysis.cut.as_ref().filter(|_| along);
         let cut = own_cut.or(file.cut.as_ref().filter(|_| along));
         if let Some(measured) = program.and_then(|program| program.measured.as_ref()) {
             return Some(Push::Measured(measured, cut.filter(|_| measured.is_predicted())));
         }
-        let own = drill(ask).or(own_cut.map(Push::Cut));
-        let own = own.or(ask.load.as_ref().map(Push::Load));
+        let own = drill(analysis).or(own_cut.map(Push::Cut));
+        let own = own.or(analysis.load.as_ref().map(Push::Load));
         own.or(cut.map(Push::Cut)).or(file.load.as_ref().map(Push::Load))
     }
 
     /// Tells an ask that brings two things that push.
-    pub fn refuse_two(places: &mut Places<'_>, ask: &AskTable) {
-        let program = ask.program.as_ref();
+    pub fn refuse_two(places: &mut Places<'_>, analysis: &AnalysisTable) {
+        let program = analysis.program.as_ref();
         let measured = program.and_then(|program| program.measured.as_ref());
         let predicted = measured.is_some_and(MeasuredTable::is_predicted);
         let brought = [
-            ("load", "a load", ask.load.is_some()),
-            ("cut", "a cut", ask.cut.is_some() && !predicted),
+            ("load", "a load", analysis.load.is_some()),
+            ("cut", "a cut", analysis.cut.is_some() && !predicted),
             (
                 "program.drill",
                 "a drill",
@@ -76,7 +76,7 @@ impl<'a> Push<'a> {
             (
                 "holes.drill",
                 "a drill",
-                ask.holes.as_ref().is_some_and(|holes| holes.drill.is_some()),
+                analysis.holes.as_ref().is_some_and(|holes| holes.drill.is_some()),
             ),
             ("program.measured", "measured forces", measured.is_some()),
         ];
@@ -84,7 +84,7 @@ impl<'a> Push<'a> {
         if let (Some((_, first, _)), Some((key, second, _))) = (brought.next(), brought.next()) {
             places.problem(
                 key,
-                format!("this {} has {first} and {second}", kind_noun(ask.kind)),
+                format!("this {} has {first} and {second}", kind_noun(analysis.kind)),
                 "remove one",
             );
         }
@@ -92,9 +92,9 @@ impl<'a> Push<'a> {
 }
 
 /// The drill of an ask.
-fn drill(ask: &AskTable) -> Option<Push<'_>> {
-    let of_program = ask.program.as_ref().and_then(|program| program.drill.as_ref());
-    let of_holes = ask.holes.as_ref().and_then(|holes| holes.drill.as_ref());
+fn drill(analysis: &AnalysisTable) -> Option<Push<'_>> {
+    let of_program = analysis.program.as_ref().and_then(|program| program.drill.as_ref());
+    let of_holes = analysis.holes.as_ref().and_then(|holes| holes.drill.as_ref());
     let of_program = of_program.map(|drill| Push::Drill("program.drill", drill));
     of_program.or(of_holes.map(|drill| Push::Drill("holes.drill", drill)))
 }
@@ -114,24 +114,24 @@ pub(in crate::file) fn put_on(
     places: &mut Places<'_>,
     push: Push<'_>,
     folder: &Path,
-    ask: &mut PathAsk,
+    analysis: &mut PathAnalysis,
 ) -> Result<bool, StudyError> {
     let found = match push {
         Push::Load(_) => Some(()),
-        Push::Cut(table) => cut::resolve(places, table).and_then(|cut| put_cut(places, cut, ask)),
+        Push::Cut(table) => cut::resolve(places, table).and_then(|cut| put_cut(places, cut, analysis)),
         Push::Drill(key, table) => {
             let drill = drill::resolve(places, (key, table));
-            drill.and_then(|drill| put_drill(places, (key, drill), ask))
+            drill.and_then(|drill| put_drill(places, (key, drill), analysis))
         }
         Push::Measured(table, cut) => {
             let predicting = cut.map(|table| cut::resolve(places, table));
             if matches!(predicting, Some(None)) {
                 return Ok(false);
             }
-            let found = measured::along(places, table, folder, (&ask.track, predicting.flatten().as_ref()))?;
+            let found = measured::along(places, table, folder, (&analysis.track, predicting.flatten().as_ref()))?;
             found.map(|(load, forces)| {
-                ask.setting.doubt.relative = table.u_percent.unwrap_or(0.0) / 100.0;
-                (ask.load, ask.measured) = (load, Some(Box::new(forces)));
+                analysis.setting.uncertainty.relative = table.u_percent.unwrap_or(0.0) / 100.0;
+                (analysis.load, analysis.measured) = (load, Some(Box::new(forces)));
             })
         }
     };
@@ -139,13 +139,13 @@ pub(in crate::file) fn put_on(
 }
 
 /// Puts on the forces of a cut whose engagement is the same everywhere; a stock is cut when the study runs.
-fn put_cut(places: &mut Places<'_>, cut: cut::Cut, ask: &mut PathAsk) -> Option<()> {
-    let (path, placing) = (&ask.track.path, &ask.track.placing);
+fn put_cut(places: &mut Places<'_>, cut: cut::Cut, analysis: &mut PathAnalysis) -> Option<()> {
+    let (path, placing) = (&analysis.track.path, &analysis.track.placing);
     let found = cut.cutting.along(path, placing, None, Watch::NONE);
     let untold = "the program tells feed and spindle, or cut.feed_mm_per_min and cut.spindle_rpm do";
-    let found = found.map_err(|error| tell(places, ask, &error, untold)).ok()?;
-    ask.setting.doubt.relative = found.told.relative_uncertainty;
-    (ask.load, ask.cut, ask.forces) = (PathLoad::Cuts(found.cuts), Some(cut), Some(found.told));
+    let found = found.map_err(|error| tell(places, analysis, &error, untold)).ok()?;
+    analysis.setting.uncertainty.relative = found.reported.relative_uncertainty;
+    (analysis.load, analysis.cut, analysis.forces) = (PathLoad::Cuts(found.cuts), Some(cut), Some(found.reported));
     Some(())
 }
 
@@ -153,27 +153,27 @@ fn put_cut(places: &mut Places<'_>, cut: cut::Cut, ask: &mut PathAsk) -> Option<
 fn put_drill(
     places: &mut Places<'_>,
     (key, drill): (&str, drill::DrillCut),
-    ask: &mut PathAsk,
+    analysis: &mut PathAnalysis,
 ) -> Option<()> {
-    let (path, placing) = (&ask.track.path, &ask.track.placing);
+    let (path, placing) = (&analysis.track.path, &analysis.track.placing);
     let found = drill.drill.along(path, placing);
     let untold = format!("the program tells feed and spindle, or {key} with feed_mm_per_min and spindle_rpm");
-    let (load, told) = found.map_err(|error| tell(places, ask, &error, &untold)).ok()?;
-    ask.setting.doubt.relative = told.relative_uncertainty;
-    (ask.load, ask.drill, ask.forces) = (load, Some(drill), Some(told));
+    let (load, reported) = found.map_err(|error| tell(places, analysis, &error, &untold)).ok()?;
+    analysis.setting.uncertainty.relative = reported.relative_uncertainty;
+    (analysis.load, analysis.drill, analysis.forces) = (load, Some(drill), Some(reported));
     Some(())
 }
 
 /// Tells why there are no forces; `untold` helps where feed or spindle are missing.
-fn tell(places: &mut Places<'_>, ask: &PathAsk, error: &NoForces, untold: &str) {
+fn tell(places: &mut Places<'_>, analysis: &PathAnalysis, error: &NoForces, untold: &str) {
     let hint = match error {
         NoForces::Cut { .. } => {
             "depths are those of the program, or cut.axial_depth_mm and cut.radial_depth_mm"
         }
         _ => untold,
     };
-    let message = format!("{}: {error}", ask.shown());
-    match &ask.source {
+    let message = format!("{}: {error}", analysis.shown());
+    match &analysis.source {
         PathSource::Program { .. } => places.problem("program.file", message, hint),
         PathSource::Shape(_) | PathSource::Holes { .. } => places.problem_here(message, hint),
     }

@@ -77,7 +77,7 @@ pub(super) fn read(
         let path = beside.join(format!("{name}.ngc"));
         plain.then(|| input::read_text(&path).ok()).flatten()
     };
-    let wanted = Wanted {
+    let requested = Wanted {
         unit,
         dialect: table.dialect.map(|dialect| match dialect {
             DialectName::Nx => Dialect::Nx,
@@ -90,7 +90,7 @@ pub(super) fn read(
     };
     let mut builder = PathBuilder::new(file.sampling, MOST_POINTS);
     let shown = file.path.display().to_string();
-    let summary = format::read(&shown, BufReader::new(opened), &wanted, &mut |step| {
+    let summary = format::read(&shown, BufReader::new(opened), &requested, &mut |step| {
         builder.take(step);
     })?;
     match builder.finish() {

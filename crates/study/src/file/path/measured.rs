@@ -14,7 +14,7 @@ use armill_core::nalgebra::{UnitQuaternion, Vector3};
 use armill_core::path::{Clock, NoTime, Speeds, Track};
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
-use armill_formats::measurement::format::Wanted;
+use armill_formats::measurement::format::ForceReadOptions;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -164,13 +164,13 @@ pub(super) fn along(
         ActsOnName::Tool => ActsOn::Tool,
         ActsOnName::Part => ActsOn::Part,
     };
-    let wanted = Wanted {
+    let requested = ForceReadOptions {
         rate_hz: table.rate_hz,
         columns: table.columns.clone(),
         channels: table.channels.clone(),
     };
     let cycle = table.cycle.map(|cycle| cycle as usize);
-    let found = match read((&shown, &path), acts_on, &wanted, cycle) {
+    let found = match read((&shown, &path), acts_on, &requested, cycle) {
         Ok(measured) => forces(table, measured, track, cut),
         Err(Unread::File(problems)) => return Err(problems),
         Err(Unread::Value(refusal)) => Err(refusal),
@@ -254,7 +254,7 @@ fn air(table: &MeasuredTable) -> Result<Air, Refusal> {
 
 /// When the tip is at each point, from the begin of the first cut.
 fn clock(table: &MeasuredTable, track: &Track) -> Result<Clock, Refusal> {
-    let speed = |told: Option<f64>| told.filter(|v| *v > 0.0).map(|v| v * M_S_PER_MM_MIN);
+    let speed = |given: Option<f64>| given.filter(|v| *v > 0.0).map(|v| v * M_S_PER_MM_MIN);
     let speeds = Speeds {
         feed: speed(table.feed_mm_per_min),
         rapid: speed(table.rapid_mm_per_min),

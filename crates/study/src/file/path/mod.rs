@@ -32,14 +32,14 @@ use armill_core::path::{ForcesTold, Placing, Shape, Spin, Track};
 use armill_core::robot::Robot;
 use armill_formats::toolpath::Summary;
 
-use super::format::AskTable;
+use super::format::AnalysisTable;
 use super::places::Places;
 use super::resolve::Setting;
 use crate::StudyError;
 
 /// A path with what pushes along it.
 #[derive(Clone, Debug)]
-pub struct PathAsk {
+pub struct PathAnalysis {
     /// How its points are asked; cases in base as far as they do not turn with the feed.
     pub setting: Setting,
     /// What gave the points.
@@ -93,7 +93,7 @@ impl PathSource {
     }
 }
 
-impl PathAsk {
+impl PathAnalysis {
     /// Whether what keeps the tolerance is asked and can be told.
     ///
     /// A model in which the load changes the arm permits no limits.
@@ -137,10 +137,10 @@ impl PathAsk {
 /// The problems of the files that it names.
 pub(super) fn resolve(
     places: &mut Places<'_>,
-    (table, step_mm): (&AskTable, f64),
+    (table, step_mm): (&AnalysisTable, f64),
     (folder, robot): (&Path, Option<&Robot>),
     (mut setting, push): (Option<Setting>, Option<Push<'_>>),
-) -> Result<Option<PathAsk>, StudyError> {
+) -> Result<Option<PathAnalysis>, StudyError> {
     if usize::from(table.program.is_some()) + shape::count(table) != 1 {
         let hint = "circle = { radius_mm = 100 }, line, polyline_mm, rectangle, or program = { file = \"part.ngc\" }";
         places.problem_here("a path has exactly one shape or program", hint);
@@ -183,7 +183,7 @@ pub(super) fn resolve(
         places.problem("spin_deg", "`spin_deg` turns the tool on a shape", hint);
         return Ok(None);
     }
-    let mut ask = PathAsk {
+    let mut analysis = PathAnalysis {
         source,
         track: Track {
             path,
@@ -203,6 +203,6 @@ pub(super) fn resolve(
             .map_or_else(Vec::new, |of| of.feature.clone()),
         setting,
     };
-    let pushes = put_on(places, push, folder, &mut ask)?;
-    Ok(pushes.then_some(ask))
+    let pushes = put_on(places, push, folder, &mut analysis)?;
+    Ok(pushes.then_some(analysis))
 }

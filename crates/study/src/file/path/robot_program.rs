@@ -137,9 +137,9 @@ fn texts(places: &mut Places<'_>, path: &Path, language: Language) -> Option<Vec
     };
     let files = match language {
         Language::Krl => {
-            let of = |wanted: &str| {
+            let of = |expected: &str| {
                 let same =
-                    |other: &&PathBuf| other.file_stem() == path.file_stem() && ending(other) == wanted;
+                    |other: &&PathBuf| other.file_stem() == path.file_stem() && ending(other) == expected;
                 beside().iter().find(same).cloned()
             };
             // Of a `.dat` the program beside it is meant.
@@ -210,19 +210,19 @@ fn followed(
     program: &RobotProgram,
     (file, robot, cell): (&str, &Robot, &Cell),
 ) -> Option<Followed> {
-    let told = follow(program, robot, cell).map_err(|errors| {
+    let reported = follow(program, robot, cell).map_err(|errors| {
         for error in errors {
             let (key, hint) = advice(&error);
             places.problem(key, format!("{file}: {error}"), &hint);
         }
     });
-    told.ok()
+    reported.ok()
 }
 
 /// Where in a study an error is mended, and how.
 fn advice(error: &FollowError) -> (&'static str, String) {
     match error {
-        FollowError::Numbered { .. } | FollowError::Untold { .. } => (
+        FollowError::Numbered { .. } | FollowError::EvaluateError { .. } => (
             "program.frame_mm_deg",
             "frame_mm_deg = [x, y, z, rx, ry, rz] tells it as the controller has it: mm, and deg about the fixed axes x, y, z; or \
              part_from_path_mm_deg puts it on the plane"
@@ -301,15 +301,15 @@ fn end_of(
 /// The note that says so.
 pub(super) fn take_posture(setting: &mut Setting, followed: &Followed, robot: &Robot) -> Option<String> {
     let nominal = robot.nominal_branch();
-    let BranchChoice::Of(asked) = setting.choice else {
+    let BranchChoice::Of(requested) = setting.choice else {
         return None;
     };
     // Words of the study leave something said in what is open.
-    if setting.open != BranchPattern::default() || asked != nominal || !robot.inverse().has_branches() {
+    if setting.open != BranchPattern::default() || requested != nominal || !robot.inverse().has_branches() {
         return None;
     }
-    let (told, line) = followed.posture?;
-    let pattern = told.or(nominal);
+    let (reported, line) = followed.posture?;
+    let pattern = reported.or(nominal);
     setting.choice = BranchChoice::Of(pattern);
     Some(format!(
         "line {line}: the arm stands {pattern}, as the program tells; `posture.branch` of a study tells otherwise"

@@ -7,7 +7,7 @@ use armill_core::nalgebra::{Point2, Vector2};
 use armill_core::path::{SampledPath, Shape};
 
 use super::program::MOST_POINTS;
-use crate::file::format::AskTable;
+use crate::file::format::AnalysisTable;
 use crate::file::places::Places;
 use crate::file::quantities::{self, positive};
 
@@ -15,7 +15,7 @@ use crate::file::quantities::{self, positive};
 const CIRCLE_SAMPLES: f64 = 360.0;
 
 /// How many shapes an ask has.
-pub(super) fn count(table: &AskTable) -> usize {
+pub(super) fn count(table: &AnalysisTable) -> usize {
     let given = [
         table.circle.is_some(),
         table.line.is_some(),
@@ -29,7 +29,7 @@ pub(super) fn count(table: &AskTable) -> usize {
 /// plane.
 pub(super) fn resolve(
     places: &mut Places<'_>,
-    table: &AskTable,
+    table: &AnalysisTable,
     step_mm: f64,
 ) -> Option<(SampledPath, Shape)> {
     if let Some(circle) = &table.circle {
@@ -60,7 +60,7 @@ pub(super) fn resolve(
 }
 
 /// The shape of the table in part axes; `None` where it has none.
-fn shape(table: &AskTable) -> Option<Shape> {
+fn shape(table: &AnalysisTable) -> Option<Shape> {
     // The study's y' runs against x of the part.
     let at = |[y, z]: [f64; 2]| Point2::new(-y * 1e-3, z * 1e-3);
     if let Some(circle) = &table.circle {

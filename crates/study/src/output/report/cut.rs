@@ -11,24 +11,24 @@ use armill_report::html::Input;
 use super::cells::input;
 use super::inputs::{THE_STUDY, place};
 use crate::answer::{StudyAnswer, sources_of_cut};
-use crate::file::path::{Cut, PathAsk};
+use crate::file::path::{Cut, PathAnalysis};
 use crate::file::resolve::{Study, Subject};
 
 /// The rows of every cut of the study; of equal ones the first. Where several differ each row names its program.
 pub(super) fn rows(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
-    let mut told: Vec<(&str, &PathAsk, &Cut)> = Vec::new();
-    for ask in &study.asks {
-        let Subject::Path(path) = &ask.subject else {
+    let mut given: Vec<(&str, &PathAnalysis, &Cut)> = Vec::new();
+    for analysis in &study.analyses {
+        let Subject::Path(path) = &analysis.subject else {
             continue;
         };
         if let Some(cut) = &path.cut
-            && told.iter().all(|(_, _, other)| other.cutting != cut.cutting)
+            && given.iter().all(|(_, _, other)| other.cutting != cut.cutting)
         {
-            told.push((&ask.name, path, cut));
+            given.push((&analysis.name, path, cut));
         }
     }
-    let several = told.len() > 1;
-    let of = |(name, path, cut): (&str, &PathAsk, &Cut)| {
+    let several = given.len() > 1;
+    let of = |(name, path, cut): (&str, &PathAnalysis, &Cut)| {
         let mut rows = of_cut(answer, (name, path), cut);
         if several {
             for row in &mut rows {
@@ -37,11 +37,11 @@ pub(super) fn rows(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
         }
         rows
     };
-    told.into_iter().flat_map(of).collect()
+    given.into_iter().flat_map(of).collect()
 }
 
 /// The rows of one cut, from the material to the forces that came of it.
-fn of_cut(answer: &StudyAnswer, (name, path): (&str, &PathAsk), cut: &Cut) -> Vec<Input> {
+fn of_cut(answer: &StudyAnswer, (name, path): (&str, &PathAnalysis), cut: &Cut) -> Vec<Input> {
     let sources = sources_of_cut(cut);
     let places: Vec<String> = sources.iter().map(|source| place(answer, &source.key)).collect();
     let of_material = places.join("; ");
@@ -57,7 +57,7 @@ fn of_cut(answer: &StudyAnswer, (name, path): (&str, &PathAsk), cut: &Cut) -> Ve
         Immersion::Centred(depth) => (format!("{}, centred", plain(depth * 1e3)), "mm"),
     };
     rows.push(study("radial depth", radial, unit));
-    let told = |value: Option<f64>| {
+    let given = |value: Option<f64>| {
         value.map_or_else(
             || "as the program tells".to_owned(),
             |value| format!("{}, where the program tells none", plain(value)),
@@ -65,9 +65,9 @@ fn of_cut(answer: &StudyAnswer, (name, path): (&str, &PathAsk), cut: &Cut) -> Ve
     };
     let unit = |value: Option<f64>, unit: &'static str| value.map_or("", |_| unit);
     let feed = cut.cutting.feed;
-    rows.push(study("feed", told(feed.map(|v| v * 60e3)), unit(feed, "mm/min")));
+    rows.push(study("feed", given(feed.map(|v| v * 60e3)), unit(feed, "mm/min")));
     let spindle = cut.cutting.spindle;
-    let rpm = told(spindle.map(|v| v * 60.0 / TAU));
+    let rpm = given(spindle.map(|v| v * 60.0 / TAU));
     rows.push(study("spindle", rpm, unit(spindle, "rev/min")));
     if let Some(stock) = &cut.stock {
         let [from, to] = stock.corners().map(|corner| {
@@ -77,10 +77,10 @@ fn of_cut(answer: &StudyAnswer, (name, path): (&str, &PathAsk), cut: &Cut) -> Ve
         let cell = plain(stock.pitch() * 1e3);
         rows.push(study("stock", format!("{from} to {to}, cells of {cell}"), "mm"));
     }
-    let told = answer.paths.iter().find(|path| path.name == name);
-    if let Some(of_cut) = told.and_then(|path| path.cut.as_ref()) {
+    let given = answer.paths.iter().find(|path| path.name == name);
+    if let Some(of_cut) = given.and_then(|path| path.cut.as_ref()) {
         let (mean, peak) = (of_cut.largest_mean_n, of_cut.largest_peak_n);
-        let u = mean * path.setting.doubt.relative;
+        let u = mean * path.setting.uncertainty.relative;
         let computed = "computed from the rows above";
         rows.push(input(
             "largest mean force of a revolution",
@@ -197,18 +197,18 @@ mod tests {
 
     #[test]
     fn numbers_have_four_digits_and_no_zeros_behind_them() {
-        let told = [0.0, 6.000000001, 0.25, 1012.595, 189.3, 12.3456, 9000.0, 10.0].map(plain);
-        assert_eq!(told, ["0", "6", "0.25", "1013", "189.3", "12.35", "9000", "10"]);
+        let given = [0.0, 6.000000001, 0.25, 1012.595, 189.3, 12.3456, 9000.0, 10.0].map(plain);
+        assert_eq!(given, ["0", "6", "0.25", "1013", "189.3", "12.35", "9000", "10"]);
     }
 
     #[test]
     fn a_cutter_is_told_in_the_words_of_its_catalogue() {
-        let told = |made: Result<Cutter, _>| made.map(|made| cutter(&made)).unwrap_or_default();
+        let given = |made: Result<Cutter, _>| made.map(|made| cutter(&made)).unwrap_or_default();
         assert_eq!(
-            told(Cutter::flat(6e-3, 2).and_then(|c| c.with_helix(30_f64.to_radians(), Hand::Right))),
+            given(Cutter::flat(6e-3, 2).and_then(|c| c.with_helix(30_f64.to_radians(), Hand::Right))),
             "6 mm, 2 flutes, right-hand helix 30 deg"
         );
-        assert!(told(Cutter::ball(8e-3, 4)).starts_with("8 mm, ball nose, 4 flutes"));
-        assert!(told(Cutter::bull_nose(8e-3, 1e-3, 1)).starts_with("8 mm, corner radius 1 mm, 1 flute,"));
+        assert!(given(Cutter::ball(8e-3, 4)).starts_with("8 mm, ball nose, 4 flutes"));
+        assert!(given(Cutter::bull_nose(8e-3, 1e-3, 1)).starts_with("8 mm, corner radius 1 mm, 1 flute,"));
     }
 }

@@ -22,7 +22,7 @@ pub(super) fn tell(report: Report, holes: &HolesAnswer) -> Report {
 }
 
 fn numbers(holes: &HolesAnswer) -> Table {
-    let told = |text: &Option<String>| text.clone().unwrap_or_else(|| NONE.to_owned());
+    let given = |text: &Option<String>| text.clone().unwrap_or_else(|| NONE.to_owned());
     without_empty_columns(Table {
         caption: "Deviations across the holes are what the tolerance is held against; along them they are the error of depth. Each \
                   hole is held in the turn of the tool and the branch that is best for it."
@@ -42,15 +42,15 @@ fn numbers(holes: &HolesAnswer) -> Table {
         ]),
         rows: vec![vec![
             holes.name.clone(),
-            told(&holes.file),
+            given(&holes.file),
             holes.holes.to_string(),
-            (holes.unreached + holes.refused).to_string(),
+            (holes.unreachable + holes.refused).to_string(),
             percent(holes.fraction_within),
             um(holes.mean_in_plane_um),
             um(holes.max_in_plane_um),
             um(holes.max_depth_um),
             holes.turns.to_string(),
-            told(&holes.material),
+            given(&holes.material),
             um(holes.largest_thrust_n),
         ]],
     })

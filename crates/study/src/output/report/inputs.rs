@@ -101,7 +101,7 @@ fn others(answer: &StudyAnswer, setting: &SettingAnswer) -> Vec<Input> {
         "tolerance, in plane"
     };
     vec![
-        input(tolerance, format!("{}", setting.limit_um), "µm", THE_STUDY),
+        input(tolerance, format!("{}", setting.tolerance_um), "µm", THE_STUDY),
         input(
             "tool centre point from the flange",
             format!("{:.1}", setting.tool_length_mm),

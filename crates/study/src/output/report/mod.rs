@@ -64,10 +64,10 @@ pub(super) fn html(
     if !answer.volumes.is_empty() {
         report = report.section("Volumes").table(&volumes::table(answer));
     }
-    if let Some(told) = &answer.measured {
+    if let Some(given) = &answer.measured {
         report = report.section("What was measured, beside what is predicted");
-        report = report.paragraph(&budget::output::in_words(told));
-        for table in budget::output::tables(told) {
+        report = report.paragraph(&budget::output::in_words(given));
+        for table in budget::output::tables(given) {
             report = report.table(&table);
         }
     }

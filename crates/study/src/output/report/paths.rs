@@ -93,7 +93,7 @@ fn followed(paths: &[PathAnswer]) -> Table {
     };
     let row = |path: &PathAnswer| {
         let of_program =
-            |told: fn(&ProgramAnswer) -> String| path.program.as_ref().map_or(NONE.to_owned(), told);
+            |given: fn(&ProgramAnswer) -> String| path.program.as_ref().map_or(NONE.to_owned(), given);
         vec![
             path.name.clone(),
             of_program(|program| format!("{} ({})", program.file, program.format)),
@@ -101,7 +101,7 @@ fn followed(paths: &[PathAnswer]) -> Table {
             format!("{:.0}", path.length_mm),
             of_program(|program| minutes(program.cutting_time_s)),
             path.points.to_string(),
-            count(path.unreached),
+            count(path.unreachable),
             count(path.outside_joint_limits),
             count(path.cut.as_ref().map_or(0, |cut| cut.points_without_force)),
         ]

@@ -32,7 +32,7 @@ pub(super) fn table(answer: &StudyAnswer) -> Table {
                     percent(map.fraction_within_and_inside_joint_limits),
                     format!(
                         "{} … {}",
-                        percent(map.certainty.fraction_surely_within),
+                        percent(map.certainty.fraction_robustly_within),
                         percent(map.certainty.fraction_possibly_within)
                     ),
                     um(map.min_in_plane_um),

@@ -14,15 +14,15 @@ use armill_core::robot::jacobian::wrist_bend;
 
 use super::Numbers;
 use crate::answer::holes::error;
-use crate::file::holes::HolesAsk;
+use crate::file::holes::HolesAnalysis;
 use crate::file::resolve::Study;
 
 /// Number, line, turn and bend, and the deviation in the axes of each hole.
-pub(super) fn columns<'a>(study: &'a Study, ask: &'a HolesAsk, found: &'a HolesFound) -> Vec<Numbers<'a>> {
-    let points = &ask.path.track.path.points;
+pub(super) fn columns<'a>(study: &'a Study, analysis: &'a HolesAnalysis, found: &'a HolesFound) -> Vec<Numbers<'a>> {
+    let points = &analysis.path.track.path.points;
     let part = |name: &str, description: &'static str, axis: usize| {
-        Numbers::um(name.to_owned(), description, move |_, index, held| {
-            error(ask, found, (index, held))[axis] * 1e6
+        Numbers::um(name.to_owned(), description, move |_, index, evaluation| {
+            error(analysis, found, (index, evaluation))[axis] * 1e6
         })
     };
     vec![

@@ -6,7 +6,7 @@
 //! |---|---|
 //! | `section` | label, of sections only |
 //! | `x_mm`, `y_mm`, `z_mm` | TCP |
-//! | `state` | `within`, `over_limit`, or why there is no posture |
+//! | `state` | `within`, `above_tolerance`, or why there is no posture |
 //! | `branch`, `singularity` | how the arm stands, and near what |
 //! | `line` to `axial_um` | of paths only: see `track` |
 //! | `hole` to `depth_um` | of holes only: see `holes` |
@@ -46,20 +46,20 @@ const IMAGE: &str = "vti";
 const POLY_DATA: &str = "vtp";
 
 /// What the files of an ask end in.
-pub(super) fn extensions(ask: &Ask, csv: Csv) -> Vec<&'static str> {
+pub(super) fn extensions(analysis: &Ask, csv: Csv) -> Vec<&'static str> {
     let mut extensions = Vec::new();
-    if has_csv(ask, csv) {
+    if has_csv(analysis, csv) {
         extensions.push("csv");
     }
     if cfg!(feature = "parquet") {
         extensions.push("parquet");
     }
-    if let Subject::Path(path) = &ask.subject
+    if let Subject::Path(path) = &analysis.subject
         && path.tells_limits()
     {
         extensions.push(super::limits::EXTENSION);
     }
-    extensions.push(match &ask.subject {
+    extensions.push(match &analysis.subject {
         Subject::Volume(..) => IMAGE,
         Subject::Map(_) | Subject::Sections(_) | Subject::Path(_) | Subject::Holes(_) => POLY_DATA,
     });
@@ -70,8 +70,8 @@ pub(super) fn extensions(ask: &Ask, csv: Csv) -> Vec<&'static str> {
 const FEW: usize = 100_000;
 
 /// Many points are for programs; without Parquet they have nothing else to read.
-fn has_csv(ask: &Ask, csv: Csv) -> bool {
-    let few = match &ask.subject {
+fn has_csv(analysis: &Ask, csv: Csv) -> bool {
+    let few = match &analysis.subject {
         Subject::Map(_) => true,
         Subject::Path(path) => path.track.len() <= FEW,
         Subject::Holes(holes) => holes.path.track.len() <= FEW,
@@ -89,23 +89,23 @@ type Save<'a> = dyn Fn(&str, &[u8]) -> Result<(), StudyError> + Sync + 'a;
 /// That of `save`; a table or field that cannot be made, which would be a fault of armill.
 pub(super) fn files(
     study: &Study,
-    (ask, done): (&Ask, &Done<'_>),
+    (analysis, done): (&Ask, &Done<'_>),
     csv: Csv,
     save: &Save<'_>,
 ) -> Result<(), StudyError> {
     let series = rows(&done.found);
     let rows_of_table = || {
-        let table = table(study, &ask.name, &series)?;
+        let table = table(study, &analysis.name, &series)?;
         #[cfg(feature = "parquet")]
         save(
             "parquet",
-            &armill_formats::table::parquet::write(&table, &metadata(study, ask))?,
+            &armill_formats::table::parquet::write(&table, &metadata(study, analysis))?,
         )?;
-        if has_csv(ask, csv) {
+        if has_csv(analysis, csv) {
             save("csv", &csv::write(&table))?;
         }
         if let Found::Path(path, found) = &done.found
-            && let Some(table) = super::limits::table(&ask.name, path, found)?
+            && let Some(table) = super::limits::table(&analysis.name, path, found)?
         {
             save(super::limits::EXTENSION, &csv::write(&table))?;
         }
@@ -151,11 +151,11 @@ pub(super) fn rows_of(study: &Study, done: &Done<'_>) -> Result<Table, StudyErro
 
 /// What a Parquet file says of itself: version, study, ask, robot.
 #[cfg(feature = "parquet")]
-fn metadata(study: &Study, ask: &Ask) -> armill_formats::table::parquet::Metadata {
+fn metadata(study: &Study, analysis: &Ask) -> armill_formats::table::parquet::Metadata {
     let entries = [
         ("armill", env!("CARGO_PKG_VERSION").to_owned()),
         ("study", study.title.clone()),
-        ("ask", ask.name.clone()),
+        ("analysis", analysis.name.clone()),
         ("robot", study.robot.robot.name().to_owned()),
     ];
     entries
@@ -187,15 +187,15 @@ fn arrays(series: &[Rows<'_>]) -> Vec<PointArray> {
         values: PointValues::Scalar(
             series
                 .iter()
-                .flat_map(|rows| of_held(rows, 0..rows.at_mm.len(), |_, _, held| um(held) * 1e6))
+                .flat_map(|rows| of_held(rows, 0..rows.at_mm.len(), |_, _, evaluation| um(evaluation) * 1e6))
                 .collect(),
         ),
     };
     let mut arrays = vec![
-        scalar("in_plane_um", |held| held.in_plane),
-        scalar("in_plane_u_um", |held| held.in_plane_uncertainty),
-        scalar("normal_um", |held| held.normal),
-        scalar("full_um", |held| held.full),
+        scalar("in_plane_um", |evaluation| evaluation.in_plane),
+        scalar("in_plane_u_um", |evaluation| evaluation.in_plane_uncertainty),
+        scalar("normal_um", |evaluation| evaluation.normal),
+        scalar("full_um", |evaluation| evaluation.full),
     ];
     let cases = series.first().map_or(0, |rows| rows.answers.case_count);
     arrays.par_extend((0..cases).into_par_iter().map(|case| {
@@ -319,7 +319,7 @@ fn table(study: &Study, name: &str, series: &[Rows<'_>]) -> Result<Table, StudyE
         |rows, i| Some(rows.state(i)),
     ));
     columns.push(words(("branch", "name of the posture"), series, |rows, i| {
-        rows.answers.points[i].as_ref().ok().map(|held| held.name)
+        rows.answers.points[i].as_ref().ok().map(|evaluation| evaluation.name)
     }));
     columns.push(words(
         ("singularity", "near which singularity the posture stands"),
@@ -328,13 +328,13 @@ fn table(study: &Study, name: &str, series: &[Rows<'_>]) -> Result<Table, StudyE
     ));
     // All series of an ask have the same columns.
     let numbers = series.first().map_or_else(Vec::new, |rows| {
-        let sharers = rows.setting.model.sharer_names(study.robot.robot.joints());
+        let contributors = rows.setting.model.contributor_names(study.robot.robot.joints());
         let mut columns = rows
             .path
             .map_or_else(Vec::new, |(path, found)| track::columns(&path.track, found));
-        let of_holes = rows.holes.map(|(ask, found)| holes::columns(study, ask, found));
+        let of_holes = rows.holes.map(|(analysis, found)| holes::columns(study, analysis, found));
         columns.extend(of_holes.into_iter().flatten());
-        columns.extend(numbers(study, sharers, rows.answers));
+        columns.extend(numbers(study, contributors, rows.answers));
         columns
     });
     columns.extend(filled(&numbers, series));
@@ -344,16 +344,16 @@ fn table(study: &Study, name: &str, series: &[Rows<'_>]) -> Result<Table, StudyE
 /// Columns whose values are not told at every point where shares are not.
 const WITH_SHARES: [&str; 2] = ["in_plane_u_um", "probability_within"];
 
-/// The columns of numbers that every ask has; `sharers` are those that have shares.
-fn numbers<'a>(study: &'a Study, sharers: Vec<String>, answers: &Answers) -> Vec<Numbers<'a>> {
+/// The columns of numbers that every ask has; `contributors` are those that have shares.
+fn numbers<'a>(study: &'a Study, contributors: Vec<String>, answers: &Answers) -> Vec<Numbers<'a>> {
     let (cases, shared) = (answers.case_count, answers.share_count > 0);
     let mut columns = vec![
         Numbers::deg(
             "limit_margin_deg".to_owned(),
             "least distance of a joint to its limit (mm of a sliding joint), negative outside",
-            |_, _, held| {
-                let slides = study.robot.robot.slides(held.limit_joint);
-                held.limit_margin * if slides { 1e3 } else { 1f64.to_degrees() }
+            |_, _, evaluation| {
+                let slides = study.robot.robot.slides(evaluation.limit_joint);
+                evaluation.limit_margin * if slides { 1e3 } else { 1f64.to_degrees() }
             },
         ),
         Numbers {
@@ -362,18 +362,18 @@ fn numbers<'a>(study: &'a Study, sharers: Vec<String>, answers: &Answers) -> Vec
             ..Numbers::um(
                 "deciding_case".to_owned(),
                 "load case with the largest in-plane deviation, from 1",
-                |_, _, held| held.deciding_case as f64 + 1.0,
+                |_, _, evaluation| evaluation.deciding_case as f64 + 1.0,
             )
         },
         Numbers::um(
             "in_plane_um".to_owned(),
             "largest in-plane deviation of all cases",
-            |_, _, held| held.in_plane * 1e6,
+            |_, _, evaluation| evaluation.in_plane * 1e6,
         ),
         Numbers::um(
             "in_plane_u_um".to_owned(),
             "its standard uncertainty",
-            |_, _, held| held.in_plane_uncertainty * 1e6,
+            |_, _, evaluation| evaluation.in_plane_uncertainty * 1e6,
         ),
         Numbers {
             unit: None,
@@ -381,18 +381,18 @@ fn numbers<'a>(study: &'a Study, sharers: Vec<String>, answers: &Answers) -> Vec
             ..Numbers::um(
                 "probability_within".to_owned(),
                 "probability that the in-plane deviation is within the limit",
-                |rows, _, held| probability_within(held, rows.setting.limit),
+                |rows, _, evaluation| probability_within(evaluation, rows.setting.limit),
             )
         },
         Numbers::um(
             "normal_um".to_owned(),
             "deviation along the outward normal, of the case where it is largest",
-            |_, _, held| held.normal * 1e6,
+            |_, _, evaluation| evaluation.normal * 1e6,
         ),
         Numbers::um(
             "full_um".to_owned(),
             "largest length of the deviation of all cases",
-            |_, _, held| held.full * 1e6,
+            |_, _, evaluation| evaluation.full * 1e6,
         ),
     ];
     if !shared {
@@ -417,9 +417,9 @@ fn numbers<'a>(study: &'a Study, sharers: Vec<String>, answers: &Answers) -> Vec
             )
         }
     }));
-    let sharers = sharers.into_iter().filter(|_| shared);
-    columns.extend(sharers.enumerate().map(|(i, sharer)| {
-        let name = format!("share_{sharer}_um");
+    let contributors = contributors.into_iter().filter(|_| shared);
+    columns.extend(contributors.enumerate().map(|(i, contributor)| {
+        let name = format!("share_{contributor}_um");
         Numbers::um(
             name,
             "share of the joint (base, flange, tool) in the in-plane deviation; the shares add up to it",

@@ -18,8 +18,8 @@ use crate::run::PathFound;
 pub(super) fn columns<'a>(track: &'a Track, found: &'a PathFound) -> Vec<Numbers<'a>> {
     let points = &track.path.points;
     let part = |name: &str, description: &'static str, of: fn(Parts) -> f64| {
-        Numbers::um(name.to_owned(), description, move |rows, index, held| {
-            let deviation = rows.answers.deviations_at(index)[held.deciding_case];
+        Numbers::um(name.to_owned(), description, move |rows, index, evaluation| {
+            let deviation = rows.answers.deviations_at(index)[evaluation.deciding_case];
             of(track.parts(index, &deviation)) * 1e6
         })
     };
@@ -89,8 +89,8 @@ fn unloaded<'a>(track: &'a Track, found: &'a PathFound) -> Vec<Numbers<'a>> {
         return Vec::new();
     };
     let part = |name: &str, description: &'static str, of: fn(Parts) -> f64| {
-        Numbers::um(name.to_owned(), description, move |rows, index, held| {
-            let moved = unloaded.moved[index * rows.answers.case_count + held.deciding_case];
+        Numbers::um(name.to_owned(), description, move |rows, index, evaluation| {
+            let moved = unloaded.moved[index * rows.answers.case_count + evaluation.deciding_case];
             of(track.parts(index, &moved)) * 1e6
         })
     };

@@ -7,7 +7,7 @@ the axes are then those degrees, in the order that they are given. What is not g
 column                   what it is
 =======================  =================================================================================
 ``x_mm`` ... ``rail_mm`` the place, as ``[place]`` of a study has it
-``lost_points``          points that the best branch does not hold inside limits and margin
+``unreachable_points``          points that the best branch does not hold inside limits and margin
 ``cost_um``              what is to be least, of the points that it holds; null where it holds none
 ``branch``               that branch; empty of an arm whose branches have no names, and of holes
 =======================  =================================================================================
@@ -55,7 +55,7 @@ class Placements:
         lost = judged.lost
         cost = np.ma.masked_array(judged.cost * UM, mask=lost == judged.point_count)
         branch = np.asarray(judged.branch, dtype=np.str_)
-        return columns | {"lost_points": lost, "cost_um": cost, "branch": branch}
+        return columns | {"unreachable_points": lost, "cost_um": cost, "branch": branch}
 
     def at(self, block: Block) -> NDArray[np.float64]:
         """The places of a block."""

@@ -1,7 +1,7 @@
 """Robots x studies: every study run with every change, a row each.
 
 An item is a study with one set of changes: keys of a study file and their values, ``{"robot": "kuka/kr120r2500pro",
-"limit_um": 40, "tool.flange_from_tool_mm_deg": [...]}``.
+"tolerance_um": 40, "tool.flange_from_tool_mm_deg": [...]}``.
 
 ===================  =================================================================================
 column               what it is

@@ -20,8 +20,8 @@ use crate::kernel::Question;
 use crate::load::{LoadCases, LoadFrame, PathLoad};
 use crate::map::along_path;
 use crate::path::{Placing, Shape, Track};
-use crate::robot::{Flank, Unreachable};
-use crate::source::{Arm, Standing, StiffnessModel};
+use crate::robot::{BacklashSide, Unreachable};
+use crate::source::{Arm, ArmState, StiffnessModel};
 use crate::spatial::Wrench;
 use crate::watch::{Cancelled, Watch};
 
@@ -74,7 +74,7 @@ pub(super) struct JointAlong {
     /// Torque of gravity on its link at each station, N m (N).
     pub torque: Vec<f64>,
     /// What decides on its flank.
-    pub flank: Flank,
+    pub side: BacklashSide,
 }
 
 /// Why an arm follows no circle.
@@ -127,21 +127,21 @@ pub fn follow(
         model: &model,
         ..question.arm
     };
-    let asked = Question { arm, ..*question };
+    let requested = Question { arm, ..*question };
     let unloaded = PathLoad::Cases(LoadCases {
         frame: LoadFrame::Base,
         cases: vec![Wrench::ZERO],
     });
-    let along = along_path(&asked, &track, unloaded, watch)?;
+    let along = along_path(&requested, &track, unloaded, watch)?;
     let answers = &along.answers;
     let angle = |index: usize| TAU * index as f64 / track.len() as f64;
     let mut limit_margin = f64::INFINITY;
     for (index, point) in answers.points.iter().enumerate() {
-        let held = point.as_ref().map_err(|why| NotFollowed::Unreachable {
+        let evaluation = point.as_ref().map_err(|why| NotFollowed::Unreachable {
             angle: angle(index),
             why: *why,
         })?;
-        limit_margin = limit_margin.min(held.limit_margin);
+        limit_margin = limit_margin.min(evaluation.limit_margin);
     }
     // A circle begins at +y', which is -x of the part.
     let path = circle.placing.base_from_path.rotation.to_rotation_matrix();
@@ -155,25 +155,25 @@ pub fn follow(
             winding: 0.0,
             lever: Vec::with_capacity(track.len()),
             torque: Vec::with_capacity(track.len()),
-            flank: question
+            side: question
                 .arm
                 .model
                 .structure
                 .backlash
                 .get(joint)
                 .and_then(Option::as_ref)
-                .map_or(Flank::Motion, |gap| gap.flank),
+                .map_or(BacklashSide::Motion, |gap| gap.side),
         })
         .collect();
     for (joint, along) in joints.iter_mut().enumerate() {
         along.close(joint, arm.robot.slides(joint))?;
     }
-    let mut standing = Standing::new(arm);
+    let mut arm_state = ArmState::new(arm);
     for index in 0..track.len() {
-        standing.stand(answers.joints_at(index));
+        arm_state.set_joints(answers.joints_at(index));
         for (joint, along) in joints.iter_mut().enumerate() {
-            along.lever.push(axes.tr_mul(&standing.screws()[joint].linear));
-            along.torque.push(standing.gravity_torques()[joint]);
+            along.lever.push(axes.tr_mul(&arm_state.screws()[joint].linear));
+            along.torque.push(arm_state.gravity_torques()[joint]);
         }
     }
     let beside = (0..track.len()).map(|index| axes.tr_mul(&answers.deviations_at(index)[0]));

@@ -16,8 +16,8 @@ use super::super::profile::wrapped;
 use super::super::run::Direction;
 use super::circle::{Followed, between, between_numbers};
 use super::reversal::JointReversal;
-use crate::robot::{Backlash, Flank};
-use crate::source::backlash::{along, lies};
+use crate::robot::{Backlash, BacklashSide};
+use crate::source::backlash::{along, placements};
 use crate::spatial::{Twist, Wrench};
 
 /// Difference of gaps by which a derivative is taken, of the gap, and at least, rad (m).
@@ -73,9 +73,9 @@ impl Followed {
         let along = &self.joints[reversal.joint];
         let before = along.theta_at(reversal.angle) - along.theta_at(wrapped(reversal.angle - ASIDE));
         let lever = between(&along.lever, reversal.angle).dot(&outwards(reversal.angle));
-        match along.flank {
-            Flank::Motion => gap * before.signum() * lever,
-            Flank::Torque => 0.0,
+        match along.side {
+            BacklashSide::Motion => gap * before.signum() * lever,
+            BacklashSide::Torque => 0.0,
         }
     }
 
@@ -107,7 +107,7 @@ impl Followed {
         let backlash = Backlash {
             gap: gap.abs(),
             standard_uncertainty: 0.0,
-            flank: along_joint.flank,
+            side: along_joint.side,
         };
         // Stops in the order in which they are passed: stations, reversals, and the angles that are asked for.
         let count = along_joint.theta.len();
@@ -115,11 +115,11 @@ impl Followed {
             (0..count).map(|index| (TAU * index as f64 / count as f64, along_joint.theta[index], None));
         let turns = self.reversals.iter().filter(|reversal| reversal.joint == joint);
         let turns = turns.map(|reversal| (reversal.angle, along_joint.theta_at(reversal.angle), None));
-        let asked = angles.iter().enumerate().map(|(place, angle)| {
+        let requested = angles.iter().enumerate().map(|(place, angle)| {
             let angle = wrapped(*angle);
             (angle, along_joint.theta_at(angle), Some(place))
         });
-        let mut stops: Vec<(f64, f64, Option<usize>)> = stations.chain(turns).chain(asked).collect();
+        let mut stops: Vec<(f64, f64, Option<usize>)> = stations.chain(turns).chain(requested).collect();
         stops.sort_by(|a, b| a.0.total_cmp(&b.0));
         let seam = match direction {
             Direction::Anticlockwise => along_joint.winding,
@@ -139,7 +139,7 @@ impl Followed {
             if let Some(place) = place {
                 let torque = between_numbers(&along_joint.torque, *angle);
                 let unloaded = (&Twist::ZERO, &Wrench::ZERO);
-                found[*place] = lies(&backlash, link, unloaded, torque) * gap.signum();
+                found[*place] = placements(&backlash, link, unloaded, torque) * gap.signum();
             }
         }
         found

@@ -77,7 +77,7 @@ pub struct Gap {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gaps {
     /// Of each joint that was told apart.
-    pub told: Vec<Gap>,
+    pub given: Vec<Gap>,
     /// Covariance of these, in their order.
     pub covariance: DMatrix<f64>,
     /// Sets of joints of which only a sum is seen.
@@ -99,7 +99,7 @@ pub struct Gaps {
 impl Gaps {
     /// The gap of a joint, if it was told apart.
     pub fn of(&self, joint: usize) -> Option<&Gap> {
-        self.told.iter().find(|gap| gap.joint == joint)
+        self.given.iter().find(|gap| gap.joint == joint)
     }
 }
 
@@ -125,7 +125,7 @@ const ALIKE: f64 = 1e-9;
 ///
 /// # Panics
 /// If the circles are of arms with different numbers of joints, or there is none.
-pub fn gaps(observed: &[Observed<'_>], asked: &Asked) -> Result<Option<Gaps>, RunError> {
+pub fn gaps(observed: &[Observed<'_>], requested: &Asked) -> Result<Option<Gaps>, RunError> {
     let circles: Vec<Samples> = observed.iter().map(samples_of).collect::<Result<_, _>>()?;
     let rows: Vec<(usize, usize)> = circles
         .iter()
@@ -140,7 +140,7 @@ pub fn gaps(observed: &[Observed<'_>], asked: &Asked) -> Result<Option<Gaps>, Ru
         .iter()
         .map(|circle| {
             let angles: Vec<f64> = circle.at.iter().map(|(angle, _)| *angle).collect();
-            basis(&angles, asked.most_lobes)
+            basis(&angles, requested.most_lobes)
         })
         .collect();
     let sight = Sight {
@@ -150,10 +150,10 @@ pub fn gaps(observed: &[Observed<'_>], asked: &Asked) -> Result<Option<Gaps>, Ru
         bases,
     };
     let fixed: usize = sight.bases.iter().map(DMatrix::ncols).sum();
-    if sight.samples.at.len() <= fixed + asked.joints.len() {
+    if sight.samples.at.len() <= fixed + requested.joints.len() {
         return Ok(None);
     }
-    Ok(Some(sight.solve(asked, fixed)))
+    Ok(Some(sight.solve(requested, fixed)))
 }
 
 /// The samples of one circle, without what is no backlash by the study.
@@ -180,16 +180,16 @@ struct Sight<'a> {
 }
 
 impl Sight<'_> {
-    fn solve(&self, asked: &Asked, fixed: usize) -> Gaps {
+    fn solve(&self, requested: &Asked, fixed: usize) -> Gaps {
         let joints = self.observed[0].followed.joint_count();
-        let first = self.columns(&asked.joints, &vec![0.0; joints]);
+        let first = self.columns(&requested.joints, &vec![0.0; joints]);
         let count = self.samples.at.len() as f64;
         let shows = |column: usize| first.column(column).norm() / count.sqrt() > LEAST_EFFECT;
-        let (seen, unseen): (Vec<usize>, Vec<usize>) = (0..asked.joints.len()).partition(|k| shows(*k));
+        let (seen, unseen): (Vec<usize>, Vec<usize>) = (0..requested.joints.len()).partition(|k| shows(*k));
         let [seen, unseen] = [seen, unseen]
-            .map(|places| -> Vec<usize> { places.into_iter().map(|place| asked.joints[place]).collect() });
+            .map(|places| -> Vec<usize> { places.into_iter().map(|place| requested.joints[place]).collect() });
         let before = self.left(&vec![0.0; joints]);
-        let from = |start: Vec<f64>| self.settle(&seen, start, asked.inflation);
+        let from = |start: Vec<f64>| self.settle(&seen, start, requested.inflation);
         let first = from(vec![0.0; joints]);
         // Where crossings alone tell joints apart there is a second rest with a gap below zero.
         let upright = from(first.0.iter().map(|gap| gap.abs()).collect());
@@ -202,7 +202,7 @@ impl Sight<'_> {
             })
             .expect("three of them");
         let freedom = self.samples.at.len() - fixed - seen.len();
-        let covariance = match asked.noise {
+        let covariance = match requested.noise {
             Some(noise) => &parted.inverse * (noise * noise),
             None => trust::covariance(
                 &self.samples,
@@ -210,12 +210,12 @@ impl Sight<'_> {
                 (&parted.inverse, freedom),
             ),
         };
-        let told: Vec<usize> = (0..seen.len())
+        let given: Vec<usize> = (0..seen.len())
             .filter(|place| !parted.together.iter().any(|set| set.contains(place)))
             .collect();
         let rms = |of: &DVector<f64>| (of.norm_squared() / count).sqrt();
         Gaps {
-            told: told
+            given: given
                 .iter()
                 .map(|place| Gap {
                     joint: seen[*place],
@@ -223,7 +223,7 @@ impl Sight<'_> {
                     u: covariance[(*place, *place)].sqrt(),
                 })
                 .collect(),
-            covariance: covariance.select_columns(&told).select_rows(&told),
+            covariance: covariance.select_columns(&given).select_rows(&given),
             together: (parted.together.iter())
                 .map(|set| set.iter().map(|place| seen[*place]).collect())
                 .collect(),

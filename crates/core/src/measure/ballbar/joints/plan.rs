@@ -93,7 +93,7 @@ pub struct Known {
     /// Greatest inflation of a variance, of the joints that show; none where none does, infinite where only a sum is seen.
     pub inflation: Option<f64>,
     /// Standard uncertainties to expect; gaps are those that were assumed. Of joints that are told apart.
-    pub told: Vec<Gap>,
+    pub given: Vec<Gap>,
     /// Sets of joints of which only a sum is seen.
     pub together: Vec<Vec<usize>>,
     /// Joints that do not show.
@@ -193,7 +193,7 @@ fn circle(centre: Point3<f64>, normal: Normal, radius: f64) -> Circle {
 pub fn propose(
     question: &Question<'_>,
     (candidates, begun): (&[Candidate], &[Followed]),
-    asked: &PlanAsked,
+    requested: &PlanAsked,
     watch: Watch<'_>,
 ) -> Result<Plan, Cancelled> {
     let reached: Vec<(Candidate, Followed, DMatrix<f64>)> = candidates
@@ -207,7 +207,7 @@ pub fn propose(
             (watch.finished)(1);
             match followed {
                 Ok(followed) if followed.limit_margin >= -AT_LIMIT => {
-                    let information = information(&followed, asked);
+                    let information = information(&followed, requested);
                     Ok(Some((*candidate, followed, information)))
                 }
                 Err(NotFollowed::Cancelled(cancelled)) => Err(cancelled),
@@ -216,15 +216,15 @@ pub fn propose(
         })
         .filter_map(Result::transpose)
         .collect::<Result<_, _>>()?;
-    let joints = asked.joints.len();
+    let joints = requested.joints.len();
     let zero = DMatrix::zeros(joints, joints);
-    let mut sum: DMatrix<f64> = begun.iter().fold(zero, |sum, one| sum + information(one, asked));
-    let before = known(&sum, asked);
+    let mut sum: DMatrix<f64> = begun.iter().fold(zero, |sum, one| sum + information(one, requested));
+    let before = known(&sum, requested);
     let mut chosen: Vec<usize> = Vec::new();
     let mut circles = Vec::new();
-    while chosen.len() < asked.count {
+    while chosen.len() < requested.count {
         let free = (0..reached.len()).filter(|place| !chosen.contains(place));
-        let worth = free.map(|place| (place, log_determinant(&(&sum + &reached[place].2), asked)));
+        let worth = free.map(|place| (place, log_determinant(&(&sum + &reached[place].2), requested)));
         // Of equal ones the first.
         let best = worth.reduce(|best, next| if next.1 > best.1 { next } else { best });
         let Some((place, _)) = best else { break };
@@ -234,7 +234,7 @@ pub fn propose(
         circles.push(Proposed {
             candidate: *candidate,
             followed: followed.clone(),
-            known: known(&sum, asked),
+            known: known(&sum, requested),
         });
     }
     Ok(Plan {
@@ -245,13 +245,13 @@ pub fn propose(
 }
 
 /// `P^T P` of a circle both ways, as of [`SAMPLES`] samples each.
-fn information(followed: &Followed, asked: &PlanAsked) -> DMatrix<f64> {
+fn information(followed: &Followed, requested: &PlanAsked) -> DMatrix<f64> {
     let pitch = std::f64::consts::TAU / STATIONS as f64;
     // Half a pitch beside the axes, where most joints turn back.
     let angles: Vec<f64> = (0..STATIONS).map(|k| (k as f64 + 0.5) * pitch).collect();
     let both: Vec<f64> = angles.iter().chain(&angles).copied().collect();
-    let columns = DMatrix::from_fn(both.len(), asked.joints.len(), |_, _| 0.0);
-    let columns = asked
+    let columns = DMatrix::from_fn(both.len(), requested.joints.len(), |_, _| 0.0);
+    let columns = requested
         .joints
         .iter()
         .enumerate()
@@ -260,41 +260,41 @@ fn information(followed: &Followed, asked: &PlanAsked) -> DMatrix<f64> {
             columns.set_column(k, &nalgebra::DVector::from_vec(ways.concat()));
             columns
         });
-    let left = without(&basis(&both, asked.most_lobes), &columns);
+    let left = without(&basis(&both, requested.most_lobes), &columns);
     left.tr_mul(&left) * (SAMPLES / STATIONS as f64)
 }
 
-fn log_determinant(information: &DMatrix<f64>, asked: &PlanAsked) -> f64 {
+fn log_determinant(information: &DMatrix<f64>, requested: &PlanAsked) -> f64 {
     let count = information.nrows();
-    let all = information / asked.noise.powi(2) + DMatrix::identity(count, count) / PRIOR.powi(2);
+    let all = information / requested.noise.powi(2) + DMatrix::identity(count, count) / PRIOR.powi(2);
     all.cholesky()
         .map_or(f64::NEG_INFINITY, |root| root.l().diagonal().map(f64::ln).sum())
 }
 
 /// What this information tells.
-fn known(information: &DMatrix<f64>, asked: &PlanAsked) -> Known {
+fn known(information: &DMatrix<f64>, requested: &PlanAsked) -> Known {
     let samples = 2.0 * SAMPLES;
     let shows = |k: &usize| (information[(*k, *k)] / samples).sqrt() > LEAST_EFFECT;
-    let (seen, unseen): (Vec<usize>, Vec<usize>) = (0..asked.joints.len()).partition(shows);
+    let (seen, unseen): (Vec<usize>, Vec<usize>) = (0..requested.joints.len()).partition(shows);
     let own = information.select_columns(&seen).select_rows(&seen);
     // Any root of the information has the singular values of the columns.
     let eigen = own.symmetric_eigen();
     let roots = eigen.eigenvalues.map(|value| value.max(0.0).sqrt());
     let columns = DMatrix::from_diagonal(&roots) * eigen.eigenvectors.transpose();
-    let parted = Parted::of(columns, asked.inflation);
-    let told = (0..seen.len()).filter(|place| !parted.together.iter().any(|set| set.contains(place)));
+    let parted = Parted::of(columns, requested.inflation);
+    let given = (0..seen.len()).filter(|place| !parted.together.iter().any(|set| set.contains(place)));
     Known {
         inflation: parted.inflation.iter().copied().reduce(f64::max),
-        told: told
+        given: given
             .map(|place| Gap {
-                joint: asked.joints[seen[place]],
+                joint: requested.joints[seen[place]],
                 gap: ASSUMED,
-                u: asked.noise * parted.inverse[(place, place)].sqrt(),
+                u: requested.noise * parted.inverse[(place, place)].sqrt(),
             })
             .collect(),
         together: (parted.together.iter())
-            .map(|set| set.iter().map(|place| asked.joints[seen[*place]]).collect())
+            .map(|set| set.iter().map(|place| requested.joints[seen[*place]]).collect())
             .collect(),
-        unseen: unseen.into_iter().map(|place| asked.joints[place]).collect(),
+        unseen: unseen.into_iter().map(|place| requested.joints[place]).collect(),
     }
 }

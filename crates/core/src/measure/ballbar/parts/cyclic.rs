@@ -34,8 +34,8 @@ pub fn periods(test: &CircularTest) -> [f64; 2] {
 }
 
 /// The period of the strongest cyclic error along either axis, m; `None` where none stands out.
-pub fn strongest_period(test: &CircularTest, asked: &Asked) -> Option<f64> {
-    let (samples, rows, rest) = rest_without_cyclic(test, asked)?;
+pub fn strongest_period(test: &CircularTest, requested: &Asked) -> Option<f64> {
+    let (samples, rows, rest) = rest_without_cyclic(test, requested)?;
     let base = rows.clone().qr().q();
     let [shortest, longest] = periods(test);
     // Turns along a radius: of a period as long as the radius to one of four samples.

@@ -87,10 +87,10 @@ pub(in super::super) struct Samples {
 }
 
 /// What `asked` makes of the test; `None` where there are fewer samples than terms, or of a period of no length.
-pub fn parts(test: &CircularTest, asked: &Asked) -> Option<Parts> {
-    let samples = Samples::of(test, &asked.reversals);
-    let mut terms = all_terms(asked);
-    let (rows, spread, together) = told_apart(&samples, &mut terms, asked, test.radius())?;
+pub fn parts(test: &CircularTest, requested: &Asked) -> Option<Parts> {
+    let samples = Samples::of(test, &requested.reversals);
+    let mut terms = all_terms(requested);
+    let (rows, spread, together) = told_apart(&samples, &mut terms, requested, test.radius())?;
     let values = solved(&rows, &samples.deviation, &spread);
     let rest = &samples.deviation - &rows * &values;
     let freedom = rows.nrows() - rows.ncols();
@@ -100,7 +100,7 @@ pub fn parts(test: &CircularTest, asked: &Asked) -> Option<Parts> {
     let scales = place(Term::Radius).zip(place(Term::ScaleMismatch));
     let scale_covariance = scales.map_or(0.0, |both| covariance[both]);
     // A step that no sample stands beside is a guess of its shape: it counts in the fit and is not told.
-    let unseen = unseen(test, &asked.reversals);
+    let unseen = unseen(test, &requested.reversals);
     let found = terms
         .iter()
         .zip(values.iter().zip(&u))
@@ -126,15 +126,15 @@ pub fn parts(test: &CircularTest, asked: &Asked) -> Option<Parts> {
 /// The residuals of a fit without cyclic error, with the rows that made them; see [`super::cyclic`].
 pub(super) fn rest_without_cyclic(
     test: &CircularTest,
-    asked: &Asked,
+    requested: &Asked,
 ) -> Option<(Samples, DMatrix<f64>, DVector<f64>)> {
-    let asked = Asked {
+    let requested = Asked {
         period: None,
-        ..asked.clone()
+        ..requested.clone()
     };
-    let samples = Samples::of(test, &asked.reversals);
-    let mut terms = all_terms(&asked);
-    let (rows, spread, _) = told_apart(&samples, &mut terms, &asked, test.radius())?;
+    let samples = Samples::of(test, &requested.reversals);
+    let mut terms = all_terms(&requested);
+    let (rows, spread, _) = told_apart(&samples, &mut terms, &requested, test.radius())?;
     let values = solved(&rows, &samples.deviation, &spread);
     let rest = &samples.deviation - &rows * &values;
     Some((samples, rows, rest))
@@ -203,7 +203,7 @@ fn unseen(test: &CircularTest, reversals: &[Reversal]) -> Vec<Term> {
 }
 
 /// Every term that is asked for, in the order in which they are told.
-fn all_terms(asked: &Asked) -> Vec<Term> {
+fn all_terms(requested: &Asked) -> Vec<Term> {
     let mut terms = vec![
         Term::Radius,
         Term::Offset(Axis::A),
@@ -211,12 +211,12 @@ fn all_terms(asked: &Asked) -> Vec<Term> {
         Term::ScaleMismatch,
         Term::Squareness,
     ];
-    terms.extend((0..asked.reversals.len()).map(Term::Reversal));
+    terms.extend((0..requested.reversals.len()).map(Term::Reversal));
     terms.extend([Term::DirectionRadius, Term::ServoMismatch]);
     terms.extend(
-        (3..=asked.most_lobes).flat_map(|n| [Wave::Cosine, Wave::Sine].map(|wave| Term::Lobes(n, wave))),
+        (3..=requested.most_lobes).flat_map(|n| [Wave::Cosine, Wave::Sine].map(|wave| Term::Lobes(n, wave))),
     );
-    if asked.period.is_some() {
+    if requested.period.is_some() {
         for axis in [Axis::A, Axis::B] {
             terms.extend([Wave::Cosine, Wave::Sine].map(|wave| Term::Cyclic(axis, wave)));
         }
@@ -228,10 +228,10 @@ fn all_terms(asked: &Asked) -> Vec<Term> {
 fn told_apart(
     samples: &Samples,
     terms: &mut Vec<Term>,
-    asked: &Asked,
+    requested: &Asked,
     radius: f64,
 ) -> Option<(DMatrix<f64>, Spread, Vec<Vec<Term>>)> {
-    let turns = asked
+    let turns = requested
         .period
         .map_or(0.0, |period| std::f64::consts::TAU * radius / period);
     if !turns.is_finite() {
@@ -244,7 +244,7 @@ fn told_apart(
             return None;
         }
         let rows = DMatrix::from_fn(samples.at.len(), terms.len(), |row, column| {
-            terms[column].at(samples.at[row], (&asked.reversals, turns))
+            terms[column].at(samples.at[row], (&requested.reversals, turns))
         });
         let spread = Spread::of(&rows, &DMatrix::zeros(0, terms.len()), &vec![true; terms.len()]);
         let Some(set) = spread.together.first() else {

@@ -186,10 +186,10 @@ mod tests {
             for deg in 0..360 {
                 let a = f64::from(deg).to_radians() + 0.003;
                 let expected = radial(a, |x, y| act(x, y, direction.sign()));
-                let told = value * at(term, a, direction);
+                let given = value * at(term, a, direction);
                 assert!(
-                    (told - expected).abs() < 1e-9,
-                    "{term:?} {deg}: {told} {expected}"
+                    (given - expected).abs() < 1e-9,
+                    "{term:?} {deg}: {given} {expected}"
                 );
             }
         }
@@ -233,11 +233,11 @@ mod tests {
                         Axis::A => (x + behind, y),
                         Axis::B => (x, y + behind),
                     });
-                    let told: f64 = ends
+                    let given: f64 = ends
                         .map(|end| gap * at(Term::Reversal(end), a, direction))
                         .iter()
                         .sum();
-                    assert!((told - expected).abs() < 1e-9, "{axis:?} {direction:?} {deg}");
+                    assert!((given - expected).abs() < 1e-9, "{axis:?} {direction:?} {deg}");
                 }
             }
         }

@@ -207,12 +207,12 @@ fn postures_do_not_depend_on_how_joints_are_counted() {
             let (here, there) = (all(&form), all(&other));
             assert_eq!(here.len(), there.len());
             for theta in here {
-                let told: [f64; 6] =
+                let given: [f64; 6] =
                     std::array::from_fn(|i| (theta[i] - zeros[i]) * if reversed[i] { -1.0 } else { 1.0 });
                 // Where a branch ends two postures run into each other: known to the root of rounding.
                 assert!(
-                    there.iter().any(|other| same(other, &told, 1e-6)),
-                    "{told:?} {there:?}"
+                    there.iter().any(|other| same(other, &given, 1e-6)),
+                    "{given:?} {there:?}"
                 );
             }
         }
@@ -245,10 +245,10 @@ fn singularities_are_flagged_at_nine_tenths_of_their_bound_and_not_at_eleven() {
             assert_eq!(flagged(theta), expected(Singularity::Shoulder));
             // The inverse says the same of the same posture.
             let (branch, _) = form.name(&theta);
-            let (_, told) = form
+            let (_, given) = form
                 .chain_positions(&chain.base_from_flange(&theta), branch, None)
                 .unwrap();
-            assert_eq!(told, expected(Singularity::Shoulder));
+            assert_eq!(given, expected(Singularity::Shoulder));
         }
     }
 }

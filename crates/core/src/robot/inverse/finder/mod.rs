@@ -116,8 +116,8 @@ impl<'r> Finder<'r> {
     ///
     /// # Errors
     /// The reason of the branch that misses by least, or how near a search came.
-    pub fn all(&mut self, wanted: &Wanted<'_>) -> Result<&[Found], Unreachable> {
-        self.find(wanted, BranchPattern::default(), MOST)
+    pub fn all(&mut self, expected: &Wanted<'_>) -> Result<&[Found], Unreachable> {
+        self.find(expected, BranchPattern::default(), MOST)
     }
 
     /// The postures whose branch matches; of a chain without named branches the one nearest to `near`, or to the posture
@@ -125,25 +125,25 @@ impl<'r> Finder<'r> {
     ///
     /// # Errors
     /// Those of [`Finder::all`].
-    pub fn matching(&mut self, wanted: &Wanted<'_>, pattern: BranchPattern) -> Result<&[Found], Unreachable> {
-        self.find(wanted, pattern, 1)
+    pub fn matching(&mut self, expected: &Wanted<'_>, pattern: BranchPattern) -> Result<&[Found], Unreachable> {
+        self.find(expected, pattern, 1)
     }
 
     fn find(
         &mut self,
-        wanted: &Wanted<'_>,
+        expected: &Wanted<'_>,
         pattern: BranchPattern,
         most: usize,
     ) -> Result<&[Found], Unreachable> {
         self.found.clear();
-        self.settle_home(wanted);
-        let arm_from_flange = self.base_from_arm().inv_mul(&wanted.base_from_flange);
+        self.settle_home(expected);
+        let arm_from_flange = self.base_from_arm().inv_mul(&expected.base_from_flange);
         let missed = match self.arm.inverse {
-            Inverse::Closed(form) => self.branches(form, wanted, &arm_from_flange, pattern),
-            Inverse::Polished(form) => self.polished(form, wanted, &arm_from_flange, pattern),
-            Inverse::SphericalWrist(form) => self.with_wrist(form, wanted, &arm_from_flange, most),
-            Inverse::OneStands(standing) => self.with_one_standing(standing, wanted, &arm_from_flange, most),
-            Inverse::Searched | Inverse::OnRail(_) => self.search(wanted, &arm_from_flange, most, THOROUGH),
+            Inverse::Closed(form) => self.branches(form, expected, &arm_from_flange, pattern),
+            Inverse::Polished(form) => self.polished(form, expected, &arm_from_flange, pattern),
+            Inverse::SphericalWrist(form) => self.with_wrist(form, expected, &arm_from_flange, most),
+            Inverse::OneStands(arm_state) => self.with_one_arm_state(arm_state, expected, &arm_from_flange, most),
+            Inverse::Searched | Inverse::OnRail(_) => self.search(expected, &arm_from_flange, most, THOROUGH),
         };
         if self.found.is_empty() {
             return Err(missed.unwrap_or(Unreachable::OtherBranch));
@@ -152,8 +152,8 @@ impl<'r> Finder<'r> {
     }
 
     /// Home with nothing left out.
-    fn settle_home(&mut self, wanted: &Wanted<'_>) {
-        match wanted.home {
+    fn settle_home(&mut self, expected: &Wanted<'_>) {
+        match expected.home {
             Some(home) => self.home.copy_from_slice(home),
             None => {
                 for (home, joint) in self.home.iter_mut().zip(self.robot.joints()) {
@@ -186,16 +186,16 @@ impl<'r> Finder<'r> {
     fn branches(
         &mut self,
         form: &ClosedForm,
-        wanted: &Wanted<'_>,
+        expected: &Wanted<'_>,
         arm_from_flange: &Isometry,
         pattern: BranchPattern,
     ) -> Option<Unreachable> {
-        let near = wanted.near.map(|q| self.chain_positions(q));
+        let near = expected.near.map(|q| self.chain_positions(q));
         let mut missed: Option<Unreachable> = None;
         for branch in Branch::ALL.into_iter().filter(|branch| pattern.matches(*branch)) {
             let solved = form.chain_positions(arm_from_flange, branch, near.as_deref());
             let kept = solved.and_then(|(theta, singularity)| {
-                self.keep(wanted, &theta, PostureName::Branch(branch), singularity)
+                self.keep(expected, &theta, PostureName::Branch(branch), singularity)
             });
             if let Err(miss) = kept {
                 missed = Some(nearer(missed, miss));
@@ -209,19 +209,19 @@ impl<'r> Finder<'r> {
     fn polished(
         &mut self,
         form: &ClosedForm,
-        wanted: &Wanted<'_>,
+        expected: &Wanted<'_>,
         arm_from_flange: &Isometry,
         pattern: BranchPattern,
     ) -> Option<Unreachable> {
-        let near = wanted.near.map(|q| self.chain_positions(q));
+        let near = expected.near.map(|q| self.chain_positions(q));
         let goal = Goal::new(arm_from_flange);
         let mut missed: Option<Unreachable> = None;
         // Branches that are asked for first: mostly they are what the others need not be looked at for.
-        let (asked, others): (Vec<Branch>, Vec<Branch>) = Branch::ALL
+        let (requested, others): (Vec<Branch>, Vec<Branch>) = Branch::ALL
             .into_iter()
             .partition(|branch| pattern.matches(*branch));
         let mut strayed = false;
-        for branch in asked.iter().chain(&others) {
+        for branch in requested.iter().chain(&others) {
             if !pattern.matches(*branch) && !strayed {
                 break;
             }
@@ -239,14 +239,14 @@ impl<'r> Finder<'r> {
                     .iter()
                     .any(|found| found.name == PostureName::Branch(own));
                 let name = if taken { *branch } else { own };
-                self.keep(wanted, &theta, PostureName::Branch(name), singularity)
+                self.keep(expected, &theta, PostureName::Branch(name), singularity)
             });
             if let Err(miss) = kept {
                 missed = Some(nearer(missed, miss));
             }
         }
         if self.found.is_empty() && matches!(missed, Some(Unreachable::NotFound { .. })) {
-            missed = self.search(wanted, arm_from_flange, MOST, THOROUGH);
+            missed = self.search(expected, arm_from_flange, MOST, THOROUGH);
         }
         self.found
             .retain(|found| found.name.branch().is_some_and(|branch| pattern.matches(branch)));
@@ -271,7 +271,7 @@ impl<'r> Finder<'r> {
         }
     }
 
-    fn keep_searched(&mut self, wanted: &Wanted<'_>, theta: &[f64]) -> Result<(), Unreachable> {
+    fn keep_searched(&mut self, expected: &Wanted<'_>, theta: &[f64]) -> Result<(), Unreachable> {
         let (name, singularity) = match self.arm.inverse.names() {
             Some(form) => {
                 let (branch, singularity) = form.name(theta);
@@ -285,20 +285,20 @@ impl<'r> Finder<'r> {
                 )
             }
         };
-        self.keep(wanted, theta, name, singularity)
+        self.keep(expected, theta, name, singularity)
     }
 
     /// Counts the joints of a posture, verifies it and keeps it; sides are told from the joints counted.
     fn keep(
         &mut self,
-        wanted: &Wanted<'_>,
+        expected: &Wanted<'_>,
         theta: &[f64],
         name: PostureName,
         singularity: Option<Singularity>,
     ) -> Result<(), Unreachable> {
-        let joints = self.counted(theta, wanted.near);
+        let joints = self.counted(theta, expected.near);
         forward_into(self.robot, &joints, &mut self.frames);
-        holds(&self.frames, &wanted.base_from_flange)?;
+        holds(&self.frames, &expected.base_from_flange)?;
         self.found.push(Found {
             name: match name {
                 PostureName::Branch(_) => name,

@@ -28,14 +28,14 @@ impl Finder<'_> {
     /// Postures by descents, until so many starts in a row (`barren`) have brought nothing new.
     pub(super) fn search(
         &mut self,
-        wanted: &Wanted<'_>,
+        requested: &Wanted<'_>,
         arm_from_flange: &Isometry,
         most: usize,
         barren: usize,
     ) -> Option<Unreachable> {
         let goal = Goal::new(arm_from_flange);
         let home = self.chain_positions(&self.home);
-        if self.follow(wanted, &goal, &home, most) {
+        if self.follow(requested, &goal, &home, most) {
             return None;
         }
         let ranges = self.ranges();
@@ -50,19 +50,19 @@ impl Finder<'_> {
             spread(start, &ranges, &mut theta);
             match self.descend(&goal, &home, &mut theta) {
                 Ok(()) if self.is_known(&theta, self.same()) => {}
-                Ok(()) => match self.keep_searched(wanted, &theta) {
+                Ok(()) => match self.keep_searched(requested, &theta) {
                     Ok(()) => idle = 0,
                     Err(miss) => missed = Some(nearer(missed, miss)),
                 },
                 Err(miss) => missed = Some(nearer(missed, miss)),
             }
         }
-        self.order(wanted.near, most);
+        self.order(requested.near, most);
         missed
     }
 
     /// Takes up those postures of the pose before that have a continuation here; false if none has.
-    fn follow(&mut self, wanted: &Wanted<'_>, goal: &Goal, home: &[f64], most: usize) -> bool {
+    fn follow(&mut self, requested: &Wanted<'_>, goal: &Goal, home: &[f64], most: usize) -> bool {
         if self.before.len() > most {
             return false;
         }
@@ -74,7 +74,7 @@ impl Finder<'_> {
             reached
                 && away.fold(0.0, f64::max) < JUMP
                 && !self.is_known(theta, self.same())
-                && self.keep_searched(wanted, theta).is_ok()
+                && self.keep_searched(requested, theta).is_ok()
         });
         self.before = before;
         !self.before.is_empty()

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::*;
 use crate::arms::{self, Stream, other};
 
-fn wanted<'a>(robot: &Robot, q: &[f64], near: Option<&'a [f64]>) -> Wanted<'a> {
+fn expected<'a>(robot: &Robot, q: &[f64], near: Option<&'a [f64]>) -> Wanted<'a> {
     let flange = crate::robot::forward::forward(robot, q).base_from_flange;
     Wanted {
         base_from_flange: Isometry::from_parts(flange.translation, flange.rotation.into()),
@@ -32,15 +32,15 @@ fn the_postures_that_match_are_those_of_all_that_match() {
         let mut finder = Finder::new(&robot);
         for _ in 0..50 {
             let q = stream.joints(&robot);
-            let wanted = wanted(&robot, &q, None);
-            let Ok(all) = finder.all(&wanted) else { continue };
+            let expected = expected(&robot, &q, None);
+            let Ok(all) = finder.all(&expected) else { continue };
             let all = all.to_vec();
             for pattern in patterns() {
                 let of_all: Vec<&Found> = all
                     .iter()
                     .filter(|found| found.name.branch().is_some_and(|branch| pattern.matches(branch)))
                     .collect();
-                match finder.matching(&wanted, pattern) {
+                match finder.matching(&expected, pattern) {
                     Ok(matching) => {
                         assert_eq!(matching.len(), of_all.len());
                         for (a, b) in matching.iter().zip(of_all) {
@@ -70,12 +70,12 @@ fn postures_of_one_pose_are_distinct_and_hold_it() {
         let mut finder = Finder::new(&robot);
         for _ in 0..5 {
             let q = stream.joints(&robot);
-            let wanted = wanted(&robot, &q, None);
+            let expected = expected(&robot, &q, None);
             finder.forget();
-            let found = finder.all(&wanted).unwrap_or_default().to_vec();
+            let found = finder.all(&expected).unwrap_or_default().to_vec();
             for (i, a) in found.iter().enumerate() {
                 let frames = crate::robot::forward::forward(&robot, &a.joints);
-                assert_eq!(holds(&frames, &wanted.base_from_flange), Ok(()));
+                assert_eq!(holds(&frames, &expected.base_from_flange), Ok(()));
                 for b in &found[..i] {
                     let away = a
                         .joints
@@ -102,7 +102,7 @@ fn postures_without_names_come_nearest_first() {
     for _ in 0..40 {
         let q = stream.joints(&robot);
         let near: Vec<f64> = q.iter().map(|q| q + stream.between(-0.05, 0.05)).collect();
-        let found = finder.all(&wanted(&robot, &q, Some(&near))).unwrap().to_vec();
+        let found = finder.all(&expected(&robot, &q, Some(&near))).unwrap().to_vec();
         let away =
             |found: &Found| -> f64 { found.joints.iter().zip(&near).map(|(a, b)| (a - b).powi(2)).sum() };
         assert!(found.windows(2).all(|pair| away(&pair[0]) <= away(&pair[1])));
@@ -114,7 +114,7 @@ fn postures_without_names_come_nearest_first() {
         );
         several += usize::from(found.len() > 1);
         let one = finder
-            .matching(&wanted(&robot, &q, Some(&near)), BranchPattern::default())
+            .matching(&expected(&robot, &q, Some(&near)), BranchPattern::default())
             .unwrap();
         assert_eq!((one.len(), &one[0].joints), (1, &found[0].joints));
     }
@@ -128,17 +128,17 @@ fn a_finder_that_forgets_is_a_new_one() {
     let mut used = Finder::new(&robot);
     for _ in 0..4 {
         let q = stream.joints(&robot);
-        let wanted = wanted(&robot, &q, None);
+        let expected = expected(&robot, &q, None);
         used.forget();
         let again: Vec<Vec<f64>> = used
-            .all(&wanted)
+            .all(&expected)
             .unwrap_or_default()
             .iter()
             .map(|found| found.joints.clone())
             .collect();
         let mut new = Finder::new(&robot);
         let anew: Vec<Vec<f64>> = new
-            .all(&wanted)
+            .all(&expected)
             .unwrap_or_default()
             .iter()
             .map(|found| found.joints.clone())
@@ -152,11 +152,11 @@ fn a_finder_that_does_not_forget_follows_on_a_path() {
     let robot = other::oblique();
     let mut finder = Finder::new(&robot);
     let q = [0.3, -0.4, 0.5, -0.6, 0.7, -0.8];
-    let mut before = finder.all(&wanted(&robot, &q, None)).unwrap()[0].joints.clone();
+    let mut before = finder.all(&expected(&robot, &q, None)).unwrap()[0].joints.clone();
     for step in 1..=20 {
         let moved = q.map(|q| q + 0.01 * f64::from(step));
         let found = finder
-            .matching(&wanted(&robot, &moved, None), BranchPattern::default())
+            .matching(&expected(&robot, &moved, None), BranchPattern::default())
             .unwrap();
         let away = found[0]
             .joints
@@ -179,7 +179,7 @@ fn turns_are_counted_near_the_joint_as_it_stood() {
     let (called, _) = name(&robot, &q);
     let pattern = BranchPattern::from(called.branch().unwrap());
     let counted = |finder: &mut Finder<'_>, near: Option<&[f64]>| {
-        finder.matching(&wanted(&robot, &q, near), pattern).unwrap()[0]
+        finder.matching(&expected(&robot, &q, near), pattern).unwrap()[0]
             .joints
             .clone()
     };
@@ -247,13 +247,13 @@ fn frames_that_miss_their_pose_hold_nothing() {
     let robot = arms::kr120();
     let q = Stream(46).joints(&robot);
     let frames = crate::robot::forward::forward(&robot, &q);
-    let pose = wanted(&robot, &q, None).base_from_flange;
+    let pose = expected(&robot, &q, None).base_from_flange;
     assert_eq!(holds(&frames, &pose), Ok(()));
     for by in [2e-9, 0.1] {
         let moved = Isometry::translation(by, 0.0, 0.0) * pose;
         let miss = holds(&frames, &moved).unwrap_err();
         assert!(
-            matches!(miss, Unreachable::Unverified { by: told } if (told - by).abs() < 1e-12),
+            matches!(miss, Unreachable::Unverified { by: given } if (given - by).abs() < 1e-12),
             "{miss}"
         );
         // Half a turn has no sine, and is none the less a turn.

@@ -78,11 +78,11 @@ fn both_postures_of_a_wrist_make_the_whole_turn() {
     let (_, form) = wrist_of(&other::TILTED_WRIST);
     let mut twice = 0;
     for _ in 0..200 {
-        let wanted = Rotation3::new(stream.vector(2.0));
-        let found = form.wrist(&wanted, None);
+        let expected = Rotation3::new(stream.vector(2.0));
+        let found = form.wrist(&expected, None);
         for [d, e, f] in &found {
             let made = form.lines[3].rotation(*d) * form.lines[4].rotation(*e) * form.lines[5].rotation(*f);
-            assert!((made.matrix() - wanted.matrix()).norm() < 1e-7);
+            assert!((made.matrix() - expected.matrix()).norm() < 1e-7);
         }
         twice += usize::from(found.len() == 2);
     }

@@ -10,12 +10,12 @@ fn lever() -> Robot {
     Robot::new("lever", motions, ["turn", "slide"].map(Joint::plain).to_vec()).unwrap()
 }
 
-fn read_with(text: &[u8], columns: &[&str]) -> Result<Measured, String> {
-    let told = Told {
+fn read_with(text: &[u8], columns: &[&str]) -> Result<MeasuredPoses, String> {
+    let given = PoseReadOptions {
         columns: columns.iter().map(|mapping| mapping.parse().unwrap()).collect(),
         turns: None,
     };
-    read("poses.csv", text, &lever(), &told).map_err(|problems| problems.to_string())
+    read("poses.csv", text, &lever(), &given).map_err(|problems| problems.to_string())
 }
 
 #[test]

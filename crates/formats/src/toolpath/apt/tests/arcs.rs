@@ -71,10 +71,10 @@ fn a_helix_has_the_turns_that_are_written() {
     assert!((arc(&moves[1]).sweep - 3.0 * TAU).abs() < 1e-12);
     let (_, _, moves) = read_all(&helix("2.25", "0.0,5.0,-3.0"));
     assert!((arc(&moves[1]).sweep - 2.25 * TAU).abs() < 1e-12);
-    let told = problems(&helix("2", "0.0,5.0,-3.0"));
+    let given = problems(&helix("2", "0.0,5.0,-3.0"));
     assert!(
-        told.contains("a helix of 2 turns that ends 90.000 deg from"),
-        "{told}"
+        given.contains("a helix of 2 turns that ends 90.000 deg from"),
+        "{given}"
     );
     assert!(problems(&helix("1e9", "5.0,0.0,-3.0")).contains("is not between 0 and 10000"));
 }

@@ -95,9 +95,9 @@ fn cycles_that_are_not_understood_are_refused() {
             "5:1: RAPID or CIRCLE within a drilling cycle",
         ),
     ] {
-        let told = problems(&format!("{head}{text}\nGOTO/0,0,0\n"));
-        assert!(told.contains(part), "{text}: {told}");
+        let given = problems(&format!("{head}{text}\nGOTO/0,0,0\n"));
+        assert!(given.contains(part), "{text}: {given}");
     }
-    let told = problems("UNIT/MM\nCYCLE/DRILL,FEDTO,5.,RAPTO,3.\nGOTO/0,0,0\n");
-    assert!(told.contains("nothing tells the tool axis"), "{told}");
+    let given = problems("UNIT/MM\nCYCLE/DRILL,FEDTO,5.,RAPTO,3.\nGOTO/0,0,0\n");
+    assert!(given.contains("nothing tells the tool axis"), "{given}");
 }

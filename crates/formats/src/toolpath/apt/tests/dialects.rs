@@ -77,11 +77,11 @@ fn a_second_msys_is_told_in_the_first() {
 #[test]
 fn a_unit_nobody_told_is_asked_for_once_and_may_be_given() {
     let text = "TOOL PATH/A\nGOTO/1.0,0.0,0.0\nGOTO/2.0,0.0,0.0\n";
-    let told = problems(text);
-    assert_eq!(told.matches("tells the unit of this file").count(), 1, "{told}");
+    let given = problems(text);
+    assert_eq!(given.matches("tells the unit of this file").count(), 1, "{given}");
     assert!(
-        told.contains("part.apt:2:6: ") && told.contains("`UNITS/MM`"),
-        "{told}"
+        given.contains("part.apt:2:6: ") && given.contains("`UNITS/MM`"),
+        "{given}"
     );
     let inch = Wanted {
         unit: Some(LengthUnit::Inch),
@@ -97,17 +97,17 @@ fn a_unit_nobody_told_is_asked_for_once_and_may_be_given() {
 #[test]
 fn an_axis_left_out_is_asked_for_where_no_dialect_shows() {
     let text = "UNITS/MM\nGOTO/0,0,0,1.,0,0\nGOTO/1.,0,0\n";
-    let told = problems(text);
-    assert!(told.contains("3:6: no tool axis here, but one before"), "{told}");
+    let given = problems(text);
+    assert!(given.contains("3:6: no tool axis here, but one before"), "{given}");
     for (dialect, axis) in [
         (Dialect::Nx, Vector3::x_axis()),
         (Dialect::SolidWorks, Vector3::z_axis()),
     ] {
-        let wanted = Wanted {
+        let expected = Wanted {
             dialect: Some(dialect),
             ..Wanted::default()
         };
-        let (_, steps) = steps(text, &wanted).unwrap();
+        let (_, steps) = steps(text, &expected).unwrap();
         let Some(Step::Move(last)) = steps.last() else {
             panic!("{steps:?}")
         };
@@ -123,5 +123,5 @@ fn a_tool_path_of_nx_begins_without_feed_and_axis() {
         "{NX}TOOL PATH/B\nGOTO/1.0,0.0,0.0,0.0,0.0,1.0\nGOTO/2.0,0.0,0.0\n"
     ));
     let paces: Vec<Pace> = moves.iter().rev().take(3).map(|m| m.pace).collect();
-    assert_eq!(paces, [Pace::Untold, Pace::Untold, Pace::Feed(0.25 / 60.0)]);
+    assert_eq!(paces, [Pace::EvaluateError, Pace::EvaluateError, Pace::Feed(0.25 / 60.0)]);
 }

@@ -25,11 +25,11 @@ fn feed_for_each_turn_follows_the_spindle() {
         assert!((speed - 0.2e-3 * rpm / 60.0).abs() < 1e-15);
     }
     assert!(operations[0].spindle.unwrap() < 0.0 && operations[1].spindle.unwrap() > 0.0);
-    let told = problems(&format!("{text}GOTO/2.,0,0\nGOTO/3.,0,0\n"));
+    let given = problems(&format!("{text}GOTO/2.,0,0\nGOTO/3.,0,0\n"));
     assert_eq!(
-        told.matches("the spindle does not turn here").count(),
+        given.matches("the spindle does not turn here").count(),
         1,
-        "{told}"
+        "{given}"
     );
 }
 
@@ -38,5 +38,5 @@ fn rapid_holds_for_one_goto_and_no_feed_is_told_as_such() {
     let (_, _, moves) =
         read_all("UNIT/MM\nRAPID\nGOTO/0,0,0\nGOTO/1.,0,0\nRAPID/\nCUTCOM/OFF\nGOTO/2.,0,0\nFROM/0,0,9.\n");
     let paces: Vec<Pace> = moves.iter().map(|m| m.pace).collect();
-    assert_eq!(paces, [Pace::Rapid, Pace::Untold, Pace::Rapid, Pace::Rapid]);
+    assert_eq!(paces, [Pace::Rapid, Pace::EvaluateError, Pace::Rapid, Pace::Rapid]);
 }

@@ -71,9 +71,9 @@ fn what_is_wrong_is_told_with_line_column_and_hint() {
             "3:1: this statement is continued by `$`, but the file ends",
         ),
     ] {
-        let told = problems(&format!("UNIT/MM\n{text}\n"));
-        assert!(told.contains(part), "{text}: {told}");
-        assert!(told.contains("help: "), "{text}: {told}");
+        let given = problems(&format!("UNIT/MM\n{text}\n"));
+        assert!(given.contains(part), "{text}: {given}");
+        assert!(given.contains("help: "), "{text}: {given}");
     }
     assert!(problems("").contains("no GOTO in this file"));
     let endless = format!("UNIT/MM\nGOTO/{}", "0,$\n".repeat(1000));
@@ -82,18 +82,18 @@ fn what_is_wrong_is_told_with_line_column_and_hint() {
 
 #[test]
 fn a_problem_of_a_continued_statement_stands_on_its_own_line() {
-    let told = problems("UNIT/MM\nGOTO/1.,$\n  2.,$ y\n  no\n");
-    assert!(told.contains("part.apt:4:3: `no` is not a number"), "{told}");
+    let given = problems("UNIT/MM\nGOTO/1.,$\n  2.,$ y\n  no\n");
+    assert!(given.contains("part.apt:4:3: `no` is not a number"), "{given}");
 }
 
 #[test]
 fn all_problems_are_told_at_once_but_no_more_than_the_limit() {
-    let told = steps(
+    let given = steps(
         &format!("UNIT/MM\n{}", "GOTO/x,0,0\n".repeat(1000)),
         &Wanted::default(),
     )
     .unwrap_err();
-    assert_eq!(told.as_slice().len(), MOST_PROBLEMS);
+    assert_eq!(given.as_slice().len(), MOST_PROBLEMS);
 }
 
 #[test]
@@ -153,9 +153,9 @@ fn words_that_are_passed_over_or_refused_stand_in_the_guide() {
     let page = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/guide/tool-path-words.md");
     let page = std::fs::read_to_string(page).unwrap();
     for word in words::IGNORED.iter().chain(words::REFUSED) {
-        let told = [" ", "/", "`"]
+        let given = [" ", "/", "`"]
             .iter()
             .any(|end| page.contains(&format!("`{word}{end}")));
-        assert!(told, "{word}");
+        assert!(given, "{word}");
     }
 }

@@ -32,7 +32,7 @@ const AMIDST: [usize; 7] = [2, 3, 4, 1, 5, 0, 6];
 
 /// Seven turning joints, one of them standing.
 #[derive(Clone, Debug)]
-pub struct StandingJoint {
+pub struct FixedJoint {
     lines: [Line; 7],
     at_zero: Isometry,
     within: f64,
@@ -40,9 +40,9 @@ pub struct StandingJoint {
     pub(super) joint: usize,
 }
 
-impl StandingJoint {
+impl FixedJoint {
     /// The joint of `chain` to stand still, if there is one; exact wrists first, then those of calibrated arms.
-    pub fn recognise(chain: &Chain) -> Option<StandingJoint> {
+    pub fn recognise(chain: &Chain) -> Option<FixedJoint> {
         let lines = lines_at_zero(chain)?;
         let at_zero = chain.base_from_flange(&[0.0; 7]);
         let poses: Vec<Isometry> = (1..=POSES)
@@ -53,19 +53,19 @@ impl StandingJoint {
             })
             .collect();
         [IDEAL, CALIBRATED].into_iter().find_map(|within| {
-            let mut most: Option<(usize, StandingJoint)> = None;
+            let mut most: Option<(usize, FixedJoint)> = None;
             for joint in AMIDST {
-                let standing = StandingJoint {
+                let arm_state = FixedJoint {
                     lines,
                     at_zero,
                     within,
                     joint,
                 };
-                let Some(reached) = standing.reached(&poses) else {
+                let Some(reached) = arm_state.reached(&poses) else {
                     continue;
                 };
                 if most.as_ref().is_none_or(|(most, _)| reached > *most) {
-                    most = Some((reached, standing));
+                    most = Some((reached, arm_state));
                 }
             }
             Some(most?.1)
@@ -92,17 +92,17 @@ impl StandingJoint {
 
     /// The six joints that are left where the standing one has turned by `angle` (rad).
     pub(super) fn at(&self, angle: f64) -> Option<SphericalWrist> {
-        let held = self.lines[self.joint];
+        let evaluation = self.lines[self.joint];
         let six: [Line; 6] = std::array::from_fn(|i| {
             if i < self.joint {
                 self.lines[i]
             } else {
-                held.carried(angle, &self.lines[i + 1])
+                evaluation.carried(angle, &self.lines[i + 1])
             }
         });
         let turn = Isometry::from_parts(
-            held.turned(angle, &Point3::origin()).coords.into(),
-            UnitQuaternion::from_rotation_matrix(&held.rotation(angle)),
+            evaluation.turned(angle, &Point3::origin()).coords.into(),
+            UnitQuaternion::from_rotation_matrix(&evaluation.rotation(angle)),
         );
         SphericalWrist::of(&six, &(turn * self.at_zero), self.within)
     }

@@ -1,4 +1,4 @@
-//! `actual_robot`: the arm as it was measured, beside the one that its controller reckons with.
+//! `calibrated_robot`: the arm as it was measured, beside the one that its controller reckons with.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -64,18 +64,18 @@ fn other_arm(actual: &Robot, believed: &Robot) -> Option<String> {
 ///
 /// # Errors
 /// The problems of its file.
-pub(super) fn find_actual(
+pub(super) fn find_calibrated(
     places: &mut Places<'_>,
     file: &StudyFile,
     (believed, folder): (&RobotDescription, &Path),
 ) -> Result<Option<Actual>, StudyError> {
-    let Some(name) = &file.actual_robot else {
+    let Some(name) = &file.calibrated_robot else {
         return Ok(None);
     };
     let found = match robots::find(name, folder) {
         Ok(found) => found,
         Err(StudyError::Value { message, hint }) => {
-            places.problem("actual_robot", message, &hint);
+            places.problem("calibrated_robot", message, &hint);
             return Ok(None);
         }
         Err(problems) => return Err(problems),
@@ -84,7 +84,7 @@ pub(super) fn find_actual(
         let message = format!("`{name}` {message} `{}`", file.robot);
         let hint = "the same arm as `robot`, with the lengths and angles that were measured: joints, senses, zeros and base \
                     frame as there";
-        places.problem("actual_robot", message, hint);
+        places.problem("calibrated_robot", message, hint);
         return Ok(None);
     }
     let sources = found.sources.into_iter().map(|source| Source {

@@ -27,7 +27,7 @@ pub struct Pass {
 
 /// How the cutter meets the material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BiteKind {
+pub enum EngagementKind {
     /// Nothing ahead.
     Air,
     /// Material on one side, or a strip narrower than the cutter.
@@ -42,7 +42,7 @@ pub enum BiteKind {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bite {
     /// How it meets the material.
-    pub kind: BiteKind,
+    pub kind: EngagementKind,
     /// The strip of material ahead, of several the one that is met over the longest arc; `None` in the air and of a plunge.
     ///
     /// What reaches the rim of the cutter at the height of the material goes on beyond it.
@@ -79,16 +79,16 @@ impl Stock {
         let removal = self.remove(pass.from, pass.to, cutter);
         let (kind, strip, [width, depth]) = match ahead {
             _ if heading.dives() && removal.depth > LEAST_HEIGHT => {
-                (BiteKind::Plunge, None, [cutter.diameter(), removal.depth])
+                (EngagementKind::Plunge, None, [cutter.diameter(), removal.depth])
             }
-            None => (BiteKind::Air, None, [0.0; 2]),
+            None => (EngagementKind::Air, None, [0.0; 2]),
             Some(Front {
                 strip,
                 width,
                 depth,
                 is_slot,
             }) => {
-                let kind = if is_slot { BiteKind::Slot } else { BiteKind::Strip };
+                let kind = if is_slot { EngagementKind::Slot } else { EngagementKind::Strip };
                 (kind, Some(strip), [width, depth])
             }
         };

@@ -15,32 +15,32 @@ use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Vector3};
 use super::chain::{Axis, Motion};
 use super::forward::Frames;
 use super::model::Robot;
-use super::spring::{Seat, Spring};
+use super::spring::{Attachment, Spring};
 use crate::frame::{Isometry, turn_between};
 use crate::spatial::Twist;
 
 /// An arm whose drives and springs have given way.
 #[derive(Clone, Debug)]
-pub struct Yielded {
+pub struct DeflectedArm {
     /// Screw of each drive, then of each spring, at the TCP.
     pub screws: Vec<Twist>,
-    /// Frame of each seat in base, from base to tool, by [`Seat::rank`]; what the seat's own springs do included.
-    pub seats: Vec<IsometryMatrix3<f64>>,
+    /// Frame of each seat in base, from base to tool, by [`Attachment::rank`]; what the seat's own springs do included.
+    pub attachments: Vec<IsometryMatrix3<f64>>,
 }
 
-impl Yielded {
+impl DeflectedArm {
     /// Room for `robot` with this many springs.
-    pub fn for_robot(robot: &Robot, springs: usize) -> Yielded {
+    pub fn for_robot(robot: &Robot, springs: usize) -> DeflectedArm {
         let joints = robot.joints().len();
-        Yielded {
+        DeflectedArm {
             screws: vec![Twist::ZERO; joints + springs],
-            seats: vec![IsometryMatrix3::identity(); Seat::count(joints)],
+            attachments: vec![IsometryMatrix3::identity(); Attachment::count(joints)],
         }
     }
 
     /// The tool in base.
     pub fn base_from_tool(&self) -> IsometryMatrix3<f64> {
-        self.seats
+        self.attachments
             .last()
             .copied()
             .unwrap_or_else(IsometryMatrix3::identity)
@@ -48,42 +48,42 @@ impl Yielded {
 }
 
 /// The frame of `seat` in base before any spring gives way.
-pub fn seat_frame(
-    seat: Seat,
+pub fn attachment_frame(
+    attachment: Attachment,
     frames: &Frames,
     base_from_tool: &IsometryMatrix3<f64>,
 ) -> IsometryMatrix3<f64> {
-    match seat {
-        Seat::Base => IsometryMatrix3::identity(),
-        Seat::Joint(index) => frames.base_from_joint[index],
-        Seat::Flange => frames.base_from_flange,
-        Seat::Tool => *base_from_tool,
+    match attachment {
+        Attachment::Base => IsometryMatrix3::identity(),
+        Attachment::Joint(index) => frames.base_from_joint[index],
+        Attachment::Flange => frames.base_from_flange,
+        Attachment::Tool => *base_from_tool,
     }
 }
 
 /// The screw at `tcp` (m, base) of a spring with this local direction on a seat in this frame.
-pub fn spring_screw(direction: &Twist, base_from_seat: &IsometryMatrix3<f64>, tcp: Vector3<f64>) -> Twist {
-    let at_seat = Twist {
-        linear: base_from_seat.rotation * direction.linear,
-        angular: base_from_seat.rotation * direction.angular,
+pub fn spring_screw(direction: &Twist, base_from_attachment: &IsometryMatrix3<f64>, tcp: Vector3<f64>) -> Twist {
+    let at_attachment = Twist {
+        linear: base_from_attachment.rotation * direction.linear,
+        angular: base_from_attachment.rotation * direction.angular,
     };
-    at_seat.moved(tcp - base_from_seat.translation.vector)
+    at_attachment.moved(tcp - base_from_attachment.translation.vector)
 }
 
 /// The arm at chain positions `theta` with drives and springs given way by `x`, into `out`.
 ///
 /// # Panics
 /// If there are fewer `theta` than joints, or fewer `x` than joints and springs.
-pub fn yield_into(
+pub fn deflect_into(
     (robot, springs, flange_from_tool): (&Robot, &[Spring], &Isometry),
     theta: &[f64],
     x: &[f64],
-    out: &mut Yielded,
+    out: &mut DeflectedArm,
 ) {
     let (mut axes, mut origin) = (Matrix3::identity(), Vector3::zeros());
     let chain = robot.chain();
     let joints = theta.len();
-    for rank in 0..Seat::count(joints) {
+    for rank in 0..Attachment::count(joints) {
         if let Some(joint) = rank.checked_sub(1).filter(|joint| *joint < joints) {
             let link = &chain.links()[joint];
             link.before.advance(&mut axes, &mut origin);
@@ -95,26 +95,26 @@ pub fn yield_into(
                 Motion::Along(axis, _) => Twist::along(of(axis)),
             };
             out.screws[joint] = drive.moved(-origin);
-        } else if rank == Seat::Flange.rank(joints) {
+        } else if rank == Attachment::Flange.rank(joints) {
             chain.last_joint_from_flange().advance(&mut axes, &mut origin);
-        } else if rank == Seat::Tool.rank(joints) {
+        } else if rank == Attachment::Tool.rank(joints) {
             origin += axes * flange_from_tool.translation.vector;
             axes *= flange_from_tool.rotation.to_rotation_matrix().matrix();
         }
         for (index, spring) in springs.iter().enumerate() {
-            if spring.seat.rank(joints) != rank {
+            if spring.attachment.rank(joints) != rank {
                 continue;
             }
-            let at_seat = Twist {
+            let at_attachment = Twist {
                 linear: axes * spring.direction.linear,
                 angular: axes * spring.direction.angular,
             };
-            out.screws[joints + index] = at_seat.moved(-origin);
+            out.screws[joints + index] = at_attachment.moved(-origin);
             let (turn, shift) = exponential(&(spring.direction * x[joints + index]));
             origin += axes * shift;
             axes *= turn;
         }
-        out.seats[rank] = IsometryMatrix3::from_parts(origin.into(), Rotation3::from_matrix_unchecked(axes));
+        out.attachments[rank] = IsometryMatrix3::from_parts(origin.into(), Rotation3::from_matrix_unchecked(axes));
     }
     // Until here told at the base origin; the tool stands at `origin` now.
     for screw in &mut out.screws {
@@ -181,11 +181,11 @@ mod tests {
             standard_uncertainty: 0.0,
         };
         let mut springs = vec![
-            Spring::about(Seat::Tool, Vector3::x(), c),
-            Spring::about(Seat::Joint(1), Vector3::x(), c),
-            Spring::along(Seat::Base, Vector3::y(), c),
-            Spring::about(Seat::Joint(1), Vector3::y(), c),
-            Spring::about(Seat::Flange, Vector3::z(), c),
+            Spring::about(Attachment::Tool, Vector3::x(), c),
+            Spring::about(Attachment::Joint(1), Vector3::x(), c),
+            Spring::along(Attachment::Base, Vector3::y(), c),
+            Spring::about(Attachment::Joint(1), Vector3::y(), c),
+            Spring::about(Attachment::Flange, Vector3::z(), c),
         ];
         springs[4].direction.linear = Vector3::new(0.1, -0.4, 0.2);
         let tool = crate::frame::from_xyz_and_fixed_angles(
@@ -200,8 +200,8 @@ mod tests {
     #[test]
     fn an_arm_that_has_not_given_way_stands_where_forward_says() {
         let (robot, springs, tool) = arm();
-        let mut out = Yielded::for_robot(&robot, springs.len());
-        yield_into((&robot, &springs, &tool), &THETA, &[0.0; 8], &mut out);
+        let mut out = DeflectedArm::for_robot(&robot, springs.len());
+        deflect_into((&robot, &springs, &tool), &THETA, &[0.0; 8], &mut out);
         let frames = forward(&robot, &THETA);
         let at = tool_on(&frames, &tool);
         let away = out.base_from_tool().to_homogeneous() - at.to_homogeneous();
@@ -213,8 +213,8 @@ mod tests {
         }
         let base_from_tool = out.base_from_tool();
         for (a, spring) in out.screws[3..].iter().zip(&springs) {
-            let seat = seat_frame(spring.seat, &frames, &base_from_tool);
-            let b = spring_screw(&spring.direction, &seat, tcp);
+            let attachment = attachment_frame(spring.attachment, &frames, &base_from_tool);
+            let b = spring_screw(&spring.direction, &attachment, tcp);
             assert!((a.to_vector() - b.to_vector()).norm() < 1e-15);
         }
     }
@@ -224,8 +224,8 @@ mod tests {
         let (robot, springs, tool) = arm();
         let x: Vec<f64> = (0..8).map(|i| 0.03 * f64::from(i) - 0.1).collect();
         let stand = |x: &[f64]| {
-            let mut out = Yielded::for_robot(&robot, springs.len());
-            yield_into((&robot, &springs, &tool), &THETA, x, &mut out);
+            let mut out = DeflectedArm::for_robot(&robot, springs.len());
+            deflect_into((&robot, &springs, &tool), &THETA, x, &mut out);
             out
         };
         let here = stand(&x);
@@ -285,14 +285,14 @@ mod tests {
     #[test]
     fn the_twist_between_two_poses_turns_as_far_as_half_a_turn() {
         let (robot, springs, tool) = arm();
-        let mut before = Yielded::for_robot(&robot, springs.len());
-        yield_into((&robot, &springs, &tool), &THETA, &[0.0; 8], &mut before);
+        let mut before = DeflectedArm::for_robot(&robot, springs.len());
+        deflect_into((&robot, &springs, &tool), &THETA, &[0.0; 8], &mut before);
         for angle in [0.1, 1.4, 1.7, 3.0] {
             // Beyond a quarter turn the sine of the angle falls again.
             let mut x = [0.0; 8];
             x[0] = angle;
-            let mut after = Yielded::for_robot(&robot, springs.len());
-            yield_into((&robot, &springs, &tool), &THETA, &x, &mut after);
+            let mut after = DeflectedArm::for_robot(&robot, springs.len());
+            deflect_into((&robot, &springs, &tool), &THETA, &x, &mut after);
             let twist = twist_between(&before.base_from_tool(), &after.base_from_tool());
             assert!(
                 (twist.angular - Vector3::z() * angle).norm() < 1e-12,
@@ -308,8 +308,8 @@ mod tests {
         let mut swapped = springs.clone();
         swapped.swap(1, 3);
         let reached = |springs: &[Spring], x: &[f64]| {
-            let mut out = Yielded::for_robot(&robot, springs.len());
-            yield_into((&robot, springs, &tool), &THETA, x, &mut out);
+            let mut out = DeflectedArm::for_robot(&robot, springs.len());
+            deflect_into((&robot, springs, &tool), &THETA, x, &mut out);
             out.base_from_tool()
         };
         let apart = |size: f64| {

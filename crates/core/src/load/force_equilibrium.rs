@@ -19,7 +19,7 @@
 //! `s` is sought by Broyden's method, from where the tool rested a point before: on a path one or two forces a point are
 //! enough. Where the tool rests is told to 1e-5 of the deviation. It does not rest where straying into the part
 //! pushes it farther in than it strayed: `s` then lies opposite to where the force of the drawn path pushes, no cut
-//! begins so: [`Rest::DrawnIn`].
+//! begins so: [`Rest::PulledIn`].
 //!
 //! Source: quasi-static equilibrium of tool and cut; Broyden, A class of methods for solving nonlinear simultaneous
 //! equations, Mathematics of Computation 19, 1965 \[recalled\]; `docs/theory/cutting.md`.
@@ -32,14 +32,14 @@ use super::milling::{Cut, Milling};
 
 /// How a tip yields, in any axes: `d = A F + g`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TipYield {
+pub struct TipCompliance {
     /// `A`, m/N.
     pub by_force: Matrix3<f64>,
     /// `g`, m.
     pub unloaded: Vector3<f64>,
 }
 
-impl TipYield {
+impl TipCompliance {
     /// The deviation under `force` (N), m.
     pub fn under(&self, force: Vector3<f64>) -> Vector3<f64> {
         self.by_force * force + self.unloaded
@@ -47,8 +47,8 @@ impl TipYield {
 
     /// The same told in other axes: `of_these` turns vectors of these axes into those.
     #[must_use]
-    pub fn seen_from(&self, of_these: &Rotation3<f64>) -> TipYield {
-        TipYield {
+    pub fn rotated(&self, of_these: &Rotation3<f64>) -> TipCompliance {
+        TipCompliance {
             by_force: of_these.matrix() * self.by_force * of_these.matrix().transpose(),
             unloaded: of_these * self.unloaded,
         }
@@ -61,16 +61,16 @@ pub enum Rest {
     /// They do, under this mean force on the tool; N, feed frame.
     Settled(Vector3<f64>),
     /// They do not: the cut draws the tool in.
-    DrawnIn,
+    PulledIn,
 }
 
 /// Finds where tool and cut rest, point after point.
 #[derive(Clone, Debug)]
-pub struct Straying {
+pub struct ForceEquilibrium {
     cutter: Cutter,
     law: CuttingLaw,
     /// Where the tool rested last, m.
-    strayed: Vector2<f64>,
+    offset: Vector2<f64>,
     /// How what is missing to rest changes with `s`.
     slope: Matrix2<f64>,
 }
@@ -86,9 +86,9 @@ const LONGEST_STEP: f64 = 0.5;
 
 impl Cut {
     /// What is cut by a tool of this `radius` (m) that strays by `s` (m: to the left, away from the part); `None` if nothing is.
-    pub fn strayed(&self, s: Vector2<f64>, radius: f64) -> Option<Cut> {
+    pub fn deflected(&self, s: Vector2<f64>, radius: f64) -> Option<Cut> {
         let depth = self.depth - s.y;
-        let engagement = self.engagement.strayed(s.x, radius)?;
+        let engagement = self.engagement.deflected(s.x, radius)?;
         (depth > 0.0).then_some(Cut {
             depth,
             engagement,
@@ -97,48 +97,48 @@ impl Cut {
     }
 }
 
-impl Straying {
+impl ForceEquilibrium {
     /// Before the first point.
-    pub fn new(cutter: Cutter, law: CuttingLaw) -> Straying {
-        Straying {
+    pub fn new(cutter: Cutter, law: CuttingLaw) -> ForceEquilibrium {
+        ForceEquilibrium {
             cutter,
             law,
-            strayed: Vector2::zeros(),
+            offset: Vector2::zeros(),
             slope: Matrix2::identity(),
         }
     }
 
     /// The tool from here on.
-    pub fn hold(&mut self, cutter: Cutter) {
+    pub fn set_cutter(&mut self, cutter: Cutter) {
         self.cutter = cutter;
     }
 
     /// Where `cut` and a tip that yields so (feed frame) rest; `drawn` is the force of the path as drawn.
-    pub fn rest(&mut self, cut: &Cut, drawn: Vector3<f64>, tip: &TipYield) -> Rest {
-        let stiff = strays(tip, drawn);
-        for begins_anew in [false, true] {
-            if begins_anew {
-                (self.strayed, self.slope) = (Vector2::zeros(), Matrix2::identity());
+    pub fn rest(&mut self, cut: &Cut, nominal: Vector3<f64>, tip: &TipCompliance) -> Rest {
+        let stiff = offset_under(tip, nominal);
+        for restart in [false, true] {
+            if restart {
+                (self.offset, self.slope) = (Vector2::zeros(), Matrix2::identity());
             }
             if let Some(force) = self.search(cut, tip)
-                && self.strayed.dot(&stiff) >= 0.0
+                && self.offset.dot(&stiff) >= 0.0
             {
                 return Rest::Settled(force);
             }
         }
-        (self.strayed, self.slope) = (Vector2::zeros(), Matrix2::identity());
-        Rest::DrawnIn
+        (self.offset, self.slope) = (Vector2::zeros(), Matrix2::identity());
+        Rest::PulledIn
     }
 
     /// The mean force (N, feed frame) of `cut` on a tool that does not stray; `None` where there is no such cut.
-    pub fn drawn(&self, cut: &Cut) -> Option<Vector3<f64>> {
+    pub fn nominal_force(&self, cut: &Cut) -> Option<Vector3<f64>> {
         self.force(cut, Vector2::zeros())
     }
 
     /// The force at rest, by steps from where the tool rested last.
-    fn search(&mut self, cut: &Cut, tip: &TipYield) -> Option<Vector3<f64>> {
-        let mut force = self.force(cut, self.strayed)?;
-        let mut missing = self.strayed - strays(tip, force);
+    fn search(&mut self, cut: &Cut, tip: &TipCompliance) -> Option<Vector3<f64>> {
+        let mut force = self.force(cut, self.offset)?;
+        let mut missing = self.offset - offset_under(tip, force);
         for _ in 1..MOST_ROUNDS {
             if missing.norm() <= CLOSE * tip.under(force).norm() + FLOOR {
                 return Some(force);
@@ -146,10 +146,10 @@ impl Straying {
             let step = -(self.slope.try_inverse()? * missing);
             let longest = LONGEST_STEP * cut.depth;
             let step = step * (longest / step.norm().max(longest));
-            self.strayed += step;
-            force = self.force(cut, self.strayed)?;
+            self.offset += step;
+            force = self.force(cut, self.offset)?;
             let before = missing;
-            missing = self.strayed - strays(tip, force);
+            missing = self.offset - offset_under(tip, force);
             let unforeseen = missing - before - self.slope * step;
             self.slope += unforeseen * step.transpose() / step.norm_squared();
         }
@@ -158,7 +158,7 @@ impl Straying {
 
     /// The mean force on a tool that strays by `s`; `None` where there is no such cut.
     fn force(&self, cut: &Cut, s: Vector2<f64>) -> Option<Vector3<f64>> {
-        match cut.strayed(s, self.cutter.radius()) {
+        match cut.deflected(s, self.cutter.radius()) {
             None => Some(Vector3::zeros()),
             Some(cut) => {
                 let milling = Milling::new(self.cutter, self.law, cut).ok()?;
@@ -169,7 +169,7 @@ impl Straying {
 }
 
 /// By how much a tip strays under `force`, m: to the left, away from the part.
-fn strays(tip: &TipYield, force: Vector3<f64>) -> Vector2<f64> {
+fn offset_under(tip: &TipCompliance, force: Vector3<f64>) -> Vector2<f64> {
     let deviation = tip.under(force);
     Vector2::new(deviation.y, deviation.z)
 }

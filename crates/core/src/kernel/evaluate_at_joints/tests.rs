@@ -34,22 +34,22 @@ fn every_chain_is_told_as_predicted_at_each_point() {
                 model: &model,
                 flange_from_tool: &tool,
             };
-            let tell = |standing: &mut Standing<'_>, out: &mut [f64]| {
+            let tell = |arm_state: &mut ArmState<'_>, out: &mut [f64]| {
                 for (wrench, out) in cases().iter().zip(out.chunks_mut(3)) {
                     out.copy_from_slice(
-                        deviation_of(standing, wrench, &mut Links::Neglected)?
+                        deviation_of(arm_state, wrench, &mut Links::Neglected)?
                             .linear
                             .as_slice(),
                     );
                 }
                 Ok(())
             };
-            let mut told = vec![0.0; 300 * 9];
-            stand_at(&arm, &q, (&mut told, 9), tell, Watch::NONE).unwrap();
-            for (q, told) in q.chunks(dof).zip(told.chunks(9)).step_by(7) {
-                for (wrench, told) in cases().iter().zip(told.chunks(3)) {
+            let mut given = vec![0.0; 300 * 9];
+            evaluate_at_joints(&arm, &q, (&mut given, 9), tell, Watch::NONE).unwrap();
+            for (q, given) in q.chunks(dof).zip(given.chunks(9)).step_by(7) {
+                for (wrench, given) in cases().iter().zip(given.chunks(3)) {
                     let predicted = arms::predicted(&arm, q, wrench).unwrap().twist.linear;
-                    let away = Vector3::from_column_slice(told) - predicted;
+                    let away = Vector3::from_column_slice(given) - predicted;
                     let name = robot.name();
                     assert!(away.norm() < 1e-13 * predicted.norm().max(1e-6), "{name}");
                 }
@@ -79,7 +79,7 @@ fn stood(joints: &[f64], known: usize) {
         model: StiffnessModel::DRIVES,
         flange_from_tool: &tool,
     };
-    stand_at(&arm, joints, (&mut [0.0], 1), |_, _| Ok(()), Watch::NONE).unwrap();
+    evaluate_at_joints(&arm, joints, (&mut [0.0], 1), |_, _| Ok(()), Watch::NONE).unwrap();
 }
 
 #[test]
@@ -95,14 +95,14 @@ fn the_tool_stands_where_the_posture_of_the_joints_has_it_in_one_block_and_in_ma
         };
         let dof = robot.joints().len();
         let q = joints(&robot, 2 * AT_ONCE + 9);
-        let tell = |standing: &mut Standing<'_>, out: &mut [f64]| {
-            out.copy_from_slice(standing.base_from_tool().translation.vector.as_slice());
+        let tell = |arm_state: &mut ArmState<'_>, out: &mut [f64]| {
+            out.copy_from_slice(arm_state.base_from_tool().translation.vector.as_slice());
             Ok(())
         };
         let mut many = vec![0.0; q.len() / dof * 3];
-        stand_at(&arm, &q, (&mut many, 3), tell, Watch::NONE).unwrap();
+        evaluate_at_joints(&arm, &q, (&mut many, 3), tell, Watch::NONE).unwrap();
         let mut few = vec![0.0; 15];
-        stand_at(&arm, &q[..5 * dof], (&mut few, 3), tell, Watch::NONE).unwrap();
+        evaluate_at_joints(&arm, &q[..5 * dof], (&mut few, 3), tell, Watch::NONE).unwrap();
         assert_eq!(few, many[..15]);
         for (q, tip) in q.chunks(dof).zip(many.chunks(3)).step_by(11) {
             let posture = posture_at(&robot, q, &tool);
@@ -128,20 +128,20 @@ fn the_first_point_without_rest_is_told_whatever_the_block() {
     };
     let q = joints(robot, 3 * AT_ONCE);
     let wrench = Wrench::from_force(Vector3::new(7e5, -4e5, 6e5));
-    let tell = |standing: &mut Standing<'_>, out: &mut [f64]| {
-        out[0] = standing.elastic(&wrench)?.linear.norm();
+    let tell = |arm_state: &mut ArmState<'_>, out: &mut [f64]| {
+        out[0] = arm_state.elastic(&wrench)?.linear.norm();
         Ok(())
     };
     let witness = q.chunks(6).position(|q| {
-        let mut standing = Standing::new(arm);
-        standing.stand(q);
-        standing.elastic(&wrench).is_err()
+        let mut arm_state = ArmState::new(arm);
+        arm_state.set_joints(q);
+        arm_state.elastic(&wrench).is_err()
     });
     let mut out = vec![0.0; 3 * AT_ONCE];
-    let told = stand_at(&arm, &q, (&mut out, 1), tell, Watch::NONE).unwrap_err();
-    match told {
-        Untold::Unstable { point, .. } => assert_eq!(Some(point), witness),
-        Untold::Cancelled(_) => panic!("nobody cancelled"),
+    let given = evaluate_at_joints(&arm, &q, (&mut out, 1), tell, Watch::NONE).unwrap_err();
+    match given {
+        EvaluateError::Unstable { point, .. } => assert_eq!(Some(point), witness),
+        EvaluateError::Cancelled(_) => panic!("nobody cancelled"),
     }
 }
 
@@ -159,14 +159,14 @@ fn a_cancelled_watch_stops_and_no_points_are_no_work() {
         finished: &|_| cancel.store(true, Ordering::Relaxed),
         cancel: &cancel,
     };
-    let tell = |_: &mut Standing<'_>, out: &mut [f64]| {
+    let tell = |_: &mut ArmState<'_>, out: &mut [f64]| {
         out[0] = 1.0;
         Ok(())
     };
     let q = joints(robot, 64 * AT_ONCE);
     let mut out = vec![0.0; 64 * AT_ONCE];
-    let stopped = stand_at(&arm, &q, (&mut out, 1), tell, watch);
-    assert_eq!(stopped, Err(Untold::Cancelled(Cancelled)));
+    let stopped = evaluate_at_joints(&arm, &q, (&mut out, 1), tell, watch);
+    assert_eq!(stopped, Err(EvaluateError::Cancelled(Cancelled)));
     assert!(out.contains(&0.0));
-    assert_eq!(stand_at(&arm, &[], (&mut [], 1), tell, watch), Ok(()));
+    assert_eq!(evaluate_at_joints(&arm, &[], (&mut [], 1), tell, watch), Ok(()));
 }

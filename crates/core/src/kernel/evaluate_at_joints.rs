@@ -1,11 +1,11 @@
 //! An arm stood at many joint positions: whoever asks writes down what he wants of each stand.
 //!
-//! Blocks of points on all threads of the current rayon pool, with one [`Standing`] a thread; a single block is done
+//! Blocks of points on all threads of the current rayon pool, with one [`ArmState`] a thread; a single block is done
 //! where it is asked for, so that one point costs no more than the work. What is written goes by index.
 
 use rayon::prelude::*;
 
-use crate::source::{Arm, Standing, Unstable};
+use crate::source::{Arm, ArmState, Unstable};
 use crate::watch::{Cancelled, Watch};
 
 /// Points in a block: enough to make the hand-over cheap, few enough to cancel soon.
@@ -13,7 +13,7 @@ const AT_ONCE: usize = 256;
 
 /// Why not every stand was told.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum Untold {
+pub enum EvaluateError {
     /// The watch said so.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
@@ -31,17 +31,17 @@ pub enum Untold {
 /// lets `tell` write `width` numbers of it into its part of `out`, which is as long as all points together.
 ///
 /// # Errors
-/// [`Untold::Cancelled`] if the watch says so; the first point where `tell` finds no stable rest.
+/// [`EvaluateError::Cancelled`] if the watch says so; the first point where `tell` finds no stable rest.
 ///
 /// # Panics
 /// If `joints` is no whole number of points, `out` has another length, or there are not as many compliances as joints.
-pub fn stand_at(
+pub fn evaluate_at_joints(
     arm: &Arm<'_>,
     joints: &[f64],
     (out, width): (&mut [f64], usize),
-    tell: impl Fn(&mut Standing<'_>, &mut [f64]) -> Result<(), Unstable> + Sync,
+    tell: impl Fn(&mut ArmState<'_>, &mut [f64]) -> Result<(), Unstable> + Sync,
     watch: Watch<'_>,
-) -> Result<(), Untold> {
+) -> Result<(), EvaluateError> {
     let dof = arm.robot.joints().len();
     assert_eq!(
         joints.len() % dof,
@@ -53,13 +53,13 @@ pub fn stand_at(
     if out.is_empty() {
         return Ok(());
     }
-    let block = |standing: &mut Standing<'_>, (joints, out): (&[f64], &mut [f64])| {
+    let block = |arm_state: &mut ArmState<'_>, (joints, out): (&[f64], &mut [f64])| {
         if watch.is_cancelled() {
             return Err(Cancelled);
         }
         for (point, (q, out)) in joints.chunks(dof).zip(out.chunks_mut(width)).enumerate() {
-            standing.stand(q);
-            if let Err(why) = tell(standing, out) {
+            arm_state.set_joints(q);
+            if let Err(why) = tell(arm_state, out) {
                 return Ok(Some((point, why)));
             }
         }
@@ -71,15 +71,15 @@ pub fn stand_at(
         failed.find_map(|(block, failed)| failed.map(|(point, why)| (block * AT_ONCE + point, why)))
     };
     let failed = if joints.len() <= AT_ONCE * dof {
-        first_failed(&[block(&mut Standing::new(*arm), (joints, out))?])
+        first_failed(&[block(&mut ArmState::new(*arm), (joints, out))?])
     } else {
         let blocks = joints
             .par_chunks(AT_ONCE * dof)
             .zip(out.par_chunks_mut(AT_ONCE * width));
-        let failed: Result<Vec<_>, Cancelled> = blocks.map_init(|| Standing::new(*arm), block).collect();
+        let failed: Result<Vec<_>, Cancelled> = blocks.map_init(|| ArmState::new(*arm), block).collect();
         first_failed(&failed?)
     };
-    failed.map_or(Ok(()), |(point, why)| Err(Untold::Unstable { point, why }))
+    failed.map_or(Ok(()), |(point, why)| Err(EvaluateError::Unstable { point, why }))
 }
 
 #[cfg(test)]

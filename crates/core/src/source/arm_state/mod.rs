@@ -18,36 +18,36 @@
 //! Made once, used at any number of postures and loads without allocation. `shares`: who moves the tool by how much;
 //! `doubt`: how sure that is, of load and tool; `unloaded`: what moves the tool beside the load.
 
-mod doubt;
+mod input_uncertainty;
 mod shares;
-mod unloaded;
+mod backlash_and_geometry;
 
-pub use doubt::AsItStands;
-pub use unloaded::Links;
+pub use input_uncertainty::LoadedPosture;
+pub use backlash_and_geometry::Links;
 
 use nalgebra::{IsometryMatrix3, Matrix3, Matrix6, Point3, Rotation3, Vector3};
 
 use super::equilibrium::{Equilibrium, Unstable};
 use super::gravity::{Carried, carry_into, torque};
 use super::stiffness_model::{Arm, Gravity};
-use crate::load::TipYield;
+use crate::load::TipCompliance;
 use crate::robot::forward::{Frames, forward_into};
 use crate::robot::inverse::tool_on;
 use crate::robot::jacobian::screws_into;
-use crate::robot::yielding::{seat_frame, spring_screw};
-use crate::robot::{JointCompliance, Seat};
+use crate::robot::deflected_arm::{attachment_frame, spring_screw};
+use crate::robot::{JointCompliance, Attachment};
 use crate::spatial::{Twist, Wrench};
 
 /// An arm in one posture.
 #[derive(Clone, Debug)]
-pub struct Standing<'a> {
+pub struct ArmState<'a> {
     arm: Arm<'a>,
     compliances: Vec<JointCompliance>,
-    seats: Vec<Seat>,
+    attachments: Vec<Attachment>,
     flange_from_tool: Rotation3<f64>,
     /// Whether every drive and spring gives way in proportion to its torque, whatever else stands on the arm.
     in_proportion: bool,
-    /// Room for [`Standing::stand`]; taken while it is in use.
+    /// Room for [`ArmState::set_joints`]; taken while it is in use.
     frames: Option<Frames>,
     /// Joint positions where it stands, the controller's counting and the chain's.
     joints: Vec<f64>,
@@ -74,24 +74,24 @@ struct Weight<'a> {
     at_reference: Option<Vec<(Twist, Vector3<f64>)>>,
 }
 
-impl<'a> Standing<'a> {
+impl<'a> ArmState<'a> {
     /// Room for this arm. Where gravity counts it has stood at the reference posture already.
     ///
     /// Not checked: that the structure of the model fits the robot ([`crate::robot::Structure::check`]), and that there
     /// are as many compliances, and as many joint positions where the tool was set, as joints.
-    pub fn new(arm: Arm<'a>) -> Standing<'a> {
-        let (compliances, seats) = (arm.compliances(), arm.seats());
+    pub fn new(arm: Arm<'a>) -> ArmState<'a> {
+        let (compliances, attachments) = (arm.compliances(), arm.attachments());
         let (joints, size) = (arm.robot.joints().len(), compliances.len());
         let weight = |gravity| Weight {
             gravity,
-            carried: vec![Carried::NOTHING; Seat::count(joints)],
+            carried: vec![Carried::NOTHING; Attachment::count(joints)],
             sag: Some(vec![0.0; size]),
             at_reference: None,
         };
-        let mut standing = Standing {
+        let mut arm_state = ArmState {
             arm,
             compliances,
-            seats,
+            attachments,
             flange_from_tool: arm.flange_from_tool.rotation.to_rotation_matrix(),
             in_proportion: arm.model.is_affine() && arm.model.structure.compensator.is_none(),
             frames: None,
@@ -109,13 +109,13 @@ impl<'a> Standing<'a> {
                 .then(|| Box::new(Equilibrium::for_arm(&arm))),
         };
         if let Some(gravity) = &arm.model.gravity {
-            standing.stand(&gravity.reference);
-            let there = standing.sagging();
-            if let Some(weight) = &mut standing.weight {
+            arm_state.set_joints(&gravity.reference);
+            let there = arm_state.sagging();
+            if let Some(weight) = &mut arm_state.weight {
                 weight.at_reference = there;
             }
         }
-        standing
+        arm_state
     }
 
     /// The arm that stands.
@@ -139,18 +139,18 @@ impl<'a> Standing<'a> {
     }
 
     /// Stands the arm at joint positions `q`, rad (m).
-    pub fn stand(&mut self, q: &[f64]) {
+    pub fn set_joints(&mut self, q: &[f64]) {
         let room = self.frames.take();
         let mut frames = room.unwrap_or_else(|| Frames::for_robot(self.arm.robot));
         forward_into(self.arm.robot, q, &mut frames);
         // As a posture has it, to the last bit.
         let tcp = tool_on(&frames, self.arm.flange_from_tool).translation.vector;
-        self.stand_in(q, &frames, &tcp.into());
+        self.set_frames(q, &frames, &tcp.into());
         self.frames = Some(frames);
     }
 
-    /// [`Standing::stand`] where the frames at `q` and the TCP (m, base) are known already.
-    pub fn stand_in(&mut self, q: &[f64], frames: &Frames, tcp: &Point3<f64>) {
+    /// [`ArmState::set_joints`] where the frames at `q` and the TCP (m, base) are known already.
+    pub fn set_frames(&mut self, q: &[f64], frames: &Frames, tcp: &Point3<f64>) {
         let Arm { robot, model, .. } = self.arm;
         let structure = &model.structure;
         let joints = self.theta.len();
@@ -158,9 +158,9 @@ impl<'a> Standing<'a> {
         let turn = frames.base_from_flange.rotation * self.flange_from_tool;
         let base_from_tool = IsometryMatrix3::from_parts(tcp.coords.into(), turn);
         self.base_from_tool = base_from_tool;
-        let frame = |seat: Seat| seat_frame(seat, frames, &base_from_tool);
+        let frame = |attachment: Attachment| attachment_frame(attachment, frames, &base_from_tool);
         for (screw, spring) in self.screws[joints..].iter_mut().zip(&structure.springs) {
-            *screw = spring_screw(&spring.direction, &frame(spring.seat), tcp.coords);
+            *screw = spring_screw(&spring.direction, &frame(spring.attachment), tcp.coords);
         }
         self.joints.copy_from_slice(q);
         for (joint, theta) in self.theta.iter_mut().enumerate() {
@@ -170,8 +170,8 @@ impl<'a> Standing<'a> {
             return;
         };
         carry_into(&structure.masses, frame, tcp.coords, &mut weight.carried);
-        for ((before, screw), seat) in self.before.iter_mut().zip(&self.screws).zip(&self.seats) {
-            let carried = &weight.carried[seat.rank(joints)];
+        for ((before, screw), attachment) in self.before.iter_mut().zip(&self.screws).zip(&self.attachments) {
+            let carried = &weight.carried[attachment.rank(joints)];
             *before = torque(screw, carried, &weight.gravity.acceleration);
         }
         if let Some(c) = &structure.compensator {
@@ -244,10 +244,10 @@ impl<'a> Standing<'a> {
     ///
     /// # Errors
     /// [`Unstable`] where the arm finds no stable rest under one of them.
-    pub fn tip_yield(&mut self) -> Result<TipYield, Unstable> {
+    pub fn tip_compliance(&mut self) -> Result<TipCompliance, Unstable> {
         let mut under = |axis| Ok(self.elastic(&Wrench::from_force(axis))?.linear);
         let columns = [under(Vector3::x())?, under(Vector3::y())?, under(Vector3::z())?];
-        Ok(TipYield {
+        Ok(TipCompliance {
             by_force: Matrix3::from_columns(&columns),
             unloaded: self
                 .gravity()?
@@ -283,9 +283,9 @@ impl<'a> Standing<'a> {
     fn turn(&self, k: usize, before: f64, change: f64) -> Option<f64> {
         let Some(curve) = self.arm.model.structure.curve(k) else {
             let turn = self.compliances[k].value * change;
-            return match self.held(k) {
+            return match self.evaluation(k) {
                 None => Some(turn),
-                Some(held) if held > 0.0 => Some(turn / held),
+                Some(evaluation) if evaluation > 0.0 => Some(turn / evaluation),
                 Some(_) => None,
             };
         };
@@ -317,7 +317,7 @@ impl<'a> Standing<'a> {
     }
 
     /// `1 - c dM/dtheta`, where a compensator works on this drive.
-    fn held(&self, k: usize) -> Option<f64> {
+    fn evaluation(&self, k: usize) -> Option<f64> {
         let slope = self.compensator_slope(k);
         (slope != 0.0).then(|| 1.0 - self.compliances[k].value * slope)
     }
@@ -337,7 +337,7 @@ impl<'a> Standing<'a> {
     fn sagging(&self) -> Option<Vec<(Twist, Vector3<f64>)>> {
         let sag = self.weight.as_ref()?.sag.as_ref()?;
         let each = |(k, sag): (usize, &f64)| {
-            let grown = self.held(k).map_or(1.0, |held| 1.0 / (held * held));
+            let grown = self.evaluation(k).map_or(1.0, |evaluation| 1.0 / (evaluation * evaluation));
             let per_unit = self.screws[k].linear * (self.before[k] * grown);
             (self.screws[k] * *sag, per_unit)
         };

@@ -13,7 +13,7 @@ use crate::frame::Isometry;
 
 /// Standard uncertainties of load and tool, independent of each other; see the module page.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Doubt {
+pub struct InputUncertainty {
     /// Relative.
     pub relative: f64,
     /// N, base.
@@ -22,9 +22,9 @@ pub struct Doubt {
     pub tool_length: f64,
 }
 
-impl Doubt {
+impl InputUncertainty {
     /// No doubt.
-    pub const NONE: Doubt = Doubt {
+    pub const NONE: InputUncertainty = InputUncertainty {
         relative: 0.0,
         forces: [Vector3::new(0.0, 0.0, 0.0); 3],
         tool_length: 0.0,
@@ -32,10 +32,10 @@ impl Doubt {
 
     /// With this doubt (N) of the force's components in `frame`, for a part that lies at `base_from_part`; `None` where
     /// they turn with a feed.
-    pub fn of_components(self, u: [f64; 3], frame: LoadFrame, base_from_part: &Isometry) -> Option<Doubt> {
+    pub fn of_components(self, u: [f64; 3], frame: LoadFrame, base_from_part: &Isometry) -> Option<InputUncertainty> {
         let axes = frame.axes(base_from_part, None)?;
         let axis = |k: usize| axes * Vector3::ith(k, u[k]);
-        Some(Doubt {
+        Some(InputUncertainty {
             forces: [axis(0), axis(1), axis(2)],
             ..self
         })
@@ -43,7 +43,7 @@ impl Doubt {
 
     /// Whether everything is sure.
     pub fn is_none(&self) -> bool {
-        *self == Doubt::NONE
+        *self == InputUncertainty::NONE
     }
 }
 
@@ -57,31 +57,31 @@ mod tests {
     #[test]
     fn doubt_told_in_the_part_turns_with_it_and_keeps_its_lengths() {
         let part = from_xyz_and_fixed_angles(Vector3::x(), Vector3::new(0.3, -0.8, 2.0));
-        let doubt = Doubt {
+        let uncertainty = InputUncertainty {
             relative: 0.1,
-            ..Doubt::NONE
+            ..InputUncertainty::NONE
         };
-        let told = doubt.of_components(U, LoadFrame::Part, &part).unwrap();
-        assert_eq!(told.relative, 0.1);
+        let given = uncertainty.of_components(U, LoadFrame::Part, &part).unwrap();
+        assert_eq!(given.relative, 0.1);
         // Variance along any direction: the sum of squares of the parts along it.
         let along = Vector3::new(0.48, -0.6, 0.64);
-        let variance: f64 = told.forces.iter().map(|u| u.dot(&along).powi(2)).sum();
+        let variance: f64 = given.forces.iter().map(|u| u.dot(&along).powi(2)).sum();
         let in_part = part.rotation.inverse() * along;
         let expected: f64 = (0..3).map(|k| (U[k] * in_part[k]).powi(2)).sum();
         assert!(
             (variance - expected).abs() < 1e-15 * 10.0,
             "{variance} {expected}"
         );
-        let in_base = doubt.of_components(U, LoadFrame::Base, &part).unwrap();
+        let in_base = uncertainty.of_components(U, LoadFrame::Base, &part).unwrap();
         assert_eq!(in_base.forces[1], Vector3::new(0.0, 2.0, 0.0));
     }
 
     #[test]
     fn doubt_that_turns_with_a_feed_is_none_without_one() {
-        let told = Doubt::NONE.of_components(U, LoadFrame::Feed, &Isometry::identity());
-        assert_eq!(told, None);
-        assert!(Doubt::NONE.is_none());
-        let some = Doubt::NONE.of_components(U, LoadFrame::Base, &Isometry::identity());
+        let given = InputUncertainty::NONE.of_components(U, LoadFrame::Feed, &Isometry::identity());
+        assert_eq!(given, None);
+        assert!(InputUncertainty::NONE.is_none());
+        let some = InputUncertainty::NONE.of_components(U, LoadFrame::Base, &Isometry::identity());
         assert!(!some.unwrap().is_none());
     }
 }

@@ -37,8 +37,8 @@ fn pass(from: Point3<f64>, to: Point3<f64>, direction: Vector3<f64>) -> Pass {
 }
 
 /// Immersion angles of a bite where the cutter has the radius `rho`.
-fn arc_at(bite: &Bite, rho: f64) -> [f64; 2] {
-    let arc = bite.strip.and_then(|strip| strip.arc_at(rho)).unwrap();
+fn arc_at(engagement: &Bite, rho: f64) -> [f64; 2] {
+    let arc = engagement.strip.and_then(|strip| strip.arc_at(rho)).unwrap();
     [arc.entry, arc.exit]
 }
 
@@ -50,9 +50,9 @@ fn line(stock: &mut Stock, from: Point3<f64>, to: Point3<f64>, step: f64, cutter
     (0..=pieces as usize)
         .map(|k| {
             let at = from + way * (k as f64 / pieces);
-            let bite = stock.cut(&pass(before, at, way), cutter).unwrap();
+            let engagement = stock.cut(&pass(before, at, way), cutter).unwrap();
             before = at;
-            bite
+            engagement
         })
         .collect()
 }
@@ -78,10 +78,10 @@ fn a_first_pass_is_a_slot_from_0_to_180_deg_whatever_its_direction() {
             place(angle, -20.0 * MM, 0.0, -DEPTH),
             place(angle, 20.0 * MM, 0.0, -DEPTH),
         );
-        for bite in line(&mut stock, from, to, 0.7 * MM, &flat()) {
-            assert_eq!(bite.kind, BiteKind::Slot);
-            assert_eq!(arc_at(&bite, RADIUS), [0.0, PI]);
-            assert!((bite.depth - DEPTH).abs() < 1e-9 && bite.width == 2.0 * RADIUS);
+        for engagement in line(&mut stock, from, to, 0.7 * MM, &flat()) {
+            assert_eq!(engagement.kind, EngagementKind::Slot);
+            assert_eq!(arc_at(&engagement, RADIUS), [0.0, PI]);
+            assert!((engagement.depth - DEPTH).abs() < 1e-9 && engagement.width == 2.0 * RADIUS);
         }
     }
 }
@@ -98,24 +98,24 @@ fn a_pass_beside_another_has_the_closed_immersion_of_its_width() {
                     let beside = end(-5.0, side * ae);
                     // In the slot, still short of the start: it only clears the way.
                     line(&mut stock, end(-8.0, side * ae), beside, MM, &flat());
-                    for bite in line(&mut stock, beside, end(-3.0, side * ae), step, &flat()) {
+                    for engagement in line(&mut stock, beside, end(-3.0, side * ae), step, &flat()) {
                         let immersion = (1.0 - ae / RADIUS).acos();
                         let expected = if side > 0.0 {
                             [0.0, immersion]
                         } else {
                             [PI - immersion, PI]
                         };
-                        let [entry, exit] = arc_at(&bite, RADIUS);
-                        let told = format!("{angle} {ae} {step} {bite:?}");
-                        assert_eq!(bite.kind, BiteKind::Strip, "{told}");
+                        let [entry, exit] = arc_at(&engagement, RADIUS);
+                        let given = format!("{angle} {ae} {step} {engagement:?}");
+                        assert_eq!(engagement.kind, EngagementKind::Strip, "{given}");
                         assert!(
                             is_at(entry, expected[0], EDGE) && is_at(exit, expected[1], EDGE),
-                            "{told}"
+                            "{given}"
                         );
-                        assert!((bite.width - ae).abs() <= EDGE * PITCH, "{told}");
+                        assert!((engagement.width - ae).abs() <= EDGE * PITCH, "{given}");
                         let away = if side > 0.0 { entry } else { PI - exit };
-                        assert!(away == 0.0 && bite.width == bite.strip.unwrap().width(), "{told}");
-                        assert!((bite.depth - DEPTH).abs() < 1e-9, "{told}");
+                        assert!(away == 0.0 && engagement.width == engagement.strip.unwrap().width(), "{given}");
+                        assert!((engagement.depth - DEPTH).abs() < 1e-9, "{given}");
                     }
                 }
             }
@@ -128,9 +128,9 @@ fn the_volume_of_a_step_is_its_section_times_its_length() {
     let mut stock = stock(PITCH);
     let at = |x: f64, y: f64| Point3::new(x, y, -3.0) * MM;
     line(&mut stock, at(-50.0, 0.0), at(50.0, 0.0), 100.0 * MM, &flat());
-    let bites = line(&mut stock, at(-40.0, 2.0), at(40.0, 2.0), MM, &flat());
-    let sum: f64 = bites[20..].iter().map(|bite| bite.volume).sum();
-    let steps = (bites.len() - 20) as f64;
+    let engagements = line(&mut stock, at(-40.0, 2.0), at(40.0, 2.0), MM, &flat());
+    let sum: f64 = engagements[20..].iter().map(|engagement| engagement.volume).sum();
+    let steps = (engagements.len() - 20) as f64;
     // The wall is on a row of cells: what is left is the start and the end of the stretch, a pitch each.
     let section = 2.0 * MM * DEPTH;
     assert!(
@@ -148,9 +148,9 @@ fn a_pass_where_all_is_cut_already_is_air() {
                 let from = place(angle, -20.3 * MM, 1.07 * MM, -DEPTH);
                 let to = place(angle, 17.1 * MM, 1.07 * MM, -DEPTH + rise * MM);
                 line(&mut stock, from, to, 0.6 * MM, &cutter);
-                for bite in line(&mut stock, from, to, 0.6 * MM, &cutter) {
-                    assert_eq!((bite.kind, bite.strip), (BiteKind::Air, None), "{angle} {rise}");
-                    assert_eq!([bite.width, bite.depth, bite.volume], [0.0; 3], "{angle} {rise}");
+                for engagement in line(&mut stock, from, to, 0.6 * MM, &cutter) {
+                    assert_eq!((engagement.kind, engagement.strip), (EngagementKind::Air, None), "{angle} {rise}");
+                    assert_eq!([engagement.width, engagement.depth, engagement.volume], [0.0; 3], "{angle} {rise}");
                 }
             }
         }
@@ -177,16 +177,16 @@ fn the_wall_of_a_round_pocket_is_met_on_the_closed_arc() {
     }
     let mut wall = 15.0 * MM;
     for ring in [11.5 * MM, 13.0 * MM] {
-        let bites = round(&mut stock, ring, 150, &flat());
+        let engagements = round(&mut stock, ring, 150, &flat());
         // Where a point of the rim is as far from the centre as the wall: law of cosines.
         let half = ((wall * wall - ring * ring - RADIUS * RADIUS) / (2.0 * ring * RADIUS)).acos();
         // Not near the start, whose disc is cut already when the ring closes.
-        for bite in &bites[60..110] {
-            assert_eq!(bite.kind, BiteKind::Strip);
-            let [entry, exit] = arc_at(bite, RADIUS);
+        for engagement in &engagements[60..110] {
+            assert_eq!(engagement.kind, EngagementKind::Strip);
+            let [entry, exit] = arc_at(engagement, RADIUS);
             assert_eq!(exit, PI);
             // The arc leaves its chord within the window by another part of a pitch.
-            assert!(is_at(entry, PI - half, 1.2), "{} {bite:?}", PI - half);
+            assert!(is_at(entry, PI - half, 1.2), "{} {engagement:?}", PI - half);
         }
         // A straight wall would be met over less: the test can tell.
         let straight = (1.0 - (ring + RADIUS - wall) / RADIUS).acos();
@@ -197,7 +197,7 @@ fn the_wall_of_a_round_pocket_is_met_on_the_closed_arc() {
     assert!(
         again
             .iter()
-            .all(|bite| bite.kind == BiteKind::Air && bite.volume == 0.0)
+            .all(|engagement| engagement.kind == EngagementKind::Air && engagement.volume == 0.0)
     );
 }
 
@@ -205,24 +205,24 @@ fn the_wall_of_a_round_pocket_is_met_on_the_closed_arc() {
 fn entering_and_leaving_a_face_follow_the_rim() {
     let mut stock = stock(PITCH);
     let at = |x: f64| Point3::new(x * MM, 0.0, -DEPTH);
-    let bites = line(&mut stock, at(-70.0), at(70.0), MM, &flat());
-    for (k, bite) in bites.iter().enumerate() {
+    let engagements = line(&mut stock, at(-70.0), at(70.0), MM, &flat());
+    for (k, engagement) in engagements.iter().enumerate() {
         // From the centre of the tool to the face at -60 mm.
         let short = -60.0 * MM - (-70.0 + k as f64) * MM;
         if short >= RADIUS + 2.0 * PITCH || short <= -120.0 * MM {
-            assert_eq!(bite.kind, BiteKind::Air, "{k}");
+            assert_eq!(engagement.kind, EngagementKind::Air, "{k}");
             continue;
         }
         if (0.2 * RADIUS..0.9 * RADIUS).contains(&short) {
             let entry = (short / RADIUS).asin();
             // The face lies across: a pitch along the feed is a pitch times tan(phi) along the rim's y.
             let off = 1.5 * entry.tan() + EDGE;
-            let [enters, leaves] = arc_at(bite, RADIUS);
-            assert!(is_at(enters, entry, off), "{k} {bite:?}");
-            assert!(is_at(leaves, PI - entry, off), "{k} {bite:?}");
+            let [enters, leaves] = arc_at(engagement, RADIUS);
+            assert!(is_at(enters, entry, off), "{k} {engagement:?}");
+            assert!(is_at(leaves, PI - entry, off), "{k} {engagement:?}");
         }
         if (-115.0 * MM..0.0).contains(&short) {
-            assert_eq!(bite.kind, BiteKind::Slot, "{k}");
+            assert_eq!(engagement.kind, EngagementKind::Slot, "{k}");
         }
     }
 }
@@ -244,21 +244,21 @@ fn engagement_rises_towards_an_inner_corner() {
     clear(&mut stock, [-60.0, -60.0], [20.0, 10.0]);
     // The wall y = 10 mm is met with 2 mm, the wall x = 20 mm is ahead.
     let at = |x: f64| Point3::new(x * MM, 7.0 * MM, -DEPTH);
-    let bites = line(&mut stock, at(-30.0), at(20.0), 0.5 * MM, &flat());
+    let engagements = line(&mut stock, at(-30.0), at(20.0), 0.5 * MM, &flat());
     let side = (1.0 - 2.0 / 5.0_f64).acos();
     let mut exits = Vec::new();
-    for (k, bite) in bites.iter().enumerate().skip(30) {
+    for (k, engagement) in engagements.iter().enumerate().skip(30) {
         let away = (50.0 - 0.5 * k as f64) * MM;
         if away > RADIUS + 2.0 * PITCH {
-            assert_eq!(bite.kind, BiteKind::Strip);
-            assert!(is_at(arc_at(bite, RADIUS)[1], side, EDGE), "{k} {bite:?}");
+            assert_eq!(engagement.kind, EngagementKind::Strip);
+            assert!(is_at(arc_at(engagement, RADIUS)[1], side, EDGE), "{k} {engagement:?}");
         } else if away < 0.75 * RADIUS {
             // The rim passes x = 20 mm at sin(phi) = away/R, on the side of the free part.
             let exit = PI - (away / RADIUS).asin();
             // A pitch along the feed and one of the corner that the thin cutter leaves.
             let off = 2.0 * (away / RADIUS).asin().tan() + EDGE;
-            let [enters, leaves] = arc_at(bite, RADIUS);
-            assert!(enters == 0.0 && is_at(leaves, exit, off), "{k} {exit} {bite:?}");
+            let [enters, leaves] = arc_at(engagement, RADIUS);
+            assert!(enters == 0.0 && is_at(leaves, exit, off), "{k} {exit} {engagement:?}");
             exits.push(leaves);
         }
     }
@@ -266,7 +266,7 @@ fn engagement_rises_towards_an_inner_corner() {
         exits.len() > 6 && exits.windows(2).all(|pair| pair[1] >= pair[0] - 1e-12),
         "{exits:?}"
     );
-    assert_eq!(bites.last().unwrap().kind, BiteKind::Slot);
+    assert_eq!(engagements.last().unwrap().kind, EngagementKind::Slot);
 }
 
 #[test]
@@ -275,12 +275,12 @@ fn of_two_strips_beside_a_channel_one_is_told_and_not_both() {
     let at = |x: f64| Point3::new(x * MM, 0.0, -DEPTH);
     let channel = EndMillBody::new(5.0 * MM, 0.0).unwrap();
     line(&mut stock, at(-50.0), at(50.0), 100.0 * MM, &channel);
-    let bites = line(&mut stock, at(-20.0), at(0.0), MM, &flat());
-    for bite in &bites {
-        let [entry, exit] = arc_at(bite, RADIUS);
+    let engagements = line(&mut stock, at(-20.0), at(0.0), MM, &flat());
+    for engagement in &engagements {
+        let [entry, exit] = arc_at(engagement, RADIUS);
         let upper = entry == 0.0 && is_at(exit, PI / 3.0, EDGE);
         let lower = exit == PI && is_at(entry, 2.0 * PI / 3.0, EDGE);
-        assert!(upper || lower, "{bite:?}");
+        assert!(upper || lower, "{engagement:?}");
     }
 }
 
@@ -290,11 +290,11 @@ fn a_rib_narrower_than_the_cutter_is_met_in_the_middle() {
     clear(&mut stock, [-60.0, -20.0], [60.0, -2.0]);
     clear(&mut stock, [-60.0, 3.0], [60.0, 20.0]);
     let at = |x: f64| Point3::new(x * MM, 0.0, -DEPTH);
-    for bite in line(&mut stock, at(-20.0), at(0.0), MM, &flat()) {
-        assert_eq!(bite.kind, BiteKind::Strip);
-        let [entry, exit] = arc_at(&bite, RADIUS);
-        assert!(is_at(entry, 0.6_f64.acos(), 2.0 * EDGE), "{bite:?}");
-        assert!(is_at(exit, (-0.4_f64).acos(), 2.0 * EDGE), "{bite:?}");
+    for engagement in line(&mut stock, at(-20.0), at(0.0), MM, &flat()) {
+        assert_eq!(engagement.kind, EngagementKind::Strip);
+        let [entry, exit] = arc_at(&engagement, RADIUS);
+        assert!(is_at(entry, 0.6_f64.acos(), 2.0 * EDGE), "{engagement:?}");
+        assert!(is_at(exit, (-0.4_f64).acos(), 2.0 * EDGE), "{engagement:?}");
     }
 }
 
@@ -305,14 +305,14 @@ fn a_ramp_bites_deeper_step_by_step_and_a_plunge_all_round() {
         Point3::new(-20.0, 0.0, 0.0) * MM,
         Point3::new(20.0, 0.0, -4.0) * MM,
     );
-    let bites = line(&mut stock, from, to, MM, &flat());
-    let steps = (bites.len() - 1) as f64;
-    for (k, bite) in bites.iter().enumerate().skip(1) {
-        assert_eq!(bite.kind, BiteKind::Slot, "{k}");
-        assert_eq!(arc_at(bite, RADIUS), [0.0, PI], "{k}");
+    let engagements = line(&mut stock, from, to, MM, &flat());
+    let steps = (engagements.len() - 1) as f64;
+    for (k, engagement) in engagements.iter().enumerate().skip(1) {
+        assert_eq!(engagement.kind, EngagementKind::Slot, "{k}");
+        assert_eq!(arc_at(engagement, RADIUS), [0.0, PI], "{k}");
         assert!(
-            (bite.depth - 4.0 * MM * k as f64 / steps).abs() < 1e-8,
-            "{k} {bite:?}"
+            (engagement.depth - 4.0 * MM * k as f64 / steps).abs() < 1e-8,
+            "{k} {engagement:?}"
         );
     }
     let down = [
@@ -320,13 +320,13 @@ fn a_ramp_bites_deeper_step_by_step_and_a_plunge_all_round() {
         Point3::new(0.0, 30.0, -2.0) * MM,
     ];
     let plunge = line(&mut stock, down[0], down[1], MM, &flat());
-    let kinds: Vec<BiteKind> = plunge.iter().map(|bite| bite.kind).collect();
-    let (air, dive) = (BiteKind::Air, BiteKind::Plunge);
+    let kinds: Vec<EngagementKind> = plunge.iter().map(|engagement| engagement.kind).collect();
+    let (air, dive) = (EngagementKind::Air, EngagementKind::Plunge);
     assert_eq!(kinds, [air, air, dive, dive]);
     assert!((plunge[3].depth - MM).abs() < 1e-8);
     assert_eq!((plunge[3].strip, plunge[3].width), (None, 2.0 * RADIUS));
     let up = line(&mut stock, down[1], down[0], MM, &flat());
-    assert!(up.iter().all(|bite| bite.kind == air && bite.volume == 0.0));
+    assert!(up.iter().all(|engagement| engagement.kind == air && engagement.volume == 0.0));
 }
 
 #[test]
@@ -338,14 +338,14 @@ fn a_ball_is_engaged_up_to_the_height_of_the_material() {
             place(0.4, 9.0 * MM, 0.0, -depth),
         );
         let wide = ball().radius_at(depth);
-        for bite in line(&mut stock, from, to, MM, &ball()) {
-            assert_eq!(bite.kind, BiteKind::Slot, "{depth}");
-            assert_eq!(arc_at(&bite, wide), [0.0, PI], "{depth}");
+        for engagement in line(&mut stock, from, to, MM, &ball()) {
+            assert_eq!(engagement.kind, EngagementKind::Slot, "{depth}");
+            assert_eq!(arc_at(&engagement, wide), [0.0, PI], "{depth}");
             // It goes on beyond the circle that cuts.
-            assert_eq!(bite.strip.unwrap().edges(), [-RADIUS, RADIUS]);
+            assert_eq!(engagement.strip.unwrap().edges(), [-RADIUS, RADIUS]);
             // Heights are rounded to 1e-9 m; a ball of 5 mm is 2.8 times as wide per height at 0.3 mm, on two sides.
-            assert!((bite.width - 2.0 * wide).abs() < 1e-8, "{depth} {bite:?}");
-            assert!((bite.depth - depth).abs() < 1e-8, "{depth} {bite:?}");
+            assert!((engagement.width - 2.0 * wide).abs() < 1e-8, "{depth} {engagement:?}");
+            assert!((engagement.depth - depth).abs() < 1e-8, "{depth} {engagement:?}");
         }
     }
 }
@@ -359,16 +359,16 @@ fn a_ball_beside_its_own_groove_meets_the_ridge_between() {
     line(&mut stock, at(-40.0, apart), at(-10.0, apart), 30.0 * MM, &ball());
     // Left of the middle between both grooves the ball reaches below the first one.
     let (left, right) = (ball().radius_at(depth), -apart / 2.0);
-    for bite in line(&mut stock, at(-10.0, apart), at(10.0, apart), MM, &ball()) {
-        assert_eq!(bite.kind, BiteKind::Strip);
-        let off = bite.width - (left - right);
+    for engagement in line(&mut stock, at(-10.0, apart), at(10.0, apart), MM, &ball()) {
+        assert_eq!(engagement.kind, EngagementKind::Strip);
+        let off = engagement.width - (left - right);
         // The stack has discs of a sixth of the engaged radius: the lowest that meets the ridge tells where it begins.
-        assert!(off.abs() < left / 6.0 + EDGE * PITCH, "{off} {bite:?}");
+        assert!(off.abs() < left / 6.0 + EDGE * PITCH, "{off} {engagement:?}");
         // The ridge goes on beyond where the ball is as high as it; the width is told at that height.
-        let [right, beyond] = bite.strip.unwrap().edges();
+        let [right, beyond] = engagement.strip.unwrap().edges();
         assert!(
-            beyond == RADIUS && (bite.width - (left - right)).abs() < 1e-8,
-            "{bite:?}"
+            beyond == RADIUS && (engagement.width - (left - right)).abs() < 1e-8,
+            "{engagement:?}"
         );
     }
 }
@@ -382,8 +382,8 @@ fn the_immersion_converges_with_the_pitch() {
             let end = |along: f64, left: f64| place(angle, along * MM, left, -DEPTH);
             line(&mut stock, end(-20.0, 0.0), end(20.0, 0.0), 40.0 * MM, &flat());
             line(&mut stock, end(-8.0, ae), end(-5.0, ae), 3.0 * MM, &flat());
-            let bites = line(&mut stock, end(-5.0, ae), end(-4.0, ae), 0.5 * MM, &flat());
-            let errors = bites.iter().map(|bite| (bite.width - ae).abs());
+            let engagements = line(&mut stock, end(-5.0, ae), end(-4.0, ae), 0.5 * MM, &flat());
+            let errors = engagements.iter().map(|engagement| (engagement.width - ae).abs());
             errors.fold(0.0, f64::max)
         });
         errors.fold(0.0, f64::max)

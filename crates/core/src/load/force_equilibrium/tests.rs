@@ -16,7 +16,7 @@ fn cut(cutter: &Cutter, immersion: Immersion) -> Cut {
     }
 }
 
-fn drawn(cutter: Cutter, cut: Cut) -> Vector3<f64> {
+fn nominal_force(cutter: Cutter, cut: Cut) -> Vector3<f64> {
     Milling::new(cutter, law(), cut).unwrap().mean().force
 }
 
@@ -28,22 +28,22 @@ fn settled(rest: Rest) -> Vector3<f64> {
 }
 
 /// A tip that yields by `um_n` along each axis, and a little across them.
-fn tip(um_n: f64) -> TipYield {
+fn tip(um_n: f64) -> TipCompliance {
     let a = Matrix3::new(1.0, 0.2, -0.1, 0.2, 0.8, 0.15, -0.1, 0.15, 1.3);
-    TipYield {
+    TipCompliance {
         by_force: a * (um_n * 1e-6),
         unloaded: Vector3::new(3e-6, -5e-6, -8e-6),
     }
 }
 
 /// By halves: the force that is met when the deviation grows from nothing, in steps so small that it cannot run away.
-fn crept(cutter: Cutter, cut: &Cut, tip: &TipYield) -> Vector2<f64> {
+fn relaxed(cutter: Cutter, cut: &Cut, tip: &TipCompliance) -> Vector2<f64> {
     let mut s = Vector2::zeros();
     for _ in 0..200_000 {
         let force = cut
-            .strayed(s, cutter.radius())
-            .map_or_else(Vector3::zeros, |cut| drawn(cutter, cut));
-        s += (strays(tip, force) - s) * 0.02;
+            .deflected(s, cutter.radius())
+            .map_or_else(Vector3::zeros, |cut| nominal_force(cutter, cut));
+        s += (offset_under(tip, force) - s) * 0.02;
     }
     s
 }
@@ -58,13 +58,13 @@ fn at_rest_the_deviation_is_that_of_the_force_and_the_force_that_of_the_cut() {
             Immersion::Centred(4e-3),
         ] {
             let cut = cut(&cutter, immersion);
-            let force = drawn(cutter, cut);
+            let force = nominal_force(cutter, cut);
             for um_n in [0.01, 0.3, 1.0, 3.0] {
                 let tip = tip(um_n);
-                let mut straying = Straying::new(cutter, law());
-                let s = strays(&tip, settled(straying.rest(&cut, force, &tip)));
-                let met = cut.strayed(s, cutter.radius()).map(|cut| drawn(cutter, cut));
-                let again = strays(&tip, met.unwrap());
+                let mut equilibrium = ForceEquilibrium::new(cutter, law());
+                let s = offset_under(&tip, settled(equilibrium.rest(&cut, force, &tip)));
+                let met = cut.deflected(s, cutter.radius()).map(|cut| nominal_force(cutter, cut));
+                let again = offset_under(&tip, met.unwrap());
                 let size = (tip.by_force * force).norm();
                 assert!(
                     (again - s).norm() < 1e-4 * size,
@@ -81,10 +81,10 @@ fn creeping_there_ends_at_the_same_place() {
     for immersion in [Immersion::Up(3e-3), Immersion::Slot] {
         let cut = cut(&cutter, immersion);
         let tip = tip(1.0);
-        let rest = Straying::new(cutter, law()).rest(&cut, drawn(cutter, cut), &tip);
-        let crept = crept(cutter, &cut, &tip);
-        let found = strays(&tip, settled(rest));
-        assert!((found - crept).norm() < 1e-4 * crept.norm(), "{found} {crept}");
+        let rest = ForceEquilibrium::new(cutter, law()).rest(&cut, nominal_force(cutter, cut), &tip);
+        let relaxed = relaxed(cutter, &cut, &tip);
+        let found = offset_under(&tip, settled(rest));
+        assert!((found - relaxed).norm() < 1e-4 * relaxed.norm(), "{found} {relaxed}");
     }
 }
 
@@ -95,13 +95,13 @@ fn a_tip_that_yields_along_the_tool_alone_rests_where_a_straight_line_says() {
     let cutter = Cutter::flat(10e-3, 2).unwrap();
     let cutter = cutter.with_helix(0.6, Hand::Left).unwrap();
     let cut = cut(&cutter, Immersion::Slot);
-    let force = drawn(cutter, cut);
+    let force = nominal_force(cutter, cut);
     for a in [1e-8, 1e-6, 1e-5, 1e-4] {
-        let tip = TipYield {
+        let tip = TipCompliance {
             by_force: Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, a)),
             unloaded: Vector3::zeros(),
         };
-        let rest = Straying::new(cutter, law()).rest(&cut, force, &tip);
+        let rest = ForceEquilibrium::new(cutter, law()).rest(&cut, force, &tip);
         let stiff = a * force.z;
         let expected = stiff / (1.0 + stiff / cut.depth);
         assert!(
@@ -115,12 +115,12 @@ fn a_tip_that_yields_along_the_tool_alone_rests_where_a_straight_line_says() {
 fn a_stiff_tip_feels_the_force_of_the_drawing() {
     let cutter = Cutter::flat(10e-3, 2).unwrap();
     let cut = cut(&cutter, Immersion::Down(3e-3));
-    let force = drawn(cutter, cut);
-    let tip = TipYield {
+    let force = nominal_force(cutter, cut);
+    let tip = TipCompliance {
         by_force: Matrix3::identity() * 1e-15,
         unloaded: Vector3::zeros(),
     };
-    let rest = Straying::new(cutter, law()).rest(&cut, force, &tip);
+    let rest = ForceEquilibrium::new(cutter, law()).rest(&cut, force, &tip);
     assert!((settled(rest) - force).norm() < 1e-6 * force.norm());
 }
 
@@ -130,16 +130,16 @@ fn a_tool_that_is_drawn_in_deeper_than_it_went_does_not_rest() {
     let cutter = Cutter::flat(10e-3, 2).unwrap();
     let cutter = cutter.with_helix(0.6, Hand::Right).unwrap();
     let cut = cut(&cutter, Immersion::Slot);
-    let force = drawn(cutter, cut);
+    let force = nominal_force(cutter, cut);
     assert!(force.z < 0.0);
-    let soft = |over: f64| TipYield {
+    let soft = |over: f64| TipCompliance {
         by_force: Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, over * cut.depth / -force.z)),
         unloaded: Vector3::zeros(),
     };
-    let rest = Straying::new(cutter, law()).rest(&cut, force, &soft(2.0));
-    assert_eq!(rest, Rest::DrawnIn);
+    let rest = ForceEquilibrium::new(cutter, law()).rest(&cut, force, &soft(2.0));
+    assert_eq!(rest, Rest::PulledIn);
     // At half of that it goes twice as deep as drawn, and stays there.
-    let rest = Straying::new(cutter, law()).rest(&cut, force, &soft(0.5));
+    let rest = ForceEquilibrium::new(cutter, law()).rest(&cut, force, &soft(0.5));
     assert!((settled(rest).z / force.z - 2.0).abs() < 1e-4);
 }
 
@@ -147,10 +147,10 @@ fn a_tool_that_is_drawn_in_deeper_than_it_went_does_not_rest() {
 fn weight_that_lifts_the_tool_out_of_the_cut_leaves_no_force() {
     let cutter = Cutter::flat(10e-3, 2).unwrap();
     let cut = cut(&cutter, Immersion::Slot);
-    let tip = TipYield {
+    let tip = TipCompliance {
         by_force: Matrix3::identity() * 1e-9,
         unloaded: Vector3::new(0.0, 0.0, 3e-3),
     };
-    let rest = Straying::new(cutter, law()).rest(&cut, drawn(cutter, cut), &tip);
+    let rest = ForceEquilibrium::new(cutter, law()).rest(&cut, nominal_force(cutter, cut), &tip);
     assert_eq!(rest, Rest::Settled(Vector3::zeros()));
 }

@@ -3,7 +3,7 @@
 use super::*;
 use crate::arms::{self, Stream};
 use crate::frame::Isometry;
-use crate::load::Doubt;
+use crate::load::InputUncertainty;
 use crate::robot::inverse::tool_on;
 use crate::robot::{Compensator, JointCurve, Mass, Robot, Spring, Structure, TorqueCurve};
 use crate::source::StiffnessModel;
@@ -18,24 +18,24 @@ fn spring(value: f64) -> JointCompliance {
 
 fn springs() -> Vec<Spring> {
     vec![
-        Spring::about(Seat::Joint(1), Vector3::x(), spring(2.4e-7)),
-        Spring::about(Seat::Base, Vector3::y(), spring(4e-8)),
-        Spring::along(Seat::Tool, Vector3::x(), spring(9e-7)),
-        Spring::about(Seat::Joint(4), Vector3::new(0.6, 0.0, 0.8), spring(1e-6)),
+        Spring::about(Attachment::Joint(1), Vector3::x(), spring(2.4e-7)),
+        Spring::about(Attachment::Base, Vector3::y(), spring(4e-8)),
+        Spring::along(Attachment::Tool, Vector3::x(), spring(9e-7)),
+        Spring::about(Attachment::Joint(4), Vector3::new(0.6, 0.0, 0.8), spring(1e-6)),
     ]
 }
 
 fn masses() -> Vec<Mass> {
-    let mass = |seat, mass, z| Mass {
-        seat,
+    let mass = |attachment, mass, z| Mass {
+        attachment,
         mass,
         centre: Point3::new(0.1, -0.05, z),
     };
     vec![
-        mass(Seat::Joint(0), 260.0, -0.1),
-        mass(Seat::Joint(1), 150.0, 0.2),
-        mass(Seat::Joint(3), 80.0, 0.0),
-        mass(Seat::Flange, 20.0, 0.1),
+        mass(Attachment::Joint(0), 260.0, -0.1),
+        mass(Attachment::Joint(1), 150.0, 0.2),
+        mass(Attachment::Joint(3), 80.0, 0.0),
+        mass(Attachment::Flange, 20.0, 0.1),
     ]
 }
 
@@ -90,7 +90,7 @@ fn robot() -> &'static Robot {
     &arms::ALL[3]
 }
 
-fn held<'a>(model: &'a StiffnessModel, tool: &'a Isometry) -> Arm<'a> {
+fn evaluation<'a>(model: &'a StiffnessModel, tool: &'a Isometry) -> Arm<'a> {
     Arm {
         robot: robot(),
         compliance: robot().compliance().unwrap(),
@@ -112,10 +112,10 @@ fn sensitivities_match_differences_with_every_part_at_once() {
     let mut stream = Stream(61);
     for _ in 0..10 {
         let (q, w) = (stream.joints(robot()), wrench(&mut stream));
-        let arm = held(&model, &tool);
-        let mut standing = Standing::new(arm);
-        standing.stand(&q);
-        crate::predict::deviation_of(&mut standing, &w, &mut Links::Neglected).unwrap();
+        let arm = evaluation(&model, &tool);
+        let mut arm_state = ArmState::new(arm);
+        arm_state.set_joints(&q);
+        crate::predict::deviation_of(&mut arm_state, &w, &mut Links::Neglected).unwrap();
         for k in 0..10_usize {
             // A curve stands in place of the compliance of joint 3.
             if k == 2 {
@@ -138,7 +138,7 @@ fn sensitivities_match_differences_with_every_part_at_once() {
             let step = 1e-4;
             let c = arm.compliances()[k].value;
             let witness = (changed(1.0 + step) - changed(1.0 - step)) / (2.0 * step * c);
-            let found = standing.sensitivity(k);
+            let found = arm_state.sensitivity(k);
             // Only a compensator makes it curved: by the square of the step. Rounding of some mm over it.
             let rounding = 1e-15 / (step * c);
             assert!(
@@ -152,25 +152,25 @@ fn sensitivities_match_differences_with_every_part_at_once() {
 #[test]
 fn shares_add_up_and_those_along_a_direction_are_their_projections() {
     let (tool, model) = (arms::bent_tool(), everything());
-    let mut standing = Standing::new(held(&model, &tool));
+    let mut arm_state = ArmState::new(evaluation(&model, &tool));
     let mut stream = Stream(62);
-    let sharers = model.sharers(6);
+    let contributors = model.contributors(6);
     for _ in 0..20 {
-        standing.stand(&stream.joints(robot()));
+        arm_state.set_joints(&stream.joints(robot()));
         let whole =
-            crate::predict::deviation_of(&mut standing, &wrench(&mut stream), &mut Links::Neglected).unwrap();
-        let shares = standing.shares();
+            crate::predict::deviation_of(&mut arm_state, &wrench(&mut stream), &mut Links::Neglected).unwrap();
+        let shares = arm_state.shares();
         let sum: Twist = shares.iter().copied().sum();
         // Some ten parts of some mm.
         assert!((sum.to_vector() - whole.to_vector()).norm() < 1e-16);
         let along = stream.vector(1.0).normalize();
         // What stood there before is gone.
-        let mut told = vec![7.0; sharers.len()];
-        standing.share_along(&along, &sharers, &mut told);
-        for (share, told) in shares.iter().zip(&told) {
-            assert!((share.linear.dot(&along) - told).abs() < 1e-17);
+        let mut given = vec![7.0; contributors.len()];
+        arm_state.share_along(&along, &contributors, &mut given);
+        for (share, given) in shares.iter().zip(&given) {
+            assert!((share.linear.dot(&along) - given).abs() < 1e-17);
         }
-        assert!((told.iter().sum::<f64>() - whole.linear.dot(&along)).abs() < 1e-16);
+        assert!((given.iter().sum::<f64>() - whole.linear.dot(&along)).abs() < 1e-16);
     }
 }
 
@@ -184,16 +184,16 @@ fn the_variance_along_a_direction_is_that_of_the_covariance() {
             let root = nalgebra::DMatrix::from_fn(7, 7, |i, j| ((3 * i + 5 * j + i * j) % 7) as f64 - 2.5);
             &root * root.transpose() * 1e-15
         });
-        let mut standing = Standing::new(held(&model, &tool));
-        standing.stand(&stream.joints(robot()));
-        standing.elastic(&wrench(&mut stream)).unwrap();
-        let covariance = standing.covariance();
+        let mut arm_state = ArmState::new(evaluation(&model, &tool));
+        arm_state.set_joints(&stream.joints(robot()));
+        arm_state.elastic(&wrench(&mut stream)).unwrap();
+        let covariance = arm_state.covariance();
         assert!((covariance - covariance.transpose()).norm() < 1e-14 * covariance.norm());
         for _ in 0..20 {
             let along = stream.vector(1.0).normalize();
-            let told = standing.variance_along(&along);
-            assert!(told >= 0.0);
-            assert!((along.dot(&(covariance * along)) - told).abs() < 1e-13 * covariance.norm());
+            let given = arm_state.variance_along(&along);
+            assert!(given >= 0.0);
+            assert!((along.dot(&(covariance * along)) - given).abs() < 1e-13 * covariance.norm());
         }
     }
 }
@@ -205,10 +205,10 @@ fn the_order_in_which_springs_are_listed_does_not_count() {
     listed_otherwise.structure.springs.reverse();
     let mut stream = Stream(64);
     let (q, w) = (stream.joints(robot()), wrench(&mut stream));
-    let told = [&model, &listed_otherwise].map(|model| arms::predicted(&held(model, &tool), &q, &w).unwrap());
-    assert!((told[0].twist - told[1].twist).to_vector().norm() < 1e-16);
-    assert!((told[0].covariance - told[1].covariance).norm() < 1e-13 * told[0].covariance.norm());
-    for (a, b) in told[0].shares.iter().zip(&told[1].shares) {
+    let given = [&model, &listed_otherwise].map(|model| arms::predicted(&evaluation(model, &tool), &q, &w).unwrap());
+    assert!((given[0].twist - given[1].twist).to_vector().norm() < 1e-16);
+    assert!((given[0].covariance - given[1].covariance).norm() < 1e-13 * given[0].covariance.norm());
+    for (a, b) in given[0].shares.iter().zip(&given[1].shares) {
         assert!((*a - *b).to_vector().norm() < 1e-16);
     }
 }
@@ -218,12 +218,12 @@ fn the_tip_yields_as_any_force_says_where_the_deviation_is_affine() {
     let (tool, mut model) = (arms::bent_tool(), everything());
     model.structure.curves.clear();
     assert!(model.is_affine());
-    let mut standing = Standing::new(held(&model, &tool));
+    let mut arm_state = ArmState::new(evaluation(&model, &tool));
     let mut stream = Stream(65);
     for _ in 0..20 {
-        standing.stand(&stream.joints(robot()));
-        let tip = standing.tip_yield().unwrap();
-        let block = standing
+        arm_state.set_joints(&stream.joints(robot()));
+        let tip = arm_state.tip_compliance().unwrap();
+        let block = arm_state
             .compliance()
             .unwrap()
             .fixed_view::<3, 3>(0, 0)
@@ -231,7 +231,7 @@ fn the_tip_yields_as_any_force_says_where_the_deviation_is_affine() {
         assert!((tip.by_force - block).norm() < 1e-14 * block.norm());
         let force = stream.vector(800.0);
         let found =
-            crate::predict::deviation_of(&mut standing, &Wrench::from_force(force), &mut Links::Neglected)
+            crate::predict::deviation_of(&mut arm_state, &Wrench::from_force(force), &mut Links::Neglected)
                 .unwrap();
         assert!((tip.under(force) - found.linear).norm() < 1e-16);
     }
@@ -245,27 +245,27 @@ fn a_compensator_stiffer_than_its_joint_leaves_no_rest_under_weight_or_load() {
         angle: 0.0,
         ..compensator()
     });
-    let mut standing = Standing::new(held(&model, &tool));
+    let mut arm_state = ArmState::new(evaluation(&model, &tool));
     let q = [0.1, 0.0, -0.3, 0.4, 0.5, -0.6];
-    standing.stand(&q);
+    arm_state.set_joints(&q);
     // The joint would turn on by itself: k - dM/dtheta is below zero.
     let slope = model.structure.compensator.unwrap().slope(robot().theta(1, &q));
     assert!(slope * robot().compliance().unwrap()[1].value > 1.0, "{slope}");
-    assert_eq!(standing.gravity(), Err(Unstable::Buckles));
-    assert_eq!(standing.elastic(&Wrench::ZERO), Err(Unstable::Buckles));
-    assert_eq!(standing.compliance(), None);
-    assert!(matches!(standing.tip_yield(), Err(Unstable::Buckles)));
+    assert_eq!(arm_state.gravity(), Err(Unstable::Buckles));
+    assert_eq!(arm_state.elastic(&Wrench::ZERO), Err(Unstable::Buckles));
+    assert_eq!(arm_state.compliance(), None);
+    assert!(matches!(arm_state.tip_compliance(), Err(Unstable::Buckles)));
 }
 
 #[test]
 fn without_gravity_no_gravity_is_told() {
     let (tool, mut model) = (arms::bent_tool(), everything());
     model.gravity = None;
-    let mut standing = Standing::new(held(&model, &tool));
-    standing.stand(&[0.1; 6]);
-    assert_eq!(standing.gravity(), Ok(None));
+    let mut arm_state = ArmState::new(evaluation(&model, &tool));
+    arm_state.set_joints(&[0.1; 6]);
+    assert_eq!(arm_state.gravity(), Ok(None));
     assert!(
-        standing.gravity_torques()[..1]
+        arm_state.gravity_torques()[..1]
             .iter()
             .all(|torque| *torque == 0.0)
     );
@@ -275,42 +275,42 @@ fn without_gravity_no_gravity_is_told() {
 fn standing_anew_leaves_nothing_of_the_posture_before() {
     let (tool, model) = (arms::bent_tool(), everything());
     let mut stream = Stream(66);
-    let mut used = Standing::new(held(&model, &tool));
+    let mut used = ArmState::new(evaluation(&model, &tool));
     for _ in 0..5 {
         let (q, w) = (stream.joints(robot()), wrench(&mut stream));
-        used.stand(&q);
+        used.set_joints(&q);
         let again = crate::predict::predict(&mut used, &w, &mut Links::Neglected).unwrap();
-        let anew = arms::predicted(&held(&model, &tool), &q, &w).unwrap();
+        let anew = arms::predicted(&evaluation(&model, &tool), &q, &w).unwrap();
         assert_eq!(again.twist, anew.twist);
         assert_eq!(again.shares, anew.shares);
         assert_eq!(again.covariance, anew.covariance);
-        used.stand(&stream.joints(robot()));
+        used.set_joints(&stream.joints(robot()));
     }
 }
 
 /// The variance that `doubt` makes along `along`, in one posture under one load.
-fn doubted(standing: &mut Standing<'_>, doubt: &Doubt, along: &Vector3<f64>) -> f64 {
+fn doubted(arm_state: &mut ArmState<'_>, uncertainty: &InputUncertainty, along: &Vector3<f64>) -> f64 {
     let q = [0.1, 0.5, -0.5, 0.4, 0.5, -0.6];
     let frames = crate::robot::forward::forward(robot(), &q);
-    let tool = tool_on(&frames, standing.arm().flange_from_tool);
+    let tool = tool_on(&frames, arm_state.arm().flange_from_tool);
     let wrench = Wrench::from_force(Vector3::new(100.0, 50.0, -300.0));
-    let stands = AsItStands {
+    let stands = LoadedPosture {
         joints: &q,
         frames: &frames,
         tcp: tool.translation.vector.into(),
         tool_axis: tool.rotation * Vector3::z(),
         wrench: &wrench,
     };
-    standing.stand_in(&q, &frames, &stands.tcp);
-    let before = standing.elastic(&wrench).unwrap();
-    let variance = standing.variance_of_doubt(doubt, &stands, along).unwrap();
+    arm_state.set_frames(&q, &frames, &stands.tcp);
+    let before = arm_state.elastic(&wrench).unwrap();
+    let variance = arm_state.variance_of_inputs(uncertainty, &stands, along).unwrap();
     // The arm stands as it stood.
-    assert_eq!(standing.elastic(&wrench).unwrap(), before);
+    assert_eq!(arm_state.elastic(&wrench).unwrap(), before);
     variance
 }
 
-fn doubt() -> Doubt {
-    Doubt {
+fn uncertainty() -> InputUncertainty {
+    InputUncertainty {
         relative: 0.05,
         forces: [Vector3::x() * 20.0, Vector3::zeros(), Vector3::new(0.0, 3.0, 4.0)],
         tool_length: 1e-4,
@@ -320,56 +320,56 @@ fn doubt() -> Doubt {
 #[test]
 fn twice_the_doubt_is_four_times_the_variance() {
     let (tool, model) = (arms::bent_tool(), StiffnessModel::DRIVES);
-    let mut standing = Standing::new(held(model, &tool));
+    let mut arm_state = ArmState::new(evaluation(model, &tool));
     let along = Vector3::new(0.6, 0.0, -0.8);
-    let one = doubt();
-    let twice = Doubt {
+    let one = uncertainty();
+    let twice = InputUncertainty {
         relative: 2.0 * one.relative,
         forces: one.forces.map(|force| force * 2.0),
         tool_length: 2.0 * one.tool_length,
     };
     let (of_one, of_twice) = (
-        doubted(&mut standing, &one, &along),
-        doubted(&mut standing, &twice, &along),
+        doubted(&mut arm_state, &one, &along),
+        doubted(&mut arm_state, &twice, &along),
     );
     // Linear in the load; a longer tool is a square more, of a lever of some metres by 0.1 mm.
     assert!(
         of_one > 0.0 && (of_twice / of_one - 4.0).abs() < 1e-3,
         "{of_one} {of_twice}"
     );
-    assert_eq!(doubted(&mut standing, &Doubt::NONE, &along), 0.0);
+    assert_eq!(doubted(&mut arm_state, &InputUncertainty::NONE, &along), 0.0);
 }
 
 #[test]
 fn parts_of_a_doubt_are_independent_and_each_is_its_own_change() {
     let (tool, model) = (arms::bent_tool(), StiffnessModel::DRIVES);
-    let mut standing = Standing::new(held(model, &tool));
+    let mut arm_state = ArmState::new(evaluation(model, &tool));
     let along = Vector3::new(0.6, 0.0, -0.8);
-    let all = doubt();
-    let relative = Doubt {
+    let all = uncertainty();
+    let relative = InputUncertainty {
         forces: [Vector3::zeros(); 3],
         tool_length: 0.0,
         ..all
     };
-    let forces = Doubt {
+    let forces = InputUncertainty {
         relative: 0.0,
         tool_length: 0.0,
         ..all
     };
-    let length = Doubt {
+    let length = InputUncertainty {
         relative: 0.0,
         forces: [Vector3::zeros(); 3],
         ..all
     };
     let [whole, of_relative, of_forces, of_length] =
-        [all, relative, forces, length].map(|doubt| doubted(&mut standing, &doubt, &along));
+        [all, relative, forces, length].map(|uncertainty| doubted(&mut arm_state, &uncertainty, &along));
     assert!((of_relative + of_forces + of_length - whole).abs() < 1e-14 * whole);
     // The load a twentieth larger: the displacement a twentieth larger.
     let wrench = Wrench::from_force(Vector3::new(100.0, 50.0, -300.0));
-    let told = standing.elastic(&wrench).unwrap().linear.dot(&along);
-    assert!((of_relative.sqrt() - 0.05 * told.abs()).abs() < 1e-12 * told.abs());
+    let given = arm_state.elastic(&wrench).unwrap().linear.dot(&along);
+    assert!((of_relative.sqrt() - 0.05 * given.abs()).abs() < 1e-12 * given.abs());
     // Forces: the compliance times each of them.
-    let block = standing
+    let block = arm_state
         .compliance()
         .unwrap()
         .fixed_view::<3, 3>(0, 0)

@@ -7,11 +7,11 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::Standing;
-use crate::robot::Seat;
+use super::ArmState;
+use crate::robot::Attachment;
 use crate::spatial::Twist;
 
-impl Standing<'_> {
+impl ArmState<'_> {
     /// Part of drive or spring `k` in the displacement under the last load, gravity included.
     pub fn part(&self, k: usize) -> Twist {
         let elastic = self.screws[k] * self.turns[k];
@@ -23,7 +23,7 @@ impl Standing<'_> {
 
     /// Displacement of the TCP per unit of compliance of drive or spring `k`, under the last load and gravity.
     pub fn sensitivity(&self, k: usize) -> Vector3<f64> {
-        let grown = self.held(k).map_or(1.0, |held| 1.0 / (held * held));
+        let grown = self.evaluation(k).map_or(1.0, |evaluation| 1.0 / (evaluation * evaluation));
         let elastic = self.screws[k].linear * self.torques[k];
         match self.sagged(k) {
             Some((_, (_, there))) => (elastic + self.screws[k].linear * self.before[k]) * grown - there,
@@ -31,21 +31,21 @@ impl Standing<'_> {
         }
     }
 
-    /// Parts by sharer ([`crate::source::StiffnessModel::sharers`]): a joint's drive with the springs on its seat, then the others.
+    /// Parts by contributor ([`crate::source::StiffnessModel::contributors`]): a joint's drive with the springs on its seat, then the others.
     pub fn shares(&self) -> Vec<Twist> {
-        let sharers = self.arm.model.sharers(self.theta.len());
-        let of = |sharer: &Seat| {
-            let own = (0..self.seats.len()).filter(|k| self.seats[*k] == *sharer);
+        let contributors = self.arm.model.contributors(self.theta.len());
+        let of = |contributor: &Attachment| {
+            let own = (0..self.attachments.len()).filter(|k| self.attachments[*k] == *contributor);
             own.map(|k| self.part(k)).sum()
         };
-        sharers.iter().map(of).collect()
+        contributors.iter().map(of).collect()
     }
 
-    /// Puts the part of each sharer along the unit vector `along` (m) into `shares`, one a sharer.
-    pub fn share_along(&self, along: &Vector3<f64>, sharers: &[Seat], shares: &mut [f64]) {
+    /// Puts the part of each contributor along the unit vector `along` (m) into `shares`, one a contributor.
+    pub fn share_along(&self, along: &Vector3<f64>, contributors: &[Attachment], shares: &mut [f64]) {
         shares.fill(0.0);
-        for (k, seat) in self.seats.iter().enumerate() {
-            if let Some(share) = sharers.iter().position(|sharer| sharer == seat) {
+        for (k, attachment) in self.attachments.iter().enumerate() {
+            if let Some(share) = contributors.iter().position(|contributor| contributor == attachment) {
                 shares[share] += self.part(k).linear.dot(along);
             }
         }
@@ -62,7 +62,7 @@ impl Standing<'_> {
         match self.arm.model.structure.model_error {
             0.0 => Vector3::zeros(),
             fraction => {
-                (0..self.seats.len())
+                (0..self.attachments.len())
                     .map(|k| self.part(k).linear)
                     .sum::<Vector3<f64>>()
                     * fraction

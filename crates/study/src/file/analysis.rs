@@ -3,7 +3,7 @@
 //! | of the ask | against the study's |
 //! |---|---|
 //! | `plane`, `posture` | key by key; one way of telling the rotation of a plane replaces the other |
-//! | `tool`, `load`, `cut`, `base`, `limit_um` | in place of it, whole |
+//! | `tool`, `load`, `cut`, `base`, `tolerance_um` | in place of it, whole |
 //!
 //! Every part is checked whether the others are fine or not, so that all problems of an ask are told at once. Along a
 //! path the study's cut comes before its load.
@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 use armill_core::frame::Isometry;
 use armill_core::kernel::BranchChoice;
-use armill_core::load::{Doubt, LoadCases, LoadFrame};
+use armill_core::load::{InputUncertainty, LoadCases, LoadFrame};
 use armill_core::map::BoxGrid;
 use armill_core::nalgebra::{Translation3, Vector3};
 use armill_core::optimize::PostureSearch;
@@ -21,40 +21,40 @@ use armill_core::robot::{BranchPattern, Robot};
 use armill_core::workpiece::Grid;
 use armill_formats::robot::RobotDescription;
 
-use super::format::{AskKind, AskTable, LoadFrameName, PlaneTable, PostureTable, StudyFile, ToolTable};
+use super::format::{AnalysisKind, AnalysisTable, LoadFrameName, PlaneTable, PostureTable, StudyFile, ToolTable};
 use super::holes;
 use super::memory;
 use super::path::{self, Push};
 use super::places::Places;
-use super::posture_search::{CountsName, SearchTable};
+use super::posture_search::{ComponentName, SearchTable};
 use super::quantities::{grid, load_cases, plane_at, pose_mm_deg, sizes, step};
 use super::resolve::{Setting, Sheet, Subject};
 use super::stiffness;
 use crate::StudyError;
 
 /// The word for a kind of ask.
-pub(crate) fn kind_name(kind: AskKind) -> &'static str {
+pub(crate) fn kind_name(kind: AnalysisKind) -> &'static str {
     match kind {
-        AskKind::Map => "map",
-        AskKind::Sections => "sections",
-        AskKind::Volume => "volume",
-        AskKind::Path => "path",
-        AskKind::Holes => "holes",
+        AnalysisKind::Map => "map",
+        AnalysisKind::Sections => "sections",
+        AnalysisKind::Volume => "volume",
+        AnalysisKind::Path => "path",
+        AnalysisKind::Holes => "holes",
     }
 }
 
 /// What one of this kind is called in a sentence.
-pub(super) fn kind_noun(kind: AskKind) -> &'static str {
+pub(super) fn kind_noun(kind: AnalysisKind) -> &'static str {
     match kind {
-        AskKind::Holes => "set of holes",
+        AnalysisKind::Holes => "set of holes",
         other => kind_name(other),
     }
 }
 
 /// The plane of the study with what the ask changes of it.
-pub(crate) fn plane_of(file: &StudyFile, ask: &AskTable) -> PlaneTable {
+pub(crate) fn plane_of(file: &StudyFile, analysis: &AnalysisTable) -> PlaneTable {
     let mut plane = file.plane.clone();
-    if let Some(change) = &ask.plane {
+    if let Some(change) = &analysis.plane {
         plane.centre_mm = change.centre_mm.unwrap_or(plane.centre_mm);
         if change.tilt_deg.is_some() || change.rotation_deg.is_some() {
             (plane.tilt_deg, plane.rotation_deg) = (change.tilt_deg, change.rotation_deg);
@@ -71,7 +71,7 @@ pub(super) struct Resolver<'a> {
     pub robot: Option<&'a RobotDescription>,
     /// The robot as it was measured, where its controller reckons with `robot`.
     pub actual: Option<&'a Arc<Robot>>,
-    pub table: &'a AskTable,
+    pub table: &'a AnalysisTable,
     /// Where files of the study are looked for.
     pub folder: &'a Path,
 }
@@ -99,24 +99,24 @@ impl Resolver<'_> {
         let setting = self.setting(places, &plane, push);
         // Each is checked whether the others are fine or not: all problems are told at once.
         Ok(match self.table.kind {
-            AskKind::Map => setting
+            AnalysisKind::Map => setting
                 .zip(grid)
                 .and_then(|(setting, grid)| self.sheet(places, setting, grid))
                 .map(Subject::Map),
-            AskKind::Sections => self.sections(places, setting.and(push), grid),
-            AskKind::Volume => self.volume(places, setting),
-            AskKind::Path => {
+            AnalysisKind::Sections => self.sections(places, setting.and(push), grid),
+            AnalysisKind::Volume => self.volume(places, setting),
+            AnalysisKind::Path => {
                 let table = (self.table, plane.step_mm);
                 let cell = (self.folder, self.robot.map(|found| &found.robot));
                 let path = path::resolve(places, table, cell, (setting, push))?;
                 path.and_then(|path| {
                     let of = (self.robot?, &path.setting, path.load.case_count());
-                    let points = (AskKind::Path, path.track.len() as f64);
+                    let points = (AnalysisKind::Path, path.track.len() as f64);
                     memory::check_points(places, "step_mm", points, of)?;
                     Some(Subject::Path(Box::new(path)))
                 })
             }
-            AskKind::Holes => {
+            AnalysisKind::Holes => {
                 let search = setting
                     .as_ref()
                     .and_then(|setting| self.hole_search(places, setting));
@@ -125,7 +125,7 @@ impl Resolver<'_> {
                 holes.and_then(|holes| {
                     let path = &holes.path;
                     let of = (self.robot?, &path.setting, path.load.case_count());
-                    let points = (AskKind::Holes, path.track.len() as f64);
+                    let points = (AnalysisKind::Holes, path.track.len() as f64);
                     memory::check_points(places, "holes", points, of)?;
                     Some(Subject::Holes(Box::new(holes)))
                 })
@@ -140,23 +140,23 @@ impl Resolver<'_> {
         let search = t.posture.as_ref().and_then(|posture| posture.search.as_ref());
         // What two kinds have belongs to the one that is asked.
         let with_tool = match t.kind {
-            AskKind::Holes => AskKind::Holes,
-            _ => AskKind::Path,
+            AnalysisKind::Holes => AnalysisKind::Holes,
+            _ => AnalysisKind::Path,
         };
         let given = [
-            ("distances_mm", AskKind::Sections, t.distances_mm.is_some()),
-            ("tilts_deg", AskKind::Sections, t.tilts_deg.is_some()),
-            ("box", AskKind::Volume, t.in_box.is_some()),
-            ("circle", AskKind::Path, t.circle.is_some()),
-            ("line", AskKind::Path, t.line.is_some()),
-            ("polyline_mm", AskKind::Path, t.polyline_mm.is_some()),
-            ("rectangle", AskKind::Path, t.rectangle.is_some()),
-            ("step_mm", AskKind::Path, t.step_mm.is_some()),
+            ("distances_mm", AnalysisKind::Sections, t.distances_mm.is_some()),
+            ("tilts_deg", AnalysisKind::Sections, t.tilts_deg.is_some()),
+            ("box", AnalysisKind::Volume, t.in_box.is_some()),
+            ("circle", AnalysisKind::Path, t.circle.is_some()),
+            ("line", AnalysisKind::Path, t.line.is_some()),
+            ("polyline_mm", AnalysisKind::Path, t.polyline_mm.is_some()),
+            ("rectangle", AnalysisKind::Path, t.rectangle.is_some()),
+            ("step_mm", AnalysisKind::Path, t.step_mm.is_some()),
             ("program", with_tool, t.program.is_some()),
-            ("spin_deg", AskKind::Path, t.spin_deg.is_some()),
-            ("cut", AskKind::Path, t.cut.is_some()),
+            ("spin_deg", AnalysisKind::Path, t.spin_deg.is_some()),
+            ("cut", AnalysisKind::Path, t.cut.is_some()),
             ("posture.search", with_tool, search.is_some()),
-            ("holes", AskKind::Holes, t.holes.is_some()),
+            ("holes", AnalysisKind::Holes, t.holes.is_some()),
         ];
         let load = t.load.as_ref().or(self.file.load.as_ref());
         if t.kind != with_tool && load.and_then(|load| load.frame) == Some(LoadFrameName::Feed) {
@@ -188,21 +188,21 @@ impl Resolver<'_> {
     ) -> Option<Setting> {
         let base_name = self.table.base.clone().or_else(|| self.file.base.clone());
         let base_name = base_name.unwrap_or_else(|| crate::BASE_LINK.to_owned());
-        let base_from_counted = self.base_from_counted(places, &base_name);
+        let base_from_reference = self.base_from_reference(places, &base_name);
         let choice = self.choice(places);
         let home = self.home(places);
         // Words bound a search; without any, each branch is tried.
-        let told = self.of_posture(|posture| posture.branch.as_ref());
-        let open = match (told, choice) {
+        let reported = self.of_posture(|posture| posture.branch.as_ref());
+        let open = match (reported, choice) {
             (Some(_), Some(BranchChoice::Of(pattern))) => pattern,
             _ => BranchPattern::default(),
         };
         let search = self.search(places, open);
-        let limit_um = self.table.limit_um.unwrap_or(self.file.limit_um);
+        let tolerance_um = self.table.tolerance_um.unwrap_or(self.file.tolerance_um);
         let plane = plane_at(
             places,
             plane,
-            &base_from_counted.unwrap_or_else(Isometry::identity),
+            &base_from_reference.unwrap_or_else(Isometry::identity),
         );
         // Other forces come with the path.
         let given = match push {
@@ -220,31 +220,31 @@ impl Resolver<'_> {
         let model = self
             .robot
             .and_then(|found| stiffness::model(places, self.file, tool, (&found.robot, self.actual)));
-        let (base_from_counted, choice, (plane, tilt)) = (base_from_counted?, choice?, plane?);
+        let (base_from_reference, choice, (plane, tilt)) = (base_from_reference?, choice?, plane?);
         let (model, load) = (model?, load?);
-        let doubt = Doubt {
+        let uncertainty = InputUncertainty {
             relative: given.and_then(|load| load.u_percent).unwrap_or(0.0) / 100.0,
             tool_length: tool.and_then(|t| t.length_u_mm).unwrap_or(0.0) * 1e-3,
-            ..Doubt::NONE
+            ..InputUncertainty::NONE
         };
         let u_n = given.and_then(|load| load.u_n).unwrap_or_default();
         // What turns with the feed turns on the path; here it is as if the feed went along x of the part.
         let frame = match load.frame {
             LoadFrame::Feed => LoadFrame::Part,
-            told => told,
+            reported => reported,
         };
         let as_told = LoadCases {
             frame,
             ..load.clone()
         };
-        let doubt = doubt.of_components(u_n, frame, &plane.base_from_part)?;
+        let uncertainty = uncertainty.of_components(u_n, frame, &plane.base_from_part)?;
         let cases = as_told.in_base(&plane.base_from_part)?;
         let flange_from_tool =
             tool.map_or_else(Isometry::identity, |t| pose_mm_deg(&t.flange_from_tool_mm_deg));
-        let limit = limit_um * 1e-6;
+        let limit = tolerance_um * 1e-6;
         Some(Setting {
             base_name,
-            base_from_counted,
+            base_from_reference,
             flange_from_tool,
             model,
             plane,
@@ -253,7 +253,7 @@ impl Resolver<'_> {
             cases,
             load_source: given.and_then(|load| load.source.clone()),
             tool_sources: tool.map_or_else(Vec::new, ToolTable::sources),
-            doubt,
+            uncertainty,
             limit,
             choice,
             home,
@@ -265,9 +265,9 @@ impl Resolver<'_> {
     /// What is searched for along a path; `None` also where that is wrong.
     fn search(&self, places: &mut Places<'_>, open: BranchPattern) -> Option<PostureSearch> {
         let table = self.of_posture(|posture| posture.search.as_ref());
-        let table = table.filter(|_| self.table.kind == AskKind::Path)?;
-        let limit_um = self.table.limit_um.unwrap_or(self.file.limit_um);
-        table.resolve(places, limit_um * 1e-6, open)
+        let table = table.filter(|_| self.table.kind == AnalysisKind::Path)?;
+        let tolerance_um = self.table.tolerance_um.unwrap_or(self.file.tolerance_um);
+        table.resolve(places, tolerance_um * 1e-6, open)
     }
 
     /// What is searched for at holes, as usual where nothing is said; `None` also where that is wrong. Each hole is for
@@ -279,7 +279,7 @@ impl Resolver<'_> {
             .as_ref()
             .and_then(|posture| posture.search.as_ref());
         let given = [
-            ("goal", own.is_some_and(|table| table.goal.is_some())),
+            ("goal", own.is_some_and(|table| table.objective.is_some())),
             (
                 "turn_deg_per_mm",
                 own.is_some_and(|table| table.turn_deg_per_mm.is_some()),
@@ -298,7 +298,7 @@ impl Resolver<'_> {
             );
         }
         let table = self.of_posture(|posture| posture.search.as_ref());
-        if table.and_then(|table| table.counts) == Some(CountsName::CrossTrack) {
+        if table.and_then(|table| table.counts) == Some(ComponentName::CrossTrack) {
             let hint = "`in-plane` or `axial`";
             places.problem("posture.search.counts", "a hole has no track to go across", hint);
             return None;
@@ -310,9 +310,9 @@ impl Resolver<'_> {
     }
 
     /// The frame that coordinates count from, in base.
-    fn base_from_counted(&self, places: &mut Places<'_>, name: &str) -> Option<Isometry> {
+    fn base_from_reference(&self, places: &mut Places<'_>, name: &str) -> Option<Isometry> {
         let robot = &self.robot?.robot;
-        let found = crate::base_from_counted(robot, name);
+        let found = crate::base_from_reference(robot, name);
         let tell = |known: String| {
             let message = format!("robot `{}` has no frame `{name}`", robot.name());
             places.problem("base", message, &format!("it has: {known}"));
@@ -422,7 +422,7 @@ impl Resolver<'_> {
         let (half_size, step, setting) = (half_size?, step?, setting?);
         let centre = table.centre_mm.unwrap_or_else(|| self.plane_table().centre_mm);
         // The sides of the box go along the axes that its centre is told in.
-        let base_from_centre = setting.base_from_counted * Translation3::from(Vector3::from(centre) * 1e-3);
+        let base_from_centre = setting.base_from_reference * Translation3::from(Vector3::from(centre) * 1e-3);
         let points: f64 = half_size
             .iter()
             .map(|half| 2.0 * (half / step).floor() + 1.0)

@@ -3,8 +3,8 @@
 
 use nalgebra::{Matrix3, Vector2, Vector3};
 
-use super::Standing;
-use crate::robot::Seat;
+use super::ArmState;
+use crate::robot::Attachment;
 use crate::source::{backlash, geometric};
 use crate::spatial::{Twist, Wrench};
 
@@ -14,7 +14,7 @@ pub enum Links<'a> {
     /// Neither backlash nor geometry is included: load and gravity alone.
     Neglected,
     /// Along a path: friction has dragged them here, one position a joint, rad (m).
-    Dragged(&'a [f64]),
+    KeptByFriction(&'a [f64]),
     /// At a single point it is unknown: each is where it moves the tool farthest, measured along these two directions (base).
     /// The positions are written here, one a joint, rad (m).
     Farthest([Vector3<f64>; 2], &'a mut [f64]),
@@ -25,13 +25,13 @@ impl Links<'_> {
     pub fn positions(&self) -> Option<&[f64]> {
         match self {
             Links::Neglected => None,
-            Links::Dragged(positions) => Some(positions),
+            Links::KeptByFriction(positions) => Some(positions),
             Links::Farthest(_, positions) => Some(positions),
         }
     }
 }
 
-impl Standing<'_> {
+impl ArmState<'_> {
     /// Displacement of the tool because links lie in their gaps: `dragged` there by friction, one a joint, rad (m), or held
     /// on a flank by gravity and `wrench`.
     pub fn backlash(&self, dragged: &[f64], wrench: &Wrench) -> Twist {
@@ -63,11 +63,11 @@ impl Standing<'_> {
         &self,
         (from, along): (&Vector3<f64>, &[Vector3<f64>; 2]),
         wrench: &Wrench,
-        lies: &mut [f64],
+        placements: &mut [f64],
     ) {
         let counted = |v: &Vector3<f64>| Vector2::from(along.map(|along| along.dot(v)));
         let gaps = self.arm.model.structure.gaps();
-        let free = gaps.filter(|(joint, _)| self.backlash_of(*joint, lies, wrench) == Twist::ZERO);
+        let free = gaps.filter(|(joint, _)| self.backlash_of(*joint, placements, wrench) == Twist::ZERO);
         let (joints, halves): (Vec<(usize, f64)>, Vec<Vector2<f64>>) = free
             .map(|(joint, gap)| {
                 let half = 0.5 * gap.gap;
@@ -77,7 +77,7 @@ impl Standing<'_> {
         let mut signs = vec![0.0; halves.len()];
         backlash::farthest(counted(from), &halves, &mut signs);
         for ((joint, half), sign) in joints.into_iter().zip(signs) {
-            lies[joint] = half * sign;
+            placements[joint] = half * sign;
         }
     }
 
@@ -104,10 +104,10 @@ impl Standing<'_> {
     pub(crate) fn backlash_of(&self, joint: usize, dragged: &[f64], wrench: &Wrench) -> Twist {
         let screw = self.screws[joint];
         let gap = self.arm.model.structure.backlash[joint];
-        let lies = gap.map_or(0.0, |gap| {
-            backlash::lies(&gap, dragged[joint], (&screw, wrench), self.before[joint])
+        let placements = gap.map_or(0.0, |gap| {
+            backlash::placements(&gap, dragged[joint], (&screw, wrench), self.before[joint])
         });
-        screw * lies
+        screw * placements
     }
 
     /// Adds the part of each link in its gap along the unit vector `along` (m) to the share of its joint, and gives the
@@ -116,13 +116,13 @@ impl Standing<'_> {
         &self,
         along: &Vector3<f64>,
         (dragged, wrench): (&[f64], &Wrench),
-        sharers: &[Seat],
+        contributors: &[Attachment],
         shares: &mut [f64],
     ) -> f64 {
         let mut variance = 0.0;
         for (joint, gap) in self.arm.model.structure.gaps() {
             let part = self.backlash_of(joint, dragged, wrench).linear.dot(along);
-            if let Some(share) = sharers.iter().position(|sharer| *sharer == Seat::Joint(joint)) {
+            if let Some(share) = contributors.iter().position(|contributor| *contributor == Attachment::Joint(joint)) {
                 shares[share] += part;
             }
             // In proportion to the gap.

@@ -5,15 +5,15 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::Standing;
-use crate::load::Doubt;
+use super::ArmState;
+use crate::load::InputUncertainty;
 use crate::robot::forward::Frames;
 use crate::source::Unstable;
 use crate::spatial::Wrench;
 
 /// Where an arm stands, and what it is loaded with there.
 #[derive(Clone, Copy, Debug)]
-pub struct AsItStands<'a> {
+pub struct LoadedPosture<'a> {
     /// Joint positions, rad (m).
     pub joints: &'a [f64],
     /// Its frames there.
@@ -26,20 +26,20 @@ pub struct AsItStands<'a> {
     pub wrench: &'a Wrench,
 }
 
-impl Standing<'_> {
+impl ArmState<'_> {
     /// Variance (m^2) of the elastic displacement along the unit vector `along` that `doubt` makes. The arm stands as
     /// `standing` says, before and after; its last load is another one afterwards.
     ///
     /// # Errors
     /// [`Unstable`] where the arm finds no rest under a load that is off.
-    pub fn variance_of_doubt(
+    pub fn variance_of_inputs(
         &mut self,
-        doubt: &Doubt,
-        standing: &AsItStands<'_>,
+        uncertainty: &InputUncertainty,
+        arm_state: &LoadedPosture<'_>,
         along: &Vector3<f64>,
     ) -> Result<f64, Unstable> {
         let mut variance = 0.0;
-        self.moves_of_doubt(doubt, (standing, along), |by| variance += by * by)?;
+        self.moves_of_inputs(uncertainty, (arm_state, along), |by| variance += by * by)?;
         Ok(variance)
     }
 
@@ -48,31 +48,31 @@ impl Standing<'_> {
     ///
     /// # Errors
     /// [`Unstable`] where the arm finds no rest under a load that is off.
-    pub fn moves_of_doubt(
+    pub fn moves_of_inputs(
         &mut self,
-        doubt: &Doubt,
-        (standing, along): (&AsItStands<'_>, &Vector3<f64>),
-        mut told: impl FnMut(f64),
+        uncertainty: &InputUncertainty,
+        (arm_state, along): (&LoadedPosture<'_>, &Vector3<f64>),
+        mut given: impl FnMut(f64),
     ) -> Result<(), Unstable> {
-        let Wrench { force, moment } = *standing.wrench;
-        let as_is = self.elastic(standing.wrench)?.linear.dot(along);
-        if doubt.relative > 0.0 {
-            let off = *standing.wrench * (1.0 + doubt.relative);
-            told(self.elastic(&off)?.linear.dot(along) - as_is);
+        let Wrench { force, moment } = *arm_state.wrench;
+        let as_is = self.elastic(arm_state.wrench)?.linear.dot(along);
+        if uncertainty.relative > 0.0 {
+            let off = *arm_state.wrench * (1.0 + uncertainty.relative);
+            given(self.elastic(&off)?.linear.dot(along) - as_is);
         }
-        for u in doubt.forces.iter().filter(|u| **u != Vector3::zeros()) {
+        for u in uncertainty.forces.iter().filter(|u| **u != Vector3::zeros()) {
             let off = Wrench {
                 force: force + u,
                 moment,
             };
-            told(self.elastic(&off)?.linear.dot(along) - as_is);
+            given(self.elastic(&off)?.linear.dot(along) - as_is);
         }
-        if doubt.tool_length > 0.0 {
-            let off = standing.tcp + standing.tool_axis * doubt.tool_length;
-            self.stand_in(standing.joints, standing.frames, &off);
-            let elsewhere = self.elastic(standing.wrench);
-            self.stand_in(standing.joints, standing.frames, &standing.tcp);
-            told(elsewhere?.linear.dot(along) - as_is);
+        if uncertainty.tool_length > 0.0 {
+            let off = arm_state.tcp + arm_state.tool_axis * uncertainty.tool_length;
+            self.set_frames(arm_state.joints, arm_state.frames, &off);
+            let elsewhere = self.elastic(arm_state.wrench);
+            self.set_frames(arm_state.joints, arm_state.frames, &arm_state.tcp);
+            given(elsewhere?.linear.dot(along) - as_is);
         }
         Ok(())
     }
