@@ -19,7 +19,7 @@ use armill_core::watch::Watch;
 use gungraun::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-/// Counted without: building the arm, drawing the poses, starting the pool.
+/// Not counted: building the arm, choosing the poses, starting the pool.
 fn evaluate_setup(count: usize) -> (Arm, Vec<Isometry>, ThreadPool) {
     let poses = poses(count).iter().map(isometry).collect();
     // The benchmark's own thread works: nothing waits, and what waits is not counted.
@@ -27,7 +27,7 @@ fn evaluate_setup(count: usize) -> (Arm, Vec<Isometry>, ThreadPool) {
         .num_threads(1)
         .use_current_thread()
         .build();
-    (Arm::mh12(), poses, pool.expect("a pool of the thread that asks"))
+    (Arm::mh12(), poses, pool.expect("a pool of the calling thread"))
 }
 
 #[library_benchmark(setup = evaluate_setup)]
@@ -38,9 +38,9 @@ fn kernel_evaluate((arm, poses, pool): (Arm, Vec<Isometry>, ThreadPool)) -> usiz
     black_box(answers).map_or(0, |answers| answers.points.len())
 }
 
-/// Counted without: the question made ready.
+/// Not counted: preparing the question.
 fn lanes_setup(count: usize) -> (Batch<f64>, Places<f64>) {
-    // Valgrind has no AVX-512, so the fastest that it tells of is AVX2.
+    // Valgrind has no AVX-512, so the fastest back end that it reports is AVX2.
     let arm = Arm::mh12();
     let batch = Batch::new(&arm.question(ONE_POSTURE), arm.closed_form(), Backend::fastest());
     (batch, Places::of(&poses(count)))

@@ -1,7 +1,6 @@
-// How fast can it be? The work of armill's lanes written by hand for AVX-512 and for this one arm, branch and plane:
-// intrinsics, constants compiled in, everything in registers, two vectors of eight poses at once. And beside it the
-// arithmetic of that work with nothing else: no memory, nothing that waits for anything. What lanes reach is held
-// against both.
+// Upper bound of the speed. The work of armill's lanes written by hand for AVX-512 and for this one arm, branch and
+// plane: intrinsics, constants compiled in, everything in registers, two vectors of eight poses at once. In addition the
+// arithmetic of that work alone: no memory, no dependencies. The speed of the lanes is compared with both.
 //
 // usage: limit FOLDER [--quick]. Reads what armill-bench wrote; rows go to stdout, see bench/src/clock.rs. Exits 1 if
 // it is off the yardstick by more than 1e-9.
@@ -23,13 +22,13 @@ int main() { std::printf("skipped\tC++ by hand\tthis processor has no AVX-512\n"
 #include <string>
 #include <vector>
 
-// The arm and the loads of bench/src/workload.rs, m, rad, N; heights count from axis 2.
+// The arm and the loads of bench/src/workload.rs, m, rad, N; heights are relative to axis 2.
 constexpr double A1 = 0.155, A2 = -0.200, C1 = 0.450, L2 = 0.614, C3 = 0.640, LEVER = 0.250;
 constexpr double COMPLIANCE[6] = {2.1e-6, 2.5e-6, 4.0e-5, 6.0e-5, 6.0e-5, 8.0e-5};
 constexpr double FORCES[4][3] = {{3, -5, -5}, {3, -5, 5}, {3, 5, -5}, {3, 5, 5}};
-// Middle and half of each joint's range, told by cosines: cos(phi - middle) >= cos(half). Joints 4 and 6 turn freely.
+// Middle and half of each joint's range, tested by cosines: cos(phi - middle) >= cos(half). Joints 4 and 6 turn freely.
 constexpr double MIDDLE[3] = {0, 0.5672, 0.7007}, HALF[3] = {2.9670, 2.1380, 2.0508}, BEND = 2.3562;
-// Squared lengths and sines below it count as zero; sine of 1 deg.
+// Squared lengths and sines below it are treated as zero; sine of 1 deg.
 constexpr double NOTHING = 1e-20, NEAR = 0.017452406437283512, VERIFIED = 1e-9;
 // Results of a block overwrite those of the block before.
 constexpr std::size_t BLOCK = 256;
@@ -62,7 +61,7 @@ INLINE Vector cross(Vector a, Vector b) {
 }
 INLINE V dot(Vector a, Vector b) { return sum(a.x, b.x, sum(a.y, b.y, a.z * b.z)); }
 
-// K vectors side by side: what waits in one is passed by the others.
+// K vectors side by side, to hide the latency of each.
 #define EACH _Pragma("GCC unroll 4") for (int k = 0; k < K; ++k)
 
 template <int K> struct Solved {
@@ -107,7 +106,7 @@ template <int K> INLINE void solve(const double* const at[3], std::size_t i, Sol
         s.flags[k] = flagged(s.flags[k], V(VERIFIED * VERIFIED) < sum(arm, arm, sum(upper, upper, fore * fore)), 8);
     }
     EACH {
-        // Axis 4 lies in the arm's plane and stands on the wrist offset.
+        // Axis 4 is in the arm's plane and perpendicular to the wrist offset.
         const V x = sum(s.cc[k], -A2 / L3, s.sc[k] * (C3 / L3)), z = sum(s.cc[k], C3 / L3, s.sc[k] * (A2 / L3));
         s.z4[k] = {s.c1[k] * x, s.s1[k] * x, z};
         s.n[k] = cross(s.z4[k], {1.0, 0.0, 0.0});
@@ -127,7 +126,7 @@ template <int K> INLINE void levers(const Solved<K>& s, int k, Vector v[6]) {
     v[2] = {s.c1[k] * up, s.s1[k] * up, sum(L2, s.sp[k], A1) - out};
     v[3] = cross(s.z4[k], lever);
     v[4] = cross(s.n[k], lever);
-    v[5] = {0.0, 0.0, 0.0};  // The tool lies on axis 6.
+    v[5] = {0.0, 0.0, 0.0};  // The tool is on axis 6.
 }
 
 template <int K> __attribute__((noinline)) void dev(const double* const at[3], std::size_t count, double* in_plane, double* state) {
@@ -193,8 +192,8 @@ template <int K> __attribute__((noinline)) void c66(const double* const at[3], s
     }
 }
 
-// So many roots, quotients and other operations as a vector takes above (counted in the compiled loops), each with
-// nothing to wait for.
+// The number of roots, quotients and other operations of a vector above (counted in the compiled loops), all
+// independent.
 template <int ROOTS, int QUOTIENTS, int OTHERS> __attribute__((noinline)) double alone(std::size_t vectors) {
     constexpr int LANES = 12;
     V a[LANES], slow[5];

@@ -2,12 +2,12 @@
 
 usage: python bench/python/armill_against_peers.py [--poses N] [--quick] [--rust RATE]
 
-A witness first: all must agree within 1e-9 of the largest compliance. Then rates, one thread each, and what a call costs that asks
-for a single pose. Numpy goes along the drawing of the arm, with nothing of armill; pinocchio and the toolbox hold the arm that
-`armill.interop` gave them. It wants a wheel that was built for release, with its extras: `pip install 'armill[interop]'`.
+First a check: all must agree within 1e-9 of the largest compliance. Then rates, one thread each, and the cost of a call for a
+single pose. Numpy uses the dimensions of the arm, independent of armill; pinocchio and the toolbox use the arm exported by
+`armill.interop`. Requires a wheel that was built for release, with its extras: `pip install 'armill[interop]'`.
 
 `--rust` is the rate of `armill evaluate_at_joints, dev from angles` that `cargo xtask bench --only rust` prints on this machine, in million
-poses a second: then it is told what of it the package keeps.
+poses a second: then the rate of the package relative to it is reported.
 """
 
 import argparse
@@ -33,11 +33,11 @@ CALLS = 20_000
 
 
 def main():
-    wanted = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    wanted.add_argument("--poses", type=int, default=100_000)
-    wanted.add_argument("--quick", action="store_true")
-    wanted.add_argument("--rust", type=float)
-    options = wanted.parse_args()
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--poses", type=int, default=100_000)
+    parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--rust", type=float)
+    options = parser.parse_args()
     robot = armill.Robot.load("yaskawa/mh12").with_compliance(COMPLIANCE)
     tool = np.eye(4)
     tool[2, 3] = TOOL
@@ -150,7 +150,7 @@ def of_toolbox(robot, tool):
 
 
 def single_calls(robot, q, tool):
-    """What a call costs that asks for one pose: conversions, checks, the answer's array."""
+    """The cost of a call for one pose: conversions, checks, the answer's array."""
     force = np.array([3.0, -5.0, 5.0])
     calls = {
         "forward": lambda: robot.forward(q),
@@ -165,7 +165,7 @@ def single_calls(robot, q, tool):
 
 
 def many(robot, tool, options):
-    """A million poses in one call, beside the rate of Rust for the same work."""
+    """A million poses in one call, compared with the rate of Rust for the same work."""
     joints = np.random.default_rng(8).uniform(-2.0, 2.0, (MANY // (10 if options.quick else 1), 6))
     forces = np.array(FORCES)
     seconds = min(timeit.repeat(lambda: robot.deviation(joints, forces, tool, threads=1), number=1, repeat=3))

@@ -1,7 +1,7 @@
 """Rates of the Python peers on the poses that armill-bench wrote; called by `cargo xtask bench`.
 
-usage: python peers.py FOLDER [--quick]. Rows go to stdout. A peer that computes something else than the yardstick is an
-error; one that cannot be loaded is told in a line that begins with `skipped`.
+usage: python peers.py FOLDER [--quick]. Rows go to stdout. A peer with a result that differs from the yardstick is an
+error; one that cannot be loaded is reported in a line that begins with `skipped`.
 """
 
 import importlib.metadata
@@ -61,9 +61,9 @@ def of_numpy(folder):
 
     e, who = columns(folder), named("numpy")
     count, out = e.shape[1], np.empty(e.shape[1])
-    wanted = read(folder, "dev.f64", 1)[:, 0]
-    agree(f"{who}, dev", relative(w.in_blocks(w.dev, e, out), wanted))
-    agree(f"{who}, dev trig-free", relative(w.in_blocks(w.dev_without_trigonometry, e, out), wanted))
+    expected = read(folder, "dev.f64", 1)[:, 0]
+    agree(f"{who}, dev", relative(w.in_blocks(w.dev, e, out), expected))
+    agree(f"{who}, dev trig-free", relative(w.in_blocks(w.dev_without_trigonometry, e, out), expected))
     few = e[:, :CHECKED]
     matrices = w.c66(few).transpose(2, 0, 1).reshape(-1, 36)
     agree(f"{who}, C66", relative(matrices, read(folder, "c66.f64", 36)))
@@ -92,9 +92,9 @@ def of_numba(folder):
     import with_numba as w
 
     e, who = columns(folder), named("numba")
-    wanted, count = read(folder, "dev.f64", 1)[:, 0], e.shape[1]
-    agree(f"{who}, dev", relative(w.run(w.dev, e), wanted))
-    agree(f"{who}, dev trig-free", relative(w.run(w.dev_without_trigonometry, e), wanted))
+    expected, count = read(folder, "dev.f64", 1)[:, 0], e.shape[1]
+    agree(f"{who}, dev", relative(w.run(w.dev, e), expected))
+    agree(f"{who}, dev trig-free", relative(w.run(w.dev_without_trigonometry, e), expected))
     note = "fastmath; poses as columns; tool along axis 6, all constants compiled in"
     return [
         (f"{who}, trigonometry", "dev", count, note, lambda: w.run(w.dev, e)),

@@ -26,7 +26,7 @@ def targets(poses):
 def difference(robot, batch, angles):
     """Largest distance (rad) of the yardstick's posture from the nearest of EAIK's."""
     worst = 0.0
-    for found, wanted in zip(robot.IK_batched(batch, 1), angles):
-        turns = (np.array(found.Q) - wanted) / (2 * np.pi)
+    for found, expected in zip(robot.IK_batched(batch, 1), angles):
+        turns = (np.array(found.Q) - expected) / (2 * np.pi)
         worst = max(worst, np.min(np.max(np.abs(turns - np.round(turns)), axis=1)) * 2 * np.pi)
     return worst

@@ -5,7 +5,7 @@ the TCP. Without trigonometry the joint axes come from the elbow and wrist point
 
     z4 = forearm's direction, n = z4 x a, delta = sum c_i v_i (v_i . F), v_4 = h n, v_5 = h (n x a) / |n|, v_6 = 0
 
-with a the tool axis and h the distance from wrist centre to TCP. This holds for a tool along axis 6 only.
+with a the tool axis and h the distance from wrist centre to TCP. Valid only for a tool along axis 6.
 """
 
 import numpy as np

@@ -1,4 +1,4 @@
-//! Whether all candidates compute the same thing: without it a ratio means nothing.
+//! Checks that all candidates compute the same: without it a ratio has no meaning.
 //!
 //! Relative differences against the yardstick: armill within 1e-9, peers within 1e-6. Angles are compared as
 //! turns: a whole turn more is the same angle.
@@ -20,10 +20,10 @@ const SINGLE: f64 = 1e-3;
 /// How far a peer may be from the yardstick.
 const PEER: f64 = 1e-6;
 
-/// Checks armill and every peer on `poses`; says of each how far it is off.
+/// Checks armill and every peer on `poses`; reports the difference of each.
 ///
 /// # Errors
-/// Who is off by more than allowed, and by how much.
+/// The candidate that differs by more than allowed, and by how much.
 pub fn check(arm: &Arm, poses: &[Pose]) -> Result<Vec<String>, String> {
     let mut found = vec![
         ("armill lanes f64, dev", lanes_apart::<f64>(arm, poses), ARMILL),
@@ -59,7 +59,7 @@ pub fn apart(ours: &[f64; 6], theirs: &[f64; 6]) -> f64 {
     worst(turns.map(|turns| (turns - turns.round()).abs() * TAU))
 }
 
-/// The largest, or NaN if one is NaN: what is no number must not pass as small.
+/// The largest, or NaN if one is NaN: NaN must not pass as small.
 pub fn worst(values: impl IntoIterator<Item = f64>) -> f64 {
     let values = values.into_iter();
     values.fold(0.0, |worst: f64, value| {

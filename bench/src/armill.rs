@@ -8,10 +8,10 @@ use armill_core::kernel::{BranchChoice, Question, evaluate, evaluate_at_joints};
 use armill_core::load::InputUncertainty;
 use armill_core::map::plane_map;
 use armill_core::nalgebra::{Matrix3, Point3, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
-use armill_core::source::elastic::predict;
 use armill_core::robot::inverse::{OrthoParallel, ToolAt, posture_at, postures};
 use armill_core::robot::joint::{JointCompliance, Sign};
 use armill_core::robot::{Amount, Axis, Branch, BranchPattern, Joint, Limits, Motion, Robot};
+use armill_core::source::elastic::predict;
 use armill_core::source::{ArmState, StiffnessModel};
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
@@ -209,14 +209,14 @@ fn known_joints<'a>(arm: &'a Arm, one_thread: &'a ThreadPool) -> Candidate<'a> {
         };
         let width = 3 * arm.cases.len();
         let mut out = vec![0.0; FEW * width];
-        let tell = |arm_state: &mut ArmState<'_>, out: &mut [f64]| {
+        let write = |arm_state: &mut ArmState<'_>, out: &mut [f64]| {
             for (wrench, out) in arm.cases.iter().zip(out.chunks_mut(3)) {
                 out.copy_from_slice(arm_state.elastic(wrench)?.linear.as_slice());
             }
             Ok(())
         };
         one_thread
-            .install(|| evaluate_at_joints(&evaluation, &joints, (&mut out, width), tell, Watch::NONE))
+            .install(|| evaluate_at_joints(&evaluation, &joints, (&mut out, width), write, Watch::NONE))
             .ok();
         black_box(&out);
     };

@@ -1,19 +1,19 @@
-//! How work is timed: all candidates in turn, round after round; the median of the rounds, and its quartiles.
+//! Timing: all candidates in turn, round after round; the median of the rounds, and its quartiles.
 
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Somebody who can do a piece of work.
+/// An implementation that can do a piece of work.
 pub struct Candidate<'a> {
     /// Name in the table.
     pub who: &'static str,
-    /// One of [`crate::work`], or what this candidate alone does.
+    /// One of [`crate::work`], or work of this candidate only.
     pub work: &'static str,
-    /// How many threads it is given.
+    /// Number of threads.
     pub threads: usize,
     /// What a reader must know to compare it; may be empty.
     pub note: &'static str,
-    /// How many poses one run takes.
+    /// Number of poses of one run.
     pub count: usize,
     /// Does it once for all poses; the result goes through [`black_box`].
     pub run: Box<dyn FnMut() + 'a>,

@@ -1,14 +1,14 @@
-//! Rows of the inverses of armill beside the ortho-parallel one: the same map, the same postures, other arms.
+//! Rows of the other inverse kinematics of armill: the same map, the same postures, other arms.
 //!
 //! | arm | inverse |
 //! |---|---|
 //! | MH12 with its axes 2 and 5 a micrometre aside | polished: from the closed form, then damped least squares |
 //! | MH12 with axis 5 30 mm off axis 4 | searched; along the rows of a map from the point before |
 //! | UR10 | closed form, three parallel axes |
-//! | iiwa 14 | closed form, joint 3 standing |
+//! | iiwa 14 | closed form, joint 3 fixed |
 //!
-//! One thread. Maps of 61 x 61 points under four forces, 7 x 7 where all postures are searched for; a point out of
-//! reach counts as one.
+//! One thread. Maps of 61 x 61 points under four forces, 7 x 7 where all postures are searched for; an unreachable
+//! point is included.
 
 use std::hint::black_box;
 
@@ -39,7 +39,7 @@ const STEP: f64 = 0.005;
 /// The same where all postures are searched for at every point, m.
 const STEP_SEARCHED: f64 = 0.05;
 
-/// An arm of another kind, and where the middle of its map lies.
+/// An arm of another kind, and the middle of its map.
 pub struct Other {
     who: &'static str,
     robot: Robot,

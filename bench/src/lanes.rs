@@ -1,6 +1,6 @@
 //! Rows of the lanes kernel: the same work on every back end of this machine, in double and single precision.
 //!
-//! Poses lie as arrays, as a caller with many of them has them; results of a few blocks overwrite those before, so
+//! Poses are given as arrays, as in applications with many of them; results of a few blocks overwrite those before, so
 //! that work is timed and not the RAM.
 
 use std::hint::black_box;

@@ -1,11 +1,11 @@
-//! How fast is armill, and how fast are others at the same work? `cargo xtask bench` asks.
+//! Benchmarks of armill and of other libraries for the same work; called by `cargo xtask bench`.
 //!
-//! Every candidate works on the same poses in one run, round after round in turn, so that what disturbs the
-//! machine disturbs all alike. Absolute rates mean nothing across machines; ratios to [`yardstick`] do.
+//! Every candidate works on the same poses in one run, round after round in turn, so that disturbances of the machine
+//! affect all equally. Absolute rates are not comparable across machines; ratios to [`yardstick`] are.
 //!
-//! Read in this order: [`workload`] (arm, poses, loads), [`work`] (what is done at a pose), [`clock`] (how it is
-//! timed), [`yardstick`] (plain Rust with trigonometry), [`lanes`], [`armill`], [`kinds`], [`paths`], [`placements`], [`peers`], [`agreement`] (all compute the
-//! same), [`files`] (what the Python and C++ peers read).
+//! Read in this order: [`workload`] (arm, poses, loads), [`work`] (the work at a pose), [`clock`] (timing),
+//! [`yardstick`] (plain Rust with trigonometry), [`lanes`], [`armill`], [`kinds`], [`paths`], [`placements`],
+//! [`peers`], [`agreement`] (all compute the same), [`files`] (input of the Python and C++ peers).
 
 pub mod agreement;
 pub mod armill;
@@ -14,8 +14,8 @@ pub mod files;
 pub mod kinds;
 pub mod lanes;
 pub mod paths;
-pub mod placements;
 pub mod peers;
+pub mod placements;
 pub mod work;
 pub mod workload;
 pub mod yardstick;

@@ -1,6 +1,6 @@
 //! `armill-bench FOLDER [--quick] [--paths]`: writes the workload into FOLDER for peers in other languages, checks that
-//! all candidates agree, times them in turn, and prints a row for each; called by `cargo xtask bench`. With `--paths` the
-//! rows of tool path programs alone, beside the yardstick.
+//! all candidates agree, times them in turn, and prints a row for each; called by `cargo xtask bench`. With `--paths`
+//! the rows of tool path programs only, and the yardstick.
 
 // Rows go to stdout, what is going on to stderr.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
@@ -37,7 +37,11 @@ fn main() -> ExitCode {
         eprintln!("usage: armill-bench FOLDER [--quick] [--paths]");
         return ExitCode::from(2);
     };
-    let rounds = if requested("--quick") { QUICK_ROUNDS } else { ROUNDS };
+    let rounds = if requested("--quick") {
+        QUICK_ROUNDS
+    } else {
+        ROUNDS
+    };
     match run(Path::new(folder), rounds, requested("--paths")) {
         Ok(()) => ExitCode::SUCCESS,
         Err(problem) => {

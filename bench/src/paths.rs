@@ -6,8 +6,8 @@
 //! | [`ALONG`] | points, a load case in the feed frame | joint angles, flags and deviation at each |
 //! | [`ALONG_CUT`] | points, cutting conditions | cutting force and the same at each |
 //!
-//! One thread. The path is a zigzag on the plane of the workload: lines of 400 points, a millimetre apart, that rise and
-//! fall a little. Rates count points.
+//! One thread. The path is a zigzag on the plane of the workload: lines of 400 points, a millimetre apart, that rise
+//! and fall a little. Rates count points.
 
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -18,7 +18,7 @@ use armill_core::kernel::Question;
 use armill_core::load::{Cutter, CuttingLaw, Hand, Immersion, LoadCases, LoadFrame, Mechanistic, PathLoad};
 use armill_core::map::along_path;
 use armill_core::nalgebra::{Matrix3, Point3, Rotation3, Unit, UnitQuaternion, Vector3};
-use armill_core::path::{Cutting, Greatest, Pace, PathPoint, Placing, SampledPath, Spin, Step, Track};
+use armill_core::path::{Cutting, GreatestForce, Pace, PathPoint, Placing, SampledPath, Spin, Step, Track};
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
 use armill_formats::toolpath::{apt, csv, gcode};
@@ -97,7 +97,9 @@ impl Paths {
                 ..SampledPath::default()
             },
             placing: placing(),
-            base_from_part: placing().base_from_path, spins: None, }
+            base_from_part: placing().base_from_path,
+            spins: None,
+        }
     }
 }
 
@@ -141,7 +143,7 @@ fn cutting() -> Cutting {
         immersion: Immersion::Up(5e-3),
         feed: None,
         spindle: Some(6000.0 * TAU / 60.0),
-        greatest: Greatest::LeftOut,
+        greatest: GreatestForce::LeftOut,
     }
 }
 
@@ -158,12 +160,12 @@ fn readers(paths: &Paths) -> Vec<Candidate<'_>> {
         black_box(&step);
     };
     let of_gcode = move || {
-        let requested = gcode::Wanted::default();
+        let requested = gcode::GcodeReadOptions::default();
         let read = gcode::read("part.ngc", paths.gcode.as_bytes(), &requested, &mut take);
         assert_eq!(read.expect("what was written here").cuts, POINTS as u64);
     };
     let of_apt = move || {
-        let requested = apt::Wanted {
+        let requested = apt::AptReadOptions {
             unit: None,
             dialect: None,
         };
@@ -195,14 +197,14 @@ fn predictions<'a>(arm: &'a Arm, paths: &'a Paths) -> Vec<Candidate<'a>> {
         ..arm.question(ONE_POSTURE)
     };
     let along = move || {
-        let answer = along_path(&question, &track, load.clone(), Watch::NONE).expect("nobody cancels");
-        assert_eq!(answer.answers.evaluation().count(), POINTS);
+        let answer = along_path(&question, &track, load.clone(), Watch::NONE).expect("not cancelled");
+        assert_eq!(answer.answers.evaluations().count(), POINTS);
         black_box(answer);
     };
     let cutting = cutting();
     let along_cut = move || {
         let forces = cutting.along(&of_cut.path, &of_cut.placing, None, Watch::NONE);
-        let load = PathLoad::Cuts(forces.expect("feed and spindle are told").cuts);
+        let load = PathLoad::Cuts(forces.expect("feed and spindle are given").cuts);
         black_box(along_path(&question, &of_cut, load, Watch::NONE)).ok();
     };
     vec![

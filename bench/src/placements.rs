@@ -1,13 +1,14 @@
-//! Rows of a search for a placement: places of a path judged, exhaustively.
+//! Rows of a placement search: placements of a path, evaluated exhaustively.
 //!
 //! | work | path | load |
 //! |---|---|---|
-//! | [`STEADY`] | one tool axis, one turn of the tool | four cases in the axes of the part |
-//! | [`LEANING`] | the tool leans another way at each point | four cases in the feed frame |
+//! | [`STEADY`] | one tool axis, one spin of the tool | four cases in the axes of the part |
+//! | [`LEANING`] | the tool axis differs from point to point | four cases in the feed frame |
 //!
-//! The first also as a search: a place is given up where it is known to be no better than the best so far, at the first point
-//! that shows it ([`SEARCH_WORST`]) or, where the mean counts, late ([`SEARCH_MEAN`]). One thread. Rates count place x point x
-//! case of all places, given up or not; one branch, its flip, limits and singularities judged.
+//! The first also as a search: a placement is dropped where it is known to be no better than the best so far, at the
+//! first point that shows it ([`SEARCH_WORST`]) or, for the mean, late ([`SEARCH_MEAN`]). One thread. Rates count
+//! placement x point x case of all placements, dropped or not; one branch, its flip, limits and singularities are
+//! evaluated.
 
 use std::f64::consts::TAU;
 use std::hint::black_box;
@@ -17,7 +18,7 @@ use armill_core::kernel::{PartPlacement, PlacedPath, Question};
 use armill_core::load::{LoadCases, LoadFrame, PathLoad};
 use armill_core::nalgebra::{Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
 use armill_core::optimize::{
-    Component, Objective, Holding, Score, Placeable, PlacementObjective, RankBy, ToolTurn, on_part,
+    Component, Objective, Placeable, PlacementObjective, PostureSelection, RankBy, Score, ToolTurn, on_part,
 };
 use armill_core::path::{Pace, PathPoint, Placing, SampledPath, Spin, Track};
 use armill_core::robot::BranchPattern;
@@ -29,22 +30,23 @@ use crate::armill::{Arm, ONE_POSTURE};
 use crate::clock::Candidate;
 use crate::workload::FORCES;
 
-/// Places judged, one tool axis.
+/// Placements evaluated, one tool axis.
 pub const STEADY: &str = "placement x point x case, one tool axis";
-/// Places judged, leaning tool.
+/// Placements evaluated, variable tool axis.
 pub const LEANING: &str = "placement x point x case, five axes";
-/// A search for the least largest deviation.
+/// A search for the smallest largest deviation.
 pub const SEARCH_WORST: &str = "placement x point x case, search for the least largest";
-/// A search for the least mean deviation.
+/// A search for the smallest mean deviation.
 pub const SEARCH_MEAN: &str = "placement x point x case, search for the least mean";
 
 /// Points of the path.
 const POINTS: usize = 20_000;
-/// Places judged in a run, and those of a search: the best of a grid of 10^6 is found among ever fewer that beat it.
+/// Placements evaluated in a run, and those of a search: the best of a grid of 10^6 is found among ever fewer that beat
+/// it.
 const PLACES: usize = 24;
 const SEARCHED: usize = 480;
 
-/// A path on a part, and places of it.
+/// A path on a part, and its placements.
 pub struct Places {
     path: PlacedPath,
     /// The first [`PLACES`] and all others of a search.
@@ -71,7 +73,7 @@ impl Places {
         let all: Vec<usize> = (0..POINTS).collect();
         let turn = ToolTurn::of(&track);
         let part = |k: usize| (k as f64 * 0.618).fract() - 0.5;
-        // All six degrees, near enough that every point is held.
+        // All six degrees, near enough that every point is reachable.
         let placements = (0..SEARCHED).map(|k| {
             let at = Vector3::new(part(k), part(3 * k), part(7 * k)) * 0.1;
             let turned = Vector3::new(part(5 * k), part(11 * k), part(13 * k)) * 0.2;
@@ -91,8 +93,9 @@ fn track(lean: f64) -> Track {
         let at = Vector3::new(0.1 * angle.cos(), 0.1 * (0.7 * angle).sin(), 1e-3 * angle.sin());
         PathPoint {
             at: at.into(),
-            axis: (lean > 0.0)
-                .then(|| Unit::new_normalize(Vector3::new(lean * (3.0 * angle).cos(), lean * angle.sin(), 1.0))),
+            axis: (lean > 0.0).then(|| {
+                Unit::new_normalize(Vector3::new(lean * (3.0 * angle).cos(), lean * angle.sin(), 1.0))
+            }),
             spin: None,
             direction: Unit::new_normalize(Vector3::new(-angle.sin(), angle.cos(), 0.01)),
             along: k as f64 * 1e-3,
@@ -112,7 +115,11 @@ fn track(lean: f64) -> Track {
             base_from_path: base_from_part,
             axis: Vector3::z_axis(),
             keeps_axis: lean == 0.0,
-            spin: if lean > 0.0 { Spin::AlongFeed(0.0) } else { Spin::Fixed(0.0) },
+            spin: if lean > 0.0 {
+                Spin::AlongFeed(0.0)
+            } else {
+                Spin::Fixed(0.0)
+            },
         },
         base_from_part,
         spins: None,
@@ -126,7 +133,7 @@ pub fn candidates<'a>(
     one_thread: &'a ThreadPool,
 ) -> Vec<Candidate<'a>> {
     const WHO: &str = "armill placement";
-    let judged = move |placements: &[PartPlacement], path: &PlacedPath, search: Option<Objective>| {
+    let evaluated = move |placements: &[PartPlacement], path: &PlacedPath, search: Option<Objective>| {
         let question: Question<'_> = arm.question(ONE_POSTURE);
         let placeable = Placeable {
             question: &question,
@@ -138,15 +145,19 @@ pub fn candidates<'a>(
                 margin: 0.0,
                 wrist: 0.0,
                 rank_by: RankBy::Nominal,
-                holding: Holding::InOneBranch,
+                selection: PostureSelection::ForPath,
             },
         };
         let mut best = Score::NONE;
         for chunk in placements.chunks(4) {
             let bar = search.is_some().then_some(&best);
             let scores = one_thread.install(|| placeable.scores(chunk, bar, Watch::NONE));
-            for score in scores.expect("nobody cancels").into_iter().flatten() {
-                assert!(search.is_some() || score.lost == 0, "{} points lost", score.lost);
+            for score in scores.expect("not cancelled").into_iter().flatten() {
+                assert!(
+                    search.is_some() || score.unreachable == 0,
+                    "{} points unreachable",
+                    score.unreachable
+                );
                 if score.beats(&best) {
                     best = score;
                 }
@@ -157,19 +168,19 @@ pub fn candidates<'a>(
     let count = |places: usize| places * POINTS * steady.path.case_count();
     vec![
         Candidate::new(WHO, STEADY, count(PLACES), move || {
-            judged(&steady.placements[..PLACES], &steady.path, None);
+            evaluated(&steady.placements[..PLACES], &steady.path, None);
         })
         .note("MH12, 20 000 points, four cases; six free degrees"),
         Candidate::new(WHO, LEANING, count(PLACES), move || {
-            judged(&leaning.placements[..PLACES], &leaning.path, None);
+            evaluated(&leaning.placements[..PLACES], &leaning.path, None);
         })
         .note("the same, with a rotation, directions and wrenches of its own at each point"),
         Candidate::new(WHO, SEARCH_WORST, count(SEARCHED), move || {
-            judged(&steady.placements, &steady.path, Some(Objective::Worst));
+            evaluated(&steady.placements, &steady.path, Some(Objective::Worst));
         })
         .note("480 places; one no better than the best so far is given up, seen in single precision first"),
         Candidate::new(WHO, SEARCH_MEAN, count(SEARCHED), move || {
-            judged(&steady.placements, &steady.path, Some(Objective::Mean));
+            evaluated(&steady.placements, &steady.path, Some(Objective::Mean));
         })
         .note("the same, where the mean counts"),
     ]

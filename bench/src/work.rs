@@ -1,4 +1,4 @@
-//! What is done at every pose. The names are the columns of the table and the second field of a row.
+//! Work at every pose. The names are the columns of the table and the second field of a row.
 //!
 //! | work | in | out |
 //! |---|---|---|
@@ -8,7 +8,7 @@
 //! | [`IK8`] | pose | joint angles of all 8 branches |
 //! | [`DEV_AT`], [`C66_AT`] | joint angles | as `dev` and `C66`, for those who have no inverse |
 //!
-//! Any other name is work that one candidate alone does; it stands in a table of its own.
+//! Any other name is work of one candidate only; it has a table of its own.
 
 /// Deviation of one branch.
 pub const DEV: &str = "dev";

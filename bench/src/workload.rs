@@ -1,8 +1,8 @@
 //! The arm, the poses and the loads that every candidate works on.
 //!
 //! Yaskawa MH12 with a tool of 150 mm, the tool axis horizontal (+x) and the TCP on the plane x = 1 m, as in
-//! milling a vertical plate. Poses whose wrist centre is out of reach are left out, joint limits are not looked
-//! at. Lengths m, angles rad.
+//! milling a vertical plate. Poses whose wrist centre is out of reach are left out, joint limits are neglected. Lengths
+//! m, angles rad.
 //!
 //! | symbol | meaning |
 //! |---|---|

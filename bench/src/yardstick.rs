@@ -1,5 +1,5 @@
-//! The yardstick: what a competent engineer writes for this arm in plain Rust, with sines, cosines and
-//! arctangents; no allocation, one pose at a time, nothing verified.
+//! The yardstick: a straightforward implementation for this arm in plain Rust, with sines, cosines and arctangents; no
+//! allocation, one pose at a time, no verification.
 //!
 //! Inverse by the OPW formulas, forward by sines and cosines of the joint angles, then the sums over joints:
 //!
@@ -7,7 +7,7 @@
 //! v_i = z_i x (TCP - o_i)      delta = sum c_i v_i (v_i . F)      C = sum c_i [v_i; z_i] [v_i; z_i]^T
 //! ```
 //!
-//! Angles `theta` count in the OPW convention, rad; `joints` as the controller shows them. Branches are ordered
+//! Angles `theta` are in the OPW convention, rad; `joints` as shown by the controller. Branches are ordered
 //! front up, front down, back up, back down, each followed by its flip; angles of a branch out of reach are NaN.
 //!
 //! Source: Brandstoetter, Angerer, Hofbaur 2014.
@@ -130,7 +130,7 @@ fn wrist(pose: &Pose, [t1, t2, t3]: [f64; 3]) -> [f64; 6] {
     [t1, t2, t3, t4, t5, t6]
 }
 
-/// Forward: where the joint axes lie, seen from the TCP.
+/// Forward: positions of the joint axes relative to the TCP.
 fn screws(theta: &[f64; 6]) -> [Screw; 6] {
     let [(s1, c1), (s2, c2)] = [theta[0], theta[1]].map(f64::sin_cos);
     let (s23, c23) = (theta[1] + theta[2]).sin_cos();

@@ -1,4 +1,4 @@
-//! Where the files lie that the library embeds: in the crate itself as it is published, in the repository otherwise.
+//! Finds the files that the library embeds: in the crate itself as published, in the repository otherwise.
 //!
 //! In the repository `robots`, `materials` and `studies` of this crate are links to the folders of the root, so that
 //! `cargo package` finds them; where git makes no links (on Windows), the folders of the root are taken.

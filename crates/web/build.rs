@@ -2,8 +2,8 @@
 //! otherwise.
 //!
 //! In the repository `dist` of this crate is a link to `web/dist`, so that `cargo package` finds it; where git makes no
-//! links (on Windows), `web/dist` is taken. Written is a list of names and bytes for `src/page.rs`; it is empty where
-//! there is no page.
+//! links (on Windows), `web/dist` is taken. The output is a list of names and bytes for `src/page.rs`; it is empty
+//! without a page.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};

@@ -15,7 +15,7 @@ const MOST_SAMPLES: usize = 500;
 /// Writes `corpus/TARGET/` and `dictionaries/TARGET.dict` in `folder`.
 ///
 /// # Errors
-/// What the operating system says against a file.
+/// An error of the operating system on a file.
 pub fn write(target: &Target, folder: &Path) -> io::Result<()> {
     let corpus = folder.join("corpus").join(target.name);
     fs::create_dir_all(&corpus)?;

@@ -1,4 +1,4 @@
-//! Pieces of text that random bytes would not hit: keys, tags, words, numbers at the edge.
+//! Pieces of text that random bytes would not hit: keys, tags, words, limiting numbers.
 
 /// The keys of a file and the names that it may give, as its JSON schema (one item a line) has them.
 pub fn of_schema(schema: &str) -> Vec<String> {
@@ -21,7 +21,7 @@ pub fn of_schema(schema: &str) -> Vec<String> {
     words
 }
 
-/// What a study file holds beside its keys and names: tables, values, numbers at the edge.
+/// What a study file contains in addition to its keys and names: tables, values, limiting numbers.
 #[rustfmt::skip]
 pub const STUDY: &[&str] = &[
     "format = 1\n", "robot = \"yaskawa/mh12\"\n", "robot = \"kuka/lbr-iiwa-14-r820\"\n", "base = \"controller\"\n", "material = \"aluminium-6061-t6\"\n",
@@ -89,7 +89,7 @@ pub const CHAIN: &[&str] = &[
     " * ", ")", "#", "1e308", "1e-320", "−", "°",
 ];
 
-/// Endings, and what tells formats apart.
+/// Endings, and words that distinguish formats.
 #[rustfmt::skip]
 pub const FORMAT: &[&str] = &[
     "toml\n", "urdf\n", "xacro\n", "xml\n", "yaml\n", "yml\n", "dh\n", "csv\n", "chain\n", "fsf\n", "txt\n", "step\n", "<robot", "<xacro:",
@@ -104,7 +104,7 @@ pub const LOAD_TESTS: &[&str] = &[
     "gauge_y_um", "gauge_z_mm", "weight", "note", "expected_dz_mm", ";", ",", "\t", "#", "\"", "1e308", "1e-320", "nan", "inf", "-0",
 ];
 
-/// What a reading is made of, and numbers at the edge.
+/// The parts of a reading, and limiting numbers.
 #[rustfmt::skip]
 pub const PENDANT: &[&str] = &["=", ",", "0,0,0,1,0,0,0", "-0.0", "1e9", "1e200", "1e308", "1e-320", "nan", "inf", "-", "+"];
 
@@ -191,7 +191,7 @@ pub const MATERIAL: &[&str] = &[
     "kae_n_per_mm = ", "kc1_n_per_mm2 = ", "mc_exponent = ", "group = ", "condition = ", "note = ", "[sources.x]\n", "nan", "inf", "1e308",
 ];
 
-/// Words of every format of tool paths, and what tells them apart.
+/// Words of every format of tool paths, and words that distinguish them.
 #[rustfmt::skip]
 pub const PROGRAM: &[&str] = &[
     "G0 ", "G1 X", "G2 I", "G21\n", "M2\n", "%\n", "N10 ", "(", ")", "#1=", "o1 sub\n", "GOTO/", "UNITS/MM\n", "PARTNO/", "TOOL PATH/", "FINI\n", "$$", "x_mm,y_mm,z_mm\n", "x_m;y_m;z_m\n",

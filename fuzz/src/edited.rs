@@ -1,4 +1,4 @@
-//! What must hold of a text that is changed by a program, and of the shapes that a URDF names.
+//! Requirements on a text that is changed by a program, and on the shapes that a URDF names.
 
 use armill_core::nalgebra::Vector3;
 use armill_formats::document::Document;
@@ -8,8 +8,8 @@ use armill_formats::robot::urdf::meshes as shapes;
 use crate::verdicts::refused;
 
 /// A value of a text that is changed: the path on the first line, the value as JSON on the second, the text after that.
-/// What is no JSON is put in as text. What comes out is TOML, has the value there, and is left alone by the same change; but
-/// that a new entry of a list can be taken away again.
+/// A value that is not JSON is inserted as text. The result is TOML, has the value there, and is not changed by the
+/// same change again; except that a new entry of a list can be removed again.
 pub fn edit(bytes: &[u8]) {
     let input = String::from_utf8_lossy(bytes);
     let mut lines = input.splitn(3, '\n');

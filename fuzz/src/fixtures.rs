@@ -1,5 +1,5 @@
-//! Good inputs to begin with: our own robots and studies, and small texts that use every part of a format; those of robots
-//! are files in `crates/formats/tests/seeds/`, which the tests change at random too.
+//! Good inputs to begin with: our own robots and studies, and small texts that use every part of a format; those of
+//! robots are files in `crates/formats/tests/seeds/`, which the tests change at random too.
 
 use armill_study::library::{MATERIALS, ROBOTS, example_studies};
 
@@ -231,7 +231,7 @@ pub fn force_csv() -> Vec<Vec<u8>> {
     ])
 }
 
-/// Points in every form that is read, and results that hold none.
+/// Points in every form that is read, and results without points.
 pub fn profiles() -> Vec<Vec<u8>> {
     seeds(&[
         "x_mm,y_mm\n25,0\n0,25.001\n-25,0\n0,-25\n",
@@ -293,7 +293,7 @@ fn seeds(texts: &[&str]) -> Vec<Vec<u8>> {
 
 const EVERY_TABLE: &str = r#"format = 1
 title = "Everything"
-question = "Does it hold?"
+question = "Is it within the tolerance?"
 robot = "yaskawa/mh12"
 base = "base_link"
 tolerance_um = 60

@@ -1,7 +1,7 @@
 //! Coverage-guided fuzzing of every parser: one program, one [`targets::TARGETS`] table, one target a run.
 //!
 //! `cargo xtask fuzz` builds this with the counters of LLVM's sanitizer coverage and calls it; libFuzzer has the
-//! `main`. What a run is about comes in the environment:
+//! `main`. A run is configured by the environment:
 //!
 //! | variable | meaning |
 //! |---|---|
@@ -9,7 +9,7 @@
 //! | `ARMILL_FUZZ_FOLDER` | where `corpus/TARGET/` and `dictionaries/TARGET.dict` are written before the run |
 //! | `ARMILL_SAMPLES` | folder of sample files: those that a target reads are seeds too |
 //!
-//! An input is bytes as they would come from disk; nothing is read from disk but what an input names itself.
+//! An input is bytes as they would come from disk; nothing is read from disk except the files that an input names.
 //! To add a target: one line in [`targets::TARGETS`]. To fuzz further: `cargo xtask fuzz TARGET --seconds 3600`; what
 //! was found stays in `corpus/TARGET/`, and the next run begins there.
 

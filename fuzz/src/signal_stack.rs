@@ -17,7 +17,7 @@ pub fn install() {
         ss_flags: 0,
         ss_size: memory.len(),
     };
-    // SAFETY: the memory is writable, of the size told, and is never freed or used for anything else.
+    // SAFETY: the memory is writable, of the given size, and is never freed or used for anything else.
     let installed = unsafe { libc::sigaltstack(&raw const stack, std::ptr::null_mut()) };
     assert_eq!(installed, 0, "no stack for signals");
 }

@@ -1,4 +1,4 @@
-//! Which parsers there are: name, what reads the bytes, what the bytes may look like.
+//! The table of parsers: name, function that reads the bytes, samples.
 
 use armill_formats::document::schema_json;
 use armill_study::file::format::StudyFile;

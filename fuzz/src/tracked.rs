@@ -1,4 +1,4 @@
-//! What must hold of anything that a tracker measured: poses and paths.
+//! Requirements on all measurements of a tracker: poses and paths.
 
 use std::sync::OnceLock;
 
@@ -24,7 +24,7 @@ pub fn poses(bytes: &[u8]) {
     };
     assert_eq!(found.poses.len(), found.lines.len());
     let question = calibrate::Question {
-        requested: calibrate::Asked::Geometry,
+        requested: calibrate::ParameterSet::Geometry,
         flange_from_point: Isometry::identity(),
         turn_length: 0.25,
         prior: None,

@@ -1,4 +1,4 @@
-//! What must hold of every input: no panic, a refusal that says something, and numbers that are numbers.
+//! Requirements on every input: no panic, a message for every refusal, and finite numbers.
 
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -7,7 +7,7 @@ use armill_core::frame::Isometry;
 use armill_core::load::ActsOn;
 use armill_core::measure::ballbar::{Direction, Run};
 use armill_core::nalgebra::Vector3;
-use armill_core::path::{Course, Pace, Step, ToldSpin};
+use armill_core::path::{Course, GivenSpin, Pace, Step};
 use armill_core::robot::Robot;
 use armill_core::robot::inverse::posture_at;
 use armill_core::roundness::{Plane, Profile};
@@ -17,7 +17,7 @@ use armill_formats::material;
 use armill_formats::measurement::ballbar;
 use armill_formats::measurement::format::{self as forces, ForceRecords};
 use armill_formats::measurement::{csv as force_csv, dynoware, load_tests as tests, profile};
-use armill_formats::robot::format::{self, Format, Wanted};
+use armill_formats::robot::format::{self, Format, RobotReadOptions};
 use armill_formats::robot::pendant;
 use armill_formats::robot::{RobotDescription, armill};
 use armill_formats::robot_program::{
@@ -28,11 +28,11 @@ use armill_formats::toolpath::{LengthUnit, Summary, apt, csv, gcode};
 use armill_study::file::resolve;
 use armill_study::{ErrorKind, library};
 
-/// Where no file of an input's naming is.
+/// A folder that does not contain the files that an input names.
 const NOWHERE: &str = "/nowhere";
-/// Joint position at which robots are compared, rad or m: no special posture of any arm.
+/// Joint position at which robots are compared, rad or m: not a special posture of any arm.
 const SOMEWHERE: f64 = 0.1;
-/// Two poses of the same robot, read and written and read again: the chain is multiplied up anew, and every product
+/// Two poses of the same robot, read and written and read again: the chain is multiplied up again, and every product
 /// rounds once.
 const SAME: f64 = 1e-9;
 /// The lengths of a robot may differ by this many powers of ten before rounding hides the small ones.
@@ -48,17 +48,17 @@ pub fn study(bytes: &[u8]) {
 
 /// Our own robot file.
 pub fn armill(bytes: &[u8]) {
-    judge_ours(read_as(bytes, Path::new("arm.toml"), Format::Armill));
+    check_ours(read_as(bytes, Path::new("arm.toml"), Format::Armill));
 }
 
 /// URDF.
 pub fn urdf(bytes: &[u8]) {
-    judge_foreign(read_as(bytes, Path::new("arm.urdf"), Format::Urdf));
+    check_foreign(read_as(bytes, Path::new("arm.urdf"), Format::Urdf));
 }
 
 /// xacro.
 pub fn xacro(bytes: &[u8]) {
-    judge_foreign(read_as(
+    check_foreign(read_as(
         bytes,
         &Path::new(NOWHERE).join("arm.xacro"),
         Format::Xacro,
@@ -67,20 +67,20 @@ pub fn xacro(bytes: &[u8]) {
 
 /// OPW parameters.
 pub fn opw(bytes: &[u8]) {
-    judge_foreign(read_as(bytes, Path::new("arm.yaml"), Format::Opw));
+    check_foreign(read_as(bytes, Path::new("arm.yaml"), Format::Opw));
 }
 
 /// A Denavit-Hartenberg table.
 pub fn dh(bytes: &[u8]) {
-    judge_foreign(read_as(bytes, Path::new("arm.dh"), Format::Dh));
+    check_foreign(read_as(bytes, Path::new("arm.dh"), Format::Dh));
 }
 
 /// A chain of elementary motions.
 pub fn chain(bytes: &[u8]) {
-    judge_foreign(read_as(bytes, Path::new("arm.chain"), Format::Chain));
+    check_foreign(read_as(bytes, Path::new("arm.chain"), Format::Chain));
 }
 
-/// A file whose format is to be found out: its ending on the first line, its content after that.
+/// A file whose format is to be detected: its ending on the first line, its content after that.
 pub fn format(bytes: &[u8]) {
     let end = bytes
         .iter()
@@ -90,10 +90,10 @@ pub fn format(bytes: &[u8]) {
     let ending = String::from_utf8_lossy(ending).replace(['/', '\\', '\0'], "");
     let path = PathBuf::from(format!("{NOWHERE}/arm.{ending}"));
     let content = content.get(1..).unwrap_or_default();
-    let read = format::read(&path, "arm", content, &Wanted::default());
+    let read = format::read(&path, "arm", content, &RobotReadOptions::default());
     match Format::of(&path, "") {
-        Some(Format::Armill) => judge_ours(read),
-        _ => judge_foreign(read),
+        Some(Format::Armill) => check_ours(read),
+        _ => check_foreign(read),
     }
 }
 
@@ -138,12 +138,12 @@ const MOST_REPEATED_LINES: usize = 20_000;
 
 /// G-code of a machine with a tilting table.
 pub fn gcode(bytes: &[u8]) {
-    let requested = gcode::Wanted {
+    let requested = gcode::GcodeReadOptions {
         rotaries: Some(gcode::Rotaries::table_ac()),
         most_repeated_lines: Some(MOST_REPEATED_LINES),
-        ..gcode::Wanted::default()
+        ..gcode::GcodeReadOptions::default()
     };
-    judge_program(gcode::read("part.ngc", bytes, &requested, &mut judge_step));
+    check_program(gcode::read("part.ngc", bytes, &requested, &mut check_step));
 }
 
 /// A tool table, in the unit of the machine.
@@ -163,32 +163,32 @@ pub fn tool_table(bytes: &[u8]) {
 
 /// Cutter locations.
 pub fn apt(bytes: &[u8]) {
-    let requested = apt::Wanted {
+    let requested = apt::AptReadOptions {
         unit: Some(LengthUnit::Millimetre),
         dialect: None,
     };
-    judge_program(apt::read("part.apt", bytes, &requested, &mut judge_step));
+    check_program(apt::read("part.apt", bytes, &requested, &mut check_step));
 }
 
 /// A path as a table.
 pub fn path_csv(bytes: &[u8]) {
-    judge_program(csv::read("path.csv", bytes, &mut judge_step));
+    check_program(csv::read("path.csv", bytes, &mut check_step));
 }
 
-/// A tool path program whose format is to be found out.
+/// A tool path program whose format is to be detected.
 pub fn program(bytes: &[u8]) {
-    let requested = program::Wanted {
+    let requested = program::ToolpathReadOptions {
         most_repeated_lines: Some(MOST_REPEATED_LINES),
-        ..program::Wanted::default()
+        ..program::ToolpathReadOptions::default()
     };
-    judge_program(program::read("part", bytes, &requested, &mut judge_step));
+    check_program(program::read("part", bytes, &requested, &mut check_step));
 }
 
 /// Half of the last digit that controllers keep, m and rad, in every direction, with angles that add up.
 const KEPT: [f64; 2] = [1e-6, 5e-5];
 
-/// A program of a robot, its files parted by a zero byte, in every language: what is read is made of numbers, and, written
-/// again with the poses that it has, reads to the same.
+/// A program of a robot, its files parted by a zero byte, in every language: what is read is made of numbers, and,
+/// written again with the poses that it has, reads to the same.
 pub fn robot_program(bytes: &[u8]) {
     let readers = [
         krl::read,
@@ -209,7 +209,7 @@ pub fn robot_program(bytes: &[u8]) {
             Ok(program) => program,
         };
         let moved = as_they_are(&program);
-        // Moves to one target may go to different places, where they leave out what the move before told.
+        // Moves to one target may go to different places, where they omit what the move before specified.
         let Ok(files) = program.with_poses(&moved) else {
             continue;
         };
@@ -250,8 +250,8 @@ fn as_they_are(program: &RobotProgram) -> Vec<Moved> {
     all
 }
 
-/// A program is refused for a reason, or counted.
-fn judge_program(read: Result<Summary, Problems>) {
+/// A program is refused with a reason, or summarised.
+fn check_program(read: Result<Summary, Problems>) {
     match read {
         Err(problems) => refused(&problems),
         Ok(summary) => {
@@ -264,8 +264,8 @@ fn judge_program(read: Result<Summary, Problems>) {
     }
 }
 
-/// A step of a program holds numbers that are numbers, directions, and arcs that turn.
-fn judge_step(step: Step) {
+/// A step of a program contains finite numbers, directions, and arcs that turn.
+fn check_step(step: Step) {
     let next = match step {
         Step::Move(next) => next,
         Step::Operation(operation) => {
@@ -278,8 +278,8 @@ fn judge_step(step: Step) {
     };
     assert!(next.end.iter().all(|value| value.is_finite()), "{next:?}");
     let spin = next.spin.map(|spin| match spin {
-        ToldSpin::Angle(angle) => angle,
-        ToldSpin::Orientation(turned) => turned.coords.sum(),
+        GivenSpin::Angle(angle) => angle,
+        GivenSpin::Orientation(turned) => turned.coords.sum(),
     });
     assert!(spin.is_none_or(f64::is_finite), "{next:?}");
     // A direction is normalised once and turned a few times.
@@ -298,7 +298,7 @@ fn judge_step(step: Step) {
 
 /// Forces as DynoWare exports them.
 pub fn dynoware(bytes: &[u8]) {
-    judge_forces(dynoware::read(
+    check_forces(dynoware::read(
         "cut.txt",
         bytes,
         ActsOn::Part,
@@ -313,13 +313,13 @@ pub fn force_csv(bytes: &[u8]) {
             rate_hz,
             ..forces::ForceReadOptions::default()
         };
-        judge_forces(force_csv::read("cut.csv", bytes, ActsOn::Tool, &requested));
+        check_forces(force_csv::read("cut.csv", bytes, ActsOn::Tool, &requested));
     }
 }
 
-/// Forces in a format that is to be found out.
+/// Forces in a format that is to be detected.
 pub fn forces(bytes: &[u8]) {
-    judge_forces(forces::read(
+    check_forces(forces::read(
         "cut",
         bytes,
         ActsOn::Tool,
@@ -327,7 +327,7 @@ pub fn forces(bytes: &[u8]) {
     ));
 }
 
-/// Points of a profile, with and without what a file does not tell; what can be read is judged too.
+/// Points of a profile, with and without what a file does not state; what can be read is evaluated too.
 pub fn profile(bytes: &[u8]) {
     let plain = profile::ProfileReadOptions {
         unit: Some(profile::LengthUnit::Millimetre),
@@ -365,8 +365,8 @@ pub fn profile(bytes: &[u8]) {
     }
 }
 
-/// Records hold numbers that are numbers, and their time goes on.
-fn judge_forces(read: Result<ForceRecords, Problems>) {
+/// Records contain finite numbers, and their time increases.
+fn check_forces(read: Result<ForceRecords, Problems>) {
     let found = match read {
         Err(problems) => return refused(&problems),
         Ok(found) => found,
@@ -418,7 +418,7 @@ pub fn material(bytes: &[u8]) {
 }
 
 fn read_as(bytes: &[u8], path: &Path, format: Format) -> Result<RobotDescription, Problems> {
-    let requested = Wanted {
+    let requested = RobotReadOptions {
         format: Some(format),
         tip: None,
     };
@@ -426,7 +426,7 @@ fn read_as(bytes: &[u8], path: &Path, format: Format) -> Result<RobotDescription
 }
 
 /// A robot of ours can be posed.
-fn judge_ours(read: Result<RobotDescription, Problems>) {
+fn check_ours(read: Result<RobotDescription, Problems>) {
     match read {
         Err(problems) => refused(&problems),
         Ok(found) => {
@@ -437,7 +437,7 @@ fn judge_ours(read: Result<RobotDescription, Problems>) {
 }
 
 /// A robot of another format can be posed, written as ours, and read again as the same.
-fn judge_foreign(read: Result<RobotDescription, Problems>) {
+fn check_foreign(read: Result<RobotDescription, Problems>) {
     let found = match read {
         Err(problems) => return refused(&problems),
         Ok(found) => found,
@@ -450,7 +450,7 @@ fn judge_foreign(read: Result<RobotDescription, Problems>) {
         Ok(again) => {
             let apart = (pose - flange(&again.robot)).norm();
             let near = apart <= SAME * pose.norm() || pose.norm() > LARGEST_M;
-            assert!(near, "written and read again it stands {apart} apart\n{text}");
+            assert!(near, "written and read again it is {apart} apart\n{text}");
         }
     }
 }

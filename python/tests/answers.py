@@ -1,4 +1,4 @@
-"""Real answers that pictures are drawn of, each made once."""
+"""Real answers for pictures, each made once."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ circle = { radius_mm = 100 }
 
 @functools.cache
 def folder() -> Path:
-    """Where files of the answers lie until the tests end."""
+    """Folder of the answers until the tests end."""
     kept = tempfile.TemporaryDirectory(prefix="armill-plot-")
     _KEPT.append(kept)
     return Path(kept.name)

@@ -1,4 +1,4 @@
-"""What the tests share: an arm, joint positions, where things are."""
+"""Shared by the tests: an arm, joint positions, paths."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def samples() -> Path:
 
 @pytest.fixture(scope="session")
 def command() -> Path:
-    """The command that was built without Python, whose bytes count."""
+    """The command built without Python, the reference for bytes."""
     path = Path(os.environ.get("ARMILL_BIN", ROOT / "target" / "debug" / "armill"))
     assert path.is_file(), f"{path} is not built: cargo build"
     return path

@@ -1,4 +1,4 @@
-"""Arrays of any kind go in, or are told what they should be."""
+"""Arrays of any kind are accepted, or refused with the expected shape."""
 
 from __future__ import annotations
 
@@ -34,18 +34,18 @@ def misaligned(array: np.ndarray) -> np.ndarray:
     ],
     ids=["fortran", "rows", "columns", "reversed", "misaligned", "endian", "longdouble", "lists", "tuples"],
 )
-def test_the_same_numbers_give_the_same_bits_however_they_lie(mh12, joints, change):
+def test_the_same_numbers_give_the_same_bits_for_any_memory_layout(mh12, joints, change):
     assert np.array_equal(mh12.deviation(change(joints), FORCE), mh12.deviation(joints, FORCE))
 
 
-def test_smaller_numbers_and_integers_are_taken(mh12, joints):
+def test_accepts_single_precision_and_integers(mh12, joints):
     single = joints.astype(np.float32)
     assert np.array_equal(mh12.forward(single), mh12.forward(single.astype(np.float64)))
     whole = np.array([[0, 1, 0, 0, 1, 0]], dtype=np.int16)
     assert np.array_equal(mh12.forward(whole), mh12.forward(whole.astype(float)))
 
 
-def test_what_comes_in_is_never_changed_and_what_goes_out_is_ones_own(mh12, joints):
+def test_inputs_are_never_changed_and_outputs_are_writable_copies(mh12, joints):
     before = joints.copy()
     joints.flags.writeable = False
     out = mh12.forward(joints)
@@ -84,7 +84,7 @@ def test_wrong_shapes_and_numbers_are_refused(mh12, given, message):
         [[0, 0], [0]],
     ],
 )
-def test_what_holds_no_real_numbers_is_refused_with_the_shape_that_is_wanted(mh12, given):
+def test_refuses_values_that_are_not_real_numbers_with_the_expected_shape(mh12, given):
     with pytest.raises(TypeError, match=r"joints: expected real numbers of shape \(n, 6\) or \(6,\), given"):
         mh12.forward(given)
 
@@ -100,21 +100,39 @@ def test_forces_of_other_widths_are_refused(mh12, joints):
 def test_poses_that_are_none_are_refused_with_their_index(mh12, joints):
     poses = mh12.forward(joints)
     for change, words in [
-        (lambda p: p.__setitem__((5, 0, 0), 2.0), r"poses\[5\] is no pose: its axes are not of length 1"),
-        (lambda p: p.__setitem__((5, 3, 0), 0.1), r"poses\[5\] is no pose: the last row"),
-        (lambda p: p.__setitem__((5, 1, 3), np.nan), r"poses\[5\] is no pose: a number is not finite"),
-        (lambda p: p.__setitem__((5, slice(0, 3), 2), -p[5, :3, 2]), r"poses\[5\] is no pose: .* left hand"),
+        (lambda p: p.__setitem__((5, 0, 0), 2.0), r"poses\[5\] is not a valid pose: its axes are not of length 1"),
+        (lambda p: p.__setitem__((5, 3, 0), 0.1), r"poses\[5\] is not a valid pose: the last row"),
+        (lambda p: p.__setitem__((5, 1, 3), np.nan), r"poses\[5\] is not a valid pose: a number is not finite"),
+        (lambda p: p.__setitem__((5, slice(0, 3), 2), -p[5, :3, 2]), r"poses\[5\] is not a valid pose: .* left hand"),
     ]:
         wrong = poses.copy()
         change(wrong)
         with pytest.raises(armill.InputError, match=words):
             mh12.inverse(wrong)
         with pytest.raises(armill.InputError, match=words):
-            mh12.hold(wrong, FORCE, normal=[0, 0, 1])
-    with pytest.raises(armill.InputError, match="tool is no pose"):
+            mh12.evaluate(wrong, FORCE, normal=[0, 0, 1])
+    with pytest.raises(armill.InputError, match="tool is not a valid pose"):
         mh12.forward(joints, np.zeros((4, 4)))
-    with pytest.raises(armill.InputError, match=r"tool: expected shape"):
-        mh12.forward(joints, np.eye(3))
+    for tool in (np.eye(3), np.eye(4)[:3], np.stack([np.eye(4)] * 2)):
+        with pytest.raises(armill.InputError, match=r"tool: expected shape \(4, 4\), given"):
+            mh12.forward(joints, tool)
+
+
+def test_masked_values_are_refused(mh12, joints):
+    masked = np.ma.masked_array(joints, mask=False)
+    assert np.array_equal(mh12.forward(masked), mh12.forward(joints))
+    masked[3, 2] = np.ma.masked
+    with pytest.raises(armill.InputError, match="joints: the array has masked values"):
+        mh12.forward(masked)
+
+
+def test_columns_of_a_data_frame_are_put_in_the_order_of_the_joints(mh12, joints):
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.DataFrame(joints, columns=mh12.joint_names)
+    assert np.array_equal(mh12.forward(frame[mh12.joint_names[::-1]]), mh12.forward(joints))
+    assert np.array_equal(mh12.forward(pandas.DataFrame(joints)), mh12.forward(joints))
+    with pytest.raises(armill.InputError, match="joints: the columns are a, b, c, d, e, f, the joints are S, L, U, R, B, T"):
+        mh12.forward(pandas.DataFrame(joints, columns=list("abcdef")))
 
 
 def test_poses_of_other_packages_are_taken(mh12, joints):
@@ -133,25 +151,27 @@ def test_poses_of_other_packages_are_taken(mh12, joints):
     assert np.array_equal(mh12.inverse(SE3(list(poses))).joints, witness)
     assert np.abs(mh12.inverse(pair).joints - witness).max() < 1e-9
     one = (Rotation.from_matrix(poses[0, :3, :3]), poses[0, :3, 3])
-    assert np.abs(mh12.hold(one, FORCE, branch="best").joints - mh12.hold(poses[0], FORCE, branch="best").joints).max() < 1e-9
+    assert np.abs(mh12.evaluate(one, FORCE, branch="best").joints - mh12.evaluate(poses[0], FORCE, branch="best").joints).max() < 1e-9
     with pytest.raises(armill.InputError, match="9 rotations and 4 translations"):
         mh12.inverse((pair[0], poses[:4, :3, 3]))
 
 
-def test_options_that_cannot_be_are_refused(mh12, joints):
-    for threads in (0, 2000):
+def test_refuses_invalid_options(mh12, joints):
+    for threads in (0, 2000, -1, 2**70):
         with pytest.raises(armill.InputError, match="threads: .* is not a number from 1 to 1024"):
             mh12.forward(joints, threads=threads)
+    with pytest.raises(TypeError, match="expected an integer, given str"):
+        mh12.forward(joints, threads="two")
     poses = mh12.forward(joints)
-    with pytest.raises(armill.InputError, match="branch: `sideways` names no branch"):
-        mh12.hold(poses, FORCE, branch="sideways", normal=[0, 0, 1])
+    with pytest.raises(armill.InputError, match="branch: `sideways` is not a branch"):
+        mh12.evaluate(poses, FORCE, branch="sideways", normal=[0, 0, 1])
     with pytest.raises(armill.InputError, match="normal has no direction"):
-        mh12.hold(poses, FORCE, normal=[0, 0, 0])
+        mh12.evaluate(poses, FORCE, normal=[0, 0, 0])
     with pytest.raises(armill.InputError, match=r"home: expected shape \(6,\)"):
         mh12.inverse(poses, home=[0.0])
-    with pytest.raises(armill.InputError, match="joints that turn and of joints that slide"):
-        armill.Robot.from_dh(np.zeros((2, 4)), "modified", sliding=[1], limits=[[-1, 1]] * 2)
-    with pytest.raises(armill.InputError, match="no joint 5"):
-        armill.Robot.from_dh(np.zeros((2, 4)), "modified", sliding=[5])
+    with pytest.raises(armill.InputError, match="revolute and of prismatic joints"):
+        armill.Robot.from_dh(np.zeros((2, 4)), "modified", prismatic=[1], limits=[[-1, 1]] * 2)
+    with pytest.raises(armill.InputError, match="joint 5 does not exist"):
+        armill.Robot.from_dh(np.zeros((2, 4)), "modified", prismatic=[5])
     with pytest.raises(armill.InputError, match="convention"):
         armill.Robot.from_dh(np.zeros((2, 4)), "craigish")

@@ -1,4 +1,4 @@
-"""Every command as a function: the bytes of the command, its errors, its options."""
+"""Each command as a function: the bytes of the command, its errors, its options."""
 
 from __future__ import annotations
 
@@ -57,11 +57,11 @@ def test_every_command_is_a_function_and_its_help_names_its_options(name):
     assert len(text.splitlines()) >= 2, text
 
 
-def test_no_command_that_answers_is_left_out(command):
+def test_every_command_with_an_answer_is_a_function(command):
     listed = typed(command, "--help").stdout.decode().split("Commands:")[1].split("Options:")[0]
     first = [line.split()[0] for line in listed.splitlines() if line.startswith("  ") and line[2:3].isalpha()]
     names = {name.replace("-", "_") for name in first} - {"help"}
-    # `run` and `check` are Study; `new` makes a folder; these two answer nothing.
+    # `run` and `check` are methods of Study; the others have no answer in JSON.
     assert names - set(COMMANDS) == {"run", "check", "new", "serve", "completions", "man"}
 
 
@@ -72,12 +72,12 @@ def test_a_table_of_points_gives_the_bytes_of_the_command(command, tmp_path, mon
     points = np.stack([radius * np.cos(angles), radius * np.sin(angles)], axis=1)
     np.savetxt(file, points, delimiter=",", header="x_mm,y_mm", comments="")
     answer = armill.roundness(file, harmonics=5, out=tmp_path / "out")
-    asked = typed(command, "roundness", file, "--harmonics", 5, "--json", "--out", tmp_path / "out")
-    assert asked.returncode == 0 and answer.json.encode() == asked.stdout
-    assert answer.talk == asked.stderr.decode().splitlines()
+    printed = typed(command, "roundness", file, "--harmonics", 5, "--json", "--out", tmp_path / "out")
+    assert printed.returncode == 0 and answer.json.encode() == printed.stdout
+    assert answer.messages == printed.stderr.decode().splitlines()
     monkeypatch.chdir(tmp_path)
-    asked = typed(command, "roundness", "--json", "--", "-bore.csv")
-    assert armill.roundness("-bore.csv").json.encode() == asked.stdout != b""
+    printed = typed(command, "roundness", "--json", "--", "-bore.csv")
+    assert armill.roundness("-bore.csv").json.encode() == printed.stdout != b""
 
 
 def test_libraries_and_studies_give_the_bytes_of_the_command(command, tmp_path):
@@ -86,16 +86,16 @@ def test_libraries_and_studies_give_the_bytes_of_the_command(command, tmp_path):
     cell = tmp_path / "cell"
     assert typed(command, "new", cell).returncode == 0
     both = armill.compare(cell, robot=["kuka/kr120r2500pro", "fanuc/m20ia"], threads=1)
-    asked = typed(command, "compare", cell, "--robot", "kuka/kr120r2500pro", "--robot", "fanuc/m20ia", "--json")
-    assert asked.returncode == 0 and both.json.encode() == asked.stdout
-    told: list[int] = []
-    path = armill.compensate(cell, out=tmp_path / "out", threads=2, progress=told.append)
-    asked = typed(command, "compensate", cell, "--out", tmp_path / "out", "--json")
-    assert asked.returncode == 0 and path.json.encode() == asked.stdout
-    assert told == sorted(told)
+    printed = typed(command, "compare", cell, "--robot", "kuka/kr120r2500pro", "--robot", "fanuc/m20ia", "--json")
+    assert printed.returncode == 0 and both.json.encode() == printed.stdout
+    counts: list[int] = []
+    path = armill.compensate(cell, out=tmp_path / "out", threads=2, progress=counts.append)
+    printed = typed(command, "compensate", cell, "--out", tmp_path / "out", "--json")
+    assert printed.returncode == 0 and path.json.encode() == printed.stdout
+    assert counts == sorted(counts)
 
 
-def test_refusals_have_the_words_of_the_command(command):
+def test_refusals_have_the_message_of_the_command(command):
     for operands, options, words in [
         (["yaskawa/mh21"], {"at_mm": [1, 2, 3]}, ["pose", "yaskawa/mh21", "--at-mm", "1,2,3"]),
         (["yaskawa/mh12"], {"at_mm": [1, 2]}, ["pose", "yaskawa/mh12", "--at-mm=1,2"]),
@@ -104,43 +104,43 @@ def test_refusals_have_the_words_of_the_command(command):
     ]:
         with pytest.raises(armill.InputError) as refused:
             armill.pose(*operands, **options)
-        asked = typed(command, *words, "--json")
-        assert asked.returncode == 2
-        said = asked.stderr.decode().rstrip().removeprefix("error: ")
-        if "Usage:" in said:
-            # How the command was typed differs.
-            said, ours = (text.split("Usage:")[0] for text in (said, str(refused.value)))
-            assert ours == said and refused.value.problems[0]["message"] == str(refused.value)
+        printed = typed(command, *words, "--json")
+        assert printed.returncode == 2
+        message = printed.stderr.decode().rstrip().removeprefix("error: ")
+        if "Usage:" in message:
+            # The usage differs from that of the command.
+            message, ours = (text.split("Usage:")[0] for text in (message, str(refused.value)))
+            assert ours == message and refused.value.problems[0]["message"] == str(refused.value)
         else:
-            assert str(refused.value).rstrip() == said
-            told = json.loads(asked.stdout)["problems"] if asked.stdout else refused.value.problems
-            assert refused.value.problems == told and told[0]["message"]
+            assert str(refused.value).rstrip() == message
+            reported = json.loads(printed.stdout)["problems"] if printed.stdout else refused.value.problems
+            assert refused.value.problems == reported and reported[0]["message"]
 
 
-def test_options_that_are_none_are_told_with_those_there_are():
+def test_reports_unknown_options_with_the_known_ones():
     with pytest.raises(armill.InputError, match="no option `at_m`: there are joints_deg, at_mm"):
         armill.pose("yaskawa/mh12", at_m=[1, 2, 3])
-    with pytest.raises(armill.InputError, match="takes True or False"):
+    with pytest.raises(armill.InputError, match="requires True or False"):
         armill.pose("yaskawa/mh12", at_mm=[1, 2, 3], load_dependent="yes")
     with pytest.raises(TypeError, match="at_mm: expected a text, a number"):
         armill.pose("yaskawa/mh12", at_mm=object())
 
 
-def test_the_tolerance_is_told_where_strict_is_asked(tmp_path):
+def test_reports_the_tolerance_with_strict(tmp_path):
     study = ROOT / "studies/mh12-groove"
     loose = armill.posture(study, out=tmp_path / "a", no_pictures=True)
-    assert loose.holds
+    assert loose.within_tolerance
     strict = armill.posture(study, out=tmp_path / "a", no_pictures=True, strict=True)
-    assert strict.json == loose.json and any("results in" in line for line in strict.talk)
+    assert strict.json == loose.json and any("results in" in line for line in strict.messages)
 
 
 def test_the_command_of_the_wheel_is_the_command(command):
     script = os.path.join(os.path.dirname(sys.executable), "armill")
     for words in ([*TYPED, "--json"], ["pose", "yaskawa/mh21", "--at-mm", "1,2,3"], ["--version"], ["nonsense"], []):
-        asked = typed(command, *words)
+        printed = typed(command, *words)
         for surface in ([script], [sys.executable, "-m", "armill"]):
             ours = subprocess.run([*surface, *words], capture_output=True)
-            assert (ours.returncode, ours.stdout, ours.stderr) == (asked.returncode, asked.stdout, asked.stderr), words
+            assert (ours.returncode, ours.stdout, ours.stderr) == (printed.returncode, printed.stdout, printed.stderr), words
 
 
 def test_moves_of_a_program_are_arrays(tmp_path):
@@ -160,5 +160,5 @@ def test_moves_of_a_program_are_arrays(tmp_path):
     with pytest.raises(armill.InputError) as refused:
         armill.read_path(file)
     assert refused.value.problems[0]["line"] == 1
-    with pytest.raises(armill.InputError, match="`foot` is no unit"):
+    with pytest.raises(armill.InputError, match="`foot` is not a unit"):
         armill.read_path(file, unit="foot")

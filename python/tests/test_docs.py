@@ -1,4 +1,4 @@
-"""The Python of README and guide runs, block after block; every public thing says what it gives."""
+"""The Python blocks of README and guide run; every public name documents its result."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def blocks(page: Path) -> list[str]:
 
 
 @pytest.mark.parametrize("page", PAGES)
-def test_the_python_of_a_page_runs(page, tmp_path, monkeypatch, capsys):
+def test_python_blocks_of_a_page_run(page, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     found = blocks(ROOT / page)
     assert found
@@ -44,7 +44,7 @@ def public() -> list[tuple[str, object]]:
 
 
 @pytest.mark.parametrize(("name", "thing"), public(), ids=lambda value: value if isinstance(value, str) else "")
-def test_every_public_thing_says_what_it_gives(name, thing):
+def test_every_public_name_documents_its_result(name, thing):
     text = inspect.getdoc(thing)
     assert text, name
     first = text.splitlines()[0]
@@ -54,16 +54,16 @@ def test_every_public_thing_says_what_it_gives(name, thing):
         assert "->" in first or name == "Study.check", f"{name}: {first}"
 
 
-def test_what_takes_arrays_tells_their_shapes_in_its_first_line():
-    for name in ("forward", "jacobian", "compliance", "deviation", "shares", "gravity"):
+def test_functions_of_arrays_document_shapes_in_their_first_line():
+    for name in ("forward", "jacobian", "compliance", "deviation", "contributions", "gravity"):
         first = inspect.getdoc(getattr(armill.Robot, name)).splitlines()[0]
         assert re.search(r"\(n, dof\).*-> \(n, ", first), first
-    for name in ("inverse", "hold"):
+    for name in ("inverse", "evaluate"):
         assert "(n, 4, 4) poses" in inspect.getdoc(getattr(armill.Robot, name)).splitlines()[0]
 
 
-def test_everything_of_the_native_part_is_offered_or_used():
+def test_all_names_of_the_native_part_are_public_or_used():
     own = {name for name in vars(_armill) if not name.startswith("_")}
-    assert own - set(armill.__all__) == {"arithmetic", "analysis", "command", "options"}
+    assert own - set(armill.__all__) == {"arithmetic", "call", "command", "options"}
     assert armill.__version__ == _armill.__version__
     assert (Path(inspect.getfile(armill)).parent / "py.typed").is_file()

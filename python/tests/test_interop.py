@@ -1,4 +1,4 @@
-"""Arms that go over to other packages and back stand where they stood, by the kinematics of those packages."""
+"""Arms converted to other packages and back have equal kinematics, evaluated by these packages."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ import armill
 from armill import interop
 
 ARMS = ["yaskawa/mh12", "kuka/kr120r2500pro"]
-# What arms of a few metres may differ by: rounding, m and rad.
+# Tolerance of rounding for arms of a few metres, m and rad.
 SAME = 1e-9
 
-# A rail, an axis that lies along no coordinate axis, joints that count the other way.
+# A rail, an axis along no coordinate axis, joints with reversed signs.
 SKEW = "Ty(q1) Tz(400) Rz(37) Rx(20) Rz(A) Tx(150) Rx(-20) Rz(-37) Ry(-B) Tz(600) Rx(C) Tx(120) Ry(30) Rz(D) Tz(80) Rx(E) Tx(40) Rz(F)"
 
 COUPLED = """
@@ -88,68 +88,68 @@ def by_pinocchio(pin, model, frame, joints):
     return np.array(poses), np.array(jacobians)
 
 
-def assert_stands_alike(arm, others):
+def assert_equal_kinematics(arm, others):
     joints = positions(arm.dof)
     poses, jacobians = others(joints)
     assert np.abs(arm.forward(joints) - poses).max() < SAME
     assert np.abs(arm.jacobian(joints) - jacobians).max() < SAME
 
 
-def test_the_toolbox_stands_where_the_arm_stands(rtb, arm):
+def test_the_toolbox_has_the_kinematics_of_the_arm(rtb, arm):
     ets = interop.to_ets(arm)
-    assert_stands_alike(arm, lambda joints: by_toolbox(ets, joints))
+    assert_equal_kinematics(arm, lambda joints: by_toolbox(ets, joints))
     limited = np.isfinite(arm.limits).all(axis=1)
-    told = np.array([joint.qlim for joint, known in zip(ets.joints(), limited) if known])
-    assert not limited.any() or np.allclose(told, arm.limits[limited])
+    limits = np.array([joint.qlim for joint, known in zip(ets.joints(), limited) if known])
+    assert not limited.any() or np.allclose(limits, arm.limits[limited])
 
 
-def test_an_arm_comes_back_from_the_toolbox(rtb, arm):
+def test_converts_an_arm_to_the_toolbox_and_back(rtb, arm):
     back = interop.from_ets(interop.to_ets(arm), name="again")
     joints = positions(arm.dof)
     assert np.abs(back.forward(joints) - arm.forward(joints)).max() < SAME
     assert np.allclose(back.limits, arm.limits) and back.dof == arm.dof and back.name == "again"
 
 
-def test_a_robot_of_the_toolbox_comes_over(rtb):
+def test_converts_a_robot_of_the_toolbox(rtb):
     puma = rtb.models.DH.Puma560()
     arm = interop.from_ets(puma)
-    assert_stands_alike(arm, lambda joints: by_toolbox(puma.ets(), joints))
-    # An arm with a closed form has it still.
+    assert_equal_kinematics(arm, lambda joints: by_toolbox(puma.ets(), joints))
+    # The closed form of the arm is kept.
     assert {arm.inverse(pose).branch[0].count(" ") for pose in arm.forward(0.5 * np.ones((1, 6)))} == {2}
 
 
-def test_pinocchio_stands_where_the_arm_stands(pin, arm):
+def test_pinocchio_has_the_kinematics_of_the_arm(pin, arm):
     model = interop.to_pinocchio(arm)
-    assert_stands_alike(arm, lambda joints: by_pinocchio(pin, model, "flange", joints))
+    assert_equal_kinematics(arm, lambda joints: by_pinocchio(pin, model, "flange", joints))
     assert list(model.names)[1:] == arm.joint_names
     limits = np.column_stack([model.lowerPositionLimit, model.upperPositionLimit])
     assert np.allclose(limits, arm.limits)
 
 
-def test_an_arm_comes_back_from_pinocchio(pin, arm):
+def test_converts_an_arm_to_pinocchio_and_back(pin, arm):
     back = interop.from_pinocchio(interop.to_pinocchio(arm))
     joints = positions(arm.dof)
     assert np.abs(back.forward(joints) - arm.forward(joints)).max() < SAME
     assert back.joint_names == arm.joint_names and np.allclose(back.limits, arm.limits)
 
 
-def test_a_model_of_pinocchio_comes_over(pin):
+def test_converts_a_model_of_pinocchio(pin):
     model = pin.buildSampleModelManipulator()
     arm = interop.from_pinocchio(model)
-    assert_stands_alike(arm, lambda joints: by_pinocchio(pin, model, model.frames[-1].name, joints))
+    assert_equal_kinematics(arm, lambda joints: by_pinocchio(pin, model, model.frames[-1].name, joints))
 
 
-def test_deviations_need_compliances_which_are_given_after(rtb):
+def test_compliances_can_be_given_after_a_conversion(rtb):
     mh12 = armill.Robot.load("yaskawa/mh12")
     back = interop.from_ets(interop.to_ets(mh12)).with_compliance(mh12.joint_compliance)
     joints = positions(6)
     assert np.allclose(back.deviation(joints, [3, -5, 5]), mh12.deviation(joints, [3, -5, 5]), atol=1e-12)
 
 
-def test_what_cannot_go_over_is_refused(rtb, pin):
+def test_refuses_what_cannot_be_converted(rtb, pin):
     coupled = armill.Robot.from_text(COUPLED, "armill")
     for over in (interop.to_ets, interop.to_pinocchio):
-        with pytest.raises(ValueError, match="is off by .* joints that are coupled"):
+        with pytest.raises(ValueError, match="differs by .* coupled joints"):
             over(coupled)
     with pytest.raises(TypeError, match="expected a roboticstoolbox.ETS, given int"):
         interop.from_ets(3)
@@ -158,26 +158,26 @@ def test_what_cannot_go_over_is_refused(rtb, pin):
         interop.from_ets(swapped)
     with pytest.raises(TypeError, match="expected a pinocchio.Model, given int"):
         interop.from_pinocchio(3)
-    with pytest.raises(ValueError, match="no frame is called 'tip'; there are universe"):
+    with pytest.raises(ValueError, match="the model has no frame 'tip'; it has universe"):
         interop.from_pinocchio(interop.to_pinocchio(armill.Robot.load("yaskawa/mh12")), "tip")
-    with pytest.raises(ValueError, match="move in|side branches"):
+    with pytest.raises(ValueError, match="degrees of freedom|side branches"):
         interop.from_pinocchio(pin.buildSampleModelHumanoid())
 
 
-def test_poses_of_spatialmath_and_scipy_are_taken_as_they_are(rtb):
+def test_accepts_poses_of_spatialmath_and_scipy(rtb):
     spatialmath = pytest.importorskip("spatialmath")
     rotation = pytest.importorskip("scipy.spatial.transform").Rotation
     mh12 = armill.Robot.load("yaskawa/mh12")
     poses = mh12.forward(positions(6)[:5] * 0.3)
-    wanted = mh12.inverse(poses)
+    expected = mh12.inverse(poses)
     tool = np.eye(4)
     tool[:3, 3] = [0, 0.02, 0.15]
     for given in (
         spatialmath.SE3(list(poses), check=False),
         (rotation.from_matrix(poses[:, :3, :3]), poses[:, :3, 3]),
     ):
-        assert np.allclose(mh12.inverse(given).joints, wanted.joints, atol=1e-9)
-        assert mh12.hold(given, [0, 0, -50], normal=[0, 0, 1]).held.all()
+        assert np.allclose(mh12.inverse(given).joints, expected.joints, atol=1e-9)
+        assert mh12.evaluate(given, [0, 0, -50], normal=[0, 0, 1]).reachable.all()
     single = spatialmath.SE3(poses[0], check=False)
-    assert np.allclose(mh12.inverse(single).joints, wanted.of(0), atol=1e-9)
+    assert np.allclose(mh12.inverse(single).joints, expected[0], atol=1e-9)
     assert np.allclose(mh12.forward(np.zeros(6), spatialmath.SE3(tool)), mh12.forward(np.zeros(6), tool))

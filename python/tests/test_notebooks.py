@@ -1,4 +1,4 @@
-"""Notebooks run from the first cell to the last, say nothing on stderr, and are kept without what came out."""
+"""Notebooks run from the first cell to the last, print nothing on stderr, and are stored without output."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ nbclient = pytest.importorskip("nbclient")
 
 FOLDER = Path(__file__).resolve().parents[1] / "notebooks"
 NAMES = sorted(path.stem for path in FOLDER.glob("*.ipynb"))
-MADE_UP = "MADE-UP tests: ARMILL_SAMPLES is not set"
+SYNTHETIC = "SYNTHETIC tests: ARMILL_SAMPLES is not set"
 
 
 def ran(name):
-    """Text and number of pictures of a notebook that was run in its folder."""
+    """Text and number of pictures of a notebook, run in its folder."""
     notebook = nbformat.read(FOLDER / f"{name}.ipynb", as_version=4)
     nbclient.NotebookClient(notebook, timeout=300, resources={"metadata": {"path": str(FOLDER)}}).execute()
     outputs = [output for cell in notebook.cells for output in cell.get("outputs", [])]
@@ -25,12 +25,12 @@ def ran(name):
     return text, sum("image/png" in output.get("data", {}) for output in outputs)
 
 
-def test_there_are_four():
+def test_the_folder_has_four_notebooks():
     assert NAMES == ["fanuc-identification", "own-robot", "paper-in-ten-cells", "placement-with-sensitivity"]
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_a_notebook_is_kept_clean(name):
+def test_notebooks_are_stored_without_output(name):
     notebook = nbformat.read(FOLDER / f"{name}.ipynb", as_version=4)
     nbformat.validate(notebook)
     code = [cell for cell in notebook.cells if cell.cell_type == "code"]
@@ -40,40 +40,40 @@ def test_a_notebook_is_kept_clean(name):
 
 
 @pytest.mark.filterwarnings("default")
-def test_the_paper_runs_and_tells_its_readings():
+def test_the_paper_runs_and_reports_its_readings():
     text, pictures = ran("paper-in-ten-cells")
     assert pictures == 8
-    assert "49.7 to   58.7 um  consistent" in text and "no point of the plane holds 50 µm" in text
+    assert "49.7 to   58.7 um  consistent" in text and "no point on the plane is within 50 µm" in text
 
 
 @pytest.mark.filterwarnings("default")
-def test_ones_own_robot_comes_to_its_map():
+def test_own_robot_results_in_a_map():
     text, pictures = ran("own-robot")
     assert pictures == 7
-    assert "4 postures, of them 4 inside the joint limits" in text and "assumed, not measured" in text
+    assert "4 postures, 4 inside the joint limits" in text and "assumed, not measured" in text
 
 
 @pytest.mark.filterwarnings("default")
-def test_the_springs_of_the_fanuc_are_those_that_were_published_here():
+def test_the_springs_of_the_fanuc_are_the_published_ones():
     if "ARMILL_SAMPLES" not in os.environ:
         pytest.skip("ARMILL_SAMPLES is not set")
     text, pictures = ran("fanuc-identification")
-    assert pictures == 3 and MADE_UP not in text
+    assert pictures == 3 and SYNTHETIC not in text
     # docs/theory/identification.md has the same figures.
     for left_out in ("20.8 %", "16.4 %", "8.8 %", "by hand 20.83 %, by the command 20.83 %"):
         assert left_out in text
 
 
 @pytest.mark.filterwarnings("default")
-def test_without_measured_tests_some_are_made_up_and_it_is_said(monkeypatch):
+def test_without_measured_tests_synthetic_ones_are_used_and_reported(monkeypatch):
     monkeypatch.delenv("ARMILL_SAMPLES", raising=False)
     text, pictures = ran("fanuc-identification")
-    assert pictures == 3 and MADE_UP in text
+    assert pictures == 3 and SYNTHETIC in text
 
 
 @pytest.mark.filterwarnings("default")
-def test_the_place_is_found_and_kept_by_other_compliances():
+def test_the_placement_is_found_and_is_robust_to_other_compliances():
     text, pictures = ran("placement-with-sensitivity")
     assert pictures == 2
-    assert "as drawn  nominal 139.74 um (the study says 139.74)" in text
-    assert "the place found is better in 100.0 % of all draws" in text and "U twice as soft" in text
+    assert "nominal   cost 139.74 um (the study reports 139.74)" in text
+    assert "the placement found is better in 100.0 % of all draws" in text and "U twice as soft" in text

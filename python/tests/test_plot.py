@@ -1,4 +1,4 @@
-"""Pictures hold the numbers of the answers that they are drawn of, with their units, and nothing lies over anything else."""
+"""Pictures have the numbers of their answers, with units, and without overlapping text."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 
 from armill import plot  # noqa: E402
 
-LIMIT = "#c8102e"
+TOLERANCE = "#c8102e"
 JOINTS = np.radians([[0, 12, -28, 0, 39, 0], [30, -5, -20, 0, 50, 0]])
 MH12 = armill.Robot.load("yaskawa/mh12")
 # Half the last digit of deviations in tables, of two that are compared, µm.
@@ -44,7 +44,7 @@ PICTURES = {
     "sections": lambda ax=None: plot.sections(answers.paper(), "Table 4, best branch", ax=ax),
     "path": lambda ax=None: plot.path(answers.paths(), "pocket", ax=ax),
     "along": lambda ax=None: plot.along(answers.paths(), "pocket", ax=ax),
-    "shares": lambda ax=None: plot.shares(answers.paths(), "pocket", ax=ax),
+    "contributions": lambda ax=None: plot.contributions(answers.paths(), "pocket", ax=ax),
     "polar": lambda ax=None: plot.polar(answers.paths(), ax=ax),
     "polar of a ball-bar": lambda ax=None: plot.polar(answers.ballbar()[1], ax=ax),
     "turns": lambda ax=None: plot.turns(answers.paths(), "turned", robot=MH12, tool=answers.tool(), turn_count=37, ax=ax),
@@ -67,8 +67,8 @@ def as_list(axes):
     return axes if isinstance(axes, list) else [axes]
 
 
-def columns(result, ask):
-    table = pyarrow.table(result.table(ask))
+def columns(result, analysis):
+    table = pyarrow.table(result.table(analysis))
     return {name: table[name].to_numpy() for name in table.column_names}
 
 
@@ -81,7 +81,7 @@ def lines(ax):
 
 
 @pytest.mark.parametrize("name", PICTURES)
-def test_a_picture_names_what_it_shows_and_leaves_settings_as_they_were(name):
+def test_a_picture_has_labels_and_restores_settings(name):
     before = dict(mpl.rcParams)
     axes = as_list(PICTURES[name]())
     assert {key: value for key, value in mpl.rcParams.items() if before[key] != value} == {}
@@ -92,16 +92,16 @@ def test_a_picture_names_what_it_shows_and_leaves_settings_as_they_were(name):
             assert all(label.get_text().endswith("µm") for label in ax.get_yticklabels()[:-1])
             continue
         named = [ax.get_xlabel(), ax.get_ylabel(), *([ax.get_zlabel()] if ax.name == "3d" else [])]
-        told = [label for label in named if label]
-        units = [re.search(r"\((mm|µm|deg|µm/N|µrad/\(N m\))\)$", label) for label in told]
+        labels = [label for label in named if label]
+        units = [re.search(r"\((mm|µm|deg|µm/N|µrad/\(N m\))\)$", label) for label in labels]
         # Rows with names, tests by their numbers and waves by theirs have no unit.
-        unitless = ("test, in the order of the table", "waves a turn; below: phase of the prediction beyond the part")
-        assert all(unit or label in unitless for unit, label in zip(units, told)), told
-        assert told or name == "sections"
+        unitless = ("test, in the order of the table", "waves per revolution; below: phase of the prediction minus phase of the part")
+        assert all(unit or label in unitless for unit, label in zip(units, labels)), labels
+        assert labels or name == "sections"
 
 
 @pytest.mark.parametrize("name", PICTURES)
-def test_a_picture_goes_onto_the_axes_of_the_caller(name):
+def test_a_picture_is_drawn_on_given_axes(name):
     own = as_list(PICTURES[name]())
     figure = plt.figure(figsize=(9, 3.4 * len(own)))
     projection = None if own[0].name == "rectilinear" else own[0].name
@@ -120,7 +120,7 @@ def test_a_picture_goes_onto_the_axes_of_the_caller(name):
 
 
 @pytest.mark.parametrize("name", PICTURES)
-def test_no_words_lie_over_others_or_beyond_the_edge(name):
+def test_no_text_overlaps_another_or_the_edge(name):
     figure: Figure = as_list(PICTURES[name]())[0].figure
     figure.canvas.draw()
     boxes = []
@@ -137,17 +137,17 @@ def test_no_words_lie_over_others_or_beyond_the_edge(name):
                 ticks = [tick for tick, at in zip(ticks, axis.get_ticklocs()) if low <= at <= high] if len(ticks) else []
                 boxes += [(label.get_text(), label.get_window_extent()) for label in ticks]
     for (one, a), (other, b) in itertools.combinations(boxes, 2):
-        assert not a.shrunk(0.9, 0.9).overlaps(b.shrunk(0.9, 0.9)) or one == other, f"{one!r} lies over {other!r}"
+        assert not a.shrunk(0.9, 0.9).overlaps(b.shrunk(0.9, 0.9)) or one == other, f"{one!r} overlaps {other!r}"
     width, height = figure.canvas.get_width_height()
     for text, box in boxes:
         assert box.x0 > -2 and box.y0 > -2 and box.x1 < width + 2 and box.y1 < height + 2, f"{text!r} is cut off"
 
 
-def test_titles_side_by_side_do_not_meet():
+def test_adjacent_titles_do_not_overlap():
     figure = plt.figure(figsize=(11, 6.4), layout="constrained")
     axes = [figure.add_subplot(1, 2, i + 1, projection="polar") for i in range(2)]
-    for ax, ask in zip(axes, ("groove", "turned")):
-        plot.polar(answers.paths(), ask, ax=ax)
+    for ax, analysis in zip(axes, ("groove", "turned")):
+        plot.polar(answers.paths(), analysis, ax=ax)
     figure.canvas.draw()
     left, right = (ax.texts[-1].get_window_extent() for ax in axes)
     assert left.x1 < right.x0 and right.x1 < figure.bbox.width
@@ -156,57 +156,57 @@ def test_titles_side_by_side_do_not_meet():
 # ---- planes
 
 
-def test_contours_lie_at_the_levels_and_the_limit_where_the_core_finds_it():
+def test_contours_are_at_the_levels_and_the_tolerance_where_the_core_finds_it():
     found = answers.paper().answer["maps"][3]
     ax = plot.map(answers.paper(), found["name"], levels=[20, 60, 100, 140, 160])
-    filled, limit, thin = [each for each in ax.collections if isinstance(each, QuadContourSet)]
+    filled, tolerance, thin = [each for each in ax.collections if isinstance(each, QuadContourSet)]
     assert list(filled.levels) == [20, 60, 100, 140, 160] and list(thin.levels) == [60, 100, 140]
-    assert list(limit.levels) == [50] and to_hex(limit.get_edgecolor()[0]) == LIMIT
-    assert limit.get_linewidth()[0] > 4 * thin.get_linewidth()[0]
-    # The core's own marching squares, which interpolate along the same edges; corners of the frame are theirs alone.
+    assert list(tolerance.levels) == [50] and to_hex(tolerance.get_edgecolor()[0]) == TOLERANCE
+    assert tolerance.get_linewidth()[0] > 4 * thin.get_linewidth()[0]
+    # The marching squares of the core interpolate along the same edges; only they have corners of the frame.
     boundary = np.vstack([np.array(line) for line in found["region"]["boundary_mm"]])
-    for vertex in limit.get_paths()[0].vertices:
+    for vertex in tolerance.get_paths()[0].vertices:
         assert np.min(np.linalg.norm(boundary - vertex, axis=1)) < 0.05, vertex
     assert ax.get_xlim() == (400, -400), "seen from the tool side"
-    assert "limit 50 µm" in legend(ax) and "least 20.1 µm" in legend(ax)
-    least = lines(ax)["least 20.1 µm"].get_xydata()
-    assert least.tolist() == [found["best"]["in_plane_mm"]]
+    assert "tolerance 50 µm" in legend(ax) and "smallest 20.1 µm" in legend(ax)
+    smallest = lines(ax)["smallest 20.1 µm"].get_xydata()
+    assert smallest.tolist() == [found["best"]["in_plane_mm"]]
 
 
-def test_what_is_out_of_reach_is_hatched_with_its_reason():
+def test_unreachable_cells_are_hatched_with_their_reason():
     found = answers.far().answer["maps"][0]
-    reasons = {remark["reason"]: len(remark["points"]) for remark in found["grid"]["remarks"]}
+    reasons = {flag["reason"]: len(flag["points"]) for flag in found["grid"]["flags"]}
     ax = plot.map(answers.far())
     assert f"too far ({reasons['too_far']} points)" in legend(ax)
     hatches = [patch for patch in ax.patches if patch.get_hatch()]
     assert len(hatches) == 1
-    # Five vertices a cell, about its point.
+    # Five vertices per cell, around its point.
     cells = hatches[0].get_path().vertices.reshape(-1, 5, 2)[:, :4].mean(axis=1)
     values = np.array(found["grid"]["in_plane_um"], dtype=float).reshape(21, 21)
     rows, places = np.nonzero(np.isnan(values))
-    wanted = np.column_stack([np.array(found["grid"]["y_mm"])[places], np.array(found["grid"]["z_mm"])[rows]])
-    assert np.allclose(cells[np.lexsort(cells.T)], wanted[np.lexsort(wanted.T)])
+    expected = np.column_stack([np.array(found["grid"]["y_mm"])[places], np.array(found["grid"]["z_mm"])[rows]])
+    assert np.allclose(cells[np.lexsort(cells.T)], expected[np.lexsort(expected.T)])
 
 
-def test_other_values_of_the_grid_are_drawn_without_the_limit_and_unknown_ones_refused():
+def test_other_values_of_the_grid_have_no_tolerance_and_unknown_ones_are_refused():
     ax = plot.map(answers.paper(), value="normal_um")
-    assert not any(text.startswith("limit") for text in legend(ax) if ax.get_legend()) if ax.get_legend() else True
+    assert not any(text.startswith("tolerance") for text in legend(ax) if ax.get_legend()) if ax.get_legend() else True
     assert ax.figure.axes[1].get_ylabel() == "deviation along the normal (µm)"
     with pytest.raises(ValueError, match="expected one of in_plane_um"):
         plot.map(answers.paper(), value="in_plane")
 
 
-def test_the_region_drawn_has_the_area_that_is_told():
+def test_the_drawn_region_has_the_reported_area():
     found = answers.paper().answer["maps"][3]
     ax = plot.region(answers.paper(), found["name"])
-    told = {patch.get_label(): patch for patch in ax.patches}
+    labels = {patch.get_label(): patch for patch in ax.patches}
     x, y = plot._region.outline(found["region"]["boundary_mm"]).vertices.T
     area = 0.5 * abs(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
     assert area == pytest.approx(found["region"]["area_mm2"], rel=1e-9)
     assert "within: 491 cm²" in legend(ax) and f"{found['region']['area_mm2'] / 100:.0f}" == "491"
-    rectangle = told["rectangle 380 mm x 100 mm"]
+    rectangle = labels["rectangle 380 mm x 100 mm"]
     assert [abs(rectangle.get_width()), abs(rectangle.get_height())] == [380, 100]
-    assert told["circle of radius 50 mm"].get_radius() == found["region"]["circle_radius_mm"]
+    assert labels["circle of radius 50 mm"].get_radius() == found["region"]["circle_radius_mm"]
 
 
 def test_holes_of_a_region_are_not_filled():
@@ -223,7 +223,7 @@ def test_holes_of_a_region_are_not_filled():
         assert [pixels[50, 15], pixels[50, 35], pixels[50, 50]] == [0, 255, 0]
 
 
-def test_sections_share_their_levels_and_say_what_holds():
+def test_sections_share_their_levels_and_show_the_fraction_within():
     result = answers.paper()
     axes = plot.sections(result, "Table 5")
     planes = [plane for plane in result.answer["maps"] if plane["name"].startswith("Table 5: ")]
@@ -231,7 +231,7 @@ def test_sections_share_their_levels_and_say_what_holds():
     bands = [next(each for each in ax.collections if isinstance(each, QuadContourSet)).levels.tolist() for ax in axes]
     assert all(levels == bands[0] for levels in bands)
     assert f"{100 * planes[0]['fraction_within']:.0f} % within" in axes[0].get_title(loc="left")
-    with pytest.raises(plot.Missing, match="no sections are called 'Table 6'; there are 'Table 4'"):
+    with pytest.raises(plot.Missing, match="'Table 6' is not among the sections: 'Table 4'"):
         plot.sections(result, "Table 6")
 
 
@@ -252,15 +252,15 @@ def test_a_path_is_coloured_by_its_table():
 
 
 def test_a_plane_given_by_angles_has_its_own_axes():
-    """In-plane coordinates of the core against those that pictures reckon."""
-    for result, ask in ((answers.far(), 0), (answers.paths(), 2), (answers.paper(), 0)):
-        answer = result.answer["paths"][ask]
+    """In-plane coordinates of the core compared with those of the pictures."""
+    for result, analysis in ((answers.far(), 0), (answers.paths(), 2), (answers.paper(), 0)):
+        answer = result.answer["paths"][analysis]
         for point in answer["worst_points"]:
             place = {f"{axis}_mm": np.array([value]) for axis, value in zip("xyz", point["point"]["xyz_mm"])}
             assert np.allclose(np.ravel(plot._setting.in_plane(answer, place)), point["point"]["in_plane_mm"], atol=1e-6)
 
 
-def test_cuts_that_lie_apart_are_not_joined(tmp_path):
+def test_separate_cuts_are_not_joined(tmp_path):
     (tmp_path / "part.nc").write_text("G21 G90 G94\nG0 X0 Y0 Z5\nG1 Z0 F200\nG1 X80 F600\nG0 Z5\nG0 X0 Y40\nG1 Z0\nG1 X80\nM30\n")
     study = answers.PATHS.split("[[analysis]]")[0] + '[[analysis]]\nkind = "path"\nname = "part"\n[analysis.program]\nfile = "part.nc"\n'
     result = armill.Study.from_text(study, tmp_path).run()
@@ -273,25 +273,25 @@ def test_cuts_that_lie_apart_are_not_joined(tmp_path):
     assert np.isnan(line.get_xdata()).sum() == 1
 
 
-def test_along_a_path_stand_the_numbers_of_the_table():
+def test_along_a_path_has_the_numbers_of_the_table():
     points = columns(answers.paths(), "pocket")
     ax = plot.along(answers.paths(), "pocket")
     drawn = lines(ax)
     for label, name in (("in-plane, across the tool", "in_plane_um"), ("along the track", "along_um")):
         assert np.array_equal(drawn[label].get_xydata(), np.column_stack([points["distance_mm"], points[name]]))
-    assert set(drawn["limit 300 µm"].get_ydata()) == {300} and to_hex(drawn["limit 300 µm"].get_color()) == LIMIT
+    assert set(drawn["tolerance 300 µm"].get_ydata()) == {300} and to_hex(drawn["tolerance 300 µm"].get_color()) == TOLERANCE
     worst = drawn[next(label for label in drawn if label.startswith("worst points"))]
     assert worst.get_ydata()[0] == pytest.approx(np.max(points["in_plane_um"]), abs=DIGITS_UM)
 
 
-def test_shares_add_up_to_the_deviation():
+def test_contributions_add_up_to_the_deviation():
     answer = answers.paths().answer["paths"][2]
-    ax = plot.shares(answers.paths(), "pocket")
+    ax = plot.contributions(answers.paths(), "pocket")
     assert [bars.get_label() for bars in ax.containers] == answer["setting"]["contributors"]
     sums = np.sum([[bar.get_width() for bar in bars] for bars in ax.containers], axis=0)
     assert np.allclose(sums, [each["point"]["in_plane_um"] for each in answer["worst_points"]], rtol=1e-9)
-    plane = plot.shares(answers.paper(), "Fig. 6")
-    assert [label.get_text() for label in plane.get_yticklabels()] == ["largest", "least"]
+    plane = plot.contributions(answers.paper(), "Fig. 6")
+    assert [label.get_text() for label in plane.get_yticklabels()] == ["largest", "smallest"]
 
 
 def test_radial_deviations_are_those_of_the_core_and_other_tables_refused():
@@ -305,11 +305,11 @@ def test_radial_deviations_are_those_of_the_core_and_other_tables_refused():
         plot.polar(answers.paths().answer, "turned", table=columns(answers.paths(), "groove"))
     with pytest.raises(plot.Missing, match="the table has no column deviation_x_case_2_um"):
         plot.polar(answers.paths().answer, "turned", table=answers.far().table("round"))
-    with pytest.raises(plot.Missing, match="'pocket' is no circle"):
+    with pytest.raises(plot.Missing, match="'pocket' is not a circle"):
         plot.polar(answers.paths(), "pocket")
 
 
-def test_runs_of_a_ball_bar_go_clockwise_in_one_colour_and_back_in_another():
+def test_clockwise_and_anticlockwise_runs_of_a_ball_bar_have_two_colours():
     answer, out = answers.ballbar()
     runs = plot._answers.read_table(out / "runs.csv", "")
     drawn = lines(plot.polar(answer, table=out / "runs.csv"))
@@ -321,50 +321,50 @@ def test_runs_of_a_ball_bar_go_clockwise_in_one_colour_and_back_in_another():
         plot.polar(answer)
 
 
-def test_at_the_turn_that_was_chosen_the_lattice_has_the_deviation_of_the_path():
+def test_at_the_chosen_spin_the_lattice_has_the_deviation_of_the_path():
     points = columns(answers.paths(), "turned")
     ax = plot.turns(answers.paths(), "turned", robot=MH12, tool=answers.tool(), turn_count=19)
-    assert np.allclose(lines(ax)["turn chosen"].get_ydata(), points["turn_deg"], atol=1e-9)
+    assert np.allclose(lines(ax)["chosen spin"].get_ydata(), points["turn_deg"], atol=1e-9)
     values = ax.collections[0].get_array().reshape(19, -1)
     turns = np.linspace(-180, 180, 19)
     rows = np.array([np.flatnonzero(np.isclose(turns, turn))[0] for turn in points["turn_deg"]])
     found = values[rows, np.arange(len(rows))]
     assert np.allclose(found, points["in_plane_um"], atol=0.01)
-    with pytest.raises(plot.Missing, match="'groove' was not searched"):
+    with pytest.raises(plot.Missing, match="'groove' has no search"):
         plot.turns(answers.paths(), "groove")
     with pytest.raises(plot.Missing, match="is of another arm: it has no joint_"):
         plot.turns(answers.paths(), "turned", robot=armill.Robot.load("kuka/kr120r2500pro"))
 
 
-def test_a_turn_beyond_half_a_turn_comes_in_from_the_other_side():
+def test_a_spin_beyond_half_a_turn_is_shown_modulo_one_turn():
     study = answers.PATHS.split("[[analysis]]")[0].replace("[900, 100, 500]", "[1250, 100, 500]")
     study += '[[analysis]]\nkind = "path"\nname = "slot"\nrectangle = { size_mm = [300, 500] }\nstep_mm = 5\n'
     result = armill.Study.from_text(study + "posture.search = { step_deg = 10 }\n").run()
-    told = columns(result, "slot")["turn_deg"]
-    assert told.max() > 180, "the path no longer turns so far: take another"
-    drawn = lines(plot.turns(result))["turn chosen"].get_ydata()
+    labels = columns(result, "slot")["turn_deg"]
+    assert labels.max() > 180, "the spin of this path no longer exceeds half a turn: use another path"
+    drawn = lines(plot.turns(result))["chosen spin"].get_ydata()
     known = drawn[np.isfinite(drawn)]
-    assert len(known) == len(told) and np.allclose(np.cos(np.radians(known - told)), 1.0) and np.isnan(drawn).any()
+    assert len(known) == len(labels) and np.allclose(np.cos(np.radians(known - labels)), 1.0) and np.isnan(drawn).any()
     assert known.min() >= -180 and known.max() <= 180
 
 
-def test_what_is_nowhere_reached_is_drawn_so_or_told():
+def test_an_unreachable_plane_is_drawn_as_such_or_reported():
     study = answers.PATHS.split("[[analysis]]")[0].replace("[900, 100, 500]", "[3000, 100, 500]")
     study += '[[analysis]]\nkind = "map"\nname = "far"\n[[analysis]]\nkind = "path"\nname = "away"\nrectangle = { size_mm = [160, 100] }\n'
     result = armill.Study.from_text(study).run()
     assert legend(plot.map(result)) == ["too far (25 points)"]
     assert not [patch for patch in plot.region(result).patches if patch.get_label().startswith("circle")]
-    assert legend(plot.path(result)) == ["not reached"]
-    assert any(label.startswith("not reached") for label in legend(plot.along(result)))
-    for ask in ("far", "away"):
-        with pytest.raises(plot.Missing, match=f"shares: no point of '{ask}' is reached"):
-            plot.shares(result, ask)
+    assert legend(plot.path(result)) == ["unreachable"]
+    assert any(label.startswith("unreachable") for label in legend(plot.along(result)))
+    for analysis in ("far", "away"):
+        with pytest.raises(plot.Missing, match=f"contributions: no point of '{analysis}' is reachable"):
+            plot.contributions(result, analysis)
 
 
-# ---- what commands answer
+# ---- answers of commands
 
 
-def test_the_profile_lies_between_the_circles_and_touches_them():
+def test_the_profile_is_between_the_circles_and_touches_them():
     answer, table = answers.bore()
     drawn = lines(plot.roundness(answer, table=table))
     profile = drawn["profile"]
@@ -400,22 +400,22 @@ def test_the_budget_has_a_bar_for_every_contribution_and_a_pair_for_every_wave()
 def test_a_placement_shows_its_front_and_the_costs_that_are_given():
     found = json.loads((answers.placed() / "placement.json").read_text())
     front, tilt = drawn_placement()
-    line = lines(front)["least, by margin"]
+    line = lines(front)["smallest, by margin"]
     assert line.get_xydata().tolist() == [[each["margin_deg"], each["cost_um"]] for each in found["by_margin"]]
-    assert f"as drawn {plot._style.number(found['nominal']['cost_um'])} µm" in legend(front)
-    assert lines(tilt)["all else as found"].get_xdata()[0] == 60 and tilt.get_xlabel() == "tilt of the part (deg)"
+    assert f"nominal {plot._style.number(found['nominal']['cost_um'])} µm" in legend(front)
+    assert lines(tilt)["others as found"].get_xdata()[0] == 60 and tilt.get_xlabel() == "tilt of the part (deg)"
     assert plot.placement(found)[0].get_ylabel() == "largest in-plane deviation (µm)"
-    with pytest.raises(plot.Missing, match="no degree is called tilt"):
+    with pytest.raises(plot.Missing, match="tilt is not a coordinate"):
         plot.placement(found, {"tilt": ([1], [1])})
     with pytest.raises(plot.Missing, match="the answer has no `by_margin`: give that of `armill place`"):
         plot.placement(answers.paths())
 
 
-def test_springs_stand_where_they_were_found_and_residuals_are_told():
+def test_springs_and_residuals_have_the_values_of_the_answer():
     answer = answers.springs()
     springs, residuals = plot.identify(answer)
-    told = [label.get_text() for label in springs.get_yticklabels()]
-    assert told == [spring["name"] for spring in answer.springs]
+    labels = [label.get_text() for label in springs.get_yticklabels()]
+    assert labels == [spring["name"] for spring in answer.springs]
     means = [line.get_xdata()[0] for line in springs.get_lines() if line.get_marker() == "o"]
     assert np.allclose(means, [1e6 * spring["compliance_rad_per_n_m"] for spring in answer.springs])
     sizes = lines(residuals)["with this test used"].get_ydata()
@@ -453,7 +453,7 @@ def test_the_ellipsoid_is_where_one_newton_moves_the_tool():
         plot.stiffness(MH12, JOINTS)
 
 
-# ---- what is given
+# ---- inputs
 
 
 def test_result_json_dict_and_folder_give_the_same_picture(tmp_path):
@@ -467,19 +467,19 @@ def test_result_json_dict_and_folder_give_the_same_picture(tmp_path):
         assert len(plot.along(answers.paths().answer, "pocket", table=each).get_lines()) > 5
 
 
-def test_what_is_missing_is_told(tmp_path):
+def test_reports_missing_data(tmp_path):
     result = answers.paths()
     with pytest.raises(TypeError, match="map: expected an armill.Result, .* given int"):
         plot.map(7)
     with pytest.raises(plot.Missing, match=r"map: the answer has no maps; it has paths"):
         plot.map(result)
-    with pytest.raises(plot.Missing, match="path: none of the paths is called 'slot'; there are 'groove', 'turned', 'pocket'"):
+    with pytest.raises(plot.Missing, match="path: 'slot' is not among the paths: 'groove', 'turned', 'pocket'"):
         plot.path(result, "slot")
     with pytest.raises(plot.Missing, match="along: its points are not in the JSON: give the folder .* or table= pocket.csv"):
         plot.along(result.answer, "pocket")
     with pytest.raises(plot.Missing, match="along: the table has no column x_mm, y_mm, z_mm, along_um, cross_um, axial_um; it has"):
         plot.along(result.answer, "pocket", table={"distance_mm": [0], "in_plane_um": [0]})
-    with pytest.raises(plot.Missing, match="map: there is no file"):
+    with pytest.raises(plot.Missing, match="map: the file .* does not exist"):
         plot.map(tmp_path / "nowhere")
     with pytest.raises(plot.Missing, match="the answer has no `springs`: give that of `armill identify`; it has format"):
         plot.identify(result)
@@ -489,7 +489,7 @@ def test_what_is_missing_is_told(tmp_path):
         plot.along(result, "pocket", ax=plt.figure())
 
 
-def test_the_python_of_the_guide_runs(tmp_path, monkeypatch, capsys):
+def test_python_blocks_of_the_guide_run(tmp_path, monkeypatch, capsys):
     pytest.importorskip("roboticstoolbox")
     pytest.importorskip("pinocchio")
     monkeypatch.chdir(tmp_path)
@@ -500,11 +500,11 @@ def test_the_python_of_the_guide_runs(tmp_path, monkeypatch, capsys):
     assert len(found) == 5 and "along: its points are not in the JSON" in capsys.readouterr().out
     assert (tmp_path / "fig-6.pdf").is_file()
     for name in plot.__all__:
-        told = f"| `{name}` |" in (ROOT / "docs/guide/plotting.md").read_text()
-        assert told or name in ("Missing", "skeleton"), name
+        labels = f"| `{name}` |" in (ROOT / "docs/guide/plotting.md").read_text()
+        assert labels or name in ("Missing", "skeleton"), name
 
 
-def test_every_function_says_what_it_takes_and_gives():
+def test_every_function_documents_inputs_and_result():
     for name in plot.__all__:
         thing = getattr(plot, name)
         if name != "Missing":

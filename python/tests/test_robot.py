@@ -1,4 +1,4 @@
-"""What a robot answers, against numpy: finite differences, matrix products, forward of inverse."""
+"""Results of a robot compared with numpy: finite differences, matrix products, forward of inverse."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def turn(matrix: np.ndarray) -> np.ndarray:
     return 0.5 * np.array([matrix[2, 1] - matrix[1, 2], matrix[0, 2] - matrix[2, 0], matrix[1, 0] - matrix[0, 1]])
 
 
-def test_forward_gives_rotations_and_a_tool_that_hangs_on_the_flange(mh12, joints, tool):
+def test_forward_gives_rotations_and_a_tool_fixed_to_the_flange(mh12, joints, tool):
     flange, tip = mh12.forward(joints), mh12.forward(joints, tool)
     assert flange.shape == tip.shape == (300, 4, 4)
     eye = flange[:, :3, :3] @ flange[:, :3, :3].transpose(0, 2, 1)
@@ -50,14 +50,14 @@ def test_compliance_is_that_of_springs_in_the_joints(mh12, joints, tool):
     assert np.array_equal(compliance, compliance.transpose(0, 2, 1))
 
 
-def test_deviation_is_compliance_times_wrench_and_its_shares_add_up(mh12, joints, tool):
+def test_deviation_is_compliance_times_wrench_and_its_contributions_add_up(mh12, joints, tool):
     deviation = mh12.deviation(joints, FORCES, tool)
     witness = np.einsum("nij,cj->nci", mh12.compliance(joints, tool)[:, :3], FORCES)
     assert deviation.shape == (300, 2, 3)
     assert np.abs(deviation - witness).max() <= 1e-12 * np.abs(witness).max()
-    shares = mh12.shares(joints, FORCES, tool)
-    assert shares.shape == (300, 2, len(mh12.contributors), 3) and mh12.contributors == mh12.joint_names
-    assert np.abs(shares.sum(axis=2) - deviation).max() <= 1e-12 * np.abs(deviation).max()
+    contributions = mh12.contributions(joints, FORCES, tool)
+    assert contributions.shape == (300, 2, len(mh12.contributors), 3) and mh12.contributors == mh12.joint_names
+    assert np.abs(contributions.sum(axis=2) - deviation).max() <= 1e-12 * np.abs(deviation).max()
 
 
 def test_a_force_is_a_wrench_without_moment(mh12, joints):
@@ -65,21 +65,21 @@ def test_a_force_is_a_wrench_without_moment(mh12, joints):
     assert np.array_equal(mh12.deviation(joints, FORCES[:, :3]), mh12.deviation(joints, wrenches))
 
 
-def test_forward_of_inverse_is_the_pose_and_every_posture_is_told(mh12, joints, tool):
+def test_forward_of_inverse_is_the_pose_and_every_posture_is_returned(mh12, joints, tool):
     poses = mh12.forward(joints, tool)
     postures = mh12.inverse(poses, tool)
     assert len(postures) == 300 and postures.offsets.shape == (301,)
-    assert np.abs(mh12.forward(postures.joints, tool) - poses[postures.pose]).max() < 1e-9
-    assert len(postures.branch) == len(postures.pose) == len(postures.joints) == postures.offsets[-1]
+    assert np.abs(mh12.forward(postures.joints, tool) - poses[postures.pose_index]).max() < 1e-9
+    assert len(postures.branch) == len(postures.pose_index) == len(postures.joints) == postures.offsets[-1]
     low, high = mh12.limits.T
     inside = ((postures.joints >= low - 1e-9) & (postures.joints <= high + 1e-9)).all(axis=1)
     assert np.array_equal(postures.within_limits, inside)
-    for i, asked in enumerate(joints):
-        own = postures.of(i)
+    for i, given in enumerate(joints):
+        own = postures[i]
         first, last = postures.offsets[i], postures.offsets[i + 1]
         assert np.array_equal(own, postures.joints[first:last])
-        # The posture that the pose was made of is among them, whole turns apart.
-        away = np.abs((own - asked + np.pi) % (2 * np.pi) - np.pi).max(axis=1)
+        # The posture of the pose is among them, up to whole turns.
+        away = np.abs((own - given + np.pi) % (2 * np.pi) - np.pi).max(axis=1)
         assert away.min() < 1e-6
         names = postures.branch[first:last]
         assert len(set(names)) == len(names) and postures.reason(i) is None
@@ -89,58 +89,61 @@ def test_a_pose_out_of_reach_has_a_reason_and_no_posture(mh12):
     pose = np.eye(4)
     pose[0, 3] = 9.0
     postures = mh12.inverse(pose)
-    assert len(postures) == 1 and postures.of(0).shape == (0, 6)
+    assert len(postures) == 1 and postures[0].shape == (0, 6)
     assert "beyond the stretched arm" in postures.reason(0)
-    with pytest.raises(IndexError, match="no pose 1"):
+    with pytest.raises(IndexError, match="pose 1 does not exist"):
         postures.reason(1)
 
 
-def test_hold_gives_the_posture_of_its_branch_and_the_deviation_there(mh12, joints, tool):
+def test_evaluate_gives_the_posture_of_its_branch_and_the_deviation_there(mh12, joints, tool):
     poses = mh12.forward(joints, tool)
-    held = mh12.hold(poses, FORCES, tool, normal=[-0.8, 0.3, 0.5], branch="front elbow-up no-flip")
+    evaluation = mh12.evaluate(poses, FORCES, tool, normal=[-0.8, 0.3, 0.5], branch="front elbow-up no-flip")
     normal = np.array([-0.8, 0.3, 0.5]) / np.linalg.norm([-0.8, 0.3, 0.5])
-    assert 20 < held.held.sum() <= 300
-    where = held.held
-    assert np.abs(mh12.forward(held.joints[where], tool) - poses[where]).max() < 1e-9
-    assert {name for name, h in zip(held.branch, where) if h} == {"front elbow-up no-flip"}
-    witness = mh12.deviation(held.joints[where], FORCES, tool)
-    assert np.abs(held.deviation[where] - witness).max() <= 1e-9 * np.abs(witness).max()
+    assert 20 < evaluation.reachable.sum() <= 300
+    where = evaluation.reachable
+    assert np.abs(mh12.forward(evaluation.joints[where], tool) - poses[where]).max() < 1e-9
+    assert {name for name, h in zip(evaluation.branch, where) if h} == {"front elbow-up no-flip"}
+    witness = mh12.deviation(evaluation.joints[where], FORCES, tool)
+    assert np.abs(evaluation.deviation[where] - witness).max() <= 1e-9 * np.abs(witness).max()
     along = witness @ normal
     in_plane = np.linalg.norm(witness - along[..., None] * normal, axis=2)
-    assert np.abs(held.in_plane[where] - in_plane.max(axis=1)).max() < 1e-9 * in_plane.max()
-    assert np.array_equal(held.deciding_case[where], in_plane.argmax(axis=1))
-    assert np.abs(held.shares[where].sum(axis=1) - held.in_plane[where]).max() < 1e-9 * in_plane.max()
-    assert np.abs(np.abs(held.normal[where]) - np.abs(along).max(axis=1)).max() < 1e-9 * in_plane.max()
-    assert not held.joints[~where].any() and not held.deviation[~where].any()
-    reasons = [held.reason(i) for i in np.flatnonzero(~where)]
-    assert all(reasons) and held.reason(int(np.flatnonzero(where)[0])) is None
+    assert np.abs(evaluation.in_plane[where] - in_plane.max(axis=1)).max() < 1e-9 * in_plane.max()
+    assert np.array_equal(evaluation.worst_case[where], in_plane.argmax(axis=1))
+    assert np.abs(evaluation.contributions[where].sum(axis=1) - evaluation.in_plane[where]).max() < 1e-9 * in_plane.max()
+    assert np.abs(np.abs(evaluation.normal_deviation[where]) - np.abs(along).max(axis=1)).max() < 1e-9 * in_plane.max()
+    for values in (evaluation.joints, evaluation.deviation, evaluation.in_plane, evaluation.magnitude, evaluation.contributions):
+        assert np.isnan(values[~where]).all() and np.isfinite(values[where]).all()
+    assert (evaluation.worst_case[~where] == -1).all() and evaluation.worst_case.dtype == np.int64
+    assert evaluation.reachable[np.nanargmin(evaluation.in_plane)]
+    reasons = [evaluation.reason(i) for i in np.flatnonzero(~where)]
+    assert all(reasons) and evaluation.reason(int(np.flatnonzero(where)[0])) is None
 
 
 def test_the_best_posture_is_no_worse_than_any_inside_the_limits(mh12, joints):
     poses = mh12.forward(joints[:40])
     normal = [0.0, 0.0, 1.0]
-    best = mh12.hold(poses, FORCES, branch="best", normal=normal)
+    best = mh12.evaluate(poses, FORCES, branch="best", normal=normal)
     postures = mh12.inverse(poses)
     deviation = mh12.deviation(postures.joints, FORCES)
     in_plane = np.linalg.norm(deviation[..., :2], axis=2).max(axis=1)
     for i in range(40):
-        own = (postures.pose == i) & postures.within_limits
-        assert best.held[i] and best.within_limits[i]
+        own = (postures.pose_index == i) & postures.within_limits
+        assert best.reachable[i] and best.within_limits[i]
         assert abs(best.in_plane[i] - in_plane[own].min()) < 1e-9 * in_plane.max()
 
 
-def test_without_a_normal_the_plane_is_across_the_tool(mh12):
+def test_without_a_normal_the_plane_is_perpendicular_to_the_tool(mh12):
     pose = np.diag([1.0, -1.0, -1.0, 1.0])
     pose[:3, 3] = [0.9, 0.1, 0.4]
     poses = np.stack([pose, pose])
     poses[1, 0, 3] = 1.0
-    assert np.array_equal(mh12.hold(poses, [1, 2, 3]).in_plane, mh12.hold(poses, [1, 2, 3], normal=[0, 0, 2]).in_plane)
+    assert np.array_equal(mh12.evaluate(poses, [1, 2, 3]).in_plane, mh12.evaluate(poses, [1, 2, 3], normal=[0, 0, 2]).in_plane)
     poses[1, :3, :3] = np.eye(3)
-    with pytest.raises(armill.InputError, match=r"poses\[1\] points another way.*\n.*normal"):
-        mh12.hold(poses, [1, 2, 3])
+    with pytest.raises(armill.InputError, match=r"poses\[1\] and poses\[0\] have different tool directions.*\n.*normal"):
+        mh12.evaluate(poses, [1, 2, 3])
 
 
-def test_a_single_item_is_answered_without_the_first_axis(mh12, joints, tool):
+def test_a_single_item_has_a_result_without_the_first_axis(mh12, joints, tool):
     one = joints[7]
     assert np.array_equal(mh12.forward(one, tool), mh12.forward(joints, tool)[7])
     assert np.array_equal(mh12.jacobian(one), mh12.jacobian(joints)[7])
@@ -148,16 +151,16 @@ def test_a_single_item_is_answered_without_the_first_axis(mh12, joints, tool):
     assert np.array_equal(mh12.deviation(one, FORCES), mh12.deviation(joints, FORCES)[7])
     assert np.array_equal(mh12.deviation(joints, FORCES[0]), mh12.deviation(joints, FORCES)[:, 0])
     assert mh12.deviation(one, [1, 2, 3]).shape == (3,)
-    assert mh12.shares(one, [1, 2, 3]).shape == (6, 3)
-    held = mh12.hold(mh12.forward(one), [1, 2, 3], branch="best")
-    assert held.joints.shape == (6,) and held.deviation.shape == (3,) and held.in_plane.shape == ()
+    assert mh12.contributions(one, [1, 2, 3]).shape == (6, 3)
+    evaluation = mh12.evaluate(mh12.forward(one), [1, 2, 3], branch="best")
+    assert evaluation.joints.shape == (6,) and evaluation.deviation.shape == (3,) and evaluation.in_plane.shape == ()
 
 
-def test_no_items_are_answered_with_none(mh12):
+def test_no_items_give_empty_results(mh12):
     assert mh12.forward(np.zeros((0, 6))).shape == (0, 4, 4)
     assert mh12.deviation(np.zeros((0, 6)), FORCES).shape == (0, 2, 3)
     assert len(mh12.inverse(np.zeros((0, 4, 4)))) == 0
-    assert mh12.hold(np.zeros((0, 4, 4)), FORCES).joints.shape == (0, 6)
+    assert mh12.evaluate(np.zeros((0, 4, 4)), FORCES).joints.shape == (0, 6)
 
 
 def test_robots_of_other_texts_are_the_same_arm(tmp_path):
@@ -191,7 +194,7 @@ def test_robots_of_other_texts_are_the_same_arm(tmp_path):
     assert np.abs(armill.Robot.load(file).forward(q) - opw.forward(q)).max() < 1e-12
 
 
-def test_a_urdf_ends_at_the_flange_that_is_asked_for(samples):
+def test_a_urdf_ends_at_the_given_flange(samples):
     path = next(iter(sorted((samples / "robots").rglob("*.urdf"))), None)
     assert path is not None, "a URDF among the samples"
     whole = armill.Robot.from_urdf(path)
@@ -206,7 +209,9 @@ def test_other_compliances_scale_the_deviation(mh12, joints):
     again = armill.Robot.from_text(twice.to_toml(), "armill")
     # Seven digits of a compliance are written.
     assert np.abs(again.joint_compliance / twice.joint_compliance - 1).max() < 1e-6
-    assert "given by the caller" in twice.to_toml() and "given by" not in mh12.to_toml()
+    assert "given without a source" in twice.to_toml() and "given without" not in mh12.to_toml()
+    guess = mh12.with_compliance(2 * mh12.joint_compliance, source="guess of 2026").to_toml()
+    assert "guess of 2026" in guess and "identified" not in guess and "your own measurement" not in guess
     with pytest.raises(armill.InputError, match=r"compliance: expected shape \(6,\), given \(2,\)"):
         mh12.with_compliance([1e-6, 1e-6])
     with pytest.raises(armill.InputError, match="is not a number from 0 to 1"):
@@ -228,14 +233,14 @@ def test_gravity_is_the_work_of_the_weight(mh12):
     assert not heavy.gravity(reference, reference).any()
 
 
-def test_a_robot_without_compliance_says_what_to_do(joints):
+def test_a_robot_without_compliance_reports_what_to_do(joints):
     opw = armill.Robot.from_opw(a1=0.155, a2=-0.2, b=0.0, c1=0.45, c2=0.614, c3=0.64, c4=0.1)
     with pytest.raises(armill.InputError, match="with_compliance") as refused:
         opw.deviation(joints, FORCES)
     assert refused.value.problems[0]["message"] == "robot `robot` has no joint compliance"
 
 
-def test_a_robot_travels_to_another_process_bit_by_bit(mh12, joints, samples):
+def test_a_pickled_robot_is_equal_bit_by_bit(mh12, joints, samples):
     stiff = mh12.with_compliance(mh12.joint_compliance / 3)
     urdf = armill.Robot.load(next(iter(sorted((samples / "robots").rglob("*.urdf")))))
     for robot in (mh12, stiff):
@@ -246,7 +251,7 @@ def test_a_robot_travels_to_another_process_bit_by_bit(mh12, joints, samples):
     assert np.array_equal(pickle.loads(pickle.dumps(urdf)).forward(q), urdf.forward(q))
 
 
-def test_unknown_robots_are_refused_as_the_command_refuses_them(tmp_path):
+def test_unknown_robots_are_refused_with_the_message_of_the_command(tmp_path):
     with pytest.raises(armill.InputError, match="did you mean `yaskawa/mh12`"):
         armill.Robot.load("yaskawa/mh21")
     broken = tmp_path / "broken.toml"

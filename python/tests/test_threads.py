@@ -1,4 +1,4 @@
-"""Any number of threads gives the same bits; Python goes on meanwhile; Ctrl-C stops the work."""
+"""Any number of threads gives the same bits; Python continues meanwhile; Ctrl-C stops the work."""
 
 from __future__ import annotations
 
@@ -28,29 +28,29 @@ def test_any_number_of_threads_gives_the_same_bits(mh12):
 
     def all_of(threads):
         postures = mh12.inverse(poses, threads=threads)
-        held = mh12.hold(poses, FORCES, normal=[0, 0, 1], threads=threads)
+        evaluation = mh12.evaluate(poses, FORCES, normal=[0, 0, 1], threads=threads)
         return [
             mh12.forward(joints, threads=threads),
             mh12.jacobian(joints, threads=threads),
             mh12.compliance(joints, threads=threads),
             mh12.deviation(joints, FORCES, threads=threads),
-            mh12.shares(joints, FORCES, threads=threads),
+            mh12.contributions(joints, FORCES, threads=threads),
             postures.joints,
-            postures.pose,
-            held.joints,
-            held.deviation,
-            held.shares,
-            held.in_plane,
+            postures.pose_index,
+            evaluation.joints,
+            evaluation.deviation,
+            evaluation.contributions,
+            evaluation.in_plane,
         ]
 
     witness = all_of(None)
     for threads in (1, 2, 3):
         assert all(np.array_equal(a, b) for a, b in zip(all_of(threads), witness))
-    # One after the other too: a block that is done at once is no other than one that is handed out.
+    # One by one too: a block evaluated directly equals one sent to the pool.
     assert np.array_equal(np.concatenate([mh12.deviation(q[None], FORCES) for q in joints[:50]]), witness[3][:50])
 
 
-def test_python_goes_on_while_armill_works(mh12):
+def test_python_continues_while_armill_works(mh12):
     joints = many(mh12, 400_000)
     ticks, stop = 0, threading.Event()
 
@@ -63,23 +63,23 @@ def test_python_goes_on_while_armill_works(mh12):
     thread = threading.Thread(target=tick)
     thread.start()
     start, before = time.perf_counter(), ticks
-    mh12.shares(joints, FORCES, threads=1)
+    mh12.contributions(joints, FORCES, threads=1)
     seconds, counted = time.perf_counter() - start, ticks - before
     stop.set()
     thread.join()
-    # With the lock held it would count none: one tick in five milliseconds is far less than it could.
+    # With the lock evaluation it would count none: one tick in five milliseconds is far less than it could.
     assert counted > 3 and counted > 200 * seconds / 5, f"{counted} ticks in {seconds:.2f} s"
 
 
-def test_several_threads_of_python_ask_at_once(mh12):
+def test_several_threads_of_python_call_at_once(mh12):
     joints = many(mh12, 3000)
     witness = mh12.deviation(joints, FORCES)
     found: list[np.ndarray | None] = [None] * 6
 
-    def ask(i: int) -> None:
+    def evaluate(i: int) -> None:
         found[i] = mh12.deviation(joints, FORCES, threads=1 + i % 3)
 
-    threads = [threading.Thread(target=ask, args=(i,)) for i in range(6)]
+    threads = [threading.Thread(target=evaluate, args=(i,)) for i in range(6)]
     for thread in threads:
         thread.start()
     for thread in threads:
@@ -119,26 +119,26 @@ try:
 except armill.Cancelled as stopped:
     assert isinstance(stopped, KeyboardInterrupt)
     print("stopped:", stopped, flush=True)
-    # What follows an interrupt works as before.
+    # Calls after an interrupt work as before.
     assert robot.forward(joints[:1000]).shape == (1000, 4, 4)
     sys.exit(7)
 """
 
 
-@pytest.mark.parametrize("work", ["robot.shares(joints, forces, threads=1)"])
+@pytest.mark.parametrize("work", ["robot.contributions(joints, forces, threads=1)"])
 def test_ctrl_c_stops_long_work(work):
     process = subprocess.Popen([sys.executable, "-c", LONG.format(work=work)], stdout=subprocess.PIPE, text=True)
     assert process.stdout is not None and process.stdout.readline() == "ready\n"
     time.sleep(0.7)
-    asked = time.perf_counter()
+    interrupted = time.perf_counter()
     process.send_signal(signal.SIGINT)
-    told, _ = process.communicate(timeout=60)
-    assert process.returncode == 7, told
-    assert told == "stopped: cancelled: nothing of this answer was written\n"
-    assert time.perf_counter() - asked < 5.0
+    printed, _ = process.communicate(timeout=60)
+    assert process.returncode == 7, printed
+    assert printed == "stopped: cancelled: no result was written\n"
+    assert time.perf_counter() - interrupted < 5.0
 
 
-def test_a_handler_of_the_user_is_heard(mh12):
+def test_a_signal_handler_of_the_user_is_called(mh12):
     class Mine(Exception):
         pass
 
@@ -150,7 +150,7 @@ def test_a_handler_of_the_user_is_heard(mh12):
     try:
         signal.setitimer(signal.ITIMER_REAL, 0.1)
         with pytest.raises(Mine):
-            mh12.shares(joints, FORCES, threads=1)
+            mh12.contributions(joints, FORCES, threads=1)
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, before)

@@ -1,4 +1,4 @@
-"""What type checkers must find right: a program as users write it. Checked by mypy and pyright, not run."""
+"""A program as users write it, checked by mypy and pyright, not run."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ import armill
 
 
 def deviations(robot: armill.Robot, joints: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    held = robot.hold(robot.forward(joints), [0, 0, -50], branch="best", normal=(0, 0, 1))
-    names: list[str] = held.branch
-    reason: str | None = held.reason(0)
-    print(names, reason, held.within_limits.all(), robot.inverse(np.eye(4)).offsets[-1])
+    evaluation = robot.evaluate(robot.forward(joints), [0, 0, -50], branch="best", normal=(0, 0, 1))
+    names: list[str] = evaluation.branch
+    reason: str | None = evaluation.reason(0)
+    print(names, reason, evaluation.within_limits.all(), robot.inverse(np.eye(4)).offsets[-1])
     return robot.deviation(joints.tolist(), [[1.0, 2.0, 3.0]], threads=2)
 
 
@@ -30,5 +30,5 @@ def study(path: Path) -> str:
 def commands() -> armill.Answer:
     answer: armill.Answer = armill.pose("yaskawa/mh12", at_mm=[1000, 0, 800])
     moves: armill.ToolPath = armill.read_path("part.nc", unit="mm")
-    print(answer["postures"], answer.talk, moves.points.shape)
+    print(answer["postures"], answer.messages, moves.points.shape)
     return answer

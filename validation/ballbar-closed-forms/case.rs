@@ -1,17 +1,17 @@
-//! Circular tests of ellipses, shifted circles and machines with gaps, against closed forms. See README.md.
+//! Circular tests of ellipses, shifted circles and machines with backlash, compared with closed forms. See README.md.
 //!
 //! | symbol | meaning |
 //! |---|---|
 //! | `p`, `q` | half axes of an ellipse, m |
 //! | `e` | offset of a circle from the centre of the bar, m |
-//! | `sigma`, `gap` | squareness (rad) and gaps (m) of a machine |
+//! | `sigma`, `gap` | squareness (rad) and backlash (m) of a machine |
 
 use std::f64::consts::TAU;
 
-use armill_core::measure::ballbar::parts::{Asked, Parts, Term, of_axes, parts};
+use armill_core::measure::ballbar::parts::{Parts, PartsOptions, Term, of_axes, parts};
 use armill_core::measure::ballbar::{CircularTest, Direction, Run, least_squares_centre, quantities};
 
-use crate::check::{Check, Gap, worst};
+use crate::check::{Check, ErrorBound, worst};
 use crate::random::Random;
 
 const GEOMETRY: &str = "closed form";
@@ -33,7 +33,7 @@ fn test(runs: Vec<Run>) -> CircularTest {
     CircularTest::new(RADIUS, runs).expect("radii near the nominal one")
 }
 
-/// Circular deviation, and least and greatest radial deviation.
+/// Circular deviation, smallest and largest radial deviation.
 fn shown(test: &CircularTest) -> [f64; 3] {
     let all: Vec<&Run> = test.runs().iter().collect();
     let shown = quantities(test, &all).expect("there are runs");
@@ -45,7 +45,7 @@ fn shown(test: &CircularTest) -> [f64; 3] {
     ]
 }
 
-/// A machine with leaning axes and gaps, both ways round.
+/// A machine with inclined axes and backlash, in both directions.
 fn machine(sigma: f64, gap: [f64; 2]) -> CircularTest {
     let radius = |a: f64, sign: f64| {
         let speed = [-sign * a.sin(), sign * a.cos()];
@@ -85,19 +85,19 @@ pub fn checks() -> Vec<Check> {
         ring.push(shown(&test(vec![ellipse]))[0] - (p - q).abs());
 
         let e = random.between(10e-6, 200e-6);
-        let beside = |a: f64| e * a.cos() + (RADIUS.powi(2) - (e * a.sin()).powi(2)).sqrt();
-        let beside = test(vec![run(Direction::Anticlockwise, 0.0, beside)]);
-        let [g, least, greatest] = shown(&beside);
+        let offset = |a: f64| e * a.cos() + (RADIUS.powi(2) - (e * a.sin()).powi(2)).sqrt();
+        let offset = test(vec![run(Direction::Anticlockwise, 0.0, offset)]);
+        let [g, least, greatest] = shown(&offset);
         round.push(g);
         radial.extend([least + e, greatest - e]);
-        centre.push(least_squares_centre(&beside).map_or(f64::NAN, |found| found.offset.x - e));
+        centre.push(least_squares_centre(&offset).map_or(f64::NAN, |found| found.offset.x - e));
 
         let (sigma, gap) = (
             random.between(-5e-4, 5e-4),
             [0.0, 0.0].map(|_: f64| random.between(1e-6, 50e-6)),
         );
         let made = machine(sigma, gap);
-        let requested = Asked {
+        let requested = PartsOptions {
             reversals: of_axes(["X", "Y"]),
             most_lobes: 2,
             period: None,
@@ -114,7 +114,7 @@ pub fn checks() -> Vec<Check> {
         gaps.extend((0..4).map(|end| value(Term::Reversal(end)) - gap[end / 2]));
     }
     let rounding = |what: &str, errors: Vec<f64>| {
-        let gap = Gap {
+        let gap = ErrorBound {
             worst: worst(errors),
             tolerance: 1e-12,
             unit: "m",
@@ -122,7 +122,7 @@ pub fn checks() -> Vec<Check> {
         Check::computed(format!("{what}, {CIRCLES} circles"), GEOMETRY, gap)
     };
     let second_order = |what: &str, errors: Vec<f64>, (factor, unit)| {
-        let gap = Gap {
+        let gap = ErrorBound {
             worst: worst(errors) * factor,
             tolerance: 0.1,
             unit,
@@ -131,12 +131,12 @@ pub fn checks() -> Vec<Check> {
     };
     vec![
         rounding("G of an ellipse", ring),
-        rounding("G of a circle beside the centre", round),
-        rounding("F of a circle beside the centre", radial),
+        rounding("G of a circle with an offset centre", round),
+        rounding("F of a circle with an offset centre", radial),
         rounding("least-squares centre", centre),
         second_order("squareness", square, (1e6, "urad")),
         second_order(
-            "squareness against the formula of four radii",
+            "squareness compared with the formula of four radii",
             four,
             (1e6, "urad"),
         ),

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 use armill_core::budget::turn::Turn;
 use armill_core::budget::{Balance, Contribution, Origin, Removed, balance};
 
-use crate::check::{Check, Gap, worst};
+use crate::check::{Check, ErrorBound, worst};
 use crate::random::Random;
 
 const CLOSED: &str = "closed form";
@@ -85,17 +85,17 @@ pub fn checks() -> Vec<Check> {
         let n = 2.0 + (sums.len() % 4) as f64;
         let [load, path, of_load, of_part] = [wave(n), wave(n), wave(n + 1.0), wave(n + 2.0)];
         let [x, y, radius] = [0.0; 3].map(|_: f64| random.between(-200e-6, 200e-6));
-        let beside = |a: f64| x * a.cos() + y * a.sin() + radius;
+        let offset = |a: f64| x * a.cos() + y * a.sin() + radius;
         let third = |between: f64| {
             let [p, q] = [load.amplitude, path.amplitude];
             (p * p + q * q + 2.0 * p * q * between.cos()).sqrt()
         };
         let both = third(load.phase - path.phase);
-        // One wave alone: its greatest is its amplitude.
+        // A single harmonic: its maximum is its amplitude.
         let alone = of(
             &turn,
             vec![
-                contribution(Origin::Load, curve(&turn, |a| load.at(a) + beside(a))),
+                contribution(Origin::Load, curve(&turn, |a| load.at(a) + offset(a))),
                 contribution(Origin::Unloaded, curve(&turn, |a| path.at(a))),
             ],
             None,
@@ -106,13 +106,13 @@ pub fn checks() -> Vec<Check> {
             alone.datums[0].centre.y - y,
             alone.datums[0].radius - radius,
         ]);
-        // The part has both, one wave that nobody predicts, and lacks one that is predicted.
-        let part = curve(&turn, |a| load.at(a) + path.at(a) + of_part.at(a) + beside(a));
+        // The part has both, one harmonic that is not predicted, and lacks one that is predicted.
+        let part = curve(&turn, |a| load.at(a) + path.at(a) + of_part.at(a) + offset(a));
         let whole = of(
             &turn,
             vec![
                 contribution(Origin::Load, curve(&turn, |a| load.at(a) + of_load.at(a))),
-                contribution(Origin::Unloaded, curve(&turn, |a| path.at(a) - beside(a))),
+                contribution(Origin::Unloaded, curve(&turn, |a| path.at(a) - offset(a))),
             ],
             Some(&part),
         );
@@ -141,17 +141,17 @@ pub fn checks() -> Vec<Check> {
             at(n).phase_difference(),
         ]);
     }
-    let rounding = |what: &str, witness, errors: Vec<f64>, (tolerance, unit)| {
-        let gap = Gap {
+    let rounding = |what: &str, reference, errors: Vec<f64>, (tolerance, unit)| {
+        let gap = ErrorBound {
             worst: worst(errors),
             tolerance,
             unit,
         };
-        Check::computed(what, witness, gap)
+        Check::computed(what, reference, gap)
     };
     vec![
         rounding(
-            "60 and 140 um added plainly: 200 um",
+            "plain sum of 60 and 140 um: 200 um",
             PAPER,
             vec![plain - 200e-6],
             (1e-12, "m"),
@@ -159,7 +159,7 @@ pub fn checks() -> Vec<Check> {
         Check::printed(
             "root of their squares: 152.3155 um",
             CLOSED,
-            Gap {
+            ErrorBound {
                 worst: (squares * 1e6 - 152.3155).abs(),
                 tolerance: 5e-5,
                 unit: "um",
@@ -167,9 +167,9 @@ pub fn checks() -> Vec<Check> {
             6,
         ),
         Check::printed(
-            "a quarter of a wave apart they make as much",
+            "the same with a phase shift of a quarter period",
             CLOSED,
-            Gap {
+            ErrorBound {
                 worst: (together * 1e6 - 152.3155).abs(),
                 tolerance: 0.006,
                 unit: "um",
@@ -177,19 +177,19 @@ pub fn checks() -> Vec<Check> {
             4,
         ),
         Check::printed(
-            format!("waves of one number added with their signs, {CIRCLES} circles"),
+            format!("harmonics of one order, sum with signs, {CIRCLES} circles"),
             "law of cosines",
-            Gap {
+            ErrorBound {
                 worst: worst(sums) * 1e6,
                 tolerance: 0.08,
                 unit: "um",
             },
             3,
         ),
-        rounding("centre and radius that come off", CLOSED, datums, (1e-12, "m")),
-        rounding("share that is explained", CLOSED, shares, (1e-9, "")),
+        rounding("centre and radius removed", CLOSED, datums, (1e-12, "m")),
+        rounding("explained fraction", CLOSED, shares, (1e-9, "")),
         rounding("likeness of the shapes", CLOSED, likeness, (1e-9, "")),
-        rounding("amplitudes of waves", CLOSED, amplitudes, (1e-12, "m")),
+        rounding("amplitudes of harmonics", CLOSED, amplitudes, (1e-12, "m")),
         rounding("their phases", CLOSED, phases, (1e-9, "rad")),
     ]
 }

@@ -1,8 +1,8 @@
 //! `J diag(c) J^T` against equations (7) to (9) of the paper, moved to the TCP. See README.md.
 //!
 //! ```text
-//! C_base = sum over the joints of  A_i C_i A_i^T          (7) to (9); C_i holds one number, A_i moves twists
-//! C_tcp  = S C_base S^T,  S = [1  -[p]; 0  1]             what the paper leaves out; p the TCP in base
+//! C_base = sum over the joints of  A_i C_i A_i^T          (7) to (9); C_i contains one number, A_i moves twists
+//! C_tcp  = S C_base S^T,  S = [1  -[p]; 0  1]             missing in the paper; p the TCP in base
 //! ```
 //!
 //! Compliances are 6 x 6, linear before angular, m and rad per N and N m.
@@ -16,7 +16,7 @@ use armill_core::robot::{Axis, BranchPattern, Chain, JointCompliance, Motion, Po
 use armill_core::workpiece::{Plane, Split};
 
 use crate::arms;
-use crate::check::{Check, Gap, worst, worst_difference};
+use crate::check::{Check, ErrorBound, worst, worst_difference};
 use crate::random::Random;
 
 const PAPER: &str = "equations (7) to (9), Shneor & Chapsky 2021";
@@ -35,9 +35,9 @@ const CASES_N: [[f64; 3]; 4] = [
     [3.0, 5.0, 5.0],
 ];
 
-/// Compliance of the whole arm told at the base origin: the sum (7) of what each joint gives by (8).
+/// Compliance of the whole arm at the base origin: the sum (7) of the joints according to (8).
 ///
-/// The joint matrix holds one number, the compliance about (or along) the joint's axis. It is moved by the screw
+/// The joint matrix contains one number, the compliance about (or along) the joint's axis. It is moved by the screw
 /// transform (9), the product of the elementary motions from the base to the joint.
 fn compliance_at_base(robot: &Robot, q: &[f64]) -> Matrix6<f64> {
     let theta: Vec<f64> = (0..q.len()).map(|joint| robot.theta(joint, q)).collect();
@@ -78,7 +78,7 @@ fn joint_compliance_at_base(
     base_from_joint * in_joint * base_from_joint.transpose()
 }
 
-/// What the paper leaves out: the compliance at the base origin told at the TCP, which lies at `tcp` in base,
+/// The step missing in the paper: the compliance at the base origin, moved to the TCP at `tcp` in base,
 /// m.
 fn moved_to(tcp: &Vector3<f64>, at_base: &Matrix6<f64>) -> Matrix6<f64> {
     let mut shift = Matrix6::identity();
@@ -115,7 +115,7 @@ pub fn checks() -> Vec<Check> {
                 compliance.len()
             ),
             PAPER,
-            Gap {
+            ErrorBound {
                 worst: worst(compliance),
                 tolerance: 1e-12,
                 unit: "",
@@ -127,16 +127,16 @@ pub fn checks() -> Vec<Check> {
                 stiffness.len()
             ),
             PAPER,
-            Gap {
+            ErrorBound {
                 worst: worst(stiffness),
                 tolerance: 1e-12,
                 unit: "",
             },
         ),
         Check::printed(
-            "the paper's literal reading, reference at the base, four readings of the circle: 0.5 to 1.2 mm in plane",
+            "equations taken literally (reference point at the base), four interpretations: 0.5 to 1.2 mm in plane",
             "independent computation",
-            Gap {
+            ErrorBound {
                 worst: worst_difference(&literal_range_mm(), &LITERAL_RANGE_MM),
                 tolerance: 0.05,
                 unit: "mm",
@@ -146,7 +146,7 @@ pub fn checks() -> Vec<Check> {
     ]
 }
 
-/// Distance of our stiffness from the inverse of the other compliance, relative to the condition; nothing where
+/// Distance of our stiffness from the inverse of the other compliance, relative to the condition number; none if
 /// the condition is worse than is compared.
 fn stiffness_error(ours: &Matrix6<f64>, theirs: &Matrix6<f64>) -> Option<f64> {
     let stiffness = stiffness_at_tool(ours, 1.0);
@@ -155,14 +155,14 @@ fn stiffness_error(ours: &Matrix6<f64>, theirs: &Matrix6<f64>) -> Option<f64> {
         .then(|| (stiffness.matrix - inverse).norm() / inverse.norm() / stiffness.condition_number)
 }
 
-/// In-plane envelope over all readings, told at the base: what another program found, mm.
+/// In-plane envelope over all interpretations, reference point at the base: result of another program, mm.
 const LITERAL_RANGE_MM: [f64; 2] = [0.5, 1.2];
 
-/// A reading of the paper's experiment: tilt (deg), tool beyond the flange (m), height of the centre (m), branch.
+/// An interpretation of the experiment: tilt (deg), tool length (m), height of the centre (m), branch.
 type Reading = (f64, f64, f64, &'static str);
 
 /// In the order of their names in mh12-readings: (i) with elbow up, (ii) with elbow down and up, (iii) with
-/// elbow down, whose heights count from the controller's frame, 0.45 m above the base.
+/// elbow down, with heights relative to the controller's frame, 0.45 m above the base.
 const READINGS: [Reading; 4] = [
     (90.0, 0.150, 0.8, "front elbow-up"),
     (0.0, 0.0, 0.8, "front elbow-down"),
@@ -170,8 +170,8 @@ const READINGS: [Reading; 4] = [
     (0.0, 0.0, 1.25, "front elbow-down"),
 ];
 
-/// Least and greatest in-plane envelope (mm) over the circle and its readings if compliance and force are taken as
-/// both told at the base origin.
+/// Smallest and largest in-plane envelope (mm) over the circle and its interpretations if compliance and force are
+/// both relative to the base origin.
 fn literal_range_mm() -> [f64; 2] {
     let robot = &arms::mh12();
     let of =
@@ -201,7 +201,7 @@ fn literal_in_plane_mm(robot: &Robot, (tilt_deg, beyond, height, branch): Readin
     worst(in_plane)
 }
 
-/// The posture that holds the flange there, in the branch of this name. Every reading has it.
+/// The posture of this flange pose in the branch of this name. Every interpretation has it.
 fn posture_of(robot: &Robot, branch: &str, base_from_flange: &Isometry) -> Posture {
     let branch: BranchPattern = branch.parse().expect("names of branches");
     let tool = ToolAt {
@@ -209,7 +209,7 @@ fn posture_of(robot: &Robot, branch: &str, base_from_flange: &Isometry) -> Postu
         near: None,
         home: None,
     };
-    let found = postures(robot, base_from_flange, tool).expect("the circle lies in reach");
+    let found = postures(robot, base_from_flange, tool).expect("the circle is in reach");
     let mut named = found
         .into_iter()
         .filter(|posture| posture.name.branch().is_some_and(|b| branch.matches(b)));

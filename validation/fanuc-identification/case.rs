@@ -1,7 +1,7 @@
 //! FANUC R-2000iC: deflections computed elsewhere, back to the joint stiffness behind them. See README.md.
 //!
-//! Plain least squares of fifteen readings for six unknown compliances, without anything known beforehand, so
-//! that nothing but the readings can lead to the answer.
+//! Ordinary least squares of fifteen readings for six unknown compliances, without a prior:
+//! the result depends on the readings only.
 
 use nalgebra::Vector3;
 
@@ -12,7 +12,7 @@ use armill_core::robot::Axis;
 use armill_core::spatial::Wrench;
 
 use crate::arms;
-use crate::check::{Check, Gap, worst};
+use crate::check::{Check, ErrorBound, worst};
 use crate::fanuc_rows::{ROWS, TOOL_POINT};
 
 /// Compliances of the drives, found back from deflections that were computed from the published ones.
@@ -40,7 +40,7 @@ pub fn checks() -> Vec<Check> {
     vec![Check::printed(
         "compliance of the six drives from five computed deflections, relative to the published",
         "independent computation",
-        Gap {
+        ErrorBound {
             worst: worst(errors.map(|(found, published)| found.value / published.value - 1.0)),
             tolerance: 4.7e-5,
             unit: "",

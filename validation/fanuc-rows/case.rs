@@ -1,7 +1,7 @@
 //! FANUC R-2000iC: measured postures and forces to joint torques and deflection. See README.md.
 //!
 //! Controller angles go in, coupled as this controller couples them; tool point, torque about each joint axis
-//! and deflection come out. The measured deflections of the data set are not used here.
+//! and deflection are the result. The measured deflections of the data set are not used here.
 
 use nalgebra::Vector3;
 
@@ -11,9 +11,9 @@ use armill_core::source::elastic::predict;
 use armill_core::spatial::Wrench;
 
 use crate::arms;
-use crate::check::{Check, Gap, worst, worst_difference};
+use crate::check::{Check, ErrorBound, worst, worst_difference};
 
-const WITNESS: &str = "independent computation";
+const REFERENCE: &str = "independent computation";
 /// Tool point in the flange frame, m.
 pub(crate) const TOOL_POINT: Vector3<f64> = Vector3::new(0.0069, 0.2453, 0.3193);
 
@@ -139,8 +139,8 @@ pub fn checks() -> Vec<Check> {
         // Half of the last printed digit, here and below.
         Check::printed(
             format!("tool point, rows {rows}"),
-            WITNESS,
-            Gap {
+            REFERENCE,
+            ErrorBound {
                 worst: over_rows(0),
                 tolerance: 0.5,
                 unit: "um",
@@ -149,8 +149,8 @@ pub fn checks() -> Vec<Check> {
         ),
         Check::printed(
             "torque of the measured force about the six joint axes",
-            WITNESS,
-            Gap {
+            REFERENCE,
+            ErrorBound {
                 worst: over_rows(1),
                 tolerance: 5e-5,
                 unit: "N m",
@@ -159,8 +159,8 @@ pub fn checks() -> Vec<Check> {
         ),
         Check::printed(
             "deflection with the published joint stiffness",
-            WITNESS,
-            Gap {
+            REFERENCE,
+            ErrorBound {
                 worst: over_rows(2),
                 tolerance: 0.005,
                 unit: "um",

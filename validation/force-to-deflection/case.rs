@@ -9,10 +9,10 @@ use armill_core::source::elastic::predict;
 use armill_core::spatial::Wrench;
 
 use crate::arms;
-use crate::check::{Check, Gap, worst_difference};
+use crate::check::{Check, ErrorBound, worst_difference};
 use crate::tx200_compliance::{COMPLIANCE_IN_PART, OLDER_SPRINGS, posture, workpiece};
 
-const WITNESS: &str = "independent computation";
+const REFERENCE: &str = "independent computation";
 
 /// Mean force of up-milling on the tool, workpiece frame, N.
 const FORCE: Vector3<f64> = Vector3::new(-150.7929, 35.6771, 14.3684);
@@ -33,8 +33,8 @@ pub fn checks() -> Vec<Check> {
     vec![
         Check::printed(
             "length of the deflection, printed compliance matrix: 169.13 um",
-            WITNESS,
-            Gap {
+            REFERENCE,
+            ErrorBound {
                 worst: (printed.norm() - LENGTH_PRINTED_MATRIX_UM).abs(),
                 tolerance: 0.01,
                 unit: "um",
@@ -43,8 +43,8 @@ pub fn checks() -> Vec<Check> {
         ),
         Check::printed(
             "its components, printed compliance matrix",
-            WITNESS,
-            Gap {
+            REFERENCE,
+            ErrorBound {
                 worst: worst_difference(printed.as_slice(), &DEFLECTION_UM),
                 tolerance: 0.05,
                 unit: "um",
@@ -53,8 +53,8 @@ pub fn checks() -> Vec<Check> {
         ),
         Check::printed(
             "length of the deflection as armill predicts it: 169.19 um",
-            WITNESS,
-            Gap {
+            REFERENCE,
+            ErrorBound {
                 worst: (in_part_um.norm() - LENGTH_UM).abs(),
                 tolerance: 0.01,
                 unit: "um",

@@ -1,8 +1,8 @@
 //! Every posture of random poses against rs-opw-kinematics. See README.md.
 //!
 //! Two sets of postures a pose: each of ours takes the nearest of theirs, joints compared modulo a turn, and
-//! what is left on either side stands alone. Whatever the order of the two lists, the sets are equal where
-//! nothing stands alone.
+//! the rest on either side is unmatched. For any order of the two lists, the sets are equal if
+//! nothing is unmatched.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -17,10 +17,10 @@ use armill_core::robot::jacobian::jacobian;
 use armill_core::robot::{Posture, Robot};
 
 use crate::arms;
-use crate::check::{Check, Gap, worst};
+use crate::check::{Check, ErrorBound, worst};
 use crate::random::Random;
 
-const WITNESS: &str = "rs-opw-kinematics 3.0.0";
+const REFERENCE: &str = "rs-opw-kinematics 3.0.0";
 const SEED: u64 = 1;
 /// Poses an arm: two thirds made from joint positions, one third placed freely.
 const POSES: usize = 33_400;
@@ -38,7 +38,7 @@ struct Arm {
     /// As armill has it: a chain of motions.
     robot: Robot,
     /// As the other program has it: seven lengths, offsets and signs.
-    witness: OPWKinematics,
+    reference: OPWKinematics,
     /// Upper arm and forearm, m.
     links: [f64; 2],
 }
@@ -49,7 +49,7 @@ fn arm(title: &'static str, robot: Robot, parameters: Parameters) -> Arm {
     Arm {
         title,
         robot,
-        witness: OPWKinematics::new(parameters),
+        reference: OPWKinematics::new(parameters),
         links,
     }
 }
@@ -125,7 +125,7 @@ impl Arm {
         for index in 0..POSES {
             // Half the side of their cube is what both links reach, so that some free poses have no posture.
             let pose = if index % 3 < 2 {
-                self.witness.forward(&random.joints())
+                self.reference.forward(&random.joints())
             } else {
                 let reach = self.links[0] + self.links[1];
                 let [i, j, k, w] = <[f64; 4]>::from(random.orientation().coords);
@@ -137,7 +137,7 @@ impl Arm {
         tally
     }
 
-    /// Puts both answers to one pose side by side and counts.
+    /// Compares both results for one pose and counts.
     fn compare(&self, pose: &Pose, tally: &mut Tally) {
         let tool = ToolAt {
             flange_from_tool: &Isometry::identity(),
@@ -152,7 +152,7 @@ impl Arm {
             tally.singular += 1;
             return;
         }
-        let mut theirs = self.witness.inverse(pose);
+        let mut theirs = self.reference.inverse(pose);
         tally.compared += 1;
         tally.unreachable += usize::from(mine.is_empty() && theirs.is_empty());
         for posture in &mine {
@@ -162,7 +162,7 @@ impl Arm {
                 .map(|other| apart(&posture.joints, other))
                 .enumerate()
                 .min_by(|a, b| a.1.total_cmp(&b.1))
-                // A posture on another branch is no partner.
+                // A posture of another branch does not match.
                 .filter(|(_, away)| *away < 1e-3);
             match nearest {
                 Some((index, away)) => {
@@ -209,7 +209,7 @@ pub fn checks() -> Vec<Check> {
     arms().iter().flat_map(|arm| rows(arm, &arm.tally())).collect()
 }
 
-/// What is told of one arm: how far joints are apart, and how many postures stand alone.
+/// Checks of one arm: largest joint difference, and number of unmatched postures.
 fn rows(arm: &Arm, tally: &Tally) -> [Check; 2] {
     let Tally {
         compared,
@@ -224,19 +224,19 @@ fn rows(arm: &Arm, tally: &Tally) -> [Check; 2] {
     [
         Check::computed(
             format!(
-                "{title}: joints of {postures} postures of {compared} poses, modulo a turn ({singular} singular poses left out)"
+                "{title}: joints of {postures} postures of {compared} poses, modulo a turn ({singular} singular poses omitted)"
             ),
-            WITNESS,
-            // A joint is known to rounding over the distance from the singularity: 1e-15 / 3e-4, two programs, a hundredfold reserve.
-            Gap {
+            REFERENCE,
+            // Rounding over the distance from the singularity: 1e-15 / 3e-4, two programs, a margin of a hundred.
+            ErrorBound {
                 worst: worst(distances.iter().copied()),
                 tolerance: 1e-9,
                 unit: "rad",
             },
         ),
         Check::none_wrong(
-            format!("{title}: postures that only one side finds ({unreachable} of the poses have none)"),
-            WITNESS,
+            format!("{title}: postures found by one program only ({unreachable} of the poses have none)"),
+            REFERENCE,
             *alone,
         ),
     ]

@@ -11,7 +11,7 @@ use armill_core::robot::inverse::posture_at;
 use armill_core::robot::jacobian::jacobian;
 
 use crate::arms;
-use crate::check::{Check, Gap, worst};
+use crate::check::{Check, ErrorBound, worst};
 use crate::random::Random;
 
 const SEED: u64 = 3;
@@ -25,16 +25,16 @@ pub fn checks() -> Vec<Check> {
     let mut random = Random::seeded(SEED);
     [
         ("Yaskawa MH12", arms::mh12()),
-        ("KUKA KR 150 R3100-2, first axis counts downwards", arms::kr150()),
+        ("KUKA KR 150 R3100-2, first axis points down", arms::kr150()),
         ("Staubli TX2-90, second axis to the side", arms::tx2_90()),
         ("FANUC R-2000iC, joint 3 coupled to joint 2", arms::r2000ic()),
-        ("seven joints, two of them sliding, one coupled", arms::railed()),
+        ("seven joints, two of them prismatic, one coupled", arms::railed()),
     ]
     .iter()
     .map(|(title, robot)| {
         let errors: Vec<f64> = (0..POSTURES).map(|_| error_at(robot, &mut random)).collect();
         // Truncation h^2/6 of a third derivative below (1 + 1)^3 times 4 m, and rounding 4 m eps / h: 1e-9 together.
-        let gap = Gap {
+        let gap = ErrorBound {
             worst: worst(errors),
             tolerance: 1e-9,
             unit: "m/rad",

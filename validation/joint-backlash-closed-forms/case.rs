@@ -22,7 +22,7 @@ use armill_core::watch::Watch;
 use armill_core::workpiece::Plane;
 
 use crate::arms::mh12;
-use crate::check::{Check, Gap, worst};
+use crate::check::{Check, ErrorBound, worst};
 use crate::random::Random;
 
 const GEOMETRY: &str = "closed form";
@@ -38,7 +38,7 @@ const WRIST: f64 = 0.250;
 /// Angles closer to a reversal are looked at on neither side, rad.
 const ASIDE: f64 = 0.05;
 
-/// Rates and levers of L, U and B where the tool stands `rho` from the first axis at this height.
+/// Rates and lever arms of L, U and B with the tool at the distance `rho` from the first axis and at this height.
 fn two_bars(rho: f64, height: f64) -> [[f64; 3]; 2] {
     let wrist = Vector2::new(rho - SHOULDER[1], height + WRIST - SHOULDER[0]);
     let (upper, fore) = (UPPER, FOREARM[0].hypot(FOREARM[1]));
@@ -79,8 +79,8 @@ fn followed(centre: Point3<f64>, radius: f64) -> Option<Followed> {
     follow(&question, (&circle, STATIONS), Watch::NONE).ok()
 }
 
-/// How often a joint turns back: at both ends of `rho`, and twice more where its rate has another sign at the far one: L where
-/// the forearm stands upright.
+/// Number of reversals: at both ends of `rho`, and two more if its rate has another sign at the far one: L if
+/// the forearm is vertical.
 fn expected(joint: usize, ends: [f64; 2], height: f64) -> usize {
     let place = match joint {
         0 => return 2,
@@ -156,29 +156,29 @@ pub fn checks() -> Vec<Check> {
             }
         }
     }
-    let gap = |errors: Vec<f64>, (tolerance, unit)| Gap {
+    let gap = |errors: Vec<f64>, (tolerance, unit)| ErrorBound {
         worst: worst(errors),
         tolerance,
         unit,
     };
     vec![
         Check::none_wrong(
-            format!("joints that turn back more or less often than the bars, {CIRCLES} circles"),
+            format!("joints with more or fewer reversals than the bars, {CIRCLES} circles"),
             GEOMETRY,
             wrong,
         ),
         Check::computed(
-            format!("where S turns back, {CIRCLES} circles"),
+            format!("reversals of S, {CIRCLES} circles"),
             GEOMETRY,
             gap(first, (1e-6, "rad")),
         ),
         Check::computed(
-            format!("where L, U and B turn back, {CIRCLES} circles"),
+            format!("reversals of L, U and B, {CIRCLES} circles"),
             GEOMETRY,
             gap(others, (1e-6, "rad")),
         ),
         Check::computed(
-            format!("what a small gap makes of the radius, {CIRCLES} circles"),
+            format!("effect of a small backlash on the radius, {CIRCLES} circles"),
             GEOMETRY,
             gap(effects, (1e-8, "m/rad")),
         ),

@@ -1,17 +1,17 @@
-//! How much of a tilted plane holds 0.05 mm. See README.md.
+//! Fraction of a tilted plane within 0.05 mm. See README.md.
 //!
-//! A fraction counts points of the grid, all with the same weight; a point without a posture in the branch is
-//! not within. Joint limits do not count.
+//! A fraction is one of grid points, all with the same weight; a point without a posture in the branch is
+//! not within. Joint limits are not considered.
 
-use crate::check::{Check, Gap};
+use crate::check::{Check, ErrorBound};
 use crate::studies::answer_to;
 
-/// Four planes, one ask each.
+/// Four planes, one analysis each.
 const STUDY: &str = include_str!("study.toml");
 /// Points of a plane.
 const POINTS: usize = 21 * 21;
 
-/// Branch and tilt (deg) in the order of `study.toml`, fraction of points within the limit.
+/// Branch and tilt (deg) in the order of `study.toml`, fraction of points within the tolerance.
 const FRACTIONS: [(&str, i32, f64); 4] = [
     ("front elbow-up", 90, 0.977),
     ("front elbow-up", -60, 0.832),
@@ -19,7 +19,7 @@ const FRACTIONS: [(&str, i32, f64); 4] = [
     ("front elbow-down", 30, 0.751),
 ];
 
-/// Fractions of planes within the limit against those computed before.
+/// Fractions of planes within the tolerance compared with those computed before.
 pub fn checks() -> Vec<Check> {
     let answer = answer_to("validation/mh12-fractions/study.toml", STUDY);
     let mut checks: Vec<Check> = FRACTIONS
@@ -28,8 +28,8 @@ pub fn checks() -> Vec<Check> {
         .map(|((branch, tilt, fraction), map)| {
             let mine = map.branch == *branch && map.grid.points == POINTS;
             let found = if mine { map.fraction_within } else { f64::NAN };
-            // One point more or less: a point that lies on the limit.
-            let gap = Gap {
+            // One point more or less: a point exactly at the tolerance.
+            let gap = ErrorBound {
                 worst: (found - fraction).abs(),
                 tolerance: 0.0023,
                 unit: "",

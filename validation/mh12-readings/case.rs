@@ -1,26 +1,26 @@
-//! The paper's groove under every reading of what the paper leaves open. See README.md.
+//! The groove of the paper under every interpretation. See README.md.
 //!
-//! A reading is one way to fill in what the paper does not say: tool length, plate angle, branch, and the frame
-//! that heights count from. Each is an ask of `study.toml`; here stand the numbers that another program found
+//! An interpretation fixes what the paper does not state: tool length, plate angle, branch, and the reference
+//! frame of heights. Each is an analysis of `study.toml`; the numbers here are those of another program
 //! for it.
 
 use armill_study::answer::PathAnswer;
 
-use crate::check::{Check, Gap, worst, worst_difference};
+use crate::check::{Check, ErrorBound, worst, worst_difference};
 use crate::studies::{answer_to, path};
 
-const WITNESS: &str = "independent computation";
+const REFERENCE: &str = "independent computation";
 const STUDY: &str = include_str!("study.toml");
 /// Index of joint U.
 const U: usize = 2;
 
-/// What one reading gives; nothing where the witness does not say.
+/// Result of one interpretation; none if the reference does not give it.
 struct Reading {
-    /// Name of its ask in `study.toml`.
+    /// Name of its analysis in `study.toml`.
     name: &'static str,
-    /// Least and greatest in-plane envelope of the four cases along the circle, um.
+    /// Smallest and largest in-plane envelope of the four cases along the circle, um.
     in_plane: (Option<f64>, f64),
-    /// Greatest length of the deviation, um.
+    /// Largest length of the deviation, um.
     full: Option<f64>,
     /// Range of joint U, deg.
     u_range: Option<[f64; 2]>,
@@ -121,23 +121,23 @@ pub fn checks() -> Vec<Check> {
         .iter()
         .filter_map(|r| Some(worst_difference(&of(r).joint_range_deg[U], &r.u_range?)));
     checks.push(Check::printed(
-        "range of joint U, every reading that states it",
-        WITNESS,
-        Gap {
+        "range of joint U, every interpretation that gives it",
+        REFERENCE,
+        ErrorBound {
             worst: worst(u_ranges),
             tolerance: 0.05,
             unit: "deg",
         },
         3,
     ));
-    // A reading that says nothing about limits cannot be wrong about them.
+    // An interpretation without a statement on limits is not checked.
     let wrong = READINGS
         .iter()
         .filter(|r| r.inside.is_some_and(|inside| inside != is_inside(&of(r))))
         .count();
     checks.push(Check::none_wrong(
-        "readings wrongly inside or outside the joint limits",
-        WITNESS,
+        "interpretations wrongly inside or outside the joint limits",
+        REFERENCE,
         wrong,
     ));
     let uneven = READINGS
@@ -145,14 +145,14 @@ pub fn checks() -> Vec<Check> {
         .filter(|r| of(r).points != 72 || of(r).unreachable > 0)
         .count();
     checks.push(Check::none_wrong(
-        "readings without 72 reached points",
+        "interpretations without 72 reached points",
         "360 / 5",
         uneven,
     ));
     checks
 }
 
-/// The greatest of the differences that one reading states, um.
+/// The largest of the differences for one interpretation, um.
 fn deviations(reading: &Reading, path: &PathAnswer) -> Check {
     let away = |found: Option<f64>, printed: f64| found.unwrap_or(f64::NAN) - printed;
     let (least, greatest) = reading.in_plane;
@@ -162,7 +162,7 @@ fn deviations(reading: &Reading, path: &PathAnswer) -> Check {
         reading.full.map(|printed| away(path.max_full_um, printed)),
     ];
     // Half of the last printed digit.
-    let gap = Gap {
+    let gap = ErrorBound {
         worst: worst(gaps.into_iter().flatten()),
         tolerance: 0.05,
         unit: "um",
@@ -173,7 +173,7 @@ fn deviations(reading: &Reading, path: &PathAnswer) -> Check {
         (None, Some(full)) => format!("in-plane at most {greatest:.1}, full {full:.1} um"),
         (None, None) => format!("in-plane at most {greatest:.1} um"),
     };
-    Check::printed(format!("{}: {given}", reading.name), WITNESS, gap, 3)
+    Check::printed(format!("{}: {given}", reading.name), REFERENCE, gap, 3)
 }
 
 /// Whether every point of the path keeps inside the joint limits.

@@ -1,7 +1,7 @@
 //! MH12 at one point: posture, compliance, zero position, reach. See README.md.
 //!
-//! One posture that can be followed by hand: the arm stands in the plane y = 0, so that links and levers add up
-//! on paper. README.md does so.
+//! One posture that can be checked manually: the arm is in the plane y = 0, so that links and lever arms can be added
+//! as in README.md.
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
@@ -11,9 +11,9 @@ use armill_core::robot::inverse::{ToolAt, posture_at, postures};
 use armill_core::robot::{Posture, Robot, Unreachable};
 
 use crate::arms;
-use crate::check::{Check, Gap, worst_difference};
+use crate::check::{Check, ErrorBound, worst_difference};
 
-const WITNESS: &str = "independent computation";
+const REFERENCE: &str = "independent computation";
 
 /// Tip (m) of the bare flange, tool along base +x.
 const TIP: Point3<f64> = Point3::new(1.0, 0.0, 0.8);
@@ -45,8 +45,8 @@ pub fn checks() -> Vec<Check> {
         // Half of the last printed digit, here and below.
         Check::printed(
             "MH12 joints at (1, 0, 0.8) m, tool along +x, front elbow-up",
-            WITNESS,
-            Gap {
+            REFERENCE,
+            ErrorBound {
                 worst: joints,
                 tolerance: 5e-5,
                 unit: "deg",
@@ -55,8 +55,8 @@ pub fn checks() -> Vec<Check> {
         ),
         Check::printed(
             "translational compliance there, 9 numbers",
-            WITNESS,
-            Gap {
+            REFERENCE,
+            ErrorBound {
                 worst: matrix,
                 tolerance: 5e-5,
                 unit: "um/N",
@@ -65,8 +65,8 @@ pub fn checks() -> Vec<Check> {
         ),
         Check::computed(
             "flange at joint zero",
-            "URDF of ROS-Industrial, added by hand",
-            Gap {
+            "URDF of ROS-Industrial, added manually",
+            ErrorBound {
                 worst: worst_difference(at_zero.as_slice(), &FLANGE_AT_ZERO_MM),
                 tolerance: 1e-12,
                 unit: "mm",
@@ -74,8 +74,8 @@ pub fn checks() -> Vec<Check> {
         ),
         Check::printed(
             "reach of the wrist centre",
-            "lengths of the URDF, added by hand",
-            Gap {
+            "lengths of the URDF, added manually",
+            ErrorBound {
                 worst: (reach_mm - REACH_MM).abs(),
                 tolerance: 0.05,
                 unit: "mm",
@@ -85,7 +85,7 @@ pub fn checks() -> Vec<Check> {
     ]
 }
 
-/// The posture of the front elbow-up branch whose joint 6 stands at zero.
+/// The posture of the front elbow-up branch whose joint 6 is at zero.
 fn nearest_to_printed(robot: &Robot) -> Posture {
     // At joint zero the flange's second axis points along base -y: half a turn from spin zero.
     let orientation = tool_orientation(Vector3::x_axis(), std::f64::consts::PI);
@@ -95,7 +95,7 @@ fn nearest_to_printed(robot: &Robot) -> Posture {
         near: None,
         home: None,
     };
-    let found = postures(robot, &base_from_tool, tool).expect("the point lies in reach");
+    let found = postures(robot, &base_from_tool, tool).expect("the point is in reach");
     let away = |posture: &Posture| {
         let joints_deg: Vec<f64> = posture.joints.iter().map(|q| q.to_degrees()).collect();
         worst_difference(&joints_deg, &JOINTS_DEG)
@@ -108,7 +108,7 @@ fn nearest_to_printed(robot: &Robot) -> Posture {
 
 /// How far (m) the wrist centre comes from the first axis at shoulder height.
 fn reach(robot: &Robot) -> f64 {
-    // A pose far out: the wrist centre lies 0.1 m behind the flange.
+    // A pose far out: the wrist centre is 0.1 m behind the flange.
     let far = Isometry::from_parts(
         Point3::new(5.1, 0.0, 0.450).into(),
         tool_orientation(Vector3::x_axis(), 0.0),

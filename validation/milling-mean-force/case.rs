@@ -7,8 +7,8 @@
 //! | spindle, feed | 3333, 40 | rpm, mm/s |
 //! | Ktc, Krc, Kac | 1930.4, 1159.6, 200.6 | N/mm2, no edge terms |
 //!
-//! Forces act on the tool: x along its feed, y to its left, z from part to spindle. The helix is a left hand's,
-//! as the sign of the printed z asks for.
+//! Forces act on the tool: x along its feed, y to its left, z from part to spindle. The helix is left-handed,
+//! as required by the sign of the printed z.
 
 use std::f64::consts::TAU;
 
@@ -20,13 +20,13 @@ use armill_core::source::elastic::predict;
 use armill_core::spatial::Wrench;
 
 use crate::arms;
-use crate::check::{Check, Gap, worst_difference};
+use crate::check::{Check, ErrorBound, worst_difference};
 use crate::tx200_compliance::{OLDER_SPRINGS, posture, workpiece};
 
 /// Who published the cut and the length of its force.
 const PUBLISHED: &str = "rafisondi/sensitivity_milling_analysis";
-/// The averaged equations worked by themselves, with more digits.
-const WITNESS: &str = "independent computation";
+/// The averaged equations evaluated separately, with more digits.
+const REFERENCE: &str = "independent computation";
 
 /// Length of the mean force of the averaged model, N, as published.
 const LENGTH_PUBLISHED_N: f64 = 155.6;
@@ -72,7 +72,7 @@ fn mean(immersion: Immersion) -> Vector3<f64> {
 pub fn checks() -> Vec<Check> {
     let up = mean(Immersion::Up(RADIAL_DEPTH));
     let down = mean(Immersion::Down(RADIAL_DEPTH));
-    let gap = |worst: f64, tolerance: f64| Gap {
+    let gap = |worst: f64, tolerance: f64| ErrorBound {
         worst,
         tolerance,
         unit: "N",
@@ -86,7 +86,7 @@ pub fn checks() -> Vec<Check> {
         ),
         Check::printed(
             "the same to four decimals: 155.6207 N",
-            WITNESS,
+            REFERENCE,
             gap(
                 (up.norm() - LENGTH_N).abs().max((down.norm() - LENGTH_N).abs()),
                 5e-5,
@@ -95,13 +95,13 @@ pub fn checks() -> Vec<Check> {
         ),
         Check::printed(
             "components, up-milling",
-            WITNESS,
+            REFERENCE,
             gap(worst_difference(up.as_slice(), &UP_N), 5e-5),
             6,
         ),
         Check::printed(
             "components, down-milling",
-            WITNESS,
+            REFERENCE,
             gap(worst_difference(down.as_slice(), &DOWN_N), 5e-5),
             6,
         ),
@@ -120,7 +120,7 @@ fn mean_of_a_turn(closed: Vector3<f64>) -> Check {
     Check::computed(
         "mean force of up-milling, relative, over 7200 angles of the spindle",
         "force summed over a revolution",
-        Gap {
+        ErrorBound {
             worst: error / closed.norm(),
             tolerance: 1e-6,
             unit: "",
@@ -136,8 +136,8 @@ fn deflection(force: Vector3<f64>) -> Check {
     let deviation = predict(&posture(&robot), joints, &load).twist.linear;
     Check::printed(
         "deflection of a TX200 under the computed force: 169.19 um",
-        WITNESS,
-        Gap {
+        REFERENCE,
+        ErrorBound {
             worst: (deviation.norm() * 1e6 - LENGTH_UM).abs(),
             tolerance: 0.01,
             unit: "um",

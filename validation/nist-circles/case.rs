@@ -1,12 +1,12 @@
 //! Circles of NIST's Algorithm Testing System: points to the four reference circles. See README.md.
 //!
-//! Lengths in the unit of the files, which is taken for metres: none of what is compared depends on it.
+//! Lengths in the unit of the files, used as metres: the comparisons do not depend on it.
 
 use nalgebra::Point3;
 
 use armill_core::roundness::{Plane, Profile};
 
-use crate::check::{Check, Gap};
+use crate::check::{Check, ErrorBound};
 
 #[cfg(test)]
 mod tests;
@@ -32,7 +32,7 @@ struct Set {
     /// Peak to valley about the least-squares and the minimum zone circle.
     ront_lsci: f64,
     ront_mzci: f64,
-    /// The axes in which the centre of the latter is told, and that centre.
+    /// The axes of the centre of the latter, and that centre.
     in_plane: [usize; 2],
     mzci_centre: [f64; 2],
     /// Radii of the minimum circumscribed and the maximum inscribed circle.
@@ -51,7 +51,7 @@ struct Off {
 }
 
 impl Set {
-    /// Our circles of `points` against what others found; infinite where there is none.
+    /// Our circles of `points` compared with the reference; infinite without a circle.
     fn off(&self, points: &[Point3<f64>]) -> Off {
         let none = Off {
             least_squares: f64::INFINITY,
@@ -97,7 +97,7 @@ pub fn checks() -> Vec<Check> {
         })
         .collect();
     let worst = |of: fn(&Off) -> f64| off.iter().map(of).fold(0.0, f64::max);
-    let gap = |worst: f64, tolerance: f64| Gap {
+    let gap = |worst: f64, tolerance: f64| ErrorBound {
         worst,
         tolerance,
         unit: "",

@@ -6,7 +6,7 @@ use super::*;
 
 /// RONt of LSCI and MZCI, centre of MZCI (axes as the files have them), radii of MCCI and MICI, of the full circles.
 ///
-/// The inscribed radius of set 19 is that of trying all triples; a first computation by another way had ended at 22.864515118.
+/// The inscribed radius of set 19 from all triples; a first computation with another method gave 22.864515118.
 #[rustfmt::skip]
 const FULL: &[(usize, [f64; 6])] = &[
     (1, [0.266197023, 0.262769892, -560.3201249, 34.2417191, 13.419031134, 13.160359917]),
@@ -48,10 +48,10 @@ const ARCS: &[(usize, [f64; 2])] = &[
 /// Between two computations of the peak to valley about least-squares circles.
 const TWICE_COMPUTED: f64 = 1.1e-9;
 
-/// Which sets are typed, as NIST counts.
+/// Numbers of the typed sets, as in the NIST files.
 const TYPED: [usize; 8] = [4, 8, 11, 13, 16, 23, 25, 27];
 
-/// The numbers of a file of a set; nothing where the samples are not at hand.
+/// The numbers of a file of a set; none if the samples are not available.
 fn numbers(set: usize, ending: &str) -> Option<Vec<f64>> {
     let Some(samples) = std::env::var_os("ARMILL_SAMPLES") else {
         println!("skipped: ARMILL_SAMPLES is not set");

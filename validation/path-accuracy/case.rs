@@ -3,7 +3,7 @@
 use armill_core::measure::path_accuracy::{PathAccuracy, path_accuracy};
 use nalgebra::Vector3;
 
-use crate::check::{Check, Gap, worst};
+use crate::check::{Check, ErrorBound, worst};
 
 const CLOSED: &str = "closed form";
 const COMPUTED: &str = "independent computation";
@@ -40,12 +40,12 @@ fn arc() -> Option<PathAccuracy> {
         .collect();
     let runs: Vec<_> = (0..RUNS).map(run).collect();
     let mut found = path_accuracy(&commanded, &runs).ok()?;
-    // The tangent of an end is that of its piece, which is no tangent of the arc.
+    // The tangent at an end is that of its segment, not of the arc.
     found.points.retain(|point| (1..60).contains(&point.index));
     Some(found)
 }
 
-/// Offsets of 1, 2 and 6 um beside a line, sampled every 3, 7 and 11 mm.
+/// Offsets of 1, 2 and 6 um next to a line, sampled every 3, 7 and 11 mm.
 fn line() -> Option<[f64; 2]> {
     let commanded: Vec<Vector3<f64>> = (0..=50).map(|k| Vector3::x() * f64::from(k) * 0.01).collect();
     let run = |step: f64, y: f64| -> Vec<Vector3<f64>> {
@@ -69,7 +69,7 @@ pub fn checks() -> Vec<Check> {
         sum / found.points.len() as f64 * 1e6
     });
     let computed = |what: &str, error: f64| {
-        let gap = Gap {
+        let gap = ErrorBound {
             worst: worst([error]),
             tolerance: 1e-3,
             unit: "um",
@@ -80,11 +80,11 @@ pub fn checks() -> Vec<Check> {
     let places = [at, rt].map(|given| given.map(|(index, _)| 5 * index));
     let [line_at, line_rt] = line().unwrap_or([f64::NAN; 2]);
     vec![
-        computed("AT of five runs round an arc: 32.9154 um", value(at) - 32.9154),
+        computed("AT of five runs around an arc: 32.9154 um", value(at) - 32.9154),
         computed("RT of these: 37.1100 um", value(rt) - 37.1100),
         computed("mean of AT over their points: 30.4499 um", mean - 30.4499),
         Check::none_wrong(
-            "where AT and RT are: 5 and 200 deg",
+            "positions of AT and RT: 5 and 200 deg",
             COMPUTED,
             places
                 .iter()
@@ -93,9 +93,9 @@ pub fn checks() -> Vec<Check> {
                 .count(),
         ),
         Check::computed(
-            "AT and RT of three runs beside a line: 3 and 5 um",
+            "AT and RT of three runs next to a line: 3 and 5 um",
             CLOSED,
-            Gap {
+            ErrorBound {
                 worst: worst([line_at - 3e-6, line_rt - 5e-6]),
                 tolerance: 1e-12,
                 unit: "m",

@@ -15,7 +15,7 @@ use nalgebra::{Point3, Vector3};
 
 use armill_core::workpiece::{Plane, Split};
 
-use crate::check::{Check, Gap, worst};
+use crate::check::{Check, ErrorBound, worst};
 use crate::random::Random;
 
 const PAPER: &str = "equation (11), Shneor & Chapsky 2021";
@@ -47,7 +47,7 @@ pub fn checks() -> Vec<Check> {
     }
     let row = |what: &str, errors: Vec<f64>| {
         // A dozen roundings of numbers of size 1; the in-plane root of a small sum of squares keeps that size.
-        let gap = Gap {
+        let gap = ErrorBound {
             worst: worst(errors),
             tolerance: 1e-14,
             unit: "of length 1",

@@ -27,7 +27,7 @@ pub fn mh12() -> Robot {
 /// KUKA KR 150 R3100-2, without compliances: `kr150r3100_2_macro.xacro` of ros-industrial/kuka_experimental
 /// (e78bbd15).
 ///
-/// Its first axis counts downwards, and its flange is turned so that z points out of it.
+/// Its first axis points down, and its flange is rotated so that z points out of it.
 pub fn kr150() -> Robot {
     // Column, shoulder, upper arm, elbow and forearm, wrist, and the turn of the flange.
     let motions = vec![
@@ -48,7 +48,7 @@ pub fn kr150() -> Robot {
     six_joints("kr150r3100_2", motions, [-1, 1, 1, -1, 1, -1])
 }
 
-/// Staubli TX2-90, whose second axis stands 50 mm to the side: `tx2_90_macro.xacro` of
+/// Staubli TX2-90, whose second axis is 50 mm to the side: `tx2_90_macro.xacro` of
 /// ros-industrial/staubli_experimental (256a71ac).
 pub fn tx2_90() -> Robot {
     // Column, shoulder with the second axis to the side, upper arm, forearm, wrist.

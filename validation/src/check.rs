@@ -1,96 +1,99 @@
-//! One comparison: what was compared, with which witness, how near it must come and how near it came.
+//! One comparison: the quantity, its reference, the tolerance and the error.
 //!
-//! The words of a check are the same on every machine: errors at the level of rounding are told as a power of ten
+//! The text of a check is the same on every machine: errors at the level of rounding are reported as a power of ten
 //! well above them, errors against printed numbers with fixed decimals.
 //!
-//! | made by | told | for |
+//! | constructor | reported | used for |
 //! |---|---|---|
-//! | `Check::printed` | the error with fixed decimals | numbers that a source prints: off by half of the last digit |
+//! | `Check::printed` | the error with fixed decimals | printed numbers: error of half of the last digit |
 //! | `Check::computed` | `below 1e-12` | two computations that differ by rounding |
-//! | `Check::none_wrong` | a count | things that must not be |
+//! | `Check::none_wrong` | a count | items that must not occur |
 //!
-//! A check holds where the greatest error is not above the tolerance, which the page of its case derives.
+//! A check passes if the largest error is not above the tolerance, which is derived on the page of its case.
 
-/// Smallest exponent that is told: below it one machine finds zero where another finds a few bits.
+/// Smallest exponent that is reported: below it results differ between machines by a few bits.
 const LEAST_EXPONENT: i32 = -14;
-/// Sines of another library round otherwise: this much more error must not change what is told.
+/// Sines of another library round differently: an error larger by this factor must not change the text.
 const MORE_ERROR: f64 = 3.0;
 
-/// The greatest error found and the greatest that may be, in the same unit.
+/// The largest error found and the tolerance, in the same unit.
 #[derive(Clone, Copy, Debug)]
-pub struct Gap {
-    /// As found, never negative; infinite where there was nothing to compare, or where a number is none.
+pub struct ErrorBound {
+    /// Largest error, never negative; infinite if nothing was compared, or if a value is not a number.
     pub worst: f64,
-    /// As permitted.
+    /// Permitted error.
     pub tolerance: f64,
     /// Unit of both; empty for ratios.
     pub unit: &'static str,
 }
 
-/// One comparison, in words that do not depend on the machine.
+/// One comparison, in text that does not depend on the machine.
 #[derive(Clone, Debug)]
 pub struct Check {
     /// What was compared.
     pub what: String,
     /// With what.
-    pub witness: &'static str,
-    /// How near it must come.
+    pub reference: &'static str,
+    /// Permitted error.
     pub tolerance: String,
-    /// How near it came.
+    /// Error found.
     pub reached: String,
-    /// Whether that is near enough.
-    pub holds: bool,
+    /// Whether the error is within the tolerance.
+    pub passed: bool,
 }
 
 impl Check {
-    /// A comparison with printed numbers: the error is told with this many decimals. Take so many that the
-    /// words show how much of the tolerance is used.
-    pub fn printed(what: impl Into<String>, witness: &'static str, gap: Gap, decimals: usize) -> Check {
-        let reached = format!("{:.decimals$}", gap.worst);
-        Check::new(what.into(), witness, gap, reached)
+    /// A comparison with printed numbers: the error is reported with this number of decimals, chosen so that the
+    /// text shows which part of the tolerance is used.
+    pub fn printed(
+        what: impl Into<String>,
+        reference: &'static str,
+        bound: ErrorBound,
+        decimals: usize,
+    ) -> Check {
+        let reached = format!("{:.decimals$}", bound.worst);
+        Check::new(what.into(), reference, bound, reached)
     }
 
-    /// A comparison of two computations: the error is told as the first power of ten above three times it,
+    /// A comparison of two computations: the error is reported as the first power of ten above three times its value,
     /// never less than 1e-14.
-    pub fn computed(what: impl Into<String>, witness: &'static str, gap: Gap) -> Check {
-        let reached = format!("below {}", power_of_ten_above(MORE_ERROR * gap.worst));
-        Check::new(what.into(), witness, gap, reached)
+    pub fn computed(what: impl Into<String>, reference: &'static str, bound: ErrorBound) -> Check {
+        let reached = format!("below {}", power_of_ten_above(MORE_ERROR * bound.worst));
+        Check::new(what.into(), reference, bound, reached)
     }
 
-    /// A count of things that must not be; holds at 0 alone.
-    pub fn none_wrong(what: impl Into<String>, witness: &'static str, wrong: usize) -> Check {
+    /// A count of items that must not occur; passes only at 0.
+    pub fn none_wrong(what: impl Into<String>, reference: &'static str, wrong: usize) -> Check {
         Check {
             what: what.into(),
-            witness,
+            reference,
             tolerance: "0".to_owned(),
             reached: wrong.to_string(),
-            holds: wrong == 0,
+            passed: wrong == 0,
         }
     }
 
-    /// The tolerance is told plainly from 1e-5 on, below as a power.
-    ///
-    /// The tolerance is told plainly from 1e-5 on, below as a power of ten.
-    fn new(what: String, witness: &'static str, gap: Gap, reached: String) -> Check {
-        let with_unit = |number: String| format!("{number} {}", gap.unit).trim_end().to_owned();
-        let plain = gap.tolerance >= 1e-5;
+    /// The tolerance is written as a decimal number from 1e-5 on, below as a power of ten.
+    fn new(what: String, reference: &'static str, bound: ErrorBound, reached: String) -> Check {
+        let with_unit = |number: String| format!("{number} {}", bound.unit).trim_end().to_owned();
+        let plain = bound.tolerance >= 1e-5;
         let tolerance = if plain {
-            gap.tolerance.to_string()
+            bound.tolerance.to_string()
         } else {
-            format!("{:e}", gap.tolerance)
+            format!("{:e}", bound.tolerance)
         };
-        let holds = gap.worst <= gap.tolerance;
+        let passed = bound.worst <= bound.tolerance;
         Check {
             what,
-            witness,
+            reference,
             tolerance: with_unit(tolerance),
             reached: with_unit(reached),
-            holds,
+            passed,
         }
     }
 }
 
-/// The greatest of these errors by size; infinite if one is not a number or there is none.
+/// The largest absolute value of these errors; infinite if one is not a number or there is none.
 pub fn worst(errors: impl IntoIterator<Item = f64>) -> f64 {
     let size = |error: f64| {
         if error.is_nan() {
@@ -106,7 +109,7 @@ pub fn worst(errors: impl IntoIterator<Item = f64>) -> f64 {
         .unwrap_or(f64::INFINITY)
 }
 
-/// The greatest difference between these numbers, one by one; infinite if there are not as many of both, or
+/// The largest difference between these numbers, one by one; infinite if their counts differ, or if there are
 /// none.
 pub fn worst_difference(found: &[f64], expected: &[f64]) -> f64 {
     if found.len() != expected.len() {
@@ -124,10 +127,10 @@ fn power_of_ten_above(error: f64) -> String {
     format!("1e{}", exponent.max(LEAST_EXPONENT))
 }
 
-/// Fails, telling every check that does not hold.
+/// Fails with every check that does not pass.
 #[cfg(test)]
-pub fn assert_all_hold(checks: &[Check]) {
-    let wrong: Vec<&Check> = checks.iter().filter(|check| !check.holds).collect();
+pub fn assert_all_pass(checks: &[Check]) {
+    let wrong: Vec<&Check> = checks.iter().filter(|check| !check.passed).collect();
     assert!(wrong.is_empty(), "{wrong:#?}");
     assert!(!checks.is_empty(), "a case without checks");
 }
@@ -136,8 +139,8 @@ pub fn assert_all_hold(checks: &[Check]) {
 mod tests {
     use super::*;
 
-    fn gap(worst: f64) -> Gap {
-        Gap {
+    fn bound(worst: f64) -> ErrorBound {
+        ErrorBound {
             worst,
             tolerance: 1e-12,
             unit: "m",
@@ -145,8 +148,8 @@ mod tests {
     }
 
     #[test]
-    fn rounding_is_told_as_a_power_of_ten_above_three_times_the_error() {
-        let given = |error| Check::computed("", "", gap(error)).reached;
+    fn reports_rounding_as_a_power_of_ten_above_three_times_the_error() {
+        let given = |error| Check::computed("", "", bound(error)).reached;
         assert_eq!(given(3.1e-14), "below 1e-13 m");
         assert_eq!(given(3.5e-14), "below 1e-12 m");
         assert_eq!(
@@ -157,24 +160,24 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_a_number_never_holds() {
+    fn a_value_that_is_not_a_number_never_passes() {
         assert_eq!(worst([0.5, f64::NAN, 0.1]), f64::INFINITY);
-        assert!(!Check::computed("", "", gap(f64::NAN)).holds);
-        assert!(!Check::printed("", "", gap(worst([f64::NAN])), 3).holds);
+        assert!(!Check::computed("", "", bound(f64::NAN)).passed);
+        assert!(!Check::printed("", "", bound(worst([f64::NAN])), 3).passed);
     }
 
     #[test]
-    fn nothing_compared_never_holds() {
-        assert!(!Check::computed("", "", gap(worst([]))).holds);
+    fn an_empty_comparison_never_passes() {
+        assert!(!Check::computed("", "", bound(worst([]))).passed);
         assert_eq!(worst_difference(&[1.0, 2.0], &[1.0]), f64::INFINITY);
     }
 
     #[test]
-    fn small_tolerances_are_told_as_powers() {
+    fn reports_small_tolerances_as_powers() {
         let check = Check::printed(
             "",
             "",
-            Gap {
+            ErrorBound {
                 worst: 0.024,
                 tolerance: 0.05,
                 unit: "um",
@@ -185,6 +188,6 @@ mod tests {
             (check.tolerance.as_str(), check.reached.as_str()),
             ("0.05 um", "0.024 um")
         );
-        assert_eq!(Check::computed("", "", gap(0.0)).tolerance, "1e-12 m");
+        assert_eq!(Check::computed("", "", bound(0.0)).tolerance, "1e-12 m");
     }
 }

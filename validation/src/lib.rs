@@ -1,10 +1,10 @@
-//! Is armill right? Its numbers beside those of others.
+//! Comparison of armill with the numbers of others.
 //!
-//! Every case is a folder of `validation/`: `README.md` says what is compared and where the witness comes from,
-//! `case.rs` holds its numbers and gives its checks. [`CASES`] lists them; the program writes [`table`], and
-//! the tests assert that every case holds and that the committed table is what the cases give.
+//! Every case is a folder of `validation/`: `README.md` describes the comparison and the source of the reference,
+//! `case.rs` contains its numbers and returns its checks. [`CASES`] lists them; the program writes [`table`], and
+//! the tests assert that every case passes and that the committed table is up to date.
 //!
-//! | kind of witness | what it shows |
+//! | kind of reference | what it shows |
 //! |---|---|
 //! | published numbers | that the model is the one that others mean |
 //! | an independent computation from published inputs | that inputs are read as meant and the arithmetic is right |
@@ -63,7 +63,7 @@ pub use check::Check;
 
 use rayon::prelude::*;
 
-/// A comparison with a witness.
+/// A comparison with a reference.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
     /// Its folder in `validation/`.

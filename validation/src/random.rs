@@ -9,7 +9,7 @@
 //! ```
 //!
 //! Only sums, products and shifts of whole numbers, so that the stream is the same everywhere; orientations go
-//! through sines besides, which may differ in the last bit.
+//! through sines, which may differ in the last bit.
 
 use std::f64::consts::PI;
 

@@ -1,7 +1,7 @@
 //! Studies of the cases, run as a user's study is run.
 //!
 //! A case of this kind goes through the whole program but its command: the text is read and checked, points are
-//! made and computed, and the answer is what `result.json` would hold. No file is read but the study itself,
+//! created and evaluated, and the answer is that of `result.json`. No file is read except the study itself,
 //! none is written.
 
 use std::path::Path;
@@ -18,7 +18,8 @@ pub fn answer_to(path: &str, text: &str) -> StudyAnswer {
         Ok(study) => study,
         Err(problems) => unreachable!("the study of a case is sound: {problems}"),
     };
-    let found = run(&study, Watch::NONE).expect("nobody cancels it and the arm has compliance and inverse");
+    let found =
+        run(&study, Watch::NONE).expect("the run is not cancelled and the arm has compliance and inverse");
     answer(&study, &found)
 }
 
@@ -28,5 +29,5 @@ pub fn path<'a>(answer: &'a StudyAnswer, name: &str) -> &'a PathAnswer {
         .paths
         .iter()
         .find(|path| path.name == name)
-        .expect("the study asks for it")
+        .expect("the study has this path")
 }

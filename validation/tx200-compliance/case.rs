@@ -15,12 +15,12 @@ use nalgebra::{Matrix3, Point3, Vector3};
 use armill_core::compliance::compliance_at_tool;
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
 use armill_core::robot::inverse::{ToolAt, posture_at, postures};
-use armill_core::robot::{Amount, JointCompliance, Mass, Posture, Robot, Attachment, Spring, Structure};
+use armill_core::robot::{Amount, Attachment, JointCompliance, Mass, Posture, Robot, Spring, Structure};
 use armill_core::source::stiffness_model::FREE_FALL;
-use armill_core::source::{Arm, Gravity, ArmState, StiffnessModel};
+use armill_core::source::{Arm, ArmState, Gravity, StiffnessModel};
 
 use crate::arms;
-use crate::check::{Check, Gap, worst_difference};
+use crate::check::{Check, ErrorBound, worst_difference};
 
 const PUBLISHED: &str = "rafisondi/sensitivity_milling_analysis";
 const COMPUTED: &str = "independent computation";
@@ -91,9 +91,9 @@ pub fn checks() -> Vec<Check> {
     vec![
         // Half of the last printed digit, here and below.
         Check::printed(
-            "joints that hold the published TCP pose, among the postures of the closed form",
+            "joints of the published TCP pose, among the postures of the closed form",
             COMPUTED,
-            Gap {
+            ErrorBound {
                 worst: joints,
                 tolerance: 5e-5,
                 unit: "deg",
@@ -103,7 +103,7 @@ pub fn checks() -> Vec<Check> {
         Check::printed(
             "translational compliance in the workpiece frame, 9 numbers",
             PUBLISHED,
-            Gap {
+            ErrorBound {
                 worst: matrix,
                 tolerance: 5e-4,
                 unit: "um/N",
@@ -113,7 +113,7 @@ pub fn checks() -> Vec<Check> {
         Check::computed(
             "TCP at (-90, 30, 95, 0, 0, 0) deg",
             PUBLISHED,
-            Gap {
+            ErrorBound {
                 worst: tcp,
                 tolerance: 1e-14,
                 unit: "m",
@@ -122,7 +122,7 @@ pub fn checks() -> Vec<Check> {
         Check::printed(
             "translational compliance there, six drive springs, 9 numbers",
             COMPUTED,
-            Gap {
+            ErrorBound {
                 worst: second_matrix,
                 tolerance: 5e-5,
                 unit: "um/N",
@@ -132,7 +132,7 @@ pub fn checks() -> Vec<Check> {
         Check::printed(
             "translational compliance there, all 18 springs, 9 numbers",
             COMPUTED,
-            Gap {
+            ErrorBound {
                 worst: bending,
                 tolerance: 5e-5,
                 unit: "um/N",
@@ -141,8 +141,8 @@ pub fn checks() -> Vec<Check> {
         ),
         Check::computed(
             "torques of gravity on the six drives, ten postures",
-            "falling potential energy",
-            Gap {
+            "gradient of the potential energy",
+            ErrorBound {
                 worst: gravity_gap(&robot),
                 // 10 kJ: h^2 of the third derivative, and rounding over h.
                 tolerance: 1e-5,
@@ -152,7 +152,7 @@ pub fn checks() -> Vec<Check> {
     ]
 }
 
-/// The posture that holds the published TCP pose in the branch of the printed joints.
+/// The posture of the published TCP pose in the branch of the printed joints.
 pub fn posture(robot: &Robot) -> Posture {
     // The tool looks down on the workpiece, turned by half a turn about its z.
     let orientation = workpiece() * from_xyz_and_fixed_angles(Vector3::zeros(), Vector3::new(PI, 0.0, PI));
@@ -162,7 +162,7 @@ pub fn posture(robot: &Robot) -> Posture {
         near: None,
         home: None,
     };
-    let found = postures(robot, &base_from_tool, tool).expect("the pose lies in reach");
+    let found = postures(robot, &base_from_tool, tool).expect("the pose is in reach");
     let away = |posture: &Posture| {
         let joints_deg: Vec<f64> = posture.joints.iter().map(|q| q.to_degrees()).collect();
         worst_difference(&joints_deg, &JOINTS_DEG)
@@ -192,7 +192,7 @@ fn flange_from_tool() -> Isometry {
     )
 }
 
-/// Translational compliance at the second pose in base with bending springs beside those of the drives, um/N:
+/// Translational compliance at the second pose in base with bending springs in addition to those of the drives, um/N:
 /// 18 in all.
 fn with_bending(robot: &Robot) -> Matrix3<f64> {
     let axes = [Vector3::x(), Vector3::y()];
@@ -217,7 +217,7 @@ fn with_bending(robot: &Robot) -> Matrix3<f64> {
     let tool = flange_from_tool();
     let mut arm_state = ArmState::new(evaluation(robot, &model, &tool));
     arm_state.set_joints(&SECOND_JOINTS_DEG.map(f64::to_radians));
-    let compliance = arm_state.compliance().expect("there is no compensator");
+    let compliance = arm_state.compliance().expect("the arm has no compensator");
     compliance.fixed_view::<3, 3>(0, 0) * 1e6
 }
 
@@ -265,7 +265,7 @@ fn gravity_gap(robot: &Robot) -> f64 {
             reference: vec![0.0; 6],
         }),
         load_dependent: false,
-        actual: None,
+        ..StiffnessModel::DRIVES.clone()
     };
     let tool = flange_from_tool();
     let mut arm_state = ArmState::new(evaluation(robot, &model, &tool));

@@ -1,11 +1,11 @@
 //! How far a measured UR10 misses its nominal kinematics, base and reflector fitted. See README.md.
 
-use armill_core::calibrate::{Asked, MeasuredPose, Question, fit};
+use armill_core::calibrate::{MeasuredPose, ParameterSet, Question, fit};
 use armill_core::frame::Isometry;
 use nalgebra::Vector3;
 
 use crate::arms;
-use crate::check::{Check, Gap};
+use crate::check::{Check, ErrorBound};
 
 #[cfg(test)]
 mod tests;
@@ -62,12 +62,12 @@ const ROWS: [Row; 40] = [
     [0.847978, -1.58689, 0.909089, 0.677454, 0.847226, -1.57101, 2343.436, -857.58683, -235.33769],
 ];
 
-/// Mean, root mean square and greatest distance (mm), as the other program printed them.
+/// Mean, root mean square and largest distance (mm), as the other program printed them.
 const PRINTED: [f64; 3] = [0.724_174, 0.773_140, 1.383_232];
 /// Half of the last digit printed, mm.
 const HALF_DIGIT: f64 = 0.5e-6;
 
-/// Mean, root mean square and greatest distance (mm) with base and point fitted; infinite where there is no fit.
+/// Mean, root mean square and largest distance (mm) with base and point fitted; infinite without a fit.
 fn missed(rows: &[Row]) -> [f64; 3] {
     let poses: Vec<MeasuredPose> = rows
         .iter()
@@ -78,7 +78,7 @@ fn missed(rows: &[Row]) -> [f64; 3] {
         })
         .collect();
     let question = Question {
-        requested: Asked::BaseAndTool,
+        requested: ParameterSet::BaseAndTool,
         flange_from_point: Isometry::identity(),
         turn_length: 1.0,
         prior: None,
@@ -96,7 +96,7 @@ pub fn checks() -> Vec<Check> {
     let pairs = what.iter().zip(missed(&ROWS)).zip(PRINTED);
     pairs
         .map(|((what, found), printed)| {
-            let gap = Gap {
+            let gap = ErrorBound {
                 worst: (found - printed).abs(),
                 tolerance: HALF_DIGIT,
                 unit: "mm",

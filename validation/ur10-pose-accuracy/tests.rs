@@ -1,6 +1,6 @@
 use super::*;
 
-/// Joints and measured places of the whole series; nothing where the samples are not at hand.
+/// Joints and measured places of the whole series; none if the samples are not available.
 fn series() -> Option<Vec<Row>> {
     let Some(samples) = std::env::var_os("ARMILL_SAMPLES") else {
         println!("skipped: ARMILL_SAMPLES is not set");

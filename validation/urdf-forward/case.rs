@@ -1,4 +1,4 @@
-//! Robots read from URDF against an evaluation of the tree that knows nothing of armill. See README.md.
+//! Robots read from URDF, compared with an evaluation of the tree independent of armill. See README.md.
 //!
 //! Two questions: does the reader of URDF put the flange where the text does, and are the robots of the library
 //! those of the files? Poses are compared by the distance of their origins (m) and the angle between their axes
@@ -14,10 +14,10 @@ use armill_core::robot::inverse::posture_at;
 use armill_formats::robot::urdf;
 
 use crate::arms;
-use crate::check::{Check, Gap, worst};
+use crate::check::{Check, ErrorBound, worst};
 use crate::random::Random;
 
-const WITNESS: &str = "4 x 4 products along the URDF";
+const REFERENCE: &str = "4 x 4 products along the URDF";
 const SEED: u64 = 5;
 /// Postures a file.
 const POSTURES: usize = 1000;
@@ -35,7 +35,7 @@ fn apart(robot: &Robot, text: &str) -> [f64; 2] {
     if count != robot.joints().len() {
         return [f64::INFINITY; 2];
     }
-    // As many positions are drawn for each posture whatever the arm, so that arms share their numbers.
+    // The same number of random values is used for each posture of any arm, so that arms share their numbers.
     let mut random = Random::seeded(SEED);
     let (metres, radians) = (0..POSTURES)
         .map(|_| {
@@ -74,7 +74,7 @@ pub fn checks() -> Vec<Check> {
         ("Yaskawa MH12", MH12),
         ("KUKA KR 120 R2500 pro", KR120),
         (
-            "oblique axes, turned origins, a sliding joint, a branch that mimics",
+            "oblique axes, rotated origins, a prismatic joint, a mimic branch",
             OBLIQUE,
         ),
     ] {
@@ -82,8 +82,8 @@ pub fn checks() -> Vec<Check> {
         let what = format!("{title}: URDF as read, {POSTURES} random postures");
         checks.push(Check::computed(
             what,
-            WITNESS,
-            Gap {
+            REFERENCE,
+            ErrorBound {
                 worst: metres,
                 tolerance: 1e-12,
                 unit: "m",
@@ -92,8 +92,8 @@ pub fn checks() -> Vec<Check> {
         let what = "its flange orientation".to_owned();
         checks.push(Check::computed(
             what,
-            WITNESS,
-            Gap {
+            REFERENCE,
+            ErrorBound {
                 worst: radians,
                 tolerance: 1e-12,
                 unit: "rad",
@@ -106,11 +106,11 @@ pub fn checks() -> Vec<Check> {
         ("kuka/kr120r2500pro", KR120, [1e-9, 1e-6]),
     ] {
         let [metres, radians] = apart(&arms::library(name), text);
-        let what = format!("library robot {name} against the URDF");
+        let what = format!("library robot {name} compared with the URDF");
         checks.push(Check::computed(
             what,
-            WITNESS,
-            Gap {
+            REFERENCE,
+            ErrorBound {
                 worst: metres,
                 tolerance: m,
                 unit: "m",
@@ -119,8 +119,8 @@ pub fn checks() -> Vec<Check> {
         let what = "its flange orientation".to_owned();
         checks.push(Check::computed(
             what,
-            WITNESS,
-            Gap {
+            REFERENCE,
+            ErrorBound {
                 worst: radians,
                 tolerance: rad,
                 unit: "rad",

@@ -1,7 +1,7 @@
-//! The robot library beside the files its numbers were typed from, where they are at hand.
+//! The robot library compared with the files of its numbers, if they are available.
 //!
 //! Positions are random, a whole turn a joint, whatever the limits: lengths, signs, order and zeros all show.
-//! Files lie below `ARMILL_SAMPLES`; without it the tests say that they are skipped.
+//! Files are in `ARMILL_SAMPLES`; without it the tests report that they are skipped.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -71,7 +71,7 @@ const OPW: [(&str, &str); 9] = [
 ];
 
 #[test]
-fn library_arms_stand_where_the_urdfs_of_their_makers_put_them() {
+fn library_arms_agree_with_the_urdfs_of_their_manufacturers() {
     let Some(folder) = robots() else { return };
     for (name, file, turn) in URDFS {
         let sample = text(&folder.join(file));
@@ -89,7 +89,7 @@ fn library_arms_stand_where_the_urdfs_of_their_makers_put_them() {
 }
 
 #[test]
-fn library_arms_stand_where_their_opw_parameters_put_them() {
+fn library_arms_agree_with_their_opw_parameters() {
     let Some(folder) = robots() else { return };
     for (name, file) in OPW {
         let opw = Opw::read(&text(&folder.join(file)));
@@ -172,5 +172,5 @@ fn number(text: &str) -> f64 {
     scale
         * text
             .parse::<f64>()
-            .unwrap_or_else(|_| panic!("`{text}` is no number"))
+            .unwrap_or_else(|_| panic!("`{text}` is not a number"))
 }

@@ -1,4 +1,4 @@
-//! What holds of the arms of the case holds of the files of the makers too, where they are at hand.
+//! The checks of the case, applied to the files of the manufacturers if they are available.
 
 #[path = "library.rs"]
 mod library;

@@ -1,10 +1,9 @@
-//! The forward kinematics of a URDF by itself: 4 x 4 products along its joints, rotations by Rodrigues' formula.
+//! Independent forward kinematics of a URDF: 4 x 4 products along its joints, rotations by Rodrigues' formula.
 //!
-//! Of armill it knows nothing; of `urdf-rs` it takes the parsed text alone.
+//! It uses no code of armill; of `urdf-rs` it uses only the parsed text.
 //!
-//! `root_from_tool0 = product over the joints of (origin)(motion)`, from the root down the only way to `tool0`.
-//! Fixed joints move nothing; a joint that mimics on this way is not known here, and counts as one that moves
-//! by itself.
+//! `root_from_tool0 = product over the joints of (origin)(motion)`, from the root to `tool0`.
+//! Fixed joints do not move; a mimic joint on this chain is treated as an independent joint.
 
 use nalgebra::{Matrix3, Matrix4, Vector3};
 use urdf_rs::{Joint, JointType};

@@ -1,11 +1,11 @@
-//! The one macro of a ROS-Industrial xacro file as a URDF: as much of xacro as these files use, by itself.
+//! The one macro of a ROS-Industrial xacro file as a URDF: only the part of xacro used by these files.
 //!
 //! ```text
 //! <xacro:macro name="..." params="prefix"> ... ${prefix}link_1 ... ${radians(90)} ... ${-pi/2} ... </xacro:macro>
 //! ```
 //!
 //! Comments and tags of xacro inside the macro are taken out; properties, conditions and includes are not
-//! worked out. armill reads xacro by a reader of its own, with which this shares nothing.
+//! evaluated. armill reads xacro with a separate reader, which shares no code with this one.
 
 use std::f64::consts::PI;
 
@@ -21,7 +21,7 @@ pub fn urdf_of_the_macro(xacro: &str) -> String {
     urdf.push_str(pieces.next().unwrap_or_default());
     for piece in pieces {
         let (expression, rest) = piece.split_once('}').expect("a closing brace");
-        // Speeds by controller stand in a file of their own: no part of the geometry.
+        // Speeds by controller are in a separate file and not part of the geometry.
         match expression.trim() {
             "prefix" => {}
             speed if speed.contains("velocities") => urdf.push('0'),

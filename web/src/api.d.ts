@@ -1177,14 +1177,14 @@ export interface components {
             /** @description What changes; nothing if left out. */
             changes?: components["schemas"]["ChangedValue"][];
             /** @description Where the arm is to stand in it; nowhere if left out. */
-            stand?: components["schemas"]["Stand"] | null;
+            arm?: components["schemas"]["PoseRequest"] | null;
         };
         /** @description Where the arm is to stand. */
-        Stand: {
+        PoseRequest: {
             /** @description At which point. */
             follow: components["schemas"]["Follow"];
             /** @description The place, where that is followed. */
-            at?: components["schemas"]["Place"] | null;
+            at?: components["schemas"]["PoseTarget"] | null;
             /**
              * Format: uint
              * @description Of sections the one whose worst or best point is meant, from 0.
@@ -1200,7 +1200,7 @@ export interface components {
         /** @description What the arm follows while values change. */
         Follow: "worst" | "best" | "place";
         /** @description Where the tool is: one of these. */
-        Place: {
+        PoseTarget: {
             /**
              * Format: double
              * @description In the plane, together with `z_mm`.
@@ -1251,7 +1251,7 @@ export interface components {
             /** @description Its ask; the first where none is named. */
             ask?: string | null;
             /** @description Where the tool is. */
-            at: components["schemas"]["Place"];
+            at: components["schemas"]["PoseTarget"];
             /**
              * Format: uint
              * @description Load case, from 1.
@@ -1461,7 +1461,7 @@ export interface components {
             ] | null;
         };
         /** @description What places are compared by. */
-        RankByName: "nominal" | "plus-two-sigma" | "within-limit";
+        RankByName: "nominal" | "plus-two-sigma" | "within-tolerance";
         /** @description Which tests springs are found from. */
         IdentifyOptions: {
             /** @description The table of tests, a file of the folder. */
@@ -1573,12 +1573,12 @@ export interface components {
             /** @description All tables and values as they stand, keys as in the schema of a study; `null` where the text is no TOML. */
             values: unknown;
             /** @description Where each value stands. */
-            places: components["schemas"]["ValuePlace"][];
+            places: components["schemas"]["ValueLocation"][];
             /** @description Everything that is wrong, as `armill check --json` tells it. */
             problems: components["schemas"]["Problem"][];
         };
         /** @description Where a value stands. */
-        ValuePlace: {
+        ValueLocation: {
             /** @description Which: `place.x_mm`, `analysis[1].circle.radius_mm`; a list is one value, but for lists of tables. */
             path: string;
             /** @description Its bytes in the text: the first, and the one behind the last. */
@@ -1602,7 +1602,7 @@ export interface components {
             /** @description Where its worst and best points are: of sections those of each, else of one. */
             extremes: components["schemas"]["ExtremesAnswer"][];
             /** @description The arm where it was to stand; `null` where nobody asked, and where there is no such place. */
-            stands: components["schemas"]["StandsAnswer"] | null;
+            arm: components["schemas"]["PoseAtTarget"] | null;
         };
         /** @description Every setting of one ask; `null` where there is none. */
         ValuesAnswer: {
@@ -2038,7 +2038,7 @@ export interface components {
              * Format: uint
              * @description Load case that decides, from 1.
              */
-            deciding_case: number;
+            worst_case: number;
             /**
              * Format: double
              * @description Largest in-plane deviation of all cases.
@@ -2265,10 +2265,10 @@ export interface components {
             /** @description Length of the deviation. */
             full_um: (number | null)[];
             /** @description Why there is no posture, or that it stands outside joint limits, by point; points not named are fine. */
-            remarks: components["schemas"]["Remark"][];
+            flags: components["schemas"]["PointFlag"][];
         };
         /** @description Something about some points. */
-        Remark: {
+        PointFlag: {
             /** @description One word. */
             reason: string;
             /** @description Indices of the points it holds for. */
@@ -2769,7 +2769,7 @@ export interface components {
             /** @description The path with what was found. */
             with: components["schemas"]["StatisticsAnswer"];
             /** @description Stretches of the path where no turn and branch stands, and why. */
-            lost: components["schemas"]["LostAnswer"][];
+            unreachable_stretches: components["schemas"]["UnreachableStretch"][];
             /** @description Lines at which the arm has to stop and take another posture. */
             breaks: number[];
         };
@@ -2809,7 +2809,7 @@ export interface components {
             reversals: number[];
         };
         /** @description Points that follow on each other without a posture that stands. */
-        LostAnswer: {
+        UnreachableStretch: {
             /**
              * Format: uint32
              * @description Line of the first.
@@ -2841,12 +2841,12 @@ export interface components {
              */
             max_full_um: number;
             /** @description Every joint that has play. */
-            joints: components["schemas"]["PlayAnswer"][];
+            joints: components["schemas"]["JointBacklash"][];
             /** @description Whether the arm differs from the one that its controller reckons with. */
             measured_arm: boolean;
         };
         /** @description The play of one joint. */
-        PlayAnswer: {
+        JointBacklash: {
             /** @description Its name. */
             name: string;
             /**
@@ -3449,14 +3449,14 @@ export interface components {
         /** @description The places of the worst and the best point; none where no point is reached, no best along a path and of holes. */
         ExtremesAnswer: {
             /** @description Where the deviation is largest. */
-            worst: components["schemas"]["Place"] | null;
+            worst: components["schemas"]["PoseTarget"] | null;
             /** @description Where it is least. */
-            best: components["schemas"]["Place"] | null;
+            best: components["schemas"]["PoseTarget"] | null;
         };
         /** @description The arm where it was to stand. */
-        StandsAnswer: {
+        PoseAtTarget: {
             /** @description The place. */
-            at: components["schemas"]["Place"];
+            at: components["schemas"]["PoseTarget"];
             /**
              * Format: uint
              * @description The load case, from 1.

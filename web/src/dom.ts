@@ -28,7 +28,7 @@ export function fill(element: Element, ...children: Child[]): void {
 
 /**
  * As `fill`, with what is there already: nodes of the same kind stay and take on what is new, so that a number that changes
- * costs its text and no more. For children that are made anew each time, kept by nobody and listening to clicks alone.
+ * costs only its text. For children that are rebuilt each time, are not kept, and listen only to clicks.
  */
 export function renew(element: Element, ...children: Child[]): void {
   const focused = element.contains(document.activeElement) ? (document.activeElement as HTMLElement).dataset.key : undefined;
@@ -46,17 +46,17 @@ function match(there: Node, made: Node): void {
     const following = node.nextSibling;
     if (old === null) there.appendChild(node);
     else {
-      const beside: ChildNode | null = old.nextSibling;
+      const next: ChildNode | null = old.nextSibling;
       if (old.nodeName === node.nodeName) take(old, node);
       else old.replaceWith(node);
-      old = beside;
+      old = next;
     }
     node = following;
   }
   while (old !== null) {
-    const beside: ChildNode | null = old.nextSibling;
+    const next: ChildNode | null = old.nextSibling;
     old.remove();
-    old = beside;
+    old = next;
   }
 }
 

@@ -1,23 +1,23 @@
-// What is on the screen: one study text, one ask, its answer, and where the robot stands. Panels and scene listen.
+// State of the page: one study text, one analysis, its answer, and the pose of the robot. Panels and scene listen to it.
 //
-// A change of a control is one question, /api/view, whose answer tells map and arm at once, and one picture; newest wins.
-// Where the robot is sent elsewhere on the same map, /api/pose is asked alone. The text that comes back becomes the text of
-// the next change, so that comments and order stay as the user wrote them.
+// A change of a control is one request, /api/view, whose answer has map and arm, and one frame; the newest wins. If only the
+// robot is sent to another point of the same map, /api/pose is requested. The returned text is the text of the next
+// change, so that comments and order are kept.
 
 import { api, Refused } from "./server";
 import { Newest } from "./newest";
-import { choosePosture, decidingCase } from "./posture";
-import type { Answer, Ask, At, Change, Extremes, Follow, MapAnswer, Point, Pose, Scene, Setting, Study, Values, View } from "./types";
+import { choosePosture, worstCase } from "./posture";
+import type { Answer, Analysis, At, Change, Extremes, Follow, MapAnswer, Point, Pose, Scene, Setting, Study, Values, View } from "./types";
 
 export type Topic = "study" | "answer" | "pose" | "moving" | "busy" | "error" | "view";
 
 interface Job {
-  ask: string | null;
+  analysis: string | null;
   since: number;
 }
 interface Result {
   sent: Map<string, unknown>;
-  /** Which wish the arm of the view stands for. */
+  /** Number of the target that the arm of the view belongs to. */
   wish: number;
   view: View;
 }
@@ -25,12 +25,12 @@ interface Result {
 export class Live {
   study: Study | null = null;
   text = "";
-  asks: Ask[] = [];
-  ask: string | null = null;
+  analyses: Analysis[] = [];
+  analysis: string | null = null;
   answer: Answer | null = null;
   values: Values | null = null;
   scene: Scene | null = null;
-  /** Where the worst and best points are: of sections those of each. */
+  /** The worst and best points; for sections those of each. */
   extremes: Extremes[] = [];
   pose: Pose | null = null;
   posture = 0;
@@ -39,128 +39,128 @@ export class Live {
   at: At | null = null;
   section = 0;
   busy = false;
-  /** The robot is on its way: what is told of the point is of where it was. */
+  /** A pose is requested: the values shown are those of the previous point. */
   moving = false;
   error: Refused | null = null;
-  /** True where a control shows what is wrong. */
+  /** Whether a control shows the error. */
   error_at_field = false;
   pose_error: string | null = null;
-  /** From the last input to the picture. */
+  /** Time from the last input to the frame. */
   took_ms: number | null = null;
 
   private pending = new Map<string, unknown>();
-  private listeners: { topics: Topic[]; told: () => void }[] = [];
-  private wanted_branch: string | null = null;
+  private listeners: { topics: Topic[]; listener: () => void }[] = [];
+  private chosen_branch: string | null = null;
   private fixed_case: number | null = null;
-  /** Counts how often the robot was sent elsewhere. */
+  /** Counts the targets of the robot. */
   private wish = 0;
   private input_at = 0;
 
   private readonly answers = new Newest<Job, Result>({
-    work: (job, signal) => this.ask_server(job, signal),
+    work: (job, signal) => this.requestView(job, signal),
     done: (result, job) => this.take(result, job),
     failed: (error) => this.fail(error),
     busy: (busy) => {
       this.busy = busy;
-      this.tell("busy");
+      this.notify("busy");
     },
   });
   private readonly poses = new Newest<{ at: At; load_case: number }, Pose>({
-    work: ({ at, load_case }, signal) => api.pose(this.text, this.ask, at, load_case, signal),
+    work: ({ at, load_case }, signal) => api.pose(this.text, this.analysis, at, load_case, signal),
     done: (pose, { at, load_case }) => {
       this.takePose(pose, at, load_case);
-      this.tell("pose");
+      this.notify("pose");
     },
     failed: (error) => {
       if (error instanceof Refused && error.kind === "superseded") return;
       this.pose_error = error instanceof Error ? error.message : String(error);
       this.pose = null;
-      this.tell("pose");
+      this.notify("pose");
     },
     busy: (moving) => {
       this.moving = moving;
-      this.tell("moving");
+      this.notify("moving");
     },
   });
 
-  listen(topics: Topic[], told: () => void): void {
-    this.listeners.push({ topics, told });
+  listen(topics: Topic[], listener: () => void): void {
+    this.listeners.push({ topics, listener });
   }
-  /** Each listener once, whatever of it concerns it. */
-  tell(...news: Topic[]): void {
-    for (const { topics, told } of this.listeners) if (topics.some((topic) => news.includes(topic))) told();
+  /** Calls each listener of these topics once. */
+  notify(...news: Topic[]): void {
+    for (const { topics, listener } of this.listeners) if (topics.some((topic) => news.includes(topic))) listener();
   }
 
-  // ---- What the user does ----
+  // ---- Input of the user ----
 
   open(study: Study): void {
     this.study = study;
-    this.use(study.text, study.asks);
+    this.use(study.text, study.analyses);
   }
 
-  /** The text as it stands, into the file. */
+  /** Saves the current text to the file. */
   async save(): Promise<void> {
     this.study = await api.save(this.text, this.study!.version);
-    this.tell("study");
+    this.notify("study");
   }
 
-  /** Another text: from the file, from the editor. */
-  use(text: string, asks: Ask[]): void {
+  /** Another text, from the file or the editor. */
+  use(text: string, analyses: Analysis[]): void {
     this.text = text;
-    this.asks = asks;
+    this.analyses = analyses;
     this.pending.clear();
-    if (!asks.some((a) => a.name === this.ask)) this.ask = asks[0]?.name ?? null;
-    this.tell("study");
+    if (!analyses.some((a) => a.name === this.analysis)) this.analysis = analyses[0]?.name ?? null;
+    this.notify("study");
     this.refresh();
   }
 
-  choose(ask: string): void {
-    this.ask = ask;
+  choose(analysis: string): void {
+    this.analysis = analysis;
     this.section = 0;
     this.follow = "worst";
     this.at = null;
-    this.wanted_branch = null;
+    this.chosen_branch = null;
     this.pending.clear();
-    this.tell("study");
+    this.notify("study");
     this.refresh();
   }
 
-  /** A control: value null removes the key. `whole`: a key of the study, not of the ask. */
+  /** Change by a control: the value null removes the key. `whole`: a key of the study, not of the analysis. */
   change(key: string, value: unknown, whole = false): void {
     this.pending.set(whole ? `\n${key}` : key, value);
-    if (key === "posture.branch") this.wanted_branch = null;
+    if (key === "posture.branch") this.chosen_branch = null;
     this.refresh();
   }
 
   refresh(): void {
     this.input_at = performance.now();
-    if (this.text !== "") this.answers.submit({ ask: this.ask, since: this.input_at });
+    if (this.text !== "") this.answers.submit({ analysis: this.analysis, since: this.input_at });
   }
 
   goTo(at: At): void {
     this.follow = "place";
     this.at = at;
     this.input_at = performance.now();
-    this.stand();
+    this.sendRobot();
   }
 
   followPoint(which: "worst" | "best"): void {
     this.follow = which;
-    this.wanted_branch = null;
+    this.chosen_branch = null;
     this.input_at = performance.now();
-    this.stand();
+    this.sendRobot();
   }
 
   choosePosture(index: number): void {
     this.posture = index;
-    this.wanted_branch = this.pose?.answer.postures[index]?.branch ?? null;
-    this.tell("pose");
+    this.chosen_branch = this.pose?.answer.postures[index]?.branch ?? null;
+    this.notify("pose");
   }
 
-  /** Null: the case that decides. */
+  /** Null: the worst load case. */
   chooseCase(load_case: number | null): void {
     this.fixed_case = load_case;
-    this.stand();
+    this.sendRobot();
   }
   get case_is_fixed(): boolean {
     return this.fixed_case !== null;
@@ -169,11 +169,11 @@ export class Live {
   chooseSection(index: number): void {
     this.section = index;
     if (this.at && "y_mm" in this.at) this.at = { ...this.at, section: index };
-    this.tell("answer");
-    this.stand();
+    this.notify("answer");
+    this.sendRobot();
   }
 
-  // ---- What is shown ----
+  // ---- Values shown ----
 
   get map(): MapAnswer | null {
     return this.answer?.maps[this.section] ?? this.answer?.maps[0] ?? null;
@@ -189,61 +189,61 @@ export class Live {
     return this.map?.best ?? this.answer?.volumes[0]?.best ?? null;
   }
 
-  /** The point of the answer that the robot stands at, where it shows that posture and case. */
-  get told(): Point | null {
+  /** The point of the answer at which the robot is, if posture and load case are those shown. */
+  get answeredPoint(): Point | null {
     const point = this.followed;
-    const same = point?.branch === (this.pose?.answer.postures[this.posture]?.branch ?? null) && point?.deciding_case === this.load_case;
+    const same = point?.branch === (this.pose?.answer.postures[this.posture]?.branch ?? null) && point?.worst_case === this.load_case;
     return same ? point : null;
   }
 
-  /** No change waits for its answer. */
+  /** Whether no change waits for its answer. */
   get settled(): boolean {
     return this.pending.size === 0;
   }
 
-  // ---- Talking to the server ----
+  // ---- Requests to the server ----
 
-  private async ask_server(job: Job, signal: AbortSignal): Promise<Result> {
+  private async requestView(job: Job, signal: AbortSignal): Promise<Result> {
     const sent = new Map(this.pending);
     const changes: Change[] = [...sent].map(([key, value]) => ({ key: key.trimStart(), value, whole: key.startsWith("\n") }));
     const wish = this.wish;
     const there = this.follow === "place";
-    const stand = { follow: this.follow, at: there ? this.at : null, section: this.section, case: this.fixed_case ?? (there ? this.load_case : null) };
-    return { sent, wish, view: await api.view(this.text, job.ask, changes, stand, signal) };
+    const request = { follow: this.follow, at: there ? this.at : null, section: this.section, case: this.fixed_case ?? (there ? this.load_case : null) };
+    return { sent, wish, view: await api.view(this.text, job.analysis, changes, request, signal) };
   }
 
   private take({ sent, wish, view }: Result, job: Job): void {
-    if (job.ask !== this.ask) return;
+    if (job.analysis !== this.analysis) return;
     for (const [key, value] of sent) if (this.pending.get(key) === value) this.pending.delete(key);
     this.text = view.text;
-    this.asks = view.asks;
+    this.analyses = view.analyses;
     this.answer = view.answer;
     if (this.settled) this.values = view.values;
     this.scene = view.scene;
     this.extremes = view.extremes;
     if (this.section >= Math.max(1, view.answer.maps.length)) this.section = 0;
     const begun = performance.now();
-    const stands = wish === this.wish ? view.stands : null;
-    if (stands) {
+    const arm = wish === this.wish ? view.arm : null;
+    if (arm) {
       this.poses.cancel();
-      this.at = stands.at;
-      this.takePose(stands.pose, stands.at, stands.case);
-    } else if (this.standing === null) this.pose = null;
+      this.at = arm.at;
+      this.takePose(arm.pose, arm.at, arm.case);
+    } else if (this.target === null) this.pose = null;
     const mended = this.error !== null;
     this.error = null;
-    this.tell("answer", "pose");
+    this.notify("answer", "pose");
     performance.measure("armill:draw", { start: begun });
     requestAnimationFrame(() => {
-      // The scene asked for this frame before: its commands are with WebGL now.
+      // The scene requested this frame before: its commands have been sent to WebGL.
       performance.measure("armill:submitted", { start: job.since });
       setTimeout(() => {
         this.took_ms = performance.now() - job.since;
         performance.measure("armill:picture", { start: job.since });
-        this.tell("busy");
+        this.notify("busy");
       });
     });
-    if (mended) this.tell("error");
-    if (!stands && this.standing !== null) this.stand();
+    if (mended) this.notify("error");
+    if (!arm && this.target !== null) this.sendRobot();
   }
 
   private fail(error: unknown): void {
@@ -253,41 +253,41 @@ export class Live {
     if (first) this.error = new Refused(this.error.status, this.error.kind, first.message, this.error.problems, first.hint);
     this.pending.clear();
     this.error_at_field = false;
-    this.tell("error");
+    this.notify("error");
   }
 
-  /** Where the robot is to stand; null where what it follows is not there. */
-  private get standing(): At | null {
+  /** Target of the robot; null if the followed point does not exist. */
+  private get target(): At | null {
     if (this.follow === "place") return this.at;
     return (this.extremes[this.section] ?? this.extremes[0])?.[this.follow] ?? null;
   }
 
-  /** Sends the robot there, on what is shown already. */
-  private stand(): void {
+  /** Sends the robot to the target, with the current answer. */
+  private sendRobot(): void {
     this.wish++;
-    this.at = this.standing;
+    this.at = this.target;
     if (this.at === null) {
       this.pose = null;
-      this.tell("pose");
+      this.notify("pose");
       return;
     }
-    this.poses.submit({ at: this.at, load_case: this.fixed_case ?? this.followed?.deciding_case ?? this.load_case });
+    this.poses.submit({ at: this.at, load_case: this.fixed_case ?? this.followed?.worst_case ?? this.load_case });
   }
 
-  /** A place on the plate that is shown. */
+  /** A point on the plate shown. */
   onPlate(y_mm: number, z_mm: number): At {
     return this.answer!.maps.length > 1 ? { y_mm, z_mm, section: this.section } : { y_mm, z_mm };
   }
 
-  /** The answer's point that the robot follows, where it follows one. */
+  /** The point of the answer that the robot follows, if it follows one. */
   private get followed(): Point | null {
     return this.follow === "worst" ? this.worst : this.follow === "best" ? this.best : null;
   }
 
   private takePose(pose: Pose, at: At, load_case: number): void {
     this.pose_error = pose.answer.postures.length === 0 ? (pose.answer.unreachable?.message ?? "The robot has no posture there.") : null;
-    this.posture = choosePosture(pose, this.wanted_branch ?? this.followed?.branch ?? null, this.values?.branch_meant ?? null);
-    const decides = decidingCase(pose.in_plane[this.posture] ?? []);
+    this.posture = choosePosture(pose, this.chosen_branch ?? this.followed?.branch ?? null, this.values?.branch_meant ?? null);
+    const decides = worstCase(pose.in_plane[this.posture] ?? []);
     if (this.fixed_case === null && decides !== null && decides !== load_case) {
       this.load_case = decides;
       this.poses.submit({ at, load_case: decides });

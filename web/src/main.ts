@@ -1,4 +1,4 @@
-// The live page of armill: opens the study that the server holds and lays out the tabs.
+// The live page of armill: opens the study of the server and lays out the tabs.
 
 import "./style/base.css";
 import "./style/live.css";
@@ -16,7 +16,7 @@ import { studyTab } from "./tabs/study";
 import type { Tab } from "./tabs/tab";
 import { startTheme, switchTheme, theme } from "./theme";
 
-/** So long nothing changes before the pace is told. */
+/** Delay without changes before the computing time is shown. */
 const PAUSE_MS = 150;
 
 const app = document.getElementById("app")!;
@@ -24,7 +24,7 @@ takeToken();
 startTheme(() => undefined);
 
 async function start(): Promise<void> {
-  const asked = api.study();
+  const opening = api.study();
   // The first paint does not wait for WebGL to start.
   await painted();
   const live = new Live();
@@ -66,15 +66,15 @@ async function start(): Promise<void> {
   };
 
   const title = h("p", { class: "study-title" });
-  const changed = h("button", { type: "button", class: "changed", hidden: true, title: "Take back all changes since the file", onclick: () => live.study && live.use(live.study.text, live.study.asks) }, "changed · take back");
-  const keep = h("button", { type: "button", class: "keep", hidden: true, title: "Save the study as it is now, comments kept", onclick: () => live.save().catch(() => go("study")) }, "save");
+  const changed = h("button", { type: "button", class: "changed", hidden: true, title: "Discard all changes since the file", onclick: () => live.study && live.use(live.study.text, live.study.analyses) }, "Unsaved · discard");
+  const keep = h("button", { type: "button", class: "keep", hidden: true, title: "Save the study; comments are kept", onclick: () => live.save().catch(() => go("study")) }, "save");
   const pace = h("span", { class: "pace", role: "status" });
   const sun = h("button", { type: "button", class: "icon theme", onclick: () => switchTheme(themed) });
   const themed = () => {
     sun.textContent = theme() === "dark" ? "☀" : "☾";
     sun.setAttribute("aria-label", theme() === "dark" ? "Light colours" : "Dark colours");
     sun.title = sun.getAttribute("aria-label")!;
-    live.tell("view");
+    live.notify("view");
   };
   startTheme(themed);
   const banner = h("div", { class: "banner", role: "alert", hidden: true });
@@ -86,19 +86,19 @@ async function start(): Promise<void> {
     changed.hidden = !live.study || live.text === live.study.text;
     keep.hidden = changed.hidden || !live.study?.writable;
   });
-  // Telling the pace costs a frame of its own: it waits until nothing is scrubbed.
-  let tells: ReturnType<typeof setTimeout> | undefined;
+  // Showing the computing time costs a frame: it waits until no control is dragged.
+  let timer: ReturnType<typeof setTimeout> | undefined;
   live.listen(["busy"], () => {
     content.setAttribute("aria-busy", String(live.busy));
-    clearTimeout(tells);
-    tells = setTimeout(() => {
+    clearTimeout(timer);
+    timer = setTimeout(() => {
       pace.textContent = live.busy ? "computing …" : live.took_ms === null ? "" : `${fixed(live.took_ms, 0)} ms`;
       pace.classList.toggle("busy", live.busy);
     }, PAUSE_MS);
   });
   live.listen(["error"], () => {
     banner.hidden = live.error === null || (live.error_at_field && current?.id === "live");
-    if (live.error) fill(banner, h("b", {}, live.error.status === 0 ? "No connection. " : "Not answered: "), live.error.message, h("span", {}, live.answer ? " What is shown is the last sound answer." : ""));
+    if (live.error) fill(banner, h("b", {}, live.error.status === 0 ? "No connection. " : "Error: "), live.error.message, h("span", {}, live.answer ? " The page shows the last valid answer." : ""));
   });
   const content = h("main", {}, tabs.map((t) => t.root));
   fill(
@@ -108,7 +108,7 @@ async function start(): Promise<void> {
     content,
   );
   go(location.hash.slice(1) || "live");
-  const study = await asked;
+  const study = await opening;
   live.open(study);
   if (study.problems.length > 0) go("study");
 }

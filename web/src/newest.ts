@@ -52,7 +52,7 @@ export class Newest<Input, Output> {
       const output = await this.handlers.work(input, abort.signal);
       if (!abort.signal.aborted) this.handlers.done(output, input, this.waiting === null);
     } catch (error) {
-      // What failed because something newer waits is nobody's concern.
+      // Errors of superseded requests are ignored.
       if (!abort.signal.aborted && this.waiting === null) this.handlers.failed(error, input);
     }
     clearTimeout(this.timer);

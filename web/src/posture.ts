@@ -1,4 +1,4 @@
-// Which of the postures of a pose is shown, and which load case of it. Choosing among numbers that came, no more.
+// Selects the posture of a pose and the load case to show, among the values of the server.
 
 import type { CaseValues, Pose } from "./types";
 
@@ -8,27 +8,27 @@ export function envelope(cases: (CaseValues | null)[]): CaseValues | null {
 }
 
 /** The load case, from 1, that gives the envelope. */
-export function decidingCase(cases: (CaseValues | null)[]): number | null {
+export function worstCase(cases: (CaseValues | null)[]): number | null {
   const most = envelope(cases);
   return most === null ? null : cases.indexOf(most) + 1;
 }
 
 const words = (branch: string): string[] => branch.split(" ").filter(Boolean);
 
-/** True where every word of the wish is a word of the branch: "front elbow-up" wishes both flips. */
-export const fits = (branch: string | null, wish: string): boolean => branch !== null && words(wish).every((word) => words(branch).includes(word));
+/** Whether every word of the pattern is a word of the branch: "front elbow-up" matches both flips. */
+export const fits = (branch: string | null, pattern: string): boolean => branch !== null && words(pattern).every((word) => words(branch).includes(word));
 
 /**
- * The branch that was wanted by name; else the best of those that the study asks for, inside joint limits before
- * outside. With "best" or a name that no posture has, the best of all.
+ * The branch chosen by name; else the best of those that the study specifies, inside joint limits before outside. With
+ * "best" or a name that no posture has, the best of all.
  */
-export function choosePosture(pose: Pose, wanted: string | null, asked: string | null): number {
+export function choosePosture(pose: Pose, chosen: string | null, specified: string | null): number {
   const postures = pose.answer.postures;
-  if (wanted !== null) {
-    const exact = postures.findIndex((p) => p.branch === wanted);
+  if (chosen !== null) {
+    const exact = postures.findIndex((p) => p.branch === chosen);
     if (exact >= 0) return exact;
   }
-  const open = postures.map((_, i) => i).filter((i) => asked !== null && fits(postures[i]!.branch, asked));
+  const open = postures.map((_, i) => i).filter((i) => specified !== null && fits(postures[i]!.branch, specified));
   const from = open.length > 0 ? open : postures.map((_, i) => i);
   const cost = (i: number) => (postures[i]!.within_limits ? 0 : 1e12) + (envelope(pose.in_plane[i] ?? [])?.in_plane_um ?? 1e11);
   return from.reduce((best, i) => (cost(i) < cost(best) ? i : best), from[0] ?? 0);

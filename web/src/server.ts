@@ -1,7 +1,7 @@
-// The server: one function a call. The token comes with the URL that armill opened and stays in this tab.
+// Requests to the server, one function each. The token is in the URL that armill opens, and is kept in this tab.
 
 import type { Schema } from "./tables/schema";
-import type { At, Change, Changed, Checked, Job, Picture, Pose, Problem, RobotRow, Stand, StoredFile, Study, Tables, TakenIn, View, Wrong } from "./types";
+import type { At, Change, Changed, Checked, Job, Picture, Pose, PoseRequest, Problem, RobotRow, StoredFile, Study, Tables, TakenIn, View, Wrong } from "./types";
 
 export class Refused extends Error {
   constructor(
@@ -17,10 +17,10 @@ export class Refused extends Error {
 
 const KEY = "armill-token";
 let token = "";
-// The server drops the older of two answers to one tab.
+// The server cancels the older of two requests of one tab.
 const tab = Math.random().toString(36).slice(2, 12);
 
-/** Takes the token out of the address, so that it is neither bookmarked nor shared. */
+/** Removes the token from the address, so that it is neither bookmarked nor shared. */
 export function takeToken(): void {
   const url = new URL(location.href);
   const given = url.searchParams.get("token");
@@ -32,7 +32,7 @@ export function takeToken(): void {
   token = given ?? sessionStorage.getItem(KEY) ?? "";
 }
 
-/** An address with the token in it, for what the browser fetches by itself. */
+/** An address with the token, for requests made by the browser. */
 export const addressed = (path: string): string => `${path}${path.includes("?") ? "&" : "?"}token=${token}`;
 
 export async function raw(method: string, path: string, body?: unknown, signal?: AbortSignal): Promise<Response> {
@@ -51,16 +51,16 @@ export async function raw(method: string, path: string, body?: unknown, signal?:
     });
   } catch (error) {
     if (error instanceof DOMException && error.name === "AbortError") throw error;
-    throw new Refused(0, "offline", "armill does not answer: the program that serves this page has ended. Start it again and open the address that it prints.", []);
+    throw new Refused(0, "offline", "armill does not answer: the server of this page has ended. Start it again and open the address that it prints.", []);
   }
   if (response.ok) return response;
-  let told: { error?: Partial<Wrong> } = {};
+  let answer: { error?: Partial<Wrong> } = {};
   try {
-    told = await response.json();
+    answer = await response.json();
   } catch {
-    // Told without a body: the status has to do.
+    // Without a body only the status is known.
   }
-  throw new Refused(response.status, told.error?.kind ?? "internal", told.error?.message ?? `the server answered ${response.status}`, told.error?.problems ?? [], told.error?.hint ?? null);
+  throw new Refused(response.status, answer.error?.kind ?? "internal", answer.error?.message ?? `the server answered ${response.status}`, answer.error?.problems ?? [], answer.error?.hint ?? null);
 }
 
 async function json<T>(method: string, path: string, body?: unknown, signal?: AbortSignal): Promise<T> {
@@ -73,22 +73,22 @@ export const api = {
   check: (text: string, signal?: AbortSignal) => json<Checked>("POST", "/api/check", { text }, signal),
   schema: () => json<Schema>("GET", "/api/schema"),
   tables: (text: string, signal?: AbortSignal) => json<Tables>("POST", "/api/tables", { text }, signal),
-  change: (text: string, ask: string | null, changes: Change[], signal?: AbortSignal) => json<Changed>("POST", "/api/change", { text, ask, changes }, signal),
-  view: async (text: string, ask: string | null, changes: Change[], stand: Stand, signal?: AbortSignal) => {
-    const asked = performance.now();
-    const response = await raw("POST", "/api/view", { text, ask, changes, stand }, signal);
+  change: (text: string, analysis: string | null, changes: Change[], signal?: AbortSignal) => json<Changed>("POST", "/api/change", { text, analysis, changes }, signal),
+  view: async (text: string, analysis: string | null, changes: Change[], arm: PoseRequest, signal?: AbortSignal) => {
+    const sent = performance.now();
+    const response = await raw("POST", "/api/view", { text, analysis, changes, arm }, signal);
     const body = await response.text();
     const got = performance.now();
     const view = JSON.parse(body) as View;
-    performance.measure("armill:answer", { start: asked, end: got });
+    performance.measure("armill:answer", { start: sent, end: got });
     performance.measure("armill:parse", { start: got });
     return view;
   },
   mesh: async (text: string, file: string) => (await raw("POST", "/api/mesh", { text, file })).arrayBuffer(),
-  pose: (text: string, ask: string | null, at: At, load_case: number, signal?: AbortSignal) => json<Pose>("POST", "/api/pose", { text, ask, at, case: load_case }, signal),
-  pictures: (text: string, ask: string | null, signal?: AbortSignal) => json<{ pictures: Picture[] }>("POST", "/api/pictures", { text, ask }, signal),
-  table: async (text: string, ask: string | null, measured = false) => (await raw("POST", "/api/table", { text, ask, format: "csv", measured })).blob(),
-  png: async (text: string, ask: string | null, name: string) => (await raw("POST", "/api/picture.png", { text, ask, name })).blob(),
+  pose: (text: string, analysis: string | null, at: At, load_case: number, signal?: AbortSignal) => json<Pose>("POST", "/api/pose", { text, analysis, at, case: load_case }, signal),
+  pictures: (text: string, analysis: string | null, signal?: AbortSignal) => json<{ pictures: Picture[] }>("POST", "/api/pictures", { text, analysis }, signal),
+  table: async (text: string, analysis: string | null, measured = false) => (await raw("POST", "/api/table", { text, analysis, format: "csv", measured })).blob(),
+  png: async (text: string, analysis: string | null, name: string) => (await raw("POST", "/api/picture.png", { text, analysis, name })).blob(),
   robots: () => json<RobotRow[]>("GET", "/api/robots"),
   jobs: () => json<{ jobs: Job[] }>("GET", "/api/jobs"),
   job: (id: string) => json<Job>("GET", `/api/jobs/${id}`),

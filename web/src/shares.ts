@@ -2,7 +2,7 @@
 
 import type { Live } from "./live";
 
-/** As the server tells it of the case; of the worst and best point as the answer tells it. */
+/** From the server for the load case; from the answer for the worst and best point. */
 export function sharesOf(live: Live): number[] | null {
-  return live.pose?.in_plane[live.posture]?.[live.load_case - 1]?.share_um ?? live.told?.joint_share_um ?? null;
+  return live.pose?.in_plane[live.posture]?.[live.load_case - 1]?.share_um ?? live.answeredPoint?.joint_share_um ?? null;
 }

@@ -1,5 +1,5 @@
-// What the server answers, by the names that the page uses. The shapes are the server's own: `api.d.ts` is made from
-// its OpenAPI description (`npm run types`). Typed here is only what that leaves open.
+// Answers of the server, by the names used in the page. Their types are generated: `api.d.ts` is made from the OpenAPI
+// description of the server (`npm run types`). This file only refines them.
 
 import type { components } from "./api";
 
@@ -8,15 +8,15 @@ type Schemas = components["schemas"];
 export type Vec3 = [number, number, number];
 
 export type Problem = Schemas["Problem"];
-export type Wrong = Schemas["Wrong"];
+export type Wrong = Schemas["ErrorDetail"];
 export type Study = Schemas["StudyOnDisk"];
-export type Ask = Schemas["OutlinedAnalysis"];
+export type Analysis = Schemas["OutlinedAnalysis"];
 export type Checked = Schemas["OutlineAnswer"];
 export type Changed = Schemas["ChangedAnswer"];
 export type Change = Schemas["ChangedValue"];
 export type Tables = Omit<Schemas["TablesAnswer"], "places"> & { places: { path: string; bytes: [number, number] }[] };
 
-// openapi-typescript gets lists of fixed length within such lists wrong: these few are set right by hand.
+// openapi-typescript does not handle nested lists of fixed length: these types are corrected by hand.
 type Region = Omit<Schemas["RegionAnswer"], "rectangle_mm"> & { rectangle_mm: [[number, number], [number, number]] | null };
 export type MapAnswer = Omit<Schemas["MapAnswer"], "region"> & { region: Region };
 export type Plate = Omit<Schemas["PlateInScene"], "corners_mm"> & { corners_mm: [Vec3, Vec3, Vec3, Vec3] };
@@ -28,17 +28,17 @@ export type Answer = Omit<Schemas["StudyAnswer"], "maps"> & { maps: MapAnswer[] 
 export type Point = Schemas["PointAnswer"];
 export type Setting = Schemas["SettingAnswer"];
 export type Values = Schemas["ValuesAnswer"];
-/** A map comes with its grid wherever it is asked for alone. */
+/** The grid of a map that is requested alone. */
 export type MapGrid = Schemas["GridAnswer"];
 
-export type At = Schemas["Place"];
-export type Stand = Schemas["Stand"];
-/** What the robot follows: the worst or best point of what is shown, or a place that the user chose. */
+export type At = Schemas["PoseTarget"];
+export type PoseRequest = Schemas["PoseRequest"];
+/** What the robot follows: the worst or best point shown, or a point chosen by the user. */
 export type Follow = Schemas["Follow"];
 export type Extremes = Schemas["ExtremesAnswer"];
 export type ArmDrawing = Schemas["DrawnPosture"];
 export type DrawnMesh = Schemas["DrawnMesh"];
-/** Uncertainty, shares and permissible forces come where the posture has a named branch. */
+/** Uncertainty, shares and permissible forces exist for postures with a named branch. */
 export type CaseValues = Schemas["CaseAnswer"] & {
   in_plane_u_um?: number | null;
   share_um?: number[] | null;
@@ -47,12 +47,12 @@ export type CaseValues = Schemas["CaseAnswer"] & {
 };
 export type Pose = Omit<Schemas["PosturesAnswer"], "in_plane" | "answer"> & {
   answer: Omit<Schemas["PoseAnswer"], "postures"> & { postures: Posture[] };
-  /** Of each posture, of each case; null where the arm finds no rest. */
+  /** Per posture and load case; null if the arm has no stable equilibrium. */
   in_plane: (CaseValues | null)[][];
 };
 
 export type ScenePoints = Omit<Schemas["PointsInScene"], "columns"> & {
-  /** Of the table of the ask; a path has all of these. */
+  /** Columns of the table of the analysis; a path has all of these. */
   columns: {
     in_plane_um: (number | null)[];
     normal_um?: (number | null)[];
@@ -68,20 +68,20 @@ export type Scene = Omit<Schemas["SceneAnswer"], "points" | "plate" | "sections"
   box: Box | null;
 };
 
-/** All that is shown of an ask after values have changed. */
+/** All that is shown of an analysis after a change. */
 export interface View {
   text: string;
-  asks: Ask[];
+  analyses: Analysis[];
   values: Values;
   scene: Scene;
   answer: Answer;
   extremes: Extremes[];
-  /** The arm where it was asked to stand; null where there is no such place. */
-  stands: { at: At; case: number; pose: Pose } | null;
+  /** The arm at the requested point; null if there is no such point. */
+  arm: { at: At; case: number; pose: Pose } | null;
 }
 
 export type RobotRow = Schemas["RobotRow"];
 export type Picture = Schemas["PictureAnswer"];
 export type Job = Schemas["JobAnswer"];
 export type StoredFile = Schemas["FileRow"];
-export type TakenIn = Schemas["TakenIn"];
+export type TakenIn = Schemas["UploadedFile"];

@@ -1,6 +1,6 @@
 // The server under load: `npm run load [seconds]`. Env ARMILL_BIN: a release build of armill.
 //
-// 200 connections ask 1000 times a second between them: the study, the robot library, the page, a file that is not there,
+// 200 connections send 1000 requests a second in total: the study, the robot library, the page, a file that is not there,
 // and one time in a hundred what is in a text. Meanwhile 20 clients send a byte a second, and 20 listen to a job and go away
 // in the middle, again and again. The server's memory is read every second. Told are what came out, how long it took,
 // and how the memory went; the exit code is 1 where an answer was wrong or late, the rate was not held, or memory grew.
@@ -33,12 +33,12 @@ function request(method, path, body, headers = {}) {
     const begun = performance.now();
     const text = body === undefined ? undefined : JSON.stringify(body);
     const all = { Authorization: `Bearer ${token}`, ...(text ? { "Content-Type": "application/json", "Content-Length": Buffer.byteLength(text) } : {}), ...headers };
-    const asked = http.request({ host: at.hostname, port: at.port, method, path, headers: all, agent }, (answer) => {
+    const requests = http.request({ host: at.hostname, port: at.port, method, path, headers: all, agent }, (answer) => {
       answer.resume();
       answer.on("end", () => done({ status: answer.statusCode, ms: performance.now() - begun }));
     });
-    asked.on("error", (error) => done({ status: error.code ?? String(error), ms: performance.now() - begun }));
-    asked.end(text);
+    requests.on("error", (error) => done({ status: error.code ?? String(error), ms: performance.now() - begun }));
+    requests.end(text);
   });
 }
 
@@ -50,7 +50,7 @@ const kinds = [
   ["GET", "/api/files/nothing-of-this-name.csv", undefined, 404],
   ["GET", "/api/schema", undefined, 200],
 ];
-// What the page asks at every keystroke.
+// The request of the page at every keystroke.
 const checked = ["POST", "/api/check", { text: study.text }, 200];
 
 // Clients that never come to an end.

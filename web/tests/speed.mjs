@@ -4,7 +4,7 @@
 //
 // | row | from - to |
 // |---|---|
-// | answered | the page asks, to it has the text; of that the server alone (Server-Timing) |
+// | answered | from the request of the page to its text; server alone (Server-Timing) |
 // | parse, draw | JSON to values; values to colours, lines, arm, panels |
 // | submitted | the input, to the end of the page's work: all commands are with WebGL |
 // | shown | the input, to the picture on the screen (Display::FrameDisplayed in Chromium's own trace) |
@@ -19,7 +19,7 @@ const CHANGES = 120;
 const FIRST = 10;
 const STUDY = `format = 1
 robot = "yaskawa/mh12"
-limit_um = 50
+tolerance_um = 50
 plane = { centre_mm = [800, 0, 1000], half_size_mm = 500, step_mm = 10 }
 load = { cases_n = [[3, 5, 5], [3, -5, 5], [3, 5, -5], [3, -5, -5]] }
 posture = { branch = "front elbow-up no-flip" }
@@ -36,13 +36,13 @@ const spent = (pid) => {
 const server = await serve(() => STUDY);
 const browser = await launch();
 try {
-  // The server alone, as a program asks it.
-  const ask = client(server.url);
+  // The server alone, as a program requests it.
+  const request = client(server.url);
   const alone = [];
   let size = 0;
   for (let i = 0; i < CHANGES; i++) {
     const begun = performance.now();
-    const view = await ask("POST", "/api/view", { text: STUDY, ask: null, changes: [{ key: "plane.centre_mm", value: [800 + i, 0, 1000] }], stand: { follow: "worst" } });
+    const view = await request("POST", "/api/view", { text: STUDY, analysis: null, changes: [{ key: "plane.centre_mm", value: [800 + i, 0, 1000] }], arm: { follow: "worst" } });
     alone.push(performance.now() - begun);
     size = JSON.stringify(view).length;
     if (view.answer.maps[0].grid.points !== 101 * 101) throw new Error(`${view.answer.maps[0].grid.points} points`);
@@ -52,7 +52,7 @@ try {
     const gl = document.querySelector(".stage canvas").getContext("webgl2");
     return gl.getParameter(gl.getExtension("WEBGL_debug_renderer_info")?.UNMASKED_RENDERER_WEBGL ?? gl.RENDERER);
   });
-  // The page turns its own control, so that no message of the test stands between input and answer.
+  // The page turns its own control, so that no message of the test is between input and answer.
   const change = () =>
     page.evaluate(async () => {
       performance.clearMeasures();
@@ -61,8 +61,8 @@ try {
       document.querySelector("#field-x").dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowUp", bubbles: true, cancelable: true }));
       await drawn;
       const of = (name) => performance.getEntriesByName(`armill:${name}`)[0].duration;
-      const asked = performance.getEntriesByType("resource").filter((e) => e.name.endsWith("/api/view"));
-      const times = { answered: of("answer"), server: asked[0].serverTiming[0].duration, parse: of("parse"), draw: of("draw"), submitted: of("submitted"), questions: performance.getEntriesByType("resource").length };
+      const requests = performance.getEntriesByType("resource").filter((e) => e.name.endsWith("/api/view"));
+      const times = { answered: of("answer"), server: requests[0].serverTiming[0].duration, parse: of("parse"), draw: of("draw"), submitted: of("submitted"), questions: performance.getEntriesByType("resource").length };
       // Until it is on the screen.
       await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
       return times;
@@ -94,7 +94,7 @@ try {
   console.log(`101 x 101 points, 4 cases, ${CHANGES} changes, one question each; answer ${(size / 1e3).toFixed(0)} kB; WebGL by ${renderer}; load of the machine ${loadavg()[0].toFixed(1)}`);
   console.log(`CPU of one change: ${Object.entries(after).map(([name, ms]) => `${name} ${((ms - before[name]) / (CHANGES / 2)).toFixed(1)} ms`).join(", ")}`);
   console.log(`${"".padEnd(28)}  median     p95`);
-  row("server, a program asks", alone);
+  row("server, requested by a program", alone);
   for (const [name, list] of Object.entries(found)) row(name, list);
   row("shown", shown.filter(Number.isFinite));
 } finally {

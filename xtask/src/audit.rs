@@ -3,7 +3,7 @@
 //! By `deny.toml`; nothing is downloaded. The program must be installed: it is not built here.
 //!
 //! Known vulnerabilities (advisories) are checked where cargo-deny has a copy of their database, as old as that is.
-//! The database comes from GitHub, no registry has it; without a copy the chore reports that they were not checked.
+//! The database comes from GitHub, no registry has it; without a copy the task reports that they were not checked.
 
 use crate::COULD_NOT_RUN;
 use crate::command::{cargo, expect_no_arguments, has_cargo_tool, run_in_place};
@@ -11,10 +11,10 @@ use std::env;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// What `--help` says.
-pub const ABOUT: &str = "Checks licences, origins and, where their database is there, advisories of all dependencies with cargo-deny.";
+/// Description in the list of tasks.
+pub const ABOUT: &str = "Checks licences, origins and (with a copy of the database) advisories of all dependencies with cargo-deny.";
 
-/// Checks what `deny.toml` says, or says how to get the program that can.
+/// Checks the rules of `deny.toml`, or reports how to install the program for it.
 pub fn run(arguments: &[String]) -> ExitCode {
     if let Err(code) = expect_no_arguments("audit", arguments) {
         return code;
@@ -23,7 +23,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
         eprintln!("cargo-deny is not installed: cargo install --locked cargo-deny@^0.20");
         return ExitCode::from(COULD_NOT_RUN);
     }
-    let has_advisories = database().is_some_and(|folder| holds_something(&folder));
+    let has_advisories = database().is_some_and(|folder| has_entries(&folder));
     let verdict = run_in_place(cargo(&words(has_advisories)));
     if !has_advisories {
         eprintln!("{NOT_CHECKED}");
@@ -31,7 +31,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
     verdict
 }
 
-/// What is said where there is no database.
+/// The message where there is no database.
 const NOT_CHECKED: &str = "advisories (known vulnerabilities) were NOT checked: their database is not on this machine; \
                            with access to github.com: cargo deny check advisories";
 
@@ -59,7 +59,7 @@ fn database() -> Option<PathBuf> {
 }
 
 /// Whether a database was ever fetched into the folder.
-fn holds_something(folder: &Path) -> bool {
+fn has_entries(folder: &Path) -> bool {
     folder
         .read_dir()
         .is_ok_and(|mut entries| entries.any(|entry| entry.is_ok_and(|entry| entry.path().is_dir())))
@@ -72,9 +72,9 @@ mod tests {
     #[test]
     fn advisories_are_checked_where_their_database_is_and_reported_as_not_checked_elsewhere() {
         let folder = env::temp_dir().join(format!("armill-audit-{}", std::process::id()));
-        assert!(!holds_something(&folder));
+        assert!(!has_entries(&folder));
         std::fs::create_dir_all(folder.join("github.com-2f857891b7f43c59")).unwrap();
-        assert!(holds_something(&folder));
+        assert!(has_entries(&folder));
         std::fs::remove_dir_all(&folder).unwrap();
         assert!(words(true).contains(&"advisories") && words(true).contains(&"--disable-fetch"));
         assert!(!words(false).contains(&"advisories"));

@@ -1,20 +1,20 @@
-//! Other programs: how a chore names, announces and runs them.
+//! Other programs: how a task names, announces and runs them.
 //!
-//! Whatever is started is first told on stderr, behind a `+`, as a line that a person could type: who wants to
-//! repeat one step of a chore takes it from there.
+//! Every program is announced on stderr, behind a `+`, as a line that can be typed: to repeat one step of a task, copy
+//! it from there.
 
 use crate::{COULD_NOT_RUN, FOUND_WRONG};
 use std::env;
 use std::process::{Command, ExitCode, Stdio};
 
-/// `cargo` with `arguments`: the very cargo that runs this chore, so that both are of one toolchain.
+/// `cargo` with `arguments`: the cargo that runs this task, so that both are of one toolchain.
 pub fn cargo(arguments: &[&str]) -> Command {
     let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command.args(arguments);
     command
 }
 
-/// Whether `cargo <tool> --version` works, that is, whether this cargo extension is installed. What it says is
+/// Whether `cargo <tool> --version` works, that is, whether this cargo extension is installed. Its output is
 /// not shown.
 pub fn has_cargo_tool(tool: &str) -> bool {
     let mut command = cargo(&[tool, "--version"]);
@@ -25,7 +25,7 @@ pub fn has_cargo_tool(tool: &str) -> bool {
     command.status().is_ok_and(|status| status.success())
 }
 
-/// The line a person would type for `command`, variables that differ from ours included. Arguments with blanks
+/// The command line for `command`, variables that differ from ours included. Arguments with blanks
 /// are not put into quotes: it is for reading.
 pub fn command_line(command: &Command) -> String {
     let variables = command.get_envs().filter_map(|(name, value)| {
@@ -47,7 +47,7 @@ pub fn command_line(command: &Command) -> String {
         .join(" ")
 }
 
-/// Says what runs, runs it on our own terminal, and gives its verdict as ours: 0 for success, 1 for any
+/// Prints the command, runs it on our own terminal, and returns its result as ours: 0 for success, 1 for any
 /// failure, 2 where it does not start.
 pub fn run_in_place(mut command: Command) -> ExitCode {
     eprintln!("+ {}", command_line(&command));
@@ -61,7 +61,7 @@ pub fn run_in_place(mut command: Command) -> ExitCode {
     }
 }
 
-/// Says what runs and gives what it printed; its talk goes to our stderr.
+/// Prints the command and returns its output; its stderr goes to ours.
 ///
 /// # Errors
 /// In a line: it does not start, it failed, or what it printed is not a text.
@@ -76,7 +76,7 @@ pub fn printed(command: &mut Command) -> Result<String, String> {
     String::from_utf8(output.stdout).map_err(|problem| format!("{line}: {problem}"))
 }
 
-/// Says what runs and runs it on our own terminal.
+/// Prints the command and runs it on our own terminal.
 ///
 /// # Errors
 /// In a line: it does not start, or it failed.
@@ -90,16 +90,16 @@ pub fn succeeded(command: &mut Command) -> Result<(), String> {
     }
 }
 
-/// Refuses arguments for a chore that takes none: one that is ignored would look obeyed.
+/// Refuses arguments for a task that takes none: an ignored argument would look as if it had an effect.
 ///
 /// # Errors
 /// The exit code to leave with, after saying what was refused.
-pub fn expect_no_arguments(chore: &str, arguments: &[String]) -> Result<(), ExitCode> {
+pub fn expect_no_arguments(task: &str, arguments: &[String]) -> Result<(), ExitCode> {
     if arguments.is_empty() {
         return Ok(());
     }
     eprintln!(
-        "cargo xtask {chore} takes no arguments, got: {}",
+        "cargo xtask {task} takes no arguments, got: {}",
         arguments.join(" ")
     );
     Err(ExitCode::from(COULD_NOT_RUN))

@@ -1,17 +1,17 @@
-//! The chores of armill: `cargo xtask <chore>`. What a person would otherwise have to remember stands here.
+//! The tasks of armill: `cargo xtask <task>`. They automate the steps of development and release.
 //!
-//! Exit code 0: done, nothing to complain about. 1: the chore found something wrong. 2: it could not run.
+//! Exit code 0: done, no problem found. 1: the task found a problem. 2: it could not run.
 //!
 //! ```text
-//! cargo xtask tidy            what the name says; the arguments behind it belong to the chore
-//! cargo xtask                 lists all chores and leaves with 2
+//! cargo xtask tidy            runs this task; the arguments behind it belong to the task
+//! cargo xtask                 lists all tasks and exits with 2
 //! ```
 //!
-//! A chore works from the root of the repository, wherever it is called. It depends on no crate, so that it
-//! builds where nothing else does; what it needs besides (a runner of tests, a compiler for C++, cargo-deny) it
-//! asks for in words.
+//! A task works from the root of the repository, wherever it is called. It depends on no crate, so that it
+//! builds everywhere; if it needs another program (a runner of tests, a compiler for C++, cargo-deny), it says
+//! what to install.
 
-// A chore talks to a person: the report goes to stdout, everything else to stderr.
+// A task reports to stdout; everything else goes to stderr.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 mod audit;
@@ -31,13 +31,13 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::{env, fs};
 
-/// The exit code of a chore that found something wrong.
+/// The exit code of a task that found something wrong.
 const FOUND_WRONG: u8 = 1;
-/// The exit code of a chore that could not run: unknown name, missing program.
+/// The exit code of a task that could not run: unknown name, missing program.
 const COULD_NOT_RUN: u8 = 2;
 
-/// Something a person does to this repository, by name.
-struct Chore {
+/// A task of development or release, by name.
+struct RepositoryTask {
     name: &'static str,
     /// The line in the list: what it does, and the arguments that it takes.
     about: &'static str,
@@ -46,53 +46,53 @@ struct Chore {
 }
 
 /// In the order of the list; ARCHITECTURE.md names them in the same order.
-const CHORES: &[Chore] = &[
-    Chore {
+const TASKS: &[RepositoryTask] = &[
+    RepositoryTask {
         name: "test",
         about: test::ABOUT,
         run: test::run,
     },
-    Chore {
+    RepositoryTask {
         name: "tidy",
         about: tidy::ABOUT,
         run: tidy::run,
     },
-    Chore {
+    RepositoryTask {
         name: "validate",
         about: validate::ABOUT,
         run: validate::run,
     },
-    Chore {
+    RepositoryTask {
         name: "bench",
         about: bench::ABOUT,
         run: bench::run,
     },
-    Chore {
+    RepositoryTask {
         name: "fuzz",
         about: fuzz::ABOUT,
         run: fuzz::run,
     },
-    Chore {
+    RepositoryTask {
         name: "scale",
         about: scale::ABOUT,
         run: scale::run,
     },
-    Chore {
+    RepositoryTask {
         name: "web",
         about: web::ABOUT,
         run: web::run,
     },
-    Chore {
+    RepositoryTask {
         name: "serve",
         about: serve::ABOUT,
         run: serve::run,
     },
-    Chore {
+    RepositoryTask {
         name: "audit",
         about: audit::ABOUT,
         run: audit::run,
     },
-    Chore {
+    RepositoryTask {
         name: "dist",
         about: dist::ABOUT,
         run: dist::run,
@@ -102,34 +102,34 @@ const CHORES: &[Chore] = &[
 fn main() -> ExitCode {
     let arguments: Vec<String> = env::args().skip(1).collect();
     let Some((name, rest)) = arguments.split_first() else {
-        eprint!("{}", list_of_chores());
+        eprint!("{}", list_of_tasks());
         return ExitCode::from(COULD_NOT_RUN);
     };
     if name == "--help" || name == "-h" || name == "help" {
-        print!("{}", list_of_chores());
+        print!("{}", list_of_tasks());
         return ExitCode::SUCCESS;
     }
-    let Some(chore) = CHORES.iter().find(|chore| chore.name == name) else {
-        eprint!("no chore is called {name}\n\n{}", list_of_chores());
+    let Some(task) = TASKS.iter().find(|task| task.name == name) else {
+        eprint!("no task is called {name}\n\n{}", list_of_tasks());
         return ExitCode::from(COULD_NOT_RUN);
     };
     if let Err(problem) = go_to_repository_root() {
         eprintln!("{problem}");
         return ExitCode::from(COULD_NOT_RUN);
     }
-    (chore.run)(rest)
+    (task.run)(rest)
 }
 
-/// All chores, one a line.
-fn list_of_chores() -> String {
-    let mut list = String::from("usage: cargo xtask <chore> [arguments]\n\n");
-    for chore in CHORES {
-        list += &format!("  {:<10}{}\n", chore.name, chore.about);
+/// All tasks, one a line.
+fn list_of_tasks() -> String {
+    let mut list = String::from("usage: cargo xtask <task> [arguments]\n\n");
+    for task in TASKS {
+        list += &format!("  {:<10}{}\n", task.name, task.about);
     }
     list
 }
 
-/// Makes the repository root the working directory, so that every chore does the same wherever it is called.
+/// Makes the repository root the working directory, so that every task does the same wherever it is called.
 ///
 /// # Errors
 /// There is no `Cargo.toml` where the root should be, or the folder cannot be entered.
@@ -150,11 +150,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn help_names_every_chore_with_a_sentence() {
-        let list = list_of_chores();
-        for chore in CHORES {
-            assert!(list.contains(chore.name));
-            assert!(chore.about.ends_with('.'), "{} has no sentence", chore.name);
+    fn help_names_every_task_with_a_sentence() {
+        let list = list_of_tasks();
+        for task in TASKS {
+            assert!(list.contains(task.name));
+            assert!(task.about.ends_with('.'), "{} has no sentence", task.name);
         }
     }
 }

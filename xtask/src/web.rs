@@ -1,10 +1,12 @@
-//! The page of `armill serve`: built into `web/dist`, from where the next build of armill takes it.
+//! The page of `armill serve`: built into `web/dist`, from where the next build of armill embeds it.
 //!
 //! ```text
-//! npm ci -> types from the server's own description -> type check -> bundle
+//! npm ci -> types from web/openapi.json -> type check -> bundle
 //! ```
 //!
-//! Node and npm are needed; without them armill builds as well, and serves its answers without a page.
+//! Needs Node and npm; without them armill builds as well and serves its answers without a page. `web/openapi.json` and
+//! the types are in the repository, and a test of the server fails when they are out of date: only `--describe` builds
+//! the server to write them again.
 
 use crate::COULD_NOT_RUN;
 use crate::command::{cargo, expect_no_arguments, printed, run_in_place};
@@ -13,49 +15,49 @@ use std::fs;
 use std::path::Path;
 use std::process::ExitCode;
 
-/// What `--help` says.
+/// Description in the list of tasks.
 pub const ABOUT: &str = "Builds the page of `armill serve` into web/dist; needs Node and npm.";
 
-/// Where the description of the server represents the page.
+/// The description of the server, from which the types of the page are made.
 const DESCRIPTION: &str = "web/openapi.json";
 
-/// Builds the page, or says what is missing.
+/// Builds the page, or reports what is missing; with `--describe` it writes the description of the server first.
 pub fn run(arguments: &[String]) -> ExitCode {
-    match expect_no_arguments("web", arguments) {
-        Ok(()) => build(),
-        Err(code) => code,
+    match arguments {
+        [option] if option == "--describe" => match describe() {
+            Ok(()) => build(),
+            Err(problem) => could_not(&problem),
+        },
+        others => match expect_no_arguments("web", others) {
+            Ok(()) => build(),
+            Err(code) => code,
+        },
     }
+}
+
+/// Writes the description that the server gives of itself.
+fn describe() -> Result<(), String> {
+    let example = ["run", "--quiet", "-p", "armill-web", "--example", "openapi"];
+    let text = printed(&mut cargo(&example))?;
+    fs::write(DESCRIPTION, text).map_err(|error| format!("{DESCRIPTION}: {error}"))
+}
+
+fn could_not(problem: &str) -> ExitCode {
+    eprintln!("{problem}");
+    ExitCode::from(COULD_NOT_RUN)
 }
 
 /// Builds the page.
 pub fn build() -> ExitCode {
     if !Path::new("web/package.json").is_file() {
-        eprintln!("there is no web/package.json: this checkout has no page");
-        return ExitCode::from(COULD_NOT_RUN);
+        return could_not("web/package.json is missing: this checkout has no page");
     }
     if let Some(problem) = node::missing() {
-        eprintln!("{problem}");
-        return ExitCode::from(COULD_NOT_RUN);
-    }
-    let described = printed(&mut cargo(&[
-        "run",
-        "--quiet",
-        "-p",
-        "armill-web",
-        "--example",
-        "openapi",
-    ]));
-    let written = described
-        .and_then(|text| fs::write(DESCRIPTION, text).map_err(|error| format!("{DESCRIPTION}: {error}")));
-    if let Err(problem) = written {
-        eprintln!("{problem}");
-        return ExitCode::from(COULD_NOT_RUN);
+        return could_not(&problem);
     }
     let steps: [&[&str]; 3] = [
         &["ci", "--no-audit", "--no-fund"],
-        // What the page knows of the server.
         &["run", "types"],
-        // Its types are checked first.
         &["run", "build"],
     ];
     for step in steps {

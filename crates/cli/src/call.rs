@@ -1,14 +1,14 @@
-//! A command asked by a program: the same options by name, the same answer, nothing on the terminal.
+//! Calls of a command by a program: the same options by name, the same result, nothing on the terminal.
 //!
-//! | option | told as |
+//! | option | value |
 //! |---|---|
 //! | a flag | `true`, `false` |
 //! | one value | a text or a number |
-//! | several numbers (`X,Y,Z`) | a list of them |
-//! | what may be given several times | a list with one element each time |
+//! | several numbers (`X,Y,Z`) | a list |
+//! | a repeatable option | a list with one element for each occurrence |
 //!
-//! Options have the names of the command, with `_` for `-`. Each call becomes the words that one would
-//! type, with `--json`, and goes the same way.
+//! Options have the names of the command, with `_` for `-`. Each call is converted to command-line arguments
+//! with `--json` and processed in the same way.
 
 use std::ffi::OsString;
 use std::sync::Arc;
@@ -21,46 +21,46 @@ use crate::arguments::Arguments;
 use crate::listener::{Listener, heard_by};
 use crate::{Outcome, inputs_of, run};
 
-/// What is asked.
+/// A call of a command.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Call {
     /// Name of the command, such as `pose-accuracy`.
     pub command: String,
     /// Its operands in order, such as files.
     pub operands: Vec<String>,
-    /// Its options by name, with what is told of them.
-    pub options: Vec<(String, Told)>,
+    /// Its options by name, with their values.
+    pub options: Vec<(String, OptionValue)>,
 }
 
-/// What is told of an option.
+/// Value of an option.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Told {
-    /// Of a flag.
+pub enum OptionValue {
+    /// A flag.
     Flag(bool),
     /// One value, as it would be typed.
     Text(String),
-    /// Several.
-    List(Vec<Told>),
+    /// Several values.
+    List(Vec<OptionValue>),
 }
 
-/// What comes back.
+/// Result of a call.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Answer {
     /// Every byte that the command prints on stdout with `--json`, the last line end included.
     pub json: String,
-    /// What it says on stderr, line by line.
-    pub talk: Vec<String>,
-    /// Whether the tolerance is held, or nobody was strict.
-    pub holds: bool,
+    /// Messages on stderr, line by line.
+    pub messages: Vec<String>,
+    /// Whether the tolerance is met; true if `strict` was not given.
+    pub within_tolerance: bool,
 }
 
-/// Why nothing comes back.
+/// Reason why there is no result.
 #[derive(Debug, thiserror::Error)]
 pub enum Refused {
-    /// Options that do not go together, or that the command does not have.
+    /// Options that cannot be combined, or unknown options.
     #[error("{0}")]
     Usage(String),
-    /// What stopped the command.
+    /// The error of the command.
     #[error(transparent)]
     Study(#[from] StudyError),
 }
@@ -72,15 +72,15 @@ pub struct OptionOf {
     pub name: String,
     /// Whether it is an operand.
     pub is_operand: bool,
-    /// What the help says of it.
+    /// Its help text.
     pub help: String,
 }
 
-/// Asks the command; `listener` hears how far it is, and may cancel.
+/// Runs the command; `listener` receives the progress and can cancel it.
 ///
 /// # Errors
-/// What the command line would refuse; what stops the command.
-pub fn analysis(call: &Call, listener: &Arc<Listener>) -> Result<Answer, Refused> {
+/// Arguments that the command line would refuse; errors of the command.
+pub fn call(call: &Call, listener: &Arc<Listener>) -> Result<Answer, Refused> {
     let words = words(call)?;
     let inputs = inputs_of(&words);
     let arguments =
@@ -88,22 +88,22 @@ pub fn analysis(call: &Call, listener: &Arc<Listener>) -> Result<Answer, Refused
     let outcome = heard_by(Some(Arc::clone(listener)), || {
         inputs.during(|| run(&arguments.command))
     })?;
-    let (json, talk) = listener.heard();
+    let (json, messages) = listener.heard();
     Ok(Answer {
         json,
-        talk,
-        holds: outcome == Outcome::Fine,
+        messages,
+        within_tolerance: outcome == Outcome::Fine,
     })
 }
 
-/// What command `name` says of itself, and its operands and options; `None` where there is no such command, or none that
-/// answers in JSON.
+/// Help text of the command `name`, and its operands and options; `None` if there is no such command, or none that
+/// prints JSON.
 pub fn options_of(name: &str) -> Option<(String, Vec<OptionOf>)> {
     let command = command(name)?;
     let help = |text: Option<&StyledStr>| text.map(ToString::to_string).unwrap_or_default();
     let given = command
         .get_arguments()
-        .filter(|arg| is_told(arg))
+        .filter(|arg| is_call_option(arg))
         .map(|arg| OptionOf {
             name: name_of(arg),
             is_operand: arg.is_positional(),
@@ -112,7 +112,7 @@ pub fn options_of(name: &str) -> Option<(String, Vec<OptionOf>)> {
     Some((help(command.get_about()), given.collect()))
 }
 
-/// A command that answers in JSON.
+/// A command that prints JSON.
 fn command(name: &str) -> Option<clap::Command> {
     let all = Arguments::command();
     let found = all.find_subcommand(name)?.clone();
@@ -120,37 +120,40 @@ fn command(name: &str) -> Option<clap::Command> {
     answers.then_some(found)
 }
 
-/// The option that every call has.
+/// The option that every call sets.
 const JSON: &str = "json";
 
-/// Whether a caller tells this one.
-fn is_told(arg: &Arg) -> bool {
+/// Whether the caller gives this argument.
+fn is_call_option(arg: &Arg) -> bool {
     arg.get_id() != JSON && !matches!(arg.get_action(), ArgAction::Help | ArgAction::Version)
 }
 
-/// What a call names it by: as it is typed, with `_` for `-`; an operand by what it is.
+/// Name in a call: as on the command line, with `_` for `-`; of an operand its name.
 fn name_of(arg: &Arg) -> String {
     let typed = arg.get_long().unwrap_or(arg.get_id().as_str());
     typed.replace('-', "_")
 }
 
-/// The text of what clap refuses, without the word before it.
+/// The text of an error of clap, without the leading `error: `.
 fn bare(rendered: &StyledStr) -> String {
     let text = rendered.to_string();
     let text = text.trim_end();
     text.strip_prefix("error: ").unwrap_or(text).to_owned()
 }
 
-/// The words of a call as one would type them.
+/// The call as command-line arguments.
 fn words(call: &Call) -> Result<Vec<OsString>, Refused> {
     let usage = |text: String| Err(Refused::Usage(text));
     let Some(command) = command(&call.command) else {
-        return usage(format!("no command `{}` answers in JSON", call.command));
+        return usage(format!(
+            "command `{}` is unknown or has no JSON result",
+            call.command
+        ));
     };
     let mut words = vec!["armill".to_owned(), call.command.clone(), format!("--{JSON}")];
     let named: Vec<(String, &Arg)> = command
         .get_arguments()
-        .filter(|arg| is_told(arg) && !arg.is_positional())
+        .filter(|arg| is_call_option(arg) && !arg.is_positional())
         .map(|arg| (name_of(arg), arg))
         .collect();
     for (name, given) in &call.options {
@@ -164,17 +167,20 @@ fn words(call: &Call) -> Result<Vec<OsString>, Refused> {
         };
         let long = name.replace('_', "-");
         match (arg.get_action(), given) {
-            (ArgAction::SetTrue, Told::Flag(true)) => words.push(format!("--{long}")),
-            (ArgAction::SetTrue, Told::Flag(false)) => {}
-            (ArgAction::SetTrue, _) | (_, Told::Flag(_)) => {
+            (ArgAction::SetTrue, OptionValue::Flag(true)) => words.push(format!("--{long}")),
+            (ArgAction::SetTrue, OptionValue::Flag(false)) => {}
+            (ArgAction::SetTrue, _) | (_, OptionValue::Flag(_)) => {
                 let requested = if matches!(arg.get_action(), ArgAction::SetTrue) {
                     "True or False"
                 } else {
                     "a value"
                 };
-                return usage(format!("`{}`: option `{name}` takes {requested}", call.command));
+                return usage(format!(
+                    "`{}`: option `{name}` requires {requested}",
+                    call.command
+                ));
             }
-            (ArgAction::Append, Told::List(each)) if arg.get_value_delimiter().is_none() => {
+            (ArgAction::Append, OptionValue::List(each)) if arg.get_value_delimiter().is_none() => {
                 words.extend(each.iter().map(|one| format!("--{long}={}", one.typed())));
             }
             (_, given) => words.push(format!("--{long}={}", given.typed())),
@@ -186,13 +192,13 @@ fn words(call: &Call) -> Result<Vec<OsString>, Refused> {
     Ok(words.into_iter().map(OsString::from).collect())
 }
 
-impl Told {
-    /// As one would type it.
+impl OptionValue {
+    /// As on the command line.
     fn typed(&self) -> String {
         match self {
-            Told::Flag(flag) => flag.to_string(),
-            Told::Text(text) => text.clone(),
-            Told::List(all) => all.iter().map(Told::typed).collect::<Vec<_>>().join(","),
+            OptionValue::Flag(flag) => flag.to_string(),
+            OptionValue::Text(text) => text.clone(),
+            OptionValue::List(all) => all.iter().map(OptionValue::typed).collect::<Vec<_>>().join(","),
         }
     }
 }
@@ -201,7 +207,7 @@ impl Told {
 mod tests {
     use super::*;
 
-    fn pose(options: &[(&str, Told)]) -> Result<Answer, Refused> {
+    fn pose(options: &[(&str, OptionValue)]) -> Result<Answer, Refused> {
         let call = Call {
             command: "pose".to_owned(),
             operands: vec!["yaskawa/mh12".to_owned()],
@@ -210,36 +216,41 @@ mod tests {
                 .map(|(name, given)| ((*name).to_owned(), given.clone()))
                 .collect(),
         };
-        analysis(&call, &Arc::default())
+        super::call(&call, &Arc::default())
     }
 
-    fn numbers(values: &[f64]) -> Told {
-        Told::List(values.iter().map(|value| Told::Text(value.to_string())).collect())
+    fn numbers(values: &[f64]) -> OptionValue {
+        OptionValue::List(
+            values
+                .iter()
+                .map(|value| OptionValue::Text(value.to_string()))
+                .collect(),
+        )
     }
 
     #[test]
-    fn a_call_is_answered_with_json_and_its_options_are_typed_as_one_would() {
+    fn a_call_returns_json_and_accepts_all_kinds_of_options() {
         let answer = pose(&[
             ("at_mm", numbers(&[1000.0, -50.5, 800.0])),
-            ("load_dependent", Told::Flag(true)),
+            ("load_dependent", OptionValue::Flag(true)),
         ])
         .unwrap();
         let value: serde_json::Value = serde_json::from_str(&answer.json).unwrap();
         let tool = &value["postures"][0]["tool"];
         assert!(tool.to_string().contains("-50.5"), "{tool}");
-        assert!(answer.json.ends_with('\n') && answer.holds);
+        assert!(answer.json.ends_with('\n') && answer.within_tolerance);
     }
 
     #[test]
-    fn what_cannot_be_asked_is_refused_in_the_words_of_the_command() {
-        let text = |options: &[(&str, Told)]| pose(options).unwrap_err().to_string();
+    fn refuses_invalid_calls_with_the_messages_of_the_command_line() {
+        let text = |options: &[(&str, OptionValue)]| pose(options).unwrap_err().to_string();
         let unknown = text(&[("at_m", numbers(&[1.0]))]);
         assert!(
             unknown.contains("no option `at_m`") && unknown.contains("at_mm"),
             "{unknown}"
         );
-        let flag = text(&[("load_dependent", Told::Text("yes".to_owned()))]);
-        assert!(flag.contains("takes True or False"), "{flag}");
+        let flag = text(&[("load_dependent", OptionValue::Text("yes".to_owned()))]);
+        assert!(flag.contains("requires True or False"), "{flag}");
         let missing = text(&[]);
         assert!(
             missing.contains("required") && !missing.starts_with("error"),
@@ -250,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn every_command_but_those_without_json_tells_its_options() {
+    fn every_command_except_those_without_json_lists_its_options() {
         for command in Arguments::command().get_subcommands() {
             let name = command.get_name();
             let given = options_of(name);

@@ -1,17 +1,19 @@
-//! The command `armill`, for its terminal ([`command`]) and for programs that ask the same ([`analysis`]).
+//! The command `armill`, for the terminal ([`command`]) and for programs ([`call`]).
 //!
-//! Results go to stdout, progress and talk to stderr. Exit code 0: fine; 1: the tolerance is not held and `--strict`
-//! was given; 2: bad input; 3: a fault of armill; 130: interrupted.
+//! Results go to stdout, progress and messages to stderr. Exit code 0: success; 1: the tolerance is not met and
+//! `--strict`
+//! was given; 2: invalid input; 3: internal error of armill; 130: interrupted.
 //!
 //! | step | where |
 //! |---|---|
-//! | what was typed | `arguments`: a type a command, by clap, with the text of its help |
-//! | the work | `command`: options into a question of `armill_study`, its answer into words or JSON |
-//! | what is said | `terminal` for data, talk and problems, `progress` for a bar |
-//! | a program that asks | `call`: its options as those that are typed; `listener` hears in place of the terminal |
+//! | arguments | `arguments`: one type per command, parsed by clap, with the help texts |
+//! | work | `command`: converts options to a call of `armill_study` and its result to text or JSON |
+//! | output | `terminal` for data, messages and errors, `progress` for a progress bar |
+//! | calls by a program | `call`: options by name; `listener` receives the output in place of the terminal |
 //!
-//! The command is thin: no mechanics, no format, no JSON of its own but that of problems. What clap refuses (an
-//! unknown option, a missing value) it tells itself on stderr, with exit code 2 like any bad input.
+//! The command is thin: no mechanics, no formats, no own JSON except for errors. Clap prints errors in the arguments
+//! (an
+//! unknown option, a missing value) on stderr, with exit code 2 as for any invalid input.
 
 mod arguments;
 mod call;
@@ -30,30 +32,30 @@ use clap::Parser;
 
 use arguments::{Arguments, Command};
 
-pub use call::{Answer, Call, OptionOf, Refused, Told, analysis, options_of};
+pub use call::{Answer, Call, OptionOf, OptionValue, Refused, call, options_of};
 pub use listener::Listener;
 pub use terminal::problems_json;
 
-/// Does what these words say, the first of which is the name of the program, on the terminal, and gives the exit code.
+/// Runs the command given by these arguments, the first of which is the program name; returns the exit code.
 pub fn command(words: impl IntoIterator<Item = OsString>) -> u8 {
     let words: Vec<OsString> = words.into_iter().collect();
     let inputs = inputs_of(&words);
     let arguments = match Arguments::try_parse_from(&words) {
         Ok(arguments) => arguments,
         Err(refused) => {
-            // The refusal quotes words: they are shown as all text is.
+            // The error message quotes arguments: control characters are escaped.
             let shown = words
                 .iter()
                 .map(|word| visible(&word.to_string_lossy()).into_owned());
             let refused = Arguments::try_parse_from(shown).err().unwrap_or(refused);
-            // Nobody is left to tell where this cannot be printed.
+            // If this cannot be printed, there is no other place to report it.
             let _ = refused.print();
             return u8::try_from(refused.exit_code()).unwrap_or(2);
         }
     };
     match inputs.during(|| run(&arguments.command)) {
         Ok(Outcome::Fine) => 0,
-        Ok(Outcome::ToleranceNotHeld) => 1,
+        Ok(Outcome::ToleranceNotMet) => 1,
         Err(error) => {
             terminal::show_error(&error, arguments.command.wants_json());
             exit_code(&error)
@@ -61,7 +63,7 @@ pub fn command(words: impl IntoIterator<Item = OsString>) -> u8 {
     }
 }
 
-/// The files that these words name: operands, and values of options behind `=`.
+/// The files named in the arguments: operands, and values of options after `=`.
 fn inputs_of(words: &[OsString]) -> Inputs {
     let values = words
         .iter()
@@ -69,7 +71,7 @@ fn inputs_of(words: &[OsString]) -> Inputs {
     Inputs::naming(words.iter().map(Path::new).chain(values))
 }
 
-/// Does what a command says.
+/// Runs a command.
 fn run(command: &Command) -> Result<Outcome, StudyError> {
     match command {
         Command::Run(run) => command::run::run(run),
@@ -98,20 +100,20 @@ fn run(command: &Command) -> Result<Outcome, StudyError> {
     }
 }
 
-/// How a command ended that did its work; what stopped it before is a `StudyError`.
+/// Outcome of a command that did its work; an error that stopped it is a `StudyError`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Outcome {
-    /// Nothing to complain of.
+    /// Success.
     Fine,
-    /// `--strict` was given and the tolerance is not held everywhere.
-    ToleranceNotHeld,
+    /// `--strict` was given and the tolerance is not met everywhere.
+    ToleranceNotMet,
 }
 
-/// The kind of an error alone decides how the process ends.
+/// The exit code depends only on the kind of the error.
 fn exit_code(error: &StudyError) -> u8 {
     match error.kind() {
         ErrorKind::InvalidInput => 2,
-        // As a shell tells an interrupted command.
+        // As a shell reports an interrupted command.
         ErrorKind::Cancelled => 130,
         ErrorKind::Internal => 3,
     }

@@ -1,13 +1,13 @@
-//! Who hears a command: its terminal, or a program that asked.
+//! Receiver of the output of a command: the terminal, or a calling program.
 //!
-//! A program that asks sets its listener for the thread that runs the command; pools that a command starts take it along.
+//! A calling program sets its listener for the thread that runs the command; thread pools of the command inherit it.
 //! Without a listener everything goes to the terminal.
 
 use std::cell::RefCell;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// What a command says, how far it is, and whether it should stop.
+/// Receives the output and the progress of a command, and can cancel it.
 #[derive(Debug, Default)]
 pub struct Listener {
     data: Mutex<String>,
@@ -17,36 +17,36 @@ pub struct Listener {
 }
 
 impl Listener {
-    /// Set it to stop the work at its next block, where it can be stopped.
+    /// Set it to cancel the work at its next block, where it can be cancelled.
     pub fn cancel(&self) -> &AtomicBool {
         &self.cancel
     }
 
-    /// Points (places, circles) finished by now.
+    /// Number of points (placements, circles) finished so far.
     pub fn counted(&self) -> &AtomicUsize {
         &self.counted
     }
 
-    /// Counts so many more.
+    /// Adds to the number of finished points.
     pub(crate) fn count(&self, points: usize) {
         self.counted.fetch_add(points, Ordering::Relaxed);
     }
 
-    /// What stdout would have got, and what stderr, line by line.
+    /// The text for stdout, and the lines for stderr.
     pub(crate) fn heard(&self) -> (String, Vec<String>) {
         let data = self.data.lock().unwrap_or_else(PoisonError::into_inner);
         let talk = self.talk.lock().unwrap_or_else(PoisonError::into_inner);
         (data.clone(), talk.clone())
     }
 
-    /// Hears data, and the line end behind it.
+    /// Receives data, and the line end after it.
     pub(crate) fn hear_data(&self, text: &str) {
         let mut data = self.data.lock().unwrap_or_else(PoisonError::into_inner);
         data.push_str(text);
         data.push('\n');
     }
 
-    /// Hears talk.
+    /// Receives a message.
     pub(crate) fn hear_talk(&self, text: &str) {
         let mut talk = self.talk.lock().unwrap_or_else(PoisonError::into_inner);
         talk.push(text.to_owned());
@@ -57,12 +57,12 @@ thread_local! {
     static HEARS: RefCell<Option<Arc<Listener>>> = const { RefCell::new(None) };
 }
 
-/// Who hears on this thread; nobody but the terminal where there is none.
+/// The listener of this thread; `None` for the terminal.
 pub(crate) fn current() -> Option<Arc<Listener>> {
     HEARS.with_borrow(Clone::clone)
 }
 
-/// Does `work` with this listener on this thread. Whoever heard before hears again afterwards, also where `work` panics.
+/// Runs `work` with this listener on this thread. The previous listener is restored afterwards, also if `work` panics.
 pub(crate) fn heard_by<T>(listener: Option<Arc<Listener>>, work: impl FnOnce() -> T) -> T {
     struct Before(Option<Arc<Listener>>);
     impl Drop for Before {
@@ -80,7 +80,7 @@ mod tests {
     use crate::terminal::{print, say};
 
     #[test]
-    fn a_listener_hears_what_is_printed_and_said_on_its_thread_alone() {
+    fn a_listener_receives_only_the_output_of_its_thread() {
         let (outer, inner) = (Arc::new(Listener::default()), Arc::new(Listener::default()));
         heard_by(Some(Arc::clone(&outer)), || {
             print("1").unwrap();
@@ -96,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn whoever_heard_before_hears_again_after_a_panic() {
+    fn the_previous_listener_is_restored_after_a_panic() {
         let listener = Some(Arc::new(Listener::default()));
         let broken = std::panic::catch_unwind(|| heard_by(listener, || panic!("on purpose")));
         assert!(broken.is_err() && current().is_none());

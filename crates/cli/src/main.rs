@@ -1,4 +1,4 @@
-//! The command `armill`: see the library beside it.
+//! The command `armill`: see the library of this package.
 
 use std::process::ExitCode;
 

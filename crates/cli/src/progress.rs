@@ -1,8 +1,9 @@
-//! A progress bar on stderr, where there is a terminal to show it; it goes when the work ends, however it ends.
+//! A progress bar on stderr, if it is a terminal; it is removed when the work ends, also by an error.
 //!
-//! At a terminal nothing here cancels. An interrupt (Ctrl-C) ends the process by its signal, which a shell tells as 130: files
-//! are whole or not there, and `result.json` comes last, so that nothing needs to be cleared away. A program that asks hears
-//! the count, and may cancel.
+//! At a terminal nothing here cancels. An interrupt (Ctrl-C) ends the process by its signal, which a shell reports as
+//! 130:
+//! files are complete or absent, and `result.json` is written last, so that no cleanup is needed. A calling program
+//! receives the count, and can cancel.
 //!
 //! ```text
 //! ████████████████░░░░░░░░░░░░░░░░░░░░░░░░ 1026/2565 points, 12s left plate.png
@@ -17,21 +18,21 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::listener::{self, Listener};
 
-/// Points finished, on a bar. Dropping it takes the bar off the terminal.
+/// Finished points, shown as a bar. Dropping it removes the bar.
 pub(crate) struct Progress {
     bar: ProgressBar,
-    /// Never set: the core asks for a flag, and at a terminal nothing stops work half-way.
+    /// Never set: the core requires a flag, and at a terminal nothing cancels the work.
     never: AtomicBool,
     listener: Option<Arc<Listener>>,
 }
 
 impl Progress {
-    /// A bar for this many points; drawn only on a terminal, at most ten times a second.
+    /// A bar for this number of points; drawn only on a terminal, at most ten times a second.
     pub(crate) fn new(points: usize) -> Progress {
         Progress::of("points", points)
     }
 
-    /// The same of things with another name.
+    /// The same for other items.
     pub(crate) fn of(things: &str, count: usize) -> Progress {
         let listener = listener::current();
         let target = match listener {
@@ -50,7 +51,7 @@ impl Progress {
         }
     }
 
-    /// Runs `work` under this bar, which its threads move on together, and gives what it gives.
+    /// Runs `work` under this bar, which its threads advance together, and returns its result.
     pub(crate) fn watch<T>(&self, work: impl FnOnce(Watch<'_>) -> T) -> T {
         let listener = self.listener.as_deref();
         let finished = |points: usize| {
@@ -65,8 +66,8 @@ impl Progress {
         })
     }
 
-    /// Shows what is being done besides counting, such as the file that is being written.
-    pub(crate) fn tell(&self, what: &str) {
+    /// Shows the current step, such as the file that is being written.
+    pub(crate) fn set_message(&self, what: &str) {
         self.bar.set_message(visible(what).into_owned());
     }
 }

@@ -1,15 +1,16 @@
-//! What the command says: data on stdout, talk on stderr; both to whoever asked where that is a program.
+//! Output of the command: data on stdout, messages on stderr; both to the calling program if there is one.
 //!
 //! | what | where | ends in |
 //! |---|---|---|
-//! | an answer, in words or JSON | stdout | one line end |
-//! | warnings, what was written, what to do next | stderr | one line end |
-//! | problems | stderr, in colour on a terminal unless `NO_COLOR` is set; with `--json` on stdout too | - |
+//! | a result, as text or JSON | stdout | one line end |
+//! | warnings, files written, next steps | stderr | one line end |
+//! | errors | stderr, in colour on a terminal unless `NO_COLOR` is set; with `--json` on stdout too | - |
 //!
-//! Characters of the input that would control a terminal are shown as escapes ([`visible`]), in JSON too.
+//! Control characters in the input are shown as escapes ([`visible`]), in JSON too.
 //!
-//! JSON of problems is `{"problems": [...]}`: those of a file with their places, else one with a `message` and,
-//! where there is one, a `hint`.
+//! JSON of errors is `{"problems": [...]}`: problems of a file with their positions, otherwise one with a `message`
+//! and,
+//! if available, a `hint`.
 
 use std::io::{ErrorKind, IsTerminal, Write};
 
@@ -19,10 +20,10 @@ use armill_study::StudyError;
 
 use crate::listener;
 
-/// Prints `text` and a line end on stdout. A reader that went away (`| head`) is no error.
+/// Prints `text` and a line end on stdout. A reader that closed the pipe (`| head`) is not an error.
 ///
 /// # Errors
-/// Stdout leads to a file that takes no more.
+/// Stdout leads to a file that cannot be written.
 pub(crate) fn print(text: &str) -> Result<(), StudyError> {
     let text = &*visible(text);
     if let Some(listener) = listener::current() {
@@ -44,12 +45,12 @@ pub(crate) fn print(text: &str) -> Result<(), StudyError> {
     }
 }
 
-/// Says `text` on stderr, with a line end. That nobody can hear it stops no work.
+/// Prints `text` on stderr, with a line end. Failure to print does not stop the work.
 pub(crate) fn say(text: &str) {
     say_as_it_is(&visible(text));
 }
 
-/// Says `text`, which may have colours and nothing else that controls a terminal.
+/// Prints `text`, which may contain colours but no other control characters.
 fn say_as_it_is(text: &str) {
     match listener::current() {
         Some(listener) => listener.hear_talk(text),
@@ -59,15 +60,15 @@ fn say_as_it_is(text: &str) {
     }
 }
 
-/// Whether colours are wanted on stderr.
+/// Whether stderr is coloured.
 fn coloured() -> bool {
     std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
 }
 
-/// Says what went wrong on stderr; as JSON on stdout too where `json` is asked for.
+/// Prints an error on stderr; as JSON on stdout too if `json` is set.
 pub(crate) fn show_error(error: &StudyError, json: bool) {
     if json {
-        // What went wrong is said on stderr in any case.
+        // The error is printed on stderr in any case.
         let _ = print(&serde_json::json!({ "problems": problems_of(error) }).to_string());
     }
     match error {
@@ -77,7 +78,7 @@ pub(crate) fn show_error(error: &StudyError, json: bool) {
     }
 }
 
-/// The problems of an error as a JSON list, as `--json` tells them.
+/// The problems of an error as a JSON list, as with `--json`.
 pub fn problems_json(error: &StudyError) -> String {
     problems_of(error).to_string()
 }
@@ -90,18 +91,18 @@ fn problems_of(error: &StudyError) -> serde_json::Value {
     }
 }
 
-/// On which side the cells of a column stand.
+/// Alignment of the cells of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Align {
-    /// Words.
+    /// Text.
     Left,
     /// Numbers.
     Right,
 }
 
-/// A line for each row, its cells below each other, two blanks between, no blanks at the end. A row of one cell
-/// is a line of words: it widens no column. Cells beyond the alignments stand to the right. Widths count
-/// characters, not columns of the screen.
+/// One line per row in aligned columns, two blanks between, no trailing blanks. A row of one cell
+/// is a line of text: it widens no column. Cells beyond the given alignments are right-aligned. Widths are numbers of
+/// characters, not of screen columns.
 pub(crate) fn columns(rows: &[Vec<String>], aligned: &[Align]) -> Vec<String> {
     let wide = |cell: &String| cell.chars().count();
     let mut widths: Vec<usize> = Vec::new();
@@ -129,7 +130,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn columns_stand_below_each_other_whatever_their_letters() {
+    fn columns_are_aligned_for_non_ascii_letters() {
         let row = |cells: &[&str]| cells.iter().map(|cell| (*cell).to_owned()).collect();
         let rows = [
             row(&["größe", "1.5", "x"]),

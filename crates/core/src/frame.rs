@@ -1,4 +1,4 @@
-//! Frames: how a pose is written, and how a tool axis becomes a tool pose.
+//! Frames: poses, and the tool pose of a tool axis.
 //!
 //! A transform is named so that neighbours cancel: `base_from_tool = base_from_flange * flange_from_tool`.
 //!
@@ -15,47 +15,47 @@ use std::f64::consts::PI;
 
 use nalgebra::{Isometry3, Matrix3, Matrix4, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
 
-/// A rigid displacement; the name of the variable says from which frame to which.
+/// A rigid displacement; the name of the variable states the two frames.
 pub type Isometry = Isometry3<f64>;
 
-/// How far (no unit) a matrix may be from a rotation that rounding of whoever wrote it has left: single precision keeps
+/// Permitted deviation (no unit) of a matrix from a rotation by rounding in its source: single precision has
 /// seven digits.
 const ROUNDED: f64 = 1e-6;
 
-/// Why a matrix is no pose.
+/// Why a matrix is not a valid pose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum NoPose {
+pub enum PoseMatrixError {
     /// A number is NaN or infinite.
     #[error("a number is not finite")]
     NotFinite,
     /// The last row is another.
     #[error("the last row is not 0, 0, 0, 1")]
     LastRow,
-    /// The axes are not of length 1, or not at right angles.
-    #[error("its axes are not of length 1 and at right angles (to {ROUNDED})")]
+    /// The axes are not of length 1, or not perpendicular.
+    #[error("its axes are not of length 1 and perpendicular (within {ROUNDED})")]
     NoRotation,
-    /// The axes are those of a left hand.
-    #[error("its axes are those of a left hand")]
+    /// The axes are left-handed.
+    #[error("its axes are left-handed")]
     Mirrored,
 }
 
-/// The isometry that a homogeneous matrix writes (rotation, translation in m, last row 0 0 0 1); its rotation is made exact.
+/// The isometry of a homogeneous matrix (rotation, translation in m, last row 0 0 0 1); its rotation is made exact.
 ///
 /// # Errors
-/// A matrix that is none: see [`NoPose`].
-pub fn from_matrix(matrix: &Matrix4<f64>) -> Result<Isometry, NoPose> {
+/// A matrix that is not valid: see [`PoseMatrixError`].
+pub fn from_matrix(matrix: &Matrix4<f64>) -> Result<Isometry, PoseMatrixError> {
     if matrix.iter().any(|value| !value.is_finite()) {
-        return Err(NoPose::NotFinite);
+        return Err(PoseMatrixError::NotFinite);
     }
     if matrix.row(3) != Matrix4::identity().row(3) {
-        return Err(NoPose::LastRow);
+        return Err(PoseMatrixError::LastRow);
     }
     let axes: Matrix3<f64> = matrix.fixed_view::<3, 3>(0, 0).into_owned();
     if (axes.transpose() * axes - Matrix3::identity()).amax() > ROUNDED {
-        return Err(NoPose::NoRotation);
+        return Err(PoseMatrixError::NoRotation);
     }
     if axes.determinant() < 0.0 {
-        return Err(NoPose::Mirrored);
+        return Err(PoseMatrixError::Mirrored);
     }
     let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
     Ok(Isometry::from_parts(
@@ -72,11 +72,11 @@ pub fn from_xyz_and_fixed_angles(xyz: Vector3<f64>, rx_ry_rz: Vector3<f64>) -> I
     Isometry::from_parts(Translation3::from(xyz), rotation)
 }
 
-/// The turns rx, ry, rz (rad) about the fixed axes x, then y, then z that make this rotation: what
-/// [`from_xyz_and_fixed_angles`] takes.
+/// The rotations rx, ry, rz (rad) about the fixed axes x, then y, then z of this rotation: the input of
+/// [`from_xyz_and_fixed_angles`].
 ///
-/// rx and rz lie within -pi to pi, ry within -pi/2 to pi/2. Good to rounding everywhere: where ry is 90 deg, which leaves
-/// only the sum or difference of the other two, any share of it is theirs.
+/// rx and rz are within -pi to pi, ry within -pi/2 to pi/2. Accurate to rounding everywhere: where ry is 90 deg, only
+/// the sum or difference of the other two is defined, and any split of it is valid.
 pub fn fixed_angles(rotation: &UnitQuaternion<f64>) -> Vector3<f64> {
     let m = rotation.to_rotation_matrix();
     // By arc tangents alone, which lose no digits at 90 deg, and rx in the axes that ry and rz leave.
@@ -89,11 +89,11 @@ pub fn fixed_angles(rotation: &UnitQuaternion<f64>) -> Vector3<f64> {
 
 /// The orientation `base_from_tool` of a tool whose z axis is `axis`, turned about it by `spin` (rad).
 ///
-/// At spin zero the tool's second axis (y) lies as near as possible to base y, or to base x where the
+/// At spin zero the tool's second axis (y) is as near as possible to base y, or to base x where the
 /// axis is parallel to y. Positive spin follows the right hand about `axis`.
 pub fn tool_orientation(axis: Unit<Vector3<f64>>, spin: f64) -> UnitQuaternion<f64> {
     let z = axis.into_inner();
-    // Within 1e-6 rad of base y the projection of y has no direction left that could be trusted.
+    // Within 1e-6 rad of base y the projection of y has no reliable direction.
     let reference = if z.cross(&Vector3::y()).norm() > 1e-6 {
         Vector3::y()
     } else {
@@ -109,7 +109,7 @@ pub fn tool_orientation(axis: Unit<Vector3<f64>>, spin: f64) -> UnitQuaternion<f
 ///
 /// Not checked: that both are rotations.
 pub fn turn_between(from: &Matrix3<f64>, to: &Matrix3<f64>) -> Vector3<f64> {
-    // Each pair of axes spans the sine of the angle between them: exact where the cosine has lost it.
+    // Each pair of axes gives the sine of the angle between them: exact where the cosine has lost it.
     let sine: Vector3<f64> = (0..3)
         .map(|i| from.column(i).cross(&to.column(i)))
         .sum::<Vector3<f64>>()
@@ -135,14 +135,14 @@ pub fn turn_between(from: &Matrix3<f64>, to: &Matrix3<f64>) -> Vector3<f64> {
     axis.normalize() * PI
 }
 
-/// Some unit vector across `axis`, always the same one; `axis` must not be zero.
-pub fn some_across(axis: &Vector3<f64>) -> Vector3<f64> {
+/// A unit vector perpendicular to `axis`, always the same one; `axis` must not be zero.
+pub fn any_perpendicular(axis: &Vector3<f64>) -> Vector3<f64> {
     axis.cross(&Vector3::ith(axis.iamin(), 1.0)).normalize()
 }
 
-/// Two directions across a unit vector and each other, always the same ones for the same vector.
+/// Two directions perpendicular to a unit vector and to each other, always the same ones for the same vector.
 pub fn both_across(axis: &Vector3<f64>) -> [Vector3<f64>; 2] {
-    let across = some_across(axis);
+    let across = any_perpendicular(axis);
     [across, axis.cross(&across)]
 }
 
@@ -155,13 +155,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_matrix_of_a_pose_reads_back_and_what_is_no_pose_is_refused() {
+    fn the_matrix_of_a_pose_is_read_back_and_invalid_matrices_are_refused() {
         let pose = from_xyz_and_fixed_angles(Vector3::new(0.1, -2.0, 3.0), Vector3::new(3.1, -0.4, 2.0));
         let matrix = pose.to_homogeneous();
         let back = from_matrix(&matrix).unwrap();
         // Nine products of rounding each.
         assert!((back.to_homogeneous() - matrix).amax() < 1e-15);
-        // Single precision is taken, and made exact.
+        // Single precision is accepted, and made exact.
         let single = from_matrix(&matrix.map(|value| f64::from(value as f32))).unwrap();
         assert!((single.rotation.norm() - 1.0).abs() < 1e-15);
         let changed = |at: (usize, usize), value: f64| {
@@ -169,14 +169,14 @@ mod tests {
             matrix[at] = value;
             from_matrix(&matrix).unwrap_err()
         };
-        assert_eq!(changed((0, 3), f64::NAN), NoPose::NotFinite);
-        assert_eq!(changed((3, 1), 1e-3), NoPose::LastRow);
-        assert_eq!(changed((1, 1), 0.5), NoPose::NoRotation);
+        assert_eq!(changed((0, 3), f64::NAN), PoseMatrixError::NotFinite);
+        assert_eq!(changed((3, 1), 1e-3), PoseMatrixError::LastRow);
+        assert_eq!(changed((1, 1), 0.5), PoseMatrixError::NoRotation);
         let mirror = Matrix4::from_diagonal(&nalgebra::Vector4::new(1.0, 1.0, -1.0, 1.0));
-        assert_eq!(from_matrix(&(matrix * mirror)), Err(NoPose::Mirrored));
+        assert_eq!(from_matrix(&(matrix * mirror)), Err(PoseMatrixError::Mirrored));
     }
 
-    /// Any angle, and those near a quarter turn, where two of the three axes fall together.
+    /// Any angle, and those near a quarter turn, where two of the three axes coincide.
     fn angle() -> impl Strategy<Value = f64> {
         let near = (-1e-6..1e-6f64).prop_map(|by| FRAC_PI_2 + by);
         prop_oneof![
@@ -236,7 +236,7 @@ mod tests {
     }
 
     #[test]
-    fn tool_z_is_the_axis_and_tool_y_lies_near_base_y() {
+    fn tool_z_is_the_axis_and_tool_y_is_near_base_y() {
         let axis = Unit::new_normalize(Vector3::new(0.3, 0.2, -0.9));
         let base_from_tool = tool_orientation(axis, 0.0);
         assert!((base_from_tool * Vector3::z() - axis.into_inner()).norm() < 1e-15);
@@ -259,7 +259,7 @@ mod tests {
         assert!((y - Vector3::z()).norm() < 1e-15);
     }
 
-    /// Axes all over the sphere, none of them special.
+    /// Axes all over the sphere, all general.
     fn axes() -> impl Iterator<Item = Unit<Vector3<f64>>> {
         (0..60).map(|i| {
             let (a, b) = (0.37 * f64::from(i), 1.3 * f64::from(i));
@@ -284,7 +284,7 @@ mod tests {
     }
 
     #[test]
-    fn every_orientation_is_a_rotation_with_its_third_axis_where_it_was_asked() {
+    fn every_orientation_is_a_rotation_with_the_requested_third_axis() {
         for axis in axes().chain([Vector3::x_axis(), -Vector3::y_axis(), Vector3::z_axis()]) {
             let rotation = tool_orientation(axis, 0.4).to_rotation_matrix();
             let away = rotation.matrix() * rotation.matrix().transpose() - Matrix3::identity();
@@ -294,8 +294,9 @@ mod tests {
     }
 
     #[test]
-    fn base_y_is_given_up_within_a_microradian_alone() {
-        // On either side of 1e-6 rad from base y: before it tool y lies near base y, across the axis; behind it base x rules.
+    fn base_y_is_replaced_only_within_a_microradian() {
+        // On either side of 1e-6 rad from base y: outside it tool y is near base y, across the axis; inside it base x
+        // is used.
         for (angle, near_x) in [(2e-6_f64, false), (0.5e-6, true)] {
             // Tilted towards z, so that the projection of y has nothing of x.
             let axis = Unit::new_normalize(Vector3::new(0.0, angle.cos(), angle.sin()));
@@ -325,7 +326,7 @@ mod tests {
                 turn_between(a.matrix(), b.matrix()),
                 turn_between(b.matrix(), a.matrix()),
             );
-            // Near half a turn, where the axis may have either sign, both are the same turn still.
+            // Near half a turn, where the axis may have either sign, both are still the same rotation.
             let undone = Rotation3::new(back) * Rotation3::new(there);
             assert!(
                 (undone.matrix() - Matrix3::identity()).norm() < 1e-9,
@@ -337,7 +338,7 @@ mod tests {
     }
 
     #[test]
-    fn no_turn_is_zero_whatever_the_axes() {
+    fn no_rotation_is_zero_whatever_the_axes() {
         for axis in axes() {
             let rotation = tool_orientation(axis, 1.0).to_rotation_matrix();
             // Rounding of the columns: some ulps.
@@ -346,13 +347,13 @@ mod tests {
     }
 
     #[test]
-    fn some_vector_across_is_a_unit_vector_across() {
+    fn the_perpendicular_vector_is_a_unit_vector() {
         for axis in axes().chain([Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis()]) {
-            let across = some_across(&axis);
+            let across = any_perpendicular(&axis);
             assert!((across.norm() - 1.0).abs() < 1e-15 && across.dot(&axis).abs() < 1e-15);
-            assert_eq!(some_across(&axis), across);
-            // The length of the axis has no say.
-            assert!((some_across(&(axis.into_inner() * 7.0)) - across).norm() < 1e-15);
+            assert_eq!(any_perpendicular(&axis), across);
+            // The length of the axis has no effect.
+            assert!((any_perpendicular(&(axis.into_inner() * 7.0)) - across).norm() < 1e-15);
         }
     }
 }

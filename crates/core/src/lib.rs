@@ -1,15 +1,15 @@
-//! The mechanics of a machining robot: how far from the drawing will it cut, and why?
+//! The mechanics of a machining robot: prediction of its machining errors.
 //!
 //! Pure mathematics: no files, no clock, no printing, no randomness. SI units throughout (m, N, N m, rad, s).
 //!
-//! Read [`predict`] first: it is the whole idea in one function. Then, in the order in which a number comes
-//! about: [`frame`] and [`spatial`] (poses, twists, wrenches), [`roundness`] (circles of measured points, which need no
+//! Read [`predict`] first: it is the main idea in one function. Then, in the order of the computation:
+//! [`frame`] and [`spatial`] (poses, twists, wrenches), [`roundness`] (circles of measured points, without a
 //! robot), [`robot`] (chain, postures), [`compliance`],
-//! [`load`], [`source`] (what moves the tool), [`workpiece`] and [`path`] (which points), [`kernel`] (many
+//! [`load`], [`source`] (sources of the deviation), [`workpiece`] and [`path`] (points), [`kernel`] (many
 //! points at once), [`map`] (planes, sections, volumes, the region within a tolerance),
-//! [`optimize`] (the posture along a path), [`identify`] (the springs of an arm from load tests), [`calibrate`] (its
-//! geometry from measured poses), [`measure`] (what circular tests and repeated poses show), [`budget`] (what the error of
-//! a cut circle is made of).
+//! [`optimize`] (the posture along a path), [`identify`] (joint compliances from load tests), [`calibrate`] (geometry
+//! from measured poses), [`measure`] (circular tests and repeated poses), [`budget`] (the error budget of
+//! a milled circle).
 //!
 //! Symbols and conventions: `docs/notation.md`.
 
@@ -32,12 +32,12 @@ pub mod spatial;
 pub mod watch;
 pub mod workpiece;
 
-/// Arms for tests, those of the integration tests: they name this crate as its users do.
+/// Arms for tests, shared with the integration tests, which use this crate by its public name.
 #[cfg(test)]
 extern crate self as armill_core;
 #[cfg(test)]
 #[path = "../tests/arms/mod.rs"]
 mod arms;
 
-/// The linear algebra that the public types are made of.
+/// The linear algebra of the public types.
 pub use nalgebra;

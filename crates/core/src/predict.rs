@@ -1,6 +1,6 @@
-//! **The main idea.** Posture and load in, deviation of the tool out, with its parts.
+//! **The main idea.** Input: posture and load. Output: the deviation of the tool, with its parts.
 //!
-//! An arm holds a tool in a posture (`robot::inverse`). Its joints are lines in space; seen from the tool each is a screw.
+//! An arm positions a tool in a posture (`robot::inverse`). Its joints are lines in space; at the tool each is a screw.
 //! The load is a wrench on the tool. Each source of error gives a small displacement of the tool, and these add:
 //!
 //! ```text
@@ -8,18 +8,19 @@
 //! deviation = elastic(s_i, c_i, w) + gravity(s_i, c_i, masses) + geometric + backlash(s_i, u_i)
 //! ```
 //!
-//! Maps, holes, searches and single poses take this sum. Along a path geometry and backlash come in a second step: friction
-//! drags links from point to point. [`elastic::predict`](crate::source::elastic::predict) is the simple model by itself.
-//! Reference point: TCP. Basis: base. Deviation = where the tool is minus where it was asked to be.
+//! Maps, holes, searches and single poses use this sum. Along a path, geometry and backlash are added in a second step:
+//! friction decides from point to point on which side of the backlash the links are.
+//! [`elastic::predict`](crate::source::elastic::predict) is the simple model on its own.
+//! Reference point: TCP. Basis: base. Deviation = attained position of the tool minus its commanded position.
 
 pub use crate::source::Deviation;
-use crate::source::{Links, ArmState, Unstable, repeatability};
+use crate::source::{ArmState, Links, Unstable, repeatability};
 use crate::spatial::{Twist, Wrench};
 
-/// The deviation of the tool of an arm in its posture, under `wrench`, from every source.
+/// The deviation of the tool under `wrench`, at the current posture of the arm, by all sources.
 ///
 /// # Errors
-/// [`Unstable`] where the arm finds no stable rest under the load.
+/// [`Unstable`] where the arm has no stable equilibrium under the load.
 pub fn predict(
     arm_state: &mut ArmState<'_>,
     wrench: &Wrench,
@@ -27,7 +28,7 @@ pub fn predict(
 ) -> Result<Deviation, Unstable> {
     let twist = deviation_of(arm_state, wrench, links)?;
     let (mut shares, mut covariance) = (arm_state.shares(), arm_state.covariance());
-    arm_state.add_backlash(links, wrench, (&mut shares, &mut covariance));
+    arm_state.add_unloaded(links, wrench, (&mut shares, &mut covariance));
     Ok(Deviation {
         twist,
         shares,
@@ -35,7 +36,7 @@ pub fn predict(
     })
 }
 
-/// The sources in their row.
+/// The sum of the sources.
 pub(crate) fn deviation_of(
     arm_state: &mut ArmState<'_>,
     wrench: &Wrench,
@@ -50,7 +51,7 @@ pub(crate) fn deviation_of(
     })
 }
 
-/// Geometry and backlash, with the `links` of the joints at these positions in their gaps, rad (m).
+/// Deviation by geometry and backlash, with the `links` at these positions within their backlash, rad (m).
 pub(crate) fn geometry_and_backlash(arm_state: &ArmState<'_>, links: &[f64], wrench: &Wrench) -> Twist {
     arm_state.geometric() + arm_state.backlash(links, wrench)
 }

@@ -1,4 +1,4 @@
-//! Six-vectors: twist and wrench, and how they move between points and bases.
+//! Six-vectors: twist and wrench, and their transformation between points and bases.
 //!
 //! Translation (force) first, rotation (moment) second. Unless a name says otherwise the reference point
 //! is the TCP and the basis is the base frame.
@@ -30,7 +30,7 @@ impl Twist {
         angular: Vector3::new(0.0, 0.0, 0.0),
     };
 
-    /// A turn about `axis` (unit), per radian, told at a point of it.
+    /// A rotation about `axis` (unit), per radian, at a point of it.
     pub fn about(axis: Vector3<f64>) -> Twist {
         Twist {
             angular: axis,
@@ -38,7 +38,7 @@ impl Twist {
         }
     }
 
-    /// A slide along `axis` (unit), per metre.
+    /// A translation along `axis` (unit), per metre.
     pub fn along(axis: Vector3<f64>) -> Twist {
         Twist {
             linear: axis,
@@ -63,7 +63,7 @@ impl Twist {
         )
     }
 
-    /// The same motion, told at a reference point `by` further away (m, same basis).
+    /// The same motion, at a reference point `by` further away (m, same basis).
     pub fn moved(&self, by: Vector3<f64>) -> Twist {
         Twist {
             linear: self.linear + self.angular.cross(&by),
@@ -133,7 +133,7 @@ impl Wrench {
         }
     }
 
-    /// The same load, told about a reference point `by` further away (m, same basis).
+    /// The same load, about a reference point `by` further away (m, same basis).
     pub fn moved(&self, by: Vector3<f64>) -> Wrench {
         Wrench {
             force: self.force,
@@ -148,7 +148,7 @@ impl Wrench {
     }
 }
 
-/// A load so many times as large.
+/// A load multiplied by a number.
 impl Mul<f64> for Wrench {
     type Output = Wrench;
     fn mul(self, factor: f64) -> Wrench {
@@ -159,7 +159,7 @@ impl Mul<f64> for Wrench {
     }
 }
 
-/// The 6 x 6 matrix that takes a twist told in the frame `local` (its origin, its axes) to point `p` in
+/// The 6 x 6 matrix that takes a twist in the frame `local` (its origin, its axes) to point `p` in
 /// the base basis: `[[R, -[p - o] R], [0, R]]`.
 ///
 /// Its transpose takes a wrench at `p` in base to the local frame, and `Ad C Ad^T` moves a compliance.
@@ -237,7 +237,7 @@ mod tests {
     }
 
     #[test]
-    fn a_turn_leaves_points_of_its_axis_and_moves_others_by_their_lever() {
+    fn a_rotation_keeps_points_of_its_axis_and_moves_others_by_their_lever() {
         let z = Vector3::z();
         assert_eq!(Twist::about(z).moved(z * 3.0).linear, Vector3::zeros());
         assert_eq!(
@@ -249,7 +249,7 @@ mod tests {
 
     #[test]
     fn a_force_at_a_lever_is_a_moment_by_the_right_hand() {
-        // Told 2 m along x away from where it acts, a push along y turns by -2 N m about z.
+        // At 2 m along x away from its point, a push along y has the moment -2 N m about z.
         let push = Wrench::from_force(Vector3::y());
         assert_eq!(push.moved(Vector3::x() * 2.0).moment, Vector3::z() * -2.0);
         assert_eq!(Wrench::ZERO.moved(STEPS[1]), Wrench::ZERO);

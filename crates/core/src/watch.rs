@@ -1,8 +1,8 @@
-//! Progress out, cancel in: the one thing that long work takes from outside. The core knows no clock.
+//! Progress and cancellation of long computations. The core has no clock.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// How long work tells its progress and learns that nobody waits for it any more.
+/// Reports progress of a long computation, and cancels it.
 #[derive(Clone, Copy)]
 pub struct Watch<'a> {
     /// Called now and then, from any thread, with the number of points just finished.
@@ -14,7 +14,7 @@ pub struct Watch<'a> {
 static NEVER: AtomicBool = AtomicBool::new(false);
 
 impl Watch<'_> {
-    /// Tells nobody and is never cancelled.
+    /// Without progress reports, never cancelled.
     pub const NONE: Watch<'static> = Watch {
         finished: &|_| (),
         cancel: &NEVER,
@@ -26,7 +26,7 @@ impl Watch<'_> {
     }
 }
 
-/// The work was stopped from outside; nothing of it is left.
+/// The computation was cancelled; there is no result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("cancelled")]
 pub struct Cancelled;
@@ -37,7 +37,7 @@ mod tests {
     use std::sync::atomic::AtomicUsize;
 
     #[test]
-    fn nobody_is_told_and_nothing_is_cancelled_without_a_watch() {
+    fn without_a_watch_nothing_is_reported_or_cancelled() {
         (Watch::NONE.finished)(1000);
         assert!(!Watch::NONE.is_cancelled());
     }

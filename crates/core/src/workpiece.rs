@@ -1,4 +1,4 @@
-//! The workpiece: where its plane lies, how a deviation splits on it, which points are asked for.
+//! The workpiece: its plane, the split of a deviation on it, and grids of points.
 //!
 //! On a plane tilted by `alpha` from the vertical about base +y (paper, section 3.7):
 //!
@@ -8,21 +8,21 @@
 //!
 //! `alpha = 0`: a vertical plate facing the robot, tool along +x; 90 deg: a horizontal plate facing up, tool
 //! pointing down. The part frame is right-handed: x_part = -y', y_part = z', z_part = n, origin at the centre.
-//! The tool axis stands against the outward normal n. m, rad.
+//! The tool axis is opposite to the outward normal n. m, rad.
 
 use nalgebra::{Matrix3, Point2, Point3, Rotation3, Unit, UnitQuaternion, Vector3};
 
 use crate::frame::{Isometry, tool_orientation};
 
-/// Tool axes that differ by less (no unit) point the same way: rounding of whoever wrote the poses.
+/// Tool axes that differ by less (no unit) are equal: rounding in the source of the poses.
 const SAME_WAY: f64 = 1e-9;
 
-/// The outward normal of the planes that all these tools stand across: against their common axis; base z where there is no
-/// tool.
+/// The outward normal of the planes perpendicular to all these tools: opposite to their common axis; base z without
+/// tools.
 ///
 /// # Errors
-/// The index of the first tool that points another way than the first.
-pub fn normal_across(
+/// The index of the first tool with another axis than the first.
+pub fn common_normal(
     base_from_tool: impl IntoIterator<Item = Isometry>,
 ) -> Result<Unit<Vector3<f64>>, usize> {
     let mut axes = base_from_tool.into_iter().map(|pose| pose * Vector3::z_axis());
@@ -60,7 +60,7 @@ impl Plane {
         Unit::new_unchecked(self.base_from_part * Vector3::z())
     }
 
-    /// Tool axis: against the normal.
+    /// Tool axis: opposite to the normal.
     pub fn tool_axis(&self) -> Unit<Vector3<f64>> {
         -self.normal()
     }
@@ -78,13 +78,13 @@ impl Plane {
         )
     }
 
-    /// A base vector (a deviation, say) told in the part: in-plane x and y, then along the normal.
+    /// A base vector (for example a deviation) in the part frame: in-plane x and y, then along the normal.
     pub fn in_part(&self, vector: &Vector3<f64>) -> Vector3<f64> {
         self.base_from_part.inverse_transform_vector(vector)
     }
 }
 
-/// A deviation seen from the plane, m.
+/// A deviation split on a plane, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Split {
     /// Length of the whole deviation.
@@ -120,9 +120,9 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// The grid of pitch `step` (m) that reaches as far as it can within `half_size` (m, part x and y).
+    /// The largest grid of pitch `step` (m) within `half_size` (m, part x and y).
     pub fn within(half_size: [f64; 2], step: f64) -> Grid {
-        // A hair of slack, so that 0.4 / 0.1 gives four steps and not three.
+        // A small tolerance, so that 0.4 / 0.1 gives four steps and not three.
         let points = |half: f64| 2 * (half / step + 1e-9).floor() as usize + 1;
         Grid {
             columns: points(half_size[0]),
@@ -131,7 +131,7 @@ impl Grid {
         }
     }
 
-    /// How many points.
+    /// Number of points.
     pub fn len(&self) -> usize {
         self.columns * self.rows
     }
@@ -161,7 +161,7 @@ mod tests {
     use std::f64::consts::FRAC_PI_2;
 
     #[test]
-    fn tools_that_point_one_way_stand_across_one_plane() {
+    fn tools_with_one_axis_are_perpendicular_to_one_plane() {
         let plane = Plane::tilted(Point3::new(1.0, 0.0, 0.5), 0.7);
         let poses = |spins: &[f64]| -> Vec<Isometry> {
             spins
@@ -169,12 +169,12 @@ mod tests {
                 .map(|spin| plane.base_from_tool(Point2::new(*spin, -0.1), *spin))
                 .collect()
         };
-        let normal = normal_across(poses(&[0.0, 1.0, -2.5])).unwrap();
+        let normal = common_normal(poses(&[0.0, 1.0, -2.5])).unwrap();
         assert!((normal.into_inner() - plane.normal().into_inner()).norm() < 1e-15);
         let mut turned = poses(&[0.0, 1.0, 2.0]);
         turned[1] = Plane::tilted(Point3::origin(), 0.7 + 1e-6).base_from_tool(Point2::origin(), 0.0);
-        assert_eq!(normal_across(turned), Err(1));
-        assert_eq!(normal_across([]), Ok(Vector3::z_axis()));
+        assert_eq!(common_normal(turned), Err(1));
+        assert_eq!(common_normal([]), Ok(Vector3::z_axis()));
     }
 
     #[test]
@@ -197,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn grid_is_symmetric_and_counts_both_edges() {
+    fn grid_is_symmetric_and_includes_both_edges() {
         let grid = Grid::within([0.4, 0.2], 0.1);
         assert_eq!((grid.columns, grid.rows), (9, 5));
         assert!((grid.point(0) - Point2::new(-0.4, -0.2)).norm() < 1e-15);

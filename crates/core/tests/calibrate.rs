@@ -1,11 +1,14 @@
-//! Geometry from measured poses: known errors are found again, what cannot be told apart is named.
+//! Kinematic calibration from measured poses: known errors are recovered, parameters that are not identifiable are
+//! reported.
 
 // A panic is how a test says that its claim is false; helper functions too.
 #![allow(missing_docs, clippy::unwrap_used)]
 
 mod arms;
 
-use armill_core::calibrate::{Asked, Calibrated, MeasuredPose, Place, Prior, Question, Refusal, fit};
+use armill_core::calibrate::{
+    Calibrated, MeasuredPose, ParameterLocation, ParameterSet, Prior, Question, Refusal, fit,
+};
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::{UnitQuaternion, Vector3};
 use armill_core::robot::forward::forward;
@@ -60,7 +63,7 @@ fn measured(robot: &Robot, count: usize, turns: bool, stream: &mut arms::Stream)
         .collect()
 }
 
-fn question(requested: Asked) -> Question {
+fn question(requested: ParameterSet) -> Question {
     Question {
         requested,
         flange_from_point: Isometry::translation(0.0, 0.0, 0.1),
@@ -89,15 +92,15 @@ fn a_bent_arm_is_predicted_where_it_was_not_measured_to_rounding() {
     ] {
         for turns in [false, true] {
             let real = bent(&robot, &mut stream);
-            let [train, held_out] = [60, 40].map(|count| measured(&real, count, turns, &mut stream));
-            let plain = fit(&robot, &train, &question(Asked::BaseAndTool)).unwrap();
-            let found = fit(&robot, &train, &question(Asked::Geometry)).unwrap();
+            let [train, validation] = [60, 40].map(|count| measured(&real, count, turns, &mut stream));
+            let plain = fit(&robot, &train, &question(ParameterSet::BaseAndTool)).unwrap();
+            let found = fit(&robot, &train, &question(ParameterSet::Geometry)).unwrap();
             // Mistakes of a thousandth are millimetres before; the selection leaves at most the product of two of them.
-            assert!(largest(&plain, &robot, &held_out) > 1e-3, "{}", robot.name());
-            let after = largest(&found, &robot, &held_out);
+            assert!(largest(&plain, &robot, &validation) > 1e-3, "{}", robot.name());
+            let after = largest(&found, &robot, &validation);
             assert!(after < 6e-6, "{} {turns}: {after}", robot.name());
             let angle = found
-                .errors_of(&robot, &held_out)
+                .errors_of(&robot, &validation)
                 .unwrap()
                 .of_turn()
                 .map_or(0.0, |turn| turn.largest);
@@ -111,7 +114,7 @@ fn the_calibrated_chain_reaches_what_the_fit_predicts() {
     let mut stream = arms::Stream(6);
     let robot = arms::other::ur10();
     let train = measured(&bent(&robot, &mut stream), 60, true, &mut stream);
-    let found = fit(&robot, &train, &question(Asked::Geometry)).unwrap();
+    let found = fit(&robot, &train, &question(ParameterSet::Geometry)).unwrap();
     let calibrated = found.bare_robot(&robot).unwrap();
     for (pose, error) in train.iter().zip(&found.errors.position) {
         let point = found.tracker_from_base * flange(&calibrated, &pose.joints) * found.flange_from_point;
@@ -126,8 +129,8 @@ fn six_turning_joints_have_four_errors_each_and_base_and_tool_whatever_the_arm()
     let robot = bent(&arms::mh12(), &mut stream);
     for (turns, count) in [(true, 30), (false, 27)] {
         let train = measured(&robot, 200, turns, &mut stream);
-        let found = fit(&robot, &train, &question(Asked::Geometry)).unwrap();
-        // Axes that are parallel within 2 mrad: one length is still told by less than a thousandth of its effect.
+        let found = fit(&robot, &train, &question(ParameterSet::Geometry)).unwrap();
+        // Axes that are parallel within 2 mrad: one length is still identified by less than a thousandth of its effect.
         let kept = found.estimates.len();
         assert!((count - 1..=count).contains(&kept), "{turns}: {kept}");
         assert_eq!(kept + found.redundant.len(), found.unknowns.len());
@@ -141,18 +144,18 @@ fn the_zero_of_the_first_joint_is_the_turn_of_the_base() {
     let found = fit(
         &robot,
         &measured(&robot, 40, true, &mut stream),
-        &question(Asked::Zeros),
+        &question(ParameterSet::Zeros),
     )
     .unwrap();
     let first = &found.redundant[0];
-    assert_eq!(found.unknowns[first.unknown].place, Place::After(0));
+    assert_eq!(found.unknowns[first.unknown].place, ParameterLocation::After(0));
     assert_eq!(
         first
             .same_as
             .iter()
             .map(|k| found.unknowns[*k].place)
             .collect::<Vec<_>>(),
-        [Place::Base]
+        [ParameterLocation::Base]
     );
     assert_eq!(found.redundant.len(), 1);
 }
@@ -175,9 +178,9 @@ fn wrong_zeros_are_found_within_their_uncertainties() {
             pose.position +=
                 Vector3::from_fn(|_, _| 5e-5 * (0..12).map(|_| stream.between(-0.5, 0.5)).sum::<f64>());
         }
-        let found = fit(&robot, &poses, &question(Asked::Zeros)).unwrap();
+        let found = fit(&robot, &poses, &question(ParameterSet::Zeros)).unwrap();
         for estimate in &found.estimates {
-            if let Place::After(joint) = estimate.unknown.place {
+            if let ParameterLocation::After(joint) = estimate.unknown.place {
                 all += 1;
                 inside +=
                     usize::from((estimate.value - wrong[joint]).abs() < 1.96 * estimate.standard_uncertainty);
@@ -208,7 +211,8 @@ fn turning_and_shifting_the_tracker_changes_nothing_but_the_frame() {
                 .map(|rotation| moved_from_tracker.rotation * rotation),
         })
         .collect();
-    let [here, there] = [&train, &moved].map(|poses| fit(&robot, poses, &question(Asked::Geometry)).unwrap());
+    let [here, there] =
+        [&train, &moved].map(|poses| fit(&robot, poses, &question(ParameterSet::Geometry)).unwrap());
     let back = moved_from_tracker.inverse() * there.tracker_from_base;
     assert!((back.to_homogeneous() - here.tracker_from_base.to_homogeneous()).norm() < 1e-8);
     for (a, b) in here.estimates.iter().zip(&there.estimates) {
@@ -217,11 +221,11 @@ fn turning_and_shifting_the_tracker_changes_nothing_but_the_frame() {
 }
 
 #[test]
-fn what_cannot_be_a_measurement_is_refused() {
+fn invalid_measurements_are_refused() {
     let robot = arms::mh12();
     let mut stream = arms::Stream(10);
     let poses = measured(&robot, 12, true, &mut stream);
-    let requested = question(Asked::Geometry);
+    let requested = question(ParameterSet::Geometry);
     assert!(matches!(
         fit(&robot, &poses[..3], &requested),
         Err(Refusal::TooFew { poses: 3, .. })
@@ -252,18 +256,18 @@ fn what_cannot_be_a_measurement_is_refused() {
 }
 
 #[test]
-fn an_arm_that_stood_still_tells_nothing_of_itself() {
+fn an_arm_that_did_not_move_identifies_nothing() {
     let robot = arms::mh12();
     let pose = measured(&robot, 1, false, &mut arms::Stream(3)).remove(0);
-    let found = fit(&robot, &vec![pose; 20], &question(Asked::Geometry)).unwrap();
+    let found = fit(&robot, &vec![pose; 20], &question(ParameterSet::Geometry)).unwrap();
     assert_eq!(found.estimates.len(), 3);
     assert!(found.errors.of_position().unwrap().largest < 1e-12);
 }
 
-fn evaluation(length: f64, angle: f64) -> Question {
+fn with_prior(length: f64, angle: f64) -> Question {
     Question {
         prior: Some(Prior { length, angle }),
-        ..question(Asked::Geometry)
+        ..question(ParameterSet::Geometry)
     }
 }
 
@@ -285,25 +289,25 @@ fn rough(
 }
 
 #[test]
-fn a_wide_prior_changes_nothing_and_a_narrow_one_keeps_the_drawing() {
+fn a_wide_prior_changes_nothing_and_a_narrow_one_keeps_the_nominal_values() {
     let mut stream = arms::Stream(31);
     let robot = arms::other::ur10();
     let poses = rough(&bent(&robot, &mut stream), 80, [1e-4, 0.0], &mut stream);
-    let free = fit(&robot, &poses, &question(Asked::Geometry)).unwrap();
-    let wide = fit(&robot, &poses, &evaluation(1e3, 1e3)).unwrap();
-    assert_eq!(free.given, free.estimates.len() as f64);
-    assert!((wide.given - free.given).abs() < 1e-6);
+    let free = fit(&robot, &poses, &question(ParameterSet::Geometry)).unwrap();
+    let wide = fit(&robot, &poses, &with_prior(1e3, 1e3)).unwrap();
+    assert_eq!(free.effective_parameters, free.estimates.len() as f64);
+    assert!((wide.effective_parameters - free.effective_parameters).abs() < 1e-6);
     for (a, b) in free.estimates.iter().zip(&wide.estimates) {
         assert!((a.value - b.value).abs() < 1e-9, "{:?}", a.unknown);
         let ratio = a.standard_uncertainty / b.standard_uncertainty;
         assert!((ratio - 1.0).abs() < 1e-6, "{:?} {ratio}", a.unknown);
     }
-    let narrow = fit(&robot, &poses, &evaluation(1e-9, 1e-9)).unwrap();
-    let plain = fit(&robot, &poses, &question(Asked::BaseAndTool)).unwrap();
+    let narrow = fit(&robot, &poses, &with_prior(1e-9, 1e-9)).unwrap();
+    let plain = fit(&robot, &poses, &question(ParameterSet::BaseAndTool)).unwrap();
     assert!(
-        (narrow.given - plain.estimates.len() as f64).abs() < 1e-3,
+        (narrow.effective_parameters - plain.estimates.len() as f64).abs() < 1e-3,
         "{}",
-        narrow.given
+        narrow.effective_parameters
     );
     for (a, b) in narrow.errors.position.iter().zip(&plain.errors.position) {
         assert!((a - b).norm() < 1e-7);
@@ -311,7 +315,7 @@ fn a_wide_prior_changes_nothing_and_a_narrow_one_keeps_the_drawing() {
     let of_chain = narrow
         .estimates
         .iter()
-        .filter(|one| matches!(one.unknown.place, Place::After(_)));
+        .filter(|one| matches!(one.unknown.place, ParameterLocation::After(_)));
     assert!(of_chain.clone().count() > 10);
     for one in of_chain {
         // Nothing is known but what was known before.
@@ -324,17 +328,17 @@ fn the_scatter_is_that_of_the_readings_that_the_unknowns_leave() {
     let mut stream = arms::Stream(33);
     let robot = arms::other::ur10();
     let poses = rough(&bent(&robot, &mut stream), 300, [1e-4, 0.0], &mut stream);
-    let found = fit(&robot, &poses, &evaluation(1e-3, 2e-3)).unwrap();
+    let found = fit(&robot, &poses, &with_prior(1e-3, 2e-3)).unwrap();
     let squares: f64 = found.errors.position.iter().map(Vector3::norm_squared).sum();
-    let s = (squares / (900.0 - found.given)).sqrt();
+    let s = (squares / (900.0 - found.effective_parameters)).sqrt();
     assert!((found.standard_deviation / s - 1.0).abs() < 1e-9);
-    // 870 degrees of freedom tell a standard deviation to 2.4 %.
+    // 870 degrees of freedom give a standard deviation to 2.4 %.
     assert!((s / 1e-4 - 1.0).abs() < 0.08, "{s}");
-    assert!(found.given < found.estimates.len() as f64 && found.given > 9.0);
+    assert!(found.effective_parameters < found.estimates.len() as f64 && found.effective_parameters > 9.0);
 }
 
 #[test]
-fn few_poses_with_a_prior_meet_others_better_than_without() {
+fn with_few_poses_a_prior_predicts_others_better_than_none() {
     // Twelve poses have 36 readings for 25 unknowns.
     let mut stream = arms::Stream(35);
     let robot = arms::other::ur10();
@@ -350,28 +354,31 @@ fn few_poses_with_a_prior_meet_others_better_than_without() {
         };
         // Small motions of `bent` are even to 1 mm and 2 mrad: 0.58 of that is their standard deviation.
         let requested = [
-            question(Asked::BaseAndTool),
-            question(Asked::Geometry),
-            evaluation(0.58e-3, 1.16e-3),
+            question(ParameterSet::BaseAndTool),
+            question(ParameterSet::Geometry),
+            with_prior(0.58e-3, 1.16e-3),
         ];
         for (sum, question) in sums.iter_mut().zip(&requested) {
             *sum += of(question) / 10.0;
         }
     }
-    let [plain, free, evaluation] = sums;
-    assert!(evaluation < 0.9 * free && evaluation < 0.5 * plain, "{plain} {free} {evaluation}");
+    let [plain, free, prior] = sums;
+    assert!(
+        prior < 0.9 * free && prior < 0.5 * plain,
+        "{plain} {free} {prior}"
+    );
 }
 
 #[test]
-fn a_prior_that_holds_nothing_or_all_is_refused() {
+fn a_prior_of_zero_or_infinite_width_is_refused() {
     let mut stream = arms::Stream(37);
     let robot = arms::other::ur10();
     let poses = measured(&robot, 40, false, &mut stream);
     for (length, angle) in [(0.0, 1.0), (1.0, -1.0), (f64::NAN, 1.0), (1.0, f64::INFINITY)] {
-        let refused = fit(&robot, &poses, &evaluation(length, angle)).unwrap_err();
+        let refused = fit(&robot, &poses, &with_prior(length, angle)).unwrap_err();
         assert!(matches!(refused, Refusal::Prior(_)), "{refused}");
     }
-    // Perfect poses leave no scatter, and nothing is held.
-    let found = fit(&robot, &poses, &evaluation(1e-3, 1e-3)).unwrap();
+    // Perfect poses leave no scatter, and no parameter is fixed.
+    let found = fit(&robot, &poses, &with_prior(1e-3, 1e-3)).unwrap();
     assert!(found.estimates.iter().all(|one| one.value.abs() < 1e-9));
 }

@@ -1,4 +1,4 @@
-//! What must hold of compliance and deviation whatever the arm, the posture and the load.
+//! Properties of compliance and deviation for any arm, posture and load.
 
 // A panic is how a test says that its claim is false; helper functions too.
 #![allow(clippy::unwrap_used)]
@@ -28,7 +28,7 @@ fn wrench() -> impl Strategy<Value = Wrench> {
     })
 }
 
-fn stand(robot: &Robot, unit: &[f64; 6]) -> Posture {
+fn random_posture(robot: &Robot, unit: &[f64; 6]) -> Posture {
     let q = arms::positions(robot, unit);
     posture_at(robot, &q, &arms::bent_tool())
 }
@@ -46,7 +46,7 @@ proptest! {
     #[test]
     fn compliance_is_symmetric_and_positive_semidefinite((arm, unit) in arm()) {
         let robot = &arms::ALL[arm];
-        let c = compliance(robot, &stand(robot, &unit));
+        let c = compliance(robot, &random_posture(robot, &unit));
         prop_assert!((c - c.transpose()).norm() <= ROUNDING * c.norm());
         let least = c.symmetric_eigenvalues().min();
         prop_assert!(least > -ROUNDING * c.norm(), "eigenvalue {least}");
@@ -55,7 +55,7 @@ proptest! {
     #[test]
     fn deviation_is_compliance_times_wrench((arm, unit) in arm(), load in wrench()) {
         let robot = &arms::ALL[arm];
-        let posture = stand(robot, &unit);
+        let posture = random_posture(robot, &unit);
         let given = predict(&posture, robot.compliance().unwrap(), &load).twist.to_vector();
         let c = compliance(robot, &posture);
         let product = c * load.to_vector();
@@ -65,7 +65,7 @@ proptest! {
     #[test]
     fn deviation_is_linear_in_force_and_in_compliance((arm, unit) in arm(), load in wrench(), factor in 0.1..10.0_f64) {
         let robot = &arms::ALL[arm];
-        let (posture, joints) = (stand(robot, &unit), robot.compliance().unwrap());
+        let (posture, joints) = (random_posture(robot, &unit), robot.compliance().unwrap());
         let once = predict(&posture, joints, &load);
         let scaled = load * factor;
         let softer: Vec<_> = joints
@@ -82,7 +82,7 @@ proptest! {
     #[test]
     fn shares_of_the_joints_add_up_to_the_deviation((arm, unit) in arm(), load in wrench()) {
         let robot = &arms::ALL[arm];
-        let given = predict(&stand(robot, &unit), robot.compliance().unwrap(), &load);
+        let given = predict(&random_posture(robot, &unit), robot.compliance().unwrap(), &load);
         let sum: armill_core::spatial::Twist = given.shares.iter().copied().sum();
         prop_assert_eq!(sum, given.twist);
     }
@@ -90,7 +90,7 @@ proptest! {
     #[test]
     fn uncertainty_agrees_with_moving_each_compliance_by_its_own((arm, unit) in arm(), load in wrench()) {
         let robot = &arms::ALL[arm];
-        let (posture, joints) = (stand(robot, &unit), robot.compliance().unwrap());
+        let (posture, joints) = (random_posture(robot, &unit), robot.compliance().unwrap());
         let given = predict(&posture, joints, &load);
         let mut variance = Vector3::zeros();
         for i in 0..joints.len() {
@@ -108,7 +108,7 @@ proptest! {
     #[test]
     fn compliance_follows_the_base_frame((arm, unit) in arm(), angles in prop::array::uniform3(-3.0..3.0_f64)) {
         let robot = &arms::ALL[arm];
-        let here = stand(robot, &unit);
+        let here = random_posture(robot, &unit);
         let shift = Vector3::new(0.7, -1.1, 0.4);
         let mut motions = vec![
             Motion::Along(Axis::X, Amount::Constant(shift.x)),
@@ -135,7 +135,7 @@ proptest! {
     #[test]
     fn the_wrist_flip_leaves_the_compliance_unchanged((arm, unit) in arm()) {
         let robot = &arms::ALL[arm];
-        let here = stand(robot, &unit);
+        let here = random_posture(robot, &unit);
         prop_assume!(here.singularity.is_none());
         let tool = arms::bent_tool();
         let found = postures(robot, &here.base_from_tool, ToolAt::on(&tool)).unwrap();
@@ -149,7 +149,7 @@ proptest! {
     #[test]
     fn a_rigid_arm_with_one_soft_joint_turns_about_that_joint((arm, unit) in arm(), soft in 0..6usize, load in wrench()) {
         let robot = &arms::ALL[arm];
-        let posture = stand(robot, &unit);
+        let posture = random_posture(robot, &unit);
         let mut joints = robot.compliance().unwrap().to_vec();
         for (i, joint) in joints.iter_mut().enumerate() {
             joint.value = if i == soft { 1e-6 } else { 0.0 };
@@ -183,7 +183,7 @@ fn principal_compliances_turn_with_the_base_and_add_up_to_the_trace() {
         assert!((sum - block.trace()).abs() < ROUNDING * block.norm());
         for (a, b) in here.iter().zip(&there) {
             assert!((a.value - b.value).abs() < ROUNDING * block.norm());
-            // The sign of a direction has no meaning; values of some arms lie near to each other.
+            // The sign of a direction has no meaning; values of some arms are close to each other.
             let along = (turn * a.direction).dot(&b.direction).abs();
             let alone = here
                 .iter()
@@ -230,7 +230,7 @@ fn what_moves_nothing_in_the_plane_has_no_bound() {
 }
 
 #[test]
-fn the_force_block_tells_the_displacement_of_a_pure_force() {
+fn the_force_block_gives_the_displacement_of_a_pure_force() {
     let mut stream = arms::Stream(92);
     for robot in arms::ALL.iter() {
         let posture = posture_at(robot, &stream.joints(robot), &arms::bent_tool());

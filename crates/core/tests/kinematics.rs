@@ -66,7 +66,7 @@ proptest! {
     }
 
     #[test]
-    fn every_posture_holds_the_tool_where_it_was_asked(arm in 0..arms::ALL.len(), unit in six_numbers()) {
+    fn every_posture_reaches_the_requested_tool_pose(arm in 0..arms::ALL.len(), unit in six_numbers()) {
         let robot = &arms::ALL[arm];
         let tool = arms::bent_tool();
         let target = posture_at(robot, &arms::positions(robot, &unit), &tool).base_from_tool;

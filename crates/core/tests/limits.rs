@@ -1,5 +1,5 @@
-//! What a program permits, of arms that differ in one thing from each other.
-// A panic is how a test says that its claim is false; functions beside tests too.
+//! Process limits of a program, for arms that differ in one parameter.
+// A panic is how a test reports a failed assertion; also in functions next to the tests.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 mod arms;
@@ -9,7 +9,9 @@ use std::sync::atomic::AtomicBool;
 
 use armill_core::frame::Isometry;
 use armill_core::kernel::{BranchChoice, Question};
-use armill_core::load::{Cutter, CuttingLaw, InputUncertainty, Greatest, Immersion, Mechanistic, PathLoad};
+use armill_core::load::{
+    Cutter, CuttingLaw, GreatestForce, Immersion, InputUncertainty, Mechanistic, PathLoad,
+};
 use armill_core::map::{Counts, Permitted, ProgramLimits, along_path, plane_map, program_limits};
 use armill_core::nalgebra::{Point3, Vector3};
 use armill_core::path::{
@@ -69,11 +71,11 @@ fn cutting() -> Cutting {
         immersion: Immersion::Slot,
         feed: None,
         spindle: Some(8000.0 * TAU / 60.0),
-        greatest: Greatest::LeftOut,
+        greatest: GreatestForce::LeftOut,
     }
 }
 
-/// What a program of such `operations` permits an arm whose drives yield by these `compliances`.
+/// Limits of a program of such `operations` for an arm with these drive `compliances`.
 fn limits(
     compliances: &[JointCompliance],
     operations: &[(usize, Operation)],
@@ -105,11 +107,11 @@ fn limits(
 }
 
 fn softer(robot: &Robot, times: f64) -> Vec<JointCompliance> {
-    let yields = |joint: &JointCompliance| JointCompliance {
+    let scaled = |joint: &JointCompliance| JointCompliance {
         value: joint.value * times,
         ..*joint
     };
-    robot.compliance().unwrap().iter().map(yields).collect()
+    robot.compliance().unwrap().iter().map(scaled).collect()
 }
 
 fn up_to(permitted: Permitted) -> f64 {
@@ -120,7 +122,7 @@ fn up_to(permitted: Permitted) -> f64 {
 }
 
 #[test]
-fn an_arm_that_yields_twice_as_much_permits_half_the_force_and_less_of_everything() {
+fn an_arm_twice_as_compliant_permits_half_the_force_and_less_of_everything() {
     let robot = arms::mh12();
     let [stiff, soft] = [1.0, 2.0].map(|times| limits(&softer(&robot, times), &[], Watch::NONE).unwrap());
     assert_eq!(stiff.points.len(), soft.points.len());
@@ -135,7 +137,8 @@ fn an_arm_that_yields_twice_as_much_permits_half_the_force_and_less_of_everythin
             (None, None),
             "a slot is as wide as the tool"
         );
-        // No edge forces: the force goes with the feed, and but for what the tool strays so does the deviation.
+        // No edge forces: the force is proportional to the feed, and apart from the force-deflection coupling so is the
+        // deviation.
         let ratio = up_to(of_stiff.feed_per_tooth) / up_to(of_soft.feed_per_tooth);
         assert!((ratio - 2.0).abs() < 0.1, "{ratio}");
         assert!(up_to(of_stiff.depth) > up_to(of_soft.depth));
@@ -143,7 +146,7 @@ fn an_arm_that_yields_twice_as_much_permits_half_the_force_and_less_of_everythin
 }
 
 #[test]
-fn a_stiff_arm_permits_all_that_is_looked_at() {
+fn a_stiff_arm_permits_all_examined_values() {
     let found = limits(&softer(&arms::mh12(), 1e-6), &[], Watch::NONE).unwrap();
     for point in &found.points {
         let cut = point.cut.unwrap();
@@ -169,8 +172,8 @@ fn a_thinner_tool_on_a_part_of_the_way_permits_the_same_depth_of_a_slot() {
     for (both, wide) in found.points.iter().zip(&plain.points) {
         assert_eq!(both.index, wide.index);
         let [both, wide] = [both.cut.unwrap(), wide.cut.unwrap()];
-        // Half the width is half the power at half the lever: the mean force of a slot does not know its width. The scan
-        // begins elsewhere, and tells a thousandth.
+        // Half the width is half the power at half the lever: the mean force of a slot does not know its width. The
+        // scan begins elsewhere, and changes a thousandth.
         let ratio = up_to(both.depth) / up_to(wide.depth);
         assert!((ratio - 1.0).abs() < 2e-3, "{both:?} {wide:?}");
         let ratio = up_to(both.feed_per_tooth) / up_to(wide.feed_per_tooth);
@@ -181,7 +184,7 @@ fn a_thinner_tool_on_a_part_of_the_way_permits_the_same_depth_of_a_slot() {
 }
 
 #[test]
-fn asking_for_limits_can_be_stopped() {
+fn the_computation_of_limits_can_be_cancelled() {
     let cancel = AtomicBool::new(true);
     let watch = Watch {
         cancel: &cancel,
@@ -193,7 +196,7 @@ fn asking_for_limits_can_be_stopped() {
 
 #[test]
 #[should_panic(expected = "a load for each point of the track")]
-fn a_load_for_fewer_points_than_the_track_has_is_no_load() {
+fn a_load_for_fewer_points_than_the_track_is_refused() {
     let (robot, track, tool) = (arms::mh12(), track(), arms::bent_tool());
     let question = Question {
         arm: Arm {
@@ -237,14 +240,14 @@ fn counts_of_a_plane_that_is_partly_out_of_reach_add_up_to_its_points() {
         choice: FRONT,
     };
     let map = plane_map(&question, plane, grid, Watch::NONE).unwrap();
-    let evaluation = map.answers.evaluation().count();
-    assert!(evaluation > 100 && evaluation < grid.len() - 100, "{evaluation}");
+    let reached = map.answers.evaluations().count();
+    assert!(reached > 100 && reached < grid.len() - 100, "{reached}");
     let worst = map.answers.worst().unwrap().1.in_plane;
     let mut before = 0;
     for part in [0.0, 0.2, 0.5, 0.9, 1.0] {
         let counts = Counts::of(&map.answers, part * worst);
         assert_eq!(counts.points(), grid.len());
-        assert_eq!(counts.within + counts.above_tolerance, evaluation);
+        assert_eq!(counts.within + counts.above_tolerance, reached);
         assert!(counts.within >= before && counts.within_and_inside_joint_limits <= counts.within);
         assert!((counts.fraction_within() - counts.within as f64 / grid.len() as f64).abs() < 1e-15);
         // Of points within a region at most four cells each.
@@ -252,6 +255,6 @@ fn counts_of_a_plane_that_is_partly_out_of_reach_add_up_to_its_points() {
         assert!(area <= counts.within as f64 * 4.0 * grid.step.powi(2));
         before = counts.within;
     }
-    assert_eq!(before, evaluation);
+    assert_eq!(before, reached);
     assert_eq!(Counts::default().fraction_within(), 0.0);
 }

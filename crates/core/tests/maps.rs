@@ -32,7 +32,12 @@ fn cases() -> Vec<Wrench> {
     ]
 }
 
-fn analysis<T>(robot: &Robot, plane: &Plane, choice: BranchChoice, then: impl FnOnce(&Question<'_>) -> T) -> T {
+fn analysis<T>(
+    robot: &Robot,
+    plane: &Plane,
+    choice: BranchChoice,
+    then: impl FnOnce(&Question<'_>) -> T,
+) -> T {
     let (tool, cases) = (Isometry::translation(0.0, 0.0, 0.1), cases());
     then(&Question {
         arm: Arm {
@@ -65,7 +70,7 @@ fn normals(draw: usize) -> [f64; 6] {
 }
 
 #[test]
-fn probability_and_sure_region_are_those_of_arms_with_drawn_compliances() {
+fn probability_and_robust_region_agree_with_arms_of_random_compliances() {
     const DRAWS: usize = 2000;
     let [robot, ..] = arms::all();
     let plane = Plane::tilted(Point3::new(1.0, 0.1, 0.9), 0.5);
@@ -97,40 +102,42 @@ fn probability_and_sure_region_are_those_of_arms_with_drawn_compliances() {
                 value: (c.value + n * c.standard_uncertainty).max(0.0),
                 standard_uncertainty: 0.0,
             });
-            for (index, evaluation) in map_of(&compliances.collect::<Vec<_>>()).answers.evaluation() {
+            for (index, evaluation) in map_of(&compliances.collect::<Vec<_>>()).answers.evaluations() {
                 within[index] += usize::from(evaluation.in_plane <= limit);
             }
         }
-        for (index, evaluation) in map.answers.evaluation() {
+        for (index, evaluation) in map.answers.evaluations() {
             let counted = within[index] as f64 / DRAWS as f64;
             let given = probability_within(evaluation, limit);
             // Standard deviation of the count: at most 0.011. Other cases can only take away.
             let (least, most) = (given - if cases.len() == 1 { 0.03 } else { 0.15 }, given + 0.03);
             assert!(
                 (least..most).contains(&counted),
-                "point {index}: {counted} counted, {given} told"
+                "point {index}: {counted} counted, {given} reported"
             );
         }
         let certainty = map.certainty(limit);
-        assert!(certainty.fraction_surely < certainty.expected_fraction);
+        assert!(certainty.fraction_robust < certainty.expected_fraction);
         assert!(certainty.expected_fraction < certainty.fraction_possibly);
-        assert!(certainty.surely.area < certainty.possibly.area);
+        assert!(certainty.robust.area < certainty.possibly.area);
     }
 }
 
 #[test]
-fn doubt_about_load_and_tool_adds_what_a_wrong_load_and_a_wrong_tool_would_do() {
+fn uncertainty_of_load_and_tool_agrees_with_changed_loads_and_tools() {
     let [robot, ..] = arms::all();
-    let sure = |c: &JointCompliance| JointCompliance {
+    let exact = |c: &JointCompliance| JointCompliance {
         standard_uncertainty: 0.0,
         ..*c
     };
-    let compliance: Vec<JointCompliance> = robot.compliance().unwrap().iter().map(sure).collect();
+    let compliance: Vec<JointCompliance> = robot.compliance().unwrap().iter().map(exact).collect();
     let plane = Plane::tilted(Point3::new(1.0, 0.1, 0.9), 0.5);
     let tool = Isometry::translation(0.0, 0.0, 0.1);
     let one = &cases()[..1];
     let (part, u) = (plane.base_from_part, [0.4, 0.3, 0.2]);
-    let components = InputUncertainty::NONE.of_components(u, LoadFrame::Part, &part).unwrap();
+    let components = InputUncertainty::NONE
+        .of_components(u, LoadFrame::Part, &part)
+        .unwrap();
     let uncertainties = [
         InputUncertainty {
             relative: 0.1,
@@ -164,14 +171,14 @@ fn doubt_about_load_and_tool_adds_what_a_wrong_load_and_a_wrong_tool_would_do() 
                 choice: branch("front elbow-up"),
             };
             let map = plane_map(&question, plane, Grid::within([0.3, 0.3], 0.1), Watch::NONE).unwrap();
-            let answers = map.answers.evaluation().map(|(index, evaluation)| {
+            let answers = map.answers.evaluations().map(|(index, evaluation)| {
                 let q = map.answers.joints_at(index).to_vec();
                 let posture = posture_at(&robot, &q, &tool);
                 let c = compliance_at_tool(&posture.screws, &compliance);
                 let deviation = predict(&posture, &compliance, &one[0]).twist.linear;
                 let across = deviation - plane.normal().into_inner() * deviation.dot(&plane.normal());
                 let along = across.normalize();
-                // A load ten percent larger; a force off along each axis of the part; a tool longer by 0.1 mm, held by the
+                // A load ten percent larger; a force off along each axis of the part; a tool longer by 0.1 mm, in the
                 // same joints.
                 let by_size = 0.1 * across.norm();
                 let by_force: f64 = (0..3)
@@ -191,7 +198,10 @@ fn doubt_about_load_and_tool_adds_what_a_wrong_load_and_a_wrong_tool_would_do() 
                 ];
                 (evaluation.in_plane_uncertainty, expected)
             });
-            let which = uncertainties.iter().position(|other| other == uncertainty).unwrap();
+            let which = uncertainties
+                .iter()
+                .position(|other| other == uncertainty)
+                .unwrap();
             answers
                 .map(|(u, expected)| {
                     // Differences of deviations of 1e-4 m.
@@ -206,20 +216,21 @@ fn doubt_about_load_and_tool_adds_what_a_wrong_load_and_a_wrong_tool_would_do() 
         })
         .collect();
     assert!(
-        given.iter()
+        given
+            .iter()
             .all(|of_one| of_one.len() > 20 && of_one.iter().all(|u| *u > 0.0))
     );
 }
 
 #[test]
-fn every_point_of_a_map_is_what_predict_says_of_its_posture() {
+fn every_point_of_a_map_agrees_with_predict_for_its_posture() {
     for robot in arms::all() {
         let plane = Plane::tilted(Point3::new(1.0, 0.1, 0.9), 0.5);
         let map = analysis(&robot, &plane, branch("front elbow-up"), |question| {
             plane_map(question, plane, Grid::within([0.4, 0.3], 0.05), Watch::NONE).unwrap()
         });
         let tool = Isometry::translation(0.0, 0.0, 0.1);
-        for (index, evaluation) in map.answers.evaluation() {
+        for (index, evaluation) in map.answers.evaluations() {
             let posture = posture_at(&robot, map.answers.joints_at(index), &tool);
             let given: Vec<_> = cases()
                 .iter()
@@ -231,19 +242,19 @@ fn every_point_of_a_map_is_what_predict_says_of_its_posture() {
                 .collect();
             let worst = splits.iter().map(|s| s.in_plane).fold(0.0, f64::max);
             assert!((evaluation.in_plane - worst).abs() < 1e-15, "{}", robot.name());
-            assert!((splits[evaluation.deciding_case].in_plane - worst).abs() < 1e-15);
+            assert!((splits[evaluation.worst_case].in_plane - worst).abs() < 1e-15);
             let full = splits.iter().map(|s| s.full).fold(0.0, f64::max);
             assert!((evaluation.full - full).abs() < 1e-15);
             let shares: f64 = map.answers.shares_at(index).iter().sum();
             assert!((shares - evaluation.in_plane).abs() < 1e-15);
             // Uncertainty along the deviation that decides.
-            let deviation = given[evaluation.deciding_case].twist.linear;
+            let deviation = given[evaluation.worst_case].twist.linear;
             let in_plane = deviation - plane.normal().into_inner() * deviation.dot(&plane.normal());
             let along = in_plane.normalize();
-            let u = (along.transpose() * given[evaluation.deciding_case].covariance * along)[0].sqrt();
+            let u = (along.transpose() * given[evaluation.worst_case].covariance * along)[0].sqrt();
             assert!((u - evaluation.in_plane_uncertainty).abs() < 1e-15);
         }
-        assert!(map.answers.evaluation().count() > 50, "{}", robot.name());
+        assert!(map.answers.evaluations().count() > 50, "{}", robot.name());
     }
 }
 
@@ -272,7 +283,9 @@ fn best_is_the_least_of_all_branches_inside_limits() {
         };
         let least = inside.map(envelope).min_by(f64::total_cmp);
         match (point, least) {
-            (Ok(evaluation), Some(least)) => assert!((evaluation.in_plane - least).abs() < 1e-15 && evaluation.within_limits()),
+            (Ok(evaluation), Some(least)) => {
+                assert!((evaluation.in_plane - least).abs() < 1e-15 && evaluation.within_limits())
+            }
             (Err(_), None) => {}
             (point, least) => panic!("point {index}: {point:?} against {least:?}"),
         }
@@ -397,7 +410,7 @@ fn a_circle_under_constant_load_shifts_and_goes_out_of_round() {
 }
 
 #[test]
-fn a_steady_load_gives_the_same_deviation_whichever_way_it_is_worked_out() {
+fn a_steady_load_gives_the_same_deviation_in_both_computations() {
     let robot = arms::mh12();
     let plane = Plane::tilted(Point3::new(1.0, 0.0, 0.8), 0.3);
     let track = Track {
@@ -422,14 +435,14 @@ fn a_steady_load_gives_the_same_deviation_whichever_way_it_is_worked_out() {
     });
     assert_eq!((steady.share_count, of_each.share_count), (6, 0));
     // Four cases at once against seven unit loads put together: some tens of roundings.
-    for ((i, steady), (_, of_each)) in steady.evaluation().zip(of_each.evaluation()) {
+    for ((i, steady), (_, of_each)) in steady.evaluations().zip(of_each.evaluations()) {
         assert!(
             (steady.in_plane - of_each.in_plane).abs() < 1e-12 * steady.in_plane,
             "{i}"
         );
         assert_eq!(
-            (steady.name, steady.deciding_case),
-            (of_each.name, of_each.deciding_case)
+            (steady.name, steady.worst_case),
+            (of_each.name, of_each.worst_case)
         );
     }
     assert_eq!(steady.joints, of_each.joints);

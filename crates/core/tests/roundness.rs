@@ -1,4 +1,4 @@
-//! The four circles of a profile against all candidates there are, and what must not change them.
+//! The four reference circles of a profile against all candidates, and invariances.
 
 use std::f64::consts::{PI, TAU};
 
@@ -42,7 +42,7 @@ fn narrowest_by_trying_all(points: &[Point2<f64>]) -> f64 {
     centres.map(|c| width(points, &c)).fold(f64::MAX, f64::min)
 }
 
-/// The width of the narrowest strip between two lines: one of them holds two points.
+/// The width of the narrowest strip between two lines: one of them goes through two points.
 fn narrowest_strip(points: &[Point2<f64>]) -> f64 {
     let across = |[a, b]: [Point2<f64>; 2]| {
         let normal = Rotation2::new(PI / 2.0) * (b - a).normalize();
@@ -53,7 +53,7 @@ fn narrowest_strip(points: &[Point2<f64>]) -> f64 {
     pairs(points).into_iter().map(across).fold(f64::MAX, f64::min)
 }
 
-/// The smallest circle about two or three points that holds all.
+/// The smallest circle about two or three points that encloses all.
 fn smallest_by_trying_all(points: &[Point2<f64>]) -> f64 {
     let pairs = pairs(points);
     let middles = pairs
@@ -78,15 +78,15 @@ fn is_within(points: &[Point2<f64>], centre: &Point2<f64>) -> bool {
     angles.iter().zip(next).all(|(a, b)| b - a <= PI)
 }
 
-/// The largest circle without a point about a centre in the hull: through three points, or through two, about a point of a
-/// side of the hull. Told apart.
+/// The largest circle without a point about a centre in the hull: through three points, or through two, about a point
+/// of a side of the hull. Reported separately.
 fn largest_by_trying_all(points: &[Point2<f64>]) -> [f64; 2] {
     let pairs = pairs(points);
     let inner = |c: &Point2<f64>| nearest_and_farthest(points, c)[0];
     let through_three = pairs
         .iter()
         .flat_map(|[a, b]| points.iter().filter_map(move |c| equally_far([*a, *b], [*a, *c])));
-    let evaluation = through_three.filter(|c| is_within(points, c)).map(|c| inner(&c));
+    let three = through_three.filter(|c| is_within(points, c)).map(|c| inner(&c));
     let on_sides = pairs.iter().flat_map(|[a, b]| {
         let side = b - a;
         pairs.iter().filter_map(move |[c, d]| {
@@ -110,7 +110,7 @@ fn largest_by_trying_all(points: &[Point2<f64>]) -> [f64; 2] {
             })
         })
         .map(|c| inner(&c));
-    [evaluation.fold(0.0, f64::max), on_hull.fold(0.0, f64::max)]
+    [three.fold(0.0, f64::max), on_hull.fold(0.0, f64::max)]
 }
 
 /// Points about a circle of one metre, each off it by up to `noise`.
@@ -145,7 +145,7 @@ proptest! {
         let tried = narrowest_by_trying_all(&points);
         match profile.minimum_zone() {
             Ok(zone) => {
-                // What is found is good to rounding of the circles that are asked for.
+                // The result is accurate to rounding of the candidate circles.
                 let good = 1e-13 * profile.least_squares().radius.max(zone.outer).max(1.0);
                 prop_assert!((width(&points, &zone.centre) - zone.peak_to_valley()).abs() < good);
                 prop_assert!(zone.peak_to_valley() <= tried + good, "{} above {tried}", zone.peak_to_valley());
@@ -171,15 +171,15 @@ proptest! {
     #[test]
     fn no_candidate_makes_a_larger_circle_between(points in any_profile()) {
         let Ok(profile) = Profile::new(points.clone()) else { return Ok(()) };
-        let [evaluation, on_hull] = largest_by_trying_all(&points);
+        let [largest, on_hull] = largest_by_trying_all(&points);
         match profile.maximum_inscribed() {
             Ok(circle) => {
                 prop_assert!((nearest_and_farthest(&points, &circle.centre)[0] - circle.radius).abs() < 1e-14);
                 prop_assert!(is_within(&points, &circle.centre));
-                prop_assert!((circle.radius - evaluation).abs() < 1e-12, "{} not {evaluation}", circle.radius);
+                prop_assert!((circle.radius - largest).abs() < 1e-12, "{} not {largest}", circle.radius);
                 prop_assert!(on_hull < circle.radius + 1e-12);
             }
-            Err(RoundnessError::NotHeld) => prop_assert!(on_hull > evaluation - 1e-9, "{on_hull} {evaluation}"),
+            Err(RoundnessError::OneSided) => prop_assert!(on_hull > largest - 1e-9, "{on_hull} {largest}"),
             Err(RoundnessError::Open { gap_deg, .. }) => prop_assert!(gap_deg >= 179.0),
             Err(error) => prop_assert!(false, "{error}"),
         }
@@ -267,7 +267,7 @@ fn an_ellipse_has_circles_of_its_half_axes() {
 }
 
 #[test]
-fn three_points_lie_on_all_four_circles() {
+fn three_points_are_on_all_four_circles() {
     let three = vec![
         Point2::new(1.0, 0.0),
         Point2::new(-0.5, 0.8),
@@ -350,7 +350,8 @@ fn points_without_a_circle_are_refused_with_their_reason() {
 
 #[test]
 fn a_local_optimum_does_not_pass_for_the_largest_inscribed_circle() {
-    // Four points in, at 10, 170, 190 and 350 deg, hold one circle left and one right of the middle; the right is larger.
+    // Four points in, at 10, 170, 190 and 350 deg, limit one circle left and one right of the middle; the right is
+    // larger.
     let at = |i: i32| {
         let angle = f64::from(i * 5).to_radians();
         let waist = 3e-3 * (2.0 * angle).cos() - 1e-3 * (4.0 * angle).cos();
@@ -358,7 +359,7 @@ fn a_local_optimum_does_not_pass_for_the_largest_inscribed_circle() {
     };
     let points: Points = (0..72).map(at).collect();
     let circle = Profile::new(points.clone()).unwrap().maximum_inscribed().unwrap();
-    // By trying each pair that may hold it, on a fine grid of centres.
+    // By trying each pair that may limit it, on a fine grid of centres.
     let mut best = 0.0_f64;
     for i in -200..=200 {
         for j in -200..=200 {

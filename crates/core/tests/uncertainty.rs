@@ -1,7 +1,8 @@
-//! Is the uncertainty that is told what the deviation scatters by? Every input drawn at random, again and again.
+//! Compares the reported uncertainty with the scatter of the deviation for random inputs.
 //!
-//! Draws are normal where little is unknown, and log-normal where compliances are known to a factor only, for none is
-//! negative. Compared: the standard deviation of the in-plane deviation, which is the length of a vector and so not linear.
+//! Random values are normal for small uncertainties, and log-normal for compliances known only to a factor, because
+//! none is negative. Compared: the standard deviation of the in-plane deviation, which is the length of a vector and
+//! therefore not linear.
 
 // A panic is how a test says that its claim is false; helper functions too.
 #![allow(clippy::unwrap_used)]
@@ -9,19 +10,19 @@
 mod arms;
 
 use armill_core::frame::Isometry;
-use armill_core::kernel::{BranchChoice, Held, Question, evaluate_on_path};
+use armill_core::kernel::{BranchChoice, Evaluation, Question, evaluate_on_path};
 use armill_core::load::InputUncertainty;
 use armill_core::measure::pose_accuracy::{Attained, pose_accuracy};
 use armill_core::nalgebra::{Unit, Vector3};
 use armill_core::predict::predict;
 use armill_core::robot::{Backlash, BacklashSide, JointCompliance, Robot};
-use armill_core::source::{Arm, Links, ArmState, StiffnessModel, repeatability};
+use armill_core::source::{Arm, ArmState, Links, StiffnessModel, repeatability};
 use armill_core::spatial::Wrench;
 use arms::Stream;
 
 const DRAWS: usize = 20_000;
 
-/// An MH12 that stands somewhere under a load, with all that is not known of it.
+/// An MH12 in some posture under a load, with all its uncertainties.
 #[derive(Clone)]
 struct Cell {
     robot: Robot,
@@ -30,7 +31,7 @@ struct Cell {
     uncertainty: InputUncertainty,
     wrench: Wrench,
     normal: Unit<Vector3<f64>>,
-    dragged: Vec<f64>,
+    link_offsets: Vec<f64>,
 }
 
 impl Cell {
@@ -48,7 +49,7 @@ impl Cell {
             uncertainty: InputUncertainty::NONE,
             wrench: Wrench::from_force(Vector3::new(60.0, -90.0, -40.0)),
             normal: Unit::new_normalize(Vector3::new(-0.8, 0.3, 0.5)),
-            dragged: vec![0.0; 6],
+            link_offsets: vec![0.0; 6],
         }
     }
 
@@ -57,8 +58,8 @@ impl Cell {
         armill_core::robot::inverse::posture_at(&self.robot, &q, &arms::bent_tool()).base_from_tool
     }
 
-    /// What is told, and the joint positions.
-    fn reported(&self) -> (Held, Vec<f64>) {
+    /// The reported evaluation, and the joint positions.
+    fn reported(&self) -> (Evaluation, Vec<f64>) {
         let tool = arms::bent_tool();
         let cases = [self.wrench];
         let question = Question {
@@ -68,7 +69,7 @@ impl Cell {
             choice: BranchChoice::Of(self.robot.nominal_branch()),
             ..Question::unloaded(self.arm(&self.compliance, &self.model, &tool), None)
         };
-        let answers = evaluate_on_path(&question, &self.pose(), &self.dragged);
+        let answers = evaluate_on_path(&question, &self.pose(), &self.link_offsets);
         (
             *answers.points[0].as_ref().unwrap(),
             answers.joints_at(0).to_vec(),
@@ -102,19 +103,19 @@ impl Cell {
                 })
                 .collect();
             let mut model = self.model.clone();
-            let mut dragged = self.dragged.clone();
+            let mut link_offsets = self.link_offsets.clone();
             for (joint, gap) in model.structure.backlash.iter_mut().enumerate() {
                 let Some(gap) = gap else { continue };
                 let other = 1.0 + stream.normal() * gap.standard_uncertainty / gap.gap;
                 gap.gap *= other;
-                dragged[joint] *= other;
+                link_offsets[joint] *= other;
             }
             let mut wrench = self.wrench * (1.0 + stream.normal() * self.uncertainty.relative);
             for u in self.uncertainty.forces {
                 wrench.force += u * stream.normal();
             }
-            let tool =
-                arms::bent_tool() * Isometry::translation(0.0, 0.0, stream.normal() * self.uncertainty.tool_length);
+            let tool = arms::bent_tool()
+                * Isometry::translation(0.0, 0.0, stream.normal() * self.uncertainty.tool_length);
             let arm = self.arm(&compliance, &model, &tool);
             let mut arm_state = ArmState::new(arm);
             arm_state.set_joints(joints);
@@ -122,7 +123,7 @@ impl Cell {
                 .unwrap()
                 .twist
                 .linear;
-            let by_gaps = arm_state.backlash(&dragged, &wrench).linear;
+            let by_gaps = arm_state.backlash(&link_offsets, &wrench).linear;
             let scatter = Vector3::from_fn(|_, _| stream.normal()) * model.structure.repeatability;
             let missed = by_load * (stream.normal() * model.structure.model_error);
             let moved = by_load + missed + by_gaps + scatter;
@@ -145,7 +146,7 @@ fn log_normal(stream: &mut Stream, relative: f64) -> f64 {
 }
 
 #[test]
-fn all_that_is_not_known_scatters_the_deviation_as_it_is_told() {
+fn all_uncertain_inputs_scatter_the_deviation_as_reported() {
     let mut cell = Cell::new(0.1);
     cell.uncertainty = InputUncertainty {
         relative: 0.1,
@@ -158,7 +159,7 @@ fn all_that_is_not_known_scatters_the_deviation_as_it_is_told() {
         side: BacklashSide::Motion,
     };
     cell.model.structure.backlash = vec![Some(gap(7e-4)), Some(gap(2e-4)), None, Some(gap(5e-4))];
-    cell.dragged = vec![3.5e-4, -1e-4, 0.0, 2.5e-4, 0.0, 0.0];
+    cell.link_offsets = vec![3.5e-4, -1e-4, 0.0, 2.5e-4, 0.0, 0.0];
     cell.model.structure.repeatability = repeatability::deviation_of(160e-6);
     cell.model.structure.model_error = 0.08;
     let (evaluation, joints) = cell.reported();
@@ -168,8 +169,11 @@ fn all_that_is_not_known_scatters_the_deviation_as_it_is_told() {
         (evaluation.in_plane_uncertainty - spread).abs() < 0.02 * spread,
         "{evaluation:?} {spread}"
     );
-    assert!((evaluation.in_plane - mean).abs() < 0.02 * mean, "{evaluation:?} {mean}");
-    // Each of them counts: without it something else would be told.
+    assert!(
+        (evaluation.in_plane - mean).abs() < 0.02 * mean,
+        "{evaluation:?} {mean}"
+    );
+    // Each of them matters: without it another value would be reported.
     let reported = evaluation.in_plane_uncertainty;
     let without = |change: &dyn Fn(&mut Cell)| {
         let mut other = cell.clone();
@@ -188,17 +192,21 @@ fn all_that_is_not_known_scatters_the_deviation_as_it_is_told() {
 
 /// Compliances of a class are known to a factor: their uncertainty is as large as they are.
 #[test]
-fn of_compliances_known_to_a_factor_the_spread_is_told_and_its_shape_is_not() {
+fn for_compliances_known_to_a_factor_the_spread_is_reported_but_not_its_shape() {
     let cell = Cell::new(1.0);
     let (evaluation, joints) = cell.reported();
     let (mean, spread) = cell.drawn(&joints, log_normal);
-    // Measured 0.99 and 1.12, told in docs/theory/deviation.md: a length is longer on the mean than that of the mean vector,
+    // Measured 0.99 and 1.12, see docs/theory/deviation.md: a length is longer on the mean than that of the mean
+    // vector,
     // and what is across adds to its spread.
     assert!(
         (evaluation.in_plane_uncertainty / spread - 1.0).abs() < 0.05,
         "{evaluation:?} {spread}"
     );
-    assert!((1.0..1.2).contains(&(mean / evaluation.in_plane)), "{mean} {evaluation:?}");
+    assert!(
+        (1.0..1.2).contains(&(mean / evaluation.in_plane)),
+        "{mean} {evaluation:?}"
+    );
 }
 
 /// `RP` of places that are drawn, as the standard's formula has it.
@@ -212,5 +220,8 @@ fn an_arm_that_scatters_by_it_has_the_pose_repeatability_of_its_data_sheet() {
         .collect();
     let reported = pose_accuracy(&at(Vector3::zeros()), &reached).unwrap();
     // Three deviations of 20 000 distances are known to 1 %.
-    assert!((reported.repeatability.unwrap() - 80e-6).abs() < 1e-6, "{reported:?}");
+    assert!(
+        (reported.repeatability.unwrap() - 80e-6).abs() < 1e-6,
+        "{reported:?}"
+    );
 }

@@ -1,5 +1,5 @@
-//! `scale CASE BYTES`: reads a tool path program of so many bytes that nobody ever holds, and prints one row; called by
-//! `cargo xtask scale`.
+//! `scale CASE BYTES`: reads a generated tool path program of this size, never kept in memory, and prints one row;
+//! called by `cargo xtask scale`.
 //!
 //! | case | program |
 //! |---|---|
@@ -9,8 +9,8 @@
 //! | `gcode-call` | the same behind a call of a subroutine that never comes |
 //! | `gcode-labels` | the same behind calls of subroutines that have no end |
 //!
-//! Fields of the row, separated by tabs: case, bytes taken, steps given, seconds, most memory in KiB (0 where the system
-//! does not tell), what the reader said.
+//! Fields of the row, separated by tabs: case, bytes taken, steps given, seconds, most memory in KiB (0 where the
+//! system does not report it), what the reader returned.
 
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
@@ -20,7 +20,7 @@ use std::time::Instant;
 use std::{env, fs};
 
 use armill_formats::toolpath::LengthUnit;
-use armill_formats::toolpath::format::{self, Wanted};
+use armill_formats::toolpath::format::{self, ToolpathReadOptions};
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = env::args().skip(1).collect();
@@ -31,9 +31,9 @@ fn main() -> ExitCode {
         return usage();
     };
     let mut text = Text::new(kind, bytes);
-    let requested = Wanted {
+    let requested = ToolpathReadOptions {
         unit: Some(LengthUnit::Millimetre),
-        ..Wanted::default()
+        ..ToolpathReadOptions::default()
     };
     let (start, mut steps) = (Instant::now(), 0_u64);
     let read = format::read(kind.path(), BufReader::new(&mut text), &requested, &mut |_| {
@@ -56,7 +56,7 @@ fn main() -> ExitCode {
 }
 
 fn usage() -> ExitCode {
-    eprintln!("usage: scale CASE BYTES; the cases stand in the source");
+    eprintln!("usage: scale CASE BYTES; the cases are listed in the source");
     ExitCode::from(2)
 }
 
@@ -193,7 +193,7 @@ impl Read for Text {
     }
 }
 
-/// The most memory that this program ever had, KiB; 0 where the system does not tell.
+/// The peak memory of this program, KiB; 0 where the system does not report it.
 fn most_kib() -> u64 {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));

@@ -1,4 +1,5 @@
-//! A pose as the makers write it, on their pendants and in their programs: three angles, a rotation vector or a quaternion.
+//! A pose as the makers write it, on their pendants and in their programs: three angles, a rotation vector or a
+//! quaternion.
 //!
 //! | maker | numbers | rotation |
 //! |---|---|---|
@@ -197,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn one_orientation_in_the_words_of_four_makers() {
+    fn one_orientation_in_the_conventions_of_four_manufacturers() {
         // The linear targets of one program written for four controllers by the RoboDK posts; six decimals of UR.
         let kuka = pose(Convention::Kuka, &[0.0, 0.0, 0.0, 180.0, 0.0, -150.0]).rotation;
         for (convention, angles, tolerance) in [
@@ -233,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn kuka_and_staubli_tell_the_middle_and_the_order_apart() {
+    fn kuka_and_staubli_differ_in_the_middle_angle_and_the_order() {
         let angles = [20.0, 30.0, 40.0];
         let [a, b, c] = angles;
         let of = |convention, [a, b, c]: [f64; 3]| pose(convention, &[0.0, 0.0, 0.0, a, b, c]).rotation;
@@ -279,7 +280,7 @@ mod tests {
                     "{}",
                     convention.name()
                 );
-                // `angle_to` takes the arc cosine, which tells nothing below 1e-8; columns of the matrices do.
+                // `angle_to` uses the arc cosine, which has no resolution below 1e-8; the columns of the matrices have.
                 let apart = (again.rotation.to_rotation_matrix().matrix()
                     - pose.rotation.to_rotation_matrix().matrix())
                 .norm();

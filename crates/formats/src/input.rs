@@ -8,8 +8,8 @@
 //! | reading ends where the command is cancelled | work whose client has left must not go on |
 //! | every file that was opened is remembered for the time of a command | no command may replace its own input, see [`crate::file::Writer`] |
 //!
-//! [`Inputs`] are the inputs of one command: set for the thread that runs it, for the time that it runs. Without them files
-//! are opened under the same rules and not remembered.
+//! [`Inputs`] are the inputs of one command: set for the thread that runs it, for the time that it runs. Without them
+//! files are opened under the same rules and not remembered.
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -19,8 +19,8 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// A file that is read as a whole may have so many bytes: studies, robots, programs of robots, tables that were typed have
-/// some kB, the largest some MB.
+/// A file that is read as a whole may have so many bytes: studies, robots, programs of robots, tables that were typed
+/// have some kB, the largest some MB.
 pub const MOST_BYTES: u64 = 64 << 20;
 /// Any other may have so many: a record of a dynamometer has some 100 MB.
 pub const MOST_STREAM_BYTES: u64 = 16 << 30;
@@ -207,7 +207,10 @@ pub fn read_text(path: &Path) -> io::Result<String> {
 }
 
 fn too_large(most: u64) -> io::Error {
-    let message = format!("it has more than {} MiB; is it the right file?", most >> 20);
+    let message = format!(
+        "it has more than {} MiB: check that it is the right file",
+        most >> 20
+    );
     io::Error::new(io::ErrorKind::FileTooLarge, message)
 }
 
@@ -313,7 +316,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_opened_is_remembered_whatever_it_is_called() {
+    fn an_opened_file_is_recognised_by_any_name() {
         let folder = tempfile::tempdir().unwrap();
         let (path, other) = (folder.path().join("a"), folder.path().join("b"));
         std::fs::write(&path, "x").unwrap();

@@ -1,6 +1,6 @@
 //! Foreign text and tables in and out of armill.
 //!
-//! - [`document`]: a TOML file that is checked completely and tells all its problems at once,
+//! - [`document`]: a TOML file that is checked completely and reports all its problems at once,
 //!   each with its place, its limit and a hint.
 //! - [`robot`]: robot descriptions in, of six formats; readings of pendants.
 //! - [`convention`]: poses as six makers write them.
@@ -17,7 +17,7 @@
 //! `xml` is the ground of all that is XML.
 //!
 //! Nothing in this crate prints, but for the words of Rust itself where a fault of the crates `parquet` and `xacro-rs`
-//! is caught and told as a problem of the file. Same input, same bytes.
+//! is caught and reported as a problem of the file. Same input, same bytes.
 
 pub mod convention;
 pub mod document;

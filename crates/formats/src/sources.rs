@@ -76,7 +76,7 @@ pub(crate) fn problems(document: &Document, table: &SourceTable) -> Vec<Problem>
         .keys()
         .filter(|key| named.iter().all(|(_, used)| used != key));
     let unused = unused.map(|key| {
-        let hint = "name it where its numbers stand, or remove it";
+        let hint = "name it where its numbers are, or remove it";
         let message = format!("source `{key}` is used by no number");
         document.problem(&joined("sources", key), message, Some(hint))
     });
@@ -110,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn a_source_that_is_missing_and_one_without_number_are_reported_where_they_stand() {
+    fn a_source_that_is_missing_and_one_without_number_are_reported_at_their_place() {
         assert_eq!(
             reported("source = \"a\"\nlist = [{ u_source = \"b\" }]", &["a", "\"c d\""]),
             [

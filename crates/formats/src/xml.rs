@@ -11,7 +11,7 @@ use roxmltree::{Document, Node, ParsingOptions};
 use crate::document::{Problems, Source, unreadable};
 use crate::input;
 
-/// More elements, attributes and texts than this are no robot and no result: the largest robot of ROS-Industrial has 2000.
+/// More elements, attributes and texts than this are not accepted: the largest robot of ROS-Industrial has 2000.
 const MOST_NODES: u32 = 1_000_000;
 /// Attributes of one element: none has ten.
 const MOST_ATTRIBUTES: usize = 200;
@@ -67,7 +67,7 @@ fn too_many_attributes(text: &str) -> Option<Range<usize>> {
     let mut at = 0;
     for piece in text.split_inclusive('<') {
         let quotes = piece.bytes().filter(|byte| matches!(byte, b'"' | b'\'')).count();
-        // Comments hold any text.
+        // Comments may contain any text.
         if quotes > 2 * MOST_ATTRIBUTES && !piece.starts_with(['!', '?']) {
             return Some(at..at);
         }
@@ -76,7 +76,7 @@ fn too_many_attributes(text: &str) -> Option<Range<usize>> {
     None
 }
 
-/// Where an element stands that has too many others around it.
+/// The position of an element that is nested in too many others.
 fn too_deep(document: &Document<'_>) -> Option<Range<usize>> {
     let mut front = vec![(document.root(), 0)];
     while let Some((node, level)) = front.pop() {
@@ -112,7 +112,7 @@ pub(crate) fn children<'a, 'input: 'a>(
         .filter(move |child| child.is_element() && child.tag_name().name() == name)
 }
 
-/// Where the start tag of an element stands.
+/// The position of the start tag of an element.
 ///
 /// From `<` to the end of its name; it ends early where the name has a prefix.
 pub(crate) fn tag(node: Node<'_, '_>) -> Range<usize> {
@@ -120,7 +120,7 @@ pub(crate) fn tag(node: Node<'_, '_>) -> Range<usize> {
     start..start + 1 + node.tag_name().name().len()
 }
 
-/// Where the value of an attribute stands; the start tag if there is no such attribute.
+/// The position of the value of an attribute; the start tag if there is no such attribute.
 pub(crate) fn value_place(node: Node<'_, '_>, attribute: &str) -> Range<usize> {
     node.attribute_node(attribute)
         .map_or_else(|| tag(node), |found| found.range_value())
@@ -144,7 +144,7 @@ pub(crate) fn required<'a>(
 /// The numbers of an attribute, or `default` where it is left out.
 ///
 /// # Errors
-/// Another count of numbers than wanted, or what is not a finite number.
+/// Another number of values than required, or what is not a finite number.
 pub(crate) fn numbers<const N: usize>(
     source: &Source,
     node: Node<'_, '_>,
@@ -156,7 +156,7 @@ pub(crate) fn numbers<const N: usize>(
     };
     let refused = |message: String| -> Problems {
         let hint = if text.contains("${") || text.contains("$(") {
-            "an expression that was not worked out: save the file with the ending .xacro"
+            "an expression that was not evaluated: save the file with the ending .xacro"
         } else {
             "numbers with a decimal point, blanks between them"
         };
@@ -176,7 +176,7 @@ pub(crate) fn numbers<const N: usize>(
     let count = values.len();
     <[f64; N]>::try_from(values).map_err(|_| {
         refused(format!(
-            "{attribute}=\"{text}\" has {count} numbers where {N} are wanted"
+            "{attribute}=\"{text}\" has {count} numbers: {N} required"
         ))
     })
 }

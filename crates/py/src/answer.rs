@@ -3,32 +3,32 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use armill_cli::{Call, Listener, Refused, Told};
+use armill_cli::{Call, Listener, OptionValue, Refused};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyString};
 
 use crate::errors::{exception, usage, wrong_type};
-use crate::threads::{Beats, watched};
+use crate::threads::{Beats, ThreadCount, watched};
 
-/// command name, operands, options -> (json, talk, holds): what the command prints on stdout with `--json`, what it says on
-/// stderr, and whether the tolerance is held where `strict` was asked.
+/// command name, operands, options -> (json, messages, within_tolerance): the output of the command on stdout with
+/// `--json`, the lines on stderr, and whether the tolerance is met if `strict` is given.
 ///
-/// `progress` is called now and then with the number of points finished.
+/// `progress` is called repeatedly with the number of points finished.
 #[pyfunction]
 #[pyo3(signature = (command, operands, options, threads=None, progress=None))]
-pub(crate) fn analysis(
+pub(crate) fn call(
     py: Python<'_>,
     command: String,
     operands: Vec<PathBuf>,
     options: &Bound<'_, PyDict>,
-    threads: Option<usize>,
+    threads: Option<ThreadCount>,
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<(String, Vec<String>, bool)> {
     let mut named = Vec::new();
     for (name, value) in options.iter() {
         let name: String = name.extract()?;
-        if let Some(reported) = reported(&name, &value)? {
-            named.push((name, reported));
+        if let Some(value) = option_value(&name, &value)? {
+            named.push((name, value));
         }
     }
     let shown = |path: &PathBuf| path.to_string_lossy().into_owned();
@@ -42,33 +42,37 @@ pub(crate) fn analysis(
         cancel: listener.cancel(),
         counted: listener.counted(),
     };
-    let tell = progress.map(|progress| move |count: usize| progress.call1((count,)).map(|_| ()));
-    let tell = tell.as_ref().map(|tell| tell as &dyn Fn(usize) -> PyResult<()>);
-    let answer = watched(py, threads, (beats, tell), || armill_cli::analysis(&call, &listener))?;
+    let report = progress.map(|progress| move |count: usize| progress.call1((count,)).map(|_| ()));
+    let report = report
+        .as_ref()
+        .map(|report| report as &dyn Fn(usize) -> PyResult<()>);
+    let answer = watched(py, threads, (beats, report), || {
+        armill_cli::call(&call, &listener)
+    })?;
     match answer {
-        Ok(answer) => Ok((answer.json, answer.talk, answer.holds)),
+        Ok(answer) => Ok((answer.json, answer.messages, answer.within_tolerance)),
         Err(Refused::Usage(text)) => Err(usage(py, text)),
         Err(Refused::Study(error)) => Err(exception(py, &error)),
     }
 }
 
-/// What is told of an option; nothing where it is None.
-fn reported(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Option<Told>> {
+/// The value of an option; nothing where it is None.
+fn option_value(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Option<OptionValue>> {
     if value.is_none() {
         return Ok(None);
     }
     if let Ok(flag) = value.cast::<PyBool>() {
-        return Ok(Some(Told::Flag(flag.is_true())));
+        return Ok(Some(OptionValue::Flag(flag.is_true())));
     }
     if value.cast::<PyString>().is_ok() || value.cast::<PyInt>().is_ok() || value.cast::<PyFloat>().is_ok() {
-        return Ok(Some(Told::Text(value.str()?.to_string())));
+        return Ok(Some(OptionValue::Text(value.str()?.to_string())));
     }
     // Arrays and numbers of numpy.
     if value.hasattr("tolist")? {
-        return reported(name, &value.call_method0("tolist")?);
+        return option_value(name, &value.call_method0("tolist")?);
     }
     if value.hasattr("__fspath__")? {
-        return Ok(Some(Told::Text(
+        return Ok(Some(OptionValue::Text(
             value.call_method0("__fspath__")?.str()?.to_string(),
         )));
     }
@@ -80,19 +84,19 @@ fn reported(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Option<Told>> {
     };
     let mut all = Vec::new();
     for item in items {
-        all.extend(reported(name, &item?)?);
+        all.extend(option_value(name, &item?)?);
     }
-    Ok(Some(Told::List(all)))
+    Ok(Some(OptionValue::List(all)))
 }
 
 /// Name, whether it is an operand, help.
 type OptionOf = (String, bool, String);
 
-/// command name -> (help, [(name, is_operand, help)]): what a command says of itself and of its options.
+/// command name -> (help, [(name, is_operand, help)]): the help of a command and of its options.
 #[pyfunction]
 pub(crate) fn options(py: Python<'_>, name: &str) -> PyResult<(String, Vec<OptionOf>)> {
     let Some((about, options)) = armill_cli::options_of(name) else {
-        return Err(usage(py, format!("no command `{name}` answers in JSON")));
+        return Err(usage(py, format!("no command `{name}` has an answer in JSON")));
     };
     let options = options.into_iter();
     Ok((

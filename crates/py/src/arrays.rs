@@ -1,8 +1,8 @@
 //! Arrays in and out: numbers of numpy as a slice of `f64`, and vectors as arrays of numpy.
 //!
-//! An array of `float64` that lies in one piece is borrowed; any other array of real numbers is copied, whatever its
-//! strides, order, alignment or size of numbers. Lists of numbers are arrays too. Everything else is refused with the
-//! shape that is wanted and the one that was given.
+//! A contiguous array of `float64` is borrowed. Any other array of real numbers is copied, whatever its strides, order,
+//! alignment or type of numbers. Lists of numbers are accepted as arrays. Masked arrays are accepted if no value is
+//! masked. Everything else is refused with the expected and the given shape.
 
 use std::fmt::{self, Display};
 
@@ -13,39 +13,40 @@ use pyo3::prelude::*;
 
 use crate::errors::{Fault, refused, wrong_type};
 
-/// Numbers that were given.
+/// Numbers given by the caller.
 pub(crate) struct Given<'py> {
     numbers: PyReadonlyArrayDyn<'py, f64>,
 }
 
 impl<'py> Given<'py> {
-    /// The numbers of `value`, in one piece. `wanted` tells the shape, in words.
-    pub(crate) fn of(value: &Bound<'py, PyAny>, name: &str, requested: &dyn Display) -> PyResult<Given<'py>> {
+    /// The numbers of `value`, contiguous. `expected` is the shape, in words.
+    pub(crate) fn of(value: &Bound<'py, PyAny>, name: &str, expected: &dyn Display) -> PyResult<Given<'py>> {
         let fits = |array: &Bound<'py, PyArrayDyn<f64>>| array.is_c_contiguous() && array.is_aligned();
-        let array = match value.cast::<PyArrayDyn<f64>>() {
+        // Subclasses of an array, such as masked arrays, are copied.
+        let array = match value.cast_exact::<PyArrayDyn<f64>>() {
             Ok(array) if fits(array) => array.clone(),
-            _ => copied(value, name, requested)?,
+            _ => copied(value, name, expected)?,
         };
         Ok(Given {
             numbers: array.try_readonly().map_err(PyErr::from)?,
         })
     }
 
-    /// How many there are along each axis.
+    /// The length of each axis.
     pub(crate) fn shape(&self) -> &[usize] {
         self.numbers.shape()
     }
 
     /// The numbers, the last axis fastest.
     pub(crate) fn values(&self) -> &[f64] {
-        // `of` took nothing that is not in one piece.
+        // `of` makes every array contiguous.
         self.numbers.as_slice().unwrap_or_default()
     }
 
     /// Refuses numbers that are not finite.
     ///
     /// # Errors
-    /// The first of them, with its index.
+    /// The first number that is not finite, with its index.
     pub(crate) fn finite(&self, py: Python<'_>, name: &str) -> PyResult<()> {
         let Some(at) = self.values().iter().position(|value| !value.is_finite()) else {
             return Ok(());
@@ -64,17 +65,18 @@ impl<'py> Given<'py> {
     }
 }
 
-/// A copy as `float64` in one piece.
+/// A contiguous copy as `float64`.
 fn copied<'py>(
     value: &Bound<'py, PyAny>,
     name: &str,
-    requested: &dyn Display,
+    expected: &dyn Display,
 ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     let py = value.py();
     let numpy = py.import("numpy")?;
+    refuse_masked(&numpy, value, name)?;
     let array = numpy.call_method1("asarray", (value,)).map_err(|error| {
         if !error.is_instance_of::<PyValueError>(py) && !error.is_instance_of::<PyTypeError>(py) {
-            // Such as an interrupt, which says nothing of the array.
+            // Such as an interrupt, which has nothing to do with the array.
             return error;
         }
         let kind = value
@@ -82,7 +84,7 @@ fn copied<'py>(
             .name()
             .map_or_else(|_| "?".to_owned(), |name| name.to_string());
         wrong_type(format!(
-            "{name}: expected real numbers of shape {requested}, given a {kind} that is no array ({})",
+            "{name}: expected real numbers of shape {expected}, given a {kind}, which is not an array ({})",
             error.value(py)
         ))
     })?;
@@ -91,20 +93,40 @@ fn copied<'py>(
     if !["f", "i", "u"].contains(&kind.as_str()) {
         let shape = array.getattr("shape")?;
         return Err(wrong_type(format!(
-            "{name}: expected real numbers of shape {requested}, given {dtype} of shape {shape}"
+            "{name}: expected real numbers of shape {expected}, given {dtype} of shape {shape}"
         )));
     }
     let whole = numpy.call_method1("require", (array, "float64", ["C", "A"]))?;
     Ok(whole.cast_into::<PyArrayDyn<f64>>()?)
 }
 
+/// Refuses a masked array of numpy with masked values, whose numbers are not valid.
+fn refuse_masked(numpy: &Bound<'_, PyModule>, value: &Bound<'_, PyAny>, name: &str) -> PyResult<()> {
+    if !value.hasattr("mask")? {
+        return Ok(());
+    }
+    let masked = numpy.getattr("ma")?;
+    if !value.is_instance(&masked.getattr("MaskedArray")?)? {
+        return Ok(());
+    }
+    if masked.call_method1("is_masked", (value,))?.is_truthy()? {
+        let message = format!("{name}: the array has masked values");
+        return Err(refused(
+            value.py(),
+            message,
+            "select the items without masked values",
+        ));
+    }
+    Ok(())
+}
+
 /// Many items of one shape, or a single one without the first axis.
 pub(crate) struct Batch<'py> {
     /// The numbers.
     pub given: Given<'py>,
-    /// How many items.
+    /// Number of items.
     pub count: usize,
-    /// Whether it is one item without the first axis: so is its answer.
+    /// Whether it is one item without the first axis; its result has no first axis either.
     pub single: bool,
 }
 
@@ -112,26 +134,26 @@ impl<'py> Batch<'py> {
     /// The items of `value`, each of the shape `item`.
     ///
     /// # Errors
-    /// Another shape; no numbers.
+    /// Another shape; values that are not numbers.
     pub(crate) fn of(value: &Bound<'py, PyAny>, name: &str, item: &[usize]) -> PyResult<Batch<'py>> {
-        let requested = ManyOf(item);
-        let given = Given::of(value, name, &requested)?;
+        let expected = ManyOf(item);
+        let given = Given::of(value, name, &expected)?;
         let (count, single) = match given.shape() {
             shape if shape == item => (1, true),
             [count, rest @ ..] if rest == item => (*count, false),
-            _ => return Err(wrong_shape(value.py(), name, &requested, given.shape())),
+            _ => return Err(wrong_shape(value.py(), name, &expected, given.shape())),
         };
         Ok(Batch { given, count, single })
     }
 
-    /// The shape of an answer that has `rest` for each item.
+    /// The shape of a result with `rest` for each item.
     pub(crate) fn shape(&self, rest: &[usize]) -> Vec<usize> {
         let first = (!self.single).then_some(self.count);
         first.into_iter().chain(rest.iter().copied()).collect()
     }
 }
 
-/// `(n, 4, 4) or (4, 4)`: written only where it is told, since one point takes no longer than a few words.
+/// `(n, 4, 4) or (4, 4)`: formatted only for a message, since the evaluation of one point takes no longer.
 struct ManyOf<'a>(&'a [usize]);
 
 impl Display for ManyOf<'_> {
@@ -142,15 +164,15 @@ impl Display for ManyOf<'_> {
     }
 }
 
-/// A shape that is not the one wanted.
-pub(crate) fn wrong_shape(py: Python<'_>, name: &str, requested: &dyn Display, given: &[usize]) -> PyErr {
+/// The exception of a shape that is not the expected one.
+pub(crate) fn wrong_shape(py: Python<'_>, name: &str, expected: &dyn Display, given: &[usize]) -> PyErr {
     let lengths: Vec<String> = given.iter().map(usize::to_string).collect();
     let comma = if given.len() == 1 { "," } else { "" };
     let message = format!(
-        "{name}: expected shape {requested}, given ({}{comma})",
+        "{name}: expected shape {expected}, given ({}{comma})",
         lengths.join(", ")
     );
-    refused(py, message, "the last axis runs over the numbers of one item")
+    refused(py, message, "the last axes are those of one item")
 }
 
 /// An array of numpy that owns `values`.
@@ -160,11 +182,11 @@ pub(crate) fn array<'py, T: Element>(
     values: Vec<T>,
 ) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
     let array = ArrayD::from_shape_vec(IxDyn(shape), values);
-    let array = array.map_err(|error| Fault::new_err(format!("an answer of another shape: {error}")))?;
+    let array = array.map_err(|error| Fault::new_err(format!("a result of another shape: {error}")))?;
     Ok(PyArrayDyn::from_owned_array(py, array))
 }
 
-/// A copy of `values`, which stay.
+/// A copy of `values`.
 pub(crate) fn array_of<'py, T: Element + Clone>(
     py: Python<'py>,
     shape: &[usize],

@@ -1,11 +1,11 @@
-//! What goes wrong, as exceptions: the kind of an error alone decides which.
+//! Errors as exceptions: the kind of an error decides which.
 //!
 //! | kind | exception | text |
 //! |---|---|---|
-//! | bad input | `InputError`, a `ValueError` | what the command says, without the word `error:` |
-//! | another type of array | `TypeError` | likewise |
-//! | cancelled | `Cancelled`, a `KeyboardInterrupt` | likewise |
-//! | a fault of armill | `Fault`, a `RuntimeError` | likewise |
+//! | bad input | `InputError`, a `ValueError` | as the command prints it, without the word `error:` |
+//! | another type of array | `TypeError` | the same |
+//! | cancelled | `Cancelled`, a `KeyboardInterrupt` | the same |
+//! | a fault of armill | `Fault`, a `RuntimeError` | the same |
 
 use armill_study::{ErrorKind, StudyError};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyTypeError, PyValueError};
@@ -15,18 +15,18 @@ pyo3::create_exception!(
     armill,
     InputError,
     PyValueError,
-    "Bad input: the text of all problems, told as the command tells them; `.problems` has each as a dict \
-     (`file`, `line`, `column`, `span`, `message`, `hint` of a file; else `message` and perhaps `hint`)."
+    "Bad input: the text of all problems, as the command prints them; `.problems` has each as a dict \
+     (`file`, `line`, `column`, `span`, `message`, `hint` for a file; otherwise `message` and optionally `hint`)."
 );
 pyo3::create_exception!(
     armill,
     Cancelled,
     PyKeyboardInterrupt,
-    "The work was interrupted; nothing of its answer was written."
+    "The call was interrupted; no result was written."
 );
 pyo3::create_exception!(armill, Fault, PyRuntimeError, "A fault of armill itself.");
 
-/// The exception that this error is.
+/// The exception of an error.
 pub(crate) fn exception(py: Python<'_>, error: &StudyError) -> PyErr {
     let text = error.to_string();
     match error.kind() {
@@ -36,18 +36,18 @@ pub(crate) fn exception(py: Python<'_>, error: &StudyError) -> PyErr {
     }
 }
 
-/// The exception of a value that cannot be, with what to do about it.
+/// The exception of an invalid value, with a hint.
 pub(crate) fn refused(py: Python<'_>, message: impl Into<String>, hint: impl Into<String>) -> PyErr {
     exception(py, &StudyError::value(message, hint))
 }
 
-/// The exception of options that no command takes.
+/// The exception of options that the command does not have.
 pub(crate) fn usage(py: Python<'_>, text: String) -> PyErr {
     let given = StudyError::value(text.as_str(), "see `armill.command_help`");
     with_problems(py, text, &armill_cli::problems_json(&given))
 }
 
-/// The exception of a value of another type than is wanted.
+/// The exception of a value of the wrong type.
 pub(crate) fn wrong_type(message: impl Into<String>) -> PyErr {
     PyTypeError::new_err(message.into())
 }

@@ -1,19 +1,19 @@
-//! The Python module `armill._armill`: arrays and options in, the values of `armill_core` and `armill_study` out.
+//! The Python module `armill._armill`: arrays and options in, results of `armill_core` and `armill_study` out.
 //!
-//! | module | what it is |
+//! | module | contents |
 //! |---|---|
-//! | `robot` | the class `Robot`; `source`: where it comes from |
-//! | `stands`, `postures`, `held` | what it answers about many joint positions or poses |
+//! | `robot` | the class `Robot`; `source`: the text that it is made from |
+//! | `joint_positions`, `postures`, `evaluation` | results at many joint positions or poses |
 //! | `study`, `table` | the classes `Study` and `Result`; tables as Arrow |
-//! | `judged` | the class `Judged`: a path wherever its part lies |
+//! | `placement_evaluations` | the class `PlacementEvaluations`: the cost of a path for many placements of its part |
 //! | `tool_path` | the class `ToolPath`: the moves of a program |
 //! | `answer` | commands as functions, and the command itself |
-//! | `arrays`, `poses` | numbers, poses and forces out of arrays, and back |
-//! | `threads` | on which threads, without the lock of Python, until Ctrl-C |
+//! | `arrays`, `poses` | conversion of numbers, poses and forces from and to arrays |
+//! | `threads` | thread pools, release of the lock of Python, Ctrl-C |
 //! | `arithmetic` | whether two machines give the same bits |
 //! | `errors` | exceptions |
 //!
-//! It computes nothing: no mechanics, no units but SI on both sides.
+//! It computes nothing: no mechanics, only SI units on both sides.
 
 // Options of Python are arguments by keyword.
 #![allow(clippy::too_many_arguments)]
@@ -23,12 +23,12 @@ mod arithmetic;
 mod arrays;
 mod errors;
 mod evaluation;
-mod judged;
+mod joint_positions;
+mod placement_evaluations;
 mod poses;
 mod postures;
 mod robot;
 mod source;
-mod stands;
 mod study;
 mod table;
 mod threads;
@@ -42,15 +42,15 @@ mod _armill {
     #[pymodule_export]
     const __version__: &str = env!("CARGO_PKG_VERSION");
     #[pymodule_export]
-    use crate::answer::{analysis, command, options};
+    use crate::answer::{call, command, options};
     #[pymodule_export]
     use crate::arithmetic::arithmetic;
     #[pymodule_export]
     use crate::errors::{Cancelled, Fault, InputError};
     #[pymodule_export]
-    use crate::evaluation::Held;
+    use crate::evaluation::PoseEvaluations;
     #[pymodule_export]
-    use crate::judged::Judged;
+    use crate::placement_evaluations::PlacementEvaluations;
     #[pymodule_export]
     use crate::postures::Postures;
     #[pymodule_export]

@@ -1,6 +1,6 @@
-//! Poses and loads out of arrays: homogeneous matrices, and what other packages write them as; forces and wrenches.
+//! Poses and loads from arrays: homogeneous matrices and the types of other packages; forces and wrenches.
 
-use armill_core::frame::{Isometry, NoPose, from_matrix};
+use armill_core::frame::{Isometry, PoseMatrixError, from_matrix};
 use armill_core::nalgebra::{Matrix4, Vector3};
 use armill_core::spatial::Wrench;
 use numpy::PyUntypedArray;
@@ -23,6 +23,11 @@ impl<'py> Poses<'py> {
     /// The poses of `value`: (n, 4, 4) or (4, 4); spatialmath's `SE3`; a transform of scipy; a pair of a rotation of scipy
     /// and translations.
     pub(crate) fn of(value: &Bound<'py, PyAny>, name: &str) -> PyResult<Poses<'py>> {
+        Poses::of_shape(value, name, None)
+    }
+
+    /// As [`Poses::of`]; `expected` is the shape that messages name in place of (n, 4, 4) or (4, 4).
+    fn of_shape(value: &Bound<'py, PyAny>, name: &str, expected: Option<&str>) -> PyResult<Poses<'py>> {
         let py = value.py();
         if let Ok(pair) = value.cast::<PyTuple>()
             && pair.len() == 2
@@ -40,6 +45,12 @@ impl<'py> Poses<'py> {
         } else {
             value.clone()
         };
+        if let Some(expected) = expected {
+            let given = Given::of(&matrices, name, &expected)?;
+            if !matches!(given.shape(), [4, 4] | [1, 4, 4]) {
+                return Err(wrong_shape(py, name, &expected, given.shape()));
+            }
+        }
         Ok(Poses {
             batch: Batch::of(&matrices, name, &[4, 4])?,
         })
@@ -51,31 +62,36 @@ impl<'py> Poses<'py> {
     }
 }
 
-/// Pose `index` of matrices that lie one behind the other.
+/// Pose `index` of consecutive matrices.
 ///
 /// # Errors
-/// A matrix that is no pose.
-pub(crate) fn pose_at(values: &[f64], index: usize) -> Result<Isometry, NoPose> {
+/// A matrix that is not a pose.
+pub(crate) fn pose_at(values: &[f64], index: usize) -> Result<Isometry, PoseMatrixError> {
     from_matrix(&Matrix4::from_row_slice(&values[index * ENTRIES..][..ENTRIES]))
 }
 
-/// What is said of pose `index`.
-pub(crate) fn no_pose(py: Python<'_>, (name, single): (&str, bool), index: usize, why: NoPose) -> PyErr {
+/// The exception of a matrix that is not a pose.
+pub(crate) fn no_pose(
+    py: Python<'_>,
+    (name, single): (&str, bool),
+    index: usize,
+    why: PoseMatrixError,
+) -> PyErr {
     let which = if single {
         name.to_owned()
     } else {
         format!("{name}[{index}]")
     };
-    let hint = "a pose is a rotation and a translation in m, [[R, t], [0, 1]]";
-    refused(py, format!("{which} is no pose: {why}"), hint)
+    let hint = "a pose is a rotation R and a translation t in m, [[R, t], [0, 1]]";
+    refused(py, format!("{which} is not a valid pose: {why}"), hint)
 }
 
-/// One pose, such as that of the tool on the flange; nothing is the identity.
+/// One pose, such as that of the tool on the flange; the identity for `None`.
 pub(crate) fn one_pose(value: Option<&Bound<'_, PyAny>>, name: &str) -> PyResult<Isometry> {
     let Some(value) = value else {
         return Ok(Isometry::identity());
     };
-    let poses = Poses::of(value, name)?;
+    let poses = Poses::of_shape(value, name, Some("(4, 4)"))?;
     if poses.batch.count != 1 {
         return Err(wrong_shape(
             value.py(),
@@ -87,7 +103,7 @@ pub(crate) fn one_pose(value: Option<&Bound<'_, PyAny>>, name: &str) -> PyResult
     pose_at(poses.values(), 0).map_err(|why| no_pose(value.py(), (name, true), 0, why))
 }
 
-/// Matrices out of rotations (n, 3, 3) and translations (n, 3).
+/// Matrices from rotations (n, 3, 3) and translations (n, 3).
 fn composed<'py>(
     py: Python<'py>,
     name: &str,
@@ -100,7 +116,7 @@ fn composed<'py>(
             "{name}: {} rotations and {} translations",
             turns.count, translations.count
         );
-        return Err(refused(py, message, "as many of both"));
+        return Err(refused(py, message, "give the same number of both"));
     }
     let mut matrices = Vec::with_capacity(turns.count * ENTRIES);
     let both = turns.given.values().chunks(9);
@@ -121,20 +137,20 @@ fn composed<'py>(
 pub(crate) struct Forces {
     /// At least one.
     pub cases: Vec<Wrench>,
-    /// Whether it is one case without the axis of cases: so is its answer.
+    /// Whether it is one case without the axis of cases; its result has no such axis either.
     pub single: bool,
 }
 
 impl Forces {
     /// Forces (cases, 3) or (3,), or wrenches (cases, 6) or (6,): force N, then moment N m.
     pub(crate) fn of(value: &Bound<'_, PyAny>) -> PyResult<Forces> {
-        const WANTED: &str = "(cases, 3), (cases, 6), (3,) or (6,)";
+        const EXPECTED: &str = "(cases, 3), (cases, 6), (3,) or (6,)";
         let py = value.py();
-        let given = Given::of(value, "forces", &WANTED)?;
+        let given = Given::of(value, "forces", &EXPECTED)?;
         let (width, single) = match given.shape() {
             [width @ (3 | 6)] => (*width, true),
             [count, width @ (3 | 6)] if *count > 0 => (*width, false),
-            shape => return Err(wrong_shape(py, "forces", &WANTED, shape)),
+            shape => return Err(wrong_shape(py, "forces", &EXPECTED, shape)),
         };
         given.finite(py, "forces")?;
         let cases = given.values().chunks(width).map(|case| Wrench {
@@ -149,7 +165,7 @@ impl Forces {
         })
     }
 
-    /// The axis of cases in the shape of an answer.
+    /// The axis of cases in the shape of a result.
     pub(crate) fn axis(&self) -> Option<usize> {
         (!self.single).then_some(self.cases.len())
     }

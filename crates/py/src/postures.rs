@@ -1,4 +1,4 @@
-//! The class `Postures`: every way to hold the tool at each of many poses.
+//! The class `Postures`: all postures (inverse kinematics) of an arm at each of many poses.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -13,23 +13,23 @@ use crate::arrays::{array, array_of};
 use crate::errors::exception;
 use crate::poses::{Poses, no_pose, one_pose, pose_at};
 use crate::robot::Robot;
-use crate::threads::{Effort, work};
+use crate::threads::{Effort, ThreadCount, work};
 
-/// Every posture of many poses: `m` postures of `n` poses, those of one pose behind those of the pose before.
+/// All postures of many poses: m postures of n poses, in the order of the poses; `postures[i]` are those of pose i.
 #[pyclass(frozen, module = "armill")]
 pub(crate) struct Postures {
     found: PosturesAt,
     dof: usize,
-    /// Where the postures of each pose begin, and where the last end.
+    /// Index of the first posture of each pose, then the number of postures.
     offsets: Vec<i64>,
 }
 
-/// Finds them.
+/// Finds the postures.
 pub(crate) fn inverse(
     robot: &Robot,
     (poses, tool): (&Bound<'_, PyAny>, Option<&Bound<'_, PyAny>>),
     home: Option<&Bound<'_, PyAny>>,
-    threads: Option<usize>,
+    threads: Option<ThreadCount>,
 ) -> PyResult<Postures> {
     let py = poses.py();
     let poses = Poses::of(poses, "poses")?;
@@ -55,7 +55,7 @@ pub(crate) fn inverse(
     })
 }
 
-/// Closed forms are quick, searches are not.
+/// Closed forms are fast, searches are not.
 pub(crate) fn effort(robot: &Robot, count: usize) -> Effort {
     match robot.arm().inverse().has_branches() {
         true => Effort::Points(count),
@@ -63,7 +63,7 @@ pub(crate) fn effort(robot: &Robot, count: usize) -> Effort {
     }
 }
 
-/// The first matrix that is no pose, met on any thread.
+/// Index of the first matrix that is not a pose, shared by all threads.
 pub(crate) struct FirstWrong(AtomicUsize);
 
 impl Default for FirstWrong {
@@ -73,7 +73,7 @@ impl Default for FirstWrong {
 }
 
 impl FirstWrong {
-    /// Pose `index`; what stands in for one that is none comes to no answer.
+    /// Pose `index`. A matrix that is not a pose is noted and replaced by the identity; `check` then refuses the call.
     pub(crate) fn pose(&self, matrices: &[f64], index: usize) -> Isometry {
         pose_at(matrices, index).unwrap_or_else(|_| {
             self.0.fetch_min(index, Ordering::Relaxed);
@@ -81,8 +81,10 @@ impl FirstWrong {
         })
     }
 
+    /// Refuses matrices that are not poses.
+    ///
     /// # Errors
-    /// What the first of them is.
+    /// Why the first of them is not a pose.
     pub(crate) fn check(&self, py: Python<'_>, poses: &Poses<'_>, name: &str) -> PyResult<()> {
         let index = self.0.load(Ordering::Relaxed);
         if index == usize::MAX {
@@ -95,16 +97,16 @@ impl FirstWrong {
     }
 }
 
-/// The index that Python means: from the end where it is below zero.
+/// The index in the sense of Python: from the end if negative.
 pub(crate) fn index_of(index: isize, count: usize) -> PyResult<usize> {
     let from_begin = if index < 0 { index + count as isize } else { index };
     usize::try_from(from_begin)
         .ok()
         .filter(|index| *index < count)
-        .ok_or_else(|| PyIndexError::new_err(format!("there is no pose {index}: there are {count}")))
+        .ok_or_else(|| PyIndexError::new_err(format!("pose {index} does not exist: there are {count} poses")))
 }
 
-/// Why, in words.
+/// Why a pose is unreachable, in words.
 pub(crate) fn reason_of<T>(pose: &Result<T, Unreachable>) -> Option<String> {
     pose.as_ref().err().map(ToString::to_string)
 }
@@ -117,47 +119,47 @@ impl Postures {
         array_of(py, &[self.found.names.len(), self.dof], &self.found.joints)
     }
 
-    /// -> (m,) index of the pose that each posture holds.
+    /// -> (m,) index of the pose of each posture.
     #[getter]
-    fn pose<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<i64>>> {
+    fn pose_index<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<i64>>> {
         let poses = self.found.poses.iter().enumerate();
         let indices = poses.flat_map(|(i, pose)| std::iter::repeat_n(i as i64, pose.unwrap_or(0)));
         array(py, &[self.found.names.len()], indices.collect())
     }
 
-    /// -> (n + 1,) where the postures of each pose begin; `offsets[i]:offsets[i + 1]` are those of pose i.
+    /// -> (n + 1,) index of the first posture of each pose; `offsets[i]:offsets[i + 1]` are those of pose i.
     #[getter]
     fn offsets<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<i64>>> {
         array_of(py, &[self.offsets.len()], &self.offsets)
     }
 
-    /// -> list of m str: the branch of each posture; without named branches the side of the middle on which each joint stands.
+    /// -> list of m str: the branch of each posture; without named branches, the side of its mid-position of each joint.
     #[getter]
     fn branch(&self) -> Vec<String> {
         self.found.names.iter().map(ToString::to_string).collect()
     }
 
-    /// -> (m,) bool: whether every joint stands inside its limits.
+    /// -> (m,) bool: whether every joint is inside its limits.
     #[getter]
     fn within_limits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<bool>>> {
         array_of(py, &[self.found.names.len()], &self.found.within_limits)
     }
 
     /// i -> (k, dof) joint positions of the k postures of pose i.
-    fn of<'py>(&self, py: Python<'py>, i: isize) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    fn __getitem__<'py>(&self, py: Python<'py>, i: isize) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let i = index_of(i, self.found.poses.len())?;
         let [first, last] = [self.offsets[i], self.offsets[i + 1]].map(|offset| offset as usize);
         let joints = &self.found.joints[first * self.dof..last * self.dof];
         array_of(py, &[last - first, self.dof], joints)
     }
 
-    /// i -> str or None: why no posture holds pose i, and by how much it is missed.
+    /// i -> str or None: why pose i is unreachable, and by how much.
     fn reason(&self, i: isize) -> PyResult<Option<String>> {
         let i = index_of(i, self.found.poses.len())?;
         Ok(reason_of(&self.found.poses[i]))
     }
 
-    /// -> int: how many poses were asked.
+    /// -> int: number of poses.
     fn __len__(&self) -> usize {
         self.found.poses.len()
     }

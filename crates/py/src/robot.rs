@@ -1,6 +1,7 @@
-//! The class `Robot`: a robot of the library or of a file, and what it answers about many poses at once.
+//! The class `Robot`: a robot of the library or of a file, evaluated at many joint positions or poses at once.
 //!
-//! `source` tells how it is made again in another process; what is computed stands in `stands`, `postures` and `held`.
+//! `source` keeps what is needed to make it again in another process; results are made in `joint_positions`, `postures`
+//! and `evaluation`.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -11,18 +12,19 @@ use armill_core::source::StiffnessModel;
 use armill_core::source::stiffness_model::FREE_FALL;
 use armill_formats::robot::RobotDescription;
 use armill_formats::robot::format::Format;
-use numpy::PyArrayDyn;
+use numpy::{PyArrayDyn, PyUntypedArray};
 use pyo3::prelude::*;
-use pyo3::types::PyBytes;
+use pyo3::types::{PyBytes, PyString};
 
 use crate::arrays::{Given, array, wrong_shape};
 use crate::errors::refused;
-use crate::evaluation::{self, Held};
+use crate::evaluation::{self, PoseEvaluations};
+use crate::joint_positions;
 use crate::postures::{self, Postures};
-use crate::source::{self, RobotSource};
-use crate::stands;
+use crate::source::{self, GivenCompliance, RobotSource};
+use crate::threads::ThreadCount;
 
-/// A robot: its chain, its joints, what yields in it. It never changes.
+/// A robot: its kinematic chain, its joints and its compliances. It is immutable.
 #[pyclass(frozen, module = "armill")]
 pub(crate) struct Robot {
     source: Arc<RobotSource>,
@@ -36,7 +38,7 @@ impl Robot {
             structure: description.robot.structure().clone(),
             gravity: None,
             load_dependent: false,
-            actual: None,
+            ..StiffnessModel::DRIVES.clone()
         };
         Robot {
             source: Arc::new(source),
@@ -54,32 +56,65 @@ impl Robot {
         &self.description.robot
     }
 
-    /// What its joints yield.
+    /// Its joint compliances.
     ///
     /// # Errors
-    /// A robot of which that is not known.
+    /// A robot whose joint compliances are not known.
     pub(crate) fn compliances(&self, py: Python<'_>) -> PyResult<&[JointCompliance]> {
         self.arm().compliance().ok_or_else(|| {
             let message = format!("robot `{}` has no joint compliance", self.arm().name());
             refused(
                 py,
                 message,
-                "give it some: `robot.with_compliance([...])`, rad/(N m), one a joint",
+                "give them: `robot.with_compliance([...])`, rad/(N m), one per joint",
             )
         })
     }
 
-    /// Joint positions where a rail stands and what joints to spare are drawn to.
+    /// The joint positions of a rail, and those that redundant joints prefer.
     pub(crate) fn home(&self, value: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Vec<f64>>> {
         value.map(|value| self.one_a_joint(value, "home")).transpose()
     }
 
+    /// The columns of a data frame in the order of the joints; all else as it is.
+    ///
+    /// # Errors
+    /// Named columns that are not the joints.
+    pub(crate) fn in_joint_order<'py>(&self, joints: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        if joints.cast::<PyUntypedArray>().is_ok() || !joints.hasattr("columns")? {
+            return Ok(joints.clone());
+        }
+        let columns = joints.getattr("columns")?;
+        let columns: Vec<Bound<'py, PyAny>> = columns.try_iter()?.collect::<PyResult<_>>()?;
+        // A frame without names numbers its columns.
+        if !columns.iter().any(|column| column.cast::<PyString>().is_ok()) {
+            return Ok(joints.clone());
+        }
+        let given: Vec<String> = columns.iter().map(ToString::to_string).collect();
+        let names = self.joint_names();
+        let sorted = |names: &[String]| {
+            let mut names = names.to_vec();
+            names.sort();
+            names
+        };
+        if sorted(&given) != sorted(&names) {
+            let message = format!(
+                "joints: the columns are {}, the joints are {}",
+                given.join(", "),
+                names.join(", ")
+            );
+            let hint = "name the columns as the joints, in rad (m), or give an array";
+            return Err(refused(joints.py(), message, hint));
+        }
+        joints.get_item(names)
+    }
+
     /// A number for each joint.
     fn one_a_joint(&self, value: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<f64>> {
-        let requested = format!("({},)", self.dof());
-        let given = Given::of(value, name, &requested)?;
+        let expected = format!("({},)", self.dof());
+        let given = Given::of(value, name, &expected)?;
         if given.shape() != [self.dof()] {
-            return Err(wrong_shape(value.py(), name, &requested, given.shape()));
+            return Err(wrong_shape(value.py(), name, &expected, given.shape()));
         }
         given.finite(value.py(), name)?;
         Ok(given.values().to_vec())
@@ -91,22 +126,21 @@ type Optional<'a, 'py> = Option<&'a Bound<'py, PyAny>>;
 
 #[pymethods]
 impl Robot {
-    /// name or path -> Robot: of the library (`yaskawa/mh12`), or of a robot file of any format (TOML, URDF, xacro, OPW,
+    /// name or path -> Robot: from the library (`yaskawa/mh12`), or from a robot file of any format (TOML, URDF, xacro, OPW,
     /// Denavit-Hartenberg, chain).
     #[staticmethod]
     fn load(py: Python<'_>, robot: PathBuf) -> PyResult<Robot> {
         Robot::read(py, RobotSource::load(py, &robot)?)
     }
 
-    /// path -> Robot: of a URDF (or xacro) file; the flange is the link of that name, else the one at the end of the longest
-    /// chain.
+    /// path -> Robot: from a URDF or xacro file; `flange` is the name of a link, by default the end of the longest chain.
     #[staticmethod]
     #[pyo3(signature = (path, flange=None))]
     fn from_urdf(py: Python<'_>, path: PathBuf, flange: Option<String>) -> PyResult<Robot> {
         Robot::read(py, RobotSource::urdf(py, &path, flange)?)
     }
 
-    /// text -> Robot: of the text of a robot file; `format` is `armill`, `urdf`, `opw`, `dh` or `chain`.
+    /// text -> Robot: from the text of a robot file; `format` is `armill`, `urdf`, `opw`, `dh` or `chain`.
     #[staticmethod]
     #[pyo3(signature = (text, format, name="robot", flange=None))]
     fn from_text(
@@ -118,30 +152,30 @@ impl Robot {
     ) -> PyResult<Robot> {
         let format: Format = format
             .parse()
-            .map_err(|message: String| refused(py, message, "name the format of the text"))?;
+            .map_err(|message: String| refused(py, message, "give the format of the text"))?;
         Robot::read(py, RobotSource::text(format, name, text, flange))
     }
 
     /// (dof, 4) rows a, alpha, d, theta -> Robot: Denavit-Hartenberg, m and rad, at the controller's zero.
     ///
-    /// `convention` is `standard` or `modified` (Craig); `sliding` names the joints, from 0, that slide along d; `limits`
+    /// `convention` is `standard` or `modified` (Craig); `prismatic` lists the joints, from 0, that move along d; `limits`
     /// (dof, 2) in rad or m.
     #[staticmethod]
-    #[pyo3(signature = (rows, convention, *, sliding=Vec::new(), limits=None, name="robot"))]
+    #[pyo3(signature = (rows, convention, *, prismatic=Vec::new(), limits=None, name="robot"))]
     fn from_dh(
         py: Python<'_>,
         rows: &Bound<'_, PyAny>,
         convention: &str,
-        sliding: Vec<usize>,
+        prismatic: Vec<usize>,
         limits: Optional<'_, '_>,
         name: &str,
     ) -> PyResult<Robot> {
-        let text = source::dh_text(py, (rows, convention), &sliding, limits)?;
+        let text = source::dh_text(py, (rows, convention), &prismatic, limits)?;
         Robot::read(py, RobotSource::text(Format::Dh, name, text, None))
     }
 
-    /// seven lengths in m, (6,) offsets in rad, (6,) signs -> Robot: an ortho-parallel arm with spherical wrist, as MoveIt
-    /// keeps it.
+    /// seven lengths in m, (6,) offsets in rad, (6,) signs -> Robot: an ortho-parallel arm with a spherical wrist (OPW), with
+    /// the parameters of MoveIt.
     #[staticmethod]
     #[pyo3(signature = (*, a1, a2, b, c1, c2, c3, c4, offsets=[0.0; 6], signs=[1; 6], name="robot"))]
     fn from_opw(
@@ -161,25 +195,25 @@ impl Robot {
         Robot::read(py, RobotSource::text(Format::Opw, name, text, None))
     }
 
-    /// -> str: its name in the library, or of its file.
+    /// -> str: name in the library, or of its file.
     #[getter]
     fn name(&self) -> &str {
         self.arm().name()
     }
 
-    /// -> str: maker and type.
+    /// -> str: manufacturer and model.
     #[getter]
     fn title(&self) -> &str {
         &self.description.title
     }
 
-    /// -> int: how many joints it has.
+    /// -> int: number of joints.
     #[getter]
     pub(crate) fn dof(&self) -> usize {
         self.arm().joints().len()
     }
 
-    /// -> list of str, one a joint: as the maker calls them.
+    /// -> list of str, one per joint: the names of the manufacturer.
     #[getter]
     fn joint_names(&self) -> Vec<String> {
         self.arm()
@@ -189,13 +223,13 @@ impl Robot {
             .collect()
     }
 
-    /// -> list of str: whom shares are told for: the joints, then `base`, `flange`, `tool` where springs sit.
+    /// -> list of str: names along the axis of `contributions`: the joints, then those of `base`, `flange`, `tool` with springs.
     #[getter]
     fn contributors(&self) -> Vec<String> {
         self.model.contributor_names(self.arm().joints())
     }
 
-    /// -> (dof, 2) least and greatest position, rad (m): minus and plus infinity where a joint has no limits.
+    /// -> (dof, 2) lower and upper limit, rad (m): minus and plus infinity for a joint without limits.
     #[getter]
     fn limits<'py>(&self, py: Python<'py>) -> Floats<'py> {
         let limits = self.arm().joints().iter().flat_map(|joint| match joint.limits {
@@ -205,7 +239,7 @@ impl Robot {
         array(py, &[self.dof(), 2], limits.collect())
     }
 
-    /// -> (dof,) what each joint yields, rad/(N m) (m/N of a sliding one); None where that is not known.
+    /// -> (dof,) compliance of each joint, rad/(N m) (prismatic: m/N); None if not known.
     #[getter]
     fn joint_compliance<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyArrayDyn<f64>>>> {
         let known = self.arm().compliance();
@@ -215,32 +249,41 @@ impl Robot {
 
     /// (dof,) compliances, (dof,) standard uncertainties -> Robot: the same with other joint compliances, rad/(N m) (m/N).
     ///
-    /// Torque curves and covariance of the file go, since they were of the compliances that these replace.
-    #[pyo3(signature = (compliance, standard_uncertainty=None))]
+    /// `source` states where the compliances come from, for `to_toml`; by default "given". Torque curves and covariance of
+    /// the file are dropped: they belong to the compliances that are replaced.
+    #[pyo3(signature = (compliance, standard_uncertainty=None, *, source=None))]
     fn with_compliance(
         &self,
         py: Python<'_>,
         compliance: &Bound<'_, PyAny>,
         standard_uncertainty: Optional<'_, '_>,
+        source: Option<String>,
     ) -> PyResult<Robot> {
         let values = self.one_a_joint(compliance, "compliance")?;
         let uncertainties = match standard_uncertainty {
             Some(uncertainties) => self.one_a_joint(uncertainties, "standard_uncertainty")?,
             None => vec![0.0; values.len()],
         };
-        let given = values.iter().zip(&uncertainties).map(|(value, uncertainty)| JointCompliance {
-            value: *value,
-            standard_uncertainty: *uncertainty,
-        });
+        let given = values
+            .iter()
+            .zip(&uncertainties)
+            .map(|(value, uncertainty)| JointCompliance {
+                value: *value,
+                standard_uncertainty: *uncertainty,
+            });
         let mut description = self.description.clone();
         let robot = description.robot.with_other_compliance(given.collect());
         description.robot =
-            robot.map_err(|error| refused(py, error.to_string(), "rad/(N m), one a joint, 0 or more"))?;
-        let source = self.source.with_compliance(values, uncertainties);
+            robot.map_err(|error| refused(py, error.to_string(), "rad/(N m), one per joint, 0 or more"))?;
+        let source = self.source.with_compliance(GivenCompliance {
+            values,
+            uncertainties,
+            source,
+        });
         Ok(Robot::of(source, description))
     }
 
-    /// -> str: the robot as a robot file of armill, seven digits of each compliance that was given.
+    /// -> str: the robot as a robot file of armill, with seven digits of each given compliance.
     fn to_toml(&self, py: Python<'_>) -> PyResult<String> {
         self.source.toml(py)
     }
@@ -253,9 +296,9 @@ impl Robot {
         &self,
         joints: &Bound<'py, PyAny>,
         tool: Optional<'_, 'py>,
-        threads: Option<usize>,
+        threads: Option<ThreadCount>,
     ) -> Floats<'py> {
-        stands::forward(self, joints, tool, threads)
+        joint_positions::forward(self, joints, tool, threads)
     }
 
     /// (n, dof) joints -> (n, 6, dof) Jacobians: twist of the TCP per unit of joint position, translation first, base axes.
@@ -264,22 +307,22 @@ impl Robot {
         &self,
         joints: &Bound<'py, PyAny>,
         tool: Optional<'_, 'py>,
-        threads: Option<usize>,
+        threads: Option<ThreadCount>,
     ) -> Floats<'py> {
-        stands::jacobian(self, joints, tool, threads)
+        joint_positions::jacobian(self, joints, tool, threads)
     }
 
     /// (n, dof) joints -> (n, 6, 6) compliances at the TCP, translation first, base axes; m/N, 1/N, rad/(N m).
     ///
-    /// Everything that yields is in it: drives, springs, torque curves and compensator of the robot file.
+    /// All compliances of the robot file are included: drives, springs, torque curves and compensator.
     #[pyo3(signature = (joints, tool=None, *, threads=None))]
     fn compliance<'py>(
         &self,
         joints: &Bound<'py, PyAny>,
         tool: Optional<'_, 'py>,
-        threads: Option<usize>,
+        threads: Option<ThreadCount>,
     ) -> Floats<'py> {
-        stands::compliance(self, joints, tool, threads)
+        joint_positions::compliance(self, joints, tool, threads)
     }
 
     /// (n, dof) joints, (cases, 3) forces -> (n, cases, 3) deviations of the TCP, m, base axes.
@@ -292,29 +335,29 @@ impl Robot {
         joints: &Bound<'py, PyAny>,
         forces: &Bound<'py, PyAny>,
         tool: Optional<'_, 'py>,
-        threads: Option<usize>,
+        threads: Option<ThreadCount>,
     ) -> Floats<'py> {
-        stands::deviation(self, (joints, forces), tool, threads)
+        joint_positions::deviation(self, (joints, forces), tool, threads)
     }
 
-    /// (n, dof) joints, (cases, 3) forces -> (n, cases, contributors, 3) shares of the deviation, m, base axes.
+    /// (n, dof) joints, (cases, 3) forces -> (n, cases, contributors, 3) contributions to the deviation, m, base axes.
     ///
-    /// They add up to the deviation. `Robot.contributors` names them: the joints, then base, flange and tool where springs sit.
+    /// They add up to the deviation. `Robot.contributors` has the names: the joints, then base, flange and tool with springs.
     #[pyo3(signature = (joints, forces, tool=None, *, threads=None))]
-    fn shares<'py>(
+    fn contributions<'py>(
         &self,
         joints: &Bound<'py, PyAny>,
         forces: &Bound<'py, PyAny>,
         tool: Optional<'_, 'py>,
-        threads: Option<usize>,
+        threads: Option<ThreadCount>,
     ) -> Floats<'py> {
-        stands::shares(self, (joints, forces), tool, threads)
+        joint_positions::contributions(self, (joints, forces), tool, threads)
     }
 
     /// (n, dof) joints, (dof,) reference -> (n, 3) deviations of the TCP by the weight of the arm, m, base axes.
     ///
-    /// Less that at the joint positions `reference`, where the tool was set. The robot file must hold masses.
-    /// `acceleration` (3,) is that of free fall in base axes, m/s^2.
+    /// They are relative to the joint positions `reference`, at which the tool was measured. The robot file must give the
+    /// masses. `acceleration` (3,) is the acceleration of free fall in base axes, m/s^2.
     #[pyo3(signature = (joints, reference, tool=None, *, acceleration=[0.0, 0.0, -FREE_FALL], threads=None))]
     fn gravity<'py>(
         &self,
@@ -322,10 +365,10 @@ impl Robot {
         reference: &Bound<'py, PyAny>,
         tool: Optional<'_, 'py>,
         acceleration: [f64; 3],
-        threads: Option<usize>,
+        threads: Option<ThreadCount>,
     ) -> Floats<'py> {
         let reference = self.one_a_joint(reference, "reference")?;
-        stands::gravity(
+        joint_positions::gravity(
             self,
             (joints, reference, Vector3::from(acceleration)),
             tool,
@@ -333,29 +376,30 @@ impl Robot {
         )
     }
 
-    /// (n, 4, 4) poses -> Postures: every way to hold the tool at each pose, base_from_tool.
+    /// (n, 4, 4) poses -> Postures: all postures at each pose, base_from_tool.
     ///
-    /// Of an arm without closed form those that a search found. `home` (dof,) says where a rail stands and what joints to
-    /// spare are drawn to.
+    /// For an arm without closed form, those that a search finds. `home` (dof,) gives the position of a rail and the
+    /// positions that redundant joints prefer.
     #[pyo3(signature = (poses, tool=None, *, home=None, threads=None))]
     fn inverse(
         &self,
         poses: &Bound<'_, PyAny>,
         tool: Optional<'_, '_>,
         home: Optional<'_, '_>,
-        threads: Option<usize>,
+        threads: Option<ThreadCount>,
     ) -> PyResult<Postures> {
         postures::inverse(self, (poses, tool), home, threads)
     }
 
-    /// (n, 4, 4) poses, (cases, 3) forces -> Held: one posture for each pose, and how far the tool deviates there.
+    /// (n, 4, 4) poses, (cases, 3) forces -> Evaluation: one posture for each pose, and the deviation of the tool there.
     ///
-    /// `branch` is words of a branch (`front elbow-up no-flip`), `nominal`, or `best`: the posture inside the joint limits
-    /// with the least deviation. `normal` (3,) is the outward normal of the plane that deviations are split on; without,
-    /// the plane across the tool, which must then point the same way everywhere. Play of a robot file counts where it moves
-    /// the tool farthest across that normal; in `deviation`, at joint positions, the load alone does.
+    /// `branch` is the name of a branch (`front elbow-up no-flip`), `nominal`, or `best`: the posture inside the joint limits
+    /// with the smallest deviation. `normal` (3,) is the outward normal of the plane into which deviations are split. By
+    /// default it is opposite to the tool direction, which must then be the same at all poses. Backlash of the robot file is
+    /// included on the side that gives the largest in-plane deviation; `Robot.deviation`, at joint positions, includes the
+    /// load only.
     #[pyo3(signature = (poses, forces, tool=None, *, branch="nominal", normal=None, home=None, threads=None))]
-    fn hold(
+    fn evaluate(
         &self,
         poses: &Bound<'_, PyAny>,
         forces: &Bound<'_, PyAny>,
@@ -363,16 +407,16 @@ impl Robot {
         branch: &str,
         normal: Optional<'_, '_>,
         home: Optional<'_, '_>,
-        threads: Option<usize>,
-    ) -> PyResult<Held> {
-        evaluation::hold(self, (poses, forces, tool), (branch, normal, home), threads)
+        threads: Option<ThreadCount>,
+    ) -> PyResult<PoseEvaluations> {
+        evaluation::evaluate(self, (poses, forces, tool), (branch, normal, home), threads)
     }
 
     fn __repr__(&self) -> String {
         format!("<armill.Robot {}: {} joints>", self.name(), self.dof())
     }
 
-    /// How it is made again, from the very text that it was read from.
+    /// How to make it again, from the text that it was read from.
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, source::Parts<'py>)> {
         let py = slf.py();
         let again = slf.get_type().getattr("_again")?;
@@ -383,16 +427,16 @@ impl Robot {
     fn _again(
         py: Python<'_>,
         file: (PathBuf, String, Bound<'_, PyBytes>),
-        requested: (String, Option<String>),
-        compliance: Option<(Vec<f64>, Vec<f64>)>,
+        format: (String, Option<String>),
+        compliance: Option<(Vec<f64>, Vec<f64>, Option<String>)>,
     ) -> PyResult<Robot> {
-        let robot = Robot::read(py, RobotSource::again(py, file, requested)?)?;
-        let Some((values, uncertainties)) = compliance else {
+        let robot = Robot::read(py, RobotSource::again(py, file, format)?)?;
+        let Some((values, uncertainties, source)) = compliance else {
             return Ok(robot);
         };
         let count = [values.len()];
         let values = array(py, &count, values)?;
         let uncertainties = array(py, &count, uncertainties)?;
-        robot.with_compliance(py, values.as_any(), Some(uncertainties.as_any()))
+        robot.with_compliance(py, values.as_any(), Some(uncertainties.as_any()), source)
     }
 }

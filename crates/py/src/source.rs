@@ -1,12 +1,12 @@
-//! Where a robot comes from: the text of its file, kept so that the same robot, to the last bit, is made in another
-//! process (pickle); and the texts that parameters of a call are told in, so that there is one reader of each format.
+//! The text that a robot is read from. It is kept to make the same robot, bit by bit, in another process (pickle).
+//! Parameters of a call are written as a text too, so that each format has one reader.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use armill_formats::input::{self, Inputs};
-use armill_formats::robot::armill::{Identified, IdentifiedSpring, with_springs};
-use armill_formats::robot::format::{self, Format, Wanted};
+use armill_formats::robot::armill::{IdentifiedSpring, with_given_springs};
+use armill_formats::robot::format::{self, Format, RobotReadOptions};
 use armill_formats::robot::spring_tables::SpringKind;
 use armill_formats::robot::{RobotDescription, armill};
 use armill_study::{library, robots};
@@ -16,32 +16,43 @@ use pyo3::types::PyBytes;
 use crate::arrays::{Given, wrong_shape};
 use crate::errors::{exception, refused};
 
-/// The text of a robot file, and what was said of it.
+/// The text of a robot file, and the options of the call.
 #[derive(Clone, Debug)]
 pub(crate) struct RobotSource {
-    /// What problems show.
+    /// The path shown in messages.
     path: PathBuf,
-    /// Its name in results.
+    /// The name in results.
     name: String,
     bytes: Vec<u8>,
     format: Format,
     tip: Option<String>,
-    /// Joint compliances in place of those of the file, with their standard uncertainties.
-    compliance: Option<(Vec<f64>, Vec<f64>)>,
+    /// Joint compliances in place of those of the file.
+    compliance: Option<GivenCompliance>,
 }
 
-/// A source as Python keeps it: file, format with tip, compliances.
+/// Joint compliances given by the caller.
+#[derive(Clone, Debug)]
+pub(crate) struct GivenCompliance {
+    /// rad/(N m), prismatic m/N, one per joint.
+    pub values: Vec<f64>,
+    /// Their standard uncertainties.
+    pub uncertainties: Vec<f64>,
+    /// Where they come from, in the words of the caller.
+    pub source: Option<String>,
+}
+
+/// The parts that a pickle keeps: file; format with tip; compliances with their source.
 pub(crate) type Parts<'py> = (
     (PathBuf, String, Bound<'py, PyBytes>),
     (String, Option<String>),
-    Option<(Vec<f64>, Vec<f64>)>,
+    Option<(Vec<f64>, Vec<f64>, Option<String>)>,
 );
 
 impl RobotSource {
-    /// That of a robot of the library, or of a file.
+    /// The text of a robot of the library, or of a file.
     ///
     /// # Errors
-    /// Neither; a file that cannot be read, or holds no robot.
+    /// No such robot; a file that cannot be read, or is not a robot file.
     pub(crate) fn load(py: Python<'_>, robot: &Path) -> PyResult<RobotSource> {
         let name = robot.to_string_lossy();
         if let Some(entry) = library::ROBOTS.iter().find(|robot| robot.name == name) {
@@ -53,14 +64,14 @@ impl RobotSource {
         RobotSource::file(py, robot, (&found, None))
     }
 
-    /// That of a URDF with its flange at the link `tip`.
+    /// The text of a URDF with its flange at the link `tip`.
     ///
     /// # Errors
     /// As [`RobotSource::load`].
     pub(crate) fn urdf(py: Python<'_>, path: &Path, tip: Option<String>) -> PyResult<RobotSource> {
         let bytes = read(py, path)?;
         let macros = String::from_utf8_lossy(&bytes).contains("xmlns:xacro");
-        let requested = Wanted {
+        let requested = RobotReadOptions {
             format: Some(if macros { Format::Xacro } else { Format::Urdf }),
             tip: tip.clone(),
         };
@@ -69,7 +80,7 @@ impl RobotSource {
         RobotSource::file(py, path, (&found, tip))
     }
 
-    /// That of a file, which was read already. What includes other files is kept as a robot file of ours.
+    /// The text of a file that was read already. A file that includes other files is kept as a robot file of armill.
     fn file(
         py: Python<'_>,
         path: &Path,
@@ -88,7 +99,7 @@ impl RobotSource {
         Ok(source)
     }
 
-    /// That of a text.
+    /// A text.
     pub(crate) fn text(format: Format, name: &str, text: String, tip: Option<String>) -> RobotSource {
         RobotSource {
             path: PathBuf::from(format!("<{name}>")),
@@ -101,9 +112,9 @@ impl RobotSource {
     }
 
     /// The same with other joint compliances.
-    pub(crate) fn with_compliance(&self, values: Vec<f64>, uncertainties: Vec<f64>) -> RobotSource {
+    pub(crate) fn with_compliance(&self, compliance: GivenCompliance) -> RobotSource {
         RobotSource {
-            compliance: Some((values, uncertainties)),
+            compliance: Some(compliance),
             ..self.clone()
         }
     }
@@ -113,7 +124,7 @@ impl RobotSource {
     /// # Errors
     /// The problems of the text.
     pub(crate) fn read(&self, py: Python<'_>) -> PyResult<RobotDescription> {
-        let requested = Wanted {
+        let requested = RobotReadOptions {
             format: Some(self.format),
             tip: self.tip.clone(),
         };
@@ -121,47 +132,44 @@ impl RobotSource {
         found.map_err(|problems| exception(py, &problems.into()))
     }
 
-    /// The robot as a robot file of ours: its own text where it is one, with the compliances that were given in it.
+    /// The robot as a robot file of armill: its own text if it is one, with the given compliances.
     ///
     /// # Errors
-    /// Springs beside the drives, which stand in no list of joint compliances.
+    /// Given compliances for a robot with springs in addition to its drives, which a list of joint compliances leaves open.
     pub(crate) fn toml(&self, py: Python<'_>) -> PyResult<String> {
         let found = self.read(py)?;
         let text = match self.format {
             Format::Armill => String::from_utf8_lossy(&self.bytes).into_owned(),
             _ => armill::write(&found),
         };
-        let Some((values, uncertainties)) = &self.compliance else {
+        let Some(given) = &self.compliance else {
             return Ok(text);
         };
         if !found.robot.structure().springs.is_empty() {
-            let message = format!("robot `{}` has springs beside its drives", self.name);
+            let message = format!("robot `{}` has springs in addition to its drives", self.name);
             return Err(refused(py, message, "change the compliances in its robot file"));
         }
         let joints = found.robot.joints().iter().enumerate();
-        let springs = joints
-            .zip(values.iter().zip(uncertainties))
-            .map(|((index, joint), (value, uncertainty))| IdentifiedSpring {
+        let springs = joints.zip(given.values.iter().zip(&given.uncertainties)).map(
+            |((index, joint), (value, uncertainty))| IdentifiedSpring {
                 at: joint.name.clone(),
-                yields: match found.robot.slides(index) {
+                kind: match found.robot.slides(index) {
                     true => SpringKind::PrismaticDrive,
                     false => SpringKind::Drive,
                 },
                 compliance: *value,
                 standard_uncertainty: *uncertainty,
-            });
-        let identified = Identified {
-            springs: springs.collect(),
-            covariance: Vec::new(),
-            model_error: None,
-            what: "joint compliances given by the caller".to_owned(),
-            place: "Robot.with_compliance".to_owned(),
-        };
-        let written = with_springs(&self.path.to_string_lossy(), &text, &identified);
+            },
+        );
+        let what = given
+            .source
+            .as_deref()
+            .unwrap_or("joint compliances given without a source");
+        let written = with_given_springs(&self.path.to_string_lossy(), &text, springs.collect(), what);
         written.map_err(|problems| exception(py, &problems.into()))
     }
 
-    /// As Python keeps it.
+    /// The parts that a pickle keeps.
     pub(crate) fn parts<'py>(&self, py: Python<'py>) -> Parts<'py> {
         (
             (
@@ -170,11 +178,13 @@ impl RobotSource {
                 PyBytes::new(py, &self.bytes),
             ),
             (self.format.name().to_owned(), self.tip.clone()),
-            self.compliance.clone(),
+            self.compliance
+                .clone()
+                .map(|given| (given.values, given.uncertainties, given.source)),
         )
     }
 
-    /// From what Python kept; compliances apart.
+    /// From the parts of a pickle, without compliances.
     ///
     /// # Errors
     /// An unknown format.
@@ -185,7 +195,7 @@ impl RobotSource {
     ) -> PyResult<RobotSource> {
         let format = format
             .parse()
-            .map_err(|message: String| refused(py, message, "pickled by another version?"))?;
+            .map_err(|message: String| refused(py, message, "the pickle may be of another version"))?;
         Ok(RobotSource {
             path,
             name,
@@ -207,7 +217,7 @@ fn read(py: Python<'_>, path: &Path) -> PyResult<Vec<u8>> {
         .during(|| input::read(path))
         .map_err(|error| {
             let message = format!("cannot read robot file {}: {error}", path.display());
-            refused(py, message, "is the path right?")
+            refused(py, message, "check the path")
         })
 }
 
@@ -218,37 +228,40 @@ fn read(py: Python<'_>, path: &Path) -> PyResult<Vec<u8>> {
 pub(crate) fn dh_text(
     py: Python<'_>,
     (rows, convention): (&Bound<'_, PyAny>, &str),
-    sliding: &[usize],
+    prismatic: &[usize],
     limits: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<String> {
     let rows = table(py, (rows, "rows"), (None, 4))?;
     let limits = limits
         .map(|limits| table(py, (limits, "limits"), (Some(rows.len()), 2)))
         .transpose()?;
-    if let Some(index) = sliding.iter().find(|index| **index >= rows.len()) {
-        let message = format!("sliding: there is no joint {index} among {}", rows.len());
-        return Err(refused(py, message, "joints are counted from 0"));
+    if let Some(index) = prismatic.iter().find(|index| **index >= rows.len()) {
+        let message = format!(
+            "prismatic: joint {index} does not exist: there are {} joints",
+            rows.len()
+        );
+        return Err(refused(py, message, "joints are numbered from 0"));
     }
     let mut text = format!("convention = {convention}\na_m, alpha_rad, d_m, theta_rad, type");
     if limits.is_some() {
         // A column has one unit.
-        let slides = (0..rows.len()).filter(|index| sliding.contains(index)).count();
+        let slides = (0..rows.len()).filter(|index| prismatic.contains(index)).count();
         let unit = match slides {
             0 => "rad",
             slides if slides == rows.len() => "m",
             _ => {
-                let message = "limits of joints that turn and of joints that slide do not go into one table";
+                let message = "limits of revolute and of prismatic joints cannot be in one table";
                 return Err(refused(
                     py,
                     message,
-                    "write a robot file of armill, or leave the limits out",
+                    "write a robot file of armill, or omit the limits",
                 ));
             }
         };
         let _ = write!(text, ", lower_{unit}, upper_{unit}");
     }
     for (index, row) in rows.iter().enumerate() {
-        let kind = if sliding.contains(&index) {
+        let kind = if prismatic.contains(&index) {
             "prismatic"
         } else {
             "revolute"
@@ -270,20 +283,20 @@ fn table(
     (value, name): (&Bound<'_, PyAny>, &str),
     (count, width): (Option<usize>, usize),
 ) -> PyResult<Vec<Vec<f64>>> {
-    let requested = match count {
+    let expected = match count {
         Some(count) => format!("({count}, {width})"),
         None => format!("(dof, {width})"),
     };
-    let given = Given::of(value, name, &requested)?;
+    let given = Given::of(value, name, &expected)?;
     match given.shape() {
         [rows, columns] if *columns == width && count.is_none_or(|count| count == *rows) => {}
-        shape => return Err(wrong_shape(py, name, &requested, shape)),
+        shape => return Err(wrong_shape(py, name, &expected, shape)),
     }
     given.finite(py, name)?;
     Ok(given.values().chunks(width).map(<[f64]>::to_vec).collect())
 }
 
-/// The OPW parameters as a file has them.
+/// OPW parameters as the text of a file.
 pub(crate) fn opw_text(lengths: [f64; 7], offsets: [f64; 6], signs: [i64; 6]) -> String {
     let names = ["a1", "a2", "b", "c1", "c2", "c3", "c4"];
     let lengths: String = names

@@ -1,4 +1,4 @@
-//! The classes `Study` and `Result`: a study file, checked and run, and what came out.
+//! The classes `Study` and `Result`: a study file, checked and run, and its results.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -8,8 +8,8 @@ use std::time::Duration;
 use armill_core::watch::Watch;
 use armill_formats::file::Writer;
 use armill_formats::input::Inputs;
-use armill_study::finished::Finished;
-use armill_study::output::{self, Csv, Pictures, Wanted};
+use armill_study::finished::FinishedRun;
+use armill_study::output::{self, Csv, OutputOptions, Pictures};
 use armill_study::run::point_count;
 use armill_study::studies::{self, FoundStudy};
 use armill_study::{Study as Checked, StudyError};
@@ -18,17 +18,17 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
 use crate::errors::{exception, refused};
-use crate::judged::{self, Judged};
+use crate::placement_evaluations::{self, PlacementEvaluations};
 use crate::table::Table;
-use crate::threads::{Beats, Effort, watched, work};
+use crate::threads::{Beats, Effort, ThreadCount, watched, work};
 
-/// A study file: what is asked of a robot.
+/// A study file: a robot, a load, and the requested analyses.
 #[pyclass(frozen, module = "armill")]
 pub(crate) struct Study {
     found: FoundStudy,
-    /// The files that it was read from: none of them is written over.
+    /// The files that it was read from; none of them is overwritten.
     inputs: Inputs,
-    /// Read when it is first asked for.
+    /// Read at first use.
     checked: OnceLock<Result<Arc<Checked>, StudyError>>,
 }
 
@@ -42,19 +42,19 @@ impl Study {
     }
 
     fn checked(&self, py: Python<'_>) -> Result<Arc<Checked>, &StudyError> {
-        // Reading may take long: a study may follow a program of any length.
+        // Reading may take long: the program of a study may have any length.
         let read = || self.inputs.during(|| self.found.read().map(Arc::new));
         let checked = py.detach(|| self.checked.get_or_init(read));
         checked.as_ref().map(Arc::clone)
     }
 }
 
-/// What a study is made of again: what errors call it, its folder, its bytes.
+/// The parts that a pickle keeps: the name shown in messages, the folder, the bytes.
 type Parts<'py> = (String, PathBuf, Bound<'py, PyBytes>);
 
-/// What is written beside `result.json`.
-fn expected(pictures: bool, csv: bool) -> Wanted<'static> {
-    Wanted {
+/// The files to write in addition to `result.json`.
+fn output_options(pictures: bool, csv: bool) -> OutputOptions<'static> {
+    OutputOptions {
         pictures: if pictures { Pictures::Drawn } else { Pictures::None },
         csv: if csv { Csv::Every } else { Csv::MapsAndPaths },
         opening: None,
@@ -65,7 +65,7 @@ fn expected(pictures: bool, csv: bool) -> Wanted<'static> {
 impl Study {
     /// path -> Study: a folder with a study.toml, the file itself, or the name of an example study.
     ///
-    /// What is wrong inside is told by `problems` and `check`.
+    /// `problems` and `check` report the problems of its contents.
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf) -> PyResult<Study> {
         let inputs = Inputs::naming([&*path]);
@@ -77,7 +77,7 @@ impl Study {
         })
     }
 
-    /// text, folder -> Study: the text of a study file; files that it names are looked for in `folder`.
+    /// text, folder -> Study: the text of a study file; paths in it are relative to `folder`.
     #[staticmethod]
     #[pyo3(signature = (text, folder=PathBuf::from(".")))]
     fn from_text(text: String, folder: PathBuf) -> Study {
@@ -98,19 +98,23 @@ impl Study {
         py.import("json")?.call_method1("loads", (problems,))
     }
 
-    /// Raises InputError with every problem of the file, if there is one.
+    /// Raises InputError with all problems of the file, if there are any.
     fn check(&self, py: Python<'_>) -> PyResult<()> {
         self.checked(py).map(|_| ()).map_err(|error| exception(py, error))
     }
 
-    /// -> list of str: the names of its asks.
+    /// -> list of str: the names of its analyses.
     #[getter]
     fn analyses(&self, py: Python<'_>) -> PyResult<Vec<String>> {
         let study = self.checked(py).map_err(|error| exception(py, error))?;
-        Ok(study.analyses.iter().map(|analysis| analysis.name.clone()).collect())
+        Ok(study
+            .analyses
+            .iter()
+            .map(|analysis| analysis.name.clone())
+            .collect())
     }
 
-    /// -> int: how many points it asks for.
+    /// -> int: number of points of all analyses.
     #[getter]
     fn point_count(&self, py: Python<'_>) -> PyResult<usize> {
         let study = self.checked(py).map_err(|error| exception(py, error))?;
@@ -120,50 +124,50 @@ impl Study {
     /// -> str: the text of the file.
     #[getter]
     fn text(&self) -> std::borrow::Cow<'_, str> {
-        // Bytes that are no text are told by `check`.
+        // `check` reports bytes that are not text.
         String::from_utf8_lossy(&self.found.bytes)
     }
 
-    /// -> path: where files are looked for that it names.
+    /// -> path: the folder that paths in the study are relative to.
     #[getter]
     fn folder(&self) -> &Path {
         &self.found.folder
     }
 
-    /// ask name or None -> (8,) x, y, z, heading, tilt, roll, spin, rail: where the study has the part of a path, m and rad.
+    /// analysis name or None -> (8,) x, y, z, heading, tilt, roll, spin, rail: the placement that the study gives, m and rad.
     ///
-    /// Without the rail, (7,), where the arm stands on none.
+    /// (7,), without the rail, for an arm that is not on a rail.
     #[pyo3(signature = (analysis=None))]
-    fn drawn_place<'py>(
+    fn nominal_placement<'py>(
         &self,
         py: Python<'py>,
         analysis: Option<String>,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let study = self.checked(py).map_err(|error| exception(py, error))?;
-        judged::drawn(py, &study, analysis)
+        placement_evaluations::nominal(py, &study, analysis)
     }
 
-    /// (n, 6) places -> Judged: what the path costs wherever its part lies.
+    /// (n, 6) places -> PlacementEvaluations: the cost of the path for each placement of its part.
     ///
-    /// A place is x, y, z of the plane's centre (m, in the frame that the study counts from), heading, tilt and roll of the
-    /// plane (rad); (n, 7) has the turn of the tool beside the one it has (rad), (n, 8) the rail (m). Goal, branches and margin
-    /// are those of the study's `[place]`. `analysis` names the path where there are several.
+    /// A placement is x, y, z of the centre of the plane (m, in the reference frame of the study), heading, tilt and roll of
+    /// the plane (rad); (n, 7) has the spin of the tool relative to the nominal one (rad), (n, 8) the rail (m). Objective,
+    /// branches and margin are those of `[place]` of the study. `analysis` is the name of the path if there are several.
     #[pyo3(signature = (places, *, analysis=None, threads=None))]
-    fn judge(
+    fn evaluate_placements(
         &self,
         py: Python<'_>,
         places: &Bound<'_, PyAny>,
         analysis: Option<String>,
-        threads: Option<usize>,
-    ) -> PyResult<Judged> {
+        threads: Option<ThreadCount>,
+    ) -> PyResult<PlacementEvaluations> {
         let study = self.checked(py).map_err(|error| exception(py, error))?;
-        judged::judge(&study, (places, analysis), threads)
+        placement_evaluations::evaluate(&study, (places, analysis), threads)
     }
 
-    /// folder or None -> Result: runs every ask, and writes what `armill run` writes where a folder `out` is given.
+    /// folder or None -> Result: runs all analyses; with a folder `out` it writes the files of `armill run`.
     ///
-    /// `progress` is called now and then with the number of points finished, of `point_count`.
-    /// Files in `out` that armill did not make, or that were changed since, are replaced with `force=True` alone.
+    /// `progress` is called repeatedly with the number of points finished, of `point_count`.
+    /// Files in `out` that armill did not make, or that were changed since, are replaced only with `force=True`.
     #[pyo3(signature = (out=None, *, pictures=true, csv=false, force=false, threads=None, progress=None))]
     fn run(
         &self,
@@ -172,7 +176,7 @@ impl Study {
         pictures: bool,
         csv: bool,
         force: bool,
-        threads: Option<usize>,
+        threads: Option<ThreadCount>,
         progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<Outcome> {
         let study = self.checked(py).map_err(|error| exception(py, error))?;
@@ -189,17 +193,19 @@ impl Study {
             cancel: &cancel,
             counted: &counted,
         };
-        let tell = progress.map(|progress| move |count: usize| progress.call1((count,)).map(|_| ()));
-        let tell = tell.as_ref().map(|tell| tell as &dyn Fn(usize) -> PyResult<()>);
-        let found = watched(py, threads, (beats, tell), || {
-            let expected = expected(pictures, csv);
+        let report = progress.map(|progress| move |count: usize| progress.call1((count,)).map(|_| ()));
+        let report = report
+            .as_ref()
+            .map(|report| report as &dyn Fn(usize) -> PyResult<()>);
+        let found = watched(py, threads, (beats, report), || {
+            let options = output_options(pictures, csv);
             let out = out.map(|out| writer.folder(&out)).transpose()?;
             if let Some(out) = &out {
-                output::allow(&study, (out, expected))?;
+                output::allow(&study, (out, options))?;
             }
-            let mut finished = Finished::run(study, watch)?;
+            let mut finished = FinishedRun::run(study, watch)?;
             if let Some(out) = &out {
-                finished.write(out, expected)?;
+                finished.write(out, options)?;
             }
             let json = output::json(finished.answer())?;
             Ok::<_, StudyError>((finished, json))
@@ -220,7 +226,7 @@ impl Study {
         format!("<armill.Study {}>", self.found.shown)
     }
 
-    /// How it is made again, from the very bytes that were read.
+    /// How to make it again, from the bytes that were read.
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Parts<'py>)> {
         let found = &slf.get().found;
         let bytes = PyBytes::new(slf.py(), &found.bytes);
@@ -234,27 +240,27 @@ impl Study {
     }
 }
 
-/// What came out of a study.
+/// The results of a study.
 #[pyclass(frozen, name = "Result", module = "armill")]
 pub(crate) struct Outcome {
-    /// Those of the study.
+    /// The input files of the study.
     inputs: Inputs,
     json: String,
     sentence: String,
     warnings: Vec<String>,
     analyses: Vec<String>,
-    finished: Mutex<Finished>,
+    finished: Mutex<FinishedRun>,
 }
 
 impl Outcome {
-    /// What `job` makes of it on all processors.
+    /// Runs `job` on the results, on all processors.
     ///
-    /// The thread that asks holds what came out, not the pool: a thread of the pool that waits for its own work may take up
-    /// that of another question, and would wait for itself.
-    fn requested<T: Send>(
+    /// The calling thread locks the results, not the pool: a pool thread that waits for its own work may start another
+    /// job, and would wait for itself.
+    fn with_finished<T: Send>(
         &self,
         py: Python<'_>,
-        job: impl FnOnce(&mut Finished) -> Result<T, StudyError> + Send,
+        job: impl FnOnce(&mut FinishedRun) -> Result<T, StudyError> + Send,
     ) -> PyResult<T> {
         let mut finished = loop {
             match self.finished.try_lock() {
@@ -272,12 +278,12 @@ impl Outcome {
     }
 }
 
-/// How long to wait until asking again for what another thread of Python uses.
+/// Interval of attempts to lock results that another thread of Python uses.
 const WAIT: Duration = Duration::from_millis(2);
 
 #[pymethods]
 impl Outcome {
-    /// -> str: the very bytes of `result.json`, the last line end included.
+    /// -> str: the text of `result.json`, final newline included.
     #[getter]
     fn json(&self) -> &str {
         &self.json
@@ -289,50 +295,54 @@ impl Outcome {
         py.import("json")?.call_method1("loads", (&self.json,))
     }
 
-    /// -> str: the answer in one sentence.
+    /// -> str: the result in one sentence.
     #[getter]
     fn sentence(&self) -> &str {
         &self.sentence
     }
 
-    /// -> list of str: what to know before trusting it.
+    /// -> list of str: limitations of the result.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         self.warnings.clone()
     }
 
-    /// -> list of str: the names of the asks.
+    /// -> list of str: the names of the analyses.
     #[getter]
     fn analyses(&self) -> Vec<String> {
         self.analyses.clone()
     }
 
-    /// ask name or None -> Table: a row a point, the columns of its Parquet file; of the first ask where none is named.
+    /// analysis name or None -> Table: one row per point, the columns of its Parquet file; by default of the first analysis.
     #[pyo3(signature = (analysis=None))]
     fn table(&self, py: Python<'_>, analysis: Option<&str>) -> PyResult<Table> {
         let index = match analysis {
             None => 0,
-            Some(name) => self.analyses.iter().position(|analysis| analysis == name).ok_or_else(|| {
-                let message = format!("no ask is called `{name}`");
-                refused(py, message, format!("there are: {}", self.analyses.join(", ")))
-            })?,
+            Some(name) => self
+                .analyses
+                .iter()
+                .position(|analysis| analysis == name)
+                .ok_or_else(|| {
+                    let message = format!("the study has no analysis `{name}`");
+                    refused(py, message, format!("it has: {}", self.analyses.join(", ")))
+                })?,
         };
-        Table::of(self.requested(py, |finished| finished.table(index))?)
+        Table::of(self.with_finished(py, |finished| finished.table(index))?)
     }
 
-    /// -> dict of str to str: every picture as SVG, by its name.
+    /// -> dict of str to str: all pictures as SVG, by name.
     #[getter]
     fn pictures(&self, py: Python<'_>) -> PyResult<std::collections::BTreeMap<String, String>> {
-        let drawn = self.requested(py, |finished| Ok(finished.pictures()))?;
+        let drawn = self.with_finished(py, |finished| Ok(finished.pictures()))?;
         Ok(drawn
             .into_iter()
             .map(|picture| (picture.name, picture.svg))
             .collect())
     }
 
-    /// folder -> list of paths: writes what `armill run` writes, `result.json` last.
+    /// folder -> list of paths: writes the files of `armill run`, `result.json` last.
     ///
-    /// Files in `folder` that armill did not make, or that were changed since, are replaced with `force=True` alone.
+    /// Files in `folder` that armill did not make, or that were changed since, are replaced only with `force=True`.
     #[pyo3(signature = (folder, *, pictures=true, csv=false, force=false))]
     fn write(
         &self,
@@ -343,8 +353,8 @@ impl Outcome {
         force: bool,
     ) -> PyResult<Vec<PathBuf>> {
         let writer = self.inputs.during(|| Writer::new("run", force));
-        self.requested(py, |finished| {
-            finished.write(&writer.folder(&folder)?, expected(pictures, csv))
+        self.with_finished(py, |finished| {
+            finished.write(&writer.folder(&folder)?, output_options(pictures, csv))
         })
     }
 

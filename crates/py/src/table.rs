@@ -1,7 +1,7 @@
 //! The class `Table`: columns with units, handed over as Arrow without a copy.
 //!
-//! Whoever speaks the PyCapsule interface of Arrow reads it: pandas, polars, pyarrow, duckdb. Units and meanings are in the
-//! metadata of the fields (`unit`, `description`).
+//! Every package with the PyCapsule interface of Arrow reads it: pandas, polars, pyarrow, duckdb. Units and descriptions
+//! are in the metadata of the fields (`unit`, `description`).
 
 use std::collections::HashMap;
 use std::ffi::CStr;
@@ -21,7 +21,7 @@ use pyo3::types::PyCapsule;
 
 use crate::errors::Fault;
 
-/// What consumers know the capsules by.
+/// Names of the capsules in the interface of Arrow.
 const SCHEMA: &CStr = c"arrow_schema";
 const STREAM: &CStr = c"arrow_array_stream";
 
@@ -34,7 +34,7 @@ pub(crate) struct Table {
 }
 
 impl Table {
-    /// The same columns as Arrow holds them.
+    /// The same columns in the layout of Arrow.
     ///
     /// # Errors
     /// Columns that Arrow refuses, which would be a fault of armill.
@@ -47,11 +47,13 @@ impl Table {
             name,
             unit,
             description,
+            decimals,
             data,
-            ..
         } in columns
         {
-            let array = array_of(data).map_err(broken)?;
+            // Counts, and numbers of load cases and lines.
+            let is_integer = unit.is_none() && decimals == Some(0);
+            let array = array_of(data, is_integer).map_err(broken)?;
             let given = [("description", Some(description)), ("unit", unit)];
             let given = given
                 .into_iter()
@@ -68,8 +70,16 @@ impl Table {
     }
 }
 
-fn array_of(data: ColumnData) -> Result<ArrayRef, ArrowError> {
+fn array_of(data: ColumnData, is_integer: bool) -> Result<ArrayRef, ArrowError> {
     Ok(match data {
+        ColumnData::Float(values) if is_integer => {
+            let integers: Vec<i64> = values.into_iter().map(|value| value as i64).collect();
+            Arc::new(Int64Array::from(integers))
+        }
+        ColumnData::OptionalFloat(values) if is_integer => {
+            let integers = values.into_iter().map(|value| value.map(|value| value as i64));
+            Arc::new(Int64Array::from(integers.collect::<Vec<Option<i64>>>()))
+        }
         ColumnData::Float(values) => Arc::new(Float64Array::from(values)),
         ColumnData::OptionalFloat(values) => Arc::new(Float64Array::from(values)),
         ColumnData::Integer(values) => Arc::new(Int64Array::from(values)),
@@ -91,7 +101,7 @@ fn broken(error: ArrowError) -> PyErr {
 
 #[pymethods]
 impl Table {
-    /// -> str: what the table is called.
+    /// -> str: name of the table.
     #[getter]
     fn name(&self) -> &str {
         &self.name
@@ -104,18 +114,18 @@ impl Table {
         schema.fields().iter().map(|field| field.name().clone()).collect()
     }
 
-    /// -> int: how many rows it has.
+    /// -> int: number of rows.
     fn __len__(&self) -> usize {
         self.rows.num_rows()
     }
 
-    /// -> PyCapsule: the columns and their types, for whoever reads Arrow.
+    /// -> PyCapsule: the columns and their types, as an Arrow schema.
     fn __arrow_c_schema__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyCapsule>> {
         let schema = FFI_ArrowSchema::try_from(self.rows.schema().as_ref()).map_err(broken)?;
         PyCapsule::new_with_value(py, schema, SCHEMA)
     }
 
-    /// -> PyCapsule: the rows, for whoever reads Arrow; `requested_schema` is not looked at, as its meaning allows.
+    /// -> PyCapsule: the rows, as an Arrow stream; `requested_schema` is ignored, which the interface permits.
     #[pyo3(signature = (requested_schema=None))]
     fn __arrow_c_stream__<'py>(
         &self,

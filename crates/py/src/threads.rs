@@ -1,7 +1,7 @@
-//! Where work runs: on the threads that were asked for, without the lock of Python, and stopped by Ctrl-C.
+//! Runs work on the requested number of threads, without the lock of Python; Ctrl-C stops it.
 //!
-//! Pools are kept, one for each number of threads, and belong to the process that made them: a child of a fork has no
-//! threads of its parent and makes its own. The thread that called waits, hears signals, and tells progress.
+//! Thread pools are kept, one for each number of threads, and belong to the process that made them: a forked process has
+//! no threads of its parent and makes its own. The calling thread waits, checks signals and reports progress.
 
 use std::any::Any;
 use std::collections::BTreeMap;
@@ -11,43 +11,76 @@ use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::time::Duration;
 
 use armill_core::watch::Watch;
-use pyo3::exceptions::PyKeyboardInterrupt;
+use pyo3::exceptions::{PyKeyboardInterrupt, PyOverflowError};
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use crate::errors::{Cancelled, Fault, refused};
+use crate::errors::{Cancelled, Fault, refused, wrong_type};
 
-/// So many points take less time than waking a thread, where each is quick.
+/// Up to this number of quick points take less time than waking a thread.
 const FEW: usize = 64;
-/// More threads than any machine has processors.
+/// Largest number of threads: more than any machine has processors.
 const MOST_THREADS: usize = 1024;
-/// How often signals are heard and progress is told.
+/// Interval at which signals are checked and progress is reported.
 const BEAT: Duration = Duration::from_millis(30);
 
-/// How much there is to do.
+/// A number of threads, from 1 to [`MOST_THREADS`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct ThreadCount(usize);
+
+impl<'a, 'py> FromPyObject<'a, 'py> for ThreadCount {
+    type Error = PyErr;
+
+    fn extract(value: Borrowed<'a, 'py, PyAny>) -> PyResult<ThreadCount> {
+        let py = value.py();
+        let count = match value.extract::<i64>() {
+            Ok(count) => usize::try_from(count).unwrap_or(0),
+            // An integer beyond 64 bits.
+            Err(error) if error.is_instance_of::<PyOverflowError>(py) => 0,
+            Err(_) => {
+                let kind = value.get_type().name()?;
+                return Err(wrong_type(format!("expected an integer, given {kind}")));
+            }
+        };
+        if !(1..=MOST_THREADS).contains(&count) {
+            let message = format!(
+                "threads: {} is not a number from 1 to {MOST_THREADS}",
+                value.str()?
+            );
+            return Err(refused(py, message, "leave it out to use all processors"));
+        }
+        Ok(ThreadCount(count))
+    }
+}
+
+impl ThreadCount {
+    /// One thread.
+    pub(crate) const ONE: ThreadCount = ThreadCount(1);
+}
+
+/// Amount of work.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Effort {
-    /// So many points, none of which takes long.
+    /// A number of quick points.
     Points(usize),
     /// Work that may take long.
     Long,
 }
 
-/// Told between two beats: how much is finished by now.
+/// Called at intervals with the number of points finished.
 pub(crate) type Progress<'p> = Option<&'p dyn Fn(usize) -> PyResult<()>>;
 
-/// Runs `job` on so many threads (all processors where none are told), and gives what it gives.
+/// Runs `job` on a number of threads (`None`: all processors) and returns its result.
 ///
 /// # Errors
-/// No such number of threads; interrupted; what `progress` raises; a panic, which is a fault of armill.
+/// An interrupt; a panic, which is a fault of armill.
 pub(crate) fn work<T: Send>(
     py: Python<'_>,
-    threads: Option<usize>,
+    threads: Option<ThreadCount>,
     effort: Effort,
     job: impl FnOnce(Watch<'_>) -> T + Send,
 ) -> PyResult<T> {
     if matches!(effort, Effort::Points(count) if count <= FEW) {
-        check(py, threads)?;
         return py.detach(|| caught(|| job(Watch::NONE))).map_err(fault);
     }
     let (cancel, counted) = (AtomicBool::new(false), AtomicUsize::new(0));
@@ -65,31 +98,33 @@ pub(crate) fn work<T: Send>(
     watched(py, threads, (beats, None), || job(watch))
 }
 
-/// What work that takes long and the thread that waits for it tell each other.
+/// Communication between long work and the thread that waits for it.
 #[derive(Clone, Copy)]
 pub(crate) struct Beats<'b> {
     /// Set to stop the work.
     pub cancel: &'b AtomicBool,
-    /// How much is finished.
+    /// Number of points finished.
     pub counted: &'b AtomicUsize,
 }
 
-/// [`work`] that may take long and tells its progress.
+/// [`work`] that may take long and reports its progress.
 ///
 /// # Errors
-/// As [`work`].
+/// As [`work`]; what `progress` raises.
 pub(crate) fn watched<T: Send>(
     py: Python<'_>,
-    threads: Option<usize>,
+    threads: Option<ThreadCount>,
     (beats, progress): (Beats<'_>, Progress<'_>),
     job: impl FnOnce() -> T + Send,
 ) -> PyResult<T> {
-    check(py, threads)?;
     let pool = py.detach(|| pool(threads)).map_err(|why| {
         refused(
             py,
-            format!("cannot start {} threads: {why}", threads.unwrap_or(0)),
-            "try fewer",
+            format!(
+                "cannot start {} threads: {why}",
+                threads.map_or(0, |count| count.0)
+            ),
+            "use fewer threads",
         )
     })?;
     let (found, ready) = (Mutex::new(None), Condvar::new());
@@ -108,9 +143,9 @@ pub(crate) fn watched<T: Send>(
             found.is_some()
         };
         while !py.detach(is_ready) {
-            let given = || progress.map_or(Ok(()), |tell| tell(beats.counted.load(Ordering::Relaxed)));
+            let report = || progress.map_or(Ok(()), |report| report(beats.counted.load(Ordering::Relaxed)));
             if stopped.is_none()
-                && let Err(why) = py.check_signals().and_then(|()| given())
+                && let Err(why) = py.check_signals().and_then(|()| report())
             {
                 beats.cancel.store(true, Ordering::Relaxed);
                 stopped = Some(why);
@@ -123,31 +158,19 @@ pub(crate) fn watched<T: Send>(
     let found = found.into_inner().unwrap_or_else(PoisonError::into_inner);
     match found {
         Some(outcome) => outcome.map_err(fault),
-        None => Err(Fault::new_err("the work ended without an answer")),
+        None => Err(Fault::new_err("the work ended without a result")),
     }
 }
 
-/// What Ctrl-C raises becomes ours; what a handler of the user raises stays.
+/// A `KeyboardInterrupt` becomes `Cancelled`; what a signal handler of the user raises is kept.
 fn as_cancelled(py: Python<'_>, why: PyErr) -> PyErr {
     if !why.get_type(py).is(py.get_type::<PyKeyboardInterrupt>()) {
         return why;
     }
-    Cancelled::new_err("cancelled: nothing of this answer was written")
+    Cancelled::new_err("cancelled: no result was written")
 }
 
-/// Refuses numbers of threads that cannot be.
-fn check(py: Python<'_>, threads: Option<usize>) -> PyResult<()> {
-    match threads {
-        Some(count) if !(1..=MOST_THREADS).contains(&count) => Err(refused(
-            py,
-            format!("threads: {count} is not a number from 1 to {MOST_THREADS}"),
-            "leave it out for all processors",
-        )),
-        _ => Ok(()),
-    }
-}
-
-/// A panic becomes a value, so that whoever waits hears of it.
+/// A panic as a value, so that the waiting thread receives it.
 fn caught<T>(job: impl FnOnce() -> T) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(job)).map_err(|why| words(&*why))
 }
@@ -155,7 +178,7 @@ fn caught<T>(job: impl FnOnce() -> T) -> Result<T, String> {
 fn words(why: &(dyn Any + Send)) -> String {
     let text = why.downcast_ref::<String>().map(String::as_str);
     let text = text.or_else(|| why.downcast_ref::<&str>().copied());
-    text.unwrap_or("no words").to_owned()
+    text.unwrap_or("no message").to_owned()
 }
 
 fn fault(why: String) -> PyErr {
@@ -165,10 +188,10 @@ fn fault(why: String) -> PyErr {
 /// A pool for each process and number of threads.
 static POOLS: Mutex<BTreeMap<(u32, usize), Arc<ThreadPool>>> = Mutex::new(BTreeMap::new());
 
-/// The pool of so many threads of this process; all processors where none are told.
-fn pool(threads: Option<usize>) -> Result<Arc<ThreadPool>, String> {
+/// The pool of this process with a number of threads (`None`: all processors).
+fn pool(threads: Option<ThreadCount>) -> Result<Arc<ThreadPool>, String> {
     // To rayon zero means as many as there are processors.
-    let key = (std::process::id(), threads.unwrap_or(0));
+    let key = (std::process::id(), threads.map_or(0, |count| count.0));
     let mut pools = POOLS.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(pool) = pools.get(&key) {
         return Ok(Arc::clone(pool));

@@ -7,7 +7,7 @@ use armill_core::nalgebra::{Unit, Vector3};
 use armill_core::path::{Course, Move, Operation, Pace, Step};
 use armill_formats::input::{self, Inputs};
 use armill_formats::toolpath::apt::Dialect;
-use armill_formats::toolpath::format::{Wanted, read};
+use armill_formats::toolpath::format::{ToolpathReadOptions, read};
 use armill_formats::toolpath::{LengthUnit, Summary};
 use numpy::{Element, PyArrayDyn};
 use pyo3::prelude::*;
@@ -15,9 +15,9 @@ use pyo3::types::PyDict;
 
 use crate::arrays::array;
 use crate::errors::{exception, refused};
-use crate::threads::{Effort, work};
+use crate::threads::{Effort, ThreadCount, work};
 
-/// The n moves of a program, m and m/s in the frame that it counts from; a move is told by where it ends.
+/// The n moves of a program, m and m/s in the frame of the program; a move is given by its end point.
 #[pyclass(frozen, module = "armill")]
 pub(crate) struct ToolPath {
     moves: Vec<Move>,
@@ -29,8 +29,8 @@ pub(crate) struct ToolPath {
 
 /// file -> ToolPath: the moves of G-code, cutter locations (APT-CL, CLSF) or a CSV of points.
 ///
-/// `unit` (`mm` or `inch`) is that of lengths where the file does not tell; `dialect` (`nx` or `solidworks`) whose cutter
-/// locations these are, where the file does not show it.
+/// `unit` (`mm` or `inch`) is the unit of lengths if the file does not state it; `dialect` (`nx` or `solidworks`) is the
+/// dialect of the cutter locations if the file does not show it.
 #[pyfunction]
 #[pyo3(signature = (file, *, unit=None, dialect=None))]
 pub(crate) fn read_path(
@@ -46,7 +46,7 @@ pub(crate) fn read_path(
         Some(other) => {
             return Err(refused(
                 py,
-                format!("unit: `{other}` is no unit"),
+                format!("unit: `{other}` is not a unit"),
                 "`mm` or `inch`",
             ));
         }
@@ -56,28 +56,33 @@ pub(crate) fn read_path(
         Some("nx") => Some(Dialect::Nx),
         Some("solidworks") => Some(Dialect::SolidWorks),
         Some(other) => {
-            let message = format!("dialect: `{other}` is none");
+            let message = format!("dialect: `{other}` is not a dialect");
             return Err(refused(py, message, "`nx` or `solidworks`"));
         }
     };
     let shown = file.display().to_string();
     let opened = Inputs::naming([&*file])
         .during(|| input::open(&file))
-        .map_err(|error| refused(py, format!("cannot read {shown}: {error}"), "is the path right?"))?;
-    let found = work(py, Some(1), Effort::Long, |_| {
+        .map_err(|error| refused(py, format!("cannot read {shown}: {error}"), "check the path"))?;
+    let found = work(py, Some(ThreadCount::ONE), Effort::Long, |_| {
         let (mut moves, mut operation, mut operations) = (Vec::new(), Vec::new(), Vec::new());
-        let requested = Wanted {
+        let requested = ToolpathReadOptions {
             unit,
             dialect,
-            ..Wanted::default()
+            ..ToolpathReadOptions::default()
         };
-        let summary = read(&shown, BufReader::new(opened), &requested, &mut |step| match step {
-            Step::Operation(begun) => operations.push(begun),
-            Step::Move(given) => {
-                moves.push(given);
-                operation.push(operations.len() as i64 - 1);
-            }
-        })?;
+        let summary = read(
+            &shown,
+            BufReader::new(opened),
+            &requested,
+            &mut |step| match step {
+                Step::Operation(begun) => operations.push(begun),
+                Step::Move(given) => {
+                    moves.push(given);
+                    operation.push(operations.len() as i64 - 1);
+                }
+            },
+        )?;
         Ok(ToolPath {
             moves,
             operation,
@@ -111,34 +116,36 @@ impl ToolPath {
 
 #[pymethods]
 impl ToolPath {
-    /// -> (n, 3) where each move ends, m.
+    /// -> (n, 3) end point of each move, m.
     #[getter]
     fn points<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         self.vectors(py, |given| given.end.coords)
     }
 
-    /// -> (n, 3) tool axes at the ends, from the tip towards the spindle; zeros where the program tells none.
+    /// -> (n, 3) tool axes at the end points, from the tip towards the spindle; zeros where the program gives none.
     #[getter]
     fn axes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.vectors(py, |given| given.axis.map_or_else(Vector3::zeros, Unit::into_inner))
+        self.vectors(py, |given| {
+            given.axis.map_or_else(Vector3::zeros, Unit::into_inner)
+        })
     }
 
-    /// -> (n,) bool: whether the tool cuts on the way.
+    /// -> (n,) bool: whether the tool cuts during the move.
     #[getter]
     fn cuts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<bool>>> {
         self.each(py, |given| given.pace.cuts())
     }
 
-    /// -> (n,) speed of each move, m/s; 0 of rapids, and where the program tells none.
+    /// -> (n,) feed rate of each move, m/s; 0 for rapids, and where the program gives none.
     #[getter]
     fn feed<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         self.each(py, |given| match given.pace {
             Pace::Feed(speed) => speed,
-            Pace::Rapid | Pace::EvaluateError => 0.0,
+            Pace::Rapid | Pace::Unknown => 0.0,
         })
     }
 
-    /// -> (n,) angle of each arc, rad, full turns included; 0 of straight moves.
+    /// -> (n,) angle of each arc, rad, full turns included; 0 for straight moves.
     #[getter]
     fn sweep<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         self.each(py, |given| match given.course {
@@ -147,7 +154,7 @@ impl ToolPath {
         })
     }
 
-    /// -> (n, 3) a point on the axis of each arc, m; zeros of straight moves.
+    /// -> (n, 3) a point on the axis of each arc, m; zeros for straight moves.
     #[getter]
     fn arc_centre<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         self.vectors(py, |given| match given.course {
@@ -156,7 +163,7 @@ impl ToolPath {
         })
     }
 
-    /// -> (n, 3) the axis of each arc, which it turns about by the right hand; zeros of straight moves.
+    /// -> (n, 3) axis of rotation of each arc, by the right-hand rule; zeros for straight moves.
     #[getter]
     fn arc_axis<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         self.vectors(py, |given| match given.course {
@@ -177,7 +184,7 @@ impl ToolPath {
         array(py, &[self.operation.len()], self.operation.clone())
     }
 
-    /// -> list of dict: `name`, `tool`, `diameter` (m), `corner_radius` (m), `spindle` (rad/s), `line`; None where not told.
+    /// -> list of dict: `name`, `tool`, `diameter` (m), `corner_radius` (m), `spindle` (rad/s), `line`; None if not given.
     #[getter]
     fn operations<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
         let given = |operation: &Operation| {
@@ -199,13 +206,13 @@ impl ToolPath {
         self.summary.format.name()
     }
 
-    /// -> list of str: words that were not followed, and what was taken for granted.
+    /// -> list of str: words of the program that were ignored, and assumptions.
     #[getter]
     fn notes(&self) -> Vec<String> {
         self.summary.notes.clone()
     }
 
-    /// -> int: how many moves there are.
+    /// -> int: number of moves.
     fn __len__(&self) -> usize {
         self.moves.len()
     }

@@ -22,7 +22,7 @@ pub(crate) fn nice_step(span: f64, count: f64) -> f64 {
     }
     let decade = 10f64.powf(raw.log10().floor());
     let fraction = raw / decade;
-    // A hair of slack: 0.2 / 0.1 may come out as 2.0000000000000004.
+    // A small tolerance: 0.2 / 0.1 may give 2.0000000000000004.
     let nice = [1.0, 2.0, 2.5, 5.0]
         .into_iter()
         .find(|n| fraction <= n * (1.0 + 1e-9))
@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_loops_on_ranges_without_sense() {
+    fn invalid_ranges_do_not_cause_endless_loops() {
         assert!(multiples(f64::NAN, 1.0, 1.0).is_empty());
         assert!(multiples(0.0, 1e300, 1.0).is_empty());
         assert!(multiples(3.0, 3.0, nice_step(0.0, 5.0)).len() <= 1);

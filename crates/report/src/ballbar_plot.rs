@@ -1,8 +1,8 @@
-//! What a ball-bar saw: the runs around the nominal circle, magnified, as the trade draws them.
+//! A circular test: the runs around the nominal circle, magnified, in the usual form of ball-bar reports.
 //!
-//! Rings stand a division apart, which the second line tells; the nominal circle is the dashed one. Clockwise runs have one
-//! colour, anticlockwise another; the first of each is a solid line, those that repeat it are dashed ever shorter. A dot
-//! is where a run began. Rings and rays are those of [`PolarPlot`].
+//! Rings are a division apart, which the second line states; the nominal circle is the dashed one. Clockwise runs have
+//! one colour, anticlockwise another; the first of each is a solid line, those that repeat it are dashed ever shorter.
+//! A dot is where a run began. Rings and rays are those of [`PolarPlot`].
 
 use crate::axis::plain;
 use crate::chart::runs;
@@ -20,7 +20,7 @@ const ABOVE_PX: f64 = 24.0;
 const BELOW_PX: f64 = 32.0;
 /// More room all around where rays are marked.
 const MARKED_PX: f64 = 26.0;
-/// How far a marked ray and its name stand out of the rim.
+/// How far a marked ray and its name extend beyond the rim.
 const TICK_PX: f64 = 3.0;
 const NAME_PX: f64 = 36.0;
 /// Rays that are closer have one name.
@@ -30,7 +30,7 @@ const MARK_COLOUR: usize = 1;
 /// Radius of the dot where a run begins.
 const START_PX: f64 = 3.5;
 
-/// Which way round a run went.
+/// Direction of travel of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Sense {
     /// Clockwise.
@@ -45,7 +45,7 @@ pub enum Sense {
 pub struct BallbarTrace {
     /// Name for the legend: `CW1`.
     pub name: String,
-    /// Which way round.
+    /// Direction of travel.
     pub sense: Sense,
     /// Angle from the horizontal axis towards the vertical axis in degrees, in the order of drawing.
     pub angle_deg: Vec<f64>,
@@ -55,7 +55,7 @@ pub struct BallbarTrace {
     pub start_deg: Option<f64>,
 }
 
-/// What a picture of a circular test shows.
+/// The input of a picture of a circular test.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BallbarPlot {
     /// First line, bold.
@@ -66,7 +66,7 @@ pub struct BallbarPlot {
     pub horizontal: String,
     /// Name of the direction at 90 degrees: `Y`.
     pub vertical: String,
-    /// Which way the horizontal axis grows.
+    /// Direction of the horizontal axis.
     pub growth: Growth,
     /// The runs.
     pub traces: Vec<BallbarTrace>,
@@ -79,7 +79,7 @@ pub struct BallbarPlot {
 pub struct RayMark {
     /// Angle in degrees.
     pub angle_deg: f64,
-    /// Its name; those of rays that lie close are put together.
+    /// Its name; the names of close rays are combined.
     pub name: String,
 }
 
@@ -111,10 +111,10 @@ impl BallbarPlot {
             false => format!("{}; {division}", self.subtitle),
         };
         let marks = self.marks_apart();
-        let beside = if marks.is_empty() { 0.0 } else { MARKED_PX };
-        let width = WIDTH_PX + 2.0 * beside;
+        let sides_px = if marks.is_empty() { 0.0 } else { MARKED_PX };
+        let width = WIDTH_PX + 2.0 * sides_px;
         let mut page = Heading::new(&under.title, &under.subtitle).page(width);
-        let centre = [width / 2.0, page.top_px + RADIUS_PX + ABOVE_PX + beside];
+        let centre = [width / 2.0, page.top_px + RADIUS_PX + ABOVE_PX + sides_px];
         under.draw_spokes(&mut page.svg, centre, &rings);
         rings.draw(&mut page.svg, centre);
         let mut entries = vec![Entry::line(nominal_style(), under.zero.clone())];
@@ -144,18 +144,18 @@ impl BallbarPlot {
             page.svg.text([at[0], at[1] + 4.0], name, &text);
         }
         if !marks.is_empty() {
-            entries.push(Entry::line(mark_style(), "joint turns back"));
+            entries.push(Entry::line(mark_style(), "joint reverses"));
         }
         if starts.count() > 0 {
             entries.push(Entry::new(Key::Dot(Style::fill(crate::colour::INK)), "start"));
         }
         page.finish_with_legend(
             &entries,
-            [BORDER_PX + 20.0, centre[1] + RADIUS_PX + BELOW_PX + beside],
+            [BORDER_PX + 20.0, centre[1] + RADIUS_PX + BELOW_PX + sides_px],
         )
     }
 
-    /// The marks by their angles, those that lie close put together: `L, U`.
+    /// The marks by their angles, close ones combined: `L, U`.
     fn marks_apart(&self) -> Vec<(f64, String)> {
         let mut marks: Vec<&RayMark> = self
             .marks
@@ -176,7 +176,7 @@ impl BallbarPlot {
         apart
     }
 
-    /// A style a trace: the colour is the way round, the dashes tell how many went that way before.
+    /// A style a trace: the colour is the direction of travel, the dashes count the earlier runs in that direction.
     fn styles(&self) -> Vec<Style> {
         const DASHES: [Option<&str>; 4] = [None, Some("7 4"), Some("3 3"), Some("1 4")];
         let style = |(k, trace): (usize, &BallbarTrace)| {
@@ -291,7 +291,7 @@ mod tests {
     }
 
     #[test]
-    fn a_test_without_radii_says_so() {
+    fn a_test_without_radii_gives_a_notice() {
         assert!(
             BallbarPlot::default()
                 .to_svg()

@@ -1,4 +1,4 @@
-//! What is an error made of? A bar a contribution, then what they make together, then what was measured.
+//! An error budget: a bar for each contribution, then their sum, then the measurement.
 //!
 //! ```text
 //!  contribution │ ████████├──┤      │ 60 µm     largest bias, with twice the scatter beyond it
@@ -24,7 +24,7 @@ const GROUP_PX: f64 = 9.0;
 /// Room right of the bars for the numbers.
 const NUMBER_PX: f64 = 110.0;
 
-/// What a bar is.
+/// The kind of a bar.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum BudgetGroup {
     /// One part of the error.
@@ -32,7 +32,7 @@ pub enum BudgetGroup {
     Contribution,
     /// What several make together.
     Sum,
-    /// What was measured, and what is not explained of it.
+    /// The measurement, and the part of it that is not explained.
     Measured,
 }
 
@@ -69,7 +69,7 @@ pub struct BudgetBar {
     pub scatter_um: f64,
 }
 
-/// What a budget shows.
+/// The input of a budget.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BudgetBars {
     /// First line, bold.
@@ -213,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_that_is_finite_gives_a_notice_and_never_a_nan() {
+    fn values_that_are_not_finite_give_a_notice_and_never_a_nan() {
         let mut empty = budget();
         for bar in &mut empty.bars {
             (bar.largest_um, bar.scatter_um) = (f64::NAN, f64::INFINITY);

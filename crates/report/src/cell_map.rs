@@ -1,5 +1,5 @@
-//! A quantity over two others, cell by cell: coloured where it is known, grey where something is in the way, with a curve
-//! that was chosen and places that are marked.
+//! A quantity over two others, cell by cell: coloured where it is known, grey where it is not, with a curve
+//! that was chosen and marked places.
 //!
 //! ```text
 //!  turn     ┌──────────────────┐
@@ -9,8 +9,8 @@
 //!            along the path (mm)
 //! ```
 //!
-//! Nothing is interpolated: a cell is as wide as half the way to its neighbours. Neighbours of one look in a column are one
-//! rectangle.
+//! Nothing is interpolated: a cell is as wide as half the way to its neighbours. Neighbours of one look in a column are
+//! one rectangle.
 
 use crate::axis::extent;
 use crate::chart::Chart;
@@ -28,35 +28,35 @@ use crate::svg::{Rect, Style, Svg};
 const AREA_PX: [f64; 2] = [560.0, 320.0];
 /// Cells overlap by so much, that no ground shows between them.
 const SEAM_PX: f64 = 0.3;
-/// Deviations beyond this many times the limit have one colour.
-const MOST_LIMITS: f64 = 4.0;
+/// Deviations beyond this many times the tolerance have one colour.
+const MOST_TOLERANCES: f64 = 4.0;
 const NOTHING: &str = "There is nothing to draw: no cell has a value.";
 
-/// What is known of a cell.
+/// The state of a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cell {
     /// The quantity there, um.
-    Holds(f64),
+    Deviation(f64),
     /// A joint is outside its limits.
     OutsideJointLimits,
     /// It is too near a singularity.
     Singular,
-    /// It is out of reach, or gives way under the load.
+    /// It is out of reach, or has no force equilibrium under the load.
     OutOfReach,
     /// Some points have no posture.
-    PointsLost,
+    PointsUnreachable,
 }
 
-/// What a picture of cells shows.
+/// The input of a picture of cells.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CellMap {
     /// First line, bold.
     pub title: String,
     /// Second line.
     pub subtitle: String,
-    /// What is drawn, with its unit: `in-plane deviation (µm)`.
+    /// The quantity, with its unit: `in-plane deviation (µm)`.
     pub quantity: String,
-    /// What the axes are, with their units.
+    /// Labels of the axes, with their units.
     pub labels: AxisLabels,
     /// Place of each column, rising steadily; at least two.
     pub across: Vec<f64>,
@@ -68,7 +68,7 @@ pub struct CellMap {
     pub chosen: Vec<f64>,
     /// What that is, for the legend.
     pub chosen_word: String,
-    /// The height after which the curve begins anew, such as 360 of an angle in degrees.
+    /// The height at which the curve wraps, such as 360 of an angle in degrees.
     pub period: Option<f64>,
     /// Marked places, in the units of the axes.
     pub marks: Vec<Marker>,
@@ -76,12 +76,12 @@ pub struct CellMap {
     pub tolerance_um: Option<f64>,
 }
 
-/// What cells that do not stand look like, with their words.
+/// Colours and legend entries of cells without a value.
 const REASONS: [(Cell, &str, &str); 4] = [
     (Cell::OutsideJointLimits, "#9a9a9a", "outside the joint limits"),
     (Cell::Singular, "#c9c9c9", "near a singularity"),
     (Cell::OutOfReach, "#f0f0f0", "out of reach"),
-    (Cell::PointsLost, "#dcdcdc", "no posture at some points"),
+    (Cell::PointsUnreachable, "#dcdcdc", "no posture at some points"),
 ];
 
 impl CellMap {
@@ -103,8 +103,8 @@ impl CellMap {
             quantity: &self.quantity,
             tolerance_um: self.tolerance_um,
         };
-        let chart = Chart::beside_axis(AREA_PX, across.into(), up.into());
-        let mut page = heading.page(bar.beside(chart.area).right() + BORDER_PX);
+        let chart = Chart::with_axis_room(AREA_PX, across.into(), up.into());
+        let mut page = heading.page(bar.right_of(chart.area).right() + BORDER_PX);
         let chart = chart.lowered_to(page.top_px + 4.0);
         chart.draw_axes(&mut page.svg, &self.labels);
         page.svg.clipped(chart.area, |svg| {
@@ -115,7 +115,7 @@ impl CellMap {
             }
         });
         page.svg.rect(chart.area, &Style::line(INK, 1.0));
-        bar.draw(&mut page.svg, bar.beside(chart.area));
+        bar.draw(&mut page.svg, bar.right_of(chart.area));
         let mut entries = Vec::new();
         if !self.chosen.is_empty() {
             entries.push(Entry::new(
@@ -145,12 +145,12 @@ impl CellMap {
         None
     }
 
-    /// Values as they are coloured: none where nothing stands, large ones as four times the limit.
+    /// Values as they are coloured: none where there is no value, large ones as four times the tolerance.
     fn shown(&self) -> Vec<Option<f64>> {
-        let most = self.tolerance_um.filter(|limit| *limit > 0.0);
-        let most = most.map_or(f64::INFINITY, |limit| MOST_LIMITS * limit);
+        let most = self.tolerance_um.filter(|tolerance| *tolerance > 0.0);
+        let most = most.map_or(f64::INFINITY, |tolerance| MOST_TOLERANCES * tolerance);
         let of = |cell: &Cell| match cell {
-            Cell::Holds(um) if um.is_finite() => Some(um.min(most)),
+            Cell::Deviation(um) if um.is_finite() => Some(um.min(most)),
             _ => None,
         };
         self.cells.iter().map(of).collect()
@@ -248,7 +248,7 @@ mod tests {
         let cell = |along: f64, turn: f64| match turn {
             turn if turn > 130.0 => Cell::OutsideJointLimits,
             turn if turn < -150.0 => Cell::OutOfReach,
-            turn => Cell::Holds(40.0 + 0.3 * along + 0.1 * turn),
+            turn => Cell::Deviation(40.0 + 0.3 * along + 0.1 * turn),
         };
         CellMap {
             title: "rim".to_owned(),
@@ -283,7 +283,7 @@ mod tests {
     }
 
     #[test]
-    fn a_turn_that_goes_round_is_two_lines_and_one_that_is_none_is_none() {
+    fn a_curve_that_wraps_is_two_lines_and_a_missing_one_is_not_drawn() {
         let lines = |svg: &str| svg.matches("<polyline").count() + svg.matches("<path").count();
         let mut odd = lattice();
         // From -140 over -180, which is 180, to -237 deg.
@@ -296,7 +296,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_drawn_says_so() {
+    fn invalid_input_gives_a_notice() {
         for odd in [
             CellMap::default(),
             CellMap {

@@ -35,7 +35,7 @@ pub(crate) struct Chart {
 
 impl Chart {
     /// A chart of `size` pixels at the left border of a page, with room for its axis; its y is still 0.
-    pub(crate) fn beside_axis(size: [f64; 2], across: [f64; 2], up: [f64; 2]) -> Self {
+    pub(crate) fn with_axis_room(size: [f64; 2], across: [f64; 2], up: [f64; 2]) -> Self {
         let mut chart = Self {
             area: Rect {
                 x: 0.0,
@@ -56,7 +56,7 @@ impl Chart {
         Self { area, ..self }
     }
 
-    /// Where a pair of values (across, up) is on the picture; values beyond the ends stand outside the
+    /// Where a pair of values (across, up) is on the picture; values beyond the ends are outside the
     /// area.
     pub(crate) fn at(&self, v: [f64; 2]) -> Point {
         let t = |k: usize| (v[k] - self.low[k]) / (self.high[k] - self.low[k]);

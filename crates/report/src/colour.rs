@@ -6,8 +6,8 @@
 //! |---|---|
 //! | a value in a field | lightness of the scale: low is dark, high is light |
 //! | load cases, joints, series | ten colours by number, then from the first again |
-//! | the limit | red; so are the softest direction, the path on a drawn arm and its x direction |
-//! | within, doubtful, over | green, sand, grey of similar lightness, the limit between them |
+//! | the tolerance | red; so are the softest direction, the path on a drawn arm and its x direction |
+//! | within, undecided, over | green, sand, grey of similar lightness, the tolerance between them |
 //!
 //! Sources: the gradients of the crate `colorous`; Okabe and Ito, Color Universal Design (2008); Paul Tol's
 //! muted set (2021).
@@ -20,7 +20,7 @@ pub(crate) const MUTED: &str = "#5a5a5a";
 pub(crate) const NOMINAL: &str = "#9a9a9a";
 /// Lines that help to read a drawing of a few lines.
 pub(crate) const FAINT: &str = "#c9c9c9";
-/// The ground where a drawing would stand, had it anything to show.
+/// The ground of a drawing that has nothing to show.
 pub(crate) const EMPTY: &str = "#f6f6f6";
 /// Edges of the fields in a legend.
 pub(crate) const KEY_EDGE: &str = "#8a8a8a";
@@ -28,13 +28,13 @@ pub(crate) const KEY_EDGE: &str = "#8a8a8a";
 pub(crate) const GRID: &str = "#e3e3e3";
 /// What the eye shall find first.
 pub(crate) const SIGNAL: &str = "#c8102e";
-/// The limit, on every picture.
-pub(crate) const LIMIT: &str = SIGNAL;
+/// The tolerance, on every picture.
+pub(crate) const TOLERANCE: &str = SIGNAL;
 /// Permissible region.
 pub(crate) const WITHIN: &str = "#b7dcc9";
-/// Within the limit or over it: the uncertainty does not tell.
-pub(crate) const DOUBTFUL: &str = "#f2e3b3";
-/// Over the limit.
+/// The tolerance is within the uncertainty of the value.
+pub(crate) const UNDECIDED: &str = "#f2e3b3";
+/// Over the tolerance.
 pub(crate) const OVER: &str = "#d9d9d9";
 
 /// Share of white mixed into the field colours, so that dark labels stay readable on them.
@@ -52,7 +52,8 @@ pub enum ColourScale {
     /// Dark violet over green to yellow.
     #[default]
     Viridis,
-    /// Dark blue over grey to yellow; looks the same to almost everybody. The pictures of a study do not ask for it.
+    /// Dark blue over grey to yellow; readable with all common types of colour blindness. The pictures of a study do
+    /// not use it.
     Cividis,
 }
 
@@ -75,7 +76,7 @@ pub(crate) const fn category(index: usize) -> &'static str {
     CATEGORIES[index % CATEGORIES.len()]
 }
 
-/// `#rrggbb` between `a` and `b`, at `share` of the way to `b`, each channel by itself.
+/// `#rrggbb` between `a` and `b`, at `share` of the way to `b`, each channel separately.
 pub(crate) fn mix(a: [u8; 3], b: [u8; 3], share: f64) -> String {
     let channel = |k: usize| (f64::from(a[k]) * (1.0 - share) + f64::from(b[k]) * share).round();
     format!(

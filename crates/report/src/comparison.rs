@@ -1,22 +1,22 @@
-//! Which cell holds the tolerance? A row a cell: mean, 95 % and largest deviation, and the limit.
+//! Which cell meets the tolerance? A row a cell: mean, 95 % and largest deviation, and the tolerance.
 //!
 //! ```text
 //!  cell A │    ●────┃───────◆      │  93.0 %     mean, 95 %, largest with its standard uncertainty
-//!  note   │                 ├─┤    │             what the cell has besides
-//!         │        ╎ limit          │
+//!  note   │                 ├─┤    │             a note on the cell
+//!         │        ╎ tolerance      │
 //!         0     quantity (µm)
 //! ```
 //!
-//! A limit more than three times the largest value of all is reported in words: drawn, it would press the rows to the axis.
-//! Cells have the colours that series of the same number have on a [`crate::PathPlot`].
+//! A tolerance more than three times the largest value of all is reported in words: drawn, it would press the rows to
+//! the axis. Cells have the colours that series of the same number have on a [`crate::PathPlot`].
 
 use crate::colour::{INK, MUTED, category};
 use crate::font::{Weight, text_width_px};
 use crate::legend::{Entry, Key, diamond};
-use crate::limit;
 use crate::page::{BORDER_PX, Heading, SMALL_PX};
 use crate::rows::{Rows, left_px};
 use crate::svg::{Rect, Style, Svg, Text};
+use crate::tolerance;
 
 /// Width of the chart, height of a row.
 const AREA_WIDTH_PX: f64 = 470.0;
@@ -27,7 +27,7 @@ const NUMBER_PX: f64 = 92.0;
 const MARK_PX: f64 = 8.0;
 /// The range from mean to largest.
 const RANGE_PX: f64 = 5.0;
-/// A limit so many times the largest value is reported in words.
+/// A tolerance so many times the largest value is reported in words.
 const FAR: f64 = 3.0;
 
 /// One cell of a comparison.
@@ -35,11 +35,11 @@ const FAR: f64 = 3.0;
 pub struct ComparedCell {
     /// What it is called.
     pub label: String,
-    /// What to know of it beside that, in a few words; stands small in its row.
+    /// A note in a few words; written small in its row.
     pub note: String,
     /// Mean deviation; a number that is not finite counts as none, here and below.
     pub mean_um: Option<f64>,
-    /// What 95 of 100 points keep.
+    /// 95th percentile of the deviations.
     pub p95_um: Option<f64>,
     /// Largest deviation.
     pub largest_um: Option<f64>,
@@ -47,11 +47,11 @@ pub struct ComparedCell {
     pub largest_uncertainty_um: Option<f64>,
     /// Permissible deviation.
     pub tolerance_um: Option<f64>,
-    /// What came out, written at the right: `93.0 %`.
+    /// The result, written at the right: `93.0 %`.
     pub result: String,
 }
 
-/// What a comparison shows.
+/// The input of a comparison.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Comparison {
     /// First line, bold.
@@ -73,11 +73,11 @@ impl Comparison {
         let most = self.cells.iter().filter_map(most_um).fold(0.0, f64::max);
         if most <= 0.0 {
             return heading
-                .notice("There is nothing to draw: no cell reaches any point, or nothing deviates.");
+                .notice("There is nothing to draw: no cell reaches any point, or all deviations are 0.");
         }
-        let near = |limit: &f64| *limit <= FAR * most;
-        let limits = self.cells.iter().filter_map(|cell| finite(cell.tolerance_um));
-        let right = limits.filter(near).fold(most, f64::max);
+        let near = |tolerance: &f64| *tolerance <= FAR * most;
+        let tolerances = self.cells.iter().filter_map(|cell| finite(cell.tolerance_um));
+        let right = tolerances.filter(near).fold(most, f64::max);
         let left = left_px(self.cells.iter().map(|cell| cell.label.as_str()));
         let mut page = heading.page(left + AREA_WIDTH_PX + NUMBER_PX + BORDER_PX);
         let rows = Rows {
@@ -95,9 +95,10 @@ impl Comparison {
             .text(head, &self.result, &Text::new(SMALL_PX).colour(MUTED));
         let top = |k: usize| rows.area.y + ROW_PX * k as f64;
         for (k, cell) in self.cells.iter().enumerate() {
-            if let Some(limit) = finite(cell.tolerance_um).filter(near) {
-                let x = rows.x(limit);
-                page.svg.line([x, top(k)], [x, top(k) + ROW_PX], &limit::style());
+            if let Some(tolerance) = finite(cell.tolerance_um).filter(near) {
+                let x = rows.x(tolerance);
+                page.svg
+                    .line([x, top(k)], [x, top(k) + ROW_PX], &tolerance::style());
             }
         }
         for (k, cell) in self.cells.iter().enumerate() {
@@ -114,7 +115,7 @@ impl Comparison {
         page.finish_with_legend(&self.entries(most), [left, rows.area.bottom() + 50.0])
     }
 
-    /// The three marks, then the limit: one that all share by its value.
+    /// The three marks, then the tolerance: one that all share by its value.
     fn entries(&self, most: f64) -> Vec<Entry> {
         let grey = MUTED;
         let mut entries = vec![
@@ -122,17 +123,17 @@ impl Comparison {
             Entry::new(Key::Stroke(Style::line(grey, 3.0)), "95 % of the points"),
             Entry::new(Key::Diamond(largest_style(grey)), "largest, ± u"),
         ];
-        let mut limits: Vec<f64> = self
+        let mut tolerances: Vec<f64> = self
             .cells
             .iter()
             .filter_map(|cell| finite(cell.tolerance_um))
             .collect();
-        limits.dedup();
-        match limits[..] {
+        tolerances.dedup();
+        match tolerances[..] {
             [] => {}
-            [one] if one > FAR * most => entries.push(limit::entry(one, ", beyond this chart")),
-            [one] => entries.push(limit::entry(one, "")),
-            _ => entries.push(Entry::line(limit::style(), "limit of each")),
+            [one] if one > FAR * most => entries.push(tolerance::entry(one, ", beyond this chart")),
+            [one] => entries.push(tolerance::entry(one, "")),
+            _ => entries.push(Entry::line(tolerance::style(), "tolerance of each")),
         }
         entries
     }
@@ -203,20 +204,20 @@ fn finite(value: Option<f64>) -> Option<f64> {
 mod tests {
     use super::*;
 
-    fn cell(label: &str, largest: f64, limit: f64) -> ComparedCell {
+    fn cell(label: &str, largest: f64, tolerance: f64) -> ComparedCell {
         ComparedCell {
             label: label.to_owned(),
             mean_um: Some(0.5 * largest),
             p95_um: Some(0.9 * largest),
             largest_um: Some(largest),
-            tolerance_um: Some(limit),
+            tolerance_um: Some(tolerance),
             result: "50.0 %".to_owned(),
             ..ComparedCell::default()
         }
     }
 
     #[test]
-    fn limits_are_one_entry_where_all_are_alike_and_none_is_drawn_far_off() {
+    fn tolerances_are_one_entry_where_all_are_alike_and_none_is_drawn_far_off() {
         let of = |cells: Vec<ComparedCell>| {
             Comparison {
                 cells,
@@ -225,11 +226,11 @@ mod tests {
             .to_svg()
         };
         let alike = of(vec![cell("a", 20.0, 50.0), cell("b", 60.0, 50.0)]);
-        assert!(alike.contains("limit 50 µm"));
+        assert!(alike.contains("tolerance 50 µm"));
         let apart = of(vec![cell("a", 20.0, 50.0), cell("b", 60.0, 40.0)]);
-        assert!(apart.contains("limit of each"));
+        assert!(apart.contains("tolerance of each"));
         let far = of(vec![cell("a", 20.0, 500.0), cell("b", 60.0, 500.0)]);
-        assert!(far.contains("limit 500 µm, beyond this chart"));
+        assert!(far.contains("tolerance 500 µm, beyond this chart"));
     }
 
     #[test]

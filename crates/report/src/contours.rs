@@ -147,7 +147,7 @@ mod tests {
 
     #[test]
     fn a_line_passes_where_the_samples_equal_the_level() {
-        // 0, 1, 3 at 0, 10, 30 mm: level 2 lies half-way between 10 and 30 mm.
+        // 0, 1, 3 at 0, 10, 30 mm: level 2 is half-way between 10 and 30 mm.
         let lines = lattice(&[0.0, 1.0, 3.0, 0.0, 1.0, 3.0]).lines_at(&[2.0]);
         assert_eq!(lines[0].len(), 1);
         assert!(lines[0][0].iter().all(|p| (p[0] - 20.0).abs() < 1e-9));
@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn samples_without_sense_give_nothing() {
+    fn invalid_samples_give_nothing() {
         assert!(lattice(&[f64::NAN; 6]).areas_from(&[0.5])[0].is_empty());
         assert!(lattice(&[1.0]).lines_at(&[0.5])[0].is_empty());
     }

@@ -1,8 +1,10 @@
-//! In which direction the arm yields: the ellipse that a force of 1 N, turned all the way round, draws with the tool.
+//! The compliance of the arm by direction: the ellipse that the tool describes under a force of 1 N that turns once
+//! around.
 //!
-//! The 2 x 2 compliance C (um/N) maps the unit circle of forces to an ellipse. Its symmetric part has the principal compliances
-//! `m ± r`, `m = (c11 + c22) / 2`, `r = hypot((c11 - c22) / 2, c12)`, the softer one at `atan2(c12, (c11 - c22) / 2) / 2`.
-//! The reference circle has the compliance m: the same arm, equally soft in all directions.
+//! The 2 x 2 compliance C (um/N) maps the unit circle of forces to an ellipse. Its symmetric part has the principal
+//! compliances `m ± r`, `m = (c11 + c22) / 2`, `r = hypot((c11 - c22) / 2, c12)`, the softer one at
+//! `atan2(c12, (c11 - c22) / 2) / 2`. The reference circle has the compliance m: the same arm, equally soft in all
+//! directions.
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
@@ -65,7 +67,7 @@ impl StiffnessEllipse {
             bottom_mm: -half,
             top_mm: half,
         };
-        let plane = Plane::beside_axis(window, MOST_PX);
+        let plane = Plane::with_axis_room(window, MOST_PX);
         let mut page = heading.page(plane.area.x + MOST_PX[0] + BORDER_PX + 20.0);
         let plane = plane.lowered_to(page.top_px + 4.0);
         self.draw_ellipse(&mut page.svg, &plane);

@@ -12,12 +12,12 @@ pub enum ReportError {
         /// What the reader said.
         reason: String,
     },
-    /// The asked size is not drawable: zero, not finite or too large.
+    /// The requested size is not drawable: zero, not finite or too large.
     #[error("a picture of {width_px} x {height_px} px cannot be drawn, the limit is {limit_px} px a side")]
     Size {
-        /// Asked width in pixels.
+        /// Requested width in pixels.
         width_px: f64,
-        /// Asked height in pixels.
+        /// Requested height in pixels.
         height_px: f64,
         /// Largest side that is drawn.
         limit_px: u32,

@@ -31,7 +31,7 @@ pub struct ErrorSet {
     pub after_mm: Vec<f64>,
 }
 
-/// What the picture shows.
+/// The input of the picture.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ErrorDistribution {
     /// First line, bold.
@@ -62,9 +62,9 @@ impl ErrorDistribution {
             .filter_map(|steps| steps.sizes.last())
             .fold(0.0, |most: f64, size| most.max(*size));
         if most <= 0.0 {
-            return heading.notice("There is nothing to draw: no pose is off.");
+            return heading.notice("There is nothing to draw: no pose has an error.");
         }
-        let chart = Chart::beside_axis(AREA_PX, [0.0, 1.03 * most], [0.0, 100.0]);
+        let chart = Chart::with_axis_room(AREA_PX, [0.0, 1.03 * most], [0.0, 100.0]);
         let mut page = heading.page(chart.area.right() + BORDER_PX + 8.0);
         let chart = chart.lowered_to(page.top_px + 4.0);
         let labels = AxisLabels {
@@ -131,7 +131,7 @@ mod tests {
     fn a_set_has_two_lines_that_end_at_all_poses() {
         let picture = ErrorDistribution {
             sets: vec![ErrorSet {
-                name: "held out".to_owned(),
+                name: "validation".to_owned(),
                 before_mm: vec![0.5, f64::NAN, 1.0],
                 after_mm: vec![0.1, 0.2, 0.3],
             }],
@@ -141,14 +141,18 @@ mod tests {
         // A line and its key each.
         assert_eq!(svg.matches("stroke-dasharray=\"5 4\"").count(), 2, "before");
         assert_eq!(svg.matches("stroke-width=\"2.2\"").count(), 2, "after");
-        assert!(svg.contains("held out, before: mean 0.750 mm") && svg.contains("after: mean 0.200 mm"));
+        assert!(svg.contains("validation, before: mean 0.750 mm") && svg.contains("after: mean 0.200 mm"));
         assert!(!svg.contains("NaN"));
-        assert!(ErrorDistribution::default().to_svg().contains("no pose is off"));
+        assert!(
+            ErrorDistribution::default()
+                .to_svg()
+                .contains("no pose has an error")
+        );
     }
 
     #[test]
-    fn half_of_the_poses_stand_at_fifty_percent() {
-        let chart = Chart::beside_axis(AREA_PX, [0.0, 4.0], [0.0, 100.0]);
+    fn half_of_the_poses_are_at_fifty_percent() {
+        let chart = Chart::with_axis_room(AREA_PX, [0.0, 4.0], [0.0, 100.0]);
         let line = corners(&[1.0, 3.0], &chart);
         assert_eq!(line[2], chart.at([1.0, 50.0]));
         assert_eq!(line.last().copied(), Some(chart.at([4.0, 100.0])));

@@ -1,37 +1,37 @@
-//! One field in one plane: bands or region, iso-lines with labels, the limit, and the zones that cannot be used.
+//! One field in one plane: bands or region, iso-lines with labels, the tolerance, and the zones that cannot be used.
 //!
-//! What is drawn between the grid points is the monotone cubic of [`crate::surface`]: exact at the points, between the two
-//! neighbours in between. How far a line lies from that of the true field is not known here; a finer grid tells. Zones
-//! end half-way between a point inside and a point outside.
+//! What is drawn between the grid points is the monotone cubic of [`crate::surface`]: exact at the points, between the
+//! two neighbours in between. How far a line is from that of the true field is not known here; a finer grid shows it.
+//! Zones end half-way between a point inside and a point outside.
 //!
-//! Painted from back to front: bands or region; iso-lines; hatch of what lies outside the joint limits; the
-//! limit; hatch of what is out of reach; labels. The limit runs over the first hatch, since those points have
+//! Painted from back to front: bands or region; iso-lines; hatch of points outside the joint limits; the
+//! tolerance; hatch of what is out of reach; labels. The tolerance runs over the first hatch, since those points have
 //! values, and under the second, since there it is a continuation of the neighbours.
 
-use crate::colour::{ColourScale, DOUBTFUL, INK, NOMINAL, OVER, WITHIN};
+use crate::colour::{ColourScale, INK, NOMINAL, OVER, UNDECIDED, WITHIN};
 use crate::grid::{Grid, PointState};
 use crate::legend::{Entry, Key};
 use crate::levels::Levels;
 use crate::levels_drawing::{LevelLines, Placed};
-use crate::limit;
-use crate::line_label::{Room, write_labels};
+use crate::line_label::{LabelRoom, write_labels};
 use crate::plane::{Plane, Window};
 use crate::surface::Surface;
 use crate::svg::{Hatch, Point, Style, Svg};
+use crate::tolerance;
 
 /// How the area of a field is painted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Paint {
     /// Filled bands.
     Bands(ColourScale),
-    /// One colour within the limit, grey over it.
+    /// One colour within the tolerance, grey over it.
     Region,
 }
 
 /// Which iso-lines are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum IsoLines {
-    /// None, beside bands or a region.
+    /// None: bands or a region only.
     Off,
     /// Without numbers, for small panels.
     Thin,
@@ -39,14 +39,14 @@ pub(crate) enum IsoLines {
     Labelled,
 }
 
-/// How a field is drawn; values and limit in um.
-pub(crate) struct Look<'a> {
+/// How a field is drawn; values and tolerance in um.
+pub(crate) struct FieldStyle<'a> {
     pub(crate) levels: &'a Levels,
     pub(crate) paint: Paint,
     pub(crate) iso_lines: IsoLines,
-    /// The limit; a line where the field crosses it.
+    /// The tolerance; a line where the field crosses it.
     pub(crate) tolerance_um: Option<f64>,
-    /// The least and the greatest that each value may be, where a region tells what is doubtful.
+    /// The least and the greatest value of each point, where a region shows the uncertainty.
     pub(crate) uncertainty: Option<&'a [Grid; 2]>,
     /// Points that labels keep clear of: what is drawn on top afterwards.
     pub(crate) obstacles: &'a [Point],
@@ -54,7 +54,7 @@ pub(crate) struct Look<'a> {
 
 /// Draws `grid` into `plane`; the frame comes afterwards, on top. Not checked: that the grid can be drawn, see
 /// [`Grid::obstacle`].
-pub(crate) fn draw_field(svg: &mut Svg, plane: &Plane, grid: &Grid, look: &Look<'_>) {
+pub(crate) fn draw_field(svg: &mut Svg, plane: &Plane, grid: &Grid, look: &FieldStyle<'_>) {
     let steps = (plane.area.w.max(plane.area.h) / 3.0).clamp(40.0, crate::surface::FINE as f64) as usize;
     let surface = Surface::refine(grid, steps);
     let at = |mm: [f64; 2]| plane.at(mm);
@@ -84,7 +84,7 @@ pub(crate) fn draw_field(svg: &mut Svg, plane: &Plane, grid: &Grid, look: &Look<
                 draw_zone(svg, &placed.with(grid.lattice(&samples)), &fill);
             });
         }
-        lines.draw_limit(svg, &[limit::ground_style(), limit::style()]);
+        lines.draw_tolerance(svg, &[tolerance::ground_style(), tolerance::style()]);
         if grid.has_unreachable() {
             let samples = zone(|p| p.value_um().is_none());
             let fill = svg.hatch(&unreachable_hatch());
@@ -95,7 +95,7 @@ pub(crate) fn draw_field(svg: &mut Svg, plane: &Plane, grid: &Grid, look: &Look<
     });
     if look.iso_lines == IsoLines::Labelled {
         let free = |p: Point| surface.is_reached_at(plane.mm(p));
-        let room = Room {
+        let room = LabelRoom {
             area: plane.area,
             free: &free,
             obstacles: look.obstacles,
@@ -104,17 +104,19 @@ pub(crate) fn draw_field(svg: &mut Svg, plane: &Plane, grid: &Grid, look: &Look<
     }
 }
 
-/// One colour within the limit, another over it, and a third where the uncertainty does not tell.
-fn draw_region(svg: &mut Svg, values: &Placed<'_>, look: &Look<'_>, steps: usize) {
+/// One colour within the tolerance, another over it, and a third where it is within the uncertainty.
+fn draw_region(svg: &mut Svg, values: &Placed<'_>, look: &FieldStyle<'_>, steps: usize) {
     svg.rect(values.area, &Style::fill(WITHIN));
-    let Some(tolerance_um) = look.tolerance_um.filter(|limit| limit.is_finite()) else {
+    let Some(tolerance_um) = look.tolerance_um.filter(|tolerance| tolerance.is_finite()) else {
         return;
     };
     match look.uncertainty {
         Some([least, greatest]) => {
-            for (grid, colour) in [(greatest, DOUBTFUL), (least, OVER)] {
+            for (grid, colour) in [(greatest, UNDECIDED), (least, OVER)] {
                 let surface = Surface::refine(grid, steps);
-                values.with(surface.lattice()).fill_from(svg, tolerance_um, colour);
+                values
+                    .with(surface.lattice())
+                    .fill_from(svg, tolerance_um, colour);
             }
         }
         None => values.fill_from(svg, tolerance_um, OVER),
@@ -167,7 +169,7 @@ pub(crate) fn zone_entries<'a>(
     entries
 }
 
-/// Rising lines on near white: what lies under them is not a value.
+/// Rising lines on near white: the colours below are not values.
 fn unreachable_hatch() -> Hatch {
     Hatch {
         turn_deg: 45.0,

@@ -1,8 +1,9 @@
 //! How wide a text is when set in DejaVu Sans, so that labels can keep out of each other's way.
 //!
-//! The widths are the advance widths of the two embedded fonts (`fonts/`), in thousandths of the font size; kerning is left out.
+//! The widths are the advance widths of the two embedded fonts (`fonts/`), in thousandths of the font size; kerning is
+//! left out.
 //!
-//! A picture is laid out before anybody draws it: whether two labels meet, where a line of the title breaks and
+//! A picture is laid out before it is rendered: whether two labels meet, where a line of the title breaks and
 //! how wide the numbers of an axis are has to be known without a font engine.
 
 use crate::advances::RUNS;
@@ -22,7 +23,7 @@ pub(crate) struct Run {
 pub(crate) enum Weight {
     /// As nearly every text.
     Regular,
-    /// As titles, names and the limit.
+    /// As titles, names and the tolerance.
     Bold,
 }
 

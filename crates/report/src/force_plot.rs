@@ -1,8 +1,8 @@
 //! Forces over time: each component and the size, as it was measured and as it was treated, with the stretches where
 //! nothing is cut.
 //!
-//! A record has far more samples than a picture has columns of pixels: each column shows the least and the greatest of its
-//! samples, so that no peak is lost and the picture stays small.
+//! A record has far more samples than a picture has columns of pixels: each column shows the least and the greatest of
+//! its samples, so that no peak is lost and the picture stays small.
 
 use std::fmt::Write;
 
@@ -40,8 +40,8 @@ pub struct Envelope {
 
 impl Envelope {
     /// Of samples (time in s, value in the unit of the trace) in a span of time (from, to in s), in the order
-    /// of time; what lies outside or is not finite is left out. A column without a sample stays empty; a span
-    /// of no length leaves all empty. A column also holds the last value of the column right before it, from
+    /// of time; values outside or not finite are left out. A column without a sample stays empty; a span
+    /// of no length leaves all empty. A column also contains the last value of the column right before it, from
     /// which its line comes.
     pub fn of(span_s: [f64; 2], samples: impl IntoIterator<Item = (f64, f64)>) -> Envelope {
         let mut columns = vec![None; COLUMNS];
@@ -105,7 +105,7 @@ impl ForcePlot {
             return heading.notice(NOTHING);
         };
         if spans.any(|other| other != span_s) {
-            return heading.notice("The traces are not of one span of time.");
+            return heading.notice("The traces have different time spans.");
         }
         let strips: Option<Vec<Strip<'_>>> = self.traces.iter().enumerate().map(strip).collect();
         let Some(mut strips) = strips else {
@@ -182,7 +182,7 @@ impl ForcePlot {
             Entry::new(Key::Pieces(used.collect()), "as used"),
         ];
         if !self.air_s.is_empty() {
-            entries.push(Entry::new(Key::Field(Style::fill(AIR)), "nothing is cut"));
+            entries.push(Entry::new(Key::Field(Style::fill(AIR)), "no cutting"));
         }
         entries
     }
@@ -195,7 +195,7 @@ struct TimeAxis {
 }
 
 impl TimeAxis {
-    /// Where an instant stands; one outside the span at the nearer end.
+    /// The position of an instant; one outside the span at the nearer end.
     fn x(&self, time_s: f64) -> f64 {
         let [from, to] = self.span_s;
         self.area.x + ((time_s - from) / (to - from)).clamp(0.0, 1.0) * self.area.w
@@ -269,7 +269,7 @@ impl Strip<'_> {
     }
 }
 
-/// Up one column and down the next: a line one pixel wide fills what lies between least and greatest.
+/// Up one column and down the next: a line one pixel wide fills the range between least and greatest.
 fn zigzag(envelope: &Envelope, left: f64, y: &dyn Fn(f64) -> f64) -> String {
     let mut data = String::new();
     let mut upwards = true;
@@ -330,7 +330,7 @@ mod tests {
         // Eight traces of 640 columns, some twelve bytes each.
         assert!(svg.len() < 150_000, "{}", svg.len());
         assert_eq!(svg.matches(AIR).count(), 2 * 4 + 1);
-        assert!(svg.contains("first cut") && svg.contains("nothing is cut"));
+        assert!(svg.contains("first cut") && svg.contains("no cutting"));
     }
 
     #[test]
@@ -348,7 +348,7 @@ mod tests {
     }
 
     #[test]
-    fn a_record_without_values_says_so() {
+    fn a_record_without_values_gives_a_notice() {
         assert!(ForcePlot::default().to_svg().contains("no values"));
         let empty = ForceTrace {
             name: "Fx (N)".to_owned(),
@@ -371,11 +371,11 @@ mod tests {
     fn traces_of_different_times_are_not_drawn_as_if_they_were_of_one() {
         let mut plot = plot();
         plot.traces[3].after = Envelope::of([0.0, 5.0], [(1.0, 2.0)]);
-        assert!(plot.to_svg().contains("not of one span of time"));
+        assert!(plot.to_svg().contains("different time spans"));
     }
 
     #[test]
-    fn what_was_used_is_in_the_legend_in_the_colour_of_every_trace() {
+    fn the_legend_has_the_used_styles_in_the_colour_of_each_trace() {
         let svg = plot().to_svg();
         for index in 0..4 {
             let key = format!("stroke=\"{}\" stroke-width=\"2.4\"", category(index));

@@ -17,7 +17,7 @@ pub enum PointState {
     /// Reached only beyond a joint limit; the value in um there. Such points are drawn with their value and
     /// hatched.
     OutsideJointLimits(f64),
-    /// Out of reach: there is no posture, so no value.
+    /// Out of reach: without a posture, and therefore without a value.
     Unreachable,
 }
 
@@ -37,9 +37,9 @@ impl PointState {
 /// 2 points, a wrong number of points, none with a value) gives a picture that says so.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Grid {
-    /// Values of the horizontal axis in mm as drawn from left to right, rising or falling.
+    /// Values of the horizontal axis in mm from left to right, rising or falling.
     pub horizontal_mm: Vec<f64>,
-    /// Values of the vertical axis in mm as drawn from bottom to top, rising or falling.
+    /// Values of the vertical axis in mm from bottom to top, rising or falling.
     pub vertical_mm: Vec<f64>,
     /// The points, row by row from the bottom, each row from left to right.
     pub points: Vec<PointState>,

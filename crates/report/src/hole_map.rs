@@ -1,23 +1,24 @@
-//! Holes as they come out: each where it is, coloured by its deviation, with an arrow to where its axis goes.
+//! The holes as drilled: each at its position, coloured by its deviation, with an arrow for the error of its axis.
 //!
-//! Arrows are drawn at one magnification, 1, 2 or 5 times a power of ten, so that the longest takes about a sixth of the
-//! extent of the holes; it stands below the drawing with an arrow of known length. A hole without a value is a cross.
+//! Arrows are drawn at one magnification, 1, 2 or 5 times a power of ten, so that the longest takes about a sixth of
+//! the extent of the holes; the scale is below the drawing with an arrow of known length. A hole without a value is a
+//! cross.
 
 use crate::arrow::draw_arrow;
 use crate::axis::extent;
-use crate::colour::{ColourScale, INK, LIMIT, NOMINAL};
+use crate::colour::{ColourScale, INK, NOMINAL, TOLERANCE};
 use crate::colour_bar::ColourBar;
 use crate::legend::{Entry, Key, draw_cross};
 use crate::levels::Levels;
-use crate::limit;
 use crate::page::{BORDER_PX, Heading, LEAST_WIDTH_PX, SMALL_PX};
 use crate::plane::{AxisLabels, BELOW_PX, Plane, Window};
 use crate::svg::{Point, Style, Svg, Text};
+use crate::tolerance;
 use crate::vector_field::{Arrow, LONGEST_ARROW, Magnified};
 
 /// Largest drawing: width, height.
 const MOST_PX: [f64; 2] = [560.0, 480.0];
-/// Radius of a hole; of one over the limit a ring lies round it.
+/// Radius of a hole; one over the tolerance has a ring.
 const HOLE_PX: f64 = 5.0;
 const RING_PX: f64 = 7.5;
 /// Holes of more than so many are drawn smaller.
@@ -30,13 +31,13 @@ pub struct HoleMark {
     pub at_mm: [f64; 2],
     /// How its axis moves along them.
     pub error_um: [f64; 2],
-    /// The deviation that counts; none where it is out of reach.
+    /// The evaluated component of the deviation; none where it is out of reach.
     pub deviation_um: Option<f64>,
-    /// What is written beside it; nothing for most.
+    /// Its label; empty for most.
     pub name: String,
 }
 
-/// What a picture of holes shows; numbers that are not finite are left out.
+/// The input of a picture of holes; numbers that are not finite are left out.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HoleMap {
     /// First line, bold.
@@ -45,7 +46,7 @@ pub struct HoleMap {
     pub subtitle: String,
     /// Axis labels with units.
     pub axes: AxisLabels,
-    /// What the colours mean, with unit.
+    /// The quantity of the colours, with unit.
     pub quantity: String,
     /// Permissible deviation; one that is not finite counts as none.
     pub tolerance_um: Option<f64>,
@@ -71,11 +72,11 @@ impl HoleMap {
             quantity: &self.quantity,
             tolerance_um: self.tolerance_um,
         };
-        let plane = Plane::beside_axis(window, MOST_PX);
-        let width = bar.beside(plane.area).right() + BORDER_PX;
+        let plane = Plane::with_axis_room(window, MOST_PX);
+        let width = bar.right_of(plane.area).right() + BORDER_PX;
         let mut page = heading.page(width.max(LEAST_WIDTH_PX));
         let plane = plane.lowered_to(page.top_px + 4.0);
-        let bar_area = bar.beside(plane.area);
+        let bar_area = bar.right_of(plane.area);
         let sizes = self.arrows().map(|a| a.deviation_um[0].hypot(a.deviation_um[1]));
         let magnified = Magnified::new(sizes.fold(0.0, f64::max), span_mm);
         page.svg.clipped(plane.area, |svg| {
@@ -134,14 +135,14 @@ impl HoleMap {
         match value(hole) {
             Some(um) => {
                 if self.is_over(um) {
-                    svg.circle(at, RING_PX * small, &Style::line(LIMIT, 1.8 * small));
+                    svg.circle(at, RING_PX * small, &Style::line(TOLERANCE, 1.8 * small));
                 }
                 let band = levels.inner_um().iter().take_while(|edge| um > **edge).count();
                 let fill = Style::fill(levels.colour(band, self.scale)).outlined(INK, 0.8 * small);
                 svg.circle(at, HOLE_PX * small, &fill);
             }
             None => {
-                draw_cross(svg, at, (HOLE_PX * small, &lost_style()));
+                draw_cross(svg, at, (HOLE_PX * small, &unreachable_style()));
             }
         }
         if !hole.name.is_empty() {
@@ -154,21 +155,28 @@ impl HoleMap {
     }
 
     fn is_over(&self, um: f64) -> bool {
-        self.tolerance_um.is_some_and(|limit| limit.is_finite() && um > limit)
+        self.tolerance_um
+            .is_some_and(|tolerance| tolerance.is_finite() && um > tolerance)
     }
 
     fn entries(&self) -> Vec<Entry> {
         let mut entries = Vec::new();
         let over = self.holes.iter().filter_map(value).any(|um| self.is_over(um));
-        match self.tolerance_um.filter(|limit| limit.is_finite()) {
-            Some(limit) if over => {
-                let ring = Key::Dot(Style::line(LIMIT, 1.8));
-                entries.push(Entry::new(ring, format!("over the {}", limit::label(limit))));
+        match self.tolerance_um.filter(|tolerance| tolerance.is_finite()) {
+            Some(tolerance) if over => {
+                let ring = Key::Dot(Style::line(TOLERANCE, 1.8));
+                entries.push(Entry::new(
+                    ring,
+                    format!("over the {}", tolerance::label(tolerance)),
+                ));
             }
-            limit => entries.extend(limit::entry_over(limit, self.holes.iter().filter_map(value))),
+            tolerance => entries.extend(tolerance::entry_over(
+                tolerance,
+                self.holes.iter().filter_map(value),
+            )),
         }
         if self.holes.iter().any(|hole| value(hole).is_none()) {
-            entries.push(Entry::new(Key::Cross(lost_style()), "out of reach"));
+            entries.push(Entry::new(Key::Cross(unreachable_style()), "out of reach"));
         }
         entries
     }
@@ -178,7 +186,7 @@ fn value(hole: &HoleMark) -> Option<f64> {
     hole.deviation_um.filter(|um| um.is_finite())
 }
 
-fn lost_style() -> Style {
+fn unreachable_style() -> Style {
     Style::line(NOMINAL, 2.0)
 }
 
@@ -196,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_over_the_limit_or_out_of_reach_is_reported_in_the_legend_only_where_there_is_such() {
+    fn the_legend_has_entries_for_excess_and_out_of_reach_only_where_needed() {
         let of = |holes: Vec<HoleMark>| {
             HoleMap {
                 tolerance_um: Some(50.0),
@@ -210,10 +218,10 @@ mod tests {
             hole(50.0, Some(80.0)),
             hole(90.0, None),
         ]);
-        assert!(mixed.contains("over the limit 50 µm") && mixed.contains(">out of reach<"));
+        assert!(mixed.contains("over the tolerance 50 µm") && mixed.contains(">out of reach<"));
         assert!(mixed.contains("deviations drawn ×") && !mixed.contains("NaN"));
         let fine = of(vec![hole(0.0, Some(20.0)), hole(50.0, Some(30.0))]);
-        assert!(!fine.contains("over the limit") && !fine.contains("out of reach"));
+        assert!(!fine.contains("over the tolerance") && !fine.contains("out of reach"));
     }
 
     #[test]

@@ -1,4 +1,5 @@
-//! A report as one HTML file: question, answer, pictures, tables, warnings and the sources of the inputs; nothing is loaded from elsewhere.
+//! A report as one HTML file: question, answer, pictures, tables, warnings and the sources of the inputs; nothing is
+//! loaded from elsewhere.
 //!
 //! Order of the page, each part but the title left out where it is empty:
 //!
@@ -7,7 +8,7 @@
 //! ```
 //!
 //! Figures and tables are numbered in the order of adding, apart from each other; the table of inputs has no
-//! number. All words are escaped; pictures are put in as they stand, as SVG inside the page. Colours follow the
+//! number. All words are escaped; pictures are included unchanged, as SVG inside the page. Colours follow the
 //! reader's light or dark setting.
 
 use crate::svg::escape;
@@ -15,7 +16,7 @@ use crate::svg::escape;
 /// The style sheet, written into each report.
 const STYLE: &str = include_str!("report.css");
 
-/// How the cells of a column stand.
+/// Alignment of the cells of a column.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Align {
     /// Words: to the left.
@@ -32,13 +33,13 @@ pub struct Column {
     pub name: String,
     /// Its unit; empty for a column of words or pure numbers.
     pub unit: String,
-    /// How its cells stand.
+    /// Alignment of its cells.
     pub align: Align,
 }
 
 /// A table. A row shorter than the columns is filled with empty cells, a longer one is cut.
 ///
-/// Not checked: that numbers carry the decimals that they should; cells are shown as they stand.
+/// Not checked: that numbers have the required decimals; cells are shown unchanged.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Table {
     /// What the table shows.
@@ -70,7 +71,7 @@ pub struct Input {
 /// use armill_report::html::Report;
 ///
 /// let html = Report::new("Groove")
-///     .question("Does the groove hold 50 µm?")
+///     .question("Is the groove within 50 µm?")
 ///     .answer("Yes, by 12 µm.")
 ///     .section("How it was computed")
 ///     .paragraph("From the compliances of the joints.")
@@ -114,7 +115,7 @@ impl Report {
         self
     }
 
-    /// Something the reader must know before using the answer; it stands above everything but question and
+    /// Something the reader must know before using the answer; it is above everything but question and
     /// answer.
     #[must_use]
     pub fn warning(mut self, text: &str) -> Self {
@@ -219,7 +220,7 @@ impl Report {
         if !self.warnings.is_empty() {
             let items = list_html(&self.warnings);
             main.push_str(&format!(
-                "<aside class=\"warnings\" role=\"note\">\n<b>Before you use this</b>\n{items}</aside>\n"
+                "<aside class=\"warnings\" role=\"note\">\n<b>Warnings</b>\n{items}</aside>\n"
             ));
         }
         main.push_str(&self.contents());
@@ -297,8 +298,8 @@ fn inputs_table(inputs: &[Input]) -> Table {
     }
 }
 
-/// A table that scrolls sideways where the page is too narrow. `number` is HTML before the caption, as it
-/// stands; without number and caption there is no caption.
+/// A table that scrolls sideways where the page is too narrow. `number` is HTML before the caption,
+/// not escaped; without number and caption there is no caption.
 fn table_html(table: &Table, number: &str) -> String {
     let class = |align| {
         if align == Align::Number {

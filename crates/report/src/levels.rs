@@ -21,7 +21,7 @@ pub(crate) struct Levels {
     pub(crate) step_um: f64,
 }
 
-/// Bands wanted: the nice step gives between half of this and this, plus one.
+/// Target number of bands: the nice step gives between half of this and this, plus one.
 const BANDS: f64 = 11.0;
 
 impl Levels {

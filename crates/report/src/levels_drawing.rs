@@ -1,5 +1,5 @@
-//! A field drawn by its levels, wherever its lattice is on the picture: bands, iso-lines, the line of the limit, and
-//! the labels of these lines.
+//! A field drawn by its levels, wherever its lattice is on the picture: bands, iso-lines, the line of the tolerance,
+//! and the labels of these lines.
 //!
 //! What knows the lattice (`crate::contours`) thinks in its values, what draws thinks in pixels: here the two
 //! meet, by a function from values to the picture. Maps and charts of any scale share it.
@@ -7,12 +7,12 @@
 use crate::colour::ColourScale;
 use crate::contours::{Lattice, Ring};
 use crate::levels::Levels;
-use crate::limit;
 use crate::line::without_straight;
 use crate::line_label::Labelled;
 use crate::svg::{Ends, Point, Rect, Style, Svg, Text, trace};
+use crate::tolerance;
 
-/// A line that coincides with the limit, within this part of a step, carries the limit's label alone.
+/// A line that coincides with the tolerance, within this part of a step, carries the tolerance's label alone.
 const COINCIDES: f64 = 0.05;
 
 /// A lattice of samples, and where it is on the picture.
@@ -70,57 +70,57 @@ impl<'a> Placed<'a> {
     }
 }
 
-/// The lines between the bands, and the line of the limit.
+/// The lines between the bands, and the line of the tolerance.
 pub(crate) struct LevelLines<'a> {
     levels: &'a Levels,
     tolerance_um: Option<f64>,
     /// One list of lines for each inner level, px.
     iso: Vec<Vec<Vec<Point>>>,
-    /// The lines of the limit, px; none where the field does not cross it.
-    limit: Vec<Vec<Point>>,
+    /// The lines of the tolerance, px; none where the field does not cross it.
+    tolerance: Vec<Vec<Point>>,
 }
 
 impl<'a> LevelLines<'a> {
-    /// The lines of a field. No line represents a limit that is not finite.
+    /// The lines of a field. No line represents a tolerance that is not finite.
     pub(crate) fn of(placed: &Placed<'_>, levels: &'a Levels, tolerance_um: Option<f64>) -> Self {
-        let tolerance_um = tolerance_um.filter(|limit| limit.is_finite());
-        let limit: Vec<f64> = tolerance_um.into_iter().collect();
+        let tolerance_um = tolerance_um.filter(|tolerance| tolerance.is_finite());
+        let tolerance: Vec<f64> = tolerance_um.into_iter().collect();
         Self {
             levels,
             tolerance_um,
             iso: placed.lines_at(levels.inner_um()),
-            limit: placed.lines_at(&limit).into_iter().flatten().collect(),
+            tolerance: placed.lines_at(&tolerance).into_iter().flatten().collect(),
         }
     }
 
-    /// All iso-lines in one style; the limit is not among them.
+    /// All iso-lines in one style; the tolerance is not among them.
     pub(crate) fn draw_iso(&self, svg: &mut Svg, style: &Style) {
         for line in self.iso.iter().flatten() {
             svg.polyline(line, style);
         }
     }
 
-    /// Each of `styles` along the whole limit before the next.
-    pub(crate) fn draw_limit(&self, svg: &mut Svg, styles: &[Style]) {
+    /// Each of `styles` along the whole tolerance before the next.
+    pub(crate) fn draw_tolerance(&self, svg: &mut Svg, styles: &[Style]) {
         for style in styles {
-            for line in &self.limit {
+            for line in &self.tolerance {
                 svg.polyline(line, style);
             }
         }
     }
 
-    /// What is written on the lines, the limit first, so that it chooses its place before the others. An
-    /// iso-line that coincides with the limit has no label of its own.
+    /// What is written on the lines, the tolerance first, so that it chooses its place before the others. An
+    /// iso-line that coincides with the tolerance has no label of its own.
     pub(crate) fn labels(&self) -> Vec<Labelled> {
-        let on_limit = self.limit.iter().map(|points| Labelled {
+        let on_tolerance = self.tolerance.iter().map(|points| Labelled {
             points: points.clone(),
-            text: self.tolerance_um.map(limit::label).unwrap_or_default(),
-            look: limit::text(),
+            text: self.tolerance_um.map(tolerance::label).unwrap_or_default(),
+            look: tolerance::text(),
         });
         let step_um = self.levels.step_um;
         let is_apart = |level: f64| {
             self.tolerance_um
-                .is_none_or(|limit| (level - limit).abs() >= COINCIDES * step_um)
+                .is_none_or(|tolerance| (level - tolerance).abs() >= COINCIDES * step_um)
         };
         let iso = self.iso.iter().zip(self.levels.inner_um());
         let on_iso = iso
@@ -132,6 +132,6 @@ impl<'a> LevelLines<'a> {
                     look: Text::new(10.0).halo(3.0),
                 })
             });
-        on_limit.chain(on_iso).collect()
+        on_tolerance.chain(on_iso).collect()
     }
 }

@@ -1,29 +1,30 @@
 //! Pictures and reports of robot machining deviations: plain values in, SVG, PNG or one HTML file out.
 //!
-//! Each picture is a struct of what to draw with a `to_svg`; it knows nothing of robots beyond that. The same input gives the same bytes,
-//! and input that cannot be drawn (no points, nothing reached, a value that is not a number) gives a picture that says so.
+//! Each picture is a struct of what to draw with a `to_svg`; it does not depend on robots. The same input gives the
+//! same bytes, and input that cannot be drawn (no points, nothing reached, a value that is not a number) gives a
+//! picture that says so.
 //!
 //! | question | picture |
 //! |---|---|
 //! | how large is the deviation over a plane? | [`DeviationMap`] |
-//! | where does it keep within the limit, what part fits there? | [`RegionMap`] |
+//! | where is it within the tolerance, what part fits there? | [`RegionMap`] |
 //! | how does that change with distance or tilt? | [`MapSeries`] |
-//! | which way is the tool pushed along a path? | [`VectorField`] |
-//! | how large is it along the path, how round is a circle, made or measured? | [`PathPlot`], [`PolarPlot`] |
-//! | how round does the tool go, which way round? | [`BallbarPlot`] |
+//! | in which direction does the tool deviate along a path? | [`VectorField`] |
+//! | how large is it along the path, how round is a circle, predicted or measured? | [`PathPlot`], [`PolarPlot`] |
+//! | what does a ball-bar test show, by direction of travel? | [`BallbarPlot`] |
 //! | where on a tool path, seen from above? | [`TrackMap`] |
-//! | where does each hole come out? | [`HoleMap`] |
-//! | what depth and feed hold the limit? | [`ProcessMap`] |
-//! | how may the tool be turned along the path; what lies around a place? | [`CellMap`] |
+//! | what is the deviation of each hole? | [`HoleMap`] |
+//! | what depth and feed meet the tolerance? | [`ProcessMap`] |
+//! | how may the tool be turned along the path; what is around a place? | [`CellMap`] |
 //! | what was measured, and what became of it? | [`ForcePlot`] |
-//! | which cell holds the tolerance? | [`Comparison`] |
-//! | what is an error made of; is it what was measured, wave by wave? | [`BudgetBars`], [`WaveBars`] |
+//! | which cell meets the tolerance? | [`Comparison`] |
+//! | what are the contributions to an error; do they explain the measurement, wave by wave? | [`BudgetBars`], [`WaveBars`] |
 //! | how many poses are met within how much? | [`ErrorDistribution`] |
-//! | which joint is to blame? | [`ShareBars`] |
-//! | in which direction does the arm yield? | [`StiffnessEllipse`] |
-//! | how does the arm stand? | [`ArmDrawing`] |
+//! | what does each joint contribute? | [`ShareBars`] |
+//! | in which direction is the arm compliant? | [`StiffnessEllipse`] |
+//! | what is the posture of the arm? | [`ArmDrawing`] |
 //!
-//! How a picture comes about: the values are checked (a reason to draw nothing makes a notice), scales and
+//! How a picture is made: the values are checked (values that cannot be drawn give a notice), scales and
 //! levels are chosen from them, the page is begun with its title block, the drawing is written as SVG from back
 //! to front, axes and legend close it. Lengths on the picture are pixels with y downwards; values keep the unit
 //! in their name: mm along axes of planes, um for deviations, s, deg and um/N where a name says so. Text is set
@@ -31,7 +32,7 @@
 //! clear of each other.
 //!
 //! With the feature `png` the module `raster` turns a picture into pixels. `html` joins pictures, tables and
-//! sources into one file. The example `gallery` draws every picture from made-up values.
+//! sources into one file. The example `gallery` draws every picture from synthetic values.
 
 mod grid;
 mod hole_map;
@@ -67,12 +68,12 @@ mod contours;
 mod field;
 mod levels;
 mod levels_drawing;
-mod limit;
 mod line;
 mod line_label;
 mod marker;
 mod rows;
 mod surface;
+mod tolerance;
 
 mod advances;
 mod arrow;

@@ -1,16 +1,16 @@
-//! Lines of points on the picture, in pixels: without those that nobody would miss, and by the way along them.
+//! Lines of points on the picture, in pixels: simplified without visible change, and measured by arc length.
 //!
 //! Leaving out points keeps files small: a level line has a point for every cell of a fine lattice, far closer
-//! than a picture shows. Labels need the way along a line, to stand a chosen number of pixels from its start.
+//! than a picture shows. Labels need the arc length, to be a chosen number of pixels from the start.
 
 use crate::svg::Point;
 
-/// Farthest that a point which is left out lies from the line drawn: at 0.25 the corners of a thick line are seen in print.
+/// Largest distance of an omitted point from the line drawn: at 0.25 the corners of a thick line are visible in print.
 const SEEN_PX: f64 = 0.1;
 
-/// A line without the points that nobody would miss: each kept point is joined to the farthest one for which
+/// A line without its dispensable points: each kept point is joined to the farthest one for which
 /// all points between are in a cone about the line. The first and the last point stay. No point that is left
-/// out lies farther than 0.1 px from the line drawn; a line that turns back is kept at its turn.
+/// out is farther than 0.1 px from the line drawn; a line that turns back is kept at its turn.
 pub(crate) fn without_straight(line: &[Point]) -> Vec<Point> {
     let mut kept: Vec<Point> = line.first().copied().into_iter().collect();
     let mut cone: Option<(f64, f64)> = None;
@@ -26,7 +26,7 @@ pub(crate) fn without_straight(line: &[Point]) -> Vec<Point> {
         cone = match cone {
             None => Some((towards - half, towards + half)),
             Some((low, high)) => {
-                // The same direction, told near the middle of the cone.
+                // The same direction, compared near the middle of the cone.
                 let turns = ((0.5 * (low + high) - towards) / std::f64::consts::TAU).round();
                 let towards = towards + turns * std::f64::consts::TAU;
                 let back = [pair[0][0] - x, pair[0][1] - y];
@@ -91,7 +91,7 @@ impl<'a> Stations<'a> {
         Self { points, way, length }
     }
 
-    /// The point `s` px from the start; the ends represent what lies beyond them. Not checked: that there are two points.
+    /// The point `s` px from the start; beyond the ends the nearer end. Not checked: that there are two points.
     pub(crate) fn at(&self, s: f64) -> Point {
         let k = self
             .way
@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn a_curve_keeps_within_what_is_seen() {
+    fn clips_a_curve_to_the_visible_range() {
         let on = |i: u32| {
             let phi = f64::from(i) * 1e-3;
             [300.0 * phi.cos(), 300.0 * phi.sin()]

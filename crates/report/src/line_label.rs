@@ -1,13 +1,14 @@
-//! Labels on lines: rotated along the line, where it is straight, clear of each other, of other lines and of masked zones.
+//! Labels on lines: rotated along the line, where it is straight, clear of each other, of other lines and of masked
+//! zones.
 //!
 //! | step | rule |
 //! |---|---|
 //! | trial places | every 6 px along the line |
-//! | out of question | outside the drawing, on a masked zone, on another label, where the line bends too much |
+//! | excluded | outside the drawing, on a masked zone, on another label, where the line bends too much |
 //! | cost | `bow + 0.8 crossed + 2.5 off_middle + 1.5 steep`, see `Wish::cost` |
-//! | chosen | the cheapest, if below 14; longer lines ask again, 190 px away |
+//! | chosen | the cheapest, if below 14; longer lines get another label, 190 px away |
 //!
-//! A bold label (the limit) stands once and on a white plate; other lines have up to four.
+//! A bold label (the tolerance) is used once and on a white plate; other lines have up to four.
 
 use crate::font::{Weight, text_width_px};
 use crate::line::Stations;
@@ -26,7 +27,8 @@ const MOST_TRIALS: f64 = 400.0;
 /// Shortest line that is labelled, and shortest chord under a label, in half widths of the label.
 const SHORTEST: f64 = 2.6;
 const STRAIGHTEST: f64 = 1.7;
-/// What a place costs: each point of another line under the label, half the line away from its middle, a vertical label.
+/// What a place costs: each point of another line under the label, half the line away from its middle, a vertical
+/// label.
 const PER_CROSSED: f64 = 0.8;
 const OFF_MIDDLE: f64 = 2.5;
 const STEEP: f64 = 1.5;
@@ -46,7 +48,7 @@ pub(crate) struct Labelled {
 }
 
 /// Where labels may be.
-pub(crate) struct Room<'a> {
+pub(crate) struct LabelRoom<'a> {
     /// The drawing; labels stay 4 px inside it.
     pub(crate) area: Rect,
     /// Whether a point may be covered.
@@ -66,7 +68,7 @@ pub(crate) fn points_under(at: Point, content: &str, size_px: f64) -> Vec<Point>
 
 /// Writes as many labels as find room; lines earlier in the list choose first. A line too short or too crooked
 /// has none.
-pub(crate) fn write_labels(svg: &mut Svg, lines: &[Labelled], room: &Room<'_>) {
+pub(crate) fn write_labels(svg: &mut Svg, lines: &[Labelled], room: &LabelRoom<'_>) {
     let mut taken: Vec<(Point, f64)> = Vec::new();
     for (index, line) in lines.iter().enumerate() {
         let half = [
@@ -123,26 +125,26 @@ pub(crate) fn write_labels(svg: &mut Svg, lines: &[Labelled], room: &Room<'_>) {
     }
 }
 
-/// A label that asks for a place on its line.
+/// A label to be placed on its line.
 struct Wish<'a> {
     line: Stations<'a>,
     /// Half the width and half the height of the label.
     half: [f64; 2],
-    room: &'a Room<'a>,
+    room: &'a LabelRoom<'a>,
     /// Points of other lines and things, better not covered.
     others: &'a [Point],
 }
 
 /// Where a label may be: its middle, and the direction along the line.
 #[derive(Clone, Copy)]
-struct Place {
+struct LabelPosition {
     at: Point,
     /// Direction of the reading before it is turned over where steep.
     cos: f64,
     sin: f64,
 }
 
-impl Place {
+impl LabelPosition {
     /// `u` half widths along the label and `v` half heights down from its middle.
     fn corner(&self, [u, v]: [f64; 2], half: [f64; 2]) -> Point {
         [
@@ -165,8 +167,8 @@ impl Place {
 }
 
 impl Wish<'_> {
-    /// The middle and the turn (deg) of the cheapest place that is free of `taken` discs; `None` where there is none, or
-    /// none worth its cost.
+    /// The middle and the turn (deg) of the cheapest place that is free of `taken` discs; `None` where there is none,
+    /// or none with an acceptable cost.
     fn best_place(&self, taken: &[(Point, f64)]) -> Option<(Point, f64)> {
         let [half, _] = self.half;
         if self.line.points.len() < 2 || self.line.length < SHORTEST * half {
@@ -175,7 +177,7 @@ impl Wish<'_> {
         let trials = ((self.line.length - 2.0 * half) / TRIAL_STEP_PX)
             .floor()
             .clamp(0.0, MOST_TRIALS) as usize;
-        let mut best: Option<(f64, Place)> = None;
+        let mut best: Option<(f64, LabelPosition)> = None;
         for k in 0..=trials {
             let s = half + k as f64 * TRIAL_STEP_PX;
             let Some(place) = self.place_at(s) else { continue };
@@ -192,20 +194,20 @@ impl Wish<'_> {
     }
 
     /// The place about the point `s` px along the line; `None` where the line is too crooked.
-    fn place_at(&self, s: f64) -> Option<Place> {
+    fn place_at(&self, s: f64) -> Option<LabelPosition> {
         let [half, _] = self.half;
         let (a, b) = (self.line.at(s - half), self.line.at(s + half));
         let chord = (b[0] - a[0]).hypot(b[1] - a[1]);
         let middle = self.line.at(s);
-        (chord >= STRAIGHTEST * half).then(|| Place {
+        (chord >= STRAIGHTEST * half).then(|| LabelPosition {
             at: [0, 1].map(|k| (middle[k] + (a[k] + b[k]) / 2.0) / 2.0),
             cos: (b[0] - a[0]) / chord,
             sin: (b[1] - a[1]) / chord,
         })
     }
 
-    /// Whether the label lies inside the drawing, where it may be, and clear of other labels.
-    fn is_free(&self, place: &Place, taken: &[(Point, f64)]) -> bool {
+    /// Whether the label is inside the drawing, where it may be, and clear of other labels.
+    fn is_free(&self, place: &LabelPosition, taken: &[(Point, f64)]) -> bool {
         const OUTLINE: [[f64; 2]; 6] = [
             [-1.0, -1.0],
             [1.0, -1.0],
@@ -215,7 +217,7 @@ impl Wish<'_> {
             [0.0, 1.0],
         ];
         let inner = self.room.area.shrunk(4.0);
-        let stands = |uv: &[f64; 2]| {
+        let is_free = |uv: &[f64; 2]| {
             let p = place.corner(*uv, self.half);
             inner.contains(p) && (self.room.free)(p)
         };
@@ -225,12 +227,13 @@ impl Wish<'_> {
                 .iter()
                 .any(|(c, r)| (p[0] - c[0]).hypot(p[1] - c[1]) < self.half[1] + r)
         };
-        OUTLINE.iter().all(stands) && ![-1.0, -0.5, 0.0, 0.5, 1.0].into_iter().any(hits)
+        OUTLINE.iter().all(is_free) && ![-1.0, -0.5, 0.0, 0.5, 1.0].into_iter().any(hits)
     }
 
     /// Straight first, then clear of other lines, then near the middle of the line, then near the horizontal:
-    /// `bow + 0.8 crossed + 2.5 |s / length - 1/2| + 1.5 |sin|`, `bow` the farthest that the line strays from its chord, px.
-    fn cost(&self, s: f64, place: &Place) -> f64 {
+    /// `bow + 0.8 crossed + 2.5 |s / length - 1/2| + 1.5 |sin|`, `bow` the largest distance of the line from its chord,
+    /// px.
+    fn cost(&self, s: f64, place: &LabelPosition) -> f64 {
         let [half, high] = self.half;
         let a = self.line.at(s - half);
         let bow = (1..6)
@@ -264,7 +267,7 @@ mod tests {
         write_labels(
             &mut svg,
             lines,
-            &Room {
+            &LabelRoom {
                 area,
                 free: &free,
                 obstacles: &[],
@@ -292,7 +295,7 @@ mod tests {
     }
 
     #[test]
-    fn no_label_stands_where_it_is_not_free() {
+    fn labels_are_only_where_it_is_free() {
         assert_eq!(written(&[line(200.0)], |_| false), 0);
         assert_eq!(written(&[line(2.0)], |_| true), 0, "outside the area");
     }

@@ -1,20 +1,21 @@
-//! The map of a deviation over a plane: filled bands, labelled iso-lines, the limit, and hatched zones that cannot be used.
+//! The map of a deviation over a plane: filled bands, labelled iso-lines, the tolerance, and hatched zones that cannot
+//! be used.
 //!
 //! Between the points the field is interpolated, see `crate::surface`; at the points it is exact. Both axes
 //! have the same scale, so shapes on the map are true to the plane.
 
 use crate::colour::{ColourScale, INK};
 use crate::colour_bar::ColourBar;
-use crate::field::{IsoLines, Look, Paint, draw_field, window_of, zone_entries};
+use crate::field::{FieldStyle, IsoLines, Paint, draw_field, window_of, zone_entries};
 use crate::grid::Grid;
 use crate::legend::{Entry, Key};
 use crate::levels::Levels;
-use crate::limit;
 use crate::line::points_along;
 use crate::marker::{Marker, draw_marker, marker_entries};
 use crate::page::{BORDER_PX, Heading, LEAST_WIDTH_PX};
 use crate::plane::{AxisLabels, BELOW_PX, Plane};
 use crate::svg::{Point, Style, Svg};
+use crate::tolerance;
 
 /// Largest drawing: width, height.
 const MOST_PX: [f64; 2] = [600.0, 470.0];
@@ -24,7 +25,7 @@ const MOST_PX: [f64; 2] = [600.0, 470.0];
 pub struct Overlay {
     /// What the line is, for the legend; without one it has no entry.
     pub label: String,
-    /// Points in mm: horizontal, vertical, in the axes of the grid. What lies outside the grid is cut off.
+    /// Points in mm: horizontal, vertical, in the axes of the grid. Parts outside the grid are cut off.
     pub points_mm: Vec<[f64; 2]>,
 }
 
@@ -57,9 +58,9 @@ pub struct DeviationMap {
     pub grid: Grid,
     /// Axis labels with units.
     pub axes: AxisLabels,
-    /// What is drawn, with its unit: `in-plane deviation (µm)`.
+    /// The quantity, with its unit: `in-plane deviation (µm)`.
     pub quantity: String,
-    /// Permissible deviation in um, drawn as an emphasised line. A limit below or above all values is reported in
+    /// Permissible deviation in um, drawn as an emphasised line. A tolerance below or above all values is reported in
     /// the legend; one that is not finite counts as none.
     pub tolerance_um: Option<f64>,
     /// Colours of the bands.
@@ -88,13 +89,13 @@ impl DeviationMap {
             quantity: &self.quantity,
             tolerance_um: self.tolerance_um,
         };
-        let plane = Plane::beside_axis(window_of(&self.grid), MOST_PX);
-        let width = bar.beside(plane.area).right() + BORDER_PX;
+        let plane = Plane::with_axis_room(window_of(&self.grid), MOST_PX);
+        let width = bar.right_of(plane.area).right() + BORDER_PX;
         let mut page = heading.page(width.max(LEAST_WIDTH_PX));
         let plane = plane.lowered_to(page.top_px + 4.0);
-        let bar_area = bar.beside(plane.area);
+        let bar_area = bar.right_of(plane.area);
         let paint = Paint::Bands(self.scale);
-        let look = Look {
+        let look = FieldStyle {
             levels: &levels,
             paint,
             iso_lines: IsoLines::Labelled,
@@ -103,8 +104,8 @@ impl DeviationMap {
             obstacles: &self.obstacles(&plane),
         };
         draw_field(&mut page.svg, &plane, &self.grid, &look);
-        let limit = limit::entry_over(self.tolerance_um, self.grid.values_um());
-        let mut entries: Vec<Entry> = limit.into_iter().collect();
+        let tolerance = tolerance::entry_over(self.tolerance_um, self.grid.values_um());
+        let mut entries: Vec<Entry> = tolerance.into_iter().collect();
         entries.extend(zone_entries(&mut page.svg, std::iter::once(&self.grid), paint));
         entries.extend(self.entries_on_top());
         self.draw_on_top(&mut page.svg, &plane);

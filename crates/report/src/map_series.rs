@@ -1,4 +1,5 @@
-//! Small multiples: maps of a series (distance, tilt, slices of a volume) at one scale, in one set of colours, with one colour bar.
+//! Small multiples: maps of a series (distance, tilt, slices of a volume) at one scale, in one set of colours, with one
+//! colour bar.
 //!
 //! ```text
 //! title                 note    title                 note
@@ -8,21 +9,21 @@
 //! └────────────────────┘        └────────────────────┘
 //! ```
 //!
-//! All panels show the same part of the plane at the same scale, even where their grids differ; numbers stand
+//! All panels show the same part of the plane at the same scale, even where their grids differ; numbers are
 //! at the lowest panel of each column and at the first column alone.
 
 use crate::colour::{ColourScale, EMPTY, MUTED, OVER, WITHIN};
 use crate::colour_bar::ColourBar;
-use crate::field::{IsoLines, Look, Paint, draw_field, window_of, zone_entries};
+use crate::field::{FieldStyle, IsoLines, Paint, draw_field, window_of, zone_entries};
 use crate::font::{Weight, text_width_px, wrap};
 use crate::grid::Grid;
 use crate::legend::{Entry, Key};
 use crate::levels::Levels;
-use crate::limit;
 use crate::page::{BODY_PX, BORDER_PX, Heading, SMALL_PX};
 use crate::plane::{AxisLabels, Marks, Plane, Window};
 use crate::svg::{Rect, Style, Svg, Text};
 use crate::ticks::Overhang;
+use crate::tolerance;
 
 /// Panels in a row at most: more would be too small to read.
 const MOST_COLUMNS: usize = 8;
@@ -48,14 +49,14 @@ const LEAST_SHEET_PX: f64 = 480.0;
 pub struct Panel {
     /// What distinguishes this panel: `x = 600 mm`.
     pub title: String,
-    /// A number worth reading at once: `62 % within`; empty for none. Left out where it would run into the
+    /// A key figure: `62 % within`; empty for none. Left out where it would run into the
     /// title.
     pub note: String,
     /// The points and their values in um.
     pub grid: Grid,
 }
 
-/// What a sheet shows.
+/// The input of a sheet of maps.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MapSeries {
     /// First line, bold.
@@ -69,13 +70,13 @@ pub struct MapSeries {
     pub columns: usize,
     /// Axis labels with units, shared by all panels.
     pub axes: AxisLabels,
-    /// What is drawn, with its unit: `in-plane deviation (µm)`.
+    /// The quantity, with its unit: `in-plane deviation (µm)`.
     pub quantity: String,
     /// Permissible deviation in um.
     pub tolerance_um: Option<f64>,
     /// Colours of the bands.
     pub scale: ColourScale,
-    /// Whether the permissible region stands under each map; needs a limit that is finite.
+    /// Whether the permissible region is shown under each map; needs a tolerance that is finite.
     pub show_regions: bool,
 }
 
@@ -158,7 +159,7 @@ impl MapSeries {
             if let Some(reason) = panel.grid.obstacle() {
                 write_reason(svg, plane.area, &reason);
             } else {
-                let look = Look {
+                let look = FieldStyle {
                     levels,
                     paint,
                     iso_lines: IsoLines::Thin,
@@ -172,15 +173,15 @@ impl MapSeries {
         }
     }
 
-    /// The limit, the colours of regions, and the zones that some panel has.
+    /// The tolerance, the colours of regions, and the zones that some panel has.
     fn entries(&self, svg: &mut Svg, drawable: &[&Grid]) -> Vec<Entry> {
         let mut entries = Vec::new();
-        if let Some(limit) = self.tolerance_um.filter(|l| l.is_finite()) {
-            entries.push(limit::entry(limit, ""));
+        if let Some(tolerance) = self.tolerance_um.filter(|l| l.is_finite()) {
+            entries.push(tolerance::entry(tolerance, ""));
             if self.has_regions() {
-                let limit = crate::axis::plain(limit);
-                entries.push(Entry::new(Key::field(WITHIN), format!("within {limit} µm")));
-                entries.push(Entry::new(Key::field(OVER), format!("over {limit} µm")));
+                let tolerance = crate::axis::plain(tolerance);
+                entries.push(Entry::new(Key::field(WITHIN), format!("within {tolerance} µm")));
+                entries.push(Entry::new(Key::field(OVER), format!("over {tolerance} µm")));
             }
         }
         entries.extend(zone_entries(
@@ -222,7 +223,7 @@ fn common_window(grids: &[&Grid]) -> Option<Window> {
     })
 }
 
-/// Where the panels of a sheet stand, px.
+/// The panels of a sheet, px.
 struct Layout {
     window: Window,
     columns: usize,

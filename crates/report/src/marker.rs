@@ -1,4 +1,4 @@
-//! Marked points of a plane: their signs, the text beside them, and their entries in a legend.
+//! Marked points of a plane: their signs, the text next to them, and their entries in a legend.
 //!
 //! A marker is a place in the plane, not a measure: its sign has the same size at every scale.
 
@@ -24,11 +24,11 @@ pub enum MarkerKind {
 /// A marked point on a map or track.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Marker {
-    /// Horizontal and vertical value in mm; a marker that stands nowhere is left out.
+    /// Horizontal and vertical value in mm; a marker that is not finite is left out.
     pub at_mm: [f64; 2],
     /// What is marked, for the legend; markers with the same label share an entry, an empty one has none.
     pub label: String,
-    /// Which sign stands there.
+    /// Its sign.
     pub kind: MarkerKind,
     /// What is written above the sign, such as a number; empty for nothing.
     pub name: String,
@@ -41,7 +41,7 @@ impl Marker {
     }
 }
 
-/// Draws the sign of a marker, and its name above it; nothing for a marker that stands nowhere.
+/// Draws the sign of a marker, and its name above it; nothing for a marker that is not finite.
 pub(crate) fn draw_marker(svg: &mut Svg, plane: &Plane, marker: &Marker) {
     if !marker.is_somewhere() {
         return;

@@ -145,7 +145,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_text_box_stands_where_its_anchor_says_and_keeps_its_size() {
+    fn a_text_box_is_placed_by_its_anchor_and_keeps_its_size() {
         let boxes = [Anchor::Start, Anchor::Middle, Anchor::End]
             .map(|anchor| text_box([100.0, 50.0], "deviation", 10.0, anchor));
         let w = text_width_px("deviation", 10.0, Weight::Regular);

@@ -1,16 +1,16 @@
-//! The deviation along a path: one line a load case, their envelope, and the limit.
+//! The deviation along a path: one line a load case, their envelope, and the tolerance.
 //!
-//! The chart shows zero and, unless it is more than three times the largest value, the limit; values that are
-//! all positive are on the axis. A far limit is reported in words at the upper edge.
+//! The chart shows zero and, unless it is more than three times the largest value, the tolerance; values that are
+//! all positive are on the axis. A far tolerance is reported in words at the upper edge.
 
 use crate::chart::{Chart, range, runs};
 use crate::colour::{INK, category};
 use crate::font::{Weight, text_width_px};
 use crate::legend::Entry;
-use crate::limit;
 use crate::page::{BORDER_PX, Heading, SMALL_PX};
 use crate::plane::AxisLabels;
 use crate::svg::{Point, Style, Svg};
+use crate::tolerance;
 
 /// Width and height of the chart.
 const AREA_PX: [f64; 2] = [560.0, 300.0];
@@ -36,10 +36,10 @@ impl Series {
     }
 }
 
-/// A limit so many times the largest value is reported in words: drawn, it would press the lines to the axis.
+/// A tolerance so many times the largest value is reported in words: drawn, it would press the lines to the axis.
 const FAR: f64 = 3.0;
 
-/// What a path plot shows.
+/// The input of a path plot.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PathPlot {
     /// First line, bold.
@@ -64,20 +64,20 @@ impl PathPlot {
     pub fn to_svg(&self) -> String {
         let heading = Heading::new(&self.title, &self.subtitle);
         let finite = || self.points().filter(|p| p.iter().all(|v| v.is_finite()));
-        let limit = self.tolerance_um.filter(|l| l.is_finite());
+        let tolerance = self.tolerance_um.filter(|l| l.is_finite());
         let largest = finite().map(|p| p[1].abs()).fold(0.0, f64::max);
-        let (limit, far_limit) = match limit {
-            Some(limit) if largest > 0.0 && limit > FAR * largest => (None, Some(limit)),
-            limit => (limit, None),
+        let (tolerance, far_tolerance) = match tolerance {
+            Some(tolerance) if largest > 0.0 && tolerance > FAR * largest => (None, Some(tolerance)),
+            tolerance => (tolerance, None),
         };
         let x = range(finite().map(|p| p[0]), 0.0);
-        let y = range(finite().map(|p| p[1]).chain([0.0]).chain(limit), 0.06);
+        let y = range(finite().map(|p| p[1]).chain([0.0]).chain(tolerance), 0.06);
         let (Some(x), Some([low, high]), Some(_)) = (x, y, finite().next()) else {
             return heading.notice("There is nothing to draw: the path has no values.");
         };
         // Values that are all positive are on the axis.
         let lowest = if finite().all(|p| p[1] >= 0.0) { 0.0 } else { low };
-        let chart = Chart::beside_axis(AREA_PX, x, [lowest, high]);
+        let chart = Chart::with_axis_room(AREA_PX, x, [lowest, high]);
         let mut page = heading.page(chart.area.right() + BORDER_PX + 8.0);
         let chart = chart.lowered_to(page.top_px + 4.0);
         let labels = AxisLabels {
@@ -86,13 +86,13 @@ impl PathPlot {
         };
         chart.draw_axes(&mut page.svg, &labels);
         page.svg.clipped(chart.area, |svg| self.draw_lines(svg, &chart));
-        if let Some(limit) = limit {
-            self.draw_limit(&mut page.svg, &chart, limit);
+        if let Some(tolerance) = tolerance {
+            self.draw_tolerance(&mut page.svg, &chart, tolerance);
         }
-        if let Some(limit) = far_limit {
-            let label = format!("{}, above this chart", limit::label(limit));
+        if let Some(tolerance) = far_tolerance {
+            let label = format!("{}, above this chart", tolerance::label(tolerance));
             let at = [chart.area.right() - 6.0, chart.area.y + 15.0];
-            page.svg.text(at, &label, &limit::text().end().halo(3.0));
+            page.svg.text(at, &label, &tolerance::text().end().halo(3.0));
         }
         page.finish_with_legend(&self.entries(), [chart.area.x, chart.area.bottom() + 50.0])
     }
@@ -135,11 +135,11 @@ impl PathPlot {
         }
     }
 
-    /// The limit with its label at the right end, on the side with fewer lines.
-    fn draw_limit(&self, svg: &mut Svg, chart: &Chart, limit: f64) {
-        let y = chart.at([0.0, limit])[1];
-        svg.line([chart.area.x, y], [chart.area.right(), y], &limit::style());
-        let label = limit::label(limit);
+    /// The tolerance with its label at the right end, on the side with fewer lines.
+    fn draw_tolerance(&self, svg: &mut Svg, chart: &Chart, tolerance: f64) {
+        let y = chart.at([0.0, tolerance])[1];
+        svg.line([chart.area.x, y], [chart.area.right(), y], &tolerance::style());
+        let label = tolerance::label(tolerance);
         let half = text_width_px(&label, SMALL_PX, Weight::Bold) / 2.0 + 4.0;
         let all: Vec<Point> = self.points().map(|p| chart.at(p)).collect();
         let crowd = |x: f64, text_y: f64| {
@@ -158,7 +158,7 @@ impl PathPlot {
             .filter(inside)
             .min_by_key(|p| crowd(p[0], p[1]));
         let at = best.unwrap_or([places[0], y - 6.0]);
-        svg.text(at, &label, &limit::text().middle().halo(3.0));
+        svg.text(at, &label, &tolerance::text().middle().halo(3.0));
     }
 }
 
@@ -175,7 +175,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_limit_far_above_the_values_is_reported_in_words_and_does_not_press_them_down() {
+    fn a_tolerance_far_above_the_values_is_reported_in_words_and_does_not_press_them_down() {
         let plot = |tolerance_um| PathPlot {
             series: vec![Series {
                 name: "case 1".to_owned(),
@@ -186,8 +186,8 @@ mod tests {
             ..PathPlot::default()
         };
         let (near, far) = (plot(60.0).to_svg(), plot(61.0).to_svg());
-        assert!(near.contains("limit 60 µm<") && !near.contains("above this chart"));
-        assert!(far.contains("limit 61 µm, above this chart"));
+        assert!(near.contains("tolerance 60 µm<") && !near.contains("above this chart"));
+        assert!(far.contains("tolerance 61 µm, above this chart"));
         // The number of the highest line of the grid.
         assert!(near.contains(">60<") && !far.contains(">60<"), "{far}");
     }

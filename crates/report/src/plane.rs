@@ -9,7 +9,7 @@
 //!  bottom_mm └────────────┘      y = area.bottom - px_per_mm |vertical - bottom_mm|
 //! ```
 //!
-//! That holds for points of the window; beyond its left and lower edge signs turn round. Charts, whose axes have
+//! That is valid for points of the window; beyond its left and lower edge signs change. Charts, whose axes have
 //! scales of their own, are `crate::chart`.
 
 use crate::axis::{nice_step, tick_label};
@@ -39,7 +39,7 @@ pub enum Growth {
 }
 
 impl Growth {
-    /// The two ends of a range as they stand from left to right.
+    /// The two ends of a range from left to right.
     pub(crate) fn ends(self, [low, high]: [f64; 2]) -> [f64; 2] {
         match self {
             Self::Right => [low, high],
@@ -68,7 +68,7 @@ pub(crate) struct Window {
 /// A window placed on the picture: the map from mm to pixels and back.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Plane {
-    /// What is shown; it may be wider than asked.
+    /// The part that is shown; it may be wider than requested.
     pub(crate) window: Window,
     /// Where it is drawn, px, without ticks and labels.
     pub(crate) area: Rect,
@@ -88,7 +88,7 @@ pub(crate) struct Marks {
 }
 
 impl Marks {
-    /// As a drawing that stands alone has them.
+    /// As a separate drawing has them.
     pub(crate) const ALL: Self = Self {
         horizontal_numbers: true,
         vertical_numbers: true,
@@ -143,7 +143,7 @@ impl Plane {
     }
 
     /// The window inside a box of `most` pixels, at the left border of a page with room for the axis; its y is still 0.
-    pub(crate) fn beside_axis(window: Window, most: [f64; 2]) -> Self {
+    pub(crate) fn with_axis_room(window: Window, most: [f64; 2]) -> Self {
         let left = BORDER_PX + Self::left_room_px(&window);
         Self::fit(window, [left, 0.0], most)
     }

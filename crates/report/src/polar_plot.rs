@@ -1,4 +1,4 @@
-//! How round a circle comes out: the radial deviation, magnified, around the nominal circle or a reference circle.
+//! The roundness of a circle: the radial deviation, magnified, around the nominal circle or a reference circle.
 //!
 //! `radius = hole + (um - first) / (last - first) (rim - hole)`: the deviation of the innermost ring is at
 //! 0.22 of the rim's radius, that of the outermost at the rim. The circle of deviation 0 is the dashed
@@ -54,7 +54,7 @@ pub struct RadialReference {
     pub centre_um: [f64; 2],
 }
 
-/// What a polar plot shows.
+/// The input of a polar plot.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PolarPlot {
     /// First line, bold.
@@ -65,7 +65,7 @@ pub struct PolarPlot {
     pub horizontal: String,
     /// Name of the direction at 90 degrees: `z'`.
     pub vertical: String,
-    /// Which way the horizontal axis grows: to the left, the angles run clockwise on the picture.
+    /// Direction of the horizontal axis: to the left, the angles run clockwise on the picture.
     pub growth: Growth,
     /// Name of the circle of deviation 0: `nominal circle`.
     pub zero: String,
@@ -122,7 +122,7 @@ impl PolarPlot {
         self.series.iter().chain(references)
     }
 
-    /// The references, each with its line: told apart by colour and by dashes.
+    /// The references, each with its line: distinguished by colour and by dashes.
     fn styled_references(&self) -> impl Iterator<Item = (Style, &RadialReference)> {
         const DASHES: [&str; 3] = ["9 3", "2.5 2.5", "9 3 2.5 3"];
         let styles = DASHES.iter().cycle().enumerate();
@@ -149,7 +149,7 @@ impl PolarPlot {
         }
     }
 
-    /// Rings that hold all deviations and the nominal circle; `None` where nothing has a value.
+    /// Rings that contain all deviations and the nominal circle; `None` where nothing has a value.
     pub(crate) fn rings(&self) -> Option<Rings> {
         let finite = self.all_series().flat_map(|s| &s.radial_um).copied();
         let (low, high) = extent(finite.chain([0.0])).filter(|_| self.has_values())?;
@@ -191,7 +191,7 @@ impl PolarPlot {
             } else {
                 Text::new(NUMBER_PX).colour(MUTED)
             };
-            // Names at the sides stand away from the circle, all others above or below their ray.
+            // Names at the sides are away from the circle, all others above or below their ray.
             let side = (at[0] - centre[0]) / RADIUS_PX;
             let (text, nudge) = if side > 0.9 {
                 (text, -6.0)
@@ -204,7 +204,7 @@ impl PolarPlot {
         }
     }
 
-    /// The ray between two spokes along which the fewest points stand where a ring's value is to be written.
+    /// The ray between two spokes along which the fewest points are where a ring's value is to be written.
     fn clearest_ray_deg(&self, rings: &Rings, numbered_um: &[f64]) -> f64 {
         const HALF_PX: Point = [24.0, 9.0];
         let centre = [0.0, 0.0];
@@ -249,7 +249,8 @@ pub(crate) struct Rings {
 }
 
 impl Rings {
-    /// Rings at nice values from `low_um` (0 or less) to `high_um` (0 or more) and at least one to either side of the nominal circle.
+    /// Rings at nice values from `low_um` (0 or less) to `high_um` (0 or more) and at least one to either side of the
+    /// nominal circle.
     fn covering(low_um: f64, high_um: f64) -> Self {
         let step = nice_step((high_um - low_um).max(1e-6), 4.0);
         let first = (low_um / step).floor().min(-1.0) * step;
@@ -325,7 +326,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rings_reach_from_the_hole_to_the_rim_and_hold_the_nominal_circle() {
+    fn rings_range_from_the_hole_to_the_rim_and_contain_the_nominal_circle() {
         for (low, high) in [(-3.0, 71.0), (0.0, 6.0), (-1e-9, 0.0), (-400.0, 0.0)] {
             let rings = Rings::covering(low, high);
             let [first, last] = rings.ends_um;
@@ -355,7 +356,7 @@ mod tests {
     }
 
     #[test]
-    fn references_are_reported_apart_and_their_centres_stand_where_they_are() {
+    fn references_are_distinguished_and_their_centres_are_marked() {
         let seen = |name: &str| RadialSeries {
             name: name.to_owned(),
             angle_deg: vec![0.0, 90.0, 180.0, 270.0, 360.0],

@@ -1,4 +1,4 @@
-//! What a cut may be: the deviation over two of its quantities, with the line of the tolerance and the cut unchanged.
+//! The deviation over two quantities of a cut, with the line of the tolerance and the nominal cut.
 //!
 //! The quantities may be any two of a cut, such as depth and feed, each in its own unit. Values go straight
 //! between the points of the lattice, not in curves as on a map.
@@ -12,19 +12,19 @@ use crate::grid::is_steady;
 use crate::legend::{Entry, Key, diamond};
 use crate::levels::Levels;
 use crate::levels_drawing::{LevelLines, Placed};
-use crate::limit;
-use crate::line_label::{Room, write_labels};
+use crate::line_label::{LabelRoom, write_labels};
 use crate::page::{BORDER_PX, Heading};
 use crate::plane::AxisLabels;
 use crate::svg::{Style, Svg};
+use crate::tolerance;
 
 /// Width and height of the chart.
 const AREA_PX: [f64; 2] = [480.0, 360.0];
-/// Deviations beyond this many times the limit have one colour: nobody cuts there.
-const MOST_LIMITS: f64 = 4.0;
+/// Deviations beyond this many times the tolerance have one colour: such cuts are of no use.
+const MOST_TOLERANCES: f64 = 4.0;
 const NOTHING: &str = "There is nothing to draw: no cut has a value.";
 
-/// What a picture of permitted cuts shows. Values beyond four times the limit are drawn as four times.
+/// The input of a picture of permitted cuts. Values beyond four times the tolerance are drawn as four times.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ProcessMap {
     /// First line, bold.
@@ -33,18 +33,18 @@ pub struct ProcessMap {
     pub subtitle: String,
     /// Axis labels with units.
     pub axes: AxisLabels,
-    /// What is drawn, with its unit: `largest deviation across the tool (µm)`.
+    /// The quantity, with its unit: `largest deviation across the tool (µm)`.
     pub quantity: String,
     /// Values along the horizontal axis, rising or falling steadily; at least two.
     pub horizontal: Vec<f64>,
     /// Values along the vertical axis, rising or falling steadily; at least two.
     pub vertical: Vec<f64>,
     /// Deviation in um, row by row from the bottom, each from left to right; infinite where the cut cannot be
-    /// held at all.
+    /// reached at all.
     pub deviation_um: Vec<f64>,
     /// Permissible deviation in um.
     pub tolerance_um: f64,
-    /// The cut unchanged: horizontal and vertical value, in the units of the axes; one that is not finite is
+    /// The nominal cut: horizontal and vertical value, in the units of the axes; one that is not finite is
     /// not drawn.
     pub drawn: Option<[f64; 2]>,
 }
@@ -56,7 +56,7 @@ impl ProcessMap {
         if let Some(reason) = self.obstacle() {
             return heading.notice(reason);
         }
-        let most = MOST_LIMITS * self.tolerance_um;
+        let most = MOST_TOLERANCES * self.tolerance_um;
         let shown: Vec<f64> = self.deviation_um.iter().map(|um| um.min(most)).collect();
         let levels = Levels::covering(shown.iter().copied());
         let ranges = extent(self.horizontal.iter().copied()).zip(extent(self.vertical.iter().copied()));
@@ -69,19 +69,19 @@ impl ProcessMap {
             quantity: &self.quantity,
             tolerance_um: Some(self.tolerance_um),
         };
-        let chart = Chart::beside_axis(AREA_PX, across.into(), up.into());
-        let mut page = heading.page(bar.beside(chart.area).right() + BORDER_PX);
+        let chart = Chart::with_axis_room(AREA_PX, across.into(), up.into());
+        let mut page = heading.page(bar.right_of(chart.area).right() + BORDER_PX);
         let chart = chart.lowered_to(page.top_px + 4.0);
         chart.draw_axes(&mut page.svg, &self.axes);
         page.svg
             .clipped(chart.area, |svg| self.draw_field(svg, &chart, &levels, &shown));
         page.svg.rect(chart.area, &Style::line(INK, 1.0));
-        bar.draw(&mut page.svg, bar.beside(chart.area));
-        let mut entries = vec![limit::entry(self.tolerance_um, ": cuts below hold it")];
+        bar.draw(&mut page.svg, bar.right_of(chart.area));
+        let mut entries = vec![tolerance::entry(self.tolerance_um, ": cuts below are within it")];
         if let Some(at) = self.drawn.filter(|at| at.iter().all(|v| v.is_finite())) {
             let style = Style::fill("#ffffff").outlined(INK, 1.6);
             page.svg.polygon(&diamond(chart.at(at), 6.0), &style);
-            entries.push(Entry::new(Key::Diamond(style), "the cut as it stands"));
+            entries.push(Entry::new(Key::Diamond(style), "nominal cut"));
         }
         page.finish_with_legend(&entries, [chart.area.x, chart.area.bottom() + 48.0])
     }
@@ -98,11 +98,11 @@ impl ProcessMap {
         if self.deviation_um.iter().any(|um| um.is_nan()) {
             return Some("A deviation is not a number.");
         }
-        let limit = self.tolerance_um.is_finite() && self.tolerance_um > 0.0;
-        (!limit).then_some("The limit is not a number above zero.")
+        let tolerance = self.tolerance_um.is_finite() && self.tolerance_um > 0.0;
+        (!tolerance).then_some("The tolerance is not a number above zero.")
     }
 
-    /// Bands, iso-lines, the line of the limit and labels, cut to the chart by the caller.
+    /// Bands, iso-lines, the line of the tolerance and labels, cut to the chart by the caller.
     fn draw_field(&self, svg: &mut Svg, chart: &Chart, levels: &Levels, shown: &[f64]) {
         let at = |values: [f64; 2]| chart.at(values);
         let placed = Placed {
@@ -117,8 +117,8 @@ impl ProcessMap {
         placed.draw_bands(svg, levels, ColourScale::default());
         let lines = LevelLines::of(&placed, levels, Some(self.tolerance_um));
         lines.draw_iso(svg, &Style::line(INK, 0.6).opacity(0.55));
-        lines.draw_limit(svg, &[limit::style()]);
-        let room = Room {
+        lines.draw_tolerance(svg, &[tolerance::style()]);
+        let room = LabelRoom {
             area: chart.area,
             free: &|_| true,
             obstacles: &[],
@@ -154,19 +154,19 @@ mod tests {
     }
 
     #[test]
-    fn the_limit_is_a_line_and_the_cut_a_sign() {
+    fn the_tolerance_is_a_line_and_the_cut_a_sign() {
         let svg = map().to_svg();
         assert!(
-            svg.contains("limit 100 µm") && svg.contains("the cut as it stands"),
+            svg.contains("tolerance 100 µm") && svg.contains("nominal cut"),
             "{svg}"
         );
         assert!(svg.contains("axial depth (mm)") && !svg.contains("NaN"), "{svg}");
         let without = ProcessMap { drawn: None, ..map() };
-        assert!(!without.to_svg().contains("as it stands"));
+        assert!(!without.to_svg().contains("nominal cut"));
     }
 
     #[test]
-    fn what_cannot_be_held_is_drawn_like_the_most_and_nothing_is_said_to_be_so() {
+    fn unreachable_cuts_are_drawn_like_the_largest_and_empty_input_is_reported() {
         let mut endless = map();
         endless.deviation_um[143] = f64::INFINITY;
         let svg = endless.to_svg();
@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn values_that_stand_still_and_numbers_that_are_none_are_refused() {
+    fn constant_values_and_invalid_numbers_are_refused() {
         let axis = vec![0.05; 12];
         let odd = [
             ProcessMap {
@@ -198,11 +198,11 @@ mod tests {
         for odd in odd {
             assert!(odd.to_svg().contains("neither rise steadily nor fall"));
         }
-        let limitless = ProcessMap {
+        let without = ProcessMap {
             tolerance_um: f64::NAN,
             ..map()
         };
-        assert!(limitless.to_svg().contains("The limit is not a number"));
+        assert!(without.to_svg().contains("The tolerance is not a number"));
         let mut unknown = map();
         unknown.deviation_um[7] = f64::NAN;
         assert!(unknown.to_svg().contains("A deviation is not a number"));

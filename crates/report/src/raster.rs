@@ -9,7 +9,7 @@ use resvg::{tiny_skia, usvg};
 
 use crate::error::ReportError;
 
-/// The subsets of `DejaVu Sans` with the characters that pictures use; their licence lies beside them.
+/// The subsets of `DejaVu Sans` with the characters that pictures use; their licence is next to them.
 const REGULAR: &[u8] = include_bytes!("../fonts/DejaVuSans.subset.ttf");
 const BOLD: &[u8] = include_bytes!("../fonts/DejaVuSans-Bold.subset.ttf");
 
@@ -20,7 +20,7 @@ const LARGEST_PX: u32 = 10_000;
 /// pixels.
 ///
 /// # Errors
-/// The text is no SVG (`UnreadableSvg`); the picture has less than one pixel or more than 10 000 a side, or
+/// The text is not SVG (`UnreadableSvg`); the picture has less than one pixel or more than 10 000 a side, or
 /// `scale` is not a number (`Size`); the PNG cannot be written (`Encoding`).
 pub fn png(svg: &str, scale: f64) -> Result<Vec<u8>, ReportError> {
     let tree = read(svg)?;
@@ -93,7 +93,7 @@ mod tests {
             for content in [
                 "deviation (µm)",
                 "0123456789",
-                "limit \u{2212}50 µm ± 2",
+                "tolerance \u{2212}50 µm ± 2",
                 "Ø 270 mm × 3°",
                 "αβδ ≤ ‰",
             ] {

@@ -1,26 +1,26 @@
-//! The permissible region of a plane: where the deviation keeps within the limit, and what part fits in there.
+//! The permissible region of a plane: where the deviation is within the tolerance, and what part fits in there.
 //!
-//! | colour | what it says |
+//! | colour | meaning |
 //! |---|---|
-//! | green | the value is within the limit; with a spread: surely within |
-//! | sand | the limit lies between value - spread and value + spread |
-//! | grey | the value is over the limit; with a spread: surely over |
+//! | green | the value is within the tolerance; with a spread: value + spread is |
+//! | sand | the tolerance is between value - spread and value + spread |
+//! | grey | the value is over the tolerance; with a spread: value - spread is |
 //! | hatched | no posture, or one beyond the joint limits |
 //!
-//! Inscribed shapes are found elsewhere and only drawn here. Not checked: that they fit.
+//! Inscribed shapes are computed by the caller and only drawn here. Not checked: that they fit.
 
 use crate::axis::plain;
-use crate::colour::{DOUBTFUL, INK, OVER, WITHIN};
-use crate::field::{IsoLines, Look, Paint, draw_field, window_of, zone_entries};
+use crate::colour::{INK, OVER, UNDECIDED, WITHIN};
+use crate::field::{FieldStyle, IsoLines, Paint, draw_field, window_of, zone_entries};
 use crate::grid::Grid;
 use crate::legend::{Entry, Key};
 use crate::levels::Levels;
-use crate::limit;
 use crate::line_label::points_under;
 use crate::marker::write_on_map;
 use crate::page::{BORDER_PX, Heading, LEAST_WIDTH_PX, SMALL_PX};
 use crate::plane::{AxisLabels, BELOW_PX, Plane};
 use crate::svg::{Point, Style, Svg};
+use crate::tolerance;
 
 const MOST_PX: [f64; 2] = [600.0, 470.0];
 
@@ -42,7 +42,7 @@ pub struct CircleMm {
     pub radius_mm: f64,
 }
 
-/// What a region map shows.
+/// The input of a region map.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RegionMap {
     /// First line, bold.
@@ -51,13 +51,13 @@ pub struct RegionMap {
     pub subtitle: String,
     /// The points and their values in um.
     pub grid: Grid,
-    /// How far each value may stray to either side, in um, by point, to a confidence of 95 % as the legend
-    /// says; empty where that is not known. Where the limit is in between is painted as doubtful. A list of
+    /// Expanded uncertainty of each value, in um, by point, for a coverage of 95 % as the legend
+    /// says; empty where that is not known. Where the tolerance is in between is painted as uncertain. A list of
     /// another length than the points, or with a number that is not finite, counts as empty.
     pub spread_um: Vec<f64>,
     /// Axis labels with units.
     pub axes: AxisLabels,
-    /// Permissible deviation in um; a limit that is not finite gives a picture that says so.
+    /// Permissible deviation in um; a tolerance that is not finite gives a picture that says so.
     pub tolerance_um: f64,
     /// Whether iso-lines of the deviation are drawn.
     pub show_iso_lines: bool,
@@ -76,9 +76,9 @@ impl RegionMap {
         }
         let levels = Levels::covering(self.grid.values_um()).filter(|_| self.tolerance_um.is_finite());
         let Some(levels) = levels else {
-            return heading.notice("The limit is not a number.");
+            return heading.notice("The tolerance is not a number.");
         };
-        let plane = Plane::beside_axis(window_of(&self.grid), MOST_PX);
+        let plane = Plane::with_axis_room(window_of(&self.grid), MOST_PX);
         let width = plane.area.right() + BORDER_PX + 12.0;
         let mut page = heading.page(width.max(LEAST_WIDTH_PX));
         let plane = plane.lowered_to(page.top_px + 4.0);
@@ -86,9 +86,9 @@ impl RegionMap {
         let under = |(at, text): &(Point, String)| points_under(*at, text, SMALL_PX);
         let obstacles: Vec<_> = sizes.iter().flat_map(under).collect();
         let uncertainty = self
-            .is_doubtful()
+            .has_uncertainty()
             .then(|| [-1.0, 1.0].map(|times| self.grid.raised(&self.spread_um, times)));
-        let look = Look {
+        let look = FieldStyle {
             levels: &levels,
             paint: Paint::Region,
             iso_lines: if self.show_iso_lines {
@@ -114,23 +114,26 @@ impl RegionMap {
     }
 
     /// Whether there is a spread to paint.
-    fn is_doubtful(&self) -> bool {
+    fn has_uncertainty(&self) -> bool {
         self.spread_um.len() == self.grid.points.len()
             && self.spread_um.iter().all(|spread| spread.is_finite())
             && self.spread_um.iter().any(|spread| *spread > 0.0)
     }
 
     fn entries(&self) -> Vec<Entry> {
-        let limit = plain(self.tolerance_um);
-        let doubtful = self.is_doubtful();
-        let within = if doubtful { "surely within" } else { "within" };
-        let mut entries = vec![Entry::new(Key::field(WITHIN), format!("{within} {limit} µm"))];
-        if doubtful {
-            entries.push(Entry::new(Key::field(DOUBTFUL), "within the uncertainty (95 %)"));
+        let tolerance = plain(self.tolerance_um);
+        let uncertain = self.has_uncertainty();
+        let coverage = if uncertain { " (95 %)" } else { "" };
+        let mut entries = vec![Entry::new(
+            Key::field(WITHIN),
+            format!("within {tolerance} µm{coverage}"),
+        )];
+        if uncertain {
+            entries.push(Entry::new(Key::field(UNDECIDED), "within the uncertainty (95 %)"));
         }
         entries.extend([
-            Entry::new(Key::field(OVER), format!("over {limit} µm")),
-            limit::entry(self.tolerance_um, ""),
+            Entry::new(Key::field(OVER), format!("over {tolerance} µm")),
+            tolerance::entry(self.tolerance_um, ""),
         ]);
         let (rectangle, circle) = self.fits();
         if rectangle.is_some() {
@@ -172,7 +175,7 @@ impl RegionMap {
         }
     }
 
-    /// The sizes of the shapes and where they stand: under the rectangle's upper side and at the circle's centre.
+    /// The sizes of the shapes and their positions: under the rectangle's upper side and at the circle's centre.
     fn size_labels(&self, plane: &Plane) -> Vec<(Point, String)> {
         let mut labels: Vec<(Point, String)> = Vec::new();
         let (rectangle, circle) = self.fits();

@@ -36,7 +36,7 @@ pub(crate) fn left_px<'a>(labels: impl Iterator<Item = &'a str>) -> f64 {
 }
 
 impl Rows {
-    /// Where a value stands across the picture.
+    /// The position of a value across the picture.
     pub(crate) fn x(&self, um: f64) -> f64 {
         self.area.x + (um - self.range[0]) / (self.range[1] - self.range[0]) * self.area.w
     }

@@ -1,4 +1,4 @@
-//! Which joint is to blame: the share of each joint in a deviation, signed, with its uncertainty and the total.
+//! The contributions of the joints: the share of each joint in a deviation, signed, with its uncertainty and the total.
 //!
 //! ```text
 //!  label │  joint 1 │ joint 2 │ j3 │       the bar: shares end to end from zero, negative ones to the left
@@ -40,7 +40,7 @@ pub struct ShareBar {
     pub total_uncertainty_um: Option<f64>,
 }
 
-/// What a share picture shows.
+/// The input of a picture of shares.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ShareBars {
     /// First line, bold.
@@ -87,7 +87,7 @@ impl ShareBars {
         page.finish_with_legend(&self.entries(), [left, area.bottom() + 50.0])
     }
 
-    /// What the value axis shows: all ends of bars and zero, with room beyond; `None` where no bar has a value.
+    /// The range of the value axis: all ends of bars and zero, with room beyond; `None` where no bar has a value.
     fn range_um(&self) -> Option<[f64; 2]> {
         let mut shares = self.bars.iter().flat_map(|b| &b.shares_um);
         shares.find(|v| v.is_finite())?;

@@ -1,17 +1,19 @@
-//! A grid made fine enough to draw: monotone cubic between the points, so that no extremum appears that the points do not have.
+//! A grid made fine enough to draw: monotone cubic between the points, so that no extremum appears that the points do
+//! not have.
 //!
-//! Values: piecewise cubic Hermite along rows, then along columns, slopes after Fritsch and Butland (1984): exact at the points,
-//! and on each lattice line never outside the two neighbouring values. Points without a value are filled from their neighbours
-//! first and masked afterwards; what is reached is known bilinearly, half-way between a point inside and a point outside.
+//! Values: piecewise cubic Hermite along rows, then along columns, slopes after Fritsch and Butland (1984): exact at
+//! the points, and on each lattice line never outside the two neighbouring values. Points without a value are filled
+//! from their neighbours first and masked afterwards; what is reached is known bilinearly, half-way between a point
+//! inside and a point outside.
 //!
-//! For a smooth field on a grid of equal steps h the error between the points goes with h^3, and with h^2 next to an extremum, where
-//! the slope is set to zero.
+//! For a smooth field on a grid of equal steps h the error between the points goes with h^3, and with h^2 next to an
+//! extremum, where the slope is set to zero.
 
 use crate::axis::extent;
 use crate::contours::Lattice;
 use crate::grid::{Grid, PointState};
 
-/// Fine steps wanted along the longer side of a picture.
+/// Fine steps along the longer side of a picture.
 pub(crate) const FINE: usize = 180;
 
 /// Samples on a fine lattice, row by row from the bottom; the given points are among them.
@@ -86,7 +88,8 @@ enum Between {
     Monotone,
 }
 
-/// Values with the gaps closed ring by ring from the known neighbours: two rings carried on straight, the rest by their mean.
+/// Values with the gaps closed ring by ring from the known neighbours: two rings carried on straight, the rest by their
+/// mean.
 fn filled(grid: &Grid) -> Vec<f64> {
     const STRAIGHT_RINGS: usize = 2;
     let (nx, ny) = (grid.horizontal_mm.len(), grid.vertical_mm.len());
@@ -120,7 +123,7 @@ fn filled(grid: &Grid) -> Vec<f64> {
                 Some(2.0 * at(i + a, j + b)? - at(i + 2 * a, j + 2 * b)?).filter(|_| ring < STRAIGHT_RINGS)
             });
             let next = around.iter().filter_map(|(a, b)| at(i + a, j + b));
-            // Carried on, but not beyond the neighbours: no limit is crossed where no point crosses it.
+            // Carried on, but not beyond the neighbours: no tolerance is crossed where no point crosses it.
             let (low, high) = extent(next.clone()).unwrap_or((0.0, 0.0));
             *value = mean(straight).map(|v| v.clamp(low, high)).or_else(|| mean(next));
         }

@@ -2,7 +2,8 @@
 //!
 //! Everything is in pixels with y downwards; angles are in degrees, clockwise.
 //!
-//! Identifiers (clips, gradients, hatches) carry a prefix made from the picture's own content, so that several pictures can are in one HTML page.
+//! Identifiers (clips, gradients, hatches) carry a prefix made from the picture's own content, so that several pictures
+//! can be in one HTML page.
 //!
 //! | written | rule |
 //! |---|---|
@@ -10,7 +11,7 @@
 //! | text | the five characters of XML escaped, control characters left out |
 //! | identifiers | `p`, eight hexadecimal digits of the content's fingerprint, `-`, a running number |
 //!
-//! Not checked: colours and dash patterns, which come from this crate and are written as they stand.
+//! Not checked: colours and dash patterns, which come from this crate and are written unchanged.
 //! Source: Scalable Vector Graphics 1.1 (W3C).
 
 use std::fmt::Write;
@@ -23,7 +24,7 @@ pub(crate) type Point = [f64; 2];
 /// Fonts of every text in every picture.
 const FONT_FAMILY: &str = "DejaVu Sans, Verdana, sans-serif";
 
-/// Stands for the picture's prefix until the picture is complete.
+/// Placeholder of the picture's prefix until the picture is complete.
 const PREFIX: char = '\u{1}';
 
 /// A rectangle in pixels with sides along the picture; `y` is its upper edge.
@@ -199,7 +200,7 @@ impl Text {
         self
     }
 
-    /// With a white edge that sets it off from what lies under it; its width counts both sides.
+    /// With a white edge that separates it from the drawing below; its width includes both sides.
     pub(crate) fn halo(mut self, width_px: f64) -> Self {
         self.halo_px = width_px;
         self
@@ -424,7 +425,7 @@ pub(crate) struct Hatch {
     pub(crate) pitch_px: f64,
     pub(crate) width_px: f64,
     pub(crate) colour: &'static str,
-    /// Of the ground between them; what lies under it shows where there is none.
+    /// Of the ground between them; where there is none, the drawing below is visible.
     pub(crate) ground: Option<&'static str>,
 }
 

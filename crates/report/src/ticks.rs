@@ -1,4 +1,4 @@
-//! The numbers along an axis: which ones, how wide they are, and how they stand below or left of a drawing.
+//! The numbers along an axis: which ones, how wide they are, and how they are placed below or left of a drawing.
 //!
 //! ```text
 //!       │           │
@@ -8,7 +8,7 @@
 //! ```
 //!
 //! A number left of a drawing ends before its tick, a number below is centred under it. Values are in the unit
-//! of the axis; where they are on the picture is asked from the caller, so that charts, planes and bars share
+//! of the axis; the caller gives their positions on the picture, so that charts, planes and bars share
 //! this.
 
 use crate::axis::{multiples, nice_step, tick_label};
@@ -22,7 +22,7 @@ const TICK_PX: f64 = 5.0;
 const GAP_PX: f64 = 3.0;
 /// From the middle of a number down to its baseline, as a part of the font size.
 const BASELINE: f64 = 0.36;
-/// How far a number may reach over the end of its axis where [`Overhang::LeftOut`] holds.
+/// How far a number may extend over the end of its axis with [`Overhang::LeftOut`].
 const OVERHANG_PX: f64 = 4.0;
 
 /// Values of an axis that are marked; their labels carry the decimals that the step needs.
@@ -66,9 +66,9 @@ impl Ticks {
 /// What becomes of a number that would reach over the end of its axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Overhang {
-    /// It is written all the same: there is room beside the drawing.
+    /// It is written all the same: there is room next to the drawing.
     Allowed,
-    /// It is left out: panels stand close together, and it would run into the next. The tick stays.
+    /// It is left out: panels are close together, and it would run into the next. The tick stays.
     LeftOut,
 }
 
@@ -94,7 +94,7 @@ pub(crate) struct Axis {
 }
 
 impl Axis {
-    /// Ticks and numbers below the drawing; `x` tells where a value stands.
+    /// Ticks and numbers below the drawing; `x` gives the position of a value.
     pub(crate) fn draw_below(&self, svg: &mut Svg, x: impl Fn(f64) -> f64) {
         let bottom = self.area.bottom();
         for value in &self.ticks.at {
@@ -113,7 +113,7 @@ impl Axis {
         }
     }
 
-    /// Ticks and numbers left of the drawing; `y` tells where a value stands.
+    /// Ticks and numbers left of the drawing; `y` gives the position of a value.
     pub(crate) fn draw_left(&self, svg: &mut Svg, y: impl Fn(f64) -> f64) {
         let left = self.area.x;
         for value in &self.ticks.at {

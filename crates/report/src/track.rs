@@ -8,12 +8,12 @@ use crate::colour::{ColourScale, MUTED};
 use crate::colour_bar::ColourBar;
 use crate::legend::Entry;
 use crate::levels::Levels;
-use crate::limit;
 use crate::line::without_straight;
 use crate::marker::{Marker, draw_marker, marker_entries};
 use crate::page::{BORDER_PX, Heading, LEAST_WIDTH_PX};
 use crate::plane::{AxisLabels, BELOW_PX, Plane, Window};
 use crate::svg::{Point, Style, Svg};
+use crate::tolerance;
 
 /// Largest drawing: width, height.
 const MOST_PX: [f64; 2] = [620.0, 520.0];
@@ -30,7 +30,7 @@ pub struct Stretch {
     pub deviation_um: Vec<f64>,
 }
 
-/// What a picture of a tool path shows.
+/// The input of a picture of a tool path.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TrackMap {
     /// First line, bold.
@@ -39,7 +39,7 @@ pub struct TrackMap {
     pub subtitle: String,
     /// Axis labels with units.
     pub axes: AxisLabels,
-    /// What is drawn, with its unit: `deviation across the tool (µm)`.
+    /// The quantity, with its unit: `deviation across the tool (µm)`.
     pub quantity: String,
     /// Permissible deviation in um: a line across the colour bar and an entry of the legend; the path itself
     /// has no line for it.
@@ -69,11 +69,11 @@ impl TrackMap {
             quantity: &self.quantity,
             tolerance_um: self.tolerance_um,
         };
-        let plane = Plane::beside_axis(window, MOST_PX);
-        let width = bar.beside(plane.area).right() + BORDER_PX;
+        let plane = Plane::with_axis_room(window, MOST_PX);
+        let width = bar.right_of(plane.area).right() + BORDER_PX;
         let mut page = heading.page(width.max(LEAST_WIDTH_PX));
         let plane = plane.lowered_to(page.top_px + 4.0);
-        let bar_area = bar.beside(plane.area);
+        let bar_area = bar.right_of(plane.area);
         page.svg.clipped(plane.area, |svg| {
             self.draw_path(svg, &plane, &levels);
             for marker in &self.markers {
@@ -146,7 +146,7 @@ impl TrackMap {
     }
 
     fn entries(&self) -> Vec<Entry> {
-        let mut entries: Vec<Entry> = limit::entry_over(self.tolerance_um, self.values_um())
+        let mut entries: Vec<Entry> = tolerance::entry_over(self.tolerance_um, self.values_um())
             .into_iter()
             .collect();
         if self.values_um().any(|value| !value.is_finite()) {
@@ -197,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn markers_have_their_own_signs_and_one_that_stands_nowhere_is_left_out() {
+    fn markers_have_their_own_signs_and_one_that_is_not_finite_is_left_out() {
         let marker = |at_mm, kind, name: &str| Marker {
             at_mm,
             label: format!("{kind:?}"),
@@ -221,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn a_path_without_values_or_points_says_so() {
+    fn a_path_without_values_or_points_gives_a_notice() {
         assert!(TrackMap::default().to_svg().contains("no points"));
         assert!(track([f64::NAN; 5]).to_svg().contains("reaches no point"));
         assert!(track([40.0; 5]).to_svg().contains("exceeded everywhere"));

@@ -1,8 +1,8 @@
-//! Which way the tool is pushed: a path with the deviation as an arrow at sampled points, one colour a load case.
+//! The deviation of the tool along a path as an arrow at sampled points, one colour a load case.
 //!
 //! An arrow begins on the path, where the tool should be, and points to where it is; all are drawn at one
 //! magnification, 1, 2 or 5 times a power of ten, so that the longest takes about a sixth of the path's extent
-//! at most. The magnification and an arrow of known length stand below the drawing.
+//! at most. The magnification and an arrow of known length are below the drawing.
 
 use crate::arrow::draw_arrow;
 use crate::axis::{extent, nice_below, plain};
@@ -35,7 +35,7 @@ pub struct ArrowCase {
     pub arrows: Vec<Arrow>,
 }
 
-/// What a vector picture shows.
+/// The input of a vector picture.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct VectorField {
     /// First line, bold.
@@ -44,7 +44,7 @@ pub struct VectorField {
     pub subtitle: String,
     /// Axis labels with units.
     pub axes: AxisLabels,
-    /// Which way the horizontal axis grows; positions and deviations follow it alike.
+    /// Direction of the horizontal axis; positions and deviations follow it alike.
     pub growth: Growth,
     /// The nominal path in mm; give the first point again at the end to close it.
     pub path_mm: Vec<[f64; 2]>,
@@ -67,7 +67,7 @@ impl VectorField {
             bottom_mm: up.0 - margin,
             top_mm: up.1 + margin,
         };
-        let plane = Plane::beside_axis(window, MOST_PX);
+        let plane = Plane::with_axis_room(window, MOST_PX);
         let width = plane.area.right() + BORDER_PX + 10.0;
         let mut page = heading.page(width.max(LEAST_WIDTH_PX));
         let plane = plane.lowered_to(page.top_px + 4.0);
@@ -128,11 +128,11 @@ impl VectorField {
     }
 }
 
-/// Deviations drawn so many times as long as they are.
+/// The magnification of the deviations.
 pub(crate) struct Magnified {
     /// The longest deviation of all.
     longest_um: f64,
-    /// How many times as long as it is a deviation is drawn.
+    /// The factor of the magnification.
     times: f64,
 }
 
@@ -153,7 +153,7 @@ impl Magnified {
         [0, 1].map(|k| arrow.at_mm[k] + arrow.deviation_um[k] * mm)
     }
 
-    /// The arrow that says how long a nice deviation is drawn, from `at`; none where nothing deviates.
+    /// The scale arrow with its length in micrometres, from `at`; none where all deviations are 0.
     pub(crate) fn draw_scale(&self, svg: &mut Svg, at: Point, px_per_mm: f64) {
         if self.longest_um <= 0.0 {
             return;

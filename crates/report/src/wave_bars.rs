@@ -1,4 +1,4 @@
-//! Is what was predicted what was measured, wave by wave? Two bars a wave, and the phase between them.
+//! Prediction and measurement by undulations per revolution: two bars for each, and the phase between them.
 //!
 //! ```text
 //!  amplitude (µm) │ ▌▒
@@ -37,7 +37,7 @@ pub struct WaveBar {
     pub phase_difference_deg: Option<f64>,
 }
 
-/// What the waves of two curves show.
+/// The input of a picture of waves.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct WaveBars {
     /// First line, bold.
@@ -114,7 +114,7 @@ impl WaveBars {
         }
         let ends = [[area.x, area.bottom()], [area.right(), area.bottom()]];
         page.svg.line(ends[0], ends[1], &Style::line(INK, 1.2));
-        let named = "waves a turn; below: phase of the prediction beyond the part";
+        let named = "undulations per revolution; below: phase of the prediction relative to the part";
         page.svg.text(
             [area.x, area.bottom() + 50.0],
             named,
@@ -147,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn strong_waves_tell_their_phase_and_weak_ones_do_not() {
+    fn strong_waves_show_their_phase_and_weak_ones_do_not() {
         let mut bars = WaveBars {
             names: ["part".to_owned(), "predicted".to_owned()],
             waves: vec![wave(2, [40.0, 38.0]), wave(3, [1.0, 20.0])],

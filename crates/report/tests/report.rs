@@ -84,7 +84,7 @@ fn a_long_report_lists_its_sections_and_figures_and_a_short_one_does_not() {
             .paragraph("none")
             .section("Pictures");
         let caption =
-            "Fig. 6, elbow down: where the deviation is <largest> of all that were asked for in the study.";
+            "Fig. 6, elbow down: where the deviation is <largest> of all that were requested in the study.";
         (0..figures)
             .fold(report, |report, _| report.picture(svg, caption))
             .to_html()

@@ -1,26 +1,28 @@
-//! What should be done so that a path holds its tolerance? Place, turn, compensation and cut in a sentence with numbers.
+//! Measures that bring a path within its tolerance: placement, spin, compensation and cut, as sentences with numbers.
 //!
 //! ```text
-//! as drawn -> best place -> best turns and branches there -> what still does not hold, and why -> compensated -> permitted cut
+//! nominal -> best placement -> best spin and branches there -> stretches out of tolerance, and why -> compensated -> permitted cut
 //! ```
 //!
-//! Each step is taken only where it makes the path better. The study that comes of them is run and written as any other.
+//! A step is used only if it improves the path. The resulting study is run and written as any other.
 
 use armill_core::optimize::Compensation;
 use armill_core::watch::Watch;
 use serde::Serialize;
 
-use crate::answer::{LimitsAnswer, PathAnswer, SearchAnswer, StatisticsAnswer, culprit, micrometres};
+use crate::answer::{
+    LimitsAnswer, PathAnswer, SearchAnswer, StatisticsAnswer, largest_contributor, micrometres,
+};
 use crate::compensate::{ErrorAnswer, compensate};
 use crate::error::StudyError;
 use crate::file::path::PathAnalysis;
 use crate::file::resolve::Study;
 use crate::output::Picture;
-use crate::place::{Journal, PlacementAnswer, Placing};
-use crate::run::{Done, Found, PathFound, run};
+use crate::place::{Journal, PlacementAnswer, PlacementSearch};
+use crate::run::{AnalysisData, AnalysisResult, PathResult, run};
 use crate::studies::FoundStudy;
 
-/// What to do about a path.
+/// Recommended measures for a path.
 #[derive(Clone, Debug, Serialize)]
 pub struct AdviceAnswer {
     /// Version of this format.
@@ -34,18 +36,18 @@ pub struct AdviceAnswer {
     /// The path as the study has it.
     pub nominal: StatisticsAnswer,
     /// With all that is advised but compensation.
-    pub as_advised: StatisticsAnswer,
+    pub recommended: StatisticsAnswer,
     /// The search for a place.
     pub placement: PlacementAnswer,
     /// Whether the part should move there.
     pub moves: bool,
-    /// Turns of the tool and branches along the path; none where they make nothing better.
+    /// Spin of the tool and branches along the path; none if they improve nothing.
     pub turns: Option<SearchAnswer>,
-    /// Stretches that do not hold the tolerance even so, the worst first.
-    pub not_held: Vec<StretchAnswer>,
-    /// How far the tool goes from the path there, compensated.
+    /// Stretches out of tolerance nevertheless, the worst first.
+    pub out_of_tolerance: Vec<StretchAnswer>,
+    /// Deviation of the tool from the path there, compensated.
     pub compensated: ErrorAnswer,
-    /// Standard uncertainty of the deviation that is taken off, where it is largest: what compensation leaves of it.
+    /// Standard uncertainty of the compensated deviation, where it is largest: what remains after compensation.
     pub compensated_u_um: f64,
     /// What keeps the tolerance everywhere, of a program.
     pub limits: Option<LimitsAnswer>,
@@ -55,14 +57,14 @@ pub struct AdviceAnswer {
     pub compliance_assumed: bool,
 }
 
-/// Points that follow on each other and do not hold the tolerance.
+/// Consecutive points out of tolerance.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StretchAnswer {
     /// Line of the first, of a program.
     pub first_line: u32,
     /// Line of the last.
     pub last_line: u32,
-    /// Where it begins along the path.
+    /// Its start along the path.
     pub from_mm: f64,
     /// Where it ends.
     pub to_mm: f64,
@@ -72,30 +74,30 @@ pub struct StretchAnswer {
     pub unreachable: usize,
     /// Largest in-plane deviation.
     pub max_in_plane_um: f64,
-    /// What yields most at the worst of them; none where that is not among the worst of the path.
+    /// Largest contributor at the worst of them; none if that is not among the worst of the path.
     pub mostly_by: Option<String>,
 }
 
-/// What is advised, and the study that comes of it.
+/// The recommendation, and the resulting study.
 pub struct Advice {
-    /// In numbers and words.
+    /// As numbers and text.
     pub answer: AdviceAnswer,
     /// Pictures of the search for a place.
     pub pictures: Vec<Picture>,
-    /// The path alone, as advised.
+    /// The study with this path only, as recommended.
     pub study: Study,
 }
 
-/// Stretches told at most.
+/// Greatest number of stretches reported.
 const MOST_STRETCHES: usize = 10;
 
-/// What to do about the path that `placing` is about.
+/// Recommended measures for the path of `placing`.
 ///
 /// # Errors
-/// As of [`Placing::search`].
+/// As of [`PlacementSearch::search`].
 pub fn advise(
     (found, study): (&FoundStudy, &Study),
-    placing: &Placing<'_>,
+    placing: &PlacementSearch<'_>,
     journal: &mut Journal<'_>,
     (watch, given): (Watch<'_>, &dyn Fn(&str)),
 ) -> Result<Advice, StudyError> {
@@ -136,25 +138,25 @@ pub fn advise(
     let of_path = done.first().and_then(path_of);
     let (Some(path), Some((analysis, of_path)), Some(compensated)) = (path, of_path, compensated) else {
         return Err(StudyError::value(
-            "the study asks for no path",
+            "the study has no path analysis",
             "[[analysis]] kind = \"path\"",
         ));
     };
-    let as_advised = StatisticsAnswer::of(analysis, &of_path.along.answers);
+    let recommended = StatisticsAnswer::of(analysis, &of_path.along.answers);
     let mut answer = AdviceAnswer {
         format: 1,
         analysis: name.to_owned(),
         advice: Vec::new(),
-        tolerance_um: analysis.setting.limit * 1e6,
-        force_factor: as_advised
+        tolerance_um: analysis.setting.tolerance * 1e6,
+        force_factor: recommended
             .max_in_plane_um
             .filter(|um| *um > 0.0 && analysis.setting.model.is_drives_alone())
-            .map(|um| analysis.setting.limit * 1e6 / um),
+            .map(|um| analysis.setting.tolerance * 1e6 / um),
         nominal,
-        as_advised,
+        recommended,
         placement: placed.answer,
         moves,
-        not_held: not_held(advised, (analysis, of_path), &path),
+        out_of_tolerance: out_of_tolerance(advised, (analysis, of_path), &path),
         turns: path.search.filter(|_| turns),
         compensated,
         compensated_u_um: path.worst.map_or(0.0, |worst| worst.in_plane_u_um),
@@ -169,22 +171,22 @@ pub fn advise(
     })
 }
 
-/// The study with this path alone.
+/// The study with this path only.
 fn alone(mut study: Study, name: &str) -> Study {
     study.analyses.retain(|analysis| analysis.name == name);
     study.statements.clear();
     study
 }
 
-fn path_of<'d>(done: &'d Done<'_>) -> Option<(&'d PathAnalysis, &'d PathFound)> {
+fn path_of<'d>(done: &'d AnalysisResult<'_>) -> Option<(&'d PathAnalysis, &'d PathResult)> {
     match &done.found {
-        Found::Path(analysis, found) => Some((analysis, found)),
+        AnalysisData::Path(analysis, found) => Some((analysis, found)),
         _ => None,
     }
 }
 
 /// The one path of this study in some numbers.
-fn statistics(study: &Study, done: &[Done<'_>]) -> StatisticsAnswer {
+fn statistics(study: &Study, done: &[AnalysisResult<'_>]) -> StatisticsAnswer {
     let nothing = StatisticsAnswer {
         max_in_plane_um: None,
         mean_in_plane_um: None,
@@ -194,9 +196,11 @@ fn statistics(study: &Study, done: &[Done<'_>]) -> StatisticsAnswer {
         near_singularity: 0,
         reversals: Vec::new(),
     };
-    done.first().and_then(path_of).map_or(nothing, |(analysis, found)| {
-        StatisticsAnswer::of(analysis, &found.along.answers)
-    })
+    done.first()
+        .and_then(path_of)
+        .map_or(nothing, |(analysis, found)| {
+            StatisticsAnswer::of(analysis, &found.along.answers)
+        })
 }
 
 /// Whether a path is better so than as the other: reached, inside limits, within the tolerance, least at its worst.
@@ -211,17 +215,21 @@ fn is_better(one: &StatisticsAnswer, other: &StatisticsAnswer) -> bool {
         .is_lt()
 }
 
-/// Stretches of the path that do not hold the tolerance, the worst first.
-fn not_held(study: &Study, (analysis, found): (&PathAnalysis, &PathFound), path: &PathAnswer) -> Vec<StretchAnswer> {
+/// Stretches of the path out of tolerance, the worst first.
+fn out_of_tolerance(
+    study: &Study,
+    (analysis, found): (&PathAnalysis, &PathResult),
+    path: &PathAnswer,
+) -> Vec<StretchAnswer> {
     let points = &analysis.track.path.points;
     let answers = &found.along.answers.points;
-    let holds = |index: usize| {
-        answers[index]
-            .as_ref()
-            .is_ok_and(|evaluation| evaluation.in_plane <= analysis.setting.limit && evaluation.within_limits())
+    let within = |index: usize| {
+        answers[index].as_ref().is_ok_and(|evaluation| {
+            evaluation.in_plane <= analysis.setting.tolerance && evaluation.within_limits()
+        })
     };
     let indices: Vec<usize> = (0..points.len()).collect();
-    let stretches = indices.chunk_by(|a, b| holds(*a) == holds(*b));
+    let stretches = indices.chunk_by(|a, b| within(*a) == within(*b));
     let given = |stretch: &[usize]| {
         let (first, last) = (*stretch.first()?, *stretch.last()?);
         let evaluation = stretch.iter().filter_map(|index| answers[*index].as_ref().ok());
@@ -238,12 +246,15 @@ fn not_held(study: &Study, (analysis, found): (&PathAnalysis, &PathFound), path:
             to_mm: points[last].along * 1e3,
             points: stretch.len(),
             unreachable: stretch.iter().filter(|index| answers[**index].is_err()).count(),
-            max_in_plane_um: evaluation.map(|evaluation| evaluation.in_plane * 1e6).fold(0.0, f64::max),
-            mostly_by: worst.map(|(_, worst)| culprit(study, &worst.point, &path.setting.contributors)),
+            max_in_plane_um: evaluation
+                .map(|evaluation| evaluation.in_plane * 1e6)
+                .fold(0.0, f64::max),
+            mostly_by: worst
+                .map(|(_, worst)| largest_contributor(study, &worst.point, &path.setting.contributors)),
         })
     };
     let mut all: Vec<StretchAnswer> = stretches
-        .filter(|stretch| !holds(stretch[0]))
+        .filter(|stretch| !within(stretch[0]))
         .filter_map(given)
         .collect();
     all.sort_by(|a, b| {
@@ -255,7 +266,7 @@ fn not_held(study: &Study, (analysis, found): (&PathAnalysis, &PathFound), path:
 }
 
 impl AdviceAnswer {
-    /// What to do.
+    /// Recommended measures.
     fn sentences(&self) -> Vec<String> {
         let um = |of: &StatisticsAnswer| {
             of.max_in_plane_um
@@ -265,56 +276,59 @@ impl AdviceAnswer {
         let limit = micrometres(self.tolerance_um);
         let mut steps = Vec::new();
         if self.moves {
-            steps.push(format!("lay the part at {}", self.placement.place_in_words()));
+            steps.push(format!("place the part at {}", self.placement.place_in_words()));
         }
         if let Some(turns) = &self.turns {
             let [from, to] = turns.turn_range_deg;
             steps.push(format!(
-                "turn the tool by {from:.0} to {to:.0} deg along the path"
+                "use a tool spin of {from:.0} to {to:.0} deg along the path"
             ));
         }
         if steps.is_empty() {
-            steps.push("leave part and tool as they are, nothing better was found".to_owned());
+            steps.push("keep part and tool; nothing better was found".to_owned());
         }
         let mut lines = vec![format!(
-            "{}: {}; {} of the path then holds {limit} µm, at most {} ({}, {} as drawn).",
+            "{}: {}; {} of the path is then within {limit} µm, largest deviation {} (nominal: {}, {}).",
             self.analysis,
             steps.join(" and "),
-            share(&self.as_advised),
-            um(&self.as_advised),
+            share(&self.recommended),
+            um(&self.recommended),
             share(&self.nominal),
             um(&self.nominal),
         )];
-        lines.extend(self.weak_in_words());
+        lines.extend(self.out_of_tolerance_text());
         lines.push(format!(
-            "Compensated (`armill compensate`), the tool is predicted to stay within {} µm of the path, {}.",
+            "Compensated (`armill compensate`), the predicted largest deviation from the path is {} µm, {}.",
             micrometres(self.compensated.max_um),
             match self.compensated_u_um {
-                u if u > 0.0 => format!("± {} µm that are not known of arm and force", micrometres(u)),
-                _ => "as if arm and force were known".to_owned(),
+                u if u > 0.0 => format!(
+                    "with a standard uncertainty of {} µm from robot and force",
+                    micrometres(u)
+                ),
+                _ => "without the uncertainty of robot and force".to_owned(),
             }
         ));
-        lines.extend(self.permitted_in_words());
+        lines.extend(self.permitted_text());
         if self.compliance_assumed {
             lines.push(
-                "The joint compliances are assumed, not measured: trust the order, not the numbers."
+                "The joint compliances are assumed, not measured: use the ranking, not the absolute numbers."
                     .to_owned(),
             );
         }
         lines
     }
 
-    /// What does not hold, and why.
-    fn weak_in_words(&self) -> Option<String> {
+    /// The stretches out of tolerance, and why.
+    fn out_of_tolerance_text(&self) -> Option<String> {
         let given: Vec<String> = self
-            .not_held
+            .out_of_tolerance
             .iter()
             .take(3)
             .map(|stretch| {
                 let why = match (stretch.unreachable, &stretch.mostly_by) {
                     (unreachable, _) if unreachable > 0 => format!("no posture at {unreachable} points"),
                     (_, Some(by)) => format!(
-                        "up to {} µm, mostly by {by}",
+                        "up to {} µm, largest contribution: {by}",
                         micrometres(stretch.max_in_plane_um)
                     ),
                     (_, None) => format!("up to {} µm", micrometres(stretch.max_in_plane_um)),
@@ -322,16 +336,19 @@ impl AdviceAnswer {
                 format!("{:.0} to {:.0} mm ({why})", stretch.from_mm, stretch.to_mm)
             })
             .collect();
-        let more = match self.not_held.len() {
+        let more = match self.out_of_tolerance.len() {
             0 => return None,
             count if count > given.len() => " and others",
             _ => "",
         };
-        Some(format!("It does not hold from {}{more}.", given.join(", from ")))
+        Some(format!(
+            "The tolerance is not met from {}{more}.",
+            given.join(", from ")
+        ))
     }
 
-    /// What may be cut, or how strong forces may be.
-    fn permitted_in_words(&self) -> Option<String> {
+    /// The permitted cut, or the permitted forces.
+    fn permitted_text(&self) -> Option<String> {
         let limit = micrometres(self.tolerance_um);
         let cut = self
             .limits
@@ -339,16 +356,16 @@ impl AdviceAnswer {
             .and_then(|limits| limits.axial_depth.as_ref());
         if let Some(depth) = cut {
             return Some(format!(
-                "Without compensation cut {} {:.2} mm deep to hold {limit} µm everywhere (line {}).",
+                "Without compensation, the depth of cut to be within {limit} µm everywhere is {} {:.2} mm (line {}).",
                 depth.verdict, depth.value, depth.line
             ));
         }
         let factor = self.force_factor?;
         Some(match factor < 1.0 {
             true => format!(
-                "Without compensation {limit} µm hold everywhere with {factor:.2} times these forces."
+                "Without compensation, the path is within {limit} µm everywhere with {factor:.2} times these forces."
             ),
-            false => format!("There is room for {factor:.1} times these forces."),
+            false => format!("The path is within the tolerance with up to {factor:.1} times these forces."),
         })
     }
 }

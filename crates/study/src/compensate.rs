@@ -1,18 +1,19 @@
-//! The path to be commanded so that the tool goes where it is drawn: the deviation before and after, and the path as a
+//! The path to command so that the tool follows the nominal path: the deviation before and after, and the path as a
 //! table that armill reads again.
 //!
 //! | column of the table | unit | meaning |
 //! |---|---|---|
 //! | `x_mm`, `y_mm`, `z_mm` | mm | the tip, in the frame of the program |
 //! | `i`, `j`, `k` | - | from the tip towards the spindle, same frame |
-//! | `spin_deg` | deg | turn of the tool about its axis, for `spin = "given"` |
-//! | `feed_mm_per_min` | mm/min | speed towards the point; empty where the program tells none |
+//! | `spin_deg` | deg | spin of the tool about its axis, for `spin = "given"` |
+//! | `feed_mm_per_min` | mm/min | speed towards the point; empty if the program does not specify it |
 //! | `rapid` | - | 1 where a rapid leads to the point |
 //!
-//! A path that a program of a robot told comes back as that program too, with its targets moved ([`crate::in_place`]).
+//! For a path from a robot program, that program is returned too, with changed targets ([`crate::in_place`]).
 //!
-//! What is taken off is the elastic deviation (and what gravity, backlash and the measured arm add, where they are known)
-//! under the mean of the load cases, of a cut under its force as drawn; what the cases leave is told as the rest.
+//! The correction is the elastic deviation (and that of gravity, backlash and the calibrated robot, if known)
+//! under the mean of the load cases, of a cut under its nominal force; the difference of the cases is reported as
+//! residual.
 
 use armill_core::frame::tool_orientation;
 use armill_core::kernel::Answers;
@@ -27,19 +28,19 @@ use serde::Serialize;
 use crate::error::StudyError;
 use crate::file::path::PathAnalysis;
 use crate::file::resolve::{Setting, Study, Subject};
-use crate::in_place::{InPlace, InPlaceAnswer, in_place};
+use crate::in_place::{RewrittenProgram, RewrittenProgramAnswer, in_place};
 use crate::run::{Runner, passes, runner};
 
-/// What compensating the paths of a study brings.
+/// Result of the compensation of the paths of a study.
 #[derive(Clone, Debug, Serialize)]
 pub struct CompensationAnswer {
     /// Every path that was compensated.
     pub paths: Vec<CompensatedPath>,
     /// Whether the joint compliances are assumed, not measured: so are the corrections then.
     pub compliance_assumed: bool,
-    /// Whether the robot file tells gaps of its joints: backlash is in the correction then.
+    /// Whether the robot file gives the backlash of its joints: the correction then includes it.
     pub backlash: bool,
-    /// Whether the study names the arm as it was measured: its geometry is in the correction then.
+    /// Whether the study names the calibrated robot: its geometry is then part of the correction.
     pub geometry: bool,
 }
 
@@ -50,7 +51,7 @@ pub struct CompensatedPath {
     pub name: String,
     /// How many points.
     pub points: usize,
-    /// How far the tool goes from the drawn path without compensation.
+    /// Deviation of the tool from the nominal path without compensation.
     pub before: ErrorAnswer,
     /// And with it, as predicted.
     pub after: ErrorAnswer,
@@ -62,19 +63,19 @@ pub struct CompensatedPath {
     pub last_round_um: f64,
     /// What that was of the one before; none after one round.
     pub contraction_ratio: Option<f64>,
-    /// Points without posture, which stay where they are.
+    /// Points without posture, which are not changed.
     pub unreachable: usize,
-    /// Points that stand outside joint limits once they are moved.
+    /// Points outside joint limits after the correction.
     pub outside_joint_limits: usize,
     /// File of the commanded path.
     pub file: String,
-    /// The program that the path came from, with its targets moved; none of another path, and where `notes` say why.
-    pub in_place: Option<InPlaceAnswer>,
+    /// The program that the path is from, with changed targets; none for another path, or if `notes` give a reason.
+    pub in_place: Option<RewrittenProgramAnswer>,
     /// What a user must know, each a sentence.
     pub notes: Vec<String>,
 }
 
-/// Distances of the tool from the drawn path, over all points and load cases.
+/// Distances of the tool from the nominal path, over all points and load cases.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ErrorAnswer {
     /// Largest, in space.
@@ -83,16 +84,16 @@ pub struct ErrorAnswer {
     pub rms_um: f64,
     /// Largest across the tool.
     pub max_in_plane_um: f64,
-    /// Largest across the track, by size: what walls get.
+    /// Largest magnitude across the track: the error of walls.
     pub max_cross_um: f64,
-    /// Largest along the tool, by size: what floors get.
+    /// Largest magnitude along the tool: the error of floors.
     pub max_axial_um: f64,
 }
 
-/// What comes of one path.
+/// Result for one path.
 #[derive(Clone, Debug)]
 pub struct Commanded<'a> {
-    /// How it was asked.
+    /// Its analysis.
     pub setting: &'a Setting,
     /// The path to command, and its postures.
     pub path: (Track, Answers),
@@ -106,7 +107,8 @@ pub struct Commanded<'a> {
     pub program: Vec<(String, Vec<u8>)>,
 }
 
-/// Compensates every path of the study, or the one called `name`. A circle is closed: its first point is commanded again at
+/// Compensates every path of the study, or the one called `name`. A circle is closed: its first point is commanded
+/// again at
 /// its end.
 ///
 /// # Errors
@@ -124,7 +126,7 @@ pub fn compensate<'a>(
     if all.is_empty() {
         let message = match name {
             Some(name) => format!("the study has no path called `{name}`"),
-            None => "the study asks for no path that could be compensated".to_owned(),
+            None => "the study has no path that could be compensated".to_owned(),
         };
         return Err(StudyError::value(
             message,
@@ -134,8 +136,8 @@ pub fn compensate<'a>(
     Ok(all)
 }
 
-/// Points that the progress of [`compensate`] ends at: a path is followed, and about
-/// three times more on the way to the one that is commanded.
+/// Points that the progress of [`compensate`] ends at: a path is followed once, and about
+/// three times more to determine the commanded one.
 pub fn point_count(study: &Study, name: Option<&str>) -> usize {
     let of = |(_, path): (&str, &PathAnalysis)| {
         let again = usize::from(path.source.robot().is_some());
@@ -149,10 +151,15 @@ pub(crate) fn paths<'a>(
     study: &'a Study,
     name: Option<&str>,
 ) -> impl Iterator<Item = (&'a str, &'a PathAnalysis)> {
-    study.analyses.iter().filter_map(move |analysis| match &analysis.subject {
-        Subject::Path(path) if name.is_none_or(|name| name == analysis.name) => Some((analysis.name.as_str(), &**path)),
-        _ => None,
-    })
+    study
+        .analyses
+        .iter()
+        .filter_map(move |analysis| match &analysis.subject {
+            Subject::Path(path) if name.is_none_or(|name| name == analysis.name) => {
+                Some((analysis.name.as_str(), &**path))
+            }
+            _ => None,
+        })
 }
 
 fn of_path<'a>(
@@ -214,7 +221,7 @@ fn of_path<'a>(
         outside_joint_limits: found
             .along
             .answers
-            .evaluation()
+            .evaluations()
             .filter(|(_, evaluation)| !evaluation.within_limits())
             .count(),
         file,
@@ -237,7 +244,7 @@ fn of_path<'a>(
 }
 
 impl ErrorAnswer {
-    /// Of these distances from the path, m, base, so many a point.
+    /// Statistics of these distances from the path, m, base; this number per point.
     pub(crate) fn of(track: &Track, errors: &[Vector3<f64>], cases: usize) -> ErrorAnswer {
         let parts = |at: usize| track.parts(at / cases, &errors[at]);
         let largest = |of: &dyn Fn(Parts) -> f64| {
@@ -287,7 +294,7 @@ fn table(name: &str, track: &Track) -> Result<Table, StudyError> {
     columns.push(column("spin_deg", Some("deg"), (6, ColumnData::Float(spins))));
     let feed = |pace: Pace| match pace {
         Pace::Feed(speed) => Some(speed * 60e3),
-        Pace::Rapid | Pace::EvaluateError => None,
+        Pace::Rapid | Pace::Unknown => None,
     };
     let feeds = points.iter().map(|point| feed(point.pace)).collect();
     columns.push(column(
@@ -301,7 +308,7 @@ fn table(name: &str, track: &Track) -> Result<Table, StudyError> {
     Ok(Table::new(name, columns)?)
 }
 
-/// Turn of the tool about its axis at a point, from where [`tool_orientation`] has it, rad.
+/// Spin of the tool about its axis at a point, relative to [`tool_orientation`], rad.
 fn spin(track: &Track, index: usize) -> f64 {
     let stop = track.stop(index);
     let unspun = tool_orientation(-stop.normal, 0.0);
@@ -312,12 +319,12 @@ fn spin(track: &Track, index: usize) -> f64 {
 /// Points that the picture has at most.
 const MOST_POINTS: usize = 1200;
 
-/// Distance from the drawn path along it, before and after: the largest of the load cases, and of points that share a mark.
+/// Distance from the nominal path along it, before and after: the largest of the load cases, and of points in one mark.
 fn picture(
     name: &str,
     drawn: &Track,
     (before, cases): (&[Vector3<f64>], usize),
-    (found, in_place): (&Compensated, Option<&InPlace>),
+    (found, in_place): (&Compensated, Option<&RewrittenProgram>),
 ) -> String {
     let points = &drawn.path.points;
     let handful = points.len().div_ceil(MOST_POINTS).max(1);
@@ -335,7 +342,7 @@ fn picture(
     };
     let after = found.along.answers.case_count;
     let mut all = vec![
-        series("as drawn", before, cases),
+        series("nominal", before, cases),
         series("compensated", &found.residual, after),
     ];
     all.extend(
@@ -343,10 +350,10 @@ fn picture(
     );
     PathPlot {
         title: format!("{name}: compensated"),
-        subtitle: "how far the tool goes from the drawn path, as predicted; the largest of the load cases"
+        subtitle: "predicted distance of the tool from the nominal path; the largest of the load cases"
             .to_owned(),
         position_label: "along the path (mm)".to_owned(),
-        quantity: "distance from the drawn path (µm)".to_owned(),
+        quantity: "distance from the nominal path (µm)".to_owned(),
         series: all,
         envelope: None,
         tolerance_um: None,

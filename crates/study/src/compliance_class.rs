@@ -1,16 +1,16 @@
-//! Joint compliances assumed by the size of an arm, for users who know none: wide, and marked wherever they show.
+//! Joint compliances assumed by the size of a robot, if none are known: wide uncertainty, marked in every result.
 //!
-//! The values come from the arms of the library whose stiffness is published. For each joint
+//! The values are derived from the robots of the library whose stiffness is published. For each joint
 //!
 //! `c = (product of c_k)^(1/n)`, `f = max_k max(c_k / c, c / c_k)`, at least [`LEAST_FACTOR`], `u = (f - 1) c`
 //!
 //! | class | payload | from |
 //! |---|---|---|
-//! | light | up to 20 kg | Yaskawa MH12 alone; `f` is the widest of the heavy class, for one arm has no spread |
-//! | medium | 20 to 100 kg | nothing published: `c` midway between light and heavy in the logarithm, `f` reaches both |
+//! | light | up to 20 kg | only Yaskawa MH12; `f` is the widest of the heavy class, because one robot has no spread |
+//! | medium | 20 to 100 kg | nothing published: `c` is midway between light and heavy in the logarithm, `f` covers both |
 //! | heavy | 100 to 300 kg | FANUC R-2000iC, KUKA KR 210 R2700 extra, Staubli TX200 |
 //!
-//! What it means and what it is not good for: `docs/theory/compliance-classes.md`.
+//! Meaning and limits of use: `docs/theory/compliance-classes.md`.
 
 use armill_core::robot::{JointCompliance, Robot};
 use schemars::JsonSchema;
@@ -19,7 +19,7 @@ use serde::Deserialize;
 use crate::error::StudyError;
 use crate::library;
 
-/// A class of arms by payload.
+/// A class of robots by payload.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum ComplianceClass {
@@ -31,17 +31,17 @@ pub enum ComplianceClass {
     Heavy,
 }
 
-/// How far a class value may be wrong at the least, as a factor: between published arms of one class a joint
-/// differs by as much, and an arm that nobody measured may lie beyond them.
+/// Least uncertainty of a class value, as a factor: published robots of one class differ by as much in
+/// a joint, and a robot that was not measured may be outside them.
 pub const LEAST_FACTOR: f64 = 2.0;
 
-/// Arms that the light class is made of.
+/// Robots of the light class.
 const LIGHT: &[&str] = &["yaskawa/mh12"];
-/// Arms that the heavy class is made of.
+/// Robots of the heavy class.
 const HEAVY: &[&str] = &["fanuc/r2000ic", "kuka/kr210r2700extra", "staubli/tx200"];
 
-/// Where the numbers of a class come from, for the report.
-const MADE_OF: &str = "geometric mean of published arms (Yaskawa MH12; FANUC R-2000iC, KUKA KR 210 R2700 extra, Staubli TX200), see docs/theory/compliance-classes.md";
+/// Sources of the numbers of a class, for the report.
+const MADE_OF: &str = "geometric mean of published robots (Yaskawa MH12; FANUC R-2000iC, KUKA KR 210 R2700 extra, Staubli TX200), see docs/theory/compliance-classes.md";
 
 /// A class value of one joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,12 +78,12 @@ impl ComplianceClass {
             .into_iter()
             .find(|class| class.name() == name);
         found.ok_or_else(|| {
-            let message = format!("`{name}` is no class of compliances");
+            let message = format!("`{name}` is not a class of compliances");
             StudyError::value(message, CLASSES)
         })
     }
 
-    /// The class of arms that carry this, kg.
+    /// The class of robots with this payload, kg.
     pub fn of_payload(kg: f64) -> ComplianceClass {
         match kg {
             kg if kg <= 20.0 => ComplianceClass::Light,
@@ -95,7 +95,7 @@ impl ComplianceClass {
     /// Its six values, base to flange.
     ///
     /// # Errors
-    /// An arm of the library that does not read: a defect of the library.
+    /// A robot of the library that cannot be read: a defect of the library.
     pub fn values(self) -> Result<[ClassValue; 6], StudyError> {
         let heavy = mean_and_spread(HEAVY)?;
         let widest = heavy
@@ -122,12 +122,12 @@ impl ComplianceClass {
     /// Its compliances for `robot`, with `u = (factor - 1) c` as standard uncertainty.
     ///
     /// # Errors
-    /// An arm of another build than six turning joints.
+    /// A robot with another structure than six revolute joints.
     pub fn compliance_of(self, robot: &Robot) -> Result<Vec<JointCompliance>, StudyError> {
         let joints = robot.joints().len();
         if joints != 6 || (0..joints).any(|joint| robot.slides(joint)) {
             let message = format!(
-                "class {} holds compliances of six turning joints, but `{}` has {joints} joints of its own build",
+                "class {} gives the compliances of six revolute joints, but `{}` has {joints} joints of another structure",
                 self.name(),
                 robot.name()
             );
@@ -140,7 +140,7 @@ impl ComplianceClass {
         Ok(self.values()?.map(joint).to_vec())
     }
 
-    /// What every result says of compliances of this class.
+    /// The caution in every result with compliances of this class.
     ///
     /// # Errors
     /// As [`ComplianceClass::values`].
@@ -155,12 +155,12 @@ impl ComplianceClass {
             format!("{least:.1} to {most:.1}")
         };
         Ok(format!(
-            "The joint compliances are assumed, not measured: values of the class {}, each of which may be wrong by a factor of {factor}. Compare postures and places with them; do not promise micrometres.",
+            "The joint compliances are assumed, not measured: values of the class {}, each of which may be wrong by a factor of {factor}. Use them to compare postures and placements, not to predict absolute deviations.",
             self.name()
         ))
     }
 
-    /// Where its numbers come from.
+    /// Source of its numbers.
     pub fn source(self) -> String {
         format!("class {}: {MADE_OF}", self.name())
     }
@@ -170,7 +170,7 @@ impl ComplianceClass {
 pub const CLASSES: &str =
     "classes by payload: \"light\" (up to 20 kg), \"medium\" (20 to 100 kg), \"heavy\" (100 to 300 kg)";
 
-/// Geometric mean over the arms and the largest factor from it to one of them, joint by joint.
+/// Geometric mean over the robots and the largest factor from it to one of them, joint by joint.
 fn mean_and_spread(arms: &[&str]) -> Result<[ClassValue; 6], StudyError> {
     let known: Vec<Vec<f64>> = arms
         .iter()
@@ -188,7 +188,7 @@ fn mean_and_spread(arms: &[&str]) -> Result<[ClassValue; 6], StudyError> {
     }))
 }
 
-/// How far one is from the other, as a factor of at least 1.
+/// Ratio of the two, as a factor of at least 1.
 fn factor_between(a: f64, b: f64) -> f64 {
     (a / b).max(b / a)
 }
@@ -224,7 +224,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn heavy_arms_lie_within_the_stated_factor() {
+    fn heavy_robots_are_within_the_stated_factor() {
         // 1 / k of the publications, N m/rad: Liu et al. 2026; GBT-ADL set 28N6; Huynh et al. 2020 (kz).
         let published = [
             [
@@ -255,7 +255,7 @@ mod tests {
     }
 
     #[test]
-    fn light_is_the_mh12_and_medium_lies_between() {
+    fn light_is_the_mh12_and_medium_is_between() {
         let [light, medium, heavy] = ComplianceClass::ALL.map(|class| class.values().unwrap());
         let mh12 = [2.1e-6, 2.5e-6, 4.0e-5, 6.0e-5, 6.0e-5, 8.0e-5];
         for joint in 0..6 {
@@ -309,7 +309,7 @@ mod tests {
     }
 
     #[test]
-    fn an_unknown_class_is_told_with_those_there_are() {
+    fn an_unknown_class_is_refused_with_the_list_of_classes() {
         let error = ComplianceClass::named("middling").unwrap_err().to_string();
         assert!(
             error.contains("`middling`") && error.contains("\"medium\""),

@@ -1,4 +1,4 @@
-//! What can go wrong, and of which kind it is.
+//! The errors of a study, and their kinds.
 
 use armill_core::watch::Cancelled;
 use armill_formats::document::Problems;
@@ -13,12 +13,12 @@ pub enum StudyError {
     /// A file cannot be read or written.
     #[error(transparent)]
     File(#[from] FileError),
-    /// A value on the command line (or in a call) cannot be.
+    /// A value on the command line (or in a call) is not valid.
     #[error("{message}\n  help: {hint}")]
     Value {
         /// The thing, its value, the limit and the unit.
         message: String,
-        /// What to do about it.
+        /// How to correct it.
         hint: String,
     },
     /// The user stopped the work.
@@ -37,24 +37,24 @@ pub enum StudyError {
     /// A VTK file could not be made.
     #[error("{0}")]
     Vtk(#[from] armill_formats::table::vtk::VtkError),
-    /// The answer could not be told as JSON.
+    /// The answer could not be written as JSON.
     #[error("{0}")]
     Json(#[from] serde_json::Error),
 }
 
-/// Of which kind an error is: this alone decides exit code, HTTP status and Python exception.
+/// The kind of an error: it alone determines exit code, HTTP status and Python exception.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ErrorKind {
-    /// The input is wrong; the user can mend it.
+    /// The input is wrong; the user can correct it.
     InvalidInput,
     /// The user stopped the work.
     Cancelled,
-    /// armill is wrong.
+    /// A fault of armill.
     Internal,
 }
 
 impl StudyError {
-    /// A wrong value with what to do about it.
+    /// A wrong value, and how to correct it.
     pub fn value(message: impl Into<String>, hint: impl Into<String>) -> StudyError {
         StudyError::Value {
             message: message.into(),

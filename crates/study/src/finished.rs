@@ -1,8 +1,7 @@
-//! A study that has been run, kept with all that came out, so that whoever holds it asks for tables, pictures and files
-//! when he wants them.
+//! A study with its results in memory, for later requests of tables, pictures and files.
 //!
-//! What comes out of an ask borrows what was asked ([`Done`]); here both stay together, and are put side by side for the time
-//! of a question.
+//! The result of an analysis borrows the analysis ([`AnalysisResult`]); here both are stored together, and combined for
+//! the time of a request.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -15,38 +14,38 @@ use armill_formats::table::Table;
 
 use crate::answer::{StudyAnswer, answer};
 use crate::error::StudyError;
-use crate::file::resolve::{Ask, Study, Subject};
-use crate::output::{self, Picture, Wanted};
-use crate::run::{Done, Found, PathFound, Section, run};
+use crate::file::resolve::{Analysis, Study, Subject};
+use crate::output::{self, OutputOptions, Picture};
+use crate::run::{AnalysisData, AnalysisResult, PathResult, Section, run};
 
-/// A study with what came out.
+/// A study with its results.
 #[derive(Debug)]
-pub struct Finished {
+pub struct FinishedRun {
     study: Arc<Study>,
-    kept: Vec<Kept>,
+    kept: Vec<StoredData>,
     answer: StudyAnswer,
 }
 
-/// What came out of one ask, without what was asked.
+/// The data of one result, without its analysis.
 #[derive(Debug)]
-enum Kept {
+enum StoredData {
     Map(PlaneMap),
     Sections(Vec<PlaneMap>),
     Volume(VolumeMap),
-    Path(Box<PathFound>),
+    Path(Box<PathResult>),
     Holes(Box<HolesFound>),
 }
 
-impl Finished {
+impl FinishedRun {
     /// Runs the study on the threads of the current rayon pool.
     ///
     /// # Errors
     /// Those of [`run`].
-    pub fn run(study: Arc<Study>, watch: Watch<'_>) -> Result<Finished, StudyError> {
+    pub fn run(study: Arc<Study>, watch: Watch<'_>) -> Result<FinishedRun, StudyError> {
         let found = run(&study, watch)?;
         let answer = answer(&study, &found);
-        let kept = found.into_iter().map(|done| Kept::of(done.found)).collect();
-        Ok(Finished { study, kept, answer })
+        let kept = found.into_iter().map(|done| StoredData::of(done.found)).collect();
+        Ok(FinishedRun { study, kept, answer })
     }
 
     /// The answer.
@@ -54,12 +53,16 @@ impl Finished {
         &self.answer
     }
 
-    /// The names of the asks, in the order of the study.
+    /// The names of the analyses, in the order of the study.
     pub fn analyses(&self) -> Vec<&str> {
-        self.study.analyses.iter().map(|analysis| analysis.name.as_str()).collect()
+        self.study
+            .analyses
+            .iter()
+            .map(|analysis| analysis.name.as_str())
+            .collect()
     }
 
-    /// The points of ask `index` with their columns.
+    /// The points of analysis `index` with their columns.
     ///
     /// # Errors
     /// A table that cannot be made, which would be a fault of armill.
@@ -67,7 +70,7 @@ impl Finished {
         self.with(|study, done, _| output::points_table(study, &done[index]))
     }
 
-    /// The pictures of every ask.
+    /// The pictures of every analysis.
     pub fn pictures(&mut self) -> Vec<Picture> {
         self.with(output::pictures)
     }
@@ -76,53 +79,57 @@ impl Finished {
     ///
     /// # Errors
     /// A file cannot be written.
-    pub fn write(&mut self, out: &ResultFolder, requested: Wanted<'_>) -> Result<Vec<PathBuf>, StudyError> {
+    pub fn write(
+        &mut self,
+        out: &ResultFolder,
+        requested: OutputOptions<'_>,
+    ) -> Result<Vec<PathBuf>, StudyError> {
         self.with(|study, done, answer| output::write(study, done, answer, (out, requested), &|_| ()))
     }
 
     /// Puts both side by side for `work`.
-    fn with<T>(&mut self, work: impl FnOnce(&Study, &[Done<'_>], &StudyAnswer) -> T) -> T {
+    fn with<T>(&mut self, work: impl FnOnce(&Study, &[AnalysisResult<'_>], &StudyAnswer) -> T) -> T {
         let study = Arc::clone(&self.study);
         let kept = std::mem::take(&mut self.kept).into_iter();
-        let done: Vec<Done<'_>> = study.analyses.iter().zip(kept).filter_map(beside).collect();
+        let done: Vec<AnalysisResult<'_>> = study.analyses.iter().zip(kept).filter_map(combined).collect();
         let gives = work(&study, &done, &self.answer);
-        self.kept = done.into_iter().map(|done| Kept::of(done.found)).collect();
+        self.kept = done.into_iter().map(|done| StoredData::of(done.found)).collect();
         gives
     }
 }
 
-impl Kept {
-    fn of(found: Found<'_>) -> Kept {
+impl StoredData {
+    fn of(found: AnalysisData<'_>) -> StoredData {
         match found {
-            Found::Map(_, map) => Kept::Map(map),
-            Found::Sections(sections) => {
-                Kept::Sections(sections.into_iter().map(|section| section.map).collect())
+            AnalysisData::Map(_, map) => StoredData::Map(map),
+            AnalysisData::Sections(sections) => {
+                StoredData::Sections(sections.into_iter().map(|section| section.map).collect())
             }
-            Found::Volume(_, map) => Kept::Volume(map),
-            Found::Path(_, path) => Kept::Path(path),
-            Found::Holes(_, holes) => Kept::Holes(holes),
+            AnalysisData::Volume(_, map) => StoredData::Volume(map),
+            AnalysisData::Path(_, path) => StoredData::Path(path),
+            AnalysisData::Holes(_, holes) => StoredData::Holes(holes),
         }
     }
 }
 
-/// What came out beside what was asked; always both of one kind.
-fn beside((analysis, kept): (&Ask, Kept)) -> Option<Done<'_>> {
+/// A result with its analysis; both are always of one kind.
+fn combined((analysis, kept): (&Analysis, StoredData)) -> Option<AnalysisResult<'_>> {
     let found = match (&analysis.subject, kept) {
-        (Subject::Map(sheet), Kept::Map(map)) => Found::Map(sheet, map),
-        (Subject::Sections(sheets), Kept::Sections(maps)) => {
+        (Subject::Map(sheet), StoredData::Map(map)) => AnalysisData::Map(sheet, map),
+        (Subject::Sections(sheets), StoredData::Sections(maps)) => {
             let sections = sheets.iter().zip(maps);
-            Found::Sections(
+            AnalysisData::Sections(
                 sections
                     .map(|((label, sheet), map)| Section { label, sheet, map })
                     .collect(),
             )
         }
-        (Subject::Volume(setting, _), Kept::Volume(map)) => Found::Volume(setting, map),
-        (Subject::Path(path), Kept::Path(found)) => Found::Path(path, found),
-        (Subject::Holes(holes), Kept::Holes(found)) => Found::Holes(holes, found),
+        (Subject::Volume(setting, _), StoredData::Volume(map)) => AnalysisData::Volume(setting, map),
+        (Subject::Path(path), StoredData::Path(found)) => AnalysisData::Path(path, found),
+        (Subject::Holes(holes), StoredData::Holes(found)) => AnalysisData::Holes(holes, found),
         _ => return None,
     };
-    Some(Done {
+    Some(AnalysisResult {
         name: &analysis.name,
         found,
     })
@@ -138,11 +145,11 @@ mod tests {
     use crate::studies;
 
     #[test]
-    fn what_is_kept_gives_the_same_as_what_was_found_however_often_it_is_asked() {
+    fn stored_results_give_the_same_answer_at_every_request() {
         let study = studies::find(Path::new("mh12-groove")).unwrap().read().unwrap();
         let study = Arc::new(study);
         let done = run(&study, Watch::NONE).unwrap();
-        let mut finished = Finished::run(Arc::clone(&study), Watch::NONE).unwrap();
+        let mut finished = FinishedRun::run(Arc::clone(&study), Watch::NONE).unwrap();
         let witness = answer(&study, &done);
         assert_eq!(
             output::json(finished.answer()).unwrap(),
@@ -159,7 +166,7 @@ mod tests {
         }
         let folder = tempfile::tempdir().unwrap();
         let out = Writer::new("run", false).folder(folder.path()).unwrap();
-        let files = finished.write(&out, Wanted::TABLES).unwrap();
+        let files = finished.write(&out, OutputOptions::TABLES).unwrap();
         assert!(files.iter().all(|file| file.is_file()));
         assert_eq!(finished.analyses().len(), done.len());
     }

@@ -1,13 +1,14 @@
-//! The program of a robot that a path came from, with its targets moved so that the tool goes where the path is drawn.
+//! The robot program that a path is from, with targets changed so that the tool follows the nominal path.
 //!
 //! ```text
-//! target' = target + frame_from_path x        x nearest, over all points, to commanded - drawn   (core: `optimize::nodes`)
+//! target' = target + frame_from_path x        x nearest, over all points, to commanded - nominal   (core: `optimize::nodes`)
 //! ```
 //!
-//! Places alone are written anew; orientations and all other bytes stay. Between its targets the robot goes straight or on
-//! an arc as before, and one target may be asked to different places: at a corner by forces that turn with the feed, or by
-//! several moves. What is left then is told: the program that was written is read again, followed again in the same
-//! points, and judged by what its tool leaves.
+//! Only positions are changed; orientations and all other bytes remain. Between its targets the robot still moves
+//! linearly or
+//! on an arc, and one target may need different corrections: at a corner, because forces turn with the feed, or for
+//! several moves. The residual is reported: the written program is read again, sampled at the same
+//! points, and evaluated by the deviation of its tool.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -15,7 +16,7 @@ use std::path::Path;
 use armill_core::frame::Isometry;
 use armill_core::load::PathLoad;
 use armill_core::nalgebra::{Point3, Translation3, Vector3};
-use armill_core::optimize::{Shares, fitted, left_by};
+use armill_core::optimize::{Shares, fitted, residual_of};
 use armill_core::path::{Move, Sampler, Sampling, Spin, Track};
 use armill_formats::file::ResultFolder;
 use armill_formats::robot_program::{Motion, Moved, ProgramText, RobotMove, Spelled, Target, follow};
@@ -30,36 +31,36 @@ use crate::run::{Followed, Runner};
 
 /// A program with its targets moved.
 #[derive(Clone, Debug)]
-pub struct InPlace {
-    /// Its files, by their names alone, and bytes.
+pub struct RewrittenProgram {
+    /// Its files, by their names without folder, and bytes.
     pub files: Vec<(String, Vec<u8>)>,
-    /// What the tool leaves of the drawn path along it, under each load case, m, base.
+    /// Remaining deviation of the tool from the nominal path along it, under each load case, m, base.
     pub residual: Vec<Vector3<f64>>,
     /// In numbers.
-    pub given: InPlaceAnswer,
+    pub given: RewrittenProgramAnswer,
 }
 
 /// A program that was written again in place.
 #[derive(Clone, Debug, Serialize)]
-pub struct InPlaceAnswer {
+pub struct RewrittenProgramAnswer {
     /// Its language.
     pub language: &'static str,
     /// Its files.
     pub files: Vec<String>,
-    /// Targets that were moved, points on the way of arcs included.
+    /// Number of changed targets, including intermediate points of arcs.
     pub moved_targets: usize,
-    /// How far the tool goes from the drawn path then, as predicted.
+    /// Predicted deviation of the tool from the nominal path.
     pub after: ErrorAnswer,
     /// What a user must know of it, each a sentence.
     pub notes: Vec<String>,
 }
 
-/// Two places that one target is asked to are told where they lie farther apart, m.
+/// Corrections of one target that differ by more than this are reported, m.
 const ONE_PLACE: f64 = 1e-6;
 
 /// The program of `analysis` along the commanded track.
 ///
-/// `Err` with a sentence where it cannot be written.
+/// `Err` with a sentence if it cannot be written.
 ///
 /// # Errors
 /// Cancelled by the watch.
@@ -68,7 +69,7 @@ pub(crate) fn in_place(
     analysis: &PathAnalysis,
     (followed, load): (&Followed, &PathLoad),
     commanded: &Track,
-) -> Result<Option<Result<InPlace, String>>, StudyError> {
+) -> Result<Option<Result<RewrittenProgram, String>>, StudyError> {
     let Some(robot) = analysis.source.robot() else {
         return Ok(None);
     };
@@ -82,29 +83,29 @@ pub(crate) fn in_place(
         analysis,
         commanded,
     };
-    let (written, wishes) = match writer.written() {
+    let (written, corrections) = match writer.written() {
         Ok(written) => written,
         Err(why) => return Ok(Some(Err(why))),
     };
     let Some(track) = writer.track_of(runner, &written) else {
-        let why = "what was written is no longer the path that was drawn";
+        let why = "the written program no longer describes the nominal path";
         return Ok(Some(Err(why.to_owned())));
     };
     let question = runner.question(&analysis.setting);
     let forces = (load, followed.along.choices.as_slice());
-    let (along, residual) = left_by(&question, (&analysis.track, &track), forces, runner.watch)?;
+    let (along, residual) = residual_of(&question, (&analysis.track, &track), forces, runner.watch)?;
     let files: Files = written
         .into_iter()
         .map(|(name, bytes)| (name_of(&name), bytes))
         .collect();
-    let given = InPlaceAnswer {
+    let given = RewrittenProgramAnswer {
         language: robot.program.language.name(),
         files: files.iter().map(|(name, _)| name.clone()).collect(),
-        moved_targets: wishes.targets.len(),
+        moved_targets: corrections.targets.len(),
         after: ErrorAnswer::of(&analysis.track, &residual, along.answers.case_count),
-        notes: writer.notes(&wishes),
+        notes: writer.notes(&corrections),
     };
-    Ok(Some(Ok(InPlace {
+    Ok(Some(Ok(RewrittenProgram {
         files,
         residual,
         given,
@@ -114,14 +115,14 @@ pub(crate) fn in_place(
 /// That the programs of these paths can be written into the folder `out`.
 ///
 /// # Errors
-/// One that was read lies there; two have one name.
+/// The files of the programs; two of them must not have the same name.
 pub fn allow_programs(study: &Study, name: Option<&str>, out: &ResultFolder) -> Result<(), StudyError> {
     let mut names: Vec<String> = Vec::new();
     let robots = paths(study, name).filter_map(|(_, path)| path.source.robot());
     for text in robots.flat_map(|robot| &robot.program.texts) {
         let name = name_of(text.name());
         if names.contains(&name) {
-            let message = format!("two programs have a file `{name}`, and one folder holds one");
+            let message = format!("two programs have a file `{name}`, and one folder can contain only one");
             return Err(StudyError::value(
                 message,
                 "one path at a time: --analysis NAME --out DIR",
@@ -149,27 +150,27 @@ type Key = (usize, usize);
 
 /// By how much targets are to be moved.
 #[derive(Default)]
-struct Wishes {
-    /// Each target that is moved, by where it is spelled.
-    targets: BTreeMap<Key, Wish>,
-    /// Lines of cuts that begin, end or pass where joints are told.
+struct TargetCorrections {
+    /// Each changed target, by its position in the text.
+    targets: BTreeMap<Key, TargetCorrection>,
+    /// Lines of cuts that begin, end or pass at a target given by joint positions.
     joints: Vec<u32>,
 }
 
 /// By how much one target is to be moved.
-struct Wish {
+struct TargetCorrection {
     /// Which node of the fit it is.
     node: usize,
-    /// Path to the frame that it counts in.
+    /// Path to the frame of the target.
     path_from_frame: Isometry,
-    /// Every move that goes there: its line, and what it alone asks for, m, path.
+    /// Every move to it: its line, and the correction of this move alone, m, path.
     requested: Vec<(u32, Vector3<f64>)>,
-    /// What all points ask for together, m, path.
+    /// The common correction from all points, m, path.
     by: Vector3<f64>,
 }
 
-impl Wishes {
-    /// The target, moved; as it is where nobody asks.
+impl TargetCorrections {
+    /// The changed target; unchanged if no correction is needed.
     fn moved(&self, target: &Target) -> Option<Isometry> {
         let Target::Pose { pose, spelled, .. } = target else {
             return None;
@@ -177,14 +178,14 @@ impl Wishes {
         let by = self
             .targets
             .get(&key(spelled))
-            .map_or_else(Vector3::zeros, |wish| {
-                wish.path_from_frame.rotation.inverse() * wish.by
+            .map_or_else(Vector3::zeros, |correction| {
+                correction.path_from_frame.rotation.inverse() * correction.by
             });
         Some(Translation3::from(by) * pose)
     }
 
-    /// The node of a target that a cut touches, which asks for `by` there; none of one told in joints.
-    fn analysis(
+    /// The node of a target of a cut, with the correction `by`; none for a target given by joint positions.
+    fn add(
         &mut self,
         (target, line): (&Target, u32),
         path_from_frame: Option<Isometry>,
@@ -193,14 +194,17 @@ impl Wishes {
         let node = self.targets.len();
         match (target, path_from_frame) {
             (Target::Pose { spelled, .. }, Some(path_from_frame)) => {
-                let wish = self.targets.entry(key(spelled)).or_insert_with(|| Wish {
-                    node,
-                    path_from_frame,
-                    requested: Vec::new(),
-                    by,
-                });
-                wish.requested.push((line, by));
-                Some(wish.node)
+                let correction = self
+                    .targets
+                    .entry(key(spelled))
+                    .or_insert_with(|| TargetCorrection {
+                        node,
+                        path_from_frame,
+                        requested: Vec::new(),
+                        by,
+                    });
+                correction.requested.push((line, by));
+                Some(correction.node)
             }
             _ => {
                 self.joints.push(line);
@@ -221,7 +225,7 @@ fn via(of: &RobotMove) -> Option<&Target> {
     }
 }
 
-/// The points of a move, each with the part of the way to it.
+/// The points of a move, each with the fraction of the distance to it.
 fn parts(span: &Span) -> impl Iterator<Item = (usize, f64)> + use<> {
     let (pieces, end) = (span.pieces, span.points.end);
     span.points
@@ -234,21 +238,21 @@ type Files = Vec<(String, Vec<u8>)>;
 
 impl Writer<'_> {
     /// The files with their targets moved, checked by reading them again.
-    fn written(&self) -> Result<(Files, Wishes), String> {
+    fn written(&self) -> Result<(Files, TargetCorrections), String> {
         let program = &self.robot.program;
-        let wishes = self.wishes();
-        let is_asked = |target: &Target| match target {
-            Target::Pose { spelled, .. } => wishes.targets.contains_key(&key(spelled)),
+        let corrections = self.corrections();
+        let is_corrected = |target: &Target| match target {
+            Target::Pose { spelled, .. } => corrections.targets.contains_key(&key(spelled)),
             Target::Joints(_) | Target::Elsewhere { .. } => false,
         };
         let all = program.moves.iter().enumerate();
         let moved: Vec<Moved> = all
-            .filter(|(_, of)| is_asked(&of.target) || via(of).is_some_and(is_asked))
+            .filter(|(_, of)| is_corrected(&of.target) || via(of).is_some_and(is_corrected))
             .filter_map(|(index, of)| {
                 Some(Moved {
                     index,
-                    target: wishes.moved(&of.target)?,
-                    via: via(of).and_then(|via| wishes.moved(via)),
+                    target: corrections.moved(&of.target)?,
+                    via: via(of).and_then(|via| corrections.moved(via)),
                 })
             })
             .collect();
@@ -256,19 +260,19 @@ impl Writer<'_> {
         program
             .check_rewritten(&moved, &files)
             .map_err(|error| error.to_string())?;
-        Ok((files, wishes))
+        Ok((files, corrections))
     }
 
     /// By how much each target is to be moved.
-    fn wishes(&self) -> Wishes {
-        let mut wishes = Wishes::default();
+    fn corrections(&self) -> TargetCorrections {
+        let mut corrections = TargetCorrections::default();
         let (mut shares, mut expected) = (Vec::new(), Vec::new());
-        // The node at which the tip stands.
+        // The node at which the tip is.
         let mut from = None;
         for (of, span) in self.robot.followed.moves.iter().zip(&self.robot.spans) {
             let given = &self.robot.program.moves[of.index];
             let end = span.end.and_then(|end| {
-                wishes.analysis(
+                corrections.add(
                     (&given.target, given.line),
                     of.path_from_frame,
                     self.correction(end),
@@ -276,8 +280,9 @@ impl Writer<'_> {
             });
             let passed = via(given).zip(of.via).and_then(|(via, at)| {
                 let (nearest, part) = self.nearest(span, &at)?;
-                // At an end of the arc it would say nothing of its middle.
-                let node = wishes.analysis((via, given.line), of.path_from_frame, self.correction(nearest))?;
+                // At an end of the arc it would not determine its middle.
+                let node =
+                    corrections.add((via, given.line), of.path_from_frame, self.correction(nearest))?;
                 ((0.0..1.0).contains(&part) && part > 0.0).then_some((node, part))
             });
             for (index, t) in parts(span) {
@@ -289,30 +294,31 @@ impl Writer<'_> {
             }
             from = end;
         }
-        let mut start = vec![Vector3::zeros(); wishes.targets.len()];
-        for wish in wishes.targets.values() {
-            start[wish.node] = wish.by;
+        let mut start = vec![Vector3::zeros(); corrections.targets.len()];
+        for correction in corrections.targets.values() {
+            start[correction.node] = correction.by;
         }
         let found = fitted(start, &shares, &expected);
-        for wish in wishes.targets.values_mut() {
-            wish.by = found[wish.node];
+        for correction in corrections.targets.values_mut() {
+            correction.by = found[correction.node];
         }
-        wishes
+        corrections
     }
 
     /// What a point of the path is to be moved by, m, path.
     fn correction(&self, point: usize) -> Vector3<f64> {
-        let [drawn, commanded] = [&self.analysis.track, self.commanded].map(|track| track.path.points[point].at);
+        let [drawn, commanded] =
+            [&self.analysis.track, self.commanded].map(|track| track.path.points[point].at);
         commanded - drawn
     }
 
-    /// The point of a move that is nearest to a place, and the part of the way there.
+    /// The point of a move nearest to a position, and the fraction of the distance to it.
     fn nearest(&self, span: &Span, at: &Point3<f64>) -> Option<(usize, f64)> {
         let away = |point: usize| (self.analysis.track.path.points[point].at - at).norm_squared();
         parts(span).min_by(|a, b| away(a.0).total_cmp(&away(b.0)))
     }
 
-    /// The path as these files tell it, point for point; `None` if they tell another one.
+    /// The path of these files, point for point; `None` if it is another path.
     fn track_of(&self, runner: &Runner<'_>, files: &Files) -> Option<Track> {
         let texts = files.iter().map(|(name, bytes)| ProgramText::new(name, bytes));
         let again = self.robot.program.language.read(texts.collect()).ok()?;
@@ -320,7 +326,7 @@ impl Writer<'_> {
         if found.moves.len() != self.robot.followed.moves.len() {
             return None;
         }
-        // Pieces are told: what each is measured by has no say.
+        // The data of the forces and measurements are not needed here.
         let mut sampler = Sampler::new(Sampling {
             chord_error: f64::INFINITY,
             step: f64::INFINITY,
@@ -348,25 +354,36 @@ impl Writer<'_> {
         Some(track)
     }
 
-    fn notes(&self, wishes: &Wishes) -> Vec<String> {
+    fn notes(&self, corrections: &TargetCorrections) -> Vec<String> {
         let mut notes = Vec::new();
-        for wish in wishes.targets.values().filter(|wish| wish.requested.len() > 1) {
-            let away = wish.requested.iter().map(|(_, alone)| (alone - wish.by).norm());
+        for correction in corrections
+            .targets
+            .values()
+            .filter(|correction| correction.requested.len() > 1)
+        {
+            let away = correction
+                .requested
+                .iter()
+                .map(|(_, alone)| (alone - correction.by).norm());
             let farthest = away.fold(0.0, f64::max);
             if farthest > ONE_PLACE {
-                let lines: Vec<String> = wish.requested.iter().map(|(line, _)| line.to_string()).collect();
+                let lines: Vec<String> = correction
+                    .requested
+                    .iter()
+                    .map(|(line, _)| line.to_string())
+                    .collect();
                 notes.push(format!(
-                    "the moves of lines {} go to one target, which lies up to {:.1} µm from where each would have it: a target of its own for each would do \
-                     better",
+                    "the moves of lines {} share one target, which is up to {:.1} µm from the best position for each: use separate targets for \
+                     better results",
                     lines.join(", "),
                     farthest * 1e6
                 ));
             }
         }
-        if let Some(first) = wishes.joints.first() {
+        if let Some(first) = corrections.joints.first() {
             notes.push(format!(
-                "line {first}: a cut begins, ends or passes where joints are told, which stay as they are ({} such)",
-                wishes.joints.len()
+                "line {first}: a cut begins, ends or passes at a target given by joint positions, which is not changed ({} such)",
+                corrections.joints.len()
             ));
         }
         notes

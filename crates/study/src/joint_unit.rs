@@ -1,4 +1,4 @@
-//! In which units is a joint told? Degrees and rad/(N m) where it turns, millimetres and µm/N where it slides.
+//! The units of a joint: degrees and rad/(N m) if it is revolute, millimetres and µm/N if it is prismatic.
 
 use armill_core::robot::Robot;
 
@@ -16,7 +16,7 @@ pub struct JointUnit {
 }
 
 impl JointUnit {
-    /// Of a joint that turns.
+    /// Of a revolute joint.
     pub const TURNING: JointUnit = JointUnit {
         name: "deg",
         scale: 180.0 / std::f64::consts::PI,
@@ -24,7 +24,7 @@ impl JointUnit {
         compliance_scale: 1.0,
     };
 
-    /// Of a joint that slides.
+    /// Of a prismatic joint.
     pub const SLIDING: JointUnit = JointUnit {
         name: "mm",
         scale: 1e3,
@@ -47,7 +47,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_turn_is_told_as_to_degrees_tells_it() {
+    fn an_angle_is_shown_as_by_to_degrees() {
         for q in [1.0_f64, -2.705260340591211, 0.1] {
             assert_eq!(q * JointUnit::TURNING.scale, q.to_degrees());
         }

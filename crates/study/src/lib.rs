@@ -1,20 +1,18 @@
-//! What a user asks of armill, from the file to the answer.
+//! The tasks of armill, from the file to the answer.
 //!
-//! A study file is read and checked ([`file`](mod@file)), its asks are run ([`run`]), answered as one JSON value
-//! ([`answer`]), and written as tables, pictures and a report ([`output`]; [`finished`] keeps what came out until it is asked
-//! for); [`compare`] puts several side by side. [`pose`]
-//! answers for a single pose, [`pendant`] compares a robot file with what its pendant shows, [`forces`] reads measured forces,
-//! [`roundness`] measured profiles, [`ballbar`] circular tests, [`backlash`] what these tell of the joints of an arm, [`pose_accuracy`] and [`calibrate`] measured poses, [`path_accuracy`]
-//! measured paths,
-//! [`budget`] puts what was measured beside what is predicted,
-//! [`place`] finds where a part may lie best, [`advise`] what to do about a path, [`live`] tells a page what it shows of a
-//! study while it is being written.
-//! The robot library and the example studies travel inside the program ([`library`]); [`compliance_class`] assumes
-//! joint compliances from it where none are known. [`robots`] and [`studies`] find what a user names,
-//! [`robot_answers`] and [`materials`] tell what is known of one, [`mod@new`] begins a study. [`joint_unit`] and
-//! [`number`] are how numbers are told.
+//! A study file is read and checked ([`file`](mod@file)), its analyses are run ([`run`]), answered as one JSON value
+//! ([`answer`]), and written as tables, pictures and a report ([`output`]; [`finished`] stores results for later
+//! requests). [`compare`] compares several studies or robots. [`pose`] evaluates a single pose, [`pendant`] compares a
+//! robot file with the display of its pendant, [`forces`] reads measured forces, [`roundness`] measured profiles,
+//! [`ballbar`] circular tests, [`backlash`] estimates the backlash of joints from them, [`pose_accuracy`] and
+//! [`calibrate`] use measured poses, [`path_accuracy`] measured paths, [`budget`] compares a measurement with its
+//! prediction, [`place`] searches the best placement of a part, [`advise`] recommends measures for a path, [`live`]
+//! answers the queries of a page that shows a study while it is edited. The robot library and the example studies are
+//! embedded in the program ([`library`]); [`compliance_class`] assumes joint compliances if none are known. [`robots`]
+//! and [`studies`] find what a user names, [`robot_answers`] and [`materials`] report what is known of a robot or
+//! material, [`mod@new`] creates a study. [`joint_unit`] and [`number`] format numbers.
 //!
-//! Everything here is the same whatever the surface: command, Python and web return these bytes.
+//! Command line, Python and web return the same bytes.
 
 pub mod advise;
 pub mod answer;
@@ -57,5 +55,5 @@ pub use error::{ErrorKind, StudyError};
 pub use file::resolve::Study;
 pub use naming::{BASE_LINK, base_from_reference, branch_choice_of};
 
-/// Joints that hold a tool at any pose.
+/// Joints required for any pose of a tool.
 pub const ENOUGH_JOINTS: usize = 6;

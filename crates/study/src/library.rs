@@ -1,8 +1,8 @@
 //! The robot and material libraries and the example studies, embedded: every command works from an empty folder.
 //!
 //! The robot `yaskawa/mh12` is `robots/yaskawa/mh12.toml`, the material `brass` is `materials/brass.toml`. A file that
-//! is not listed here is not in the program; `cargo xtask tidy` tells one that was forgotten. Where the folders lie, `build.rs`
-//! of the crate finds.
+//! is not listed here is not in the program; `cargo xtask tidy` reports a missing one. `build.rs` of the crate
+//! finds the folders.
 
 use armill_formats::document::Problems;
 use armill_formats::material::{self, Material};
@@ -110,7 +110,7 @@ pub const MATERIALS: &[Embedded] = embedded![
     "titanium-pure" in "materials/titanium-pure.toml",
 ];
 
-/// Every file of every example, by the name of the example; its study comes first.
+/// All files of all examples, by the name of the example; its study is first.
 pub const EXAMPLES: &[Embedded] = embedded![
     "mh12-groove" in "studies/mh12-groove/study.toml",
     "kr120-groove" in "studies/kr120-groove/study.toml",
@@ -181,7 +181,7 @@ pub fn find_material(name: &str) -> Result<Material, StudyError> {
     Ok(found?)
 }
 
-/// What to try where no material is called `name`.
+/// Suggestion if no material is called `name`.
 pub(crate) fn hint_of_material(name: &str) -> String {
     spelt_like(MATERIALS, &name.to_lowercase()).map_or_else(
         || "`armill materials` lists all".to_owned(),
@@ -189,7 +189,7 @@ pub(crate) fn hint_of_material(name: &str) -> String {
     )
 }
 
-/// Letters of a type that tell it from others.
+/// Characters of a type by which types are distinguished.
 const BEGUN: usize = 3;
 
 /// The name of the robot library that is most like `name`, if any is.
@@ -200,7 +200,7 @@ pub fn most_like(name: &str) -> Option<&'static str> {
     let part = ROBOTS
         .iter()
         .find(|robot| robot.name.split('/').any(|word| word == lower));
-    // A maker alone begins the names of many.
+    // The manufacturer alone is common to many names.
     let given = |name: &str| name.rsplit('/').next().is_some_and(|kind| kind.len() >= BEGUN);
     let begins = |robot: &&Embedded| {
         let kind = robot.name.split('/').nth(1).unwrap_or_default();

@@ -42,7 +42,7 @@ impl MaterialRow {
 
 /// Everything that is known of one material.
 #[derive(Clone, Debug, Serialize)]
-pub struct KnownMaterial {
+pub struct MaterialDetails {
     /// Its name in the library.
     pub name: String,
     /// For people.
@@ -50,18 +50,18 @@ pub struct KnownMaterial {
     /// What a user should know before trusting the numbers.
     pub note: Option<String>,
     /// Every set of mechanistic coefficients.
-    pub mechanistic: Vec<KnownMechanistic>,
+    pub mechanistic: Vec<MechanisticDetails>,
     /// Every set of Kienzle values.
-    pub kienzle: Vec<KnownKienzle>,
+    pub kienzle: Vec<KienzleDetails>,
     /// What forces are computed from.
     pub used: Used,
-    /// Where the numbers come from.
+    /// Sources of the numbers.
     pub sources: Vec<Source>,
 }
 
-/// A set of mechanistic coefficients; a key is left out where the source lacks the coefficient.
+/// A set of mechanistic coefficients; a key is omitted if the source does not give the coefficient.
 #[derive(Clone, Debug, Serialize)]
-pub struct KnownMechanistic {
+pub struct MechanisticDetails {
     /// Shear, tangential.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ktc_n_per_mm2: Option<f64>,
@@ -84,20 +84,20 @@ pub struct KnownMechanistic {
     pub tool: String,
     /// Key of the source.
     pub source: String,
-    /// What to make of them.
+    /// A note on them.
     pub note: Option<String>,
 }
 
 /// A set of Kienzle values, at 0 deg rake.
 #[derive(Clone, Debug, Serialize)]
-pub struct KnownKienzle {
+pub struct KienzleDetails {
     /// Cutting force over the section of a chip 1 mm thick.
     pub kc1_n_per_mm2: f64,
     /// How fast it falls with the thickness.
     pub mc_exponent: f64,
-    /// Group of VDI 3323, if the source goes by them.
+    /// Group of VDI 3323, if the source uses them.
     pub group: Option<u8>,
-    /// Strength, hardness or treatment that they hold for.
+    /// Strength, hardness or treatment for which they are valid.
     pub condition: Option<String>,
     /// Key of the source.
     pub source: String,
@@ -159,15 +159,15 @@ pub struct UsedKienzle {
     pub spread_mc_exponent: Option<f64>,
 }
 
-impl KnownMaterial {
+impl MaterialDetails {
     /// Everything that is known of the material that the library calls `name`.
-    pub fn of(name: &str, found: &Material) -> KnownMaterial {
-        KnownMaterial {
+    pub fn of(name: &str, found: &Material) -> MaterialDetails {
+        MaterialDetails {
             name: name.to_owned(),
             title: found.name.clone(),
             note: found.note.clone(),
-            mechanistic: found.mechanistic.iter().map(KnownMechanistic::of).collect(),
-            kienzle: found.kienzle.iter().map(KnownKienzle::of).collect(),
+            mechanistic: found.mechanistic.iter().map(MechanisticDetails::of).collect(),
+            kienzle: found.kienzle.iter().map(KienzleDetails::of).collect(),
             used: Used {
                 mechanistic: UsedMechanistic::of(found),
                 kienzle: UsedKienzle::of(found),
@@ -177,11 +177,11 @@ impl KnownMaterial {
     }
 }
 
-impl KnownMechanistic {
-    /// A set as its file tells it.
-    fn of(set: &MechanisticSet) -> KnownMechanistic {
+impl MechanisticDetails {
+    /// A set as in its file.
+    fn of(set: &MechanisticSet) -> MechanisticDetails {
         let given = |i: usize| set.coefficients[i].map(|value| without_rounding(value / MECHANISTIC[i]));
-        KnownMechanistic {
+        MechanisticDetails {
             ktc_n_per_mm2: given(0),
             krc_n_per_mm2: given(1),
             kac_n_per_mm2: given(2),
@@ -207,10 +207,10 @@ impl KnownMechanistic {
     }
 }
 
-impl KnownKienzle {
-    /// A set as its file tells it.
-    fn of(set: &KienzleSet) -> KnownKienzle {
-        KnownKienzle {
+impl KienzleDetails {
+    /// A set as in its file.
+    fn of(set: &KienzleSet) -> KienzleDetails {
+        KienzleDetails {
             kc1_n_per_mm2: without_rounding(set.specific_force / KIENZLE[0]),
             mc_exponent: without_rounding(set.exponent / KIENZLE[1]),
             group: set.group,
@@ -221,7 +221,7 @@ impl KnownKienzle {
 }
 
 impl UsedMechanistic {
-    /// `None` where no set is whole.
+    /// `None` if no set is complete.
     fn of(found: &Material) -> Option<UsedMechanistic> {
         let together = found.mechanistic()?;
         let mean = |i: usize| without_rounding(together.mean[i] / MECHANISTIC[i]);
@@ -260,7 +260,7 @@ impl UsedMechanistic {
 }
 
 impl UsedKienzle {
-    /// `None` where there is no set.
+    /// `None` if there is no set.
     fn of(found: &Material) -> Option<UsedKienzle> {
         let together = found.kienzle()?;
         let mean = |i: usize| without_rounding(together.mean[i] / KIENZLE[i]);

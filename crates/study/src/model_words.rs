@@ -1,9 +1,9 @@
-//! Which parts of the stiffness model were on, in words.
+//! The active parts of the stiffness model, in words.
 //!
 //! ```text
 //! drive springs; 6 further springs; torque curves of A2; gravity compensator of A2;
-//! gravity, against the posture where the tool was set; load-dependent stiffness; covariance of the compliances;
-//! backlash of L, U; the measured arm; repeatability in the uncertainty;
+//! gravity, relative to the posture where the tool was set; load-dependent stiffness; covariance of the compliances;
+//! backlash of L, U; the calibrated arm; repeatability in the uncertainty;
 //! model error of 9.4 % in the uncertainty
 //! ```
 //!
@@ -35,7 +35,7 @@ pub fn parts(robot: &Robot, model: &StiffnessModel) -> Vec<String> {
         parts.push(format!("gravity compensator of {}", name(compensator.joint)));
     }
     if model.gravity.is_some() {
-        parts.push("gravity, against the posture where the tool was set".to_owned());
+        parts.push("gravity, relative to the posture where the tool was set".to_owned());
     }
     if model.load_dependent {
         parts.push("load-dependent stiffness".to_owned());
@@ -43,12 +43,15 @@ pub fn parts(robot: &Robot, model: &StiffnessModel) -> Vec<String> {
     if structure.covariance.is_some() {
         parts.push("covariance of the compliances".to_owned());
     }
-    let play: Vec<String> = structure.gaps().map(|(joint, _)| name(joint)).collect();
-    if !play.is_empty() {
-        parts.push(format!("backlash of {}", play.join(", ")));
+    let backlash: Vec<String> = structure
+        .joints_with_backlash()
+        .map(|(joint, _)| name(joint))
+        .collect();
+    if !backlash.is_empty() {
+        parts.push(format!("backlash of {}", backlash.join(", ")));
     }
     if model.actual.is_some() {
-        parts.push("the measured arm".to_owned());
+        parts.push("the calibrated arm".to_owned());
     }
     if structure.repeatability > 0.0 {
         parts.push("repeatability in the uncertainty".to_owned());
@@ -62,9 +65,9 @@ pub fn parts(robot: &Robot, model: &StiffnessModel) -> Vec<String> {
     parts
 }
 
-/// What the model leaves out although the robot file would have it.
+/// Effects that the model neglects although the robot file specifies them.
 ///
-/// A warning for people: masses are known, but nothing says where the tool was set.
+/// A warning: masses are known, but the posture where the tool was set is not.
 pub fn left_out(model: &StiffnessModel) -> Option<String> {
     let masses = model.structure.masses.len();
     (model.gravity.is_none() && masses > 0).then(|| {
@@ -73,6 +76,6 @@ pub fn left_out(model: &StiffnessModel) -> Option<String> {
         } else {
             &format!("{masses} masses are")
         };
-        format!("{known} known, but gravity is left out: say where the tool was set to have it counted.")
+        format!("{known} known, but gravity is neglected: give the posture where the tool was set (`[gravity]`) to include it.")
     })
 }

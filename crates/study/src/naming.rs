@@ -22,15 +22,15 @@ pub fn base_from_reference(robot: &Robot, name: &str) -> Result<Isometry, String
     })
 }
 
-/// Name of the frame that a controller counts from, where that is not `base_link`.
+/// Name of the reference frame of a controller, if that is not `base_link`.
 const CONTROLLER: &str = "controller";
 
-/// Where the controller of this robot counts from, in base.
+/// Reference frame of the controller of this robot, in base.
 pub(crate) fn base_from_controller(robot: &Robot) -> Isometry {
     base_from_reference(robot, CONTROLLER).unwrap_or_else(|_| Isometry::identity())
 }
 
-/// The posture that `words` ask for: a branch completed by the nominal one, `nominal`, or `best`.
+/// The posture that `words` specify: a branch completed by the nominal one, `nominal`, or `best`.
 ///
 /// # Errors
 /// The word that names no branch.
@@ -45,11 +45,11 @@ pub(crate) fn branch_choice(words: &str, nominal: BranchPattern) -> Result<Branc
     }
 }
 
-/// The posture that `words` ask of `robot`: a branch completed by the nominal one, `nominal`, or `best`; where its
+/// The posture that `words` specify for `robot`: a branch completed by the nominal one, `nominal`, or `best`; if its
 /// branches have no names, only `nominal` and `best` say something.
 ///
 /// # Errors
-/// The word that names no branch; any word where none has a name.
+/// The word that is not a branch name; any word if there are no branch names.
 pub fn branch_choice_of(robot: &Robot, words: &str) -> Result<BranchChoice, String> {
     if robot.inverse().has_branches() {
         return branch_choice(words, robot.nominal_branch());

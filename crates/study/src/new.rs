@@ -1,7 +1,7 @@
-//! A commented study that runs, for a robot: its plate lies where the arm gets to, and what is not known is asked for.
+//! A commented study that runs, for a robot: its plate is within reach, and unknown values are marked as missing.
 //!
 //! The template fits a Yaskawa MH12. For another arm lengths grow with its reach, the height of the plate with reach
-//! and shoulder; where the arm does not hold the tool at its corners the plate comes nearer, step by step.
+//! and shoulder; if the arm cannot reach its corners, the plate is moved nearer, step by step.
 
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::Point3;
@@ -17,18 +17,19 @@ use crate::{ENOUGH_JOINTS, library, robots};
 
 /// The study of an MH12; words in capitals are filled in.
 const TEMPLATE: &str = include_str!("new.toml");
-/// What is filled in where a class of assumed compliances fits the robot.
+/// Inserted if a class of assumed compliances is defined for the robot.
 const COMPLIANCE: &str = "
-# No joint compliance is known for this robot. These are values of a class of arms, assumed and wide: light (up to
-# 20 kg payload), medium (to 100 kg), heavy (to 300 kg); every result says so. Once you know yours from load tests:
-# rad_per_n_m = [...], one a joint, u_rad_per_n_m = [...], source = \"...\".
+# No joint compliance is known for this robot. The values of a class of arms are assumed, with a large uncertainty:
+# light (up to 20 kg payload), medium (to 100 kg), heavy (to 300 kg); every result states this. Once yours are
+# identified from load tests, write:
+# rad_per_n_m = [...], one for each joint, u_rad_per_n_m = [...], source = \"...\".
 [compliance]
 class = \"CLASS\"
 ";
-/// What is filled in where none does: the user must bring them.
+/// Inserted if there is none: the user must give them.
 const COMPLIANCE_OPEN: &str = "
 # No joint compliance is known for this robot, and no class of assumed values fits its joints. Nothing can be predicted
-# before you bring yours, one a joint, base to flange: `armill identify` finds them from load tests.
+# until you give yours, one for each joint, base to flange: `armill identify` identifies them from load tests.
 [compliance]
 rad_per_n_m = []
 source = \"\"
@@ -40,10 +41,10 @@ const REACH_OF_TEMPLATE: f64 = 1.44;
 const SHOULDER_OF_TEMPLATE: f64 = 450.0;
 /// Length of the tool of the template, m.
 const TOOL_OF_TEMPLATE: f64 = 0.150;
-/// How often the plate is brought nearer.
+/// Number of steps by which the plate is moved nearer.
 const TRIES: i32 = 10;
 
-/// A study as it begins.
+/// A new study.
 #[derive(Clone, Debug)]
 pub struct NewStudy {
     /// The study file.
@@ -52,27 +53,27 @@ pub struct NewStudy {
     pub compliances: Compliances,
 }
 
-/// What a new study knows of the compliances of its joints.
+/// Knowledge of the joint compliances in a new study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Compliances {
     /// The robot has its own.
     Known,
     /// They are assumed, of a class.
     Assumed,
-    /// The user must bring them before it runs.
+    /// The user must give them before it runs.
     Missing,
 }
 
-/// What was made, as JSON.
+/// The created files, as JSON.
 #[derive(Clone, Debug, Serialize)]
 pub struct MadeStudy {
     /// The study file.
     pub study: String,
-    /// The files beside it.
-    pub beside: Vec<String>,
+    /// The other files.
+    pub files: Vec<String>,
 }
 
-/// A study of the robot `given`: a library name, or a robot file, whose path counts from the current folder.
+/// A study of the robot `given`: a library name, or the path of a robot file relative to the current folder.
 ///
 /// # Errors
 /// As [`robots::find`]; a robot of too few joints for any study.
@@ -80,10 +81,10 @@ pub fn new_study(given: &str) -> Result<NewStudy, StudyError> {
     let found = robots::find(given, ".".as_ref())?;
     let joints = found.robot.joints().len();
     if joints < ENOUGH_JOINTS {
-        let message = format!("robot `{given}` has {joints} joints: no study of it would run");
+        let message = format!("robot `{given}` has {joints} joints: no study can be run with it");
         return Err(StudyError::value(
             message,
-            "`armill pose` takes its joints; `armill robots` lists robots for studies",
+            "`armill pose` accepts its joint positions; `armill robots` lists robots for studies",
         ));
     }
     let class = found
@@ -111,10 +112,10 @@ struct Plate {
     distances: [f64; 4],
 }
 
-/// The template with its plate in the same place of the working range of `robot`.
+/// The template with its plate at the same position in the working range of `robot`.
 fn scaled(robot: &Robot) -> String {
     let factor = reach(robot).unwrap_or(REACH_OF_TEMPLATE) / REACH_OF_TEMPLATE;
-    // Where no reach is known the plate comes nearer until the arm gets there.
+    // If the reach is not known, the plate is moved nearer until the arm reaches it.
     let tried = (0..TRIES).map(|step| Plate::scaled(robot, factor * 0.9_f64.powi(step)));
     let plate = tried
         .into_iter()
@@ -130,11 +131,11 @@ fn scaled(robot: &Robot) -> String {
 }
 
 impl Plate {
-    /// The plate of the template, its lengths times `factor`, rounded to numbers that people write.
+    /// The plate of the template, its lengths times `factor`, rounded to convenient numbers.
     fn scaled(robot: &Robot, factor: f64) -> Plate {
         let scaled = |mm: f64, step: f64| (mm * factor / step).round().max(1.0) * step;
         let shoulder = forward(robot, &vec![0.0; robot.joints().len()]).origin(1).z * 1e3;
-        // An arm with a low shoulder does not get as high as it gets far.
+        // The height range of an arm with a low shoulder is smaller than its reach.
         let height = (800.0 * factor).min(shoulder + (800.0 - SHOULDER_OF_TEMPLATE) * factor);
         let x = scaled(1000.0, 50.0);
         Plate {
@@ -145,7 +146,7 @@ impl Plate {
         }
     }
 
-    /// Whether the arm holds the tool at the corners of the plate.
+    /// Whether the arm reaches the corners of the plate.
     fn is_reached(&self, robot: &Robot) -> bool {
         let centre = Point3::new(self.x, 0.0, self.z) * 1e-3;
         let plane = Plane::tilted(centre, std::f64::consts::FRAC_PI_2);
@@ -162,15 +163,15 @@ impl Plate {
     }
 }
 
-/// The robot as the study names it: paths there count from its folder, not from the current one.
+/// The robot as named in the study: paths there are relative to its folder, not to the current one.
 fn robot_for(given: &str) -> Result<String, StudyError> {
     if library::robot(given).is_some() {
         return Ok(given.to_owned());
     }
     let path = std::path::absolute(given).map_err(|error| {
         StudyError::value(
-            format!("cannot tell where {given} is: {error}"),
-            "give its whole path",
+            format!("cannot find the location of {given}: {error}"),
+            "give its full path",
         )
     })?;
     Ok(path.display().to_string())

@@ -1,8 +1,8 @@
-//! Numbers as they are told: without what computing left behind them, with the digits that mean something.
+//! Numbers for output: without rounding errors of computation, with their significant digits.
 //!
 //! None of them is -0.
 
-/// `value` without what changes of unit and frame leave behind the tenth decimal: as it was meant.
+/// `value` without rounding of unit and frame changes beyond the tenth decimal: as it was given.
 pub fn without_rounding(value: f64) -> f64 {
     decimals(value, 10)
 }
@@ -35,7 +35,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_told_as_they_were_meant() {
+    fn numbers_are_shown_as_given() {
         assert_eq!(without_rounding(0.1 + 0.2), 0.3);
         assert_eq!(without_rounding((-170f64).to_radians().to_degrees()), -170.0);
         assert!(without_rounding(-1e-12).is_sign_positive());

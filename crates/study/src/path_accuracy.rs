@@ -1,10 +1,10 @@
-//! How near does the tip keep to its path, and how alike from run to run? What `armill path-accuracy` answers.
+//! Path accuracy and repeatability: the result of `armill path-accuracy`.
 //!
 //! ```text
 //! commanded.csv + runs.csv -> Measured -> answer: PathAccuracyAnswer, table of points, drawing
 //! ```
 //!
-//! Commanded and measured points are in the same axes: a tracker is set to the frame of the path before.
+//! Commanded and measured points are in the same axes: the tracker must be set to the frame of the path.
 
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
@@ -25,7 +25,7 @@ use crate::number::decimals;
 pub struct PathAccuracyAnswer {
     /// Where the path is commanded.
     pub commanded: String,
-    /// Where the runs stand.
+    /// Position of the runs.
     pub files: Vec<String>,
     /// Runs.
     pub cycles: usize,
@@ -47,7 +47,7 @@ pub struct PathAccuracyAnswer {
     pub unused: Vec<String>,
     /// What to know of these numbers.
     pub notes: Vec<String>,
-    /// Where definitions come from.
+    /// Sources of the definitions.
     pub sources: Vec<&'static str>,
 }
 
@@ -89,7 +89,7 @@ pub fn read(commanded: &Path, runs: &[PathBuf]) -> Result<Measured, StudyError> 
         let file = input::open(path).map_err(|error| {
             StudyError::value(
                 format!("cannot read {shown}: {error}"),
-                "a table of points: x_mm, y_mm, z_mm, and run where it holds several",
+                "a table of points: x_mm, y_mm, z_mm, and run if it contains several",
             )
         })?;
         let found = trace::read(&shown, BufReader::new(file))?;
@@ -105,7 +105,7 @@ pub fn read(commanded: &Path, runs: &[PathBuf]) -> Result<Measured, StudyError> 
     let mut paths = path.runs;
     let one = paths.pop().filter(|_| paths.is_empty()).ok_or_else(|| {
         StudyError::value(
-            format!("{commanded_file}: {count} runs, a commanded path is one"),
+            format!("{commanded_file}: {count} runs; a commanded path has one"),
             "a table without the column `run`",
         )
     })?;
@@ -127,10 +127,10 @@ pub fn read(commanded: &Path, runs: &[PathBuf]) -> Result<Measured, StudyError> 
     Ok(measured)
 }
 
-/// AT and RT of what was measured.
+/// AT and RT of the measured runs.
 ///
 /// # Errors
-/// Runs that tell nothing of this path.
+/// Runs that do not match this path.
 pub fn answer(measured: &Measured) -> Result<(PathAccuracy, PathAccuracyAnswer), StudyError> {
     let refused = |error: armill_core::measure::path_accuracy::PathRefusal| {
         StudyError::value(
@@ -169,19 +169,19 @@ pub fn answer(measured: &Measured) -> Result<(PathAccuracy, PathAccuracyAnswer),
 }
 
 fn notes(found: &PathAccuracy) -> Vec<String> {
-    let mut notes = vec!["commanded and measured points are taken to be in the same axes".to_owned()];
+    let mut notes = vec!["commanded and measured points are assumed to be in the same axes".to_owned()];
     match found.cycles {
         1 => notes.push("one run: repeatability is not known".to_owned()),
         cycles if cycles < CYCLES => {
             notes.push(format!(
-                "ISO 9283 asks for {CYCLES} cycles of a path; here are {cycles}"
+                "ISO 9283 requires {CYCLES} cycles of a path; this file has {cycles}"
             ));
         }
         _ => {}
     }
     if found.not_passed > 0 {
         notes.push(format!(
-            "{} commanded points are not told: a run begins behind them, ends before them or cuts the corner there",
+            "{} commanded points have no result: a run begins after them, ends before them or cuts the corner there",
             found.not_passed
         ));
     }
@@ -250,7 +250,9 @@ pub fn drawing(reported: &PathAccuracyAnswer, found: &PathAccuracy) -> String {
             &|point| point.repeatability.unwrap_or_default(),
         ));
     }
-    let rt = reported.rt_mm.map_or(String::new(), |rt| format!(", RT {rt:.3} mm"));
+    let rt = reported
+        .rt_mm
+        .map_or(String::new(), |rt| format!(", RT {rt:.3} mm"));
     let runs = if reported.cycles == 1 { "run" } else { "runs" };
     PathPlot {
         title: "Path accuracy".to_owned(),

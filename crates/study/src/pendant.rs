@@ -1,19 +1,19 @@
-//! A robot file beside its pendant: what disagrees, in the words of the file.
+//! Comparison of a robot file with its pendant: the differences, in terms of the file.
 //!
 //! | verdict | meaning |
 //! |---|---|
-//! | `agrees` | every reading lies within the bound of what the file makes of its joints |
-//! | `explained` | one explanation is simpler than any other that brings all readings within it |
-//! | `undecided` | several are equally simple: more readings tell them apart |
-//! | `unexplained` | no change that is looked for explains the readings |
+//! | `agrees` | every reading is within the bound of the pose computed from its joints |
+//! | `explained` | one explanation is simpler than any other for which all readings are within the bound |
+//! | `undecided` | several are equally simple: more readings are needed |
+//! | `unexplained` | none of the searched changes explains the readings |
 //!
-//! What is looked for, and how simple it is, says `armill_core::robot::convention`.
+//! The changes that are searched, and their order, are in `armill_core::robot::convention`.
 
 use armill_core::frame::{Isometry, fixed_angles};
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::Robot;
 use armill_core::robot::convention::{
-    Apart, Change, Comparison, Explanation, NotInspected, Reading, Verdict, inspect,
+    Change, Comparison, Explanation, NotInspected, PoseDifference, Reading, Verdict, inspect,
 };
 use armill_core::watch::Watch;
 use armill_formats::robot::RobotDescription;
@@ -25,34 +25,34 @@ use crate::{BASE_LINK, base_from_reference};
 /// What was read, and how.
 #[derive(Clone, Debug)]
 pub struct PendantQuestion {
-    /// Joint positions as shown, deg (mm for sliding joints), and the pose beside them, m.
+    /// Joint positions as shown, deg (mm for prismatic joints), and the pose shown with them, m.
     pub readings: Vec<(Vec<f64>, Isometry)>,
     /// Flange to tool centre point that the pendant had active.
     pub flange_from_tool: Isometry,
-    /// Frame that the pendant is believed to count from.
+    /// Frame to which the readings are expected to be relative.
     pub base: String,
     /// Distance and angle within which a reading agrees, m and rad.
-    pub within: Apart,
+    pub within: PoseDifference,
 }
 
-/// What the readings say of the file.
+/// Result of the comparison.
 #[derive(Clone, Debug, Serialize)]
 pub struct PendantAnswer {
     /// Name of the robot.
     pub robot: String,
-    /// Frame that the pendant is believed to count from.
+    /// Frame to which the readings are expected to be relative.
     pub base: String,
-    /// How far each reading lies from what the file makes of its joints.
+    /// Distance of each reading from the pose computed from its joints.
     pub readings: Vec<ApartAnswer>,
     /// `agrees`, `explained`, `undecided` or `unexplained`.
     pub verdict: &'static str,
     /// Each explanation as a list of changes; one unless undecided.
     pub explanations: Vec<ExplanationAnswer>,
-    /// Changes that would not show in these readings.
+    /// Changes that these readings would not show.
     pub unseen: Vec<String>,
 }
 
-/// How far two poses lie apart.
+/// Distance of two poses.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct ApartAnswer {
     /// Distance.
@@ -61,19 +61,19 @@ pub struct ApartAnswer {
     pub apart_deg: f64,
 }
 
-/// What the file would have to say otherwise.
+/// Changes of the file that explain the readings.
 #[derive(Clone, Debug, Serialize)]
 pub struct ExplanationAnswer {
-    /// Each change in words.
+    /// Each change as text.
     pub changes: Vec<String>,
-    /// How far the readings then lie away at the most.
+    /// Greatest distance of the readings then.
     pub apart: ApartAnswer,
 }
 
 /// Compares the readings with the file.
 ///
 /// # Errors
-/// No reading, a reading with another number of joints, an unknown frame, more turning joints than can be searched;
+/// No reading, a reading with another number of joints, an unknown frame, more revolute joints than can be searched;
 /// cancelled by the watch.
 pub fn check(
     described: &RobotDescription,
@@ -83,7 +83,7 @@ pub fn check(
     let robot = &described.robot;
     let counted = base_from_reference(robot, &question.base).map_err(|known| {
         StudyError::value(
-            format!("`{}` is no frame of `{}`", question.base, robot.name()),
+            format!("`{}` has no frame `{}`", robot.name(), question.base),
             format!("it knows {known}"),
         )
     })?;
@@ -109,7 +109,7 @@ pub fn check(
     let found = inspect(&comparison, watch).map_err(|not| match not {
         NotInspected::Cancelled(cancelled) => StudyError::Cancelled(cancelled),
         NotInspected::TooManyJoints { .. } => {
-            StudyError::value(not.to_string(), "compare the arm without what carries it")
+            StudyError::value(not.to_string(), "compare the robot without its external axes")
         }
     })?;
     let words = Words {
@@ -120,7 +120,7 @@ pub fn check(
     };
     let (verdict, explanations, unseen) = match &found.verdict {
         Verdict::Explained { explanation, unseen } => {
-            // An explanation without changes says that the file is right.
+            // An explanation without changes means that the file is right.
             let verdict = if explanation.changes.is_empty() {
                 "agrees"
             } else {
@@ -134,7 +134,7 @@ pub fn check(
     Ok(PendantAnswer {
         robot: robot.name().to_owned(),
         base: question.base.clone(),
-        readings: found.as_the_file_has_it.iter().copied().map(apart).collect(),
+        readings: found.of_the_file.iter().copied().map(apart).collect(),
         verdict,
         explanations: explanations.iter().map(|e| words.explanation(e)).collect(),
         unseen: unseen.iter().map(|change| words.change(change)).collect(),
@@ -171,19 +171,19 @@ fn reading(robot: &Robot, index: usize, joints: &[f64], pose: &Isometry) -> Resu
 }
 
 /// In mm and deg.
-fn apart(apart: Apart) -> ApartAnswer {
+fn apart(apart: PoseDifference) -> ApartAnswer {
     ApartAnswer {
         apart_mm: apart.metres * 1e3,
         apart_deg: apart.radians.to_degrees(),
     }
 }
 
-/// Changes in the words of the robot file.
+/// Changes in terms of the robot file.
 struct Words<'a> {
     robot: &'a Robot,
     counted: &'a Isometry,
     base: &'a str,
-    within: Apart,
+    within: PoseDifference,
 }
 
 impl Words<'_> {
@@ -195,21 +195,21 @@ impl Words<'_> {
         }
     }
 
-    /// What the file would have to say, with the keys of the file.
+    /// The required change, with the keys of the file.
     fn change(&self, change: &Change) -> String {
         let joints = self.robot.joints();
         match *change {
             Change::Sign { joint } => {
                 let sign = joints[joint].sign.factor();
                 format!(
-                    "joint {} counts the other way: sign = {} in place of {sign}",
+                    "joint {} has the opposite sign: sign = {} in place of {sign}",
                     joints[joint].name, -sign
                 )
             }
             Change::Zero { joint, by, .. } => {
                 let before = joints[joint].zero_offset;
                 format!(
-                    "joint {} has its zero elsewhere: zero_offset_deg = {} in place of {}",
+                    "joint {} has another zero: zero_offset_deg = {} in place of {}",
                     joints[joint].name,
                     degrees(before + by),
                     degrees(before)
@@ -219,7 +219,7 @@ impl Words<'_> {
             Change::BaseHeight { by } => {
                 let at = self.counted.translation.vector + self.counted.rotation * Vector3::new(0.0, 0.0, by);
                 format!(
-                    "the pendant counts from a base {:.2} mm above {}{}",
+                    "the base of the pendant is {:.2} mm above {}{}",
                     by * 1e3,
                     self.base,
                     self.frame_at(&at)
@@ -228,14 +228,14 @@ impl Words<'_> {
             Change::BaseShift { by } => {
                 let [x, y, z]: [f64; 3] = (by * 1e3).into();
                 format!(
-                    "the pendant counts from a base at ({x:.2}, {y:.2}, {z:.2}) mm of {}",
+                    "the base of the pendant is at ({x:.2}, {y:.2}, {z:.2}) mm of {}",
                     self.base
                 )
             }
             Change::FlangeTurn { turn } => {
                 let [rx, ry, rz]: [f64; 3] = fixed_angles(&turn).into();
                 format!(
-                    "the pendant's flange frame is turned against the file's: end the chain with about z {}, about y {}, about x {} deg",
+                    "the flange frame of the pendant is rotated relative to that of the file: end the chain with about z {}, about y {}, about x {} deg",
                     degrees(rz),
                     degrees(ry),
                     degrees(rx)
@@ -245,7 +245,7 @@ impl Words<'_> {
         }
     }
 
-    /// What the file would have to say of the coupling of `joint` to `other`, which is `more` than it has now.
+    /// The required coupling of `joint` to `other`, which is `more` than it is now.
     fn coupling(&self, joint: usize, other: usize, more: f64) -> String {
         let joints = self.robot.joints();
         let (name, other_name) = (&joints[joint].name, &joints[other].name);
@@ -257,15 +257,15 @@ impl Words<'_> {
             .sum();
         let factor = before + more;
         if factor == 0.0 {
-            format!("joint {name} does not count {other_name} in: take out its coupling")
+            format!("joint {name} is not coupled to {other_name}: remove its coupling")
         } else {
             format!(
-                "joint {name} counts {other_name} in: coupling = [{{ joint = \"{other_name}\", factor = {factor} }}]"
+                "joint {name} is coupled to {other_name}: coupling = [{{ joint = \"{other_name}\", factor = {factor} }}]"
             )
         }
     }
 
-    /// The frame of the robot that lies at this point of base, if one does.
+    /// The frame of the robot at this point of base, if there is one.
     fn frame_at(&self, point: &Vector3<f64>) -> String {
         let named = self
             .robot

@@ -1,4 +1,4 @@
-//! One pose: every posture there, its compliance, and what a load does to it.
+//! One pose: every posture there, its compliance, and its deviation under a load.
 //!
 //! | part of the answer | frame and point |
 //! |---|---|
@@ -6,7 +6,7 @@
 //! | `jacobian`, `compliance`, `stiffness` | at the TCP, base axes, translation first, SI |
 //! | `deviation_um`, `rotation_urad`, `joint_share_um` | of the TCP, base axes |
 //!
-//! Joints are in deg, sliding ones in mm, as the robot file counts them.
+//! Joint positions are in deg, of prismatic joints in mm, in the convention of the robot file.
 
 use armill_core::compliance::{
     by_force, permissible_force_in_worst_direction, principal_compliances, stiffness_at_tool,
@@ -19,7 +19,7 @@ use armill_core::robot::inverse::{ToolAt, posture_at, postures};
 use armill_core::robot::jacobian::{condition_number, jacobian, manipulability};
 use armill_core::robot::{Posture, Robot, Unreachable};
 use armill_core::source::stiffness_model::FREE_FALL;
-use armill_core::source::{Arm, Gravity, Links, ArmState, StiffnessModel, Unstable};
+use armill_core::source::{Arm, ArmState, Gravity, Links, StiffnessModel, Unstable};
 use armill_core::spatial::Wrench;
 use armill_formats::robot::RobotDescription;
 use armill_formats::sources::Source;
@@ -30,32 +30,32 @@ use crate::StudyError;
 use crate::joint_unit::JointUnit;
 use crate::model_words::{left_out, parts};
 
-/// What is asked of one pose.
+/// A query for one pose.
 #[derive(Clone, Debug)]
 pub struct PoseQuestion {
-    /// Joints, or where the tool should be.
+    /// Joint positions, or the position or pose of the tool.
     pub at: At,
     /// Flange to tool centre point.
     pub flange_from_tool: Isometry,
     /// Load on the tool at the TCP, base axes.
     pub wrench: Option<Wrench>,
-    /// Whether the load acts on the arm as it has yielded.
+    /// Whether the load acts on the deflected arm.
     pub load_dependent: bool,
-    /// Joint positions where the tool was set, deg (mm): gravity counts against them, down the z axis of base.
+    /// Joint positions when the tool was set, deg (mm): gravity is relative to them, down the z axis of base.
     pub reference_joints_deg: Option<Vec<f64>>,
     /// Frame that positions count from.
     pub base: String,
-    /// What to say of compliances that are assumed, if they are.
+    /// The warning for assumed compliances, if they are.
     pub caution: Option<String>,
-    /// Where a rail stands (mm) and what joints to spare are drawn to (deg), one a joint; without, the middle of their
-    /// ranges.
+    /// Position of a rail (mm) and preferred positions of redundant joints (deg), one for each joint; if left out, the
+    /// middle of their ranges.
     pub home_deg: Option<Vec<f64>>,
 }
 
-/// Joints, or where the tool should be.
+/// Joint positions, or the position or pose of the tool.
 #[derive(Clone, Debug)]
 pub enum At {
-    /// Joint positions, deg (mm for sliding joints), in the robot file's own signs and zeros.
+    /// Joint positions, deg (mm for prismatic joints), in the robot file's own signs and zeros.
     JointsDeg(Vec<f64>),
     /// Position of the TCP (m), tool axis and spin (rad), in the frame that positions count from.
     Tool {
@@ -66,7 +66,7 @@ pub enum At {
         /// Turn about the axis, rad.
         spin: f64,
     },
-    /// The whole pose of the tool, in base.
+    /// The complete pose of the tool, in base.
     Pose(Isometry),
 }
 
@@ -79,55 +79,55 @@ pub struct PoseAnswer {
     pub base: String,
     /// Names of the joints.
     pub joint_names: Vec<String>,
-    /// Units of their positions and of their distances to limits: deg, of a joint that slides mm.
+    /// Units of their positions and of their distances to limits: deg, of a prismatic joint mm.
     pub joint_units: Vec<&'static str>,
     /// Whether the joint compliances are assumed, not measured.
     pub compliance_assumed: bool,
     /// Parts of the stiffness model that were on.
     pub model: Vec<String>,
-    /// Whom shares are told for: the joints, then base, flange and tool where springs sit.
+    /// The contributors of `share_um`: the joints, then base, flange and tool if springs are attached there.
     pub contributors: Vec<String>,
-    /// Every posture; empty where unreachable.
+    /// Every posture; empty if the pose is unreachable.
     pub postures: Vec<PostureAnswer>,
     /// Why there is no posture.
     pub unreachable: Option<UnreachableAnswer>,
-    /// What a user should know before trusting it, and what is missing.
+    /// Notes for the user, also on missing data.
     pub notes: Vec<String>,
-    /// Where the numbers of the robot come from.
+    /// Sources of the numbers of the robot.
     pub sources: Vec<Source>,
 }
 
 /// One posture.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PostureAnswer {
-    /// Its name: words of a branch; without named branches the side of the middle on which each joint stands.
+    /// Its name: words of a branch; without named branches the side of the middle of each joint.
     pub branch: String,
-    /// Joint positions (mm for sliding joints), in the robot file's own signs and zeros.
+    /// Joint positions (mm for prismatic joints), in the robot file's own signs and zeros.
     pub joints_deg: Vec<f64>,
-    /// Whether every joint stands inside its limits.
+    /// Whether every joint is inside its limits.
     pub within_limits: bool,
-    /// Least distance of a joint to its limit, negative outside; none where no joint has limits.
+    /// Least distance of a joint to its limit, negative outside; none if no joint has limits.
     pub limit_margin_deg: Option<f64>,
-    /// The joint that has it.
+    /// The joint with that margin.
     pub limit_joint: Option<String>,
-    /// Where the tool is.
+    /// Pose of the tool.
     pub tool: ToolAnswer,
     /// Near which singularity, if any.
     pub singularity: Option<String>,
     /// Product of the singular values of the Jacobian, SI.
     pub manipulability: f64,
-    /// Of the Jacobian, with rotations weighed by a length of 1 m; none where singular.
+    /// Of the Jacobian, with rotations weighed by a length of 1 m; none if singular.
     pub condition_number: Option<f64>,
     /// 6 x n: TCP twist per unit of joint position, translation first, base axes, SI.
     pub jacobian: Vec<Vec<f64>>,
-    /// 6 x 6 at the TCP, translation first, base axes, SI; none where joint compliances are not known.
+    /// 6 x 6 at the TCP, translation first, base axes, SI; none if joint compliances are not known.
     pub compliance: Option<[[f64; 6]; 6]>,
-    /// What follows from the compliance.
+    /// Results that follow from the compliance.
     pub stiffness: Option<StiffnessAnswer>,
     /// The same under the load, tangent to it; of a load-dependent model only.
     // unit: SI matrix
     pub loaded_compliance: Option<[[f64; 6]; 6]>,
-    /// Why the arm finds no rest under the load; none where it does.
+    /// Why the arm finds no rest under the load; none if it does.
     pub unstable: Option<String>,
     /// Displacement of the TCP under the load; none without load or compliance.
     pub deviation_um: Option<[f64; 3]>,
@@ -135,11 +135,12 @@ pub struct PostureAnswer {
     pub rotation_urad: Option<[f64; 3]>,
     /// Share of each of `contributors` in the displacement.
     pub joint_share_um: Option<Vec<[f64; 3]>>,
-    /// Standard uncertainty of the displacement, from those of the compliances, the repeatability of the arm and the error of its model.
+    /// Standard uncertainty of the displacement, from those of the compliances, the repeatability of the arm and the
+    /// error of its model.
     pub deviation_u_um: Option<[f64; 3]>,
 }
 
-/// Where the tool is.
+/// Pose of the tool.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct ToolAnswer {
     /// TCP in the frame that positions count from.
@@ -148,12 +149,12 @@ pub struct ToolAnswer {
     pub quaternion_wxyz: [f64; 4],
 }
 
-/// What follows from the compliance of a posture.
+/// Results that follow from the compliance of a posture.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct StiffnessAnswer {
     /// 6 x 6, the (pseudo-)inverse of the compliance, SI. // unit: SI matrix
     pub stiffness: [[f64; 6]; 6],
-    /// Directions in which the arm yields: 6 where the stiffness is a true inverse.
+    /// Compliant directions of the arm: 6 if the stiffness is a true inverse.
     pub rank: usize,
     /// Of the compliance, with rotations weighed by a length of 1 m; none below rank 6.
     pub condition_number: Option<f64>,
@@ -172,13 +173,13 @@ pub struct UnreachableAnswer {
     pub reason: String,
     /// By how much the wrist centre misses; of a search the tool.
     pub amount_mm: f64,
-    /// By what angle the tool of a search misses.
+    /// Orientation error of the tool in a numerical search.
     pub amount_deg: Option<f64>,
     /// In words.
     pub message: String,
 }
 
-/// A length (m) that makes rotations comparable with translations: an arm's reach.
+/// A length (m) that makes rotations comparable with translations: the reach of an arm.
 const WEIGHING_LENGTH: f64 = 1.0;
 
 /// The answer for one pose of one robot.
@@ -190,32 +191,34 @@ pub fn answer(described: &RobotDescription, question: &PoseQuestion) -> Result<P
     answer_in(
         described,
         question,
-        &Situation {
+        &PoseContext {
             model: &model,
             normal: None,
-            dragged: &|_| None,
+            link_offsets: &|_| None,
         },
     )
 }
 
-/// What a posture is evaluated with besides the question.
-pub(crate) struct Situation<'a> {
-    /// What deflects and weighs.
+/// The context of a query in which a posture is evaluated.
+pub(crate) struct PoseContext<'a> {
+    /// Compliances and masses.
     pub model: &'a StiffnessModel,
-    /// Links of joints with backlash are where they move the tool farthest across this direction (base); its axis if `None`.
+    /// Links of joints with backlash are where they move the tool farthest across this direction (base); its axis if
+    /// `None`.
     pub normal: Option<Unit<Vector3<f64>>>,
-    /// Where friction has dragged the links of the posture with these joint positions, as along a path, rad (m).
-    pub dragged: &'a dyn Fn(&[f64]) -> Option<&'a [f64]>,
+    /// Offsets of the links within their backlash, kept there by friction, for the posture with these joint positions,
+    /// as along a path, rad (m).
+    pub link_offsets: &'a dyn Fn(&[f64]) -> Option<&'a [f64]>,
 }
 
-/// [`answer`] in this situation, in place of what the question gives of it.
+/// [`answer`] in this context, which replaces the values of the question.
 ///
 /// # Errors
 /// As of [`answer`].
 pub(crate) fn answer_in(
     described: &RobotDescription,
     question: &PoseQuestion,
-    situation: &Situation<'_>,
+    situation: &PoseContext<'_>,
 ) -> Result<PoseAnswer, StudyError> {
     let model = situation.model;
     let robot = &described.robot;
@@ -226,8 +229,8 @@ pub(crate) fn answer_in(
         )
     })?;
     let mut unreachable = None;
-    let mut holding = |base_from_tool: &Isometry| -> Result<Vec<Posture>, StudyError> {
-        // Only where joints may be chosen does home count.
+    let mut postures_at = |base_from_tool: &Isometry| -> Result<Vec<Posture>, StudyError> {
+        // The preferred positions are used only if joints can be chosen.
         let home = question.home_deg.as_deref();
         let home = home.map(|home| joint_positions(described, home)).transpose()?;
         let tool = ToolAt {
@@ -248,9 +251,9 @@ pub(crate) fn answer_in(
         )],
         At::Tool { tcp, axis, spin } => {
             let reference_from_tool = Isometry::from_parts(tcp.coords.into(), tool_orientation(*axis, *spin));
-            holding(&(base_from_reference * reference_from_tool))?
+            postures_at(&(base_from_reference * reference_from_tool))?
         }
-        At::Pose(base_from_tool) => holding(base_from_tool)?,
+        At::Pose(base_from_tool) => postures_at(base_from_tool)?,
     };
     let mut arm_state = robot.compliance().map(|compliance| {
         ArmState::new(Arm {
@@ -273,10 +276,10 @@ pub(crate) fn answer_in(
         postures: found
             .iter()
             .map(|p| {
-                let yielding = arm_state
+                let deflection = arm_state
                     .as_mut()
-                    .map(|arm_state| yielding(arm_state, (p, situation), question.wrench));
-                posture_answer(robot, yielding, &base_from_reference, p)
+                    .map(|arm_state| posture_deflection(arm_state, (p, situation), question.wrench));
+                posture_answer(robot, deflection, &base_from_reference, p)
             })
             .collect(),
         unreachable,
@@ -285,7 +288,7 @@ pub(crate) fn answer_in(
     })
 }
 
-/// What the robot file holds, with what the question adds.
+/// The stiffness model of the robot file, with the additions of the query.
 fn stiffness_model(
     described: &RobotDescription,
     question: &PoseQuestion,
@@ -300,35 +303,35 @@ fn stiffness_model(
         structure: described.robot.structure().clone(),
         gravity: question.reference_joints_deg.as_ref().map(gravity).transpose()?,
         load_dependent: question.load_dependent,
-        actual: None,
+        ..StiffnessModel::DRIVES.clone()
     })
 }
 
-/// What an arm with springs says of one posture.
+/// The deflection of one posture of an arm with springs.
 #[derive(Default)]
-struct Yielding {
+struct PostureDeflection {
     compliance: Option<Matrix6<f64>>,
     loaded_compliance: Option<Matrix6<f64>>,
     deviation: Option<Deviation>,
     unstable: Option<Unstable>,
 }
 
-/// What the arm says of this posture: its compliance, and under a load what that does, or that the arm finds no rest.
-fn yielding(
+/// The compliance of the arm in this posture, and under a load its deviation, or that there is no equilibrium.
+fn posture_deflection(
     arm_state: &mut ArmState<'_>,
-    (posture, situation): (&Posture, &Situation<'_>),
+    (posture, situation): (&Posture, &PoseContext<'_>),
     wrench: Option<Wrench>,
-) -> Yielding {
+) -> PostureDeflection {
     arm_state.set_joints(&posture.joints);
-    let mut found = Yielding {
+    let mut found = PostureDeflection {
         compliance: arm_state.compliance(),
-        ..Yielding::default()
+        ..PostureDeflection::default()
     };
     let Some(wrench) = wrench else { return found };
     let mut positions = vec![0.0; posture.joints.len()];
     let axis = || Unit::new_unchecked(posture.base_from_tool * Vector3::z());
-    let mut links = match (situation.dragged)(&posture.joints) {
-        Some(dragged) => Links::KeptByFriction(dragged),
+    let mut links = match (situation.link_offsets)(&posture.joints) {
+        Some(link_offsets) => Links::KeptByFriction(link_offsets),
         None => Links::Farthest(
             both_across(&situation.normal.unwrap_or_else(axis)),
             &mut positions,
@@ -373,19 +376,19 @@ pub(crate) fn joint_positions(described: &RobotDescription, given: &[f64]) -> Re
     Ok(given.iter().enumerate().map(to_si).collect())
 }
 
-/// One posture in the units of the answer; without `yielding` no joint compliance is known.
+/// One posture in the units of the answer; without `deflection` no joint compliance is known.
 fn posture_answer(
     robot: &Robot,
-    yielding: Option<Yielding>,
+    deflection: Option<PostureDeflection>,
     base_from_reference: &Isometry,
     posture: &Posture,
 ) -> PostureAnswer {
-    let Yielding {
+    let PostureDeflection {
         compliance,
         loaded_compliance,
         deviation,
         unstable,
-    } = yielding.unwrap_or_default();
+    } = deflection.unwrap_or_default();
     let from_si = |i: usize, value: f64| value * JointUnit::of(robot, i).scale;
     let margin = robot.limit_margin(&posture.joints);
     let j = jacobian(robot, &posture.screws);
@@ -427,7 +430,7 @@ fn posture_answer(
     }
 }
 
-/// What follows from a compliance; `axis` is the tool axis in base.
+/// Results that follow from a compliance; `axis` is the tool axis in base.
 fn stiffness_answer(compliance: &Matrix6<f64>, axis: Unit<Vector3<f64>>) -> StiffnessAnswer {
     let stiffness = stiffness_at_tool(compliance, WEIGHING_LENGTH);
     let by_force = by_force(compliance);
@@ -453,14 +456,14 @@ fn unreachable_answer(miss: Unreachable) -> UnreachableAnswer {
     };
     UnreachableAnswer {
         reason: miss.word().to_owned(),
-        // Nothing is missed where the arm does not hold itself.
+        // No value if the arm is not stable.
         amount_mm: miss.amount().unwrap_or_default() * 1e3,
         amount_deg: turned,
         message: miss.to_string(),
     }
 }
 
-/// Caution first, then the note of the robot file, masses without gravity, and compliances that nobody knows.
+/// Caution first, then the note of the robot file, masses without gravity, and unknown compliances.
 fn notes(described: &RobotDescription, question: &PoseQuestion, model: &StiffnessModel) -> Vec<String> {
     let said = question.caution.iter().chain(&described.note).cloned();
     let mut notes: Vec<String> = said.chain(left_out(model)).collect();

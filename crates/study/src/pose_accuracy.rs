@@ -1,13 +1,14 @@
-//! How near does the arm come to its poses, and how alike from time to time? What `armill pose-accuracy` answers.
+//! Pose accuracy and repeatability: the result of `armill pose-accuracy`.
 //!
-//! Base and measured point are fitted, the chain is taken as the robot file says; the commanded place of a pose is what
-//! the chain makes of the joint positions of its cycles. Rows are cycles of one pose if their `pose` cells are the same,
-//! or else, without such a column, if the arm stood in the same posture, and commanded poses, where they are told, are the
+//! Base and measured point are fitted, the chain is that of the robot file; the commanded position of a pose is
+//! computed
+//! from the joint positions of its cycles. Rows are cycles of one pose if their `pose` cells are the same,
+//! or, without such a column, if the robot was in the same posture, and commanded poses, if given, are the
 //! same to the last digit.
 
 use std::collections::BTreeMap;
 
-use armill_core::calibrate::{Asked, Calibrated, Place, fit};
+use armill_core::calibrate::{Calibrated, ParameterLocation, ParameterSet, fit};
 use armill_core::measure::pose_accuracy::{
     Attained, CYCLES, PoseAccuracy, multi_directional_variation, pose_accuracy,
 };
@@ -17,7 +18,7 @@ use armill_formats::measurement::poses::MeasuredPoses;
 use serde::Serialize;
 
 use crate::StudyError;
-use crate::calibrate::answer::{ErrorsAnswer, FrameAnswer, errors_answer, frame_answer, given};
+use crate::calibrate::answer::{ErrorsAnswer, FrameAnswer, errors_answer, frame_answer, reported};
 use crate::calibrate::calibration::refused;
 use crate::calibrate::question::Question;
 
@@ -26,19 +27,19 @@ use crate::calibrate::question::Question;
 pub struct PoseAccuracyAnswer {
     /// Its name.
     pub robot: String,
-    /// Where they stand.
+    /// Position of the measurements.
     pub file: String,
     /// Measured visits.
     pub visits: usize,
     /// Different poses.
     pub poses: usize,
-    /// Of all visits: measured from what the chain predicts.
+    /// Of all visits: measured relative to the prediction of the chain.
     pub absolute: ErrorsAnswer,
     /// Of poses reached more than once.
     pub repeated: Option<RepeatedAnswer>,
     /// Each pose reached more than once.
     pub by_pose: Vec<PoseAnswer>,
-    /// Where the base stands in the axes of the tracker.
+    /// The base in the axes of the tracker.
     pub tracker_from_base: FrameAnswer,
     /// Where the measured point is on the flange.
     pub flange_from_point: FrameAnswer,
@@ -48,7 +49,7 @@ pub struct PoseAccuracyAnswer {
     pub not_measured: usize,
     /// What to know of these numbers.
     pub notes: Vec<String>,
-    /// Where definitions come from.
+    /// Sources of the definitions.
     pub sources: Vec<&'static str>,
 }
 
@@ -84,7 +85,7 @@ pub struct PoseAnswer {
     pub ap_xyz_mm: [f64; 3],
     /// RP.
     pub rp_mm: f64,
-    /// AP of turns about x, y, z of the base.
+    /// AP of rotations about x, y, z of the base.
     pub ap_turn_deg: Option<[f64; 3]>,
     /// RP of turns.
     pub rp_turn_deg: Option<[f64; 3]>,
@@ -95,14 +96,18 @@ pub struct PoseAnswer {
 /// Accuracy of the poses of `measured`, the file `shown`.
 ///
 /// # Errors
-/// Poses that tell too little or belong to another arm.
+/// Poses that determine too little or belong to another robot.
 pub fn answer(
     robot: &Robot,
     (shown, measured): (&str, &MeasuredPoses),
     question: &Question,
 ) -> Result<PoseAccuracyAnswer, StudyError> {
-    let found = fit(robot, &measured.poses, &question.for_core(Asked::BaseAndTool))
-        .map_err(|error| refused(shown, &error))?;
+    let found = fit(
+        robot,
+        &measured.poses,
+        &question.for_core(ParameterSet::BaseAndTool),
+    )
+    .map_err(|error| refused(shown, &error))?;
     let groups = groups(measured);
     let visits: Vec<[Attained; 2]> = (0..measured.poses.len())
         .map(|k| visit(measured, &found, k))
@@ -114,15 +119,15 @@ pub fn answer(
         .collect();
     let repeated = repeated(&by_pose);
     let mut notes = vec![
-        "base and measured point are fitted to these poses; what they can take up is no error here"
+        "base and measured point are fitted to these poses; errors that they can absorb are not included"
             .to_owned(),
-        "a pose is commanded where the robot file puts its joint positions".to_owned(),
+        "the commanded pose is computed by the robot file from the joint positions".to_owned(),
     ];
     match &repeated {
         None => notes.push("no pose was reached twice: repeatability is not known".to_owned()),
         Some(all) if all.fewest_cycles < CYCLES => {
             notes.push(format!(
-                "ISO 9283 asks for {CYCLES} cycles a pose; fewest here: {}",
+                "ISO 9283 requires {CYCLES} cycles per pose; fewest here: {}",
                 all.fewest_cycles
             ));
         }
@@ -137,8 +142,8 @@ pub fn answer(
         absolute: errors_answer(&found.errors),
         repeated,
         by_pose,
-        tracker_from_base: frame(Place::Base, &found.tracker_from_base),
-        flange_from_point: frame(Place::Tool, &found.flange_from_point),
+        tracker_from_base: frame(ParameterLocation::Base, &found.tracker_from_base),
+        flange_from_point: frame(ParameterLocation::Tool, &found.flange_from_point),
         unused: measured.unused.clone(),
         not_measured: measured.not_measured,
         notes,
@@ -150,7 +155,7 @@ pub fn answer(
 
 /// Joint positions nearer to each other than this (rad, m) are of one posture.
 const SAME_POSTURE: f64 = 1e-2;
-/// Width of a cell of joint space, rad, m: so wide that few postures are near its edge.
+/// Width of a cell of joint space, rad, m: so large that few postures are near its edge.
 const CELL: f64 = 16.0 * SAME_POSTURE;
 
 /// Visits of the same pose, in the order of their first one.
@@ -203,7 +208,7 @@ fn groups(measured: &MeasuredPoses) -> Vec<Vec<usize>> {
     groups
 }
 
-/// The cells of joint space, [`CELL`] wide, that what is within `reach` of these joints lies in.
+/// The cells of joint space, [`CELL`] wide, within `reach` of these joints.
 fn cells_around(joints: &[f64], reach: f64) -> Vec<Vec<i64>> {
     let mut cells: Vec<Vec<i64>> = vec![Vec::new()];
     for joint in joints {
@@ -217,7 +222,7 @@ fn cells_around(joints: &[f64], reach: f64) -> Vec<Vec<i64>> {
     cells
 }
 
-/// Where a visit was to be and where it was, m, axes of the base.
+/// Commanded and measured position of a visit, m, axes of the base.
 fn visit(measured: &MeasuredPoses, found: &Calibrated, place: usize) -> [Attained; 2] {
     let pose = &measured.poses[place];
     let base_from_tracker = found.tracker_from_base.inverse();
@@ -235,7 +240,7 @@ fn visit(measured: &MeasuredPoses, found: &Calibrated, place: usize) -> [Attaine
 fn of_pose(measured: &MeasuredPoses, visits: &[[Attained; 2]], places: &[usize]) -> Option<PoseAnswer> {
     let commanded: Vec<Attained> = places.iter().map(|place| visits[*place][0]).collect();
     let attained: Vec<Attained> = places.iter().map(|place| visits[*place][1]).collect();
-    // Joint positions of cycles differ by what encoders tell: their mean is the commanded place.
+    // Joint positions of cycles differ by encoder resolution: their mean is the commanded position.
     let mean = pose_accuracy(&commanded[0], &commanded)?;
     let meant = Attained {
         position: mean.barycentre,
@@ -245,20 +250,20 @@ fn of_pose(measured: &MeasuredPoses, visits: &[[Attained; 2]], places: &[usize])
             .map(|(turn, offset)| UnitQuaternion::from_scaled_axis(offset) * turn),
     };
     let found: PoseAccuracy = pose_accuracy(&meant, &attained)?;
-    let mm = |vector: Vector3<f64>| [0, 1, 2].map(|axis| given(vector[axis] * 1e3));
-    let deg = |vector: Vector3<f64>| [0, 1, 2].map(|axis| given(vector[axis].to_degrees()));
+    let mm = |vector: Vector3<f64>| [0, 1, 2].map(|axis| reported(vector[axis] * 1e3));
+    let deg = |vector: Vector3<f64>| [0, 1, 2].map(|axis| reported(vector[axis].to_degrees()));
     Some(PoseAnswer {
         name: match &measured.names {
             Some(names) => names[places[0]].clone(),
             None => format!("line {}", measured.lines[places[0]]),
         },
         cycles: found.cycles,
-        ap_mm: given(found.accuracy() * 1e3),
+        ap_mm: reported(found.accuracy() * 1e3),
         ap_xyz_mm: mm(found.offset),
-        rp_mm: given(found.repeatability? * 1e3),
+        rp_mm: reported(found.repeatability? * 1e3),
         ap_turn_deg: found.turn_offset.map(deg),
         rp_turn_deg: found.turn_repeatability.map(deg),
-        vap_mm: variation(measured, visits, places).map(|vap| given(vap * 1e3)),
+        vap_mm: variation(measured, visits, places).map(|vap| reported(vap * 1e3)),
     })
 }
 
@@ -282,7 +287,8 @@ fn variation(measured: &MeasuredPoses, visits: &[[Attained; 2]], places: &[usize
 
 fn repeated(by_pose: &[PoseAnswer]) -> Option<RepeatedAnswer> {
     let fewest_cycles = by_pose.iter().map(|pose| pose.cycles).min()?;
-    let mean = |of: fn(&PoseAnswer) -> f64| given(by_pose.iter().map(of).sum::<f64>() / by_pose.len() as f64);
+    let mean =
+        |of: fn(&PoseAnswer) -> f64| reported(by_pose.iter().map(of).sum::<f64>() / by_pose.len() as f64);
     let largest = |of: fn(&PoseAnswer) -> f64| by_pose.iter().map(of).fold(0.0, f64::max);
     Some(RepeatedAnswer {
         poses: by_pose.len(),

@@ -1,13 +1,14 @@
-//! A path of a study as a program of its robot: which points, how the arm comes to them and leaves them.
+//! A path of a study as a robot program: its points, and the approach and retract moves.
 //!
 //! ```text
-//! joints to a place above the first point -> straight down at the feed -> the cut, in fewer points -> straight up
+//! joint move to a position above the first point -> linear down at the feed -> the cut, in fewer points -> linear up
 //! ```
 //!
-//! once for each stretch that is cut without a rapid. Targets count from the frame of the path, so that a part that lies
-//! elsewhere needs its frame taught, not the program made anew; compensation holds where it was worked out alone. That frame
-//! is told from where the controller counts (frame `controller` of the robot file, else `base_link`).
-//! Rapids of the program that the path came from are not followed: the arm goes up along the tool and over by its joints.
+//! for each stretch that is cut without a rapid. Targets are relative to the frame of the path: for a part placed
+//! elsewhere the frame is taught, and the program is not changed; compensation is only valid where it was computed. The
+//! frame is given relative to that of the controller (frame `controller` of the robot file, else `base_link`).
+//! Rapids of the source program are replaced: the tool retracts along its axis and moves to the next cut by joint
+//! moves.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -25,7 +26,7 @@ use crate::naming::base_from_controller;
 
 /// How the program is to be.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ProgramWanted {
+pub struct ProgramSettings {
     /// In which language.
     pub language: Language,
     /// What it is called.
@@ -34,13 +35,13 @@ pub struct ProgramWanted {
     pub frame_number: u32,
     /// Number of the tool on the controller.
     pub tool_number: u32,
-    /// How far straight moves between its points may leave the path, m.
+    /// Greatest distance of linear moves between its points from the path, m.
     pub within: f64,
-    /// How far above the part it begins and ends each cut, m.
+    /// Height above the part at which each cut begins and ends, m.
     pub retract: f64,
-    /// How near the tip must come before it goes on, m.
+    /// Blending distance at a point, m.
     pub blend: f64,
-    /// Speed where the path tells none, m/s.
+    /// Feed if the path does not specify it, m/s.
     pub feed: Option<f64>,
 }
 
@@ -50,13 +51,13 @@ const TURN: f64 = 3e-4;
 /// The program along `track`, whose postures are in `answers`.
 ///
 /// # Errors
-/// A point without posture or outside joint limits; a place above a cut that is out of reach; a path that tells no feed
-/// where none is given; what the language cannot hold.
+/// A point without posture or outside joint limits; a point above a cut that is out of reach; a path without feed
+/// if none is given; data that the language cannot express.
 pub fn program(
     study: &Study,
     setting: &Setting,
     (track, answers): (&Track, &Answers),
-    requested: &ProgramWanted,
+    requested: &ProgramSettings,
 ) -> Result<Written, StudyError> {
     let maker = Maker {
         study,
@@ -88,13 +89,13 @@ pub fn program(
 const HINT: &str =
     "the name of the file is that of the program; see `armill compensate --help` for frame and tool";
 
-/// What a program is made from.
+/// Input of a program.
 struct Maker<'a> {
     study: &'a Study,
     setting: &'a Setting,
     track: &'a Track,
     answers: &'a Answers,
-    requested: &'a ProgramWanted,
+    requested: &'a ProgramSettings,
 }
 
 impl Maker<'_> {
@@ -117,7 +118,7 @@ impl Maker<'_> {
                 joints: self.answers.joints_at(index).to_vec(),
                 branch: self.branch(index),
                 speed: Some(self.feed(index)?),
-                // A cut begins and ends where it is drawn.
+                // A cut begins and ends at its nominal points.
                 blend: if at_end { 0.0 } else { self.requested.blend },
             });
         }
@@ -125,7 +126,7 @@ impl Maker<'_> {
         Ok(())
     }
 
-    /// Points of a stretch that are enough: where the feed changes, and as many as keep to the path.
+    /// Sufficient points of a stretch: where the feed changes, and as many as the tolerance of the path needs.
     fn kept(&self, stretch: Range<usize>) -> Vec<usize> {
         let points = &self.track.path.points;
         let within = Thinning {
@@ -157,7 +158,7 @@ impl Maker<'_> {
         let line = self.track.path.points[index].line;
         let refused = |why: String| {
             StudyError::value(
-                format!("line {line}: {why}, so no program goes there"),
+                format!("line {line}: {why}; no program can be written"),
                 "move the part, or let `posture.search` look for a posture",
             )
         };
@@ -186,8 +187,8 @@ impl Maker<'_> {
             home: self.setting.home.as_deref(),
         };
         let all = postures(robot, &pose, tool).unwrap_or_default();
-        // In the turns that the joints have at the point below.
-        let beside = |q: &[f64]| -> Vec<f64> {
+        // In the revolutions that the joints have at the point below.
+        let nearest_turn = |q: &[f64]| -> Vec<f64> {
             let turned = |(joint, (q, near)): (usize, (&f64, &f64))| match robot.slides(joint) {
                 true => *q,
                 false => q + TAU * ((near - q) / TAU).round(),
@@ -197,13 +198,13 @@ impl Maker<'_> {
         let away = |q: &[f64]| q.iter().zip(near).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         let nearest = all
             .iter()
-            .map(|posture| beside(&posture.joints))
+            .map(|posture| nearest_turn(&posture.joints))
             .filter(|joints| robot.limit_margin(joints).is_none_or(|(_, margin)| margin >= 0.0))
             .min_by(|a, b| away(a).total_cmp(&away(b)));
         let joints = nearest.filter(|joints| away(joints) < FARTHEST).ok_or_else(|| {
             let line = self.track.path.points[index].line;
             let mm = self.requested.retract * 1e3;
-            let message = format!("line {line}: the arm cannot go {mm} mm up from here as it stands");
+            let message = format!("line {line}: the robot cannot retract by {mm} mm here in its posture");
             StudyError::value(message, "a shorter --retract-mm")
         })?;
         Ok(DraftPoint {
@@ -226,12 +227,12 @@ impl Maker<'_> {
     fn feed(&self, index: usize) -> Result<f64, StudyError> {
         let given = match self.track.path.points[index].pace {
             Pace::Feed(speed) => Some(speed),
-            Pace::Rapid | Pace::EvaluateError => None,
+            Pace::Rapid | Pace::Unknown => None,
         };
         given.or(self.requested.feed).ok_or_else(|| {
             let line = self.track.path.points[index].line;
             StudyError::value(
-                format!("line {line}: the path tells no feed"),
+                format!("line {line}: the path has no feed"),
                 "give one: --feed-mm-per-min 600",
             )
         })

@@ -1,8 +1,8 @@
 //! What is known of a robot, as JSON: `armill robots`, `armill robots NAME`, `armill robots import`.
 //!
-//! A joint that turns is told in deg and rad/(N m), one that slides in mm and µm/N, under keys that say so.
+//! A revolute joint is reported in deg and rad/(N m), a prismatic one in mm and µm/N, under keys that name the unit.
 
-use armill_core::robot::{Amount, Axis, Joint, Motion, Robot, Attachment, TorqueCurve, reach};
+use armill_core::robot::{Amount, Attachment, Axis, Joint, Motion, Robot, TorqueCurve, reach};
 use armill_formats::robot::RobotDescription;
 use armill_formats::sources::Source;
 use schemars::JsonSchema;
@@ -22,9 +22,9 @@ pub struct RobotRow {
     pub title: String,
     /// Payload, if known.
     pub payload_kg: Option<f64>,
-    /// Reach of the wrist centre from axis 1, to a micrometre; none of an arm without wrist centre.
+    /// Reach of the wrist centre from axis 1, to a micrometre; none for a robot without wrist centre.
     pub reach_mm: Option<f64>,
-    /// How its postures are found: `closed_form`, `polished`, `searched`.
+    /// Method of the inverse kinematics: `closed_form`, `polished`, `searched`.
     pub inverse: &'static str,
     /// Whether its joint compliances are known.
     #[serde(rename = "compliance")]
@@ -48,7 +48,7 @@ impl RobotRow {
 /// The rows of the library; every robot of it is read for this.
 ///
 /// # Errors
-/// Never in practice: what is built in reads.
+/// Never in practice: the built-in files can be read.
 pub fn library_rows() -> Result<Vec<RobotRow>, StudyError> {
     let row = |entry: &library::Embedded| {
         let found = robots::find(entry.name, ".".as_ref())?;
@@ -59,43 +59,43 @@ pub fn library_rows() -> Result<Vec<RobotRow>, StudyError> {
 
 /// Everything that is known of one robot.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct KnownRobot {
+pub struct RobotDetails {
     /// Its name in the library, or of its file.
     pub name: String,
     /// Maker and type.
     pub title: String,
     /// What a user should know before trusting it.
     pub note: Option<String>,
-    /// Elementary motions in words, base to flange.
+    /// Elementary motions as text, base to flange.
     pub chain: Vec<String>,
-    /// Joints as their controller counts them, base to flange.
-    pub joints: Vec<KnownJoint>,
-    /// What yields and weighs beside the drives.
-    pub structure: KnownStructure,
-    /// The branch that stands for this robot where none is asked for.
+    /// Joints with signs and zeros of the controller, base to flange.
+    pub joints: Vec<JointDetails>,
+    /// Springs and masses apart from the drives.
+    pub structure: StructureDetails,
+    /// The nominal branch, used if none is specified.
     pub nominal_branch: String,
-    /// How its postures are found: `closed_form`, `polished`, `searched`.
+    /// Method of the inverse kinematics: `closed_form`, `polished`, `searched`.
     pub inverse: &'static str,
-    /// Frames that positions may be counted from.
-    pub frames: Vec<KnownFrame>,
+    /// Frames in which positions can be given.
+    pub frames: Vec<FrameDetails>,
     /// Payload, if known.
     pub payload_kg: Option<f64>,
-    /// What the reader of its file assumed.
+    /// Assumptions made when its file was read.
     pub assumed: Vec<String>,
-    /// Reach of the wrist centre from axis 1; none of an arm without wrist centre.
+    /// Reach of the wrist centre from axis 1; none for a robot without wrist centre.
     pub reach_mm: Option<f64>,
-    /// Where its numbers come from.
+    /// Sources of its numbers.
     pub sources: Vec<Source>,
 }
 
-/// A joint as its controller counts it.
+/// A joint with sign and zero of the controller.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct KnownJoint {
+pub struct JointDetails {
     /// The maker's name.
     pub name: String,
-    /// 1 where it counts by the right hand about its axis in the chain, -1 against it.
+    /// 1 if it is positive by the right-hand rule about its axis in the chain, -1 if negative.
     pub sign: f64,
-    /// Numbers in the units of its kind.
+    /// Numbers in the units of the joint.
     #[serde(flatten)]
     pub numbers: JointNumbers,
     /// Key of the source of sign, limits and speed.
@@ -123,7 +123,7 @@ pub enum JointNumbers {
         /// Greatest speed.
         max_speed_deg_per_s: Option<f64>,
     },
-    /// It slides.
+    /// For a prismatic joint.
     Sliding {
         /// Compliance.
         compliance_um_per_n: Option<f64>,
@@ -138,38 +138,38 @@ pub enum JointNumbers {
     },
 }
 
-/// What yields and weighs beside the drives.
+/// Springs and masses apart from the drives.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct KnownStructure {
+pub struct StructureDetails {
     /// Springs.
-    pub springs: Vec<KnownSpring>,
+    pub springs: Vec<SpringDetails>,
     /// Masses.
-    pub masses: Vec<KnownMass>,
+    pub masses: Vec<MassDetails>,
     /// Curves in place of compliances of drives.
-    pub torque_curves: Vec<KnownCurve>,
+    pub torque_curves: Vec<CurveDetails>,
     /// The gravity compensator, if there is one.
-    pub compensator: Option<KnownCompensator>,
+    pub compensator: Option<CompensatorDetails>,
     /// Whether the covariance of the compliances is known.
     pub covariance_known: bool,
-    /// Standard deviation of where the tool comes to rest from time to time, along any axis; zero where it is not known.
+    /// Standard deviation of the position of the tool in repeated visits, along any axis; zero if not known.
     pub scatter_um: f64,
-    /// Standard uncertainty of what the model predicts, beside that of its compliances; zero where it is not known.
+    /// Standard uncertainty of the model apart from that of its compliances; zero if not known.
     pub model_error_percent: f64,
 }
 
-/// A direction in which the arm yields.
+/// A direction in which the structure deflects.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct KnownSpring {
-    /// Its seat: `base`, a joint, `flange`, `tool`.
+pub struct SpringDetails {
+    /// Its attachment: `base`, a joint, `flange`, `tool`.
     pub at: String,
-    /// A twist at the seat in the seat's axes, translation first.
+    /// A twist at the attachment in its axes, translation first.
     pub direction: [f64; 6],
-    /// How much it yields, in the unit of its kind.
+    /// Its compliance, in the unit of its kind.
     #[serde(flatten)]
     pub compliance: SpringCompliance,
 }
 
-/// How much a spring yields.
+/// Compliance of a spring.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum SpringCompliance {
@@ -180,7 +180,7 @@ pub enum SpringCompliance {
         /// Its standard uncertainty.
         compliance_u_rad_per_n_m: f64,
     },
-    /// It slides; its direction may turn on the way, rad a metre.
+    /// Along a direction, which may rotate with the displacement, rad/m.
     Sliding {
         /// Compliance.
         compliance_um_per_n: f64,
@@ -191,21 +191,21 @@ pub enum SpringCompliance {
 
 /// A mass.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct KnownMass {
-    /// Its seat.
+pub struct MassDetails {
+    /// Its attachment.
     pub at: String,
     /// How much.
     pub mass_kg: f64,
-    /// Its centre in the seat's frame.
+    /// Its centre in the frame of the attachment.
     pub centre_mm: [f64; 3],
 }
 
 /// The torque curve of a joint.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct KnownCurve {
+pub struct CurveDetails {
     /// The joint.
     pub joint: String,
-    /// Pairs of torque and angle where the load raises the torque; everywhere if there is no other.
+    /// Pairs of torque and angle while the load increases the torque; always if there is no other curve.
     // unit: N m, rad
     pub torque_curve_n_m_rad: Vec<[f64; 2]>,
     /// The same where the load lowers it.
@@ -214,12 +214,12 @@ pub struct KnownCurve {
 
 /// A gravity compensator; lengths and angle as in a robot file.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct KnownCompensator {
-    /// The joint that it holds.
+pub struct CompensatorDetails {
+    /// The joint on which it acts.
     pub joint: String,
-    /// From the axis to the end that stands still.
+    /// From the axis to the fixed end.
     pub fixed_radius_mm: f64,
-    /// From the axis to the end on the arm.
+    /// From the axis to the moving end.
     pub arm_radius_mm: f64,
     /// Length without force.
     pub free_length_mm: f64,
@@ -229,9 +229,9 @@ pub struct KnownCompensator {
     pub angle_deg: f64,
 }
 
-/// A frame that positions may be counted from.
+/// A frame in which positions can be given.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct KnownFrame {
+pub struct FrameDetails {
     /// Its name.
     pub name: String,
     /// Its origin in `base_link`.
@@ -241,24 +241,24 @@ pub struct KnownFrame {
 /// What came of a robot file of another format.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct ImportedRobot {
-    /// The file that was made; none where it was printed.
+    /// The file that was written; none if it was printed.
     pub file: Option<String>,
-    /// The file itself, where none was made.
+    /// The text of the file, if it was printed.
     pub text: Option<String>,
-    /// Maker and type, as far as its file says.
+    /// Manufacturer and type, if its file gives them.
     pub title: String,
     /// Names of its joints.
     pub joints: Vec<String>,
-    /// How its postures are found.
+    /// Method of the inverse kinematics.
     pub inverse: &'static str,
     /// What was assumed.
     pub assumed: Vec<String>,
-    /// Joints whose limits its file does not tell.
+    /// Joints whose limits are not in its file.
     pub without_limits: Vec<String>,
 }
 
 impl ImportedRobot {
-    /// The robot `found`, which is `text` as a file of ours, made at `file`.
+    /// The robot `found`, with `text` in the format of armill, written to `file`.
     pub fn of(found: &RobotDescription, file: Option<String>, text: &str) -> ImportedRobot {
         let joints = found.robot.joints();
         let names = |joints: &[&Joint]| joints.iter().map(|joint| joint.name.clone()).collect();
@@ -274,23 +274,23 @@ impl ImportedRobot {
     }
 }
 
-impl KnownRobot {
+impl RobotDetails {
     /// Everything that is known of the robot.
-    pub fn of(found: &RobotDescription) -> KnownRobot {
+    pub fn of(found: &RobotDescription) -> RobotDetails {
         let robot = &found.robot;
-        let frames = robot.frames().iter().map(|frame| KnownFrame {
+        let frames = robot.frames().iter().map(|frame| FrameDetails {
             name: frame.name.clone(),
             origin_mm: (frame.base_from_frame.translation.vector * 1e3).into(),
         });
-        KnownRobot {
+        RobotDetails {
             name: robot.name().to_owned(),
             title: found.title.clone(),
             note: found.note.clone(),
             chain: chain(found),
             joints: (0..robot.joints().len())
-                .map(|index| KnownJoint::of(found, index))
+                .map(|index| JointDetails::of(found, index))
                 .collect(),
-            structure: KnownStructure::of(robot),
+            structure: StructureDetails::of(robot),
             nominal_branch: robot.nominal_branch().to_string(),
             inverse: robot.inverse().word(),
             frames: frames.collect(),
@@ -302,9 +302,9 @@ impl KnownRobot {
     }
 }
 
-impl KnownJoint {
-    /// Joint `index`, in the units of its kind.
-    fn of(found: &RobotDescription, index: usize) -> KnownJoint {
+impl JointDetails {
+    /// Joint `index`, in its units.
+    fn of(found: &RobotDescription, index: usize) -> JointDetails {
         let robot = &found.robot;
         let (joint, note) = (&robot.joints()[index], &found.joint_notes[index]);
         let unit = JointUnit::of(robot, index);
@@ -334,7 +334,7 @@ impl KnownJoint {
                 max_speed_deg_per_s: max_speed,
             }
         };
-        KnownJoint {
+        JointDetails {
             name: joint.name.clone(),
             sign: joint.sign.factor(),
             numbers,
@@ -345,15 +345,15 @@ impl KnownJoint {
     }
 }
 
-impl KnownStructure {
-    /// What its file tells beside the drives, in the units of such files.
-    fn of(robot: &Robot) -> KnownStructure {
+impl StructureDetails {
+    /// Data of the file apart from the drives, in the units of such files.
+    fn of(robot: &Robot) -> StructureDetails {
         let structure = robot.structure();
         let name = |joint: usize| robot.joints()[joint].name.clone();
         let springs = structure.springs.iter().map(|spring| {
             let (value, u) = (spring.compliance.value, spring.compliance.standard_uncertainty);
             let turns = spring.direction.linear.norm() == 0.0;
-            KnownSpring {
+            SpringDetails {
                 at: attachment_name(robot, spring.attachment),
                 direction: spring.direction.to_vector().into(),
                 compliance: if turns {
@@ -369,7 +369,7 @@ impl KnownStructure {
                 },
             }
         });
-        let masses = structure.masses.iter().map(|mass| KnownMass {
+        let masses = structure.masses.iter().map(|mass| MassDetails {
             at: attachment_name(robot, mass.attachment),
             mass_kg: mass.mass,
             centre_mm: (mass.centre.coords * 1e3).into(),
@@ -377,17 +377,17 @@ impl KnownStructure {
         let curves = (0..robot.joints().len()).filter_map(|joint| {
             let curve = structure.curve(joint)?;
             let points = |curve: &TorqueCurve| curve.points().to_vec();
-            Some(KnownCurve {
+            Some(CurveDetails {
                 joint: name(joint),
                 torque_curve_n_m_rad: points(&curve.rising),
                 torque_curve_falling_n_m_rad: curve.falling.as_ref().map(points),
             })
         });
-        KnownStructure {
+        StructureDetails {
             springs: springs.collect(),
             masses: masses.collect(),
             torque_curves: curves.collect(),
-            compensator: structure.compensator.map(|c| KnownCompensator {
+            compensator: structure.compensator.map(|c| CompensatorDetails {
                 joint: name(c.joint),
                 fixed_radius_mm: c.fixed_radius * 1e3,
                 arm_radius_mm: c.arm_radius * 1e3,
@@ -402,7 +402,7 @@ impl KnownStructure {
     }
 }
 
-/// What a seat is called in files and answers.
+/// Name of an attachment in files and results.
 pub fn attachment_name(robot: &Robot, attachment: Attachment) -> String {
     match attachment {
         Attachment::Base => "base".to_owned(),
@@ -412,8 +412,8 @@ pub fn attachment_name(robot: &Robot, attachment: Attachment) -> String {
     }
 }
 
-/// The chain in words, one elementary motion each: `along z 450 mm (H)`,
-/// `about y by U, counted against the right hand`.
+/// The chain as text, one elementary motion each: `along z 450 mm (H)`,
+/// `about y by U, left-handed`.
 pub fn chain(found: &RobotDescription) -> Vec<String> {
     let motions = found.robot.chain().motions().iter();
     let words = motions.zip(&found.symbols).map(|(motion, symbol)| {
@@ -449,11 +449,11 @@ pub fn chain(found: &RobotDescription) -> Vec<String> {
     words.collect()
 }
 
-/// A joint with what lies between its count and its turn in the chain.
+/// A joint with the relation between its position and its rotation in the chain.
 fn of_joint(robot: &Robot, index: usize, unit: JointUnit) -> String {
     let joint = &robot.joints()[index];
     let against = if joint.sign.factor() < 0.0 {
-        ", counted against the right hand"
+        ", left-handed"
     } else {
         ""
     };

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use armill_formats::input;
-use armill_formats::robot::format::{self, Format, Wanted};
+use armill_formats::robot::format::{self, Format, RobotReadOptions};
 use armill_formats::robot::{RobotDescription, armill};
 
 use crate::error::StudyError;
@@ -34,35 +34,35 @@ pub fn find(name: &str, folder: &Path) -> Result<RobotDescription, StudyError> {
         };
         return Err(StudyError::value(message, hint));
     }
-    read(&path, &Wanted::default())
+    read(&path, &RobotReadOptions::default())
 }
 
-/// The robot of a foreign robot file, to be kept as one of ours.
+/// The robot of a foreign robot file, for conversion to the format of armill.
 ///
 /// # Errors
-/// As [`find`] of a file; a file that is ours already.
-pub fn import(path: &Path, requested: &Wanted) -> Result<RobotDescription, StudyError> {
+/// As [`find`] of a file; a file that is in this format already.
+pub fn import(path: &Path, requested: &RobotReadOptions) -> Result<RobotDescription, StudyError> {
     let ours = path
         .extension()
         .is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
     if requested.format == Some(Format::Armill) || (ours && requested.format.is_none()) {
         let message = format!(
-            "{} is a robot file of armill already: nothing to import",
+            "{} is already a robot file of armill: it need not be imported",
             path.display()
         );
         return Err(StudyError::value(
             message,
-            "use it as it is: `armill robots FILE`, `armill pose FILE`",
+            "use it directly: `armill robots FILE`, `armill pose FILE`",
         ));
     }
     read(path, requested)
 }
 
 /// The robot of the file at `path`, called after it.
-fn read(path: &Path, requested: &Wanted) -> Result<RobotDescription, StudyError> {
+fn read(path: &Path, requested: &RobotReadOptions) -> Result<RobotDescription, StudyError> {
     let shown = path.display();
     let bytes = input::read(path).map_err(|error| {
-        let hint = "in a study, paths count from the folder of the study file";
+        let hint = "in a study, paths are relative to the folder of the study file";
         StudyError::value(format!("cannot read robot file {shown}: {error}"), hint)
     })?;
     let id = path
@@ -97,7 +97,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_unknown_robot_is_told_with_the_one_most_like_it() {
+    fn an_unknown_robot_is_refused_with_the_most_similar_name() {
         let error = find("yaskawa/mh21", Path::new(".")).unwrap_err().to_string();
         assert!(
             error.contains("`yaskawa/mh21`") && error.contains("`yaskawa/mh12`"),
@@ -106,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn a_missing_file_is_told_with_its_path() {
+    fn a_missing_file_is_reported_with_its_path() {
         let error = find("no-such.urdf", Path::new("/nowhere"))
             .unwrap_err()
             .to_string();
@@ -114,12 +114,12 @@ mod tests {
     }
 
     #[test]
-    fn an_ending_that_nobody_reads_says_what_is_understood() {
+    fn an_unknown_extension_is_refused_with_the_known_formats() {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("arm.step"), "ISO-10303-21;").unwrap();
         let error = find("arm.step", folder.path()).unwrap_err().to_string();
         assert!(
-            error.contains("`.step` is the ending of no robot file"),
+            error.contains("`.step` is not an ending of robot files"),
             "{error}"
         );
         assert!(error.contains(".xacro"), "{error}");
@@ -127,7 +127,7 @@ mod tests {
 
     #[test]
     fn a_file_of_ours_is_not_imported() {
-        let error = import(Path::new("arm.toml"), &Wanted::default())
+        let error = import(Path::new("arm.toml"), &RobotReadOptions::default())
             .unwrap_err()
             .to_string();
         assert!(error.contains("already"), "{error}");

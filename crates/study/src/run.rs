@@ -1,13 +1,13 @@
-//! Runs a study: every ask through the core.
+//! Runs a study: every analysis with the core.
 //!
-//! | ask | door of the core | what comes out |
+//! | analysis | function of the core | result |
 //! |---|---|---|
 //! | map, sections | `plane_map`, once a plane | a `PlaneMap` each |
 //! | volume | `volume_map` | a `VolumeMap` |
-//! | holes | `holes_held` | a `HolesFound` |
-//! | path | `along_path`, then `worst_points`, `jumps`, `radial_deviations`, `program_limits` | a [`PathFound`] |
+//! | holes | `hole_postures` | a `HolesFound` |
+//! | path | `along_path`, then `worst_points`, `jumps`, `radial_deviations`, `program_limits` | a [`PathResult`] |
 //!
-//! Asks are done one after the other, the points of each on all threads. What comes out keeps hold of what was asked,
+//! Analyses are run one after the other, the points of each on all threads. A result borrows its analysis,
 //! so that answers and pictures need nothing else.
 
 use armill_core::frame::Isometry;
@@ -18,8 +18,10 @@ use armill_core::map::{
     plane_map, program_limits, radial_deviations, volume_map, worst_points,
 };
 use armill_core::nalgebra::{Point3, Translation3, UnitQuaternion};
-use armill_core::optimize::{Goal, HolesFound, PostureFound, PostureSearch, holes_held, postures_along};
-use armill_core::path::{ForcesTold, NoForces, Shape, Stock, Track};
+use armill_core::optimize::{
+    HolesFound, Objective, PostureFound, PostureSearch, hole_postures, postures_along,
+};
+use armill_core::path::{ForceSummary, NoForces, Shape, Stock, Track};
 use armill_core::robot::{JointCompliance, Robot};
 use armill_core::source::Arm;
 use armill_core::spatial::Wrench;
@@ -29,28 +31,28 @@ use armill_core::workpiece::Plane;
 use crate::error::StudyError;
 use crate::file::holes::HolesAnalysis;
 use crate::file::path::PathAnalysis;
-use crate::file::resolve::{Ask, Setting, Sheet, Study, Subject};
+use crate::file::resolve::{Analysis, Setting, Sheet, Study, Subject};
 
-/// One ask, done.
+/// The result of one analysis.
 #[derive(Clone, Debug)]
-pub struct Done<'a> {
+pub struct AnalysisResult<'a> {
     /// Its name.
     pub name: &'a str,
-    /// What came out.
-    pub found: Found<'a>,
+    /// Its data.
+    pub found: AnalysisData<'a>,
 }
 
-/// What came out of one ask, beside what was asked.
+/// The data of one result, with the analysis they belong to.
 #[derive(Clone, Debug)]
-pub enum Found<'a> {
+pub enum AnalysisData<'a> {
     /// One plane.
     Map(&'a Sheet, PlaneMap),
-    /// Several planes, in the order asked.
+    /// Several planes, in the order of the study.
     Sections(Vec<Section<'a>>),
     /// A box of points.
     Volume(&'a Setting, VolumeMap),
     /// A path.
-    Path(&'a PathAnalysis, Box<PathFound>),
+    Path(&'a PathAnalysis, Box<PathResult>),
     /// Holes.
     Holes(&'a HolesAnalysis, Box<HolesFound>),
 }
@@ -58,64 +60,64 @@ pub enum Found<'a> {
 /// One plane of a series.
 #[derive(Clone, Debug)]
 pub struct Section<'a> {
-    /// What tells it from the others.
+    /// Its label.
     pub label: &'a str,
-    /// What was asked.
+    /// Its plane and setting.
     pub sheet: &'a Sheet,
-    /// What came out.
+    /// Its result.
     pub map: PlaneMap,
 }
 
-/// What came out along a path.
+/// The result along a path.
 #[derive(Clone, Debug)]
-pub struct PathFound {
+pub struct PathResult {
     /// Its deviation.
     pub along: AlongPath,
-    /// Where it is worst, worst first, each from another part of the path.
-    pub worst: Vec<InFull>,
-    /// Where the arm jumps, as many as are told and one more.
+    /// The worst points, worst first, each from another part of the path.
+    pub worst: Vec<PointDetail>,
+    /// Where the arm jumps, as many as are reported and one more.
     pub jumps: Vec<Jump>,
-    /// On a circle that is a shape: what becomes of it under each load case.
+    /// On a circle that is a shape: its deviation under each load case.
     pub radial: Vec<RadialDeviation>,
-    /// What is worth telling of its forces, where a cut or drill makes them.
-    pub forces: Option<ForcesTold>,
-    /// What keeps the tolerance, where that was asked and can be told.
+    /// Statistics of its forces, if a cut or drill produces them.
+    pub forces: Option<ForceSummary>,
+    /// The process limits, if they were requested and can be computed.
     pub limits: Option<ProgramLimits>,
-    /// Turns and branches that were searched for, where they were.
-    pub searched: Option<Searched>,
+    /// The search for spins and branches, if there was one.
+    pub searched: Option<SearchResult>,
 }
 
-/// Turns of the tool and branches along a path.
+/// A search for spins of the tool and branches along a path.
 #[derive(Clone, Debug)]
-pub struct Searched {
-    /// What was found.
+pub struct SearchResult {
+    /// The result of the search.
     pub posture: PostureFound,
-    /// The path with the turn and the branch that it has without.
-    pub as_asked: Answers,
+    /// The path with the spin and the branch that it has without the search.
+    pub without_search: Answers,
 }
 
-/// One point of a path, asked with shares and uncertainty on a plane across the tool.
+/// One point of a path, evaluated with shares and uncertainty on a plane across the tool.
 #[derive(Clone, Debug)]
-pub struct InFull {
+pub struct PointDetail {
     /// Which point.
     pub index: usize,
-    /// How it was asked.
+    /// Its setting.
     pub setting: Setting,
-    /// The answer, alone.
+    /// Its answer.
     pub answers: Answers,
 }
 
-/// Points told as worst at most.
+/// Number of worst points that are reported.
 const WORST: usize = 5;
-/// Jumps told at most.
+/// Number of jumps that are reported.
 pub(crate) const MOST_JUMPS: usize = 10;
 
-/// How many points the study asks for.
+/// The number of points of the study.
 ///
 /// The points that the progress of `run` ends at: those of a path in a stock count twice, since the stock is cut in a
 /// pass of its own.
 pub fn point_count(study: &Study) -> usize {
-    let of = |analysis: &Ask| match &analysis.subject {
+    let of = |analysis: &Analysis| match &analysis.subject {
         Subject::Map(sheet) => sheet.grid.len(),
         Subject::Sections(sections) => sections.iter().map(|(_, sheet)| sheet.grid.len()).sum(),
         Subject::Volume(_, grid) => grid.len(),
@@ -125,28 +127,28 @@ pub fn point_count(study: &Study) -> usize {
     study.analyses.iter().map(of).sum()
 }
 
-/// How often a path is passed over until it is followed: a stock is cut in a pass of its own, and a search answers the path
-/// without it too and passes over the lattice once or twice; where turning back has a price once more, and answers two
-/// chains.
+/// The number of passes over a path: a stock is cut in a separate pass. A search also evaluates the
+/// path without it and passes over the lattice once or twice; if reversals have a penalty, once more, and evaluates
+/// two chains.
 pub(crate) fn passes(path: &PathAnalysis) -> usize {
     let searched = path.setting.search.map_or(0, |search| {
-        let worst = usize::from(search.objective == Goal::Worst);
+        let worst = usize::from(search.objective == Objective::Worst);
         2 + worst + if search.back_price > 0.0 { 3 } else { 0 }
     });
     1 + searched + usize::from(path.has_stock())
 }
 
-/// All asks of the study, done in its order on the threads of the current rayon pool.
+/// All analyses of the study, done in its order on the threads of the current rayon pool.
 ///
 /// # Errors
 /// Cancelled by the watch; a robot without compliance; a path that misses its stock.
 ///
-/// `watch` hears of every point and may cancel. The same study gives the same values on any number of threads.
-pub fn run<'a>(study: &'a Study, watch: Watch<'_>) -> Result<Vec<Done<'a>>, StudyError> {
+/// `watch` is notified of every point and may cancel. The same study gives the same values on any number of threads.
+pub fn run<'a>(study: &'a Study, watch: Watch<'_>) -> Result<Vec<AnalysisResult<'a>>, StudyError> {
     let runner = runner(study, watch)?;
-    let done = |analysis: &'a Ask| {
+    let done = |analysis: &'a Analysis| {
         let found = runner.find(analysis)?;
-        Ok(Done {
+        Ok(AnalysisResult {
             name: &analysis.name,
             found,
         })
@@ -154,7 +156,7 @@ pub fn run<'a>(study: &'a Study, watch: Watch<'_>) -> Result<Vec<Done<'a>>, Stud
     study.analyses.iter().map(done).collect()
 }
 
-/// What asks of this study are done with.
+/// Runs the analyses of this study.
 ///
 /// # Errors
 /// A robot without compliance.
@@ -171,10 +173,10 @@ pub(crate) fn runner<'a>(study: &'a Study, watch: Watch<'a>) -> Result<Runner<'a
     })
 }
 
-/// What to ask oneself where a path and its stock do not meet.
-const BESIDE_STOCK: &str = "is the stock where the program cuts?";
+/// Hint for a program that does not meet its stock.
+const STOCK_HINT: &str = "check the position of the stock relative to the program";
 
-/// A path that misses its stock would hold any tolerance.
+/// A path that misses its stock would be within any tolerance.
 fn nothing_cut(analysis: &PathAnalysis, stock: &Stock) -> StudyError {
     let mm = |corners: [Point3<f64>; 2]| {
         let [low, high] =
@@ -182,55 +184,55 @@ fn nothing_cut(analysis: &PathAnalysis, stock: &Stock) -> StudyError {
         format!("{low} to {high} mm")
     };
     let message = format!(
-        "{}: the program cuts nothing of its stock: the cuts go from {}, the stock from {}",
+        "{}: the program cuts nothing of its stock: the cuts extend from {}, the stock from {}",
         analysis.shown(),
         mm(analysis.track.path.corners()),
         mm(stock.corners())
     );
-    StudyError::value(message, BESIDE_STOCK)
+    StudyError::value(message, STOCK_HINT)
 }
 
-/// The robot of the study, and who watches.
+/// The robot of the study, and the watch.
 pub(crate) struct Runner<'a> {
     /// The arm.
     pub robot: &'a Robot,
     compliance: &'a [JointCompliance],
-    /// Who hears of the work.
+    /// Receives the progress.
     pub watch: Watch<'a>,
 }
 
 /// A path as it is followed.
 pub(crate) struct Followed {
-    /// The path with the turns that a search found; `None` without a search.
+    /// The path with the spins that a search found; `None` without a search.
     pub turned: Option<Track>,
-    /// What came out along it.
+    /// The answers along it.
     pub along: AlongPath,
-    /// What the search found.
-    pub searched: Option<Searched>,
+    /// The result of the search.
+    pub searched: Option<SearchResult>,
 }
 
 impl Runner<'_> {
-    /// What comes out of one ask.
-    fn find<'s>(&self, analysis: &'s Ask) -> Result<Found<'s>, StudyError> {
+    /// The result of one analysis.
+    fn find<'s>(&self, analysis: &'s Analysis) -> Result<AnalysisData<'s>, StudyError> {
         Ok(match &analysis.subject {
-            Subject::Map(sheet) => Found::Map(sheet, self.map(sheet)?),
+            Subject::Map(sheet) => AnalysisData::Map(sheet, self.map(sheet)?),
             Subject::Sections(sections) => {
                 let section = |(label, sheet): &'s (String, Sheet)| {
                     let map = self.map(sheet)?;
                     Ok(Section { label, sheet, map })
                 };
-                Found::Sections(sections.iter().map(section).collect::<Result<_, StudyError>>()?)
+                AnalysisData::Sections(sections.iter().map(section).collect::<Result<_, StudyError>>()?)
             }
             Subject::Volume(setting, grid) => {
                 let question = self.question(setting);
-                Found::Volume(setting, volume_map(&question, setting.plane, *grid, self.watch)?)
+                AnalysisData::Volume(setting, volume_map(&question, setting.plane, *grid, self.watch)?)
             }
-            Subject::Path(path) => Found::Path(path, Box::new(self.path(path)?)),
+            Subject::Path(path) => AnalysisData::Path(path, Box::new(self.path(path)?)),
             Subject::Holes(holes) => {
                 let (path, question) = (&holes.path, self.question(&holes.path.setting));
                 let of = (&path.track, &path.load);
-                let found = holes_held(&question, of, &holes.search, self.watch)?;
-                Found::Holes(holes, Box::new(found))
+                let found = hole_postures(&question, of, &holes.search, self.watch)?;
+                AnalysisData::Holes(holes, Box::new(found))
             }
         })
     }
@@ -242,7 +244,7 @@ impl Runner<'_> {
     }
 
     /// The answers along a path, and all that follows from them in the branch that was followed.
-    pub(crate) fn path(&self, analysis: &PathAnalysis) -> Result<PathFound, StudyError> {
+    pub(crate) fn path(&self, analysis: &PathAnalysis) -> Result<PathResult, StudyError> {
         let (load, forces) = self.pushed(analysis)?;
         let question = self.question(&analysis.setting);
         let Followed {
@@ -251,12 +253,18 @@ impl Runner<'_> {
             searched,
         } = self.follow(analysis, load)?;
         let track = turned.as_ref().unwrap_or(&analysis.track);
-        let limits = match analysis.tells_limits() {
-            true => program_limits(&question, &analysis.track, &along, analysis.setting.limit, self.watch)?,
+        let limits = match analysis.reports_limits() {
+            true => program_limits(
+                &question,
+                &analysis.track,
+                &along,
+                analysis.setting.tolerance,
+                self.watch,
+            )?,
             false => None,
         };
         let worst = worst_points(&analysis.track, &along.answers, WORST);
-        Ok(PathFound {
+        Ok(PathResult {
             worst: worst
                 .into_iter()
                 .map(|index| self.in_full((analysis, track), &along, index))
@@ -265,7 +273,9 @@ impl Runner<'_> {
                 .take(MOST_JUMPS + 1)
                 .collect(),
             radial: match analysis.shape() {
-                Some(Shape::Circle { centre, .. }) => radial_deviations(&analysis.track, &along.answers, *centre),
+                Some(Shape::Circle { centre, .. }) => {
+                    radial_deviations(&analysis.track, &along.answers, *centre)
+                }
                 _ => Vec::new(),
             },
             along,
@@ -275,7 +285,7 @@ impl Runner<'_> {
         })
     }
 
-    /// The path under this load, turned as a search finds it where one is asked for.
+    /// The path under this load, with the spins of the search if one is requested.
     pub(crate) fn follow(&self, analysis: &PathAnalysis, load: PathLoad) -> Result<Followed, StudyError> {
         let question = self.question(&analysis.setting);
         let Some(search) = &analysis.setting.search else {
@@ -296,19 +306,30 @@ impl Runner<'_> {
         })
     }
 
-    /// The best turns and branches along a path, and the path as it is without them.
-    fn search(&self, analysis: &PathAnalysis, load: &PathLoad, search: &PostureSearch) -> Result<Searched, StudyError> {
+    /// The best spins and branches along a path, and the path without them.
+    fn search(
+        &self,
+        analysis: &PathAnalysis,
+        load: &PathLoad,
+        search: &PostureSearch,
+    ) -> Result<SearchResult, StudyError> {
         let question = self.question(&analysis.setting);
-        let as_asked = along_path(&question, &analysis.track, load.clone(), self.watch)?;
-        Ok(Searched {
-            as_asked: as_asked.answers,
+        let without_search = along_path(&question, &analysis.track, load.clone(), self.watch)?;
+        Ok(SearchResult {
+            without_search: without_search.answers,
             posture: postures_along(&question, (&analysis.track, load), search, self.watch)?,
         })
     }
 
-    /// What pushes along a path: of a cut in a stock what the tool meets there.
-    pub(crate) fn pushed(&self, analysis: &PathAnalysis) -> Result<(PathLoad, Option<ForcesTold>), StudyError> {
-        let in_stock = analysis.cut.as_ref().and_then(|cut| Some((cut, cut.stock.clone()?)));
+    /// The load along a path: of a cut in a stock from the engagement of the tool there.
+    pub(crate) fn pushed(
+        &self,
+        analysis: &PathAnalysis,
+    ) -> Result<(PathLoad, Option<ForceSummary>), StudyError> {
+        let in_stock = analysis
+            .cut
+            .as_ref()
+            .and_then(|cut| Some((cut, cut.stock.clone()?)));
         let Some((cut, mut stock)) = in_stock else {
             return Ok((analysis.load.clone(), analysis.forces));
         };
@@ -316,22 +337,22 @@ impl Runner<'_> {
         let found = cut.cutting.along(path, placing, Some(&mut stock), self.watch);
         let found = found.map_err(|error| match error {
             NoForces::Cancelled => StudyError::Cancelled(Cancelled),
-            error => StudyError::value(format!("{}: {error}", analysis.shown()), BESIDE_STOCK),
+            error => StudyError::value(format!("{}: {error}", analysis.shown()), STOCK_HINT),
         })?;
         if found.cuts.points.iter().all(|here| here.cut.is_none()) {
             return Err(nothing_cut(analysis, &stock));
         }
-        Ok((PathLoad::Cuts(found.cuts), Some(found.given)))
+        Ok((PathLoad::Cuts(found.cuts), Some(found.summary)))
     }
 
-    /// One point of a path asked by itself: under the forces found there, in the branch that was followed, on a plane
-    /// through the TCP across the tool, so that shares and uncertainty are told.
+    /// One point of a path evaluated separately: under the forces found there, in the branch that was followed, on a
+    /// plane through the TCP across the tool, so that shares and uncertainty are available.
     fn in_full(
         &self,
         (analysis, track): (&PathAnalysis, &Track),
         along: &AlongPath,
         index: usize,
-    ) -> Result<InFull, Cancelled> {
+    ) -> Result<PointDetail, Cancelled> {
         let mut cases = vec![Wrench::ZERO; along.answers.case_count];
         track.wrenches(&along.load, index, &mut cases);
         let stop = track.stop(index);
@@ -346,26 +367,26 @@ impl Runner<'_> {
             tilt: None,
             cases,
             choice: along.choice_at(index),
-            // The arm stands as it does on the path, whatever its joints to spare.
+            // The posture is that of the path, whatever the redundant joints.
             home: Some(along.answers.joints_at(index).to_vec()),
             ..analysis.setting.clone()
         };
         let question = self.question(&setting);
-        let answers = match &along.unloaded {
+        let answers = match &along.backlash_geometry {
             Some(unloaded) => {
-                let dragged = unloaded.dragged_at(index, along.answers.joint_count);
-                evaluate_on_path(&question, &stop.base_from_tool, dragged)
+                let link_offsets = unloaded.link_offsets_at(index, along.answers.joint_count);
+                evaluate_on_path(&question, &stop.base_from_tool, link_offsets)
             }
             None => evaluate(&question, 1, |_| stop.base_from_tool, Watch::NONE)?,
         };
-        Ok(InFull {
+        Ok(PointDetail {
             index,
             setting,
             answers,
         })
     }
 
-    /// What the core is asked under this setting.
+    /// The question for the core under this setting.
     pub(crate) fn question<'q>(&'q self, setting: &'q Setting) -> Question<'q> {
         Question {
             arm: Arm {

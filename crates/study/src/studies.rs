@@ -1,6 +1,6 @@
 //! Finding the study that a user means: a folder, a file, or an example by name.
 //!
-//! A folder means the `study.toml` in it. What is on disk comes before an example of the same name.
+//! A folder means the `study.toml` in it. A file on disk has precedence over an example of the same name.
 
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -13,12 +13,12 @@ use crate::file::format::StudyFile;
 use crate::file::resolve::{Study, read, read_changed};
 use crate::library;
 
-/// A study as it was found.
+/// A study that was found.
 #[derive(Clone, Debug)]
 pub struct FoundStudy {
     /// What errors call the file.
     pub shown: String,
-    /// Folder that robot files are looked for in, and where `out` goes.
+    /// Folder to which robot files are relative, and for `out`.
     pub folder: PathBuf,
     /// The file.
     pub bytes: Vec<u8>,
@@ -33,7 +33,7 @@ impl FoundStudy {
         read(&self.shown, &self.folder, &self.bytes)
     }
 
-    /// The study with what `change` makes of its file, checked.
+    /// The study after `change` of its file, checked.
     ///
     /// # Errors
     /// Every problem of the file.
@@ -42,7 +42,7 @@ impl FoundStudy {
     }
 }
 
-/// The study at `given`; an example of the library where nothing of that name is on disk.
+/// The study at `given`; an example of the library if there is nothing of that name on disk.
 ///
 /// # Errors
 /// Neither; a file that cannot be read.
@@ -65,7 +65,7 @@ pub fn find(given: &Path) -> Result<FoundStudy, StudyError> {
 }
 
 /// A study that runs; FILE is filled in.
-const SMALLEST: &str = r#"a program tells neither its robot nor what pushes on the tool. Write a study.toml beside it, such as
+const SMALLEST: &str = r#"a program contains neither the robot nor the forces on the tool. Write a study.toml next to it, such as
 
     format = 1
     robot = "yaskawa/mh12"            # `armill robots` lists them
@@ -77,12 +77,12 @@ const SMALLEST: &str = r#"a program tells neither its robot nor what pushes on t
     kind = "path"
     program = { file = "FILE" }
 
-  and name its folder here."#;
+  and give its folder here."#;
 
-/// Tells that a program was given where a study belongs.
+/// Refuses a program in place of a study.
 fn refuse_program(file: &Path) -> Result<(), StudyError> {
     let is_study = file.extension().is_some_and(|ending| ending == "toml");
-    // What is read of a pipe is gone.
+    // Reading a pipe would consume it.
     if is_study || !file.is_file() {
         return Ok(());
     }
@@ -115,15 +115,15 @@ fn example(given: &Path, shown: &str) -> Result<FoundStudy, StudyError> {
         return Err(StudyError::value(
             format!("no study at {shown}"),
             format!(
-                "make one with `armill new DIR`, or run an example: {}",
+                "create one with `armill new DIR`, or run an example: {}",
                 examples.join(", ")
             ),
         ));
     };
     let [(_, example)] = files[..] else {
         return Err(StudyError::value(
-            format!("the example {name} is not there as a folder, and its study needs the files beside it"),
-            format!("`armill new {name} --example {name}` makes it"),
+            format!("the example {name} is not there as a folder, and its study needs the other files in it"),
+            format!("`armill new {name} --example {name}` creates it"),
         ));
     };
     Ok(FoundStudy {
@@ -138,7 +138,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_example_is_found_by_name_and_what_is_none_is_told_with_those_there_are() {
+    fn an_example_is_found_by_name_and_an_unknown_one_is_refused_with_the_list() {
         let found = find(Path::new("studies/mh12-groove")).unwrap();
         assert_eq!(found.shown, "studies/mh12-groove/study.toml");
         assert!(found.read().is_ok());

@@ -39,7 +39,7 @@ fn every_arm_with_a_spherical_wrist_has_its_closed_form_inverse() {
 }
 
 #[test]
-fn arms_reach_what_their_names_say() {
+fn robots_reach_as_far_as_their_names_say() {
     // Type names and, for the MH12, the catalogue's 1440 mm; names are rounded to 10 mm, or to 100 mm (R700, R2700).
     for (name, mm, rounding) in [
         ("yaskawa/mh12", 1440.0, 10.0),
@@ -59,7 +59,7 @@ fn arms_reach_what_their_names_say() {
 }
 
 #[test]
-fn nominal_branch_stands_inside_limits_before_the_robot() {
+fn nominal_branch_is_inside_limits_before_the_robot() {
     for entry in library::ROBOTS {
         let robot = robot(entry.name);
         let (Some(_), Some(reach)) = (robot.ortho_parallel(), reach(&robot)) else {
@@ -92,7 +92,7 @@ fn nominal_branch_stands_inside_limits_before_the_robot() {
 }
 
 #[test]
-fn tx200_stands_where_its_source_says() {
+fn tx200_is_posed_as_in_its_source() {
     // Published: TCP of q = (-90, 30, 95, 0, 0, 0) deg, tool (0.277, 0, 0.326; 0, 1.3089969, 0) on the flange.
     let tool = from_xyz_and_fixed_angles(
         Vector3::new(0.277, 0.0, 0.326),
@@ -112,7 +112,7 @@ fn tx200_stands_where_its_source_says() {
 
 #[test]
 fn fanuc_r2000ic_counts_joint_3_from_the_horizontal() {
-    // J2 turns the upper arm; with J3 held on the pendant the forearm keeps its direction.
+    // J2 turns the upper arm; with J3 constant on the pendant the forearm keeps its direction.
     let forearm = |j2: f64| {
         let q = [0.0, j2, 20.0, 0.0, 0.0, 0.0];
         let elbow = [
@@ -160,7 +160,7 @@ fn ur_arms_follow_the_closed_form_of_their_dh_rows() {
 }
 
 #[test]
-fn the_iiwa_stands_upright_at_zero_and_leans_forward_by_its_second_joint() {
+fn the_iiwa_is_upright_at_zero_and_leans_forward_by_its_second_joint() {
     let name = "kuka/lbr-iiwa-14-r820";
     assert_near(flange_mm(name, &[0.0; 7]), [0.0, 0.0, 1306.0], 1e-9);
     assert_near(
@@ -209,7 +209,7 @@ fn every_arm_gives_back_the_joints_that_made_the_pose() {
             // A step of its own for each joint, the root of a prime: nothing repeats.
             let part = |i: usize| ((trip + 1) as f64 * PRIMES[i].sqrt()).fract();
             let within = |(i, joint): (usize, &armill_core::robot::Joint)| {
-                // Joints whose limits nobody publishes turn once.
+                // Joints without published limits turn once.
                 let [lower, upper] = joint
                     .limits
                     .map_or([-PI, PI], |limits| [limits.lower, limits.upper]);
@@ -221,7 +221,7 @@ fn every_arm_gives_back_the_joints_that_made_the_pose() {
                 continue;
             }
             poses += 1;
-            // A joint to spare stands where it stood.
+            // A redundant joint keeps its position.
             let at = ToolAt {
                 flange_from_tool: &tool,
                 near: None,

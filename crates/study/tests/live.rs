@@ -1,4 +1,4 @@
-//! What a page is told of a study that is being written is what the whole run says of it.
+//! The results for a study that is being edited are those of the complete run.
 
 // A panic is how a test says that its claim is false; helper functions too.
 #![allow(clippy::unwrap_used, clippy::panic)]
@@ -9,10 +9,10 @@ use armill_core::watch::Watch;
 use armill_formats::file::Writer;
 use armill_study::answer::answer;
 use armill_study::live::{
-    ChangedValue, Follow, Place, PostureQuestion, Stand, Text, answer_json, changed, outline, pictures,
-    postures, scene, table_csv, values, view,
+    ChangedValue, Follow, PoseRequest, PoseTarget, PostureQuestion, StudyText, answer_json, changed, outline,
+    pictures, postures, scene, table_csv, values, view,
 };
-use armill_study::output::{self, Wanted};
+use armill_study::output::{self, OutputOptions};
 use armill_study::run::run;
 use armill_study::studies::{self, FoundStudy};
 use serde_json::{Value, json};
@@ -21,8 +21,8 @@ fn example(name: &str) -> FoundStudy {
     studies::find(Path::new(name)).unwrap()
 }
 
-fn text(found: &FoundStudy) -> Text<'_> {
-    Text {
+fn text(found: &FoundStudy) -> StudyText<'_> {
+    StudyText {
         shown: &found.shown,
         folder: &found.folder,
         bytes: &found.bytes,
@@ -37,7 +37,7 @@ fn answer_table_and_pictures_are_the_files_of_a_run() {
     let whole = answer(&study, &done);
     let folder = tempfile::tempdir().unwrap();
     let out = Writer::new("run", false).folder(folder.path()).unwrap();
-    output::write(&study, &done, &whole, (&out, Wanted::USUAL), &|_| ()).unwrap();
+    output::write(&study, &done, &whole, (&out, OutputOptions::USUAL), &|_| ()).unwrap();
     let file = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
 
     let given = answer_json(text(&found), None, Watch::NONE).unwrap();
@@ -63,13 +63,13 @@ fn answer_table_and_pictures_are_the_files_of_a_run() {
 }
 
 #[test]
-fn one_ask_alone_answers_as_among_the_others() {
+fn one_analysis_alone_gives_the_same_result_as_among_the_others() {
     let found = example("mh12-groove");
     let whole: Value = serde_json::from_str(&answer_json(text(&found), None, Watch::NONE).unwrap()).unwrap();
     for kind in ["maps", "paths", "volumes", "holes"] {
-        for of_ask in whole[kind].as_array().unwrap() {
-            let name = of_ask["name"].as_str().unwrap();
-            // A section is no ask.
+        for of_analysis in whole[kind].as_array().unwrap() {
+            let name = of_analysis["name"].as_str().unwrap();
+            // A section is not an analysis.
             let analysis = name
                 .split(": x = ")
                 .next()
@@ -77,20 +77,20 @@ fn one_ask_alone_answers_as_among_the_others() {
                 .unwrap();
             let alone = answer_json(text(&found), Some(analysis), Watch::NONE).unwrap();
             let alone: Value = serde_json::from_str(&alone).unwrap();
-            assert!(alone[kind].as_array().unwrap().contains(of_ask), "{name}");
+            assert!(alone[kind].as_array().unwrap().contains(of_analysis), "{name}");
         }
     }
     let error = answer_json(text(&found), Some("nothing"), Watch::NONE).unwrap_err();
     assert!(
-        error.to_string().contains("no ask is called `nothing`"),
+        error.to_string().contains("no analysis is called `nothing`"),
         "{error}"
     );
 }
 
 const BROKEN: &str = "format = 1\nrobot = \"yaskawa/mh12\"\ntolerance_um = 100\nload = { cases_n = [[3, 5, 5]] }\nplane = { centre_mm = [1000, 0, 800], half_size_mm = 100, step_mm = 50 }\n[[analysis]]\nkind = \"map\"\nname = \"good\"\n[[analysis]]\nkind = \"map\"\nname = \"bad\"\nplane = { step_mm = -1 }\n";
 
-fn of(bytes: &str) -> Text<'_> {
-    Text {
+fn of(bytes: &str) -> StudyText<'_> {
+    StudyText {
         shown: "study.toml",
         folder: Path::new("."),
         bytes: bytes.as_bytes(),
@@ -98,9 +98,13 @@ fn of(bytes: &str) -> Text<'_> {
 }
 
 #[test]
-fn a_broken_ask_is_told_and_leaves_the_others_alone() {
+fn an_invalid_analysis_is_reported_and_leaves_the_others_alone() {
     let given = outline(of(BROKEN));
-    let names: Vec<&str> = given.analyses.iter().map(|analysis| analysis.name.as_str()).collect();
+    let names: Vec<&str> = given
+        .analyses
+        .iter()
+        .map(|analysis| analysis.name.as_str())
+        .collect();
     assert_eq!(names, ["good", "bad"]);
     assert_eq!(given.analyses[1].keys, ["kind", "name", "plane.step_mm"]);
     assert_eq!((given.problems.len(), given.problems[0].line()), (1, 12));
@@ -113,7 +117,7 @@ fn a_broken_ask_is_told_and_leaves_the_others_alone() {
 }
 
 #[test]
-fn a_change_in_an_ask_mends_it_and_comments_stay() {
+fn a_change_in_an_analysis_corrects_it_and_comments_stay() {
     let commented = BROKEN.replace("tolerance_um = 100", "tolerance_um = 100 # of the drawing");
     let change = ChangedValue {
         key: "plane.step_mm".to_owned(),
@@ -126,8 +130,8 @@ fn a_change_in_an_ask_mends_it_and_comments_stay() {
 }
 
 #[test]
-fn asks_and_lists_inside_of_them_are_added_and_taken_away_with_comments_kept() {
-    let text = "format = 1\nrobot = \"yaskawa/mh12\"\ntolerance_um = 100\nload = { cases_n = [[3, 5, 5]] }\nplane = { centre_mm = [1000, 0, 800], half_size_mm = 100, step_mm = 50 }\n\n# what is asked\n\n# the plate\n[[analysis]]\nkind = \"map\" # all of it\n# a remark\n";
+fn analyses_and_lists_in_them_are_added_and_removed_with_comments_kept() {
+    let text = "format = 1\nrobot = \"yaskawa/mh12\"\ntolerance_um = 100\nload = { cases_n = [[3, 5, 5]] }\nplane = { centre_mm = [1000, 0, 800], half_size_mm = 100, step_mm = 50 }\n\n# the analyses\n\n# the plate\n[[analysis]]\nkind = \"map\" # all of it\n# a remark\n";
     let with = |text: &str, key: &str, value: Value| {
         let change = ChangedValue {
             key: key.to_owned(),
@@ -138,7 +142,7 @@ fn asks_and_lists_inside_of_them_are_added_and_taken_away_with_comments_kept() {
     };
     let more = with(text, "analysis[1]", json!({"kind": "path"}));
     assert_eq!(more.text, format!("{text}\n[[analysis]]\nkind = \"path\"\n"));
-    // What a path needs is told where it is missing.
+    // Missing fields of a path are reported at their positions.
     assert_eq!(
         (more.analyses.len(), more.problems[0].line()),
         (2, 14),
@@ -162,14 +166,14 @@ fn asks_and_lists_inside_of_them_are_added_and_taken_away_with_comments_kept() {
     let back = with(&spring.text, "analysis[1].tool.spring[0]", Value::Null);
     assert_eq!(back.text, round.text);
     assert_eq!(with(&back.text, "analysis[1]", Value::Null).text, text);
-    // The first goes with what is said of it alone; a study without asks means a map.
+    // The first is removed with its comments; a study without analyses means a map.
     let none = with(text, "analysis[0]", Value::Null);
-    assert!(none.text.contains("# what is asked") && !none.text.contains("# the plate"));
+    assert!(none.text.contains("# the analyses") && !none.text.contains("# the plate"));
     assert!(none.problems.is_empty() && none.analyses.len() == 1);
 }
 
 #[test]
-fn the_values_of_an_ask_are_its_own_or_those_of_the_study() {
+fn the_values_of_an_analysis_are_its_own_or_those_of_the_study() {
     let study = BROKEN.replace("step_mm = -1", "tilt_deg = 30");
     let given = values(of(&study), Some("bad")).unwrap();
     assert_eq!(
@@ -188,21 +192,22 @@ fn the_values_of_an_ask_are_its_own_or_those_of_the_study() {
 }
 
 #[test]
-fn a_posture_in_the_plane_deviates_as_the_map_says_there() {
+fn a_posture_in_the_plane_has_the_deviation_of_the_map() {
     let found = example("mh12-groove");
     let map = found.read().unwrap().analyses.iter().find_map(|analysis| {
-        matches!(analysis.subject, armill_study::file::resolve::Subject::Map(_)).then(|| analysis.name.clone())
+        matches!(analysis.subject, armill_study::file::resolve::Subject::Map(_))
+            .then(|| analysis.name.clone())
     });
     let map = map.unwrap();
     let whole: Value =
         serde_json::from_str(&answer_json(text(&found), Some(&map), Watch::NONE).unwrap()).unwrap();
     let worst = &whole["maps"][0]["worst"];
-    let at = Place {
+    let at = PoseTarget {
         y_mm: worst["in_plane_mm"][0].as_f64(),
         z_mm: worst["in_plane_mm"][1].as_f64(),
-        ..Place::default()
+        ..PoseTarget::default()
     };
-    let case = worst["deciding_case"].as_u64().unwrap() as usize;
+    let case = worst["worst_case"].as_u64().unwrap() as usize;
     let question = PostureQuestion {
         analysis: Some(&map),
         at,
@@ -242,7 +247,7 @@ fn a_posture_in_the_plane_deviates_as_the_map_says_there() {
 const CIRCLE: &str = "format = 1\nrobot = \"yaskawa/mh12\"\ntolerance_um = 100\nload = { cases_n = [[3, 5, 5], [-40, 0, 20]] }\ntool = { flange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0] }\nplane = { centre_mm = [1000, 50, 800], tilt_deg = 20, half_size_mm = [100, 60], step_mm = 20 }\n[[analysis]]\nkind = \"path\"\nname = \"rim\"\ncircle = { radius_mm = 50 }\n[[analysis]]\nkind = \"volume\"\nname = \"box\"\nbox = { half_size_mm = [100, 50, 50], step_mm = 50 }\n[[analysis]]\nkind = \"sections\"\nname = \"far\"\ndistances_mm = [900, 1000]\n";
 
 #[test]
-fn points_of_a_path_lie_on_its_plate_and_deviate_as_its_table_says() {
+fn points_of_a_path_are_on_its_plate_and_deviate_as_in_its_table() {
     let given = scene(of(CIRCLE), Some("rim"), Watch::NONE).unwrap();
     let points = given.points.unwrap();
     assert_eq!(points.xyz_mm.len(), 360);
@@ -262,9 +267,9 @@ fn points_of_a_path_lie_on_its_plate_and_deviate_as_its_table_says() {
     // The posture at a point of the path is the one of its table.
     let question = PostureQuestion {
         analysis: Some("rim"),
-        at: Place {
+        at: PoseTarget {
             point: Some(7),
-            ..Place::default()
+            ..PoseTarget::default()
         },
         case: 1,
     };
@@ -288,29 +293,29 @@ fn points_of_a_path_lie_on_its_plate_and_deviate_as_its_table_says() {
 /// A study whose path is cut.
 const POCKET: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../studies/r2000ic-pocket");
 
-/// The in-plane deviation, its uncertainty and its shares that the answer has at the worst point of this ask, beside those
-/// that an arm standing there has in the same posture.
-fn worst_beside_stand(text: Text<'_>, analysis: &str, part: &str) -> [(f64, f64, Vec<f64>); 2] {
-    let stand = Stand {
+/// The in-plane deviation, its uncertainty and its contributions at the worst point of this analysis, and those of
+/// the same posture computed alone.
+fn worst_and_pose(text: StudyText<'_>, analysis: &str, part: &str) -> [(f64, f64, Vec<f64>); 2] {
+    let pose = PoseRequest {
         follow: Follow::Worst,
         at: None,
         section: 0,
         case: None,
     };
-    let given = view(text, Some(analysis), (&[], Some(&stand)), Watch::NONE).unwrap();
+    let given = view(text, Some(analysis), (&[], Some(&pose)), Watch::NONE).unwrap();
     let answer = serde_json::to_value(&given.answer).unwrap();
     let point = answer.pointer(part).unwrap();
-    let stands = given.stands.unwrap();
-    let branches = stands.pose.answer.postures.iter().map(|posture| &posture.branch);
+    let arm = given.arm.unwrap();
+    let branches = arm.pose.answer.postures.iter().map(|posture| &posture.branch);
     let evaluation = branches
-        .zip(&stands.pose.in_plane)
+        .zip(&arm.pose.in_plane)
         .find(|(branch, _)| json!(branch) == point["branch"]);
-    let here = evaluation.unwrap().1[stands.case - 1].clone().unwrap();
+    let here = evaluation.unwrap().1[arm.case - 1].clone().unwrap();
     let length = here.deviation_um.iter().map(|um| um * um).sum::<f64>().sqrt();
     assert!((length - here.full_um).abs() < 1e-6 * length);
-    // One posture has one deviation, whichever part of the answer tells it.
-    for (posture, cases) in stands.pose.answer.postures.iter().zip(&stands.pose.in_plane) {
-        let (Some(total), Some(case)) = (posture.deviation_um, &cases[stands.case - 1]) else {
+    // One posture has one deviation, in every part of the result.
+    for (posture, cases) in arm.pose.answer.postures.iter().zip(&arm.pose.in_plane) {
+        let (Some(total), Some(case)) = (posture.deviation_um, &cases[arm.case - 1]) else {
             panic!("a deviation of {}", posture.branch)
         };
         for (a, b) in total.iter().zip(case.deviation_um) {
@@ -321,16 +326,16 @@ fn worst_beside_stand(text: Text<'_>, analysis: &str, part: &str) -> [(f64, f64,
             );
         }
     }
-    // A place to ask for alone.
+    // A point to compute alone.
     let question = PostureQuestion {
         analysis: Some(analysis),
-        at: stands.at,
-        case: stands.case,
+        at: arm.at,
+        case: arm.case,
     };
     let alone = postures(text, &question, Watch::NONE).unwrap();
     assert_eq!(
         serde_json::to_value(&alone).unwrap(),
-        serde_json::to_value(&stands.pose).unwrap(),
+        serde_json::to_value(&arm.pose).unwrap(),
         "{analysis}"
     );
     let number = |key: &str| point[key].as_f64().unwrap();
@@ -347,7 +352,7 @@ fn worst_beside_stand(text: Text<'_>, analysis: &str, part: &str) -> [(f64, f64,
 }
 
 #[test]
-fn an_arm_at_the_worst_point_deviates_as_the_answer_says_on_a_cut_or_searched_path_and_at_holes_too() {
+fn the_posture_at_the_worst_point_has_the_deviation_of_the_result_for_cuts_searches_and_holes() {
     let pocket = studies::find(Path::new(POCKET)).unwrap();
     // Turns of a tool in line with the flange would change little.
     let bent = CIRCLE.replace("[0, 0, 150, 0, 0, 0]", "[60, 0, 150, 0, 30, 0]");
@@ -365,18 +370,21 @@ fn an_arm_at_the_worst_point_deviates_as_the_answer_says_on_a_cut_or_searched_pa
         (of(&bent), "box", "/volumes/0/worst"),
         (of(&holes), "rivets", "/holes/0/worst_holes/0/point"),
     ] {
-        let [answer, stand] = worst_beside_stand(text, analysis, part);
+        let [answer, pose] = worst_and_pose(text, analysis, part);
         let close = |a: f64, b: f64| (a - b).abs() < 1e-6 * a.abs().max(1.0);
-        assert!(close(answer.0, stand.0), "{analysis}: {} {}", answer.0, stand.0);
-        assert!(close(answer.1, stand.1), "{analysis}: {} {}", answer.1, stand.1);
-        assert!(answer.2.iter().zip(&stand.2).all(|(a, b)| close(*a, *b)), "{analysis}");
+        assert!(close(answer.0, pose.0), "{analysis}: {} {}", answer.0, pose.0);
+        assert!(close(answer.1, pose.1), "{analysis}: {} {}", answer.1, pose.1);
+        assert!(
+            answer.2.iter().zip(&pose.2).all(|(a, b)| close(*a, *b)),
+            "{analysis}"
+        );
         found.push(answer.0);
     }
     assert!(found[1] > found[2] + 1.0, "the search finds turns: {found:?}");
 }
 
 #[test]
-fn what_moves_the_tool_without_load_is_in_the_posture_that_the_answer_has() {
+fn deviations_without_load_are_included_in_the_posture_of_the_result() {
     let folder = tempfile::tempdir().unwrap();
     let robot = concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots/yaskawa/mh12.toml");
     let robot = std::fs::read_to_string(robot).unwrap().replace(
@@ -385,7 +393,7 @@ fn what_moves_the_tool_without_load_is_in_the_posture_that_the_answer_has() {
     );
     std::fs::write(folder.path().join("loose.toml"), robot).unwrap();
     let loose = CIRCLE.replace("yaskawa/mh12", "loose.toml");
-    let text = Text {
+    let text = StudyText {
         folder: folder.path(),
         ..of(&loose)
     };
@@ -394,36 +402,41 @@ fn what_moves_the_tool_without_load_is_in_the_posture_that_the_answer_has() {
         ("far", "/maps/0/worst"),
         ("box", "/volumes/0/worst"),
     ] {
-        let [answer, stand] = worst_beside_stand(text, analysis, part);
+        let [answer, pose] = worst_and_pose(text, analysis, part);
         assert!(
-            (answer.0 - stand.0).abs() < 1e-3,
+            (answer.0 - pose.0).abs() < 1e-3,
             "{analysis}: {} {}",
             answer.0,
-            stand.0
+            pose.0
         );
         assert!(
-            (answer.1 - stand.1).abs() < 1e-3,
+            (answer.1 - pose.1).abs() < 1e-3,
             "{analysis}: {} {}",
             answer.1,
-            stand.1
+            pose.1
         );
-        let [without, _] = worst_beside_stand(of(CIRCLE), analysis, part);
-        assert!(answer.0 > without.0 + 1.0, "{analysis}: {} {}", answer.0, without.0);
+        let [without, _] = worst_and_pose(of(CIRCLE), analysis, part);
+        assert!(
+            answer.0 > without.0 + 1.0,
+            "{analysis}: {} {}",
+            answer.0,
+            without.0
+        );
     }
 }
 
 #[test]
-fn the_arm_of_a_view_stands_where_the_answer_says() {
+fn the_arm_of_a_view_has_the_posture_of_the_result() {
     let holes = "[[analysis]]\nkind = \"holes\"\nname = \"rivets\"\nholes = { at_mm = [[0, 0, 0], [40, 20, 0]] }\nposture = { search = { turns_deg = [0, 0] } }\n";
     let study = format!("{CIRCLE}{holes}");
     let shown = |analysis: &str, follow: Follow, section: usize| {
-        let stand = Stand {
+        let pose = PoseRequest {
             follow,
             at: None,
             section,
             case: None,
         };
-        view(of(&study), Some(analysis), (&[], Some(&stand)), Watch::NONE).unwrap()
+        view(of(&study), Some(analysis), (&[], Some(&pose)), Watch::NONE).unwrap()
     };
     for (analysis, follow, section, part) in [
         ("far", Follow::Worst, 1, "/maps/1/worst"),
@@ -435,10 +448,10 @@ fn the_arm_of_a_view_stands_where_the_answer_says() {
         let given = shown(analysis, follow, section);
         let answer = serde_json::to_value(&given.answer).unwrap();
         let point = answer.pointer(part).unwrap();
-        let stands = given.stands.unwrap();
-        assert_eq!(json!(stands.case), point["deciding_case"], "{analysis}");
+        let arm = given.arm.unwrap();
+        assert_eq!(json!(arm.case), point["worst_case"], "{analysis}");
         // Whose posture is that, and does it deviate as the answer says there?
-        let near = stands.pose.answer.postures.iter().zip(&stands.pose.in_plane);
+        let near = arm.pose.answer.postures.iter().zip(&arm.pose.in_plane);
         let most = |cases: &[Option<armill_study::live::CaseAnswer>]| {
             let given = cases.iter().flatten().map(|case| case.in_plane_um);
             given.fold(0.0, f64::max)
@@ -448,31 +461,31 @@ fn the_arm_of_a_view_stands_where_the_answer_says() {
             .map(|(_, cases)| (most(cases) - point["in_plane_um"].as_f64().unwrap()).abs())
             .fold(f64::INFINITY, f64::min);
         assert!(off < 2e-3, "{analysis}: {off}");
-        // A place to ask for alone.
+        // A point to compute alone.
         let question = PostureQuestion {
             analysis: Some(analysis),
-            at: stands.at,
-            case: stands.case,
+            at: arm.at,
+            case: arm.case,
         };
         let alone = postures(of(&study), &question, Watch::NONE).unwrap();
         assert_eq!(
             serde_json::to_value(&alone).unwrap(),
-            serde_json::to_value(&stands.pose).unwrap()
+            serde_json::to_value(&arm.pose).unwrap()
         );
     }
     // A path has no best point, and none of its points has this number.
-    assert!(shown("rim", Follow::Best, 0).stands.is_none());
-    let gone = Stand {
+    assert!(shown("rim", Follow::Best, 0).arm.is_none());
+    let gone = PoseRequest {
         follow: Follow::Place,
-        at: Some(Place {
+        at: Some(PoseTarget {
             point: Some(360),
-            ..Place::default()
+            ..PoseTarget::default()
         }),
         section: 0,
         case: None,
     };
     let given = view(of(CIRCLE), Some("rim"), (&[], Some(&gone)), Watch::NONE).unwrap();
-    assert!(given.stands.is_none() && given.extremes[0].worst.is_some());
+    assert!(given.arm.is_none() && given.extremes[0].worst.is_some());
 }
 
 #[test]
@@ -489,8 +502,8 @@ fn boxes_and_sections_have_theirs() {
 }
 
 #[test]
-fn places_that_are_none_are_refused_in_words() {
-    let refused = |at: Place, analysis: &str| {
+fn refuses_invalid_points_with_a_message() {
+    let refused = |at: PoseTarget, analysis: &str| {
         let question = PostureQuestion {
             analysis: Some(analysis),
             at,
@@ -500,31 +513,31 @@ fn places_that_are_none_are_refused_in_words() {
             .unwrap_err()
             .to_string()
     };
-    let far = Place {
+    let far = PoseTarget {
         xyz_mm: Some([1e10, 0.0, 0.0]),
-        ..Place::default()
+        ..PoseTarget::default()
     };
     assert!(refused(far, "rim").contains("beyond"));
-    let beyond = Place {
+    let beyond = PoseTarget {
         point: Some(360),
-        ..Place::default()
+        ..PoseTarget::default()
     };
     assert!(refused(beyond, "rim").contains("from 0 to 359"));
-    let half = Place {
+    let half = PoseTarget {
         y_mm: Some(0.0),
-        ..Place::default()
+        ..PoseTarget::default()
     };
     assert!(refused(half, "rim").contains("y_mm with z_mm"));
-    let section = Place {
+    let section = PoseTarget {
         y_mm: Some(0.0),
         z_mm: Some(0.0),
         section: Some(2),
-        ..Place::default()
+        ..PoseTarget::default()
     };
     assert!(refused(section, "far").contains("no section 2"));
-    let none = Place {
+    let none = PoseTarget {
         joints_deg: Some(vec![0.0; 5]),
-        ..Place::default()
+        ..PoseTarget::default()
     };
     assert!(refused(none, "rim").contains("5 joint positions"));
 }

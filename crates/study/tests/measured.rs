@@ -15,7 +15,7 @@ use armill_core::watch::Watch;
 use armill_study::answer::{MeasuredAnswer, StudyAnswer, answer};
 use armill_study::file::path::PathAnalysis;
 use armill_study::file::resolve::{Study, read};
-use armill_study::run::{Found, run};
+use armill_study::run::{AnalysisData, run};
 
 /// A horizontal plate in front of an MH12.
 const CELL: &str = r#"format = 1
@@ -37,24 +37,24 @@ side = "down"
 const PROGRAM: &str = "G21 G90 G17\nS9000 M3\nG0 X0 Y0 Z10\nG0 Z0\nG1 X40 F600\nG1 Y20 F300\nG0 Z5\nG0 X0\nG0 Z0\nG1 Y0 F600\nG0 Z10\nM2\n";
 const CUTS_S: f64 = 10.5;
 
-/// A study with this program and whatever its ask has beside.
-fn study(beside: &str, record: &str) -> Result<Study, String> {
-    study_of(PROGRAM, beside, record)
+/// A study with this program and further keys of its analysis.
+fn study(keys: &str, record: &str) -> Result<Study, String> {
+    study_of(PROGRAM, keys, record)
 }
 
-fn study_of(program: &str, beside: &str, record: &str) -> Result<Study, String> {
+fn study_of(program: &str, keys: &str, record: &str) -> Result<Study, String> {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("part.ngc"), program).unwrap();
     fs::write(folder.path().join("record.csv"), record).unwrap();
     let text = format!(
-        "{CELL}{CUT}\n[[analysis]]\nkind = \"path\"\nname = \"part\"\n[analysis.program]\nfile = \"part.ngc\"\n{beside}"
+        "{CELL}{CUT}\n[[analysis]]\nkind = \"path\"\nname = \"part\"\n[analysis.program]\nfile = \"part.ngc\"\n{keys}"
     );
     read("study.toml", folder.path(), text.as_bytes()).map_err(|error| error.to_string())
 }
 
 fn program(study: &Study) -> (&PathAnalysis, AlongPath) {
     match run(study, Watch::NONE).unwrap().remove(0).found {
-        Found::Path(analysis, found) => (analysis, found.along),
+        AnalysisData::Path(analysis, found) => (analysis, found.along),
         _ => panic!("no path"),
     }
 }
@@ -65,7 +65,7 @@ fn reported(study: &Study) -> (StudyAnswer, MeasuredAnswer) {
     (answer, measured)
 }
 
-/// When the tip is at each point, told from the text of the program.
+/// Time of the tip at each point, from the text of the program.
 fn times(analysis: &PathAnalysis) -> Vec<f64> {
     let time = |point: &armill_core::path::PathPoint| match point.line {
         5 => point.along / 0.01,
@@ -174,10 +174,10 @@ fn the_force_of_the_cut_as_a_drifting_record_deviates_as_the_cut() {
     let record = witness.record((13.0, 1000.0, START_S), |force, time, _| {
         turn.inverse() * -force + Vector3::new(5.0, -3.0, 1.0) + Vector3::new(0.5, 0.2, -0.7) * time
     });
-    let beside = format!(
+    let keys = format!(
         "{MEASURED}{AIR}acts_on = \"part\"\nframe = \"base\"\nsensor_turned_deg = 30\nstart_s = {START_S}\n"
     );
-    let ran = study(&beside, &record).unwrap();
+    let ran = study(&keys, &record).unwrap();
     let (analysis, found) = program(&ran);
     let differs = witness.differs(&found, 0, 0.002, 1.0);
     assert!(differs < EXACT, "{differs}");
@@ -191,7 +191,7 @@ fn the_force_of_the_cut_as_a_drifting_record_deviates_as_the_cut() {
     );
     let largest = witness.forces.iter().map(Vector3::norm).fold(0.0, f64::max);
     assert!((measured.largest_n - largest).abs() < 1e-3 * largest);
-    // Told on the tool in base axes: the sensor's turned and with the other sign.
+    // Given on the tool in base axes: those of the sensor, rotated and with the other sign.
     let rate = Vector3::from(measured.drift.unwrap().rate_n_per_s);
     assert!(
         (rate + turn * Vector3::new(0.5, 0.2, -0.7)).norm() < 1e-5,
@@ -208,18 +208,24 @@ fn a_prediction_finds_a_noisy_record_to_a_sample() {
     let record = witness.record((20.0, 1000.0, 5.4321), |force, time, k| {
         force + wild_vector(k) * noise + Vector3::new(3.0, 2.0, 1.0) + Vector3::x() * (0.1 * time)
     });
-    let beside = format!(
+    let keys = format!(
         "{MEASURED}air_s = [[0, 5], [17, 20]]\nacts_on = \"tool\"\nframe = \"base\"\nsynchronise = \"predicted\"\nlow_pass_hz = 10\n"
     );
-    let ran = study(&beside, &record).unwrap();
+    let ran = study(&keys, &record).unwrap();
     let (answer, measured) = reported(&ran);
     assert!((measured.start_s - 5.4321).abs() < 1e-3, "{}", measured.start_s);
     assert!(
         measured.likeness.unwrap() > 0.9 && measured.confidence.unwrap() > 0.3,
         "{measured:?}"
     );
-    assert!(!answer.warnings.iter().any(|warning| warning.contains("not sure")));
-    // Of noise of 0.2 of the force (all components together) the filter leaves sqrt(2 x 10 / 1000), here three times that;
+    assert!(
+        !answer
+            .warnings
+            .iter()
+            .any(|warning| warning.contains("is uncertain"))
+    );
+    // Of noise of 0.2 of the force (all components together) the filter leaves sqrt(2 x 10 / 1000), here three times
+    // that;
     // the arm is up to twice as soft across the force as along it. The filter remembers some tenths of a second.
     let differs = witness.differs(&program(&ran).1, 0, 0.15, 1.0);
     assert!(differs < 2.0 * 3.0 * 0.2 * (0.02_f64).sqrt(), "{differs}");
@@ -229,10 +235,10 @@ fn a_prediction_finds_a_noisy_record_to_a_sample() {
 fn the_first_crossing_of_a_threshold_is_the_begin() {
     let witness = Witness::new();
     let record = witness.record((13.0, 1000.0, START_S), |force, _, _| force);
-    let beside = format!(
+    let keys = format!(
         "{MEASURED}drift = false\nacts_on = \"tool\"\nframe = \"base\"\nsynchronise = \"threshold\"\nthreshold_n = 1\n"
     );
-    let ran = study(&beside, &record).unwrap();
+    let ran = study(&keys, &record).unwrap();
     let (_, measured) = reported(&ran);
     assert!(
         (measured.start_s - START_S).abs() < 1e-3 && measured.drift.is_none(),
@@ -242,7 +248,7 @@ fn the_first_crossing_of_a_threshold_is_the_begin() {
 }
 
 #[test]
-fn the_same_force_may_be_told_in_base_part_or_feed() {
+fn the_same_force_may_be_given_in_base_part_or_feed() {
     let witness = Witness::new();
     let start = format!("start_s = {START_S}\ndrift = false\nacts_on = \"tool\"\n");
     let feed = |force: Vector3<f64>, time: f64, _: usize| {
@@ -261,12 +267,12 @@ fn the_same_force_may_be_told_in_base_part_or_feed() {
 }
 
 #[test]
-fn what_acts_on_the_part_deviates_the_other_way() {
+fn a_force_on_the_part_deviates_in_the_opposite_direction() {
     let witness = Witness::new();
     let record = witness.record((13.0, 1000.0, START_S), |force, _, _| force);
-    let beside =
+    let keys =
         format!("{MEASURED}start_s = {START_S}\ndrift = false\nacts_on = \"part\"\nframe = \"base\"\n");
-    let ran = study(&beside, &record).unwrap();
+    let ran = study(&keys, &record).unwrap();
     let differs = witness.differs(&program(&ran).1, 0, 0.002, -1.0);
     assert!(differs < EXACT, "{differs}");
 }
@@ -282,10 +288,10 @@ fn kilonewtons_and_an_export_with_tabs_are_the_same_force() {
         )
         .replace(',', "\t");
     let record = record.replace("_n,", "_kn,").replace("fz_n", "fz_kn");
-    let beside =
+    let keys =
         format!("{MEASURED}start_s = {START_S}\ndrift = false\nacts_on = \"tool\"\nframe = \"base\"\n");
     for (text, format) in [(record, "CSV"), (export, "DynoWare")] {
-        let ran = study(&beside, &text).unwrap();
+        let ran = study(&keys, &text).unwrap();
         assert_eq!(reported(&ran).1.format, format);
         // Seven decimals of kN: a thousandth of what is left otherwise.
         let differs = witness.differs(&program(&ran).1, 0, 0.002, 1.0);
@@ -294,21 +300,21 @@ fn kilonewtons_and_an_export_with_tabs_are_the_same_force() {
 }
 
 #[test]
-fn teeth_leave_the_mean_of_a_turn_and_make_its_extreme() {
+fn tooth_passing_leaves_the_mean_of_a_revolution_and_determines_its_extreme() {
     let witness = Witness::new();
     // Two teeth a turn at 9000 rpm: the force swings by half of itself, 20 samples a turn.
     let swing = |time: f64| 1.0 + 0.5 * (2.0 * TAU * 150.0 * time).sin();
     let record = witness.record((13.0, 3000.0, START_S), |force, time, _| force * swing(time));
-    let beside = format!(
+    let keys = format!(
         "{MEASURED}start_s = {START_S}\ndrift = false\nacts_on = \"tool\"\nframe = \"base\"\nspindle_rpm = 9000\npeak = true\nu_percent = 20\n"
     );
-    let ran = study(&beside, &record).unwrap();
+    let ran = study(&keys, &record).unwrap();
     let (analysis, found) = program(&ran);
     assert_eq!(found.answers.case_count, 2);
     // A turn takes 6.7 ms; two waves of ten samples each have no mean.
     let differs = witness.differs(&found, 0, 0.02, 1.0);
     assert!(differs < 1e-3, "{differs}");
-    // The highest of ten samples lies within 18 deg of the crest: 1.5 down to 1.475.
+    // The highest of ten samples is within 18 deg of the crest: 1.5 down to 1.475.
     // Away from the corner at point 40 and the rapid behind point 60.
     for i in (5..35).chain(45..57).chain(65..78) {
         let ratio = found.answers.deviations_at(i)[1].norm() / witness.deviations[i].norm();
@@ -319,7 +325,7 @@ fn teeth_leave_the_mean_of_a_turn_and_make_its_extreme() {
     let (mean, most) = (measured.largest_n, measured.largest_peak_n.unwrap());
     assert!((1.4..1.51).contains(&(most / mean)), "{mean} {most}");
     let worst = answer.paths[0].worst.as_ref().unwrap();
-    assert!(worst.deciding_case == 2 && worst.in_plane_u_um >= 0.2 * worst.in_plane_um);
+    assert!(worst.worst_case == 2 && worst.in_plane_u_um >= 0.2 * worst.in_plane_um);
 }
 
 #[test]
@@ -331,31 +337,31 @@ fn a_cut_that_fits_twice_is_warned_of() {
         let cutting = (3.0..7.0).contains(&time) || (12.0..16.0).contains(&time);
         constant * f64::from(cutting)
     });
-    let beside = format!(
+    let keys = format!(
         "{MEASURED}drift = false\nacts_on = \"tool\"\nframe = \"base\"\nsynchronise = \"predicted\"\n"
     );
-    let ran = study_of(once, &beside, &twice).unwrap();
+    let ran = study_of(once, &keys, &twice).unwrap();
     let (answer, measured) = reported(&ran);
     assert!(measured.confidence.unwrap() < 0.05, "{measured:?}");
     assert!(
         answer
             .warnings
             .iter()
-            .any(|warning| warning.contains("not sure") && warning.contains("start_s")),
+            .any(|warning| warning.contains("is uncertain") && warning.contains("start_s")),
         "{:?}",
         answer.warnings
     );
 }
 
 #[test]
-fn what_is_wrong_is_told_at_its_place() {
+fn errors_are_reported_at_their_positions() {
     let witness = Witness::new();
     let good = witness.record((13.0, 100.0, START_S), |force, _, _| force);
     let short = witness.record((8.0, 100.0, 0.5), |force, _, _| force);
     let base = format!("{MEASURED}drift = false\n");
     let axes = "acts_on = \"tool\"\nframe = \"base\"\n";
     let start = "start_s = 1.2\n";
-    for (beside, record, words) in [
+    for (keys, record, words) in [
         (
             format!("{base}frame = \"base\"\n{start}"),
             &good,
@@ -385,7 +391,7 @@ fn what_is_wrong_is_told_at_its_place() {
         (
             format!("{base}{axes}"),
             &good,
-            &["nothing tells when", "synchronise"],
+            &["start of the program in the record is not given", "synchronise"],
         ),
         (
             format!("{base}{axes}{start}synchronise = \"threshold\"\n"),
@@ -435,7 +441,7 @@ fn what_is_wrong_is_told_at_its_place() {
         (
             format!("{base}{axes}{start}cycle = 2\n"),
             &good,
-            &["holds 1 cycles, not a cycle 2"],
+            &["has 1 cycles, but no cycle 2"],
         ),
         (
             format!("{base}{axes}{start}\n[analysis.load]\ncases_n = [[1, 2, 3]]\n"),
@@ -443,7 +449,7 @@ fn what_is_wrong_is_told_at_its_place() {
             &["a load and measured forces"],
         ),
     ] {
-        let message = study(&beside, record).map(|_| ()).unwrap_err();
+        let message = study(&keys, record).map(|_| ()).unwrap_err();
         for word in words {
             assert!(message.contains(word), "no `{word}` in\n{message}");
         }
@@ -466,7 +472,7 @@ fn a_prediction_needs_its_cut_and_a_program_its_feed() {
         read.map(|_| ()).map_err(|error| error.to_string())
     };
     let message = reported("synchronise = \"predicted\"\nfeed_mm_per_min = 600").unwrap_err();
-    assert!(message.contains("no `cut` predicts the force"), "{message}");
+    assert!(message.contains("requires a `cut`"), "{message}");
     let message = reported("start_s = 1").unwrap_err();
     assert!(
         message.contains("feed") && message.contains("feed_mm_per_min = 600"),

@@ -9,7 +9,7 @@ use armill_core::watch::Watch;
 use armill_formats::file::Writer;
 use armill_study::answer::answer;
 use armill_study::file::resolve::{Study, read};
-use armill_study::output::{self, Wanted};
+use armill_study::output::{self, OutputOptions};
 use armill_study::run::{point_count, run};
 use armill_study::{ErrorKind, StudyError};
 use proptest::prelude::*;
@@ -18,7 +18,7 @@ use proptest::test_runner::RngSeed;
 /// A study that uses every table of the format.
 const GOOD: &str = r#"format = 1
 title = "Everything"
-question = "Does it hold?"
+question = "Is it within the tolerance?"
 robot = "yaskawa/mh12"
 base = "base_link"
 tolerance_um = 60
@@ -73,7 +73,7 @@ kind = "path"
 rectangle = { centre_mm = [0, 0], size_mm = [60, 40] }
 [[analysis]]
 kind = "holes"
-posture.search = { turns_deg = [-90, 90], step_deg = 30, counts = "in-plane", least_wrist_deg = 3 }
+posture.search = { turns_deg = [-90, 90], step_deg = 30, component = "in-plane", least_wrist_deg = 3 }
 holes = { at_mm = [[0, 0, 0], [20, 0, 5]], normals = [[0, 0, 1]], part_from_holes_mm_deg = [0, 0, 0, 0, 0, 0] }
 [[statement]]
 text = "within 0.1 mm"
@@ -122,7 +122,7 @@ const TRAPS: &[&str] = &[
     "1e6",
 ];
 
-/// Numbers that a study may well hold, at the edge of what is sensible.
+/// Numbers that a study may well contain, at the edge of what is sensible.
 const EDGES: &[&str] = &[
     "0",
     "-0.0",
@@ -264,7 +264,7 @@ proptest! {
     }
 
     #[test]
-    fn bytes_cut_out_and_put_in_never_panic(
+    fn removed_and_inserted_bytes_never_panic(
         cuts in prop::collection::vec((0..GOOD.len(), 0_usize..12, prop::collection::vec(any::<u8>(), 0..4)), 1..5),
     ) {
         let mut text = GOOD.as_bytes().to_vec();
@@ -298,7 +298,7 @@ proptest! {
 
     /// What can be run can be written: a study that was read never ends as a fault of armill.
     #[test]
-    fn what_was_run_can_be_written_as_tables(
+    fn results_can_be_written_as_tables(
         traps in prop::collection::vec(any::<(prop::sample::Index, prop::sample::Index)>(), 1..3),
     ) {
         let text = with_traps(EDGES, &traps);
@@ -307,7 +307,7 @@ proptest! {
         let found = run(&study, Watch::NONE).unwrap();
         let folder = tempfile::tempdir().unwrap();
         let out = Writer::new("run", false).folder(folder.path()).unwrap();
-        let written = output::write(&study, &found, &answer(&study, &found), (&out, Wanted::TABLES), &|_| ());
+        let written = output::write(&study, &found, &answer(&study, &found), (&out, OutputOptions::TABLES), &|_| ());
         prop_assert!(written.is_ok(), "{}\n{}", written.unwrap_err(), text);
     }
 }
@@ -316,7 +316,7 @@ proptest! {
     #![proptest_config(config(6, 13))]
 
     #[test]
-    fn what_was_run_can_be_drawn(
+    fn results_can_be_drawn(
         traps in prop::collection::vec(any::<(prop::sample::Index, prop::sample::Index)>(), 1..3),
     ) {
         let text = with_traps(EDGES, &traps);
@@ -327,7 +327,7 @@ proptest! {
         let found = run(&study, Watch::NONE).unwrap();
         let folder = tempfile::tempdir().unwrap();
         let out = Writer::new("run", false).folder(folder.path()).unwrap();
-        let written = output::write(&study, &found, &answer(&study, &found), (&out, Wanted::USUAL), &|_| ());
+        let written = output::write(&study, &found, &answer(&study, &found), (&out, OutputOptions::USUAL), &|_| ());
         prop_assert!(written.is_ok(), "{}\n{}", written.unwrap_err(), text);
     }
 }

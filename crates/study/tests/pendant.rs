@@ -5,7 +5,7 @@
 
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
 use armill_core::nalgebra::Vector3;
-use armill_core::robot::convention::Apart;
+use armill_core::robot::convention::PoseDifference;
 use armill_core::robot::inverse::posture_at;
 use armill_core::robot::joint::{Coupling, Sign};
 use armill_core::robot::{Joint, Robot};
@@ -62,7 +62,7 @@ fn requested(file: &RobotDescription, readings: Vec<(Vec<f64>, Isometry)>) -> Pe
         readings,
         flange_from_tool: Isometry::identity(),
         base: "base_link".to_owned(),
-        within: Apart {
+        within: PoseDifference {
             metres: 1e-3,
             radians: 0.1_f64.to_radians(),
         },
@@ -77,7 +77,7 @@ fn assert_explained(answer: &PendantAnswer, changes: &[&str]) {
 }
 
 #[test]
-fn a_file_that_fits_agrees_and_nothing_is_unseen() {
+fn a_correct_file_agrees_and_no_change_is_undetected() {
     for name in [
         "yaskawa/mh12",
         "kuka/kr120r2500pro",
@@ -93,14 +93,14 @@ fn a_file_that_fits_agrees_and_nothing_is_unseen() {
 }
 
 #[test]
-fn the_joint_whose_sign_was_turned_is_named() {
+fn the_joint_with_an_inverted_sign_is_named() {
     let real = arm("kuka/kr16-2");
     for joint in 0..6 {
         let file = with_joints(&real, |joints| flip(&mut joints[joint]));
         let sign = real.robot.joints()[joint].sign.factor();
         let answer = requested(&file, read(&real.robot, &POSES_DEG, 0.0));
         let expected = format!(
-            "joint A{} counts the other way: sign = {sign} in place of {}",
+            "joint A{} has the opposite sign: sign = {sign} in place of {}",
             joint + 1,
             -sign
         );
@@ -115,7 +115,7 @@ fn a_zero_off_by_a_quarter_turn_is_named_with_the_value_of_the_file() {
     let answer = requested(&file, read(&real.robot, &POSES_DEG, 0.0));
     assert_explained(
         &answer,
-        &["joint A2 has its zero elsewhere: zero_offset_deg = 0 in place of 90"],
+        &["joint A2 has another zero: zero_offset_deg = 0 in place of 90"],
     );
 }
 
@@ -127,7 +127,7 @@ fn a_zero_off_by_any_angle_is_found() {
     assert_eq!(answer.verdict, "explained", "{answer:?}");
     let words = &answer.explanations[0].changes[0];
     assert!(
-        words.starts_with("joint U has its zero elsewhere: zero_offset_deg = ")
+        words.starts_with("joint U has another zero: zero_offset_deg = ")
             && words.ends_with("in place of -12.34"),
         "{words}"
     );
@@ -146,10 +146,10 @@ fn the_coupling_of_a_fanuc_pendant_is_named_either_way() {
     let answer = requested(&file, read(&pendant.robot, &POSES_DEG, 0.0));
     assert_explained(
         &answer,
-        &["joint J3 counts J2 in: coupling = [{ joint = \"J2\", factor = 1 }]"],
+        &["joint J3 is coupled to J2: coupling = [{ joint = \"J2\", factor = 1 }]"],
     );
     let answer = requested(&pendant, read(&file.robot, &POSES_DEG, 0.0));
-    assert_explained(&answer, &["joint J3 does not count J2 in: take out its coupling"]);
+    assert_explained(&answer, &["joint J3 is not coupled to J2: remove its coupling"]);
 }
 
 #[test]
@@ -158,12 +158,12 @@ fn a_pendant_that_counts_from_its_controller_frame_is_named() {
     let answer = requested(&arm, read(&arm.robot, &POSES_DEG, 0.45));
     assert_explained(
         &answer,
-        &["the pendant counts from a base 450.00 mm above base_link, its frame `controller`"],
+        &["the base of the pendant is 450.00 mm above base_link, its frame `controller`"],
     );
 }
 
 #[test]
-fn a_sign_a_coupling_and_a_base_together_are_told_apart() {
+fn a_sign_a_coupling_and_a_base_together_are_reported_apart() {
     let real = arm("fanuc/m710ic-50");
     let file = with_joints(&real, |joints| {
         flip(&mut joints[3]);
@@ -176,9 +176,9 @@ fn a_sign_a_coupling_and_a_base_together_are_told_apart() {
     assert_explained(
         &answer,
         &[
-            "joint J4 counts the other way: sign = -1 in place of 1",
-            "joint J3 does not count J2 in: take out its coupling",
-            "the pendant counts from a base 565.00 mm above base_link, its frame `controller`",
+            "joint J4 has the opposite sign: sign = -1 in place of 1",
+            "joint J3 is not coupled to J2: remove its coupling",
+            "the base of the pendant is 565.00 mm above base_link, its frame `controller`",
         ],
     );
 }
@@ -196,7 +196,7 @@ fn a_flange_frame_left_parallel_to_the_last_link_is_named() {
     assert_explained(
         &answer,
         &[
-            "the pendant's flange frame is turned against the file's: end the chain with about z 0, about y -90, about x 0 deg",
+            "the flange frame of the pendant is rotated relative to that of the file: end the chain with about z 0, about y -90, about x 0 deg",
         ],
     );
 }
@@ -253,13 +253,13 @@ fn readings_that_two_changes_explain_are_undecided() {
     assert!(all.iter().any(|words| words.contains("coupling")), "{all:?}");
     assert!(
         all.iter()
-            .any(|words| words.contains("joint J3 has its zero elsewhere")),
+            .any(|words| words.contains("joint J3 has another zero")),
         "{all:?}"
     );
 }
 
 #[test]
-fn another_length_of_a_link_is_explained_by_nothing() {
+fn a_wrong_link_length_is_not_explained() {
     let real = arm("kuka/kr150-2");
     let answer = requested(&arm("kuka/kr150r3100-2"), read(&real.robot, &POSES_DEG, 0.0));
     assert_eq!(answer.verdict, "unexplained", "{answer:?}");
@@ -272,7 +272,7 @@ fn a_reading_of_other_joints_and_an_unknown_frame_are_refused() {
         readings: vec![(vec![0.0; joints], Isometry::identity())],
         flange_from_tool: Isometry::identity(),
         base: base.to_owned(),
-        within: Apart {
+        within: PoseDifference {
             metres: 1e-3,
             radians: 1e-3,
         },

@@ -84,9 +84,9 @@ fn positioner(joints: &str) -> String {
 }
 
 #[test]
-fn a_part_on_the_table_lies_where_its_joints_put_it() {
+fn a_part_on_the_table_is_placed_by_its_joints() {
     let folder = cell("positioner-frame", "", "");
-    // Tilted by 30 deg about x, turned by 90 deg about its own z. The table's origin stands at (1000, 0, 400) + 100 mm
+    // Tilted by 30 deg about x, turned by 90 deg about its own z. The table's origin is at (1000, 0, 400) + 100 mm
     // along the tilted z: (0, -sin 30, cos 30). Its x axis is the tilted y: (0, cos 30, sin 30).
     let on_table = study(
         "base = \"table\"",
@@ -98,7 +98,7 @@ fn a_part_on_the_table_lies_where_its_joints_put_it() {
     let up = Vector3::new(0.0, -sin, cos);
     let x = Vector3::new(0.0, cos, sin);
     let centre = Vector3::new(1000.0, 0.0, 400.0) + up * 300.0 + x * 50.0;
-    // Rotation of the table told as turns about fixed x, y, z: first z by 90, then x by 30 is not of that order; with
+    // Rotation of the table given about fixed x, y, z: first z by 90, then x by 30 is not of that order; with
     // R = Rx(30) Rz(90) the columns are (0, cos, sin), (-1, 0, 0), (0, -sin, cos): fixed angles (0, -30, 90).
     let in_base = study(
         "",
@@ -119,7 +119,7 @@ fn a_part_on_the_table_lies_where_its_joints_put_it() {
 }
 
 #[test]
-fn a_box_stands_along_the_axes_of_the_table() {
+fn a_box_is_along_the_axes_of_the_table() {
     let folder = cell("positioner-box", "", "");
     let analysis = "[[analysis]]\nkind = \"volume\"\nname = \"box\"\nbox = { half_size_mm = [100, 100, 100], step_mm = 50 }\n";
     let text = study(
@@ -143,7 +143,7 @@ fn a_box_stands_along_the_axes_of_the_table() {
             );
         }
     }
-    // Its numbers stand in the answer as those of the robot do.
+    // Its numbers are in the result as those of the robot.
     assert!(
         answer
             .sources
@@ -153,8 +153,9 @@ fn a_box_stands_along_the_axes_of_the_table() {
 }
 
 #[test]
-fn what_the_table_yields_adds_to_what_the_arm_yields() {
-    // The tilt axis runs along x through (1000, 0, 400); a force of 5 N along y at height z turns it by c 5 N (z - 0.4 m).
+fn the_deflection_of_the_table_adds_to_that_of_the_robot() {
+    // The tilt axis runs along x through (1000, 0, 400); a force of 5 N along y at height z turns it by c 5 N (z -
+    // 0.4 m).
     let plane = ("[1000, 0, 900]", "[0, -90, 0]");
     let load = "[[analysis]]\nkind = \"map\"\nname = \"m\"\nload = { cases_n = [[0, 5, 0]] }\n";
     let text = |more: &str| {
@@ -170,22 +171,23 @@ fn what_the_table_yields_adds_to_what_the_arm_yields() {
         arm.maps[0].grid.in_plane_um, both.maps[0].grid.in_plane_um,
         "a rigid table adds nothing"
     );
-    let yielding = answered(&soft, &text(&positioner("[0, 0]")));
+    let compliant = answered(&soft, &text(&positioner("[0, 0]")));
     let deviation = |answer: &StudyAnswer| answer.maps[0].worst.clone().unwrap();
-    let (arm, yielding) = (deviation(&arm), deviation(&yielding));
-    let lever = (yielding.xyz_mm[2] - 400.0) * 1e-3;
+    let (arm, compliant) = (deviation(&arm), deviation(&compliant));
+    let lever = (compliant.xyz_mm[2] - 400.0) * 1e-3;
     let along_y_um = 4e-6 * 5.0 * lever * lever * 1e6;
-    let share = yielding.joint_share_um.last().unwrap();
-    // The plane is vertical and faces the robot: the deviation in it is mostly along y, the arm's and the table's alike.
+    let share = compliant.joint_share_um.last().unwrap();
+    // The plane is vertical and faces the robot: the deviation in it is mostly along y, the arm's and the table's
+    // alike.
     assert!(
         (share - along_y_um).abs() < 0.05 * along_y_um,
         "{share} um by the table, {along_y_um} um along y"
     );
-    assert!(yielding.in_plane_um > arm.in_plane_um + 0.9 * along_y_um);
+    assert!(compliant.in_plane_um > arm.in_plane_um + 0.9 * along_y_um);
 }
 
 #[test]
-fn what_is_wrong_with_a_positioner_is_told_at_its_place() {
+fn errors_of_a_positioner_are_reported_at_their_positions() {
     let folder = cell("positioner-wrong", "", "");
     for (positioner_text, at, given) in [
         (
@@ -196,7 +198,7 @@ fn what_is_wrong_with_a_positioner_is_told_at_its_place() {
         (
             positioner("[120, 0]"),
             "joints_deg",
-            "tilt stands 30.0 deg outside its range",
+            "tilt is 30.0 deg outside its range",
         ),
         (
             positioner("[0, 0]").replace("table.toml", "nothing.toml"),

@@ -1,4 +1,4 @@
-//! Studies with more than drive springs: what each part adds, what is told of it, and what is refused.
+//! Studies with more than drive springs: the effect of each part, its report, and errors.
 
 // A panic is how a test says that its claim is false; helper functions too.
 #![allow(clippy::unwrap_used, clippy::panic)]
@@ -10,7 +10,7 @@ use armill_core::nalgebra::Vector3;
 use armill_core::watch::Watch;
 use armill_study::answer::{StudyAnswer, answer};
 use armill_study::file::resolve::{Study, read};
-use armill_study::run::{Found, run};
+use armill_study::run::{AnalysisData, run};
 
 /// 5 x 5 points in front of an MH12; tool along base x, tables can be appended.
 const PLATE: &str = r#"format = 1
@@ -39,8 +39,8 @@ fn study(text: &str) -> Study {
 
 fn map(study: &Study) -> PlaneMap {
     match run(study, Watch::NONE).unwrap().remove(0).found {
-        Found::Map(_, map) => map,
-        _ => panic!("the study asks for one map"),
+        AnalysisData::Map(_, map) => map,
+        _ => panic!("the study has one map"),
     }
 }
 
@@ -67,7 +67,7 @@ fn a_cutter_adds_its_bending_across_the_tool_axis() {
 }
 
 #[test]
-fn the_answer_says_which_parts_were_on_and_whom_shares_are_of() {
+fn the_result_reports_the_active_parts_and_the_contributors() {
     let plain = answered(&study(PLATE));
     assert_eq!(plain.maps[0].setting.model, ["drive springs"]);
     assert_eq!(plain.maps[0].setting.contributors, ["S", "L", "U", "R", "B", "T"]);
@@ -86,7 +86,7 @@ fn the_answer_says_which_parts_were_on_and_whom_shares_are_of() {
         [
             "drive springs",
             "3 further springs",
-            "gravity, against the posture where the tool was set",
+            "gravity, relative to the posture where the tool was set",
             "load-dependent stiffness"
         ]
     );
@@ -102,7 +102,7 @@ fn the_answer_says_which_parts_were_on_and_whom_shares_are_of() {
 }
 
 #[test]
-fn gravity_is_nothing_where_the_tool_was_set() {
+fn gravity_is_zero_at_the_reference_position() {
     let plain = answered(&study(PLATE));
     let there = plain.maps[0].worst.as_ref().unwrap();
     let reference = format!("[gravity]\nreference_joints_deg = {:?}\n", there.joints_deg);
@@ -118,12 +118,13 @@ fn gravity_is_nothing_where_the_tool_was_set() {
 }
 
 #[test]
-fn known_masses_without_gravity_are_told_and_change_nothing() {
+fn known_masses_without_gravity_are_reported_and_change_nothing() {
     let given = answered(&study(&format!("{PLATE}{SPINDLE}")));
     assert!(
-        given.warnings
+        given
+            .warnings
             .iter()
-            .any(|w| w.contains("1 mass is known, but gravity is left out"))
+            .any(|w| w.contains("1 mass is known, but gravity is neglected"))
     );
     let (plain, weighed) = (map(&study(PLATE)), map(&study(&format!("{PLATE}{SPINDLE}"))));
     assert_eq!(plain.answers.deviations, weighed.answers.deviations);
@@ -140,7 +141,7 @@ fn load_dependence_is_a_small_correction_for_small_loads() {
 }
 
 #[test]
-fn a_load_that_no_arm_stands_is_counted_by_its_reason() {
+fn an_unstable_load_is_counted_by_its_reason() {
     let text = PLATE
         .replace("load_dependent = false", "load_dependent = true")
         .replace("[3, 5, -5]", "[-1e6, 0, -1e6]");
@@ -149,10 +150,7 @@ fn a_load_that_no_arm_stands_is_counted_by_its_reason() {
     assert_eq!(counts.unstable, 25);
     assert!(map.worst.is_none() && map.grid.in_plane_um.iter().all(Option::is_none));
     assert_eq!(
-        (
-            map.grid.remarks[0].reason.as_str(),
-            map.grid.remarks[0].points.len()
-        ),
+        (map.grid.flags[0].reason.as_str(), map.grid.flags[0].points.len()),
         ("unstable", 25)
     );
 }
@@ -162,18 +160,18 @@ fn what_makes_no_model_is_refused_with_its_place() {
     let spring = "[[tool.spring]]\nat = \"flange\"\nabout = \"x\"\ncompliance_rad_per_n_m = 1e-6\nsource = \"guess\"\n";
     let gravity = "[gravity]\nreference_joints_deg = [0, 0, 0, 0, 0, 0]\n";
     for (text, said) in [
-        (format!("{PLATE}{gravity}"), "gravity moves nothing"),
+        (format!("{PLATE}{gravity}"), "gravity has no effect"),
         (
             format!("{PLATE}{SPINDLE}{}", gravity.replace("0, 0]", "0]")),
             "5 joint positions for the 6 joints",
         ),
         (
             format!("{PLATE}{SPINDLE}{gravity}direction = [0, 0, 0]\n"),
-            "the direction of gravity has no length",
+            "the direction of gravity has zero length",
         ),
         (
             format!("{PLATE}stick_out_mm = 50\n"),
-            "needs stick-out, diameter and material",
+            "requires stick-out, diameter and material",
         ),
         (
             format!("{PLATE}stick_out_mm = 50\ndiameter_mm = 10\n"),
@@ -181,7 +179,7 @@ fn what_makes_no_model_is_refused_with_its_place() {
         ),
         (
             format!("{PLATE}{}", spring.replace("flange", "elbow")),
-            "`elbow` is no part of the arm",
+            "`elbow` is not a part of the arm",
         ),
         (
             format!("{PLATE}{}", spring.replace("about", "along")),

@@ -1,6 +1,6 @@
-//! Prints how the server is reported to a program; `cargo xtask web` makes the types of the page from it.
+//! Prints the description of the server's interface; `cargo xtask web` makes the types of the page from it.
 
-// An example prints what it is requested.
+// An example prints its result.
 #![allow(clippy::print_stdout)]
 
 fn main() {

@@ -1,14 +1,14 @@
-//! Answers to a text that is sent: none of them reads or writes the study on disk.
+//! Answers to a text that is sent: the study on disk is neither read nor written.
 //!
 //! | path | answers |
 //! |---|---|
-//! | `POST /api/answer` | as `armill run --json` of one ask, or of all |
-//! | `POST /api/view` | answer, values, scene of an ask and how the arm is in it at once, after values are changed |
-//! | `POST /api/values` | the settings that an ask resolves to |
-//! | `POST /api/pose` | the arm at one place of an ask |
-//! | `POST /api/scene` | what of an ask can be drawn in space |
+//! | `POST /api/answer` | as `armill run --json` of one analysis, or of all |
+//! | `POST /api/view` | answer, values, scene of an analysis and the arm in it at once, after values are changed |
+//! | `POST /api/values` | the settings that an analysis resolves to |
+//! | `POST /api/pose` | the arm at one place of an analysis |
+//! | `POST /api/scene` | the geometry of an analysis for drawing |
 //! | `POST /api/mesh` | the shape of a link, where the robot's file names one |
-//! | `POST /api/table` | the table of an ask |
+//! | `POST /api/table` | the table of an analysis |
 //! | `POST /api/pictures`, `POST /api/picture.png` | its pictures, and one in pixels |
 //! | `GET /api/robots` | as `armill robots --json` |
 
@@ -16,8 +16,8 @@ use std::sync::{Arc, OnceLock};
 
 use armill_core::watch::Watch;
 use armill_study::live::{
-    ChangedValue, Place, PostureQuestion, Stand, Text, answer_json, measured_csv, mesh_bytes, picture_svg,
-    pictures, postures, scene, table_csv, values, view,
+    ChangedValue, PoseRequest, PoseTarget, PostureQuestion, StudyText, answer_json, measured_csv, mesh_bytes,
+    picture_svg, pictures, postures, scene, table_csv, values, view,
 };
 use armill_study::robot_answers::library_rows;
 use armill_study::{StudyError, output};
@@ -30,57 +30,57 @@ use axum::routing::{get, post};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::body::{Asked, check_text, typed};
+use crate::body::{JsonBody, check_text, typed};
 use crate::error::{Answered, ApiError};
 use crate::server::State;
 
 const JSON: &str = "application/json";
 
-/// An ask of a text.
+/// An analysis of a text.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct OfAnalysis {
+pub(crate) struct AnalysisRequest {
     /// The text of the study.
     pub text: String,
-    /// Its ask; all of them, or the first, where none is named.
+    /// Name of its analysis; all of them, or the first, if left out.
     pub analysis: Option<String>,
 }
 
-/// An ask of a text in which values are changed first.
+/// An analysis of a text in which values are changed first.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct OfView {
+pub(crate) struct ViewRequest {
     /// The text of the study.
     pub text: String,
-    /// Its ask, whose values they are; the first where none is named.
+    /// Name of its analysis, whose values are changed; the first if left out.
     pub analysis: Option<String>,
-    /// What changes; nothing if left out.
+    /// The changes; none if left out.
     #[serde(default)]
     pub changes: Vec<ChangedValue>,
-    /// Where the arm is to are in it; nowhere if left out.
-    pub stand: Option<Stand>,
+    /// The requested pose of the arm; none if left out.
+    pub arm: Option<PoseRequest>,
 }
 
 /// A shape of the robot.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct OfMesh {
+pub(crate) struct MeshRequest {
     /// The text of the study.
     pub text: String,
     /// The file, as the robot's file names it.
     pub file: String,
 }
 
-/// A place of an ask.
+/// A place of an analysis.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct OfPlace {
+pub(crate) struct PosturesRequest {
     /// The text of the study.
     pub text: String,
-    /// Its ask; the first where none is named.
+    /// Name of its analysis; the first if left out.
     pub analysis: Option<String>,
-    /// Where the tool is.
-    pub at: Place,
+    /// The target position of the tool.
+    pub at: PoseTarget,
     /// Load case, from 1.
     #[serde(default = "first")]
     pub case: usize,
@@ -90,23 +90,23 @@ fn first() -> usize {
     1
 }
 
-/// The table of an ask.
+/// The table of an analysis.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct OfTable {
+pub(crate) struct TableRequest {
     /// The text of the study.
     pub text: String,
-    /// Its ask; the first where none is named.
+    /// Name of its analysis; the first if left out.
     pub analysis: Option<String>,
-    /// How it is written.
+    /// Its format.
     #[serde(default)]
     pub format: TableFormat,
-    /// In its place that of the budget of what was measured.
+    /// Instead, the table of the error budget of the measurements.
     #[serde(default)]
     pub measured: bool,
 }
 
-/// How a table is written.
+/// Formats of a table.
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum TableFormat {
@@ -115,13 +115,13 @@ pub(crate) enum TableFormat {
     Csv,
 }
 
-/// One picture of an ask.
+/// One picture of an analysis.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct OfPicture {
+pub(crate) struct PictureRequest {
     /// The text of the study.
     pub text: String,
-    /// Its ask; all of them where none is named.
+    /// Name of its analysis; all of them if left out.
     pub analysis: Option<String>,
     /// The name of the picture.
     pub name: String,
@@ -141,11 +141,11 @@ pub(crate) fn routes() -> Router<Arc<State>> {
         .route("/robots", get(robots))
 }
 
-/// What `work` makes of this text, as an answer of this type.
+/// The result of `work` on this text, as an answer of this type.
 async fn answered<T: Into<axum::body::Body> + Send + 'static>(
     state: Arc<State>,
     (text, headers, kind): (String, HeaderMap, &'static str),
-    work: impl FnOnce(Text<'_>, Watch<'_>) -> Result<T, StudyError> + Send + 'static,
+    work: impl FnOnce(StudyText<'_>, Watch<'_>) -> Result<T, StudyError> + Send + 'static,
 ) -> Answered {
     check_text(&text)?;
     let shared = Arc::clone(&state);
@@ -160,7 +160,11 @@ fn as_json(value: &impl Serialize) -> Result<Vec<u8>, StudyError> {
     Ok(serde_json::to_vec(value)?)
 }
 
-async fn answer(Shared(state): Shared<Arc<State>>, headers: HeaderMap, Asked(of): Asked<OfAnalysis>) -> Answered {
+async fn answer(
+    Shared(state): Shared<Arc<State>>,
+    headers: HeaderMap,
+    JsonBody(of): JsonBody<AnalysisRequest>,
+) -> Answered {
     answered(state, (of.text, headers, JSON), move |text, watch| {
         answer_json(text, of.analysis.as_deref(), watch)
     })
@@ -170,35 +174,39 @@ async fn answer(Shared(state): Shared<Arc<State>>, headers: HeaderMap, Asked(of)
 async fn of_view(
     Shared(state): Shared<Arc<State>>,
     headers: HeaderMap,
-    Asked(of): Asked<OfView>,
+    JsonBody(of): JsonBody<ViewRequest>,
 ) -> Answered {
     let headers = for_itself(&headers, "view");
     answered(state, (of.text, headers, JSON), move |text, watch| {
         as_json(&view(
             text,
             of.analysis.as_deref(),
-            (&of.changes, of.stand.as_ref()),
+            (&of.changes, of.arm.as_ref()),
             watch,
         )?)
     })
     .await
 }
 
-async fn mesh(Shared(state): Shared<Arc<State>>, Asked(of): Asked<OfMesh>) -> Answered {
+async fn mesh(Shared(state): Shared<Arc<State>>, JsonBody(of): JsonBody<MeshRequest>) -> Answered {
     answered(state, (of.text, HeaderMap::new(), "model/stl"), move |text, _| {
         mesh_bytes(text, &of.file)
     })
     .await
 }
 
-async fn of_values(Shared(state): Shared<Arc<State>>, Asked(of): Asked<OfAnalysis>) -> Answered {
+async fn of_values(Shared(state): Shared<Arc<State>>, JsonBody(of): JsonBody<AnalysisRequest>) -> Answered {
     answered(state, (of.text, HeaderMap::new(), JSON), move |text, _| {
         as_json(&values(text, of.analysis.as_deref())?)
     })
     .await
 }
 
-async fn pose(Shared(state): Shared<Arc<State>>, headers: HeaderMap, Asked(of): Asked<OfPlace>) -> Answered {
+async fn pose(
+    Shared(state): Shared<Arc<State>>,
+    headers: HeaderMap,
+    JsonBody(of): JsonBody<PosturesRequest>,
+) -> Answered {
     let headers = for_itself(&headers, "pose");
     answered(state, (of.text, headers, JSON), move |text, watch| {
         let question = PostureQuestion {
@@ -214,7 +222,7 @@ async fn pose(Shared(state): Shared<Arc<State>>, headers: HeaderMap, Asked(of): 
 async fn of_scene(
     Shared(state): Shared<Arc<State>>,
     headers: HeaderMap,
-    Asked(of): Asked<OfAnalysis>,
+    JsonBody(of): JsonBody<AnalysisRequest>,
 ) -> Answered {
     let headers = for_itself(&headers, "scene");
     answered(state, (of.text, headers, JSON), move |text, watch| {
@@ -223,7 +231,7 @@ async fn of_scene(
     .await
 }
 
-async fn table(Shared(state): Shared<Arc<State>>, Asked(of): Asked<OfTable>) -> Answered {
+async fn table(Shared(state): Shared<Arc<State>>, JsonBody(of): JsonBody<TableRequest>) -> Answered {
     let TableFormat::Csv = of.format;
     answered(
         state,
@@ -239,7 +247,7 @@ async fn table(Shared(state): Shared<Arc<State>>, Asked(of): Asked<OfTable>) -> 
 async fn of_pictures(
     Shared(state): Shared<Arc<State>>,
     headers: HeaderMap,
-    Asked(of): Asked<OfAnalysis>,
+    JsonBody(of): JsonBody<AnalysisRequest>,
 ) -> Answered {
     let headers = for_itself(&headers, "pictures");
     answered(state, (of.text, headers, JSON), move |text, watch| {
@@ -248,7 +256,7 @@ async fn of_pictures(
     .await
 }
 
-async fn picture_png(Shared(state): Shared<Arc<State>>, Asked(of): Asked<OfPicture>) -> Answered {
+async fn picture_png(Shared(state): Shared<Arc<State>>, JsonBody(of): JsonBody<PictureRequest>) -> Answered {
     answered(
         state,
         (of.text, HeaderMap::new(), "image/png"),
@@ -271,7 +279,7 @@ async fn robots(Shared(state): Shared<Arc<State>>) -> Result<Response, ApiError>
     Ok(typed(JSON, bytes))
 }
 
-/// The headers of a question that supersedes only those of its own kind in the tab.
+/// The headers of a request that replaces only those of its own kind in the tab.
 fn for_itself(headers: &HeaderMap, kind: &str) -> HeaderMap {
     let mut own = HeaderMap::new();
     let name = headers.get("x-tab").and_then(|name| name.to_str().ok());

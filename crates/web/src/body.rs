@@ -1,4 +1,4 @@
-//! What of a request is read, and how an answer is written: bounded in size and time before anything is kept.
+//! How a request body is read, and how an answer is written: bounded in size and time before anything is kept.
 
 use std::time::Duration;
 
@@ -13,16 +13,16 @@ use serde::de::DeserializeOwned;
 
 use crate::error::ApiError;
 
-/// Bytes of a question.
+/// Largest size of a request in JSON, bytes.
 pub(crate) const MOST_JSON: u64 = 16 << 20;
-/// Bytes of a study in it.
+/// Largest size of a study in it, bytes.
 pub(crate) const MOST_TEXT: usize = 4 << 20;
 /// How long the next piece of a body may take.
 const PIECE_TIME: Duration = Duration::from_secs(10);
-/// How long a question may take altogether.
+/// Time limit for a whole request.
 const JSON_TIME: Duration = Duration::from_secs(60);
 
-/// A body that comes in pieces, as long as it is not too large and not too slow.
+/// A body that arrives in pieces, bounded in size and in time.
 pub(crate) struct Pieces {
     stream: BodyDataStream,
     read: u64,
@@ -31,7 +31,7 @@ pub(crate) struct Pieces {
 
 impl Pieces {
     /// # Errors
-    /// A body that says itself that it is too large.
+    /// A body whose header states that it is too large.
     pub(crate) fn of(headers: &HeaderMap, body: Body, most: u64) -> Result<Pieces, ApiError> {
         let given = headers
             .get(CONTENT_LENGTH)
@@ -54,7 +54,7 @@ impl Pieces {
         let next = tokio::time::timeout(PIECE_TIME, self.stream.next()).await;
         match next.map_err(|_| ApiError::too_slow())? {
             None => Ok(None),
-            Some(Err(error)) => Err(ApiError::invalid(format!("the body broke off: {error}"))),
+            Some(Err(error)) => Err(ApiError::invalid(format!("the body ended early: {error}"))),
             Some(Ok(piece)) => {
                 self.read += piece.len() as u64;
                 if self.read > self.most {
@@ -66,13 +66,13 @@ impl Pieces {
     }
 }
 
-/// A question in JSON.
-pub(crate) struct Asked<T>(pub T);
+/// A request in JSON.
+pub(crate) struct JsonBody<T>(pub T);
 
-impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for Asked<T> {
+impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for JsonBody<T> {
     type Rejection = ApiError;
 
-    async fn from_request(request: Request, _: &S) -> Result<Asked<T>, ApiError> {
+    async fn from_request(request: Request, _: &S) -> Result<JsonBody<T>, ApiError> {
         let (parts, body) = request.into_parts();
         let mut pieces = Pieces::of(&parts.headers, body, MOST_JSON)?;
         let read = async {
@@ -87,8 +87,8 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for Asked<T> {
             .map_err(|_| ApiError::too_slow())??;
         let requested = serde_json::from_slice(&bytes);
         requested
-            .map(Asked)
-            .map_err(|error| ApiError::invalid(format!("the question: {error}")))
+            .map(JsonBody)
+            .map_err(|error| ApiError::invalid(format!("the request body: {error}")))
     }
 }
 

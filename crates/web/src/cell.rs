@@ -1,4 +1,4 @@
-//! Which study it is, and where its files lie.
+//! The study that is served, and the folder of its files.
 //!
 //! Of an example, and of a study in a folder that takes no files, results and uploads go into a folder that is made for
 //! this start and removed at its end.
@@ -10,20 +10,20 @@ use std::sync::{Mutex, PoisonError};
 
 use armill_formats::file::{remove_abandoned, write_atomically};
 use armill_formats::input;
-use armill_study::live::Text;
+use armill_study::live::StudyText;
 use armill_study::{StudyError, studies};
 use tempfile::TempDir;
 
 use crate::error::ApiError;
 
-/// The study that is served where none is named and none lies here.
+/// The study that is served where none is named and none is in the current folder.
 const EXAMPLE: &str = "mh12-groove";
 
 /// The study and its folder.
 pub(crate) struct Cell {
-    /// What problems call the file.
+    /// The name of the file in messages.
     pub shown: String,
-    /// Where uploads and results go, and where files that the study names are looked for: a real path.
+    /// Folder of uploads and results, and of the files that the study names: a real path.
     pub root: PathBuf,
     /// The file on disk; none of an example.
     file: Option<PathBuf>,
@@ -90,15 +90,15 @@ impl Cell {
             None => Ok(self.example.clone()),
             Some(file) => input::read(file).map_err(|error| {
                 let message = format!("cannot read {}: {error}", self.shown);
-                StudyError::value(message, "has the file been moved?")
+                StudyError::value(message, "check whether the file was moved")
             }),
         }
     }
 
-    /// Puts `text` in the place of what is on disk, if that is still what the page has seen.
+    /// Replaces the text on disk, if that is still what the page has read.
     ///
     /// # Errors
-    /// An example; a file that was changed by somebody else; one that cannot be written.
+    /// An example; a file that was changed by another program; one that cannot be written.
     pub(crate) fn write(&self, text: &str, seen: &str) -> Result<(), ApiError> {
         let (true, Some(file)) = (self.writable, &self.file) else {
             return Err(ApiError::forbidden(
@@ -108,22 +108,22 @@ impl Cell {
         let _writing = self.writing.lock().unwrap_or_else(PoisonError::into_inner);
         if version(&self.bytes()?) != seen {
             return Err(ApiError::conflict(
-                "the file on disk is no longer the one that was read",
+                "the file on disk was changed since it was read",
             ));
         }
         write_atomically(file, text.as_bytes()).map_err(StudyError::from)?;
         Ok(())
     }
 
-    /// Whether a file of this name would be that of the study itself, also where case tells no names apart.
+    /// Whether a file of this name would be that of the study itself, also where the file system ignores case.
     pub(crate) fn is_study(&self, name: &str) -> bool {
         let own = self.file.as_deref().and_then(|file| file.file_name()?.to_str());
         own.is_some_and(|own| own.to_lowercase() == name.to_lowercase())
     }
 
     /// A text of the page as a study of this folder.
-    pub(crate) fn text<'a>(&'a self, text: &'a str) -> Text<'a> {
-        Text {
+    pub(crate) fn text<'a>(&'a self, text: &'a str) -> StudyText<'a> {
+        StudyText {
             shown: &self.shown,
             folder: &self.root,
             bytes: text.as_bytes(),
@@ -142,7 +142,7 @@ pub(crate) fn private_folder(prefix: &str) -> std::io::Result<TempDir> {
     builder.prefix(prefix).tempdir()
 }
 
-/// What tells one state of the file from another.
+/// Identifies one state of the file.
 pub(crate) fn version(bytes: &[u8]) -> String {
     let mut hasher = DefaultHasher::new();
     bytes.hash(&mut hasher);

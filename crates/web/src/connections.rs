@@ -1,7 +1,7 @@
 //! How many connections are open, and which one is closed for a new one.
 //!
-//! Every connection has a place. Where all are taken, a new connection gets the place of the oldest one that has not shown
-//! the token: clients without the token cannot keep out those that have it. Where all have shown it, it waits.
+//! Every connection has a place. Where all are taken, a new connection gets the place of the oldest one that has not
+//! shown the token: clients without the token cannot keep out those that have it. Where all have shown it, it waits.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -18,7 +18,7 @@ pub(crate) struct Connections {
 }
 
 /// The place of one connection, free again when it is dropped.
-pub(crate) struct Place {
+pub(crate) struct ConnectionSlot {
     /// What its requests carry.
     pub client: Client,
     closed: oneshot::Receiver<()>,
@@ -47,13 +47,13 @@ impl Connections {
         change(&mut self.unknown.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// A place for a new connection; `None` where there are no more places for ever.
-    pub(crate) async fn place(self: &Arc<Connections>) -> Option<Place> {
+    /// A place for a new connection; `None` after the server has stopped.
+    pub(crate) async fn place(self: &Arc<Connections>) -> Option<ConnectionSlot> {
         let permit = match Arc::clone(&self.places).try_acquire_owned() {
             Ok(permit) => permit,
             Err(_) => {
                 if let Some((_, close)) = self.with_unknown(BTreeMap::pop_first) {
-                    // One that has ended by itself leaves its place too.
+                    // One that has ended on its own leaves its place too.
                     let _ = close.send(());
                 }
                 Arc::clone(&self.places).acquire_owned().await.ok()?
@@ -62,7 +62,7 @@ impl Connections {
         let number = self.count.fetch_add(1, Ordering::Relaxed);
         let (close, closed) = oneshot::channel();
         self.with_unknown(|unknown| unknown.insert(number, close));
-        Some(Place {
+        Some(ConnectionSlot {
             client: Client {
                 number,
                 is_known: Arc::default(),
@@ -74,9 +74,9 @@ impl Connections {
     }
 }
 
-impl Place {
+impl ConnectionSlot {
     /// Waits until the place is required for another connection.
-    pub(crate) async fn is_wanted(&mut self) {
+    pub(crate) async fn is_revoked(&mut self) {
         if (&mut self.closed).await.is_err() {
             // The token was shown: the place is kept.
             std::future::pending::<()>().await;
@@ -84,7 +84,7 @@ impl Place {
     }
 }
 
-impl Drop for Place {
+impl Drop for ConnectionSlot {
     fn drop(&mut self) {
         self.client.forget();
     }
@@ -114,7 +114,7 @@ mod tests {
     use super::*;
     use futures_util::FutureExt;
 
-    fn now(connections: &Arc<Connections>) -> Option<Place> {
+    fn now(connections: &Arc<Connections>) -> Option<ConnectionSlot> {
         connections.place().now_or_never().flatten()
     }
 
@@ -126,8 +126,8 @@ mod tests {
         assert!(first.client.is_known() && !second.client.is_known());
         let mut fourth = Box::pin(connections.place());
         assert!(fourth.as_mut().now_or_never().is_none(), "all places are taken");
-        assert!(second.is_wanted().now_or_never().is_some());
-        assert!(first.is_wanted().now_or_never().is_none() && third.is_wanted().now_or_never().is_none());
+        assert!(second.is_revoked().now_or_never().is_some());
+        assert!(first.is_revoked().now_or_never().is_none() && third.is_revoked().now_or_never().is_none());
         drop(second);
         assert!(fourth.now_or_never().flatten().is_some());
     }
@@ -141,7 +141,7 @@ mod tests {
         assert!(
             places
                 .iter_mut()
-                .all(|place| place.is_wanted().now_or_never().is_none())
+                .all(|place| place.is_revoked().now_or_never().is_none())
         );
         drop(places);
         assert!(now(&connections).is_some());

@@ -1,4 +1,4 @@
-//! How is reported what is wrong: `{"error": {"kind", "message", "hint", "problems"}}`, and the status that goes with it.
+//! How errors are reported: `{"error": {"kind", "message", "hint", "problems"}}`, and the status of the answer.
 
 use armill_formats::document::Problem;
 use armill_study::{ErrorKind, StudyError};
@@ -9,42 +9,42 @@ use serde::Serialize;
 
 use crate::body::json;
 
-/// What is wrong.
+/// An error.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub(crate) struct ErrorBody {
-    /// What is wrong.
-    pub error: Wrong,
+    /// The error.
+    pub error: ErrorDetail,
 }
 
-/// What is wrong.
+/// An error.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
-pub(crate) struct Wrong {
+pub(crate) struct ErrorDetail {
     /// `invalid-input`, `cancelled`, `internal`, `unauthorised`, `forbidden`, `not-found`, `conflict`, `superseded`,
     /// `too-large` or `too-many`.
     pub kind: &'static str,
-    /// In words.
+    /// The message.
     pub message: String,
-    /// What to do about it, where that is known.
+    /// How to correct it, where that is known.
     pub hint: Option<String>,
     /// Problems of the study, each with its place.
     pub problems: Vec<Problem>,
 }
 
-/// An answer that says what is wrong.
+/// An error as an answer.
 #[derive(Debug)]
 pub(crate) struct ApiError {
     status: StatusCode,
-    wrong: Wrong,
+    wrong: ErrorDetail,
 }
 
-/// What handlers give.
+/// The result of a handler.
 pub(crate) type Answered = Result<Response, ApiError>;
 
 impl ApiError {
     fn new(status: StatusCode, kind: &'static str, message: impl Into<String>) -> ApiError {
         ApiError {
             status,
-            wrong: Wrong {
+            wrong: ErrorDetail {
                 kind,
                 message: message.into(),
                 hint: None,
@@ -75,7 +75,7 @@ impl ApiError {
     }
 
     pub(crate) fn superseded() -> ApiError {
-        let message = "a later question of this tab took its place";
+        let message = "replaced by a later request of this tab";
         ApiError::new(StatusCode::CONFLICT, "superseded", message)
     }
 
@@ -92,7 +92,7 @@ impl ApiError {
         ApiError::new(
             StatusCode::REQUEST_TIMEOUT,
             "invalid-input",
-            "the body came too slowly",
+            "the body arrived too slowly",
         )
     }
 
@@ -100,8 +100,8 @@ impl ApiError {
         ApiError::new(StatusCode::INTERNAL_SERVER_ERROR, "internal", message)
     }
 
-    /// What is wrong, for a job that failed.
-    pub(crate) fn into_wrong(self) -> Wrong {
+    /// The error of a job that failed.
+    pub(crate) fn into_detail(self) -> ErrorDetail {
         self.wrong
     }
 }
@@ -139,16 +139,16 @@ impl IntoResponse for ApiError {
     }
 }
 
-/// What an unknown path is answered.
+/// The answer to an unknown path.
 pub(crate) async fn no_such_path() -> ApiError {
     ApiError::not_found("there is nothing at this path")
 }
 
-/// What a known path is answered with another method.
+/// The answer to a known path with another method.
 pub(crate) async fn wrong_method() -> ApiError {
     ApiError::new(
         StatusCode::METHOD_NOT_ALLOWED,
         "invalid-input",
-        "this path takes another method",
+        "this path requires another method",
     )
 }

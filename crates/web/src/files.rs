@@ -1,12 +1,12 @@
-//! Files of the study's folder: listed, read, taken in. Never one outside of it.
+//! Files of the study's folder: listed, read, uploaded. Never one outside of it.
 //!
 //! | path | does |
 //! |---|---|
 //! | `GET /api/files` | what is there, two folders deep at most |
 //! | `GET /api/files/PATH` | one file; what a browser can show is shown without scripts, the rest is to be saved |
-//! | `PUT /api/files/NAME` | takes a file in, under a plain name |
+//! | `PUT /api/files/NAME` | uploads a file, under a plain name |
 //!
-//! A name that begins with a point is none; a link that leads out of the folder is not followed.
+//! A name that begins with a point is not accepted; a link that leads out of the folder is not followed.
 
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
@@ -32,7 +32,7 @@ use crate::error::{Answered, ApiError};
 use crate::page::kind;
 use crate::server::State;
 
-/// Bytes of a file that is taken in.
+/// Largest size of an uploaded file, bytes.
 const MOST_BYTES: u64 = 256 << 20;
 /// Files listed at most.
 const MOST_FILES: usize = 2000;
@@ -42,11 +42,11 @@ const LONGEST_NAME: usize = 100;
 const PIECE: usize = 256 << 10;
 /// Endings that a browser shows.
 const SHOWN: [&str; 5] = ["svg", "png", "csv", "json", "html"];
-/// What a file may do that is shown: are in a frame of the page, with its own styles and pictures, and no scripts.
+/// Policy of a file that is shown: in a frame of the page, with its own styles and pictures, and no scripts.
 const SHOWN_POLICY: &str =
     "sandbox; default-src 'none'; img-src 'self' data:; style-src 'unsafe-inline'; frame-ancestors 'self'";
 
-/// What is in the folder.
+/// The content of the folder.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub(crate) struct Files {
     /// By name; at most 2000.
@@ -60,27 +60,27 @@ pub(crate) struct FileRow {
     pub name: String,
     /// Its size.
     pub bytes: u64,
-    /// Since it was written.
+    /// Time since it was written.
     pub modified_s_ago: f64,
 }
 
-/// A file that was taken in.
+/// A file that was uploaded.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
-pub(crate) struct TakenIn {
+pub(crate) struct UploadedFile {
     /// Its name in the folder.
     pub name: String,
     /// Its size.
     pub bytes: u64,
-    /// What it seems to be.
+    /// Its detected kind.
     pub kind: FileKind,
-    /// How a study names such a file.
+    /// Example of the lines of a study that use such a file.
     pub hint: String,
 }
 
-/// How a file is taken in.
+/// Options of an upload.
 #[derive(Clone, Debug, Default, Deserialize)]
 struct Taking {
-    /// `1`: in the place of one of that name.
+    /// `1`: replaces a file of that name.
     replace: Option<String>,
 }
 
@@ -104,7 +104,7 @@ fn listed(root: &Path) -> Vec<FileRow> {
     files
 }
 
-/// Adds what is in `folder`, so many folders deep.
+/// Adds the content of `folder`, so many folders deep.
 fn add(folder: &Path, before: &str, files: &mut Vec<FileRow>, depth: usize) {
     let Ok(entries) = std::fs::read_dir(folder) else {
         return;
@@ -137,7 +137,7 @@ fn add(folder: &Path, before: &str, files: &mut Vec<FileRow>, depth: usize) {
     }
 }
 
-/// Whether a part of a path is a name, not hidden, and no trick.
+/// Whether a part of a path is a plain name: not hidden, without separators.
 fn is_plain(name: &str) -> bool {
     let odd = |c: char| c.is_control() || matches!(c, '/' | '\\' | ':');
     !name.is_empty() && !name.starts_with('.') && !name.contains(odd)
@@ -229,7 +229,7 @@ async fn take(
         || name.trim() != name
     {
         let message =
-            "a file is named by letters, digits, `-`, `_`, points and blanks, 100 at most, without a folder";
+            "a file name has letters, digits, `-`, `_`, points and blanks, 100 at most, and no folder";
         return Err(ApiError::forbidden(message));
     }
     let path = state.cell.root.join(&name);
@@ -237,7 +237,7 @@ async fn take(
         return Err(ApiError::forbidden("the study is written by /api/study"));
     }
     let replaces = taking.replace.as_deref() == Some("1");
-    let taken = || ApiError::conflict(format!("there is a file `{name}` already"));
+    let taken = || ApiError::conflict(format!("the file `{name}` exists already"));
     // Also a link that leads nowhere is there.
     if path
         .symlink_metadata()
@@ -250,7 +250,7 @@ async fn take(
     let failed = |error: std::io::Error| {
         ApiError::from(StudyError::value(
             format!("cannot write {name}: {error}"),
-            "is there space?",
+            "check the free disk space",
         ))
     };
     // Hidden until it is whole, and removed if this ends early; after a kill the next start removes it.
@@ -272,10 +272,14 @@ async fn take(
         Ok(Ok(_)) => {}
         Ok(Err(error)) if error.error.kind() == std::io::ErrorKind::AlreadyExists => return Err(taken()),
         Ok(Err(error)) => return Err(failed(error.error)),
-        Err(_) => return Err(ApiError::internal("a fault of armill while a file was taken in")),
+        Err(_) => {
+            return Err(ApiError::internal(
+                "internal error of armill while a file was uploaded",
+            ));
+        }
     }
     let (kind, hint) = kind_of(&path, &name);
-    let taken = TakenIn {
+    let taken = UploadedFile {
         name,
         bytes,
         kind,

@@ -1,12 +1,12 @@
-//! Who may ask, and what every answer carries.
+//! Which requests are allowed, and the headers of every answer.
 //!
-//! | asked with | refused with |
+//! | requested with | refused with |
 //! |---|---|
 //! | a host that is not this server on loopback (another site's name that leads here) | 403 |
 //! | the origin of another site | 403 |
 //! | a path under `/api` without the token of this start | 401 |
 //!
-//! The token is 128 random bits, new at every start, and compared in a time that does not tell how much of it is right.
+//! The token is 128 random bits, new at every start, and compared in constant time.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -47,7 +47,7 @@ impl Token {
         getrandom::fill(&mut bytes).map_err(|error| {
             StudyError::value(
                 format!("no random numbers for a token: {error}"),
-                "see the system",
+                "check the random number source of the system",
             )
         })?;
         Ok(Token(bytes.iter().map(|byte| format!("{byte:02x}")).collect()))
@@ -115,7 +115,7 @@ fn all<'a>(headers: &'a HeaderMap, name: &HeaderName) -> Vec<Option<&'a str>> {
         .collect()
 }
 
-/// Lets through who may ask, and puts on every answer what browsers go by.
+/// Passes allowed requests on, and adds the security headers to every answer.
 pub(crate) async fn check(State(guard): State<Arc<Guard>>, request: Request, next: Next) -> Response {
     let path = request.uri().path();
     let is_api = path == "/api" || path.starts_with("/api/");
@@ -126,7 +126,7 @@ pub(crate) async fn check(State(guard): State<Arc<Guard>>, request: Request, nex
         client.keep_place();
     }
     let mut response = if !is_for_us {
-        ApiError::forbidden("this server answers its own page on this machine alone").into_response()
+        ApiError::forbidden("this server answers only its own page on this machine").into_response()
     } else if is_api && !has_token {
         ApiError::unauthorised().into_response()
     } else {
@@ -136,7 +136,7 @@ pub(crate) async fn check(State(guard): State<Arc<Guard>>, request: Request, nex
     headers.entry(CONTENT_SECURITY_POLICY).or_insert(POLICY);
     headers.insert(X_CONTENT_TYPE_OPTIONS, HeaderValue::from_static("nosniff"));
     headers.insert(REFERRER_POLICY, HeaderValue::from_static("no-referrer"));
-    // What the page's own waiting is made of: a browser shows it beside its own times.
+    // The server's part of the waiting time: a browser shows it next to its own times.
     let took = format!("total;dur={:.2}", begun.elapsed().as_secs_f64() * 1e3);
     if let (true, Ok(took)) = (is_api, HeaderValue::from_str(&took)) {
         headers.insert(HeaderName::from_static("server-timing"), took);

@@ -1,4 +1,4 @@
-//! One piece of long work: how far it is, what came of it.
+//! One piece of long work: its progress and its result.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -11,55 +11,55 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use tokio::sync::Semaphore;
 
-use crate::error::{ApiError, Wrong};
+use crate::error::{ApiError, ErrorDetail};
 use crate::task::Task;
 
-/// How a job stands.
+/// The state of a job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum JobState {
     /// Another one is computing.
     Waiting,
-    /// Computing.
+    /// It is computing.
     Running,
-    /// Its results are there.
+    /// Its results are available.
     Done,
-    /// It could not be done.
+    /// It ended with an error.
     Failed,
     /// The user stopped it.
     Cancelled,
 }
 
 impl JobState {
-    /// Whether nothing more comes of it.
+    /// Whether it is final.
     pub(crate) fn is_last(self) -> bool {
         !matches!(self, JobState::Waiting | JobState::Running)
     }
 }
 
-/// A job, as it is reported.
+/// A job.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub(crate) struct JobAnswer {
-    /// What it is called.
+    /// Its name.
     pub id: String,
     /// `run`, `posture`, `place` or `identify`.
     pub kind: &'static str,
     /// Title of the study.
     pub title: String,
-    /// How it stands.
+    /// Its state.
     pub state: JobState,
-    /// What is finished of `of`.
+    /// Finished items, of `of`.
     pub done: usize,
-    /// What there is to do; 0 while that is not known.
+    /// Items in total; 0 while that is not known.
     pub of: usize,
-    /// The best so far, or what is being written.
+    /// The best so far, or the current step.
     pub best: Option<String>,
-    /// Since it was requested.
+    /// Time since it was requested.
     pub started_s_ago: f64,
-    /// How long it has computed.
+    /// Time of computing.
     pub seconds: f64,
     /// Why it failed.
-    pub error: Option<Wrong>,
+    pub error: Option<ErrorDetail>,
     /// Its answer, as the command's JSON; only where one job is requested.
     #[schemars(with = "Option<serde_json::Value>")]
     pub answer: Option<Box<serde_json::value::RawValue>>,
@@ -87,7 +87,7 @@ struct Inner {
     best: Option<String>,
     begun: Option<Instant>,
     ended: Option<Instant>,
-    error: Option<Wrong>,
+    error: Option<ErrorDetail>,
     answer: Option<Box<serde_json::value::RawValue>>,
     files: Vec<String>,
 }
@@ -116,7 +116,7 @@ impl Job {
         }
     }
 
-    /// What it does.
+    /// Its task.
     pub(crate) fn task(&self) -> &Task {
         &self.task
     }
@@ -125,7 +125,7 @@ impl Job {
         change(&mut self.inner.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// How it stands.
+    /// Its state.
     pub(crate) fn state(&self) -> JobState {
         self.change(|inner| inner.state)
     }
@@ -140,12 +140,12 @@ impl Job {
         });
     }
 
-    /// Forgets the answer, which its files still hold.
+    /// Drops the answer, which its files still contain.
     pub(crate) fn forget_answer(&self) {
         self.change(|inner| inner.answer = None);
     }
 
-    /// As it is reported.
+    /// The job as an answer.
     pub(crate) fn reported(&self, with_answer: bool) -> JobAnswer {
         self.change(|inner| {
             let end = inner.ended.unwrap_or_else(Instant::now);
@@ -166,7 +166,7 @@ impl Job {
         })
     }
 
-    /// Does it, on the threads of the current pool; results go into folders of `root`.
+    /// Runs the task on the threads of the current pool; results go into folders of `root`.
     pub(crate) fn work(&self, shown: &str, root: &Path) {
         let begins = self.change(|inner| {
             let waits = inner.state == JobState::Waiting;
@@ -179,8 +179,12 @@ impl Job {
             return;
         }
         let tried = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| self.outcome(shown, root)));
-        let outcome =
-            tried.unwrap_or_else(|_| Err(StudyError::value("a fault of armill: the work broke off", "")));
+        let outcome = tried.unwrap_or_else(|_| {
+            Err(StudyError::value(
+                "internal error of armill: the computation ended early",
+                "",
+            ))
+        });
         self.change(|inner| {
             inner.ended = Some(Instant::now());
             inner.best = inner
@@ -200,7 +204,7 @@ impl Job {
                 }
                 Err(error) if error.kind() == ErrorKind::Cancelled => inner.state = JobState::Cancelled,
                 Err(error) => {
-                    inner.error = Some(ApiError::from(error).into_wrong());
+                    inner.error = Some(ApiError::from(error).into_detail());
                     inner.state = JobState::Failed;
                 }
             }
@@ -219,8 +223,8 @@ impl Job {
         })
     }
 
-    /// Says what is best so far, or what is being done.
-    pub(crate) fn tell(&self, what: &str) {
+    /// Reports the best so far, or the current step.
+    pub(crate) fn report(&self, what: &str) {
         self.change(|inner| inner.best = Some(what.to_owned()));
     }
 }

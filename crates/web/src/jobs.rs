@@ -1,10 +1,10 @@
-//! Long work on the server: it goes on when the page is closed or loaded again. One computes, the others wait.
+//! Long work on the server: it continues when the page is closed or loaded again. One job computes, the others wait.
 //!
 //! | path | does |
 //! |---|---|
-//! | `POST /api/jobs` | begins one, and says what it is called |
+//! | `POST /api/jobs` | begins one, and returns its name |
 //! | `GET /api/jobs`, `GET /api/jobs/ID` | all, newest first; one with its answer |
-//! | `GET /api/jobs/ID/events` | tells how it goes on, ten times a second at most, until it ends |
+//! | `GET /api/jobs/ID/events` | reports its progress, ten times a second at most, until it ends |
 //! | `DELETE /api/jobs/ID` | cancels it |
 //!
 //! At most 16 event streams of a job and 64 in all are open at a time; another one is answered 429.
@@ -28,7 +28,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use tokio::sync::Semaphore;
 
-use crate::body::{Asked, check_text, json};
+use crate::body::{JsonBody, check_text, json};
 use crate::error::{Answered, ApiError};
 use crate::job::{Job, JobAnswer, JobState};
 use crate::server::State;
@@ -46,10 +46,10 @@ const MOST_STREAMS: usize = 64;
 /// Ten times a second.
 const EVENT_TIME: Duration = Duration::from_millis(100);
 
-/// A job to do, and what problems call its study.
+/// A job to run, and the name of its study in messages.
 type Next = (Arc<Job>, String);
 
-/// All jobs of this start.
+/// All jobs since the start.
 pub(crate) struct Jobs {
     all: Mutex<Vec<Arc<Job>>>,
     /// Room for event streams.
@@ -68,10 +68,10 @@ pub(crate) struct JobList {
     pub jobs: Vec<JobAnswer>,
 }
 
-/// What a new job is called.
+/// Name of a new job.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub(crate) struct JobBegun {
-    /// Behind `/api/jobs/`.
+    /// The last part of its path below `/api/jobs/`.
     pub id: String,
 }
 
@@ -131,7 +131,7 @@ impl Jobs {
         found.ok_or_else(|| ApiError::not_found("there is no such job"))
     }
 
-    /// Waits until the one under way has heard that it is cancelled, so long at most.
+    /// Waits until the job under way has ended, at most for this time.
     pub(crate) fn wait(&self, longest: Duration) {
         let begun = Instant::now();
         while !self.computing.is_finished() && begun.elapsed() < longest {
@@ -139,14 +139,14 @@ impl Jobs {
         }
     }
 
-    /// Cancels all, and takes no more.
+    /// Cancels all, and accepts no more.
     pub(crate) fn stop(&self) {
         self.next.lock().unwrap_or_else(PoisonError::into_inner).take();
         self.with(|all| all.iter().for_each(|job| job.stop()));
     }
 }
 
-/// Does jobs one after the other, on threads of their own, so that short questions do not wait for them.
+/// Runs jobs one after the other, on separate threads, so that short requests do not wait for them.
 fn compute(waiting: &Receiver<Next>, root: &std::path::Path) {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
@@ -165,10 +165,10 @@ pub(crate) fn routes() -> Router<Arc<State>> {
         .route("/jobs/{id}/events", get(events))
 }
 
-async fn begin(Shared(state): Shared<Arc<State>>, Asked(task): Asked<Task>) -> Answered {
+async fn begin(Shared(state): Shared<Arc<State>>, JsonBody(task): JsonBody<Task>) -> Answered {
     check_text(task.text())?;
     let (shared, text) = (Arc::clone(&state), task.text().to_owned());
-    // A study with problems becomes a job that fails, and tells them.
+    // A study with problems becomes a job that fails, and reports them.
     let given = state
         .work
         .done(move |_| Ok(outline(shared.cell.text(&text))))
@@ -182,18 +182,18 @@ async fn begin(Shared(state): Shared<Arc<State>>, Asked(task): Asked<Task>) -> A
 async fn list(Shared(state): Shared<Arc<State>>) -> Response {
     let jobs = state
         .jobs
-        .with(|all| all.iter().rev().map(|job| job.given(false)).collect());
+        .with(|all| all.iter().rev().map(|job| job.reported(false)).collect());
     json(StatusCode::OK, &JobList { jobs })
 }
 
 async fn one(Shared(state): Shared<Arc<State>>, InPath(id): InPath<String>) -> Answered {
-    Ok(json(StatusCode::OK, &state.jobs.find(&id)?.given(true)))
+    Ok(json(StatusCode::OK, &state.jobs.find(&id)?.reported(true)))
 }
 
 async fn cancel(Shared(state): Shared<Arc<State>>, InPath(id): InPath<String>) -> Answered {
     let job = state.jobs.find(&id)?;
     job.stop();
-    Ok(json(StatusCode::OK, &job.given(false)))
+    Ok(json(StatusCode::OK, &job.reported(false)))
 }
 
 async fn events(Shared(state): Shared<Arc<State>>, InPath(id): InPath<String>) -> Answered {
@@ -220,7 +220,7 @@ async fn events(Shared(state): Shared<Arc<State>>, InPath(id): InPath<String>) -
             }
             loop {
                 time.tick().await;
-                let now = job.given(false);
+                let now = job.reported(false);
                 let key = Some((now.state, now.done, now.of, now.best.clone()));
                 if key == last {
                     continue;

@@ -1,26 +1,27 @@
 //! The local server behind `armill serve`: the live page of one study, for the user of this machine alone.
 //!
-//! It holds no mechanics and no format: every answer is a value of `armill-study`, serialised as the command prints it.
+//! It contains no mechanics and no format: every answer is a value of `armill-study`, serialised as the command prints
+//! it.
 //!
 //! ```text
-//! browser -> 127.0.0.1 -> guard (host, origin, token) -> handlers -> work (a thread of its own) -> armill-study
+//! browser -> 127.0.0.1 -> guard (host, origin, token) -> handlers -> work (own thread) -> armill-study
 //! ```
 //!
-//! | file | question |
+//! | file | content |
 //! |---|---|
-//! | `server` | how does it start, listen, and stop? |
-//! | `connections`, `stream` | how many are connected, and which of them are given up? |
-//! | `guard` | who may ask, and what does every answer carry? |
-//! | `cell` | which study is it, and where do its files lie? |
-//! | `body`, `error` | what of a request is read, and how is reported what is wrong? |
-//! | `work` | where does computing happen, and who still waits for it? |
-//! | `study`, `answers`, `jobs`, `files` | what does each path under `/api` do? |
-//! | `job`, `task` | how far is one job, and what does each kind do? |
-//! | `page` | what is served to look at? |
-//! | `opening` | how does the browser learn the address? |
-//! | `openapi` | how is all that told to a program? |
+//! | `server` | start, listening and stop |
+//! | `connections`, `stream` | number of connections, and which are closed |
+//! | `guard` | allowed requests, headers of every answer |
+//! | `cell` | the study that is served, and the folder of its files |
+//! | `body`, `error` | reading of request bodies, reporting of errors |
+//! | `work` | threads of the computation, cancelling |
+//! | `study`, `answers`, `jobs`, `files` | the paths under `/api` |
+//! | `job`, `task` | progress of one job, and what each kind does |
+//! | `page` | the files of the page |
+//! | `opening` | how the browser receives the address |
+//! | `openapi` | the description of the interface for programs |
 //!
-//! Nothing outside this machine is requested anything, and the page loads nothing from elsewhere.
+//! Nothing is requested from outside this machine, and the page loads nothing from elsewhere.
 
 mod answers;
 mod body;

@@ -1,4 +1,4 @@
-//! How everything under `/api` is reported to a program: OpenAPI 3.1, its schemas made from the types themselves.
+//! The description of everything under `/api` for programs: OpenAPI 3.1, its schemas made from the types themselves.
 //!
 //! The page's own types come from it, so that none is typed by hand.
 
@@ -18,13 +18,15 @@ use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::{Map, Value, json};
 
-use crate::answers::{OfAnalysis, OfMesh, OfPicture, OfPlace, OfTable, OfView};
+use crate::answers::{
+    AnalysisRequest, MeshRequest, PictureRequest, PosturesRequest, TableRequest, ViewRequest,
+};
 use crate::error::ErrorBody;
-use crate::files::{Files, TakenIn};
+use crate::files::{Files, UploadedFile};
 use crate::job::JobAnswer;
 use crate::jobs::{JobBegun, JobList};
 use crate::server::State;
-use crate::study::{Changes, Checked, StudyOnDisk, Written};
+use crate::study::{ChangeRequest, CheckRequest, StudyOnDisk, StudyUpdate};
 use crate::task::Task;
 
 /// Where schemas are in the document.
@@ -41,7 +43,7 @@ struct Operation {
     answered: (u16, &'static str, Value),
 }
 
-/// Schemas of what is asked and of what is answered; they tell apart what may be left out.
+/// Schemas of requests and of answers; they differ in which fields may be left out.
 struct Schemas {
     requested: SchemaGenerator,
     answered: SchemaGenerator,
@@ -79,10 +81,10 @@ pub(crate) fn routes() -> Router<Arc<State>> {
 }
 
 /// The document as it is sent: made once.
-static TOLD: LazyLock<Bytes> = LazyLock::new(|| document().to_string().into());
+static DOCUMENT: LazyLock<Bytes> = LazyLock::new(|| document().to_string().into());
 
 async fn reported() -> Response {
-    crate::body::typed("application/json", TOLD.clone())
+    crate::body::typed("application/json", DOCUMENT.clone())
 }
 
 /// The whole document.
@@ -102,8 +104,8 @@ pub fn document() -> Value {
         let mut reported = json!({
             "summary": about,
             "responses": {
-                status.to_string(): { "description": "as asked", "content": { kind: { "schema": schema } } },
-                "default": { "description": "what is wrong", "content": { "application/json": { "schema": error } } },
+                status.to_string(): { "description": "success", "content": { kind: { "schema": schema } } },
+                "default": { "description": "error", "content": { "application/json": { "schema": error } } },
             },
         });
         if let Some(schema) = requested {
@@ -143,7 +145,8 @@ fn parameters(path: &str) -> Vec<Value> {
     let names = path
         .split('/')
         .filter_map(|part| part.strip_prefix('{')?.strip_suffix('}'));
-    let reported = |name| json!({ "name": name, "in": "path", "required": true, "schema": { "type": "string" } });
+    let reported =
+        |name| json!({ "name": name, "in": "path", "required": true, "schema": { "type": "string" } });
     names.map(reported).collect()
 }
 
@@ -169,28 +172,28 @@ fn operations(s: &mut Schemas) -> Vec<Operation> {
             "put",
             "/api/study",
             "Writes the study",
-            s.requested::<Written>(),
+            s.requested::<StudyUpdate>(),
             s.answered::<StudyOnDisk>(200),
         ),
         of(
             "post",
             "/api/check",
             "What is in a text",
-            s.requested::<Checked>(),
+            s.requested::<CheckRequest>(),
             s.answered::<OutlineAnswer>(200),
         ),
         of(
             "post",
             "/api/change",
             "A text with values changed",
-            s.requested::<Changes>(),
+            s.requested::<ChangeRequest>(),
             s.answered::<ChangedAnswer>(200),
         ),
         of(
             "post",
             "/api/tables",
             "The values of a text, each with its place",
-            s.requested::<Checked>(),
+            s.requested::<CheckRequest>(),
             s.answered::<TablesAnswer>(200),
         ),
         of(
@@ -203,64 +206,64 @@ fn operations(s: &mut Schemas) -> Vec<Operation> {
         of(
             "post",
             "/api/view",
-            "Answer, values and scene of an ask after values are changed",
-            s.requested::<OfView>(),
+            "Answer, values and scene of an analysis after values are changed",
+            s.requested::<ViewRequest>(),
             s.answered::<ViewAnswer>(200),
         ),
         of(
             "post",
             "/api/mesh",
             "A shape of the robot",
-            s.requested::<OfMesh>(),
+            s.requested::<MeshRequest>(),
             bytes(200, "model/stl"),
         ),
         of(
             "post",
             "/api/answer",
-            "The answer to an ask",
-            s.requested::<OfAnalysis>(),
+            "The answer to an analysis",
+            s.requested::<AnalysisRequest>(),
             s.answered::<StudyAnswer>(200),
         ),
         of(
             "post",
             "/api/values",
-            "The settings of an ask",
-            s.requested::<OfAnalysis>(),
+            "The settings of an analysis",
+            s.requested::<AnalysisRequest>(),
             s.answered::<ValuesAnswer>(200),
         ),
         of(
             "post",
             "/api/pose",
             "The arm at one place",
-            s.requested::<OfPlace>(),
+            s.requested::<PosturesRequest>(),
             s.answered::<PosturesAnswer>(200),
         ),
         of(
             "post",
             "/api/scene",
-            "What can be drawn of an ask",
-            s.requested::<OfAnalysis>(),
+            "The geometry of an analysis for drawing",
+            s.requested::<AnalysisRequest>(),
             s.answered::<SceneAnswer>(200),
         ),
         of(
             "post",
             "/api/table",
-            "The table of an ask",
-            s.requested::<OfTable>(),
+            "The table of an analysis",
+            s.requested::<TableRequest>(),
             bytes(200, "text/csv"),
         ),
         of(
             "post",
             "/api/pictures",
-            "The pictures of an ask",
-            s.requested::<OfAnalysis>(),
+            "The pictures of an analysis",
+            s.requested::<AnalysisRequest>(),
             s.answered::<PicturesAnswer>(200),
         ),
         of(
             "post",
             "/api/picture.png",
             "A picture in pixels",
-            s.requested::<OfPicture>(),
+            s.requested::<PictureRequest>(),
             bytes(200, "image/png"),
         ),
         of(
@@ -295,7 +298,7 @@ fn operations(s: &mut Schemas) -> Vec<Operation> {
         of(
             "get",
             "/api/jobs/{id}/events",
-            "How a job goes on: events `job`",
+            "Progress of a job: events `job`",
             None,
             bytes(200, "text/event-stream"),
         ),
@@ -316,9 +319,9 @@ fn operations(s: &mut Schemas) -> Vec<Operation> {
         of(
             "put",
             "/api/files/{path}",
-            "Takes a file in",
+            "Uploads a file",
             None,
-            s.answered::<TakenIn>(201),
+            s.answered::<UploadedFile>(201),
         ),
         of(
             "get",

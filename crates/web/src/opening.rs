@@ -1,8 +1,9 @@
-//! How the browser is sent to the page while no other user can read the token.
+//! How the browser is opened at the page without other users being able to read the token.
 //!
-//! Arguments of programs can be read by every user of the machine. The program that opens the browser is therefore given
-//! the name of a private file, a page that leads to the address. The file is removed when the browser has requested the
-//! address, after [`PAGE_TIME`] at the latest; one that a killed server left is removed at the next start.
+//! Arguments of programs can be read by every user of the machine. The program that opens the browser is therefore
+//! given the name of a private file, a page that leads to the address. The file is removed when the browser has
+//! requested the address, after [`PAGE_TIME`] at the latest; one that a killed server left is removed at the next
+//! start.
 
 use std::fs::{self, OpenOptions};
 use std::io::{self, Write};
@@ -44,7 +45,7 @@ impl Opening {
         Ok(path)
     }
 
-    /// Removes the file: the browser has requested the address, or does not any more.
+    /// Removes the file: the browser has requested the address, or will no longer do so.
     pub(crate) fn remove(&self) {
         self.set(None);
     }

@@ -1,6 +1,6 @@
-//! What is served to look at: the page, if it was built into the program, else a word on how to build it.
+//! The files of the page, if it was built into the program, else a message on how to build it.
 //!
-//! Its files hold nothing of the study, so that they need no token.
+//! Its files contain nothing of the study, so that they need no token.
 
 use std::sync::Arc;
 
@@ -14,7 +14,8 @@ use crate::connections::Client;
 use crate::error::ApiError;
 use crate::server::State;
 
-/// The files of the page by their names, which `cargo xtask web` makes and `build.rs` finds; empty where there are none.
+/// The files of the page by their names, which `cargo xtask web` makes and `build.rs` finds; empty where there are
+/// none.
 const BUILT: &[(&str, &[u8])] = include!(concat!(env!("OUT_DIR"), "/page.rs"));
 
 /// What is served without it.
@@ -71,7 +72,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_page_that_is_there_is_whole() {
+    fn an_included_page_is_complete() {
         // What the page names is there, be it built in or not.
         let of = |name: &str| {
             BUILT

@@ -2,12 +2,12 @@
 //!
 //! | bound | value |
 //! |---|---|
-//! | connections at a time | 512, of which those without the token give way: see `connections` |
+//! | connections at a time | 512; those without the token are closed first: see `connections` |
 //! | head of a request | 10 s, 65536 bytes exactly |
 //! | an answer of which the client takes nothing | 10 s: see `stream` |
-//! | answers under way when it stops, a job to hear of it | 5 s each |
+//! | answers under way when it stops, time for a job to stop | 5 s each |
 //!
-//! A job under way is cancelled when it stops; what it wrote is whole or not there.
+//! A job under way is cancelled when it stops; its files are complete or not there.
 
 use std::net::{Ipv4Addr, SocketAddr};
 use std::path::PathBuf;
@@ -43,16 +43,16 @@ const MOST_CONNECTIONS: usize = 512;
 const HEAD_TIME: Duration = Duration::from_secs(10);
 /// Bytes of the head of a request.
 const MOST_HEAD: usize = 64 * 1024;
-/// How long answers under way may take when it stops, and then a job until it hears of it.
+/// Time for answers under way when it stops, and then for a job to stop.
 const LAST_ANSWERS: Duration = Duration::from_secs(5);
-/// How long computing may take to hear that it is cancelled.
+/// Time for a computation to notice that it is cancelled.
 const LAST_WORK: Duration = Duration::from_secs(2);
 
 /// What to serve.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// Folder with a study, the file itself, or the name of an example; without, the current folder if it holds one, else
-    /// the example mh12-groove.
+    /// Folder with a study, the file itself, or the name of an example; without, the current folder if it contains one,
+    /// else the example mh12-groove.
     pub study: Option<PathBuf>,
     /// Port on 127.0.0.1; 0 is chosen by the system.
     pub port: u16,
@@ -79,7 +79,7 @@ pub struct Server {
 }
 
 impl Server {
-    /// Listens; nothing is asked of the study yet, so that a broken one can be mended on the page.
+    /// Listens; the study is not evaluated yet, so that an invalid one can be corrected on the page.
     ///
     /// # Errors
     /// No study there; a port that is taken; no randomness for the token.
@@ -88,7 +88,10 @@ impl Server {
         let token = Token::random()?;
         let refused = |error: std::io::Error| {
             let message = format!("cannot listen on 127.0.0.1:{}: {error}", options.port);
-            StudyError::value(message, "another --port, or none: the system then chooses one")
+            StudyError::value(
+                message,
+                "choose another --port, or none: the system then chooses one",
+            )
         };
         let runtime = tokio::runtime::Builder::new_multi_thread()
             .worker_threads(2)
@@ -124,7 +127,7 @@ impl Server {
         &self.url
     }
 
-    /// Serves until the user interrupts (Ctrl-C) or the system asks it to end, then stops.
+    /// Serves until the user interrupts (Ctrl-C) or the system requests it to end, then stops.
     pub fn run(self) {
         self.runtime.block_on(async {
             // Before there is a file that an interrupt would leave.
@@ -232,7 +235,7 @@ async fn listen(listener: TcpListener, app: Router, mut stopped: watch::Receiver
             tokio::select! {
                 _ = connection => (),
                 () = left => (),
-                () = place.is_wanted() => (),
+                () = place.is_revoked() => (),
             }
         });
     }
@@ -256,7 +259,7 @@ fn interrupted() -> impl Future<Output = ()> {
             (Ok(mut one), Err(_)) | (Err(_), Ok(mut one)) => {
                 one.recv().await;
             }
-            // The system ends the program without asking.
+            // The system ends the program without a signal.
             (Err(_), Err(_)) => std::future::pending().await,
         }
     }

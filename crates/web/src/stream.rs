@@ -43,7 +43,8 @@ impl Stream {
 
     /// Waits until the client has closed its side.
     ///
-    /// hyper sees that only when it reads, and it does not read while it holds bytes behind the request that it answers.
+    /// hyper sees that only when it reads, and it does not read while it buffers bytes behind the request that it
+    /// answers.
     pub(crate) fn left(&self) -> impl Future<Output = ()> + Send + use<> {
         let reading = Arc::clone(&self.reading);
         async move {

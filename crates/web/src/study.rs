@@ -2,9 +2,9 @@
 //!
 //! | path | does |
 //! |---|---|
-//! | `GET /api/study` | text on disk, what is in it, what is wrong with it |
-//! | `PUT /api/study` | writes it, if nobody else has |
-//! | `POST /api/check` | what is in a text, what is wrong with it |
+//! | `GET /api/study` | text on disk, its outline, its problems |
+//! | `PUT /api/study` | writes it, if it has not been changed since |
+//! | `POST /api/check` | outline and problems of a text |
 //! | `POST /api/change` | a text with some values changed, its comments kept |
 //! | `POST /api/tables` | the values of a text, each with its place |
 //! | `GET /api/schema` | which tables and values a study may have, as `armill check --schema` prints it |
@@ -23,7 +23,7 @@ use axum::routing::{get, post};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::body::{Asked, check_text, json, typed};
+use crate::body::{JsonBody, check_text, json, typed};
 use crate::cell::{Cell, version};
 use crate::error::Answered;
 use crate::server::State;
@@ -31,13 +31,13 @@ use crate::server::State;
 /// The study as it is on disk.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub(crate) struct StudyOnDisk {
-    /// What problems call its file.
+    /// The name of its file in messages.
     pub file: String,
-    /// The folder where its files lie.
+    /// The folder of its files.
     pub folder: String,
     /// Whether it may be written; an example may not.
     pub writable: bool,
-    /// What tells this state of the file from another.
+    /// Identifies this state of the file.
     pub version: String,
     /// Its text.
     pub text: String,
@@ -45,41 +45,41 @@ pub(crate) struct StudyOnDisk {
     pub title: Option<String>,
     /// The robot, as the study names it.
     pub robot: Option<String>,
-    /// Its asks, in order.
+    /// Its analyses, in order.
     pub analyses: Vec<OutlinedAnalysis>,
-    /// Everything that is wrong.
+    /// All problems of the text.
     pub problems: Vec<Problem>,
     /// Version of armill.
     pub armill: &'static str,
 }
 
-/// A text that is to be written.
+/// A text to be written.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Written {
+pub(crate) struct StudyUpdate {
     /// The text.
     pub text: String,
-    /// Which state of the file it comes from.
+    /// The state of the file that it is based on.
     pub version: String,
 }
 
-/// A text that is to be looked at.
+/// A text to be checked.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Checked {
+pub(crate) struct CheckRequest {
     /// The text.
     pub text: String,
 }
 
-/// A text that is to be changed.
+/// A text to be changed.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Changes {
+pub(crate) struct ChangeRequest {
     /// The text.
     pub text: String,
-    /// The ask whose values they are; those of the study where none is named.
+    /// The analysis whose values they are; the study itself if left out.
     pub analysis: Option<String>,
-    /// What changes.
+    /// The changes.
     pub changes: Vec<ChangedValue>,
 }
 
@@ -98,7 +98,7 @@ async fn read(Shared(state): Shared<Arc<State>>) -> Answered {
     Ok(json(StatusCode::OK, &study))
 }
 
-async fn write(Shared(state): Shared<Arc<State>>, Asked(written): Asked<Written>) -> Answered {
+async fn write(Shared(state): Shared<Arc<State>>, JsonBody(written): JsonBody<StudyUpdate>) -> Answered {
     check_text(&written.text)?;
     let shared = Arc::clone(&state);
     let work = move |_: armill_core::watch::Watch<'_>| {
@@ -110,7 +110,7 @@ async fn write(Shared(state): Shared<Arc<State>>, Asked(written): Asked<Written>
     Ok(json(StatusCode::OK, &state.work.done(work).await??))
 }
 
-/// The study as it is now; a file that cannot be read any more is reported as a problem.
+/// The study as it is now; a file that can no longer be read is reported as a problem.
 fn on_disk(cell: &Cell) -> StudyOnDisk {
     let (bytes, gone) = match cell.bytes() {
         Ok(bytes) => (bytes, None),
@@ -122,7 +122,7 @@ fn on_disk(cell: &Cell) -> StudyOnDisk {
             problems: vec![Problem::of_file(&cell.shown, error.to_string(), "")],
             ..OutlineAnswer::default()
         },
-        None => outline(armill_study::live::Text {
+        None => outline(armill_study::live::StudyText {
             bytes: &bytes,
             ..cell.text(&text)
         }),
@@ -141,14 +141,14 @@ fn on_disk(cell: &Cell) -> StudyOnDisk {
     }
 }
 
-async fn check(Shared(state): Shared<Arc<State>>, Asked(checked): Asked<Checked>) -> Answered {
+async fn check(Shared(state): Shared<Arc<State>>, JsonBody(checked): JsonBody<CheckRequest>) -> Answered {
     check_text(&checked.text)?;
     let shared = Arc::clone(&state);
     let work = move |_: armill_core::watch::Watch<'_>| Ok(outline(shared.cell.text(&checked.text)));
     Ok(json(StatusCode::OK, &state.work.done(work).await?))
 }
 
-async fn change(Shared(state): Shared<Arc<State>>, Asked(requested): Asked<Changes>) -> Answered {
+async fn change(Shared(state): Shared<Arc<State>>, JsonBody(requested): JsonBody<ChangeRequest>) -> Answered {
     check_text(&requested.text)?;
     let shared = Arc::clone(&state);
     let work = move |_: armill_core::watch::Watch<'_>| {
@@ -161,7 +161,7 @@ async fn change(Shared(state): Shared<Arc<State>>, Asked(requested): Asked<Chang
     Ok(json(StatusCode::OK, &state.work.done(work).await?))
 }
 
-async fn of_tables(Shared(state): Shared<Arc<State>>, Asked(checked): Asked<Checked>) -> Answered {
+async fn of_tables(Shared(state): Shared<Arc<State>>, JsonBody(checked): JsonBody<CheckRequest>) -> Answered {
     check_text(&checked.text)?;
     let shared = Arc::clone(&state);
     let work = move |_: armill_core::watch::Watch<'_>| Ok(tables(shared.cell.text(&checked.text)));

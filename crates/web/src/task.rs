@@ -1,10 +1,10 @@
-//! What the kinds of jobs do, as the commands of their names.
+//! The kinds of jobs, each equal to a command.
 //!
 //! | kind | as the command | results in |
 //! |---|---|---|
 //! | `run` | `armill run` | `out` |
 //! | `posture` | `armill posture` | `posture` |
-//! | `place` | `armill place`; goes on where it was stopped | `place` |
+//! | `place` | `armill place`; continues where it was stopped | `place` |
 //! | `identify` | `armill identify` | `identify` |
 
 use std::path::{Path, PathBuf};
@@ -18,10 +18,10 @@ use armill_study::file::placement::PlaceTable;
 use armill_study::file::posture_search::SearchTable;
 use armill_study::file::resolve::Parsed;
 use armill_study::identify::robot_file::robot_file;
-use armill_study::identify::{self, PointsAsked, PriorAsked, Question, Units};
-use armill_study::live::Text;
-use armill_study::output::{self, Wanted};
-use armill_study::place::{Journal, Placing};
+use armill_study::identify::{self, PointsModel, PriorModel, Question, Units};
+use armill_study::live::StudyText;
+use armill_study::output::{self, OutputOptions};
+use armill_study::place::{Journal, PlacementSearch};
 use armill_study::run::{point_count, run};
 use armill_study::studies::FoundStudy;
 use armill_study::{Study, StudyError, robots};
@@ -31,65 +31,65 @@ use serde::Deserialize;
 use crate::files::inside;
 use crate::job::Job;
 
-/// What a job does.
+/// The task of a job.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
 pub(crate) enum Task {
-    /// Everything that the study asks for.
+    /// Every analysis of the study.
     Run {
         /// The text of the study.
         text: String,
-        /// What of it.
+        /// Options of the run.
         #[serde(default)]
         options: RunOptions,
     },
-    /// The best turn of the tool and branch along its paths.
+    /// The best spin of the tool and branch along its paths.
     Posture {
         /// The text of the study.
         text: String,
-        /// What is tried; as the study says where nothing is reported.
+        /// The options of the search; those of the study if left out.
         options: Option<SearchTable>,
     },
-    /// Where the part should lie.
+    /// The best place of the part.
     Place {
         /// The text of the study.
         text: String,
-        /// What may move.
+        /// Options of the placement.
         #[serde(default)]
         options: Box<PlaceOptions>,
     },
-    /// Springs from load tests.
+    /// Identification of compliances from load tests.
     Identify {
         /// The text of the study, whose robot was loaded.
         text: String,
-        /// Which tests.
+        /// Options of the identification.
         options: IdentifyOptions,
     },
 }
 
-/// What of a study is run.
+/// Options of a run.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RunOptions {
-    /// Only this ask.
+    /// Only this analysis.
     pub analysis: Option<String>,
     /// Tables only: no pictures, no report.
     #[serde(default)]
     pub no_pictures: bool,
 }
 
-/// What may move.
+/// Options of a placement.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PlaceOptions {
-    /// As `[place]` of a study; what it leaves out the study says.
+    /// As `[place]` of a study, whose values are used for what is left out.
     #[serde(default)]
     pub place: PlaceTable,
     /// Seed of the search; 1 if left out.
     pub seed: Option<u32>,
 }
 
-/// Which tests springs are found from.
+/// Options of an identification.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct IdentifyOptions {
@@ -97,38 +97,38 @@ pub(crate) struct IdentifyOptions {
     pub tests: String,
     /// Groups of unknowns with `+` between; `drives+bending+base` if left out.
     pub unknowns: Option<String>,
-    /// What is known of the two points: `known`, `common` or `separate`; `known` if left out.
+    /// Model of the two points: `known`, `common` or `separate`; `known` if left out.
     #[serde(default)]
     pub points: PointsName,
     /// Standard uncertainty of points that are not known.
     pub point_u_mm: Option<f64>,
-    /// Where force and displacement are unless a test says otherwise, flange frame.
+    /// Default point of force and displacement, flange frame.
     pub tool_mm: Option<[f64; 3]>,
 }
 
-/// What is known of the two points.
+/// Model of the two points.
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum PointsName {
-    /// Both, as told.
+    /// Both, as given.
     #[default]
     Known,
-    /// Both are off by one and the same shift.
+    /// Both have the same offset.
     Common,
-    /// Each is off by itself.
+    /// Each has its own offset.
     Separate,
 }
 
 /// Standard uncertainty of points that are not known, mm, as the command has it.
 const USUAL_POINT_U_MM: f64 = 200.0;
-/// Groups of unknowns, likewise.
+/// Groups of unknowns, as the command has them.
 const USUAL_UNKNOWNS: &str = "drives+bending+base";
 
-/// What came of a job: its answer as JSON, and its files.
+/// The result of a job: its answer as JSON, and its files.
 pub(crate) type Outcome = (String, Vec<PathBuf>);
 
 impl Task {
-    /// What it is called.
+    /// Its name.
     pub(crate) fn kind(&self) -> &'static str {
         match self {
             Task::Run { .. } => "run",
@@ -158,7 +158,7 @@ fn folder(task: &Task, root: &Path, name: &str) -> Result<ResultFolder, StudyErr
 }
 
 impl Job {
-    /// Does what the task says; results go into folders of `root`.
+    /// Runs the task; results go into folders of `root`.
     ///
     /// # Errors
     /// As the command of that name.
@@ -175,15 +175,15 @@ impl Job {
         match self.task() {
             Task::Run { text, options } => {
                 let found = found(text);
-                let text = Text {
+                let text = StudyText {
                     shown,
                     folder: root,
                     bytes: &found.bytes,
                 };
                 let requested = if options.no_pictures {
-                    Wanted::TABLES
+                    OutputOptions::TABLES
                 } else {
-                    Wanted::USUAL
+                    OutputOptions::USUAL
                 };
                 let study = text.study(options.analysis.as_deref())?;
                 self.results(&study, &folder(self.task(), root, "out")?, requested)
@@ -191,7 +191,11 @@ impl Job {
             Task::Posture { text, options } => {
                 let mut study = found(text).read()?;
                 study.search_postures(options.as_ref())?;
-                self.results(&study, &folder(self.task(), root, "posture")?, Wanted::USUAL)
+                self.results(
+                    &study,
+                    &folder(self.task(), root, "posture")?,
+                    OutputOptions::USUAL,
+                )
             }
             Task::Place { text, options } => {
                 self.place(&found(text), options, &folder(self.task(), root, "place")?)
@@ -201,11 +205,16 @@ impl Job {
     }
 
     /// Runs a study and writes its results.
-    fn results(&self, study: &Study, out: &ResultFolder, requested: Wanted<'_>) -> Result<Outcome, StudyError> {
+    fn results(
+        &self,
+        study: &Study,
+        out: &ResultFolder,
+        requested: OutputOptions<'_>,
+    ) -> Result<Outcome, StudyError> {
         output::allow(study, (out, requested))?;
         let done = self.counted(point_count(study), |watch| run(study, watch))?;
         let answer = answer(study, &done);
-        let files = output::write(study, &done, &answer, (out, requested), &|name| self.tell(name))?;
+        let files = output::write(study, &done, &answer, (out, requested), &|name| self.report(name))?;
         Ok((output::json(&answer)?, files))
     }
 
@@ -217,22 +226,22 @@ impl Job {
         out: &ResultFolder,
     ) -> Result<Outcome, StudyError> {
         let study = found.read()?;
-        let placing = Placing::new(
+        let placing = PlacementSearch::new(
             &study,
             options.place.clone(),
             u64::from(options.seed.unwrap_or(1)),
         )?;
         let mut journal = Journal::kept_in(out);
         let placed = self.counted(placing.place_count(), |watch| {
-            placing.search(&mut journal, watch, &|best| self.tell(best))
+            placing.search(&mut journal, watch, &|best| self.report(best))
         })?;
         let json = serde_json::to_string_pretty(&placed.answer)? + "\n";
         out.write("placement.json", json.as_bytes())?;
         output::write_pictures(&placed.pictures, out)?;
         let opening = placed.opening();
-        let requested = Wanted {
+        let requested = OutputOptions {
             opening: Some(&opening),
-            ..Wanted::USUAL
+            ..OutputOptions::USUAL
         };
         let (_, mut files) = self.results(&placed.study(found)?, out, requested)?;
         let pictures = placed
@@ -241,11 +250,11 @@ impl Job {
             .map(|picture| format!("{}.svg", picture.name));
         let names = std::iter::once("placement.json".to_owned()).chain(pictures);
         files.extend(names.map(|name| out.path().join(name)));
-        self.tell(&placed.answer.sentences().join(" "));
+        self.report(&placed.answer.sentences().join(" "));
         Ok((json, files))
     }
 
-    /// Finds springs, and writes the robot that has them.
+    /// Identifies springs, and writes the robot file with them.
     fn identify(
         &self,
         found: &FoundStudy,
@@ -259,7 +268,7 @@ impl Job {
         let tool_mm = Vector3::from(options.tool_mm.unwrap_or_default());
         if !(point_u_mm > 0.0 && point_u_mm < 1e6 && tool_mm.amax() < 1e6) {
             return Err(StudyError::value(
-                "point_u_mm or tool_mm is none that a tool has",
+                "point_u_mm or tool_mm is outside 0 to 1e6 mm",
                 "lengths in mm",
             ));
         }
@@ -269,17 +278,20 @@ impl Job {
                 .clone()
                 .unwrap_or_else(|| USUAL_UNKNOWNS.to_owned()),
             points: match options.points {
-                PointsName::Known => PointsAsked::Known,
-                PointsName::Common => PointsAsked::Common,
-                PointsName::Separate => PointsAsked::Separate,
+                PointsName::Known => PointsModel::Known,
+                PointsName::Common => PointsModel::Common,
+                PointsName::Separate => PointsModel::Separate,
             },
             point_u: point_u_mm * 1e-3,
-            prior: PriorAsked::Typical,
+            prior: PriorModel::Typical,
             tool_point: tool_mm * 1e-3,
             units: Units::Checked,
         };
         let file = inside(root, &options.tests).map_err(|_| {
-            StudyError::value(format!("there is no file `{}`", options.tests), "upload it first")
+            StudyError::value(
+                format!("the file `{}` does not exist", options.tests),
+                "upload it first",
+            )
         })?;
         let bytes = input::read(&file).map_err(|error| {
             StudyError::value(

@@ -1,8 +1,8 @@
-//! Where computing happens, and who still waits for it.
+//! Runs computations on their own threads, and cancels them.
 //!
-//! Handlers wait on few threads; what takes time runs on one of its own, and from there on all processors. Work whose
-//! client has gone is cancelled. Of the questions of one tab (header `X-Tab`) one is worked on and one waits; a newer one
-//! takes the place of that which waits, so that a slider that is drawn does not leave a queue behind.
+//! Handlers wait on few threads; each computation runs on a separate one, and from there on all processors. Work whose
+//! client has gone is cancelled. Of the requests of one tab (header `X-Tab`) one is evaluated and one waits; a newer
+//! one replaces the waiting one, so that a slider that is moved does not leave a queue.
 
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -16,30 +16,30 @@ use tokio::sync::{OwnedSemaphorePermit, Semaphore, watch};
 
 use crate::error::ApiError;
 
-/// Questions worked on at a time, of all tabs together.
+/// Requests evaluated at a time, of all tabs together.
 const AT_ONCE: usize = 4;
 /// Tabs that are remembered; more than a user has.
 const MOST_TABS: usize = 64;
 /// Letters of the name of a tab.
 const MOST_NAME: usize = 64;
 
-/// What is being worked on.
+/// Computations under way.
 pub(crate) struct Work {
     places: Arc<Semaphore>,
     tabs: Mutex<HashMap<String, Arc<Tab>>>,
 }
 
-/// The questions of one tab.
+/// The requests of one tab.
 struct Tab {
     place: Arc<Semaphore>,
-    /// How many have been asked.
+    /// Number of requests so far.
     requested: watch::Sender<u64>,
 }
 
-/// Cancels when nobody waits any more.
-struct Wanted(Arc<AtomicBool>);
+/// Cancels the work when its client is gone.
+struct CancelOnDrop(Arc<AtomicBool>);
 
-impl Drop for Wanted {
+impl Drop for CancelOnDrop {
     fn drop(&mut self) {
         self.0.store(true, Ordering::Relaxed);
     }
@@ -53,7 +53,7 @@ impl Work {
         }
     }
 
-    /// What `work` gives, from a thread of its own; cancelled where nobody waits for it any more.
+    /// The result of `work`, from a separate thread; cancelled when the client is gone.
     ///
     /// # Errors
     /// Those of `work`; a fault of armill where it panics.
@@ -63,9 +63,9 @@ impl Work {
     ) -> Result<T, ApiError> {
         let place = Arc::clone(&self.places).acquire_owned().await;
         let cancel = Arc::new(AtomicBool::new(false));
-        let expected = Wanted(Arc::clone(&cancel));
+        let expected = CancelOnDrop(Arc::clone(&cancel));
         let task = tokio::task::spawn_blocking(move || {
-            // Held until the work has really ended, also where nobody waits for it.
+            // Kept until the work has really ended, also when the client is gone.
             let _place = place;
             Inputs::cancelled_by(Arc::clone(&cancel)).during(|| {
                 work(Watch {
@@ -78,14 +78,16 @@ impl Work {
         drop(expected);
         match result {
             Ok(result) => Ok(result?),
-            Err(_) => Err(ApiError::internal("a fault of armill: the work broke off")),
+            Err(_) => Err(ApiError::internal(
+                "internal error of armill: the computation ended early",
+            )),
         }
     }
 
     /// [`Work::done`] as the only work of its tab, where the request names one.
     ///
     /// # Errors
-    /// Those of `done`; a newer question took its place.
+    /// Those of `done`; replaced by a newer request.
     pub(crate) async fn done_in_tab<T: Send + 'static>(
         &self,
         headers: &HeaderMap,
@@ -104,7 +106,7 @@ impl Work {
         .await
     }
 
-    /// The tab of this name; those that ask nothing are forgotten where there are too many.
+    /// The tab of this name; inactive tabs are removed where there are too many.
     fn tab(&self, name: &str) -> Arc<Tab> {
         let mut tabs = self.tabs.lock().unwrap_or_else(PoisonError::into_inner);
         if tabs.len() >= MOST_TABS && !tabs.contains_key(name) {

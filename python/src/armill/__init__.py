@@ -1,13 +1,13 @@
-"""How far from the drawing will this robot cut, why, and what can be done about it?
+"""Predict, explain and reduce the machining error of industrial robots.
 
 Arrays of numpy in and out, batch first: ``(n, dof)`` joints, ``(n, 4, 4)`` poses, ``(n, cases, 3)`` deviations. SI units:
-m, rad, N, N m. A single item is taken without the first axis, and answered without it.
+m, rad, N, N m. A single item is given without the first axis; its result has no first axis either.
 
 ====================  =====================================================================
-``Robot``             a robot of the library or of a file, and what it answers about poses
-``Study``             a study file: check it, run it, take its results
-``pose``, ...         every command as a function, with the options of the command
-``read_path``         the points of a tool path
+``Robot``             a robot of the library or of a file: kinematics, compliance, deviations
+``Study``             a study file: check it, run it, read its results
+``pose``, ...         each command as a function, with the options of the command
+``read_path``         the moves of a tool path
 ``armill.scale``      sweeps over many machines (``armill[scale]``)
 ====================  =====================================================================
 """
@@ -15,10 +15,10 @@ m, rad, N, N m. A single item is taken without the first axis, and answered with
 from armill._answer import Answer
 from armill._armill import (
     Cancelled,
+    Evaluation,
     Fault,
-    Held,
     InputError,
-    Judged,
+    PlacementEvaluations,
     Postures,
     Result,
     Robot,
@@ -52,10 +52,10 @@ from armill._commands import (
 __all__ = [
     "Answer",
     "Cancelled",
+    "Evaluation",
     "Fault",
-    "Held",
     "InputError",
-    "Judged",
+    "PlacementEvaluations",
     "Postures",
     "Result",
     "Robot",

@@ -1,4 +1,4 @@
-"""What a command answers."""
+"""The answer of a command."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ from typing import Any, cast
 
 
 class Answer:
-    """What a command answers, by key (``answer["postures"]``) or by name (``answer.postures``).
+    """The answer of a command, by key (``answer["postures"]``) or by name (``answer.postures``).
 
-    ``json`` is the very text that the command prints with ``--json``, the last line end included; ``data`` the same as
-    values; ``talk`` what it says beside it, line by line; ``holds`` whether the tolerance is held, where ``strict=True``
-    asked.
+    ``json`` is the text that the command prints with ``--json``, final newline included; ``data`` the same as values;
+    ``messages`` the lines that the command prints on stderr; ``within_tolerance`` is False if ``strict=True`` is given and
+    the tolerance is exceeded.
     """
 
-    def __init__(self, json: str, talk: list[str], holds: bool) -> None:
+    def __init__(self, json: str, messages: list[str], within_tolerance: bool) -> None:
         self.json = json
-        self.talk = talk
-        self.holds = holds
+        self.messages = messages
+        self.within_tolerance = within_tolerance
         self._data: Any = None
 
     @property
@@ -35,7 +35,7 @@ class Answer:
         return list(cast("dict[str, Any]", data)) if isinstance(data, dict) else []
 
     def __getattr__(self, name: str) -> Any:
-        # What Python itself asks for, such as `__deepcopy__`, is never a key.
+        # Names that Python itself looks up, such as `__deepcopy__`, are never keys.
         if not name.startswith("_") and name in self._keys():
             return self.data[name]
         raise AttributeError(f"the answer has no `{name}`: see `answer.data`")

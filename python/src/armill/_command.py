@@ -1,4 +1,4 @@
-"""The command ``armill``, as the wheel installs it."""
+"""The command ``armill`` of the wheel."""
 
 import signal
 import sys
@@ -7,8 +7,8 @@ from armill import _armill
 
 
 def main() -> int:
-    """Does what ``sys.argv`` says, as the command does, and gives its exit code."""
-    # Ctrl-C ends the command at once, as it ends the one that is built without Python.
+    """Runs the command with ``sys.argv`` and returns its exit code."""
+    # Ctrl-C ends the command at once, as it does without Python.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     return _armill.command(["armill", *sys.argv[1:]])
 

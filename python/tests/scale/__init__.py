@@ -1,1 +1,1 @@
-"""Sweeps: what is asked, folders, backends, and those that are ready-made."""
+"""Tests of sweeps: requests, folders, backends, predefined sweeps."""

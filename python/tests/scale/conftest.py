@@ -1,4 +1,4 @@
-"""What the tests of sweeps share: clusters that are started once, and what lies in a folder."""
+"""Shared by the tests of sweeps: clusters that are started once, and the contents of folders."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ import pytest
 
 pytest.importorskip("pyarrow", reason='sweeps need pyarrow: pip install "armill[scale]"')
 
-# Processes that are started here find the works of these tests as this one does.
+# Processes that are started here can import the works of these tests.
 os.environ["PYTHONPATH"] = os.pathsep.join([str(Path(__file__).parents[1]), *filter(None, [os.environ.get("PYTHONPATH")])])
 
 
@@ -31,10 +31,10 @@ scale.run(works.waves(seconds={seconds}), {folder!r}, "local", workers=2, items_
 
 
 def script(folder: Path, items_per_part: int, seconds: float = 0.0, progress: bool = False) -> list[str]:
-    """The command of a sweep in a process of its own, which may be killed."""
+    """The command of a sweep in a separate process, which may be killed."""
     tests = str(Path(__file__).parents[1])
-    told = SCRIPT.format(tests=tests, folder=str(folder), items_per_part=items_per_part, seconds=seconds, progress=progress)
-    return [sys.executable, "-c", told]
+    code = SCRIPT.format(tests=tests, folder=str(folder), items_per_part=items_per_part, seconds=seconds, progress=progress)
+    return [sys.executable, "-c", code]
 
 
 def sums(folder: Path) -> list[str]:
@@ -44,12 +44,12 @@ def sums(folder: Path) -> list[str]:
 
 
 def manifest(folder: Path) -> dict[str, Any]:
-    told: dict[str, Any] = json.loads((folder / "manifest.json").read_text())
-    return told
+    written: dict[str, Any] = json.loads((folder / "manifest.json").read_text())
+    return written
 
 
 class Killer:
-    """Kills a process by signal when a folder holds so many parts, and notes how many it holds then."""
+    """Kills a process by signal when a folder contains `parts` parts, and counts the parts then."""
 
     def __init__(self, folder: Path, parts: int, victim: Callable[[], int]) -> None:
         self._parts, self._folder, self._victim = parts, folder, victim
@@ -68,13 +68,13 @@ class Killer:
         return len(list(self._folder.glob("parts/part-*")))
 
     def join(self) -> int:
-        """How many parts there were when it was killed."""
+        """Number of parts when it was killed."""
         self._thread.join()
         return self.there
 
 
 def at_work(pid: int) -> bytes:
-    """What this process says it is at; nothing where it has ended."""
+    """The command line of a process; empty if it has ended."""
     try:
         return Path(f"/proc/{pid}/cmdline").read_bytes()
     except OSError:
@@ -82,7 +82,7 @@ def at_work(pid: int) -> bytes:
 
 
 def busy_of_ray(ray: Any) -> Callable[[], int]:
-    """Gives a process of Ray that is at work on a part."""
+    """Returns a process of Ray that works on a part."""
 
     @ray.remote
     def own_pid() -> int:
@@ -95,7 +95,7 @@ def busy_of_ray(ray: Any) -> Callable[[], int]:
         until = time.monotonic() + 30
         while time.monotonic() < until:
             for pid in pids:
-                # Ray writes there what a process is at.
+                # Ray writes the current task there.
                 if at_work(pid).startswith(b"ray::_part"):
                     return pid
         raise AssertionError("no process of ray is at work on a part")
@@ -105,7 +105,7 @@ def busy_of_ray(ray: Any) -> Callable[[], int]:
 
 @pytest.fixture(scope="session")
 def cluster() -> Iterator[Any]:
-    """Four workers of Dask, whose nannies start another where one dies."""
+    """Four workers of Dask, which are restarted when killed."""
     distributed = pytest.importorskip("distributed")
     with distributed.LocalCluster(n_workers=4, threads_per_worker=1, dashboard_address=None, silence_logs=50) as cluster:
         yield cluster

@@ -1,4 +1,4 @@
-"""The same bytes wherever parts are made and whoever dies meanwhile."""
+"""The same bytes on all backends, also if a worker is killed."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ from armill.scale.window import AHEAD, MOST_LOST, worked
 from . import works
 from .conftest import Killer, busy_of_ray, manifest, sums
 
-# What the packages of others warn of is not ours to mend.
+# Warnings of other packages are ignored.
 pytestmark = pytest.mark.filterwarnings("default")
 
 
 class Reversed:
-    """A backend that gives the newest part back first, and counts what it holds."""
+    """A backend that returns the newest part first, and counts the parts sent."""
 
     def __init__(self, loses: dict[int, int] | None = None) -> None:
-        self.held: list[int] = []
+        self.sent: list[int] = []
         self.most = 0
         self.loses = dict(loses or {})
 
@@ -38,11 +38,11 @@ class Reversed:
         return 4
 
     def send(self, part: int) -> None:
-        self.held.append(part)
-        self.most = max(self.most, len(self.held))
+        self.sent.append(part)
+        self.most = max(self.most, len(self.sent))
 
     def arrived(self) -> Iterable[Outcome]:
-        part = self.held.pop()
+        part = self.sent.pop()
         if self.loses.get(part, 0) > 0:
             self.loses[part] -= 1
             yield Lost(part, "a signal")
@@ -55,23 +55,23 @@ class Reversed:
 
 
 def test_a_hundred_thousand_parts_are_never_all_under_way() -> None:
-    backend, asked = Reversed(), 0
+    backend, requested = Reversed(), 0
 
     def parts() -> Iterable[int]:
-        nonlocal asked
+        nonlocal requested
         for part in range(1000, 101_000):
-            asked += 1
+            requested += 1
             yield part
 
     taken = worked(backend, parts())
     first = next(taken)
     assert first.part == 1000 + 4 * AHEAD - 1
-    assert asked == 4 * AHEAD, "parts are asked for when there is room"
+    assert requested == 4 * AHEAD, "parts are requested for when there is room"
     assert {done.part for done in taken} | {first.part} == set(range(1000, 101_000))
     assert backend.most == 4 * AHEAD
 
 
-def test_a_lost_part_is_sent_again_but_not_for_ever() -> None:
+def test_a_lost_part_is_sent_again_a_limited_number_of_times() -> None:
     done = worked(Reversed({3: MOST_LOST - 1, 5: 1}), range(10))
     assert sorted(part.part for part in done) == list(range(10))
     with pytest.raises(scale.SweepFailed, match=f"part 3 did not come back from {MOST_LOST} workers, the last time by a signal"):
@@ -112,7 +112,7 @@ def test_ray_gives_the_same_bytes_though_a_worker_is_killed(tmp_path: Path, alon
     scale.run(works.waves(seconds=0.02), tmp_path, "ray", items_per_part=10)
     killer.join()
     assert sums(tmp_path) == alone
-    assert four_of_ray.is_initialized(), "what was started elsewhere stays"
+    assert four_of_ray.is_initialized(), "what was started elsewhere is kept"
 
 
 def test_a_part_that_kills_a_worker_is_done_by_another(tmp_path: Path, client: Any) -> None:
@@ -141,18 +141,18 @@ def test_nothing_is_left_of_a_worker_of_ray_that_is_killed_while_it_writes(tmp_p
     assert left_unfinished(tmp_path) == []
 
 
-def test_a_part_that_kills_every_worker_of_ray_is_told(tmp_path: Path, four_of_ray: Any) -> None:
+def test_reports_a_part_that_kills_every_worker_of_ray(tmp_path: Path, four_of_ray: Any) -> None:
     sweep = scale.Sweep({"i": 40}, works.Deadly(17, 99, tmp_path / "diary"))
     with pytest.raises(scale.SweepFailed, match=r"part 1 did not come back from 3 workers, the last time by .*\n  \d of 4 parts are kept"):
         scale.run(sweep, tmp_path / "sweep", "ray", items_per_part=10)
 
 
-def test_a_part_that_fails_on_a_worker_tells_its_items(tmp_path: Path, client: Any) -> None:
+def test_a_failing_part_on_a_worker_reports_its_items(tmp_path: Path, client: Any) -> None:
     with pytest.raises(scale.SweepFailed, match=r"part 7 \(items 70 to 79\) failed: ValueError: joint 3 at 151\.2 deg"):
         scale.run(scale.Sweep({"i": 100}, works.refuses), tmp_path, client, items_per_part=10)
 
 
-def test_a_scheduler_that_does_not_answer_is_told_in_time(tmp_path: Path) -> None:
+def test_reports_a_scheduler_that_does_not_answer_in_time(tmp_path: Path) -> None:
     pytest.importorskip("distributed")
     began = time.monotonic()
     with pytest.raises(scale.SweepFailed, match=r"scheduler at tcp://127\.0\.0\.1:9 did not answer within 1 s"):
@@ -160,17 +160,17 @@ def test_a_scheduler_that_does_not_answer_is_told_in_time(tmp_path: Path) -> Non
     assert time.monotonic() - began < 10
 
 
-def test_workers_that_do_not_come_are_told_in_time(tmp_path: Path, client: Any) -> None:
+def test_reports_missing_workers_in_time(tmp_path: Path, client: Any) -> None:
     with pytest.raises(scale.SweepFailed, match=r"the scheduler has 4 of 9 workers after 1 s"):
         scale.run(works.waves(), tmp_path, client, workers=9, timeout=1, items_per_part=50)
 
 
-def test_an_address_is_enough(tmp_path: Path, alone: list[str], cluster: Any) -> None:
+def test_accepts_the_address_of_a_scheduler(tmp_path: Path, alone: list[str], cluster: Any) -> None:
     scale.run(works.waves(seconds=0.02), tmp_path, cluster.scheduler_address, items_per_part=10)
     assert sums(tmp_path) == alone
 
 
-def test_a_folder_that_workers_do_not_see_is_told(tmp_path: Path, client: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_reports_a_folder_without_access_for_workers(tmp_path: Path, client: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     from armill.scale import task
 
     real = task.task
@@ -180,27 +180,27 @@ def test_a_folder_that_workers_do_not_see_is_told(tmp_path: Path, client: Any, m
         return dataclasses.replace(made, folder="/nowhere")
 
     monkeypatch.setattr("armill.scale.running.task", elsewhere)
-    with pytest.raises(scale.SweepFailed, match="does not see /nowhere: a folder is wanted that all machines share"):
+    with pytest.raises(scale.SweepFailed, match="has no access to /nowhere: use a folder that all machines share"):
         scale.run(works.waves(), tmp_path, client, items_per_part=50)
 
 
-def test_a_worker_of_another_version_is_told(tmp_path: Path, client: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_reports_a_worker_of_another_version(tmp_path: Path, client: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     import armill
 
     own = armill.__version__
     monkeypatch.setattr(armill, "__version__", "9.9.9")
-    with pytest.raises(scale.SweepFailed, match=rf"this worker has armill {own}, the sweep was begun with 9\.9\.9"):
+    with pytest.raises(scale.SweepFailed, match=rf"this worker has armill {own}, the sweep was started with 9\.9\.9"):
         scale.run(works.waves(), tmp_path, client, items_per_part=50)
 
 
-def test_a_worker_that_rounds_otherwise_is_told(tmp_path: Path, client: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_reports_a_worker_with_other_rounding(tmp_path: Path, client: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(_armill, "arithmetic", lambda: "otherwise")
-    with pytest.raises(scale.SweepFailed, match=r"this worker rounds \w+, the sweep was begun on one that rounds otherwise"):
+    with pytest.raises(scale.SweepFailed, match=r"this worker rounds \w+, the sweep was started on one that rounds otherwise"):
         scale.run(works.waves(), tmp_path, client, items_per_part=50)
 
 
 @pytest.mark.parametrize(("backend", "package", "extra"), [("dask", "distributed", "scale"), ("ray", "ray", "ray")])
-def test_a_backend_that_is_not_installed_says_how_to(
+def test_reports_how_to_install_a_missing_backend(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, backend: str, package: str, extra: str
 ) -> None:
     monkeypatch.setitem(sys.modules, package, None)
@@ -208,7 +208,7 @@ def test_a_backend_that_is_not_installed_says_how_to(
         scale.run(works.waves(), tmp_path, backend, items_per_part=50)
 
 
-def test_a_scheduler_that_dies_is_told_and_the_same_call_goes_on(tmp_path: Path, alone: list[str]) -> None:
+def test_reports_a_killed_scheduler_and_repeating_the_call_continues(tmp_path: Path, alone: list[str]) -> None:
     pytest.importorskip("distributed")
     script = (
         "import os, time, distributed\n"
@@ -220,7 +220,7 @@ def test_a_scheduler_that_dies_is_told_and_the_same_call_goes_on(tmp_path: Path,
     other = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
     assert other.stdout is not None
     address = other.stdout.readline().strip()
-    # Its workers are threads of it, and know the works as we do.
+    # Its workers are its threads, and can import the works of these tests.
     killer = Killer(tmp_path, 5, lambda: other.pid)
     with pytest.raises(scale.SweepFailed, match=r"connection to the scheduler was lost .*\n  \d+ of 100 parts are kept"):
         scale.run(works.waves(seconds=0.02), tmp_path, address, items_per_part=10, timeout=3)

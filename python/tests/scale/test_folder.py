@@ -1,4 +1,4 @@
-"""Folders: of another sweep, damaged, half done, not writable, full."""
+"""Folders: of another sweep, damaged, unfinished, not writable, full."""
 
 from __future__ import annotations
 
@@ -24,20 +24,20 @@ from .conftest import manifest, script, sums
 
 @pytest.fixture
 def whole(tmp_path: Path) -> Path:
-    """The 20 parts of a sweep that is done."""
+    """The 20 parts of a finished sweep."""
     scale.run(works.waves(), tmp_path / "whole", items_per_part=50)
     return tmp_path / "whole"
 
 
-def test_a_sweep_that_is_done_is_not_done_again(whole: Path) -> None:
+def test_a_finished_sweep_is_not_repeated(whole: Path) -> None:
     times = [part.stat().st_mtime_ns for part in sorted((whole / "parts").iterdir())]
     again = scale.run(works.waves(), whole)
     assert (again.done_before, again.redone, again.task_seconds) == (20, (), 0.0)
     assert [part.stat().st_mtime_ns for part in sorted((whole / "parts").iterdir())] == times
 
 
-def test_another_sweep_is_refused_with_what_differs(whole: Path) -> None:
-    with pytest.raises(armill.InputError, match=r"holds another sweep: axis row: 40 there, 41 here; work\.scale: <f8 40"):
+def test_refuses_another_sweep_and_reports_the_differences(whole: Path) -> None:
+    with pytest.raises(armill.InputError, match=r"contains another sweep: axis row: 40 there, 41 here; work\.scale: <f8 40"):
         scale.run(works.waves(41), whole)
 
 
@@ -48,11 +48,11 @@ def test_another_version_is_another_sweep(whole: Path, monkeypatch: pytest.Monke
 
 
 def test_other_parts_are_refused(whole: Path) -> None:
-    with pytest.raises(armill.InputError, match="has parts of 50 items, asked for are 60"):
+    with pytest.raises(armill.InputError, match="has parts of 50 items, not 60"):
         scale.run(works.waves(), whole, items_per_part=60)
 
 
-def test_damaged_half_and_missing_parts_are_done_again(whole: Path) -> None:
+def test_damaged_truncated_and_missing_parts_are_repeated(whole: Path) -> None:
     before = sums(whole)
     parts = sorted((whole / "parts").iterdir())
     data = bytearray(parts[3].read_bytes())
@@ -69,11 +69,11 @@ def test_damaged_half_and_missing_parts_are_done_again(whole: Path) -> None:
     assert sums(whole) == before
 
 
-def test_a_half_done_sweep_is_read_only_where_that_is_asked(whole: Path) -> None:
-    told = manifest(whole)
-    told["parts"] = told["parts"][2:5]
-    (whole / "manifest.json").write_text(json.dumps(told))
-    with pytest.raises(armill.InputError, match="holds 3 of 20 parts"):
+def test_an_unfinished_sweep_is_read_only_on_request(whole: Path) -> None:
+    written = manifest(whole)
+    written["parts"] = written["parts"][2:5]
+    (whole / "manifest.json").write_text(json.dumps(written))
+    with pytest.raises(armill.InputError, match="contains 3 of 20 parts"):
         scale.read(whole)
     frame = scale.read(whole, partial=True).to_table()
     assert frame.num_rows == 150
@@ -82,41 +82,41 @@ def test_a_half_done_sweep_is_read_only_where_that_is_asked(whole: Path) -> None
 
 @pytest.mark.parametrize(
     "text",
-    ["", "{}", "[]", '{"format": 2}', "{", '{"format": 1, "asked": {}}', "\x00"],
+    ["", "{}", "[]", '{"format": 2}', "{", '{"format": 1, "request": {}}', "\x00"],
 )
-def test_a_manifest_that_is_none_is_refused(whole: Path, text: str) -> None:
+def test_refuses_an_invalid_manifest(whole: Path, text: str) -> None:
     (whole / "manifest.json").write_text(text)
-    for ask in (lambda: scale.run(works.waves(), whole), lambda: scale.read(whole)):
-        with pytest.raises(armill.InputError, match="is no manifest of a sweep"):
-            ask()
+    for call in (lambda: scale.run(works.waves(), whole), lambda: scale.read(whole)):
+        with pytest.raises(armill.InputError, match="is not the manifest of a sweep"):
+            call()
 
 
 def test_a_changed_manifest_is_noticed(whole: Path) -> None:
-    told = manifest(whole)
-    told["asked"]["axis row"] = "41"
-    (whole / "manifest.json").write_text(json.dumps(told))
-    with pytest.raises(armill.InputError, match="do not belong together"):
+    written = manifest(whole)
+    written["request"]["axis row"] = "41"
+    (whole / "manifest.json").write_text(json.dumps(written))
+    with pytest.raises(armill.InputError, match="do not match"):
         scale.read(whole)
 
 
 def test_a_folder_without_sweep_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(armill.InputError, match="holds no sweep"):
+    with pytest.raises(armill.InputError, match="contains no sweep"):
         scale.read(tmp_path)
 
 
-def test_a_folder_that_cannot_be_written_is_refused(tmp_path: Path) -> None:
+def test_refuses_a_folder_that_is_not_writable(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("in the way")
     with pytest.raises(armill.InputError, match="cannot write into"):
         scale.run(works.waves(), tmp_path / "file")
 
 
 def test_two_runs_do_not_share_a_folder(tmp_path: Path) -> None:
-    with files.alone_in(tmp_path), pytest.raises(armill.InputError, match="another run is at work"):
+    with files.alone_in(tmp_path), pytest.raises(armill.InputError, match="another run uses"):
         scale.run(works.waves(), tmp_path)
 
 
 @pytest.mark.skipif(os.name != "posix", reason="elsewhere the system keeps files that are open")
-def test_unfinished_files_of_others_stay_while_they_are_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_unfinished_files_of_others_are_kept_while_they_are_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     dead, other, part = tmp_path / ".part-000001.parquet.a-1.unfinished", tmp_path / "unfinished", tmp_path / "part-000002.parquet"
     dead.touch()
     other.touch()
@@ -140,7 +140,7 @@ def test_unfinished_files_of_others_stay_while_they_are_written(tmp_path: Path, 
 def test_unfinished_files_of_a_run_are_removed_when_it_ends(tmp_path: Path) -> None:
     late = tmp_path / ".part-000001.parquet.mine-1.unfinished"
     with late.open("xb") as file:
-        # A process that was killed may hold its lock for a moment more.
+        # A killed process may keep its lock for a moment.
         files._locked(file)
         if os.name == "posix":
             files.remove_unfinished(tmp_path, "mine")
@@ -148,14 +148,14 @@ def test_unfinished_files_of_a_run_are_removed_when_it_ends(tmp_path: Path) -> N
 
 
 @pytest.mark.parametrize(("also", "kept"), [((), 6), (range(10, 99), 0)], ids=["room for the manifest", "none"])
-def test_a_disk_that_gets_full_half_way_tells_what_is_kept(
+def test_a_full_disk_reports_the_kept_parts(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, also: Container[int], kept: int
 ) -> None:
     real, written = os.fsync, []
 
     def fsync(number: int) -> None:
         written.append(number)
-        # The manifest, the sweep, six parts; then it is full, but for what the failed part gives back.
+        # The manifest, the sweep, six parts; then it is full, except for the space of the failed part.
         if len(written) == 9 or len(written) in also:
             raise OSError(errno.ENOSPC, "No space left on device")
         real(number)
@@ -165,7 +165,7 @@ def test_a_disk_that_gets_full_half_way_tells_what_is_kept(
         scale.run(works.waves(), tmp_path, items_per_part=50, workers=1)
     assert not list(tmp_path.rglob(".*.unfinished"))
     assert f"{len(manifest(tmp_path)['parts'])} of 20" in str(error.value)
-    # Parts may have been written while the others were told.
+    # Parts may have been written while others were reported.
     assert len(manifest(tmp_path)["parts"]) in ((0,) if kept == 0 else (kept, kept + 1, kept + 2))
     monkeypatch.undo()
     again = scale.run(works.waves(), tmp_path)
@@ -173,9 +173,9 @@ def test_a_disk_that_gets_full_half_way_tells_what_is_kept(
     assert len(sums(tmp_path)) == 20
 
 
-def test_a_part_that_fails_tells_its_items_and_keeps_the_others(tmp_path: Path) -> None:
-    told = r"part 7 \(items 70 to 79\) failed: ValueError: joint 3 at 151\.2 deg exceeds its limit of 150\.0 deg\n  7 of 10 parts"
-    with pytest.raises(scale.SweepFailed, match=told):
+def test_a_failing_part_reports_its_items_and_the_others_are_kept(tmp_path: Path) -> None:
+    message = r"part 7 \(items 70 to 79\) failed: ValueError: joint 3 at 151\.2 deg exceeds its limit of 150\.0 deg\n  7 of 10 parts"
+    with pytest.raises(scale.SweepFailed, match=message):
         scale.run(scale.Sweep({"i": 100}, works.refuses), tmp_path, items_per_part=10, workers=1)
     assert len(manifest(tmp_path)["parts"]) == 7
 
@@ -184,7 +184,7 @@ def test_bad_numbers_of_workers_are_refused(tmp_path: Path) -> None:
     for name in ("workers", "threads_per_worker", "items_per_part"):
         with pytest.raises(armill.InputError, match=f"{name} is 0"):
             scale.run(works.waves(), tmp_path, **{name: 0})
-    with pytest.raises(armill.InputError, match="there is no backend 'slurm'"):
+    with pytest.raises(armill.InputError, match="`slurm` is not a backend"):
         scale.run(works.waves(), tmp_path, "slurm")
 
 
@@ -196,16 +196,16 @@ def started(folder: Path, progress: bool = False) -> subprocess.Popen[str]:
 
 
 def has_parts(folder: Path, count: int, process: subprocess.Popen[str]) -> None:
-    """Waits until the manifest has so many parts."""
+    """Waits until the manifest has `count` parts."""
     until = time.monotonic() + 30
     while time.monotonic() < until and process.poll() is None:
         if (folder / "manifest.json").exists() and len(manifest(folder)["parts"]) >= count:
             return
         time.sleep(0.02)
-    raise AssertionError(f"the run did not come so far: {process.communicate()[1]}")
+    raise AssertionError(f"the run did not get this far: {process.communicate()[1]}")
 
 
-def test_a_run_that_is_killed_goes_on_where_it_was(tmp_path: Path) -> None:
+def test_a_killed_run_continues_where_it_was(tmp_path: Path) -> None:
     process = started(tmp_path / "killed")
     has_parts(tmp_path / "killed", 20, process)
     process.kill()
@@ -218,17 +218,17 @@ def test_a_run_that_is_killed_goes_on_where_it_was(tmp_path: Path) -> None:
     again = scale.run(works.waves(seconds=0.05), tmp_path / "killed", workers=8)
     assert again.done_before == len(kept)
     assert again.part_count == 100
-    assert [file.stat().st_mtime_ns for file in files] == times, "parts that were done stay"
+    assert [file.stat().st_mtime_ns for file in files] == times, "finished parts are kept"
     scale.run(works.waves(seconds=0.05), tmp_path / "undisturbed", items_per_part=10, workers=50)
     assert sums(tmp_path / "killed") == sums(tmp_path / "undisturbed")
 
 
-def test_ctrl_c_keeps_what_is_done_and_says_so(tmp_path: Path) -> None:
+def test_ctrl_c_keeps_finished_parts_and_reports_them(tmp_path: Path) -> None:
     process = started(tmp_path, progress=True)
     has_parts(tmp_path, 1, process)
     process.send_signal(signal.SIGINT)
-    _, told = process.communicate(timeout=30)
-    assert "Cancelled: cancelled: " in told
-    assert "of 100 parts are kept in" in told
+    _, printed = process.communicate(timeout=30)
+    assert "Cancelled: cancelled: " in printed
+    assert "of 100 parts are kept in" in printed
     assert 1 <= len(manifest(tmp_path)["parts"]) < 100
     assert not list(tmp_path.rglob(".*.unfinished"))

@@ -1,6 +1,6 @@
-"""A sweep killed by SIGKILL at any moment: nothing of it is half-written, and the run after it ends it with the same bytes.
+"""A sweep killed by SIGKILL at any time: no file is incomplete, and the next run finishes it with the same bytes.
 
-``ARMILL_KILLS=100`` asks for more moments than every run of the tests has time for.
+``ARMILL_KILLS=100`` tests more times than a normal test run.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from armill import scale
 from . import works
 from .conftest import manifest, script, sums
 
-#: As many as a sweep of 2 items a part makes.
+#: Parts of the sweep with 2 items per part.
 PARTS = 500
 
 
@@ -35,7 +35,7 @@ def finished(folder: Path) -> dict[str, str]:
     return {part.name: hashlib.sha256(part.read_bytes()).hexdigest() for part in parts}
 
 
-def test_killed_at_any_moment_the_next_run_ends_it_with_the_same_bytes(tmp_path: Path) -> None:
+def test_after_a_kill_at_any_time_the_next_run_gives_the_same_bytes(tmp_path: Path) -> None:
     process = started(tmp_path / "undisturbed")
     begun = time.monotonic()
     assert process.wait() == 0
@@ -51,13 +51,13 @@ def test_killed_at_any_moment_the_next_run_ends_it_with_the_same_bytes(tmp_path:
         process = started(folder)
         time.sleep(whole_time * moment)
         process.kill()
-        assert process.wait() in (-signal.SIGKILL, 0), "a run that failed by itself"
+        assert process.wait() in (-signal.SIGKILL, 0), "the run failed before it was killed"
 
         left = finished(folder)
-        assert left.items() <= undisturbed.items(), f"after {moment:.3f}: a part that is no part of the sweep"
-        # The manifest is whole wherever it is, and tells no part that is not there.
-        told = manifest(folder)["parts"] if (folder / "manifest.json").exists() else []
-        assert {f"part-{part['part']:06d}.parquet" for part in told} <= left.keys(), f"after {moment:.3f}"
+        assert left.items() <= undisturbed.items(), f"after {moment:.3f}: a part that does not belong to the sweep"
+        # The manifest is complete if it exists, and lists only existing parts.
+        listed = manifest(folder)["parts"] if (folder / "manifest.json").exists() else []
+        assert {f"part-{part['part']:06d}.parquet" for part in listed} <= left.keys(), f"after {moment:.3f}"
 
         again = scale.run(works.waves(), folder, items_per_part=2)
         assert again.part_count == PARTS

@@ -1,4 +1,4 @@
-"""Sweeps that are ready-made, held against the calls that they are made of, and the large one with a worker killed."""
+"""Predefined sweeps compared with the calls they consist of, and a large one with a killed worker."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import pytest
 
 import armill
 from armill import scale
-from armill.scale.fingerprint import asked
+from armill.scale.fingerprint import request_of
 from armill.scale.sweeps.studies import toml_of
 
 from .conftest import Killer, busy_of_ray, manifest, sums
@@ -36,84 +36,87 @@ def ring(tmp_path: Path) -> armill.Study:
     return armill.Study.from_text(RING, tmp_path)
 
 
-def test_places_are_judged_as_the_study_that_has_the_part_there(ring: armill.Study) -> None:
-    drawn = ring.drawn_place()
-    assert drawn.tolist() == [1.0, 0.0, 0.8, 0.0, 0.0, 0.0, 0.0]
-    judged = ring.judge([drawn, drawn + [0.05, 0.1, -0.1, 0, 0, 0, 0]])
-    assert (judged.point_count, judged.case_count, len(judged)) == (360, 4, 2)
-    for cost, centre in zip(judged.cost, ([1000, 0, 800], [1050, 100, 700]), strict=True):
-        told = armill.Study.from_text(RING.replace("[1000, 0, 800]", str(centre)), ".").run().answer
-        assert abs(told["paths"][0]["max_in_plane_um"] - cost * 1e6) < 1e-3, "answers have three decimals"
-    assert judged.lost.tolist() == [0, 0]
-    assert set(judged.branch) == {"front elbow-up no-flip"} or len(judged.branch) == 2
+def test_placements_are_evaluated_as_a_study_with_the_part_there(ring: armill.Study) -> None:
+    nominal = ring.nominal_placement()
+    assert nominal.tolist() == [1.0, 0.0, 0.8, 0.0, 0.0, 0.0, 0.0]
+    scores = ring.evaluate_placements([nominal, nominal + [0.05, 0.1, -0.1, 0, 0, 0, 0]])
+    assert (scores.point_count, scores.case_count, len(scores)) == (360, 4, 2)
+    for cost, centre in zip(scores.cost, ([1000, 0, 800], [1050, 100, 700]), strict=True):
+        answer = armill.Study.from_text(RING.replace("[1000, 0, 800]", str(centre)), ".").run().answer
+        assert abs(answer["paths"][0]["max_in_plane_um"] - cost * 1e6) < 1e-3, "answers have three decimals"
+    assert scores.n_unreachable.tolist() == [0, 0]
+    assert set(scores.branch) == {"front elbow-up no-flip"} or len(scores.branch) == 2
 
 
-def test_one_place_is_answered_without_the_first_axis(ring: armill.Study) -> None:
-    judged = ring.judge(ring.drawn_place())
-    assert judged.cost.shape == judged.lost.shape == ()
-    assert judged.cost == ring.judge([ring.drawn_place()]).cost[0]
+def test_one_placement_has_a_result_without_the_first_axis(ring: armill.Study) -> None:
+    scores = ring.evaluate_placements(ring.nominal_placement())
+    assert scores.cost.shape == scores.n_unreachable.shape == ()
+    assert scores.cost == ring.evaluate_placements([ring.nominal_placement()]).cost[0]
 
 
-def test_any_number_of_threads_judges_alike(ring: armill.Study) -> None:
-    places = ring.drawn_place() + np.linspace(-0.2, 0.2, 70)[:, None] * [1, 1, 1, 1, 1, 0, 1]
-    one, three = (ring.judge(places, threads=threads) for threads in (1, 3))
+def test_any_number_of_threads_gives_equal_costs(ring: armill.Study) -> None:
+    places = ring.nominal_placement() + np.linspace(-0.2, 0.2, 70)[:, None] * [1, 1, 1, 1, 1, 0, 1]
+    one, three = (ring.evaluate_placements(places, threads=threads) for threads in (1, 3))
     assert one.cost.tobytes() == three.cost.tobytes()
     assert one.branch == three.branch
 
 
 @pytest.mark.parametrize(
-    ("places", "told"),
+    ("places", "message"),
     [
         (np.zeros((3, 5)), r"places: expected shape \(n, 6\), \(n, 7\) or \(n, 8\)"),
         (np.zeros((2, 3, 6)), "expected shape"),
         ([[0, 0, np.nan, 0, 0, 0]], r"places\[0, 2\] is"),
-        (np.zeros((1, 8)), "stands on no rail"),
+        (np.zeros((1, 8)), "is not on a rail"),
     ],
 )
-def test_places_that_cannot_be_are_refused(ring: armill.Study, places: Any, told: str) -> None:
-    with pytest.raises(armill.InputError, match=told):
-        ring.judge(places)
+def test_refuses_invalid_places(ring: armill.Study, places: Any, message: str) -> None:
+    with pytest.raises(armill.InputError, match=message):
+        ring.evaluate_placements(places)
     with pytest.raises(armill.InputError, match="other"):
-        ring.judge(np.zeros((1, 6)), analysis="other")
+        ring.evaluate_placements(np.zeros((1, 6)), analysis="other")
 
 
-def test_a_study_travels(ring: armill.Study) -> None:
+def test_a_study_can_be_pickled(ring: armill.Study) -> None:
     again = pickle.loads(pickle.dumps(ring))
     assert (again.text, again.folder) == (ring.text, ring.folder)
-    assert again.judge([ring.drawn_place()]).cost == ring.judge([ring.drawn_place()]).cost
+    assert again.evaluate_placements([ring.nominal_placement()]).cost == ring.evaluate_placements([ring.nominal_placement()]).cost
 
 
-def test_placements_over_degrees(ring: armill.Study, tmp_path: Path) -> None:
+def test_placements_over_coordinates(ring: armill.Study, tmp_path: Path) -> None:
     x, spin = np.linspace(0.7, 2.5, 19), np.radians([-30, 0, 30])
     sweep = scale.placements(ring, x=x, spin=spin)
     assert sweep.evaluation_count == 19 * 3 * 360 * 4
     frame = scale.run(sweep, tmp_path / "sweep", items_per_part=10, workers=2).read().to_table()
-    places = np.tile(ring.drawn_place(), (57, 1))
+    places = np.tile(ring.nominal_placement(), (57, 1))
     places[:, 0], places[:, 6] = np.repeat(x, 3), np.tile(spin, 19)
-    judged = ring.judge(places)
-    assert frame["unreachable_points"].to_pylist() == judged.lost.tolist()
-    assert frame["branch"].to_pylist() == judged.branch
+    scores = ring.evaluate_placements(places)
+    assert frame["unreachable_points"].to_pylist() == scores.n_unreachable.tolist()
+    assert frame["branch"].to_pylist() == scores.branch
     assert np.allclose(frame["x_mm"], np.repeat(x, 3) * 1e3)
     assert np.allclose(frame["spin_deg"], np.tile([-30, 0, 30], 19))
     costs = frame["cost_um"].to_pylist()
-    all_lost = judged.lost == 360
-    assert all_lost.any()
-    assert not all_lost.all()
-    assert [cost is None for cost in costs] == all_lost.tolist()
-    assert [cost for cost in costs if cost is not None] == (judged.cost[~all_lost] * 1e6).tolist()
+    all_unreachable = scores.n_unreachable == 360
+    assert all_unreachable.any()
+    assert np.array_equal(np.isinf(scores.cost), ~scores.reachable)
+    assert np.array_equal(scores.reachable, scores.n_unreachable == 0)
+    assert np.array_equal(np.isnan(scores.cost_of_reachable), all_unreachable)
+    assert not all_unreachable.all()
+    assert [cost is None for cost in costs] == all_unreachable.tolist()
+    assert [cost for cost in costs if cost is not None] == (scores.cost_of_reachable[~all_unreachable] * 1e6).tolist()
 
 
-def test_placements_told_one_by_one(ring: armill.Study, tmp_path: Path) -> None:
-    places = ring.drawn_place()[:6] + np.linspace(0, 0.1, 7)[:, None]
+def test_placements_given_one_by_one(ring: armill.Study, tmp_path: Path) -> None:
+    places = ring.nominal_placement()[:6] + np.linspace(0, 0.1, 7)[:, None]
     frame = scale.run(scale.placements(ring, places), tmp_path / "sweep").read().to_table()
-    assert frame["cost_um"].to_pylist() == (ring.judge(places).cost * 1e6).tolist()
+    assert frame["cost_um"].to_pylist() == (ring.evaluate_placements(places).cost * 1e6).tolist()
     assert frame["place"].to_pylist() == list(range(7))
 
 
-def test_placements_that_cannot_be_are_refused(ring: armill.Study) -> None:
-    with pytest.raises(armill.InputError, match="a place has no degree `yaw`"):
+def test_refuses_invalid_placements(ring: armill.Study) -> None:
+    with pytest.raises(armill.InputError, match="a placement has no coordinate `yaw`"):
         scale.placements(ring, yaw=[0.0])
-    with pytest.raises(armill.InputError, match="stands on no rail"):
+    with pytest.raises(armill.InputError, match="is not on a rail"):
         scale.placements(ring, rail=[0.0])
     with pytest.raises(armill.InputError, match="twice or not at all"):
         scale.placements(ring)
@@ -121,18 +124,18 @@ def test_placements_that_cannot_be_are_refused(ring: armill.Study) -> None:
         scale.placements(ring, x=[np.inf])
 
 
-def test_a_file_that_a_study_names_is_part_of_what_is_asked(tmp_path: Path) -> None:
+def test_a_file_that_a_study_names_is_part_of_the_request(tmp_path: Path) -> None:
     robot = (Path(__file__).parents[3] / "robots/yaskawa/mh12.toml").read_text()
     (tmp_path / "arm.toml").write_text(robot)
     study = armill.Study.from_text(RING.replace("yaskawa/mh12", "arm.toml"), tmp_path)
-    before = asked(scale.placements(study, x=[0.9]))
-    assert before == asked(scale.placements(study, x=[0.9]))
+    before = request_of(scale.placements(study, x=[0.9]))
+    assert before == request_of(scale.placements(study, x=[0.9]))
     (tmp_path / "arm.toml").write_text(robot + "\n# measured again\n")
-    after = asked(scale.placements(study, x=[0.9]))
+    after = request_of(scale.placements(study, x=[0.9]))
     assert [name for name in after if after[name] != before[name]] == ["work.files"]
 
 
-def test_deviations_are_those_of_hold(tmp_path: Path) -> None:
+def test_deviations_are_those_of_evaluate(tmp_path: Path) -> None:
     robot = armill.Robot.load("yaskawa/mh12")
     joints = np.radians(np.random.default_rng(3).uniform(-25, 25, (40, 6)) + [0, 20, -10, 0, 40, 0])
     poses = robot.forward(joints)
@@ -144,17 +147,17 @@ def test_deviations_are_those_of_hold(tmp_path: Path) -> None:
     frame = scale.run(sweep, tmp_path, items_per_part=27, workers=2).read().to_table()
     assert frame["sample"].to_pylist() == np.repeat(np.arange(5), 120).tolist()
     assert frame["case"].to_pylist() == [0, 1, 2] * 200
-    held = [robot.with_compliance(sample).hold(poses, forces, normal=[0, 0, 1]) for sample in samples]
-    wanted = np.concatenate([each.deviation for each in held]).reshape(-1, 3) * 1e6
-    missing = np.repeat(np.concatenate([~each.held for each in held]), 3)
+    evaluations = [robot.with_compliance(sample).evaluate(poses, forces, normal=[0, 0, 1]) for sample in samples]
+    expected = np.concatenate([each.deviation for each in evaluations]).reshape(-1, 3) * 1e6
+    missing = np.repeat(np.concatenate([~each.reachable for each in evaluations]), 3)
     assert 0 < missing.sum() < len(missing)
     for axis, name in enumerate(("dx_um", "dy_um", "dz_um")):
         column = frame[name].to_pylist()
         assert [value is None for value in column] == missing.tolist()
-        assert [value for value in column if value is not None] == wanted[~missing, axis].tolist()
+        assert [value for value in column if value is not None] == expected[~missing, axis].tolist()
 
 
-def test_deviations_that_cannot_be_are_refused() -> None:
+def test_refuses_invalid_deviations() -> None:
     robot = armill.Robot.load("yaskawa/mh12")
     pose = robot.forward(np.zeros((1, 6)))
     with pytest.raises(armill.InputError, match=r"samples: .* shape \(n, 6\), given \(1, 5\)"):
@@ -183,18 +186,18 @@ def test_studies_with_robots_and_changes(ring: armill.Study, tmp_path: Path) -> 
         assert frame["warnings"][row].as_py() == len(answer["warnings"])
 
 
-def test_a_change_that_cannot_be_is_told_before_anything_runs(ring: armill.Study) -> None:
+def test_reports_an_invalid_change_before_the_first_run(ring: armill.Study) -> None:
     with pytest.raises(armill.InputError, match="limit"):
         scale.studies([ring], [{}, {"tolerance_um": -1}])
 
 
-def test_a_column_that_no_result_has_is_told(ring: armill.Study, tmp_path: Path) -> None:
+def test_reports_a_column_missing_in_the_result(ring: armill.Study, tmp_path: Path) -> None:
     sweep = scale.studies([ring], columns={"x": "paths.7.roundness_um"})
     with pytest.raises(scale.SweepFailed, match=r"the result has no `paths\.7\.roundness_um`"):
         scale.run(sweep, tmp_path / "sweep", items_per_part=1)
 
 
-def test_tables_are_written_as_they_are_read() -> None:
+def test_toml_tables_are_written_as_they_are_read() -> None:
     tomllib = pytest.importorskip("tomllib")
     table = {"a": 1, "b c": {"d": [1.5, 1e-300, -0.0], "e": [{"f": True}, {}]}, "g": 'x"\\\n\x7f\u00b5\t', "h": []}
     assert tomllib.loads(toml_of(table)) == table
@@ -205,7 +208,7 @@ def test_tables_are_written_as_they_are_read() -> None:
 
 @pytest.fixture(scope="session")
 def large(tmp_path_factory: pytest.TempPathFactory) -> scale.Plan:
-    """A ring of 360 points under 4 cases at 70 000 places: 1.008e8 evaluations in 70 parts."""
+    """A ring of 360 points under 4 cases at 70 000 placements: 1.008e8 evaluations in 70 parts."""
     ring = armill.Study.from_text(RING, tmp_path_factory.mktemp("ring"))
     axes = {"x": np.linspace(0.8, 1.1, 50), "y": np.linspace(-0.2, 0.2, 40), "spin": np.linspace(-0.6, 0.6, 35)}
     plan = scale.plan(scale.placements(ring, **axes), items_per_part=1000)
@@ -215,7 +218,7 @@ def large(tmp_path_factory: pytest.TempPathFactory) -> scale.Plan:
 
 @pytest.fixture(scope="session")
 def undisturbed(large: scale.Plan, tmp_path_factory: pytest.TempPathFactory) -> list[str]:
-    """The parts of it that threads of one process make."""
+    """Its parts, made by threads of one process."""
     folder = tmp_path_factory.mktemp("undisturbed")
     scale.run(large, folder / "sweep")
     found = sums(folder / "sweep")
@@ -224,7 +227,7 @@ def undisturbed(large: scale.Plan, tmp_path_factory: pytest.TempPathFactory) -> 
 
 
 @pytest.mark.filterwarnings("default")
-def test_a_hundred_million_on_dask_with_a_worker_killed_are_those_undisturbed(
+def test_a_hundred_million_on_dask_with_a_killed_worker_equal_an_undisturbed_run(
     large: scale.Plan, undisturbed: list[str], client: Any, tmp_path: Path
 ) -> None:
     pids = client.run(os.getpid)
@@ -237,7 +240,7 @@ def test_a_hundred_million_on_dask_with_a_worker_killed_are_those_undisturbed(
 
 
 @pytest.mark.filterwarnings("default")
-def test_a_hundred_million_on_ray_with_a_worker_killed_are_those_undisturbed(
+def test_a_hundred_million_on_ray_with_a_killed_worker_equal_an_undisturbed_run(
     large: scale.Plan, undisturbed: list[str], four_of_ray: Any, tmp_path: Path
 ) -> None:
     killer = Killer(tmp_path, 10, busy_of_ray(four_of_ray))

@@ -1,4 +1,4 @@
-"""What is asked, its parts, and the rows that come out."""
+"""Requests, their parts, and the resulting rows."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import pytest
 
 import armill
 from armill import scale
-from armill.scale.fingerprint import asked
+from armill.scale.fingerprint import request_of
 
 from . import works
 from .conftest import manifest, sums
@@ -24,13 +24,18 @@ def test_items_are_all_combinations_and_the_last_axis_is_fastest() -> None:
 
 
 @pytest.mark.parametrize(
-    ("axes", "told"),
-    [({}, "no axis"), ({"a": 0}, "length 0"), ({"a b": 3}, "no name"), ({"a": 2**40, "b": 2**40}, "more than can")],
+    ("axes", "message"),
+    [({}, "no axis"), ({"a": 0}, "length 0"), ({"a b": 3}, "is not a valid name"), ({"a": 2**40, "b": 2**40}, "too many")],
 )
-def test_axes_that_cannot_be_are_refused(axes: dict[str, int], told: str) -> None:
-    with pytest.raises(armill.InputError, match=told) as error:
+def test_refuses_invalid_axes(axes: dict[str, int], message: str) -> None:
+    with pytest.raises(armill.InputError, match=message) as error:
         scale.Sweep(axes, works.refuses)
     assert error.value.problems[0]["hint"]
+
+
+def test_axis_lengths_may_be_integers_of_numpy() -> None:
+    sweep = scale.Sweep({"i": np.int64(3)}, works.refuses)  # type: ignore[dict-item]
+    assert sweep.item_count == 3 and request_of(sweep) == request_of(scale.Sweep({"i": 3}, works.refuses))
 
 
 def test_parts_cover_the_items_once() -> None:
@@ -40,16 +45,16 @@ def test_parts_cover_the_items_once() -> None:
     assert spans[-1][1] == 1000
 
 
-def test_a_part_is_planned_to_take_longer_than_sending_it() -> None:
+def test_a_planned_part_takes_longer_than_sending_it() -> None:
     plan = scale.plan(works.waves(4000, 2500))
     began = time.perf_counter()
     plan.sweep.work(plan.sweep.block(*plan.span(0)))
     assert time.perf_counter() - began > 0.02, "half of 50 ms, for clocks and neighbours"
     assert plan.part_count > 4
-    assert "in all on one worker here" in str(plan)
+    assert "in total on one worker here" in str(plan)
 
 
-def test_rows_come_in_the_order_of_the_items_whatever_the_parts(tmp_path: Path) -> None:
+def test_rows_are_in_the_order_of_the_items_for_any_parts(tmp_path: Path) -> None:
     few = scale.run(works.waves(), tmp_path / "few", items_per_part=333)
     many = scale.run(works.waves(), tmp_path / "many", items_per_part=40, workers=3)
     assert few.read().to_table().equals(many.read().to_table())
@@ -69,26 +74,26 @@ def test_an_item_may_have_several_rows(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("columns", "told"),
+    ("columns", "message"),
     [
         ({"x": np.array([1.0, np.nan, 3.0])}, "`x` is nan at item 1: mask what is missing"),
-        ({"x": np.zeros(4)}, "4 rows are not so many for each of 3 items"),
-        ({"x": np.zeros(3), "y": np.zeros(6)}, "columns of one length are wanted, given x 3, y 6"),
+        ({"x": np.zeros(4)}, "4 rows are not a multiple of 3 items"),
+        ({"x": np.zeros(3), "y": np.zeros(6)}, "expected columns of one length, given x 3, y 6"),
         ({"i": np.zeros(3)}, "columns have the names of axes: i"),
         ({"x": np.zeros((3, 2))}, r"`x` has the shape \(3, 2\)"),
-        ({"x": np.array([None] * 3)}, "`x` holds object"),
+        ({"x": np.array([None] * 3)}, "`x` has the type object"),
         ({}, "given none"),
     ],
 )
-def test_columns_that_cannot_be_are_refused_with_their_items(tmp_path: Path, columns: dict[str, object], told: str) -> None:
+def test_refuses_invalid_columns_with_their_items(tmp_path: Path, columns: dict[str, object], message: str) -> None:
     sweep = scale.Sweep({"i": 3}, lambda _: columns)
-    with pytest.raises(scale.SweepFailed, match=rf"part 0 \(items 0 to 2\) failed: ValueError: .*{told}"):
+    with pytest.raises(scale.SweepFailed, match=rf"part 0 \(items 0 to 2\) failed: ValueError: .*{message}"):
         scale.run(sweep, tmp_path, items_per_part=3)
 
 
-def test_what_is_asked_is_known_by_its_values() -> None:
+def test_the_request_depends_on_its_values() -> None:
     same = works.waves()
-    assert asked(same) == asked(works.waves())
+    assert request_of(same) == request_of(works.waves())
     for other in (
         works.waves(41),
         works.waves(seconds=0.1),
@@ -96,27 +101,27 @@ def test_what_is_asked_is_known_by_its_values() -> None:
         scale.Sweep(same.axes, same.work, 3, seed=1),
         scale.Sweep(same.axes, works.squares, 3),
     ):
-        assert asked(other) != asked(same)
+        assert request_of(other) != request_of(same)
 
 
-def test_functions_are_known_by_their_source_and_what_they_enclose() -> None:
+def test_the_request_depends_on_source_and_closure_of_functions() -> None:
     def of(factor: float) -> scale.Sweep:
         return scale.Sweep({"i": 3}, lambda block: {"x": factor * block["i"]})
 
-    assert asked(of(2)) == asked(of(2))
-    assert asked(of(2)) != asked(of(3))
+    assert request_of(of(2)) == request_of(of(2))
+    assert request_of(of(2)) != request_of(of(3))
 
 
-def test_the_manifest_tells_what_was_asked_and_what_is_there(tmp_path: Path) -> None:
+def test_the_manifest_has_the_request_and_the_parts(tmp_path: Path) -> None:
     done = scale.run(works.waves(), tmp_path, items_per_part=300)
-    told = manifest(tmp_path)
-    assert (told["format"], told["complete"], told["item_count"], told["items_per_part"]) == (1, True, 1000, 300)
-    assert told["asked"]["armill"] == armill.__version__
-    assert told["asked"]["axis row"] == "40"
-    assert told["asked"]["work.scale"].startswith("<f8 40, sha256:")
-    assert [part["sha256"] for part in told["parts"]] == sums(tmp_path)
-    assert [part["rows"] for part in told["parts"]] == [300, 300, 300, 100]
-    assert told["columns"] == [
+    written = manifest(tmp_path)
+    assert (written["format"], written["complete"], written["item_count"], written["items_per_part"]) == (1, True, 1000, 300)
+    assert written["request"]["armill"] == armill.__version__
+    assert written["request"]["axis row"] == "40"
+    assert written["request"]["work.scale"].startswith("<f8 40, sha256:")
+    assert [part["sha256"] for part in written["parts"]] == sums(tmp_path)
+    assert [part["rows"] for part in written["parts"]] == [300, 300, 300, 100]
+    assert written["columns"] == [
         ["row", "int32"],
         ["column", "int32"],
         ["height_um", "double"],

@@ -1,4 +1,4 @@
-"""Work for sweeps of the tests: quick, slow, and such that goes wrong."""
+"""Work for sweeps of the tests: quick, slow, and failing."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from armill.scale import Block, Sweep
 
 @dataclass(frozen=True)
 class Waves:
-    """Sines of what stands on two axes; takes ``seconds`` a block."""
+    """Sines over two axes; takes ``seconds`` per block."""
 
     scale: NDArray[np.float64]
     seconds: float = 0.0
@@ -75,7 +75,7 @@ def refuses(block: Block) -> dict[str, object]:
 
 
 def squares(block: Block) -> dict[str, object]:
-    """Two rows an item."""
+    """Two rows per item."""
     value = np.repeat(block["i"], 2).astype(float)
     value[1::2] *= -1
     return {"value": value}

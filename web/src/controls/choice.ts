@@ -1,4 +1,4 @@
-// One of several, by name; what is wrong stands beside it.
+// Choice of one option by name, with its error message.
 
 import { fill, h } from "../dom";
 

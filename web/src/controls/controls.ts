@@ -1,4 +1,4 @@
-// What can be turned: where the part lies, tool and load, tolerance and grid, posture, robot. Every change is answered.
+// Controls: part position, tool and load, tolerance and grid, posture, robot. Every change is sent to the server.
 
 import { api, type Refused } from "../server";
 import { h } from "../dom";
@@ -23,9 +23,9 @@ export function controls(live: Live): HTMLElement {
     live.change(key, value, whole);
   };
 
-  const ofProgram = () => live.asks.find((a) => a.name === live.ask)?.keys?.some((key) => key.startsWith("program")) ?? false;
+  const ofProgram = () => live.analyses.find((a) => a.name === live.analysis)?.keys?.some((key) => key.startsWith("program")) ?? false;
 
-  const ask = new Choice("field-ask", "What is asked", (name) => live.choose(name));
+  const analysis = new Choice("field-analysis", "Analysis", (name) => live.choose(name));
   const section = new Choice("field-section", "Plane shown", (index) => live.chooseSection(Number(index)));
   const centre = (axis: number, value: number): Vec3 => live.values!.centre_mm!.map((v, i) => (i === axis ? value : v)) as Vec3;
   const place = (axis: number) => (value: number) => {
@@ -33,7 +33,7 @@ export function controls(live: Live): HTMLElement {
     live.values!.centre_mm = now;
     touch(() => [x, y, z][axis]!, "plane.centre_mm", now);
   };
-  const x = new NumberField({ id: "field-x", label: "Distance x", unit: "mm", range: [300, 1600], step: 10, input: place(0), hint: "From the robot's first axis to the middle of the plate" });
+  const x = new NumberField({ id: "field-x", label: "Distance x", unit: "mm", range: [300, 1600], step: 10, input: place(0), hint: "From the first axis of the robot to the centre of the plate" });
   const y = new NumberField({ id: "field-y", label: "Sideways y", unit: "mm", range: [-800, 800], step: 10, input: place(1) });
   const z = new NumberField({ id: "field-z", label: "Height z", unit: "mm", range: [-200, 1800], step: 10, input: place(2) });
   const tilt = new NumberField({ id: "field-tilt", label: "Tilt", unit: "°", range: [-90, 90], step: 5, input: (v) => touch(() => tilt, "plane.tilt_deg", v), hint: "0 faces the robot, 90 faces up" });
@@ -52,31 +52,31 @@ export function controls(live: Live): HTMLElement {
     hint: "From the flange to the tip, along the flange's z axis",
   });
   const forces = new Forces((cases) => touch(() => forces, "load.cases_n", cases));
-  const limit = new NumberField({ id: "field-limit", label: "Tolerance", unit: "µm", range: [5, 300], step: 5, input: (v) => touch(() => limit, "tolerance_um", v), hint: "Greatest deviation in the plane that is tolerated" });
-  const half = new NumberField({ id: "field-half", label: "Half size", unit: "mm", range: [50, 800], step: 50, input: (v) => touch(() => half, "plane.half_size_mm", v) });
+  const limit = new NumberField({ id: "field-limit", label: "Tolerance", unit: "µm", range: [5, 300], step: 5, input: (v) => touch(() => limit, "tolerance_um", v), hint: "Largest permitted in-plane deviation" });
+  const half = new NumberField({ id: "field-half", label: "Plate half-width", unit: "mm", range: [50, 800], step: 50, input: (v) => touch(() => half, "plane.half_size_mm", v) });
   const step = new NumberField({ id: "field-step", label: "Grid step", unit: "mm", range: [5, 100], step: 5, input: (v) => touch(() => step, "plane.step_mm", v) });
   const branch = new Choice("field-branch", "Branch", (v) => touch(() => branch, "posture.branch", v));
-  const spin = new NumberField({ id: "field-spin", label: "Tool spin", unit: "°", range: [-180, 180], step: 5, input: (v) => touch(() => spin, ofProgram() ? "program.spin_deg" : "spin_deg", v), hint: "Turn of the tool about its own axis" });
+  const spin = new NumberField({ id: "field-spin", label: "Tool spin", unit: "°", range: [-180, 180], step: 5, input: (v) => touch(() => spin, ofProgram() ? "program.spin_deg" : "spin_deg", v), hint: "Rotation of the tool about its axis" });
   const robot = new Choice("field-robot", "Robot", (v) => touch(() => robot, "robot", v, true));
-  const all: Control[] = [ask, section, x, y, z, tilt, tool, forces, limit, half, step, branch, spin, robot];
+  const all: Control[] = [analysis, section, x, y, z, tilt, tool, forces, limit, half, step, branch, spin, robot];
 
   const group = (title: string, ...children: Node[]) => h("fieldset", {}, h("legend", {}, title), children);
   const root = h(
     "form",
     { class: "controls", "aria-label": "Settings", onsubmit: (e: Event) => e.preventDefault() },
-    group("Question", ask.root, section.root),
-    group("Where the part lies", x.root, y.root, z.root, tilt.root),
+    group("Analysis", analysis.root, section.root),
+    group("Part position", x.root, y.root, z.root, tilt.root),
     group("Tool and load", tool.root, forces.root),
     group("Tolerance and grid", limit.root, half.root, step.root),
-    group("How the arm stands", branch.root, spin.root, robot.root),
+    group("Robot posture", branch.root, spin.root, robot.root),
   );
 
   const fill = () => {
-    ask.set(live.ask, live.asks.map((a) => ({ value: a.name, text: a.name })));
+    analysis.set(live.analysis, live.analyses.map((a) => ({ value: a.name, text: a.name })));
     const maps = live.answer?.maps ?? [];
-    section.set(maps.length > 1 ? String(live.section) : null, maps.map((m, i) => ({ value: String(i), text: m.name.replace(`${live.ask}: `, "") })));
+    section.set(maps.length > 1 ? String(live.section) : null, maps.map((m, i) => ({ value: String(i), text: m.name.replace(`${live.analysis}: `, "") })));
     const v = live.values;
-    // While newer values are on their way, what the user has set stands.
+    // While newer values are requested, the input of the user is kept.
     if (!v || !live.settled) return;
     const plane = v.kind === "map" || v.kind === "path" || v.kind === "sections";
     // Sections have many distances or tilts: the plane's own one would change nothing.
@@ -95,7 +95,7 @@ export function controls(live: Live): HTMLElement {
   live.listen(["error"], () => {
     for (const control of all) control.clear();
     if (live.error && last && live.error.status >= 400 && live.error.status < 500) {
-      told(live.error, all, last);
+      showErrors(live.error, all, last);
       live.error_at_field = true;
     }
   });
@@ -121,7 +121,7 @@ const KEYS: Record<string, string[]> = {
 };
 
 /** Each problem at the control whose key it names; at the one touched last where it names none. */
-function told({ problems, message, hint }: Refused, all: Control[], last: Control): void {
+function showErrors({ problems, message, hint }: Refused, all: Control[], last: Control): void {
   const list = problems.length > 0 ? problems : [{ message, hint }];
   for (const problem of list.slice(0, 3)) {
     const named = all.find((c) => KEYS[c.id]?.some((key) => problem.message.includes(key)));

@@ -1,4 +1,4 @@
-// A number that can be typed, dragged at its name, or slid; with its unit, and with what is wrong right beside it.
+// A number to type, drag at its label, or set by a slider, with its unit and its error message.
 
 import { h } from "../dom";
 import { parseNumber } from "../format";
@@ -40,7 +40,7 @@ export class NumberField {
     return this.options.id;
   }
 
-  /** From the server; what the user is typing stays. */
+  /** Value from the server; a value being typed is kept. */
   set(value: number | null): void {
     this.root.hidden = value === null;
     this.clear();
@@ -72,10 +72,10 @@ export class NumberField {
   private write(): void {
     if (this.value === null) return;
     const text = String(this.value);
-    // Writing what stands there already costs as much.
+    // Writing an unchanged value would cost as much.
     if (this.box.value !== text) this.box.value = text;
     if (!this.slider || this.slider.value === text) return;
-    // A cell beyond the usual: the slider reaches as far again.
+    // A value beyond the range doubles the range of the slider.
     if (this.value > Number(this.slider.max)) this.slider.max = String(2 * this.value);
     if (this.value < Number(this.slider.min)) this.slider.min = String(Math.min(this.value, 2 * this.value));
     this.slider.value = text;
@@ -84,7 +84,7 @@ export class NumberField {
   private typed(): void {
     const value = parseNumber(this.box.value);
     if (value === null) {
-      this.refuse(this.box.value.trim() === "" ? "A number is needed here." : `"${this.box.value}" is not a number.`, `In ${this.options.unit}, such as ${this.value ?? this.options.step}.`);
+      this.refuse(this.box.value.trim() === "" ? "A number is required." : `"${this.box.value}" is not a number.`, `In ${this.options.unit}, such as ${this.value ?? this.options.step}.`);
       return;
     }
     this.clear();

@@ -1,4 +1,4 @@
-// The load cases as a small table: a force a row, in newton, base axes.
+// The load cases as a small table: one force per row, in newton, base axes.
 
 import { fill, h } from "../dom";
 import { parseNumber } from "../format";
@@ -15,7 +15,7 @@ export class Forces {
     this.root = h(
       "div",
       { class: "field forces" },
-      h("span", { class: "field-name", id: "forces-name" }, "Force on the tool, a case a row ", h("small", {}, "N")),
+      h("span", { class: "field-name", id: "forces-name" }, "Load cases (N), one per row"),
       h("table", { "aria-labelledby": "forces-name" }, h("thead", {}, h("tr", {}, ["x", "y", "z", ""].map((t) => h("th", { scope: "col" }, t)))), this.body),
       h("button", { type: "button", class: "quiet small", onclick: () => this.put([...this.cases, this.cases.at(-1) ?? [0, 0, 0]]) }, "Add a case"),
       this.error,

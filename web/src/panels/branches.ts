@@ -1,4 +1,4 @@
-// All branches side by side: what each way to stand would deviate here. A click shows one; "use" takes it for the map.
+// All branches: the deviation of each posture at this point. A click shows one; "use" selects it for the map.
 
 import { h } from "../dom";
 import { um } from "../format";
@@ -10,7 +10,7 @@ export function branches(live: Live): HTMLElement {
   const { root, show } = panel("branches", "Branches here");
   const draw = () => {
     const pose = live.pose;
-    if (!pose || pose.answer.postures.length === 0) return show(h("p", { class: "note" }, live.pose_error ?? "Every way to stand at the point appears here."));
+    if (!pose || pose.answer.postures.length === 0) return show(h("p", { class: "note" }, live.pose_error ?? "All postures at the point are listed here."));
     const limit = live.setting?.tolerance_um ?? 0;
     const worst = pose.in_plane.map((c) => envelope(c)?.in_plane_um ?? null);
     const top = Math.max(limit * 1.15, ...worst.map((w) => w ?? 0));
@@ -40,7 +40,7 @@ export function branches(live: Live): HTMLElement {
           );
         }),
       ),
-      h("p", { class: "note" }, "In-plane deviation, largest of all load cases; the mark is the limit."),
+      h("p", { class: "note" }, "In-plane deviation, largest of all load cases; the mark is the tolerance."),
     );
   };
   live.listen(["answer", "pose"], draw);

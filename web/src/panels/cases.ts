@@ -1,9 +1,9 @@
-// The load cases: what each does where the robot stands. The one that decides is shown, unless another is chosen.
+// The load cases at the position of the robot. The worst is shown, unless another is chosen.
 
 import { h } from "../dom";
 import { newton, um } from "../format";
 import type { Live } from "../live";
-import { decidingCase } from "../posture";
+import { worstCase } from "../posture";
 import { panel } from "./panel";
 
 export function cases(live: Live): HTMLElement {
@@ -11,8 +11,8 @@ export function cases(live: Live): HTMLElement {
   const draw = () => {
     const values = live.pose?.in_plane[live.posture];
     const forces = live.setting?.cases_n;
-    if (!values || !forces) return show(h("p", { class: "note" }, "Where the robot stands, each load case will be listed here."));
-    const decides = decidingCase(values);
+    if (!values || !forces) return show(h("p", { class: "note" }, "The load cases at the position of the robot are listed here."));
+    const decides = worstCase(values);
     show(
       h(
         "table",
@@ -41,7 +41,7 @@ export function cases(live: Live): HTMLElement {
           ),
         ),
       ),
-      h("p", { class: "note" }, `Case ${decides ?? 1} decides here. `, live.case_is_fixed ? h("button", { type: "button", class: "link", onclick: () => live.chooseCase(null) }, "Show the deciding case") : null),
+      h("p", { class: "note" }, `Case ${decides ?? 1} is the worst here. `, live.case_is_fixed ? h("button", { type: "button", class: "link", onclick: () => live.chooseCase(null) }, "Show the worst case") : null),
     );
   };
   live.listen(["pose"], draw);

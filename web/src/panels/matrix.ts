@@ -29,7 +29,7 @@ export function matrix(live: Live): HTMLElement {
         ),
       ),
       h("p", { class: "note units" }, "Upper left ", h("b", {}, "µm/N"), ", upper right ", h("b", {}, "µm/(N m)"), ", lower left ", h("b", {}, "µrad/N"), ", lower right ", h("b", {}, "µrad/(N m)")),
-      soft ? h("p", { class: "note" }, `Softest way ${fixed(soft[0], 1)} µm/N, stiffest ${trimmed(soft.at(-1), 2)} µm/N.`) : null,
+      soft ? h("p", { class: "note" }, `Softest direction ${fixed(soft[0], 1)} µm/N, stiffest ${trimmed(soft.at(-1), 2)} µm/N.`) : null,
     );
   };
   live.listen(["pose"], draw);
@@ -37,7 +37,7 @@ export function matrix(live: Live): HTMLElement {
   return root;
 }
 
-/** SI inside, millionths as shown; what is noise beside its block is zero. */
+/** Values are SI, shown as millionths; noise relative to the block is shown as zero. */
 function cell(value: number, scale: number, border: boolean): Child {
   const shown = value * 1e6;
   const none = Math.abs(value) < scale * 1e-9;

@@ -1,4 +1,4 @@
-// What to know before trusting it: the answer in a sentence, warnings, the model that was on, where numbers come from.
+// Limitations of the answer: the result in a sentence, warnings, the model, the sources of values.
 
 import { h } from "../dom";
 import { percent } from "../format";
@@ -6,17 +6,17 @@ import type { Live } from "../live";
 import { panel } from "./panel";
 
 export function notes(live: Live): HTMLElement {
-  const trust = panel("trust", "Before you trust it");
+  const trust = panel("trust", "Limitations");
   const sources = panel("sources", "Sources", false);
   const draw = () => {
     const { answer, setting, map } = live;
     if (!answer || !setting) return;
     trust.show(
       h("p", {}, answer.answer),
-      map?.certainty ? h("p", { class: "note" }, `Uncertainty counted twice over: ${percent(map.certainty.fraction_robustly_within)} of the plate surely holds the limit, ${percent(map.certainty.fraction_possibly_within)} possibly.`) : null,
+      map?.certainty ? h("p", { class: "note" }, `At 2 standard uncertainties: ${percent(map.certainty.fraction_robustly_within)} of the plate is robustly within tolerance, ${percent(map.certainty.fraction_possibly_within)} possibly.`) : null,
       answer.robot.compliance_assumed ? h("p", { class: "note warn" }, "The joint compliances of this robot are assumed, not measured.") : null,
       answer.warnings.length > 0 ? h("ul", { class: "warnings" }, answer.warnings.map((w) => h("li", {}, w))) : null,
-      h("p", { class: "note" }, `Model: ${setting.model.join(", ")}. Positions from ${setting.base}, tool ${setting.tool_length_mm} mm from the flange.${setting.load_source ? ` Load: ${setting.load_source}.` : ""}`),
+      h("p", { class: "note" }, `Model: ${setting.model.join(", ")}. Positions relative to ${setting.base}, tool ${setting.tool_length_mm} mm from the flange.${setting.load_source ? ` Load: ${setting.load_source}.` : ""}`),
     );
     sources.show(h("ul", { class: "sources" }, answer.sources.map((s) => h("li", {}, h("b", {}, s.key), ` ${s.what}. `, h("span", { class: "where" }, s.where)))));
   };

@@ -1,4 +1,4 @@
-// A panel: a heading that folds, and a body that is filled anew whenever its numbers change.
+// A panel: a collapsible heading, and a body that is updated when its values change.
 
 import { h, renew, type Child } from "../dom";
 

@@ -1,4 +1,4 @@
-// The deviation where the robot stands: full, in the plane, along the normal; as values and as a vector.
+// The deviation at the position of the robot: magnitude, in the plane, along the normal; as values and as a vector.
 
 import { h, type Child } from "../dom";
 import { DASH, fixed, mm, newton, um } from "../format";
@@ -11,17 +11,17 @@ export function point(live: Live): HTMLElement {
     const posture = live.pose?.answer.postures[live.posture];
     const values = live.pose?.in_plane[live.posture]?.[live.load_case - 1];
     if (!posture || !values) return show(h("p", { class: live.pose_error ? "note warn" : "note" }, live.pose_error ?? "Click a point of the plate or path."));
-    const told = live.told;
-    const u = values.in_plane_u_um ?? told?.in_plane_u_um ?? null;
-    const along = values.permissible_along_load_n ?? told?.permissible_along_load_n;
-    const any = values.permissible_any_direction_n ?? told?.permissible_any_direction_n;
+    const answered = live.answeredPoint;
+    const u = values.in_plane_u_um ?? answered?.in_plane_u_um ?? null;
+    const along = values.permissible_along_load_n ?? answered?.permissible_along_load_n;
+    const any = values.permissible_any_direction_n ?? answered?.permissible_any_direction_n;
     const limit = live.setting?.tolerance_um ?? Infinity;
     const over = values.in_plane_um > limit;
     show(
       h(
         "div",
         { class: "three" },
-        figure("In the plane", values.in_plane_um, u, over ? "over" : "holds"),
+        figure("In the plane", values.in_plane_um, u, over ? "over" : "within"),
         figure("Along the normal", values.normal_um, null),
         figure("Full", values.full_um, null),
       ),
@@ -31,7 +31,7 @@ export function point(live: Live): HTMLElement {
         fact("Position", posture.tool.xyz_mm.map(mm).join(", "), "mm"),
         fact("Moves by", values.deviation_um.map((v) => um(v)).join(", "), "µm"),
         fact("Turns by", posture.rotation_urad?.map((v) => fixed(v, 0)).join(", ") ?? DASH, "µrad"),
-        along ? fact("Limit holds up to", newton(along), "N along this load") : null,
+        along ? fact("Largest force within tolerance", newton(along), "N along this load") : null,
         any ? fact("", newton(any), "N in any direction") : null,
       ),
       posture.singularity ? h("p", { class: "note warn" }, `Near a singularity: ${posture.singularity.replaceAll("_", " ")}.`) : null,

@@ -1,4 +1,4 @@
-// Which joint does it: shares of the in-plane deviation of the load case that is shown.
+// Share of each joint in the in-plane deviation of the load case shown.
 
 import { h } from "../dom";
 import { percent, um } from "../format";
@@ -7,12 +7,12 @@ import { sharesOf } from "../shares";
 import { panel } from "./panel";
 
 export function shares(live: Live): HTMLElement {
-  const { root, show } = panel("shares", "Who does it");
+  const { root, show } = panel("shares", "Share of each joint");
   const draw = () => {
     const values = live.pose?.in_plane[live.posture]?.[live.load_case - 1];
     const names = live.pose?.answer.contributors ?? [];
     const parts = sharesOf(live);
-    if (!values || !parts) return show(h("p", { class: "note" }, values ? "The shares of this posture are not known." : "Shares of the joints appear here."));
+    if (!values || !parts) return show(h("p", { class: "note" }, values ? "The shares of this posture are not known." : "The shares of the joints are listed here."));
     const largest = Math.max(...parts.map(Math.abs), 1e-9);
     const order = parts.map((_, i) => i);
     const loudest = parts.indexOf(Math.max(...parts));
@@ -35,7 +35,7 @@ export function shares(live: Live): HTMLElement {
           );
         }),
       ),
-      h("p", { class: "note" }, "µm and share of the in-plane deviation; below zero works against it."),
+      h("p", { class: "note" }, "µm and share of the in-plane deviation; negative shares reduce it."),
     );
   };
   live.listen(["pose"], draw);

@@ -1,4 +1,4 @@
-// What must be seen at a glance: where the tolerance holds, how far the tool goes, which joint does it.
+// The verdict: fraction within tolerance, extreme deviations, joint with the largest share.
 
 import { h, renew, type Child } from "../dom";
 import { DASH, percent, trimmed, um } from "../format";
@@ -11,7 +11,7 @@ export function verdict(live: Live): HTMLElement {
     const { answer, setting } = live;
     if (!answer || !setting) return renew(root, h("div", { class: "verdict-main" }, h("p", { class: "verdict-line" }, "…")));
     const limit = `${trimmed(setting.tolerance_um, 1)}\u00a0µm`;
-    const { share, what, extra } = held(live);
+    const { share, what, extra } = fractionWithin(live);
     const state = share >= 1 ? "good" : share > 0 ? "part" : "none";
     renew(
       root,
@@ -19,7 +19,7 @@ export function verdict(live: Live): HTMLElement {
         "div",
         { class: "verdict-main" },
         h("p", { class: `verdict-line ${state}` }, h("span", { class: "verdict-mark", "aria-hidden": "true" }, state === "good" ? "✓" : state === "part" ? "◐" : "✕"), sentence(share, what, limit)),
-        h("div", { class: "meter", role: "img", "aria-label": `${percent(share)} hold the limit` }, h("span", { style: `width:${(100 * share).toFixed(2)}%` })),
+        h("div", { class: "meter", role: "img", "aria-label": `${percent(share)} within tolerance` }, h("span", { style: `width:${(100 * share).toFixed(2)}%` })),
       ),
       h("div", { class: "verdict-points" }, extreme(live, "worst", live.worst), extreme(live, "best", live.best), blame(live)),
       h("p", { class: "verdict-extra" }, extra || "\u00a0"),
@@ -30,13 +30,13 @@ export function verdict(live: Live): HTMLElement {
   return root;
 }
 
-function held(live: Live): { share: number; what: string; extra: Child } {
+function fractionWithin(live: Live): { share: number; what: string; extra: Child } {
   const map = live.map;
   if (map) {
-    const sure = map.certainty ? `surely ${percent(map.certainty.fraction_robustly_within)}, possibly ${percent(map.certainty.fraction_possibly_within)}` : null;
+    const robust = map.certainty ? `robustly ${percent(map.certainty.fraction_robustly_within)}, possibly ${percent(map.certainty.fraction_possibly_within)}` : null;
     const unreachable = map.grid.points - (map.counts.within ?? 0) - (map.counts.above_tolerance ?? 0);
     const parts = [
-      sure,
+      robust,
       map.outside_joint_limits > 0 ? `${map.outside_joint_limits} of ${map.grid.points} points outside joint limits` : null,
       unreachable > 0 ? `${unreachable} points without posture` : null,
     ].filter(Boolean);
@@ -44,19 +44,19 @@ function held(live: Live): { share: number; what: string; extra: Child } {
   }
   const path = live.answer!.paths[0];
   if (path) {
-    const parts = [`${path.points} points`, path.unreachable > 0 ? `${path.unreachable} not reached` : null, path.outside_joint_limits > 0 ? `${path.outside_joint_limits} outside joint limits` : null, path.roundness_um !== null ? `roundness ${um(path.roundness_um)} µm` : null];
+    const parts = [`${path.points} points`, path.unreachable > 0 ? `${path.unreachable} unreachable` : null, path.outside_joint_limits > 0 ? `${path.outside_joint_limits} outside joint limits` : null, path.roundness_um !== null ? `roundness ${um(path.roundness_um)} µm` : null];
     return { share: path.fraction_within, what: "path", extra: parts.filter(Boolean).join(" · ") };
   }
   const volume = live.answer!.volumes[0];
   if (volume) return { share: volume.fraction_within, what: "box", extra: `${(volume.volume_within_mm3 / 1e6).toFixed(1)} litres (dm³) of it` };
   const holes = live.answer!.holes[0];
-  return { share: holes?.fraction_within ?? 0, what: "holes", extra: holes ? `${holes.holes} holes, ${holes.unreachable} not reached` : null };
+  return { share: holes?.fraction_within ?? 0, what: "holes", extra: holes ? `${holes.holes} holes, ${holes.unreachable} unreachable` : null };
 }
 
-function sentence(share: number, what: string, limit: string): string {
-  if (share <= 0) return what === "holes" ? `None of the holes holds ${limit}` : `No point of the ${what} holds ${limit}`;
-  if (share >= 1) return what === "holes" ? `All holes hold ${limit}` : `The whole ${what} holds ${limit}`;
-  return `${percent(share)} of the ${what} ${what === "holes" ? "hold" : "holds"} ${limit}`;
+function sentence(share: number, what: string, tolerance: string): string {
+  if (share <= 0) return what === "holes" ? `No hole is within ${tolerance}` : `No point of the ${what} is within ${tolerance}`;
+  if (share >= 1) return what === "holes" ? `All holes are within ${tolerance}` : `The whole ${what} is within ${tolerance}`;
+  return `${percent(share)} of the ${what} ${what === "holes" ? "are" : "is"} within ${tolerance}`;
 }
 
 function extreme(live: Live, which: "worst" | "best", point: Point | null): Child {
@@ -77,7 +77,7 @@ function blame(live: Live): Child {
   return h(
     "div",
     { class: "extreme still" },
-    h("span", { class: "extreme-name" }, "Worst mostly by"),
+    h("span", { class: "extreme-name" }, "Largest share at worst"),
     h("span", { class: "extreme-value" }, names[most] ?? DASH, h("small", {}, ` ${percent(point.joint_share_um[most]! / point.in_plane_um)}`)),
   );
 }

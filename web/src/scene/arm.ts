@@ -1,6 +1,6 @@
 // The arm, drawn from its joints: links as tapered limbs with round knuckles, joints as housings along their axes with
-// a ring whose colour tells the joint's share of the deviation, then flange and tool. An arm that moves keeps its parts:
-// only a part whose measures change is built anew.
+// a ring whose colour shows the joint's share of the deviation, then flange and tool. An arm that moves keeps its parts:
+// only a part whose dimensions change is rebuilt.
 
 import * as THREE from "three";
 import type { ArmDrawing, Vec3 } from "../types";
@@ -67,7 +67,7 @@ export class Arm {
 
     this.knuckles = drawing.joints.map((joint, i) => {
       const axis = vector(joint.axis).normalize();
-      const { at, size, on_link } = this.seat(vector(joint.origin_mm), axis, knots, lengths, radius);
+      const { at, size, on_link } = this.housingOf(vector(joint.origin_mm), axis, knots, lengths, radius);
       const long = on_link ? size * 0.55 : size * 1.28;
       const wide = on_link ? size * 1.13 : size * 1.16;
       this.add(drum(wide, long), at, axis, HOUSING);
@@ -86,7 +86,7 @@ export class Arm {
     }
   }
 
-  /** See-through, where what lies behind matters more. */
+  /** Transparent, where objects behind it matter more. */
   ghost(on: boolean): void {
     for (const child of [...this.body.children, ...this.tooling.children]) {
       const material = (child as THREE.Mesh).material as THREE.MeshStandardMaterial;
@@ -114,7 +114,7 @@ export class Arm {
   }
 
   /** A joint whose axis runs along a link sits as a collar on that link, else at its origin. */
-  private seat(origin: THREE.Vector3, axis: THREE.Vector3, knots: THREE.Vector3[], lengths: number[], radius: (along: number) => number) {
+  private housingOf(origin: THREE.Vector3, axis: THREE.Vector3, knots: THREE.Vector3[], lengths: number[], radius: (along: number) => number) {
     let along = 0;
     let near = { distance: Infinity, along: 0 };
     let collar: { at: THREE.Vector3; along: number; gap: number } | null = null;
@@ -142,7 +142,7 @@ export class Arm {
   private pedestal(base: THREE.Vector3, thick: number): void {
     const profile = [[0, 0], [1.9, 0], [1.9, 0.22], [1.75, 0.3], [1.35, 0.36], [1.22, 1.1], [1.1, 1.25], [0, 1.25]].map(([r, z]) => new THREE.Vector2(r! * thick, z! * thick));
     const made = () => new THREE.LatheGeometry(profile, 56);
-    this.add({ measures: told("pedestal", thick), make: made }, base, new THREE.Vector3(0, 0, 1), HOUSING);
+    this.add({ measures: shapeKey("pedestal", thick), make: made }, base, new THREE.Vector3(0, 0, 1), HOUSING);
     this.limbs.push({ from: base, to: base.clone().setZ(base.z + 1.2 * thick), radius: 1.5 * thick });
   }
 
@@ -161,26 +161,26 @@ export class Arm {
   }
 }
 
-/** What tells a shape from another: a hundredth of a millimetre is not seen. */
-const told = (kind: string, ...mm: number[]): string => `${kind} ${mm.map((m) => m.toFixed(2)).join(" ")}`;
+/** Identifies a shape by its dimensions, to 0.01 mm. */
+const shapeKey = (kind: string, ...mm: number[]): string => `${kind} ${mm.map((m) => m.toFixed(2)).join(" ")}`;
 
 /** From the origin along y. */
 const limb = (length: number, r0: number, r1: number): Shape => ({
-  measures: told("limb", length, r0, r1),
+  measures: shapeKey("limb", length, r0, r1),
   make: () => new THREE.CylinderGeometry(r1, r0, Math.max(length, 0.01), 40).translate(0, length / 2, 0),
 });
 
-const ball = (radius: number): Shape => ({ measures: told("ball", radius), make: () => new THREE.SphereGeometry(radius, 28, 18) });
+const ball = (radius: number): Shape => ({ measures: shapeKey("ball", radius), make: () => new THREE.SphereGeometry(radius, 28, 18) });
 
 /** Round y. */
 const ring = (radius: number, thick: number): Shape => ({
-  measures: told("ring", radius, thick),
+  measures: shapeKey("ring", radius, thick),
   make: () => new THREE.TorusGeometry(radius, thick, 8, 40).rotateX(Math.PI / 2),
 });
 
 /** A cylinder with bevelled edges; `half` its half length. */
 const drum = (radius: number, half: number): Shape => ({
-  measures: told("drum", radius, half),
+  measures: shapeKey("drum", radius, half),
   make: () => {
     const bevel = Math.min(radius, half) * 0.2;
     const profile = [[0, -half], [radius - bevel, -half], [radius, -half + bevel], [radius, half - bevel], [radius - bevel, half], [0, half]].map(([r, y]) => new THREE.Vector2(r, y));

@@ -24,7 +24,7 @@ export const css = ([r, g, b]: Rgb): string => `rgb(${Math.round(r * 255)} ${Mat
 export interface Scale {
   low: number;
   high: number;
-  /** Where lines and ticks stand. */
+  /** Levels of lines and ticks. */
   levels: number[];
 }
 

@@ -1,5 +1,5 @@
 // Lines of equal value over a grid, by marching squares, joined to polylines. Cells with a point without value have none.
-// While the user drags, ten levels over ten thousand points are drawn anew each time: plain arrays, no maps, and for each
+// While the user drags, ten levels over ten thousand points are redrawn each time: plain arrays, no maps, and for each
 // level only the cells that it passes.
 
 export interface Grid {

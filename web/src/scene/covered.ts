@@ -1,4 +1,4 @@
-// What of the scene lies behind the arm: the arm as round limbs, and whether one of them crosses the line of sight.
+// Visibility of points: the arm as round limbs, and whether one of them crosses the line of sight.
 
 import * as THREE from "three";
 
@@ -8,14 +8,14 @@ export interface Limb {
   radius: number;
 }
 
-/** Whether a limb, so much stouter, stands between the eye and the point; what touches the point itself does not. */
+/** Whether a limb, with this extra radius, is between the eye and the point; a limb that touches the point is not. */
 export function isCovered(limbs: Limb[], eye: THREE.Vector3, at: THREE.Vector3, stouter = 1): boolean {
   const sight = at.clone().sub(eye);
   const distance = sight.length();
   if (distance === 0) return false;
   return limbs.some(({ from, to, radius: thin }) => {
     const radius = thin * stouter;
-    // As far as the point stands free of the limb's own thickness.
+    // Up to the point where it is outside the radius of the limb.
     const reach = Math.max(0, 1 - (1.2 * radius) / distance);
     return apart(eye, sight.clone().multiplyScalar(reach), from, to.clone().sub(from)) < radius;
   });

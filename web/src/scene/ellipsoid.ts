@@ -1,4 +1,4 @@
-// How soft the arm stands at the tool: half axes along the principal directions, as long as the tool yields per newton.
+// Compliance of the arm at the tool: half axes along the principal directions, with the deflection per newton as length.
 
 import * as THREE from "three";
 import type { Posture, Vec3 } from "../types";

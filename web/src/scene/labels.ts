@@ -1,11 +1,11 @@
-// Words in the scene: HTML laid over the picture, so that they stay sharp and take the page's font and theme.
+// Labels of the scene: HTML over the picture, to be sharp and to use the font and theme of the page.
 
 import * as THREE from "three";
 
 interface Label {
   at: THREE.Vector3;
   element: HTMLElement;
-  /** As they stand in the element: what stays is not written again. */
+  /** Values in the element: unchanged values are not written again. */
   text: string;
   kind: string;
   place: string;
@@ -21,7 +21,7 @@ interface Group {
 export type Box = [number, number, number, number];
 
 export class Labels {
-  /** Where no label may stand: what lies over the picture. */
+  /** Areas without labels: elements over the picture. */
   keep_out: Box[] = [];
   private readonly layer = document.createElement("div");
   private readonly hidden = new Set<string>();
@@ -62,7 +62,7 @@ export class Labels {
 
   /**
    * Puts every label where its point is seen; of two that would cover each other the later one goes, and so does one of
-   * what `covered` says lies behind something.
+   * points that are hidden according to `covered`.
    */
   place(camera: THREE.Camera, size: THREE.Vector2, covered: (group: string, at: THREE.Vector3) => boolean): void {
     const taken: Box[] = [...this.keep_out];

@@ -1,5 +1,5 @@
-// Lines of a width in pixels, on a plane: y' and z' in, drawn where the group that holds them stands. Their buffer is kept
-// and grows where it must: while the user drags, lines are drawn anew with every answer.
+// Lines of a width in pixels, on a plane: coordinates y' and z' in the group that contains them. Their buffer is kept
+// and grows if necessary: while the user drags, lines are redrawn with every answer.
 
 import * as THREE from "three";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";

@@ -1,4 +1,4 @@
-// What lies over the scene: legend, view buttons, what is shown, arrow scales, values under the pointer.
+// Overlay of the scene: legend, view buttons, visibility, arrow scales, values under the pointer.
 
 import { fill, h, renew, s } from "../dom";
 import { fixed, mm, percent, trimmed, um } from "../format";
@@ -8,14 +8,14 @@ import type { View } from "./stage";
 import { ELLIPSOID, type SceneView, type Show, type Under } from "./view";
 
 const VIEWS: [View, string, string][] = [["overview", "Overview", "1"], ["front", "Front", "2"], ["side", "Side", "3"], ["top", "Top", "4"], ["plate", "Plate", "5"]];
-const SWITCHES: [keyof Show, string][] = [["arm", "Arm"], ["shape", "Its own shape (meshes)"], ["forces", "Force arrow"], ["deviation", "Deviation arrow"], ["parts", "Its parts: in plane, normal"], ["ellipsoid", "Compliance ellipsoid"], ["lines", "Lines of equal deviation"], ["certainty", "Surely within (dashed)"], ["rectangle", "Largest rectangle within"], ["hold_scale", "Hold the colour scale"]];
+const SWITCHES: [keyof Show, string][] = [["arm", "Arm"], ["shape", "CAD meshes"], ["forces", "Force arrow"], ["deviation", "Deviation arrow"], ["parts", "Components: in plane, normal"], ["ellipsoid", "Compliance ellipsoid"], ["lines", "Lines of equal deviation"], ["certainty", "Robustly within (dashed)"], ["rectangle", "Largest rectangle within"], ["fix_scale", "Fix the colour scale"]];
 
 export function overlay(view: SceneView, live: Live): HTMLElement {
   const legendBox = h("div", { class: "legend card", role: "img" });
   const tip = h("div", { class: "tip card", hidden: true });
   const magnified = h("output", {}, times(view.show.magnified));
   const slider = h("input", { id: "magnified", type: "range", min: 2, max: 5, step: 0.05, value: Math.log10(view.show.magnified), "aria-label": "Deviation drawn larger by" });
-  const redraw = () => live.tell("view");
+  const redraw = () => live.notify("view");
   slider.addEventListener("input", () => {
     view.show.magnified_by_hand = true;
     view.show.magnified = Number((10 ** Number(slider.value)).toPrecision(2));
@@ -121,9 +121,9 @@ function hover(tip: HTMLElement, live: Live, under: Under, x: number, y: number,
   if (under.kind === "map") {
     const grid = live.map!.grid;
     const i = under.index;
-    const remarks = grid.remarks.filter((r) => r.points.includes(i)).map((r) => r.reason.replaceAll("_", " "));
+    const flags = grid.flags.filter((r) => r.points.includes(i)).map((r) => r.reason.replaceAll("_", " "));
     rows.push(["y′, z′", `${mm(under.y_mm)}, ${mm(under.z_mm)} mm`], ["In plane", `${um(grid.in_plane_um[i])} ± ${um(grid.in_plane_u_um[i])} µm`], ["Normal", `${um(grid.normal_um[i])} µm`], ["Full", `${um(grid.full_um[i])} µm`], ["Within limit", `probability ${percent(grid.probability_within[i])}`]);
-    for (const remark of remarks) rows.push(["", remark]);
+    for (const flag of flags) rows.push(["", flag]);
   } else {
     const points = live.scene!.points!;
     const columns = points.columns;

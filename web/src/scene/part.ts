@@ -1,4 +1,4 @@
-// The plate where it carries a path: plain, see-through, so that the path stands out.
+// The plate with a path: plain and transparent, so that the path is visible.
 
 import * as THREE from "three";
 import type { Plate } from "../types";

@@ -29,7 +29,7 @@ export class PathView {
     if (joined && n > 1) {
       const first = points.xyz_mm[0]!;
       const last = points.xyz_mm[n - 1]!;
-      // A shape that ends beside its beginning is closed.
+      // A shape whose end is next to its start is closed.
       const gap = Math.hypot(...first.map((x, i) => x - last[i]!));
       const step = Math.hypot(...first.map((x, i) => x - points.xyz_mm[1]![i]!));
       const order = [...points.xyz_mm.keys(), ...(n > 3 && gap < 2.1 * step ? [0] : [])];

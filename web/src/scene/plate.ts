@@ -1,6 +1,6 @@
 // The workpiece plate with the deviation map as colour, lines of equal deviation with their values, the limit as a
-// strong line, and what of it is sure as a dashed one. All of it is drawn in y', z': where the plate lies is the pose of
-// its group, so that a plate that is moved is not built anew.
+// strong line, and the region robustly within it as a dashed one. All of it is drawn in y', z': the position of the plate is
+// the pose of its group, so that a moved plate is not rebuilt.
 
 import * as THREE from "three";
 import { trimmed } from "../format";
@@ -26,7 +26,7 @@ export class PlateView {
   private readonly iso = new Lines({ width: 1.4, colour: 0xffffff, opacity: 0.75 });
   private readonly casing = new Lines({ width: 6.5, colour: 0x10151b, opacity: 0.85 });
   private readonly limit = new Lines({ width: 3.4, colour: 0xffffff, opacity: 1 });
-  private readonly sure = new Lines({ width: 2, colour: 0xffffff, opacity: 0.95, dashed: true });
+  private readonly robust = new Lines({ width: 2, colour: 0xffffff, opacity: 0.95, dashed: true });
   private readonly largest = new Lines({ width: 2, colour: 0xffb14a, opacity: 1 });
   private readonly frame = new Lines({ width: 1.6, colour: 0x6b7683, opacity: 1 });
   private shape = "";
@@ -34,15 +34,15 @@ export class PlateView {
 
   constructor(private readonly labels: Labels, private readonly name: string) {
     this.surface = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshBasicMaterial({ vertexColors: true, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2 }));
-    this.group.add(this.surface, ...[this.frame, this.iso, this.casing, this.limit, this.sure, this.largest].map((lines) => lines.object));
+    this.group.add(this.surface, ...[this.frame, this.iso, this.casing, this.limit, this.robust, this.largest].map((lines) => lines.object));
     this.group.matrixAutoUpdate = false;
     this.casing.object.renderOrder = 1;
     this.limit.object.renderOrder = 2;
-    this.sure.object.renderOrder = 2;
+    this.robust.object.renderOrder = 2;
   }
 
   draw(map: MapAnswer, plate: Plate, scale: Scale, options: { lines: boolean; certainty: boolean; rectangle: boolean }): void {
-    this.stand(plate);
+    this.moveTo(plate);
     this.build(map.grid);
     this.surface.visible = true;
     this.colour(map.grid, scale);
@@ -52,7 +52,7 @@ export class PlateView {
     this.iso.draw(iso.flat());
     this.casing.draw(bound);
     this.limit.draw(bound);
-    this.sure.draw(options.certainty && map.certainty ? map.certainty.boundary_robust_mm : []);
+    this.robust.draw(options.certainty && map.certainty ? map.certainty.boundary_robust_mm : []);
     this.labels.group(this.name);
     const corners = options.rectangle ? map.region.rectangle_mm : null;
     this.largest.draw(corners ? [rectangle(...corners)] : []);
@@ -60,11 +60,11 @@ export class PlateView {
     iso.forEach((lines, i) => this.tag(lines, trimmed(levels[i]!, 1), "iso", 2));
   }
 
-  /** Its edges alone: a plane beside the one that is shown. */
+  /** Only its edges: a plane other than the one shown. */
   outline(map: MapAnswer, plate: Plate): void {
-    this.stand(plate);
+    this.moveTo(plate);
     this.build(map.grid);
-    for (const part of [this.iso, this.casing, this.limit, this.sure, this.largest]) part.object.visible = false;
+    for (const part of [this.iso, this.casing, this.limit, this.robust, this.largest]) part.object.visible = false;
     this.surface.visible = false;
     this.labels.group(this.name);
   }
@@ -90,7 +90,7 @@ export class PlateView {
     return new THREE.Vector3(y, z, 0).applyMatrix4(this.group.matrix);
   }
 
-  private stand({ centre_mm, y_axis, z_axis }: Plate): void {
+  private moveTo({ centre_mm, y_axis, z_axis }: Plate): void {
     const [y, z] = [vector(y_axis), vector(z_axis)];
     this.group.visible = true;
     this.group.matrix.makeBasis(y, z, y.clone().cross(z)).setPosition(...centre_mm);

@@ -1,4 +1,4 @@
-// The robot's own shape: the meshes that its file names, each where the server says that it stands. They are fetched once
+// CAD meshes of the robot file, each at the pose given by the server. They are fetched once
 // a robot; until all are there, and where one is none, the arm is drawn from its chain.
 
 import * as THREE from "three";

@@ -16,7 +16,7 @@ export interface Subject {
   plate: { centre: THREE.Vector3; normal: THREE.Vector3; up: THREE.Vector3; size: number } | null;
 }
 
-/** What is asked of WebGL. */
+/** Options of WebGL. */
 const CONTEXT = { alpha: true, antialias: true };
 /** So long a picture of the processor rests before it is drawn finely. */
 const REST_MS = 300;
@@ -29,10 +29,10 @@ export class Stage {
   readonly labels: Labels;
   readonly size = new THREE.Vector2(1, 1);
   private readonly ground = new THREE.Group();
-  /** Whether something stands before a label of this group at this point. */
+  /** Whether an object is in front of a label of this group at this point. */
   covered: (group: string, at: THREE.Vector3) => boolean = () => false;
   private ground_key = "";
-  private asked = false;
+  private requested = false;
   private readonly by_card: boolean;
   private rests: ReturnType<typeof setTimeout> | undefined;
 
@@ -40,7 +40,7 @@ export class Stage {
     let renderer = new THREE.WebGLRenderer(CONTEXT);
     this.by_card = !isProcessor(renderer.getContext());
     if (!this.by_card) {
-      // Whether edges are smoothed is told when a context is made.
+      // Antialiasing is chosen when a context is created.
       renderer.dispose();
       renderer.forceContextLoss();
       renderer = new THREE.WebGLRenderer({ ...CONTEXT, antialias: false });
@@ -63,12 +63,12 @@ export class Stage {
     this.resize();
   }
 
-  /** Draws before the next frame, once however often it is asked. */
+  /** Draws before the next frame, once for any number of calls. */
   draw(): void {
-    if (this.asked) return;
-    this.asked = true;
+    if (this.requested) return;
+    this.requested = true;
     requestAnimationFrame(() => {
-      this.asked = false;
+      this.requested = false;
       this.render(this.by_card ? Math.min(devicePixelRatio, 2) : Math.min(devicePixelRatio, 1));
       this.labels.place(this.camera, this.size, this.covered);
       if (this.by_card) return;
@@ -116,7 +116,7 @@ export class Stage {
     this.draw();
   }
 
-  /** Ground and axes, or none where they would stand before the plate. */
+  /** Ground and axes; hidden where they would be in front of the plate. */
   axes(on: boolean): void {
     this.ground.visible = on;
     this.labels.visible("ground", on);
@@ -168,6 +168,6 @@ export class Stage {
 
 /** Whether the processor draws: there is no graphics card, or none that the browser would use. */
 function isProcessor(gl: WebGLRenderingContext | WebGL2RenderingContext): boolean {
-  const told = gl.getExtension("WEBGL_debug_renderer_info");
-  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(String(gl.getParameter(told?.UNMASKED_RENDERER_WEBGL ?? gl.RENDERER)));
+  const info = gl.getExtension("WEBGL_debug_renderer_info");
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(String(gl.getParameter(info?.UNMASKED_RENDERER_WEBGL ?? gl.RENDERER)));
 }

@@ -1,4 +1,4 @@
-// The scene of the live page: what the answer holds, drawn on the stage; the pointer's values; a click sends the robot.
+// The scene of the live page: the answer on the stage, values under the pointer, clicks that send the robot.
 
 import * as THREE from "three";
 import { niceStep } from "../format";
@@ -29,16 +29,16 @@ export interface Show {
   ellipsoid: boolean;
   lines: boolean;
   certainty: boolean;
-  /** The largest rectangle that holds the limit. */
+  /** The largest rectangle within tolerance. */
   rectangle: boolean;
   /** Times by which the deviation is drawn larger than it is. */
   magnified: number;
   magnified_by_hand: boolean;
   mm_per_n: number;
-  hold_scale: boolean;
+  fix_scale: boolean;
 }
 
-/** What lies under the pointer. */
+/** The object under the pointer. */
 export type Under = { kind: "map"; index: number; y_mm: number; z_mm: number } | { kind: "point"; index: number } | null;
 
 /** mm in the picture for 1 µm/N. */
@@ -50,7 +50,7 @@ const STOUT = 1.7;
 export class SceneView {
   readonly stage: Stage;
   scale: Scale | null = null;
-  readonly show: Show = { arm: true, shape: true, forces: true, deviation: true, parts: false, ellipsoid: false, lines: true, certainty: true, rectangle: false, magnified: 1000, magnified_by_hand: false, mm_per_n: 25, hold_scale: false };
+  readonly show: Show = { arm: true, shape: true, forces: true, deviation: true, parts: false, ellipsoid: false, lines: true, certainty: true, rectangle: false, magnified: 1000, magnified_by_hand: false, mm_per_n: 25, fix_scale: false };
   onHover: (under: Under, x: number, y: number) => void = () => {};
   onScale: () => void = () => {};
   private readonly arm = new Arm();
@@ -99,7 +99,7 @@ export class SceneView {
     const { answer, scene, setting } = this.live;
     if (!answer || !scene || !setting) return;
     const range = this.range();
-    if (range && !(this.show.hold_scale && this.scale)) this.scale = scaleOf(range[0], range[1], setting.tolerance_um);
+    if (range && !(this.show.fix_scale && this.scale)) this.scale = scaleOf(range[0], range[1], setting.tolerance_um);
     const scale = this.scale;
     const plates = answer.maps.length > 0 ? this.platesOf() : [];
     while (this.plates.length < plates.length) {
@@ -119,7 +119,7 @@ export class SceneView {
     this.volume.draw(scene, setting.tolerance_um);
     this.part.draw(answer.paths.length + answer.holes.length > 0 ? scene.plate : null);
     this.stage.floor(0, this.reach());
-    const key = `${this.live.ask} ${scene.robot} ${answer.maps.length}`;
+    const key = `${this.live.analysis} ${scene.robot} ${answer.maps.length}`;
     if (key !== this.looked) {
       this.looked = key;
       this.new_subject = true;
@@ -153,7 +153,7 @@ export class SceneView {
     this.stage.labels.group("arm");
     this.arm.group.visible = this.show.arm;
     this.shapes.group.visible = false;
-    // Where it cannot stand, it waits faintly where it stood.
+    // At an unreachable point it stays faintly at its last position.
     if (!drawing) this.arm.ghost(true);
     for (const hidden of [this.force, this.deviation, this.in_plane, this.normal, this.ellipsoid]) hidden.group.visible = false;
     if (drawing && this.new_subject) {
@@ -172,8 +172,8 @@ export class SceneView {
       const most = shares.indexOf(Math.max(...shares));
       if (this.show.arm)
         this.arm.knuckles.forEach(({ name, at }, i) => {
-          const told = shares[i]! >= 0.1;
-          this.stage.labels.add("arm", at, told ? `${name} ${Math.round(100 * shares[i]!)} %` : name, i === most && told ? "joint loud" : "joint");
+          const labelled = shares[i]! >= 0.1;
+          this.stage.labels.add("arm", at, labelled ? `${name} ${Math.round(100 * shares[i]!)} %` : name, i === most && labelled ? "joint loud" : "joint");
         });
       const tip = drawing.tool_mm;
       const size = Math.max(7, this.reach() * 0.008);
@@ -185,7 +185,7 @@ export class SceneView {
       const moved = pose?.in_plane[posture]?.[load_case - 1]?.deviation_um;
       if (this.show.deviation && moved) {
         this.deviation.draw(tip, new THREE.Vector3(...moved).multiplyScalar(this.show.magnified / 1000), size);
-        // The tool stands against the part: its axis is the normal, everywhere.
+        // The tool is perpendicular to the part: its axis is the normal everywhere.
         const normal = new THREE.Vector3(...drawing.tool_axis);
         const drawn = new THREE.Vector3(...moved).multiplyScalar(this.show.magnified / 1000);
         const out = normal.clone().multiplyScalar(drawn.dot(normal));

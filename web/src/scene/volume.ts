@@ -1,4 +1,4 @@
-// A box of space: its edges, and the surface about all points that hold the limit, translucent.
+// A volume: its edges, and the translucent surface around all points within tolerance.
 
 import * as THREE from "three";
 import type { Scene } from "../types";
@@ -26,7 +26,7 @@ export class VolumeView {
     this.edges.geometry = new THREE.EdgesGeometry(new THREE.BoxGeometry(1, 1, 1).translate(0.5, 0.5, 0.5)).applyMatrix4(place);
     this.surface.visible = points !== null;
     if (!points) return;
-    // The points' own order is not told: each goes where it lies.
+    // The order of the points is not given: each is placed by its coordinates.
     const [nx, ny, nz] = box.counts;
     const values: (number | null)[] = Array<number | null>(nx * ny * nz).fill(null);
     const back = place.clone().invert();

@@ -1,12 +1,12 @@
-// All tables of a study as fields beside its text: a value that is changed here is changed in the text, with the comments
-// kept; a problem stands at the field that it is about. Lists of tables get new entries and lose such as go.
+// All tables of a study as fields next to its text: a value changed here is changed in the text, and comments are kept;
+// a problem is shown at its field. Entries of lists of tables can be added and removed.
 
 import { fill, h, type Child } from "../dom";
 import type { Problem, Tables } from "../types";
 import { input, type Input } from "./inputs";
 import { beginning, fieldsOf, named, type Field, type Schema } from "./schema";
 
-/** Tables in the order in which one asks for them; others follow. */
+/** Usual order of tables; others follow. */
 const FIRST = ["place", "posture", "tool", "load", "cut", "plane", "analysis"];
 
 export class Fields {
@@ -47,7 +47,7 @@ export class Fields {
   private draw(): void {
     const values = this.tables?.values as Record<string, unknown> | null | undefined;
     this.inputs = new Map();
-    if (!values) return fill(this.root, h("p", { class: "note" }, this.tables ? "The text is no TOML: fields come back when that is mended." : ""));
+    if (!values) return fill(this.root, h("p", { class: "note" }, this.tables ? "The text is not valid TOML: fields are shown when this is corrected." : ""));
     const top = this.fields.filter((f) => f.kind.of !== "table" && f.kind.of !== "tables");
     const rest = this.fields.filter((f) => !top.includes(f));
     fill(this.root, this.fold("", "study", "What the study says as a whole.", () => this.rows(top, "", values), Object.keys(values).length > 0), ...rest.map((f) => this.child(f, f.key, values[f.key])));
@@ -82,7 +82,7 @@ export class Fields {
 
   private button(key: string, text: string, pressed: () => Promise<boolean>): Child {
     const button = h("button", { type: "button", class: "quiet small entry-button", "data-key": key }, text);
-    // Once: what it stands for is another after that.
+    // Once only: afterwards the index belongs to another entry.
     button.addEventListener("click", () => {
       button.disabled = true;
       void pressed().then((made) => {
@@ -135,7 +135,7 @@ export class Fields {
     return root;
   }
 
-  /** Each problem at the field whose value it stands on, or whose path it names; folds that hide one say so. */
+  /** Each problem at the field of its value or path; collapsed tables that contain one are marked. */
   private mark(): void {
     this.root.querySelectorAll(".fold.wrong").forEach((e) => e.classList.remove("wrong"));
     for (const problem of this.tables?.problems ?? []) {

@@ -9,7 +9,7 @@ export interface Input {
   refuse: (message: string, hint: string | null) => void;
 }
 
-/** What stands in a box, or what is wrong with it. */
+/** The value of an input, or its error. */
 type Typed = { value: unknown } | { wrong: string };
 
 /** `taken`: the value as JSON, null where the field is empty. */
@@ -24,7 +24,7 @@ export function input(path: string, field: Field, value: unknown, taken: (value:
     boxes.forEach((box) => box.setAttribute("aria-invalid", "true"));
     error.replaceChildren(message, ...(hint ? [h("span", { class: "hint" }, hint)] : []));
   };
-  const told = () => {
+  const report = () => {
     const typed = read(field.kind, boxes);
     if ("wrong" in typed) return refuse(typed.wrong, null);
     clear();
@@ -37,7 +37,7 @@ export function input(path: string, field: Field, value: unknown, taken: (value:
     // A list of several is complete when the last is left, or any of them is typed over.
     box.addEventListener("change", () => {
       if (boxes.length > 1 && boxes.some((b) => b.value.trim() === "") && boxes.some((b) => b.value.trim() !== "") && i + 1 < boxes.length) return;
-      told();
+      report();
     });
   });
   const root = h(
@@ -59,7 +59,7 @@ function make(kind: Kind, value: unknown, label: string): Box[] {
       return [plain(value, false, label)];
     case "numbers": {
       if (kind.count === null || kind.count > 6) return [plain(Array.isArray(value) ? value.join(", ") : value, true, `${label}, commas between`)];
-      // One number may stand for all of them.
+      // One number may be used for all of them.
       const values = Array.isArray(value) ? value : value === undefined || value === null ? [] : Array<unknown>(kind.count).fill(value);
       return Array.from({ length: kind.count }, (_, i) => plain(values[i], false, `${label}, ${i + 1} of ${kind.count}`));
     }

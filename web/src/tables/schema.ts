@@ -75,7 +75,7 @@ function kindOf(schema: Schema, root: Schema): Kind {
   return { of: "list" };
 }
 
-/** A table that has what it needs, to begin with: what cannot be guessed is empty, and the server tells what is wrong with it. */
+/** A new table with its required keys: values without a default are empty, and the server reports them. */
 export function beginning(fields: Field[]): Record<string, unknown> {
   const needed = fields.filter((f) => f.needed);
   return Object.fromEntries(needed.map((f) => [f.key, first(f.kind)]));

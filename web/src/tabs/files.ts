@@ -1,4 +1,4 @@
-// The files of the study's folder: see, download, and bring in robots, paths and measurements by dropping them.
+// The files of the study folder: view, download, and add robots, paths and measurements by dropping them.
 
 import { api, fileAddress, Refused } from "../server";
 import { fill, h } from "../dom";
@@ -12,14 +12,14 @@ export function filesTab(live: Live): Tab {
   const report = h("div", { class: "report-line" });
   const said = h("ul", { class: "said", role: "status" });
   const pick = h("input", { type: "file", multiple: true, id: "pick", class: "visually-hidden" });
-  const zone = h("div", { class: "drop" }, h("p", {}, h("b", {}, "Drop a file here"), " or ", h("label", { for: "pick", class: "link" }, "choose one"), ". It is laid into the study's folder."), h("p", { class: "note" }, "Robots (.urdf, .toml), tool paths (G-code, APT, CSV, robot programs), force records, ball-bar runs, profiles."), pick);
+  const zone = h("div", { class: "drop" }, h("p", {}, h("b", {}, "Drop a file here"), " or ", h("label", { for: "pick", class: "link" }, "choose one"), ". It is saved in the folder of the study."), h("p", { class: "note" }, "Robots (.urdf, .toml), tool paths (G-code, APT, CSV, robot programs), force records, ball-bar runs, profiles."), pick);
   const say = (text: string, hint = "", act: Node | null = null) => said.prepend(h("li", {}, text, hint ? h("span", { class: "hint" }, hint) : null, act));
 
   const refresh = async () => {
     try {
       const { files } = await api.files();
       const found = files.find((f) => f.name === "out/report.html");
-      fill(report, found ? [h("a", { class: "primary button", href: fileAddress(found.name), target: "_blank", rel: "noopener" }, "Open the report"), h("a", { class: "quiet button", href: fileAddress(found.name), download: "report.html" }, "Download it"), h("span", { class: "note" }, `made ${ago(found.modified_s_ago)}`)] : h("span", { class: "note" }, "No report yet: “Run the study” in Jobs makes one."));
+      fill(report, found ? [h("a", { class: "primary button", href: fileAddress(found.name), target: "_blank", rel: "noopener" }, "Open the report"), h("a", { class: "quiet button", href: fileAddress(found.name), download: "report.html" }, "Download it"), h("span", { class: "note" }, `made ${ago(found.modified_s_ago)}`)] : h("span", { class: "note" }, "No report yet: “Run the study” in Jobs writes one."));
       fill(rows, ...files.map(row));
       zone.hidden = live.study?.writable === false;
     } catch (error) {
@@ -31,7 +31,7 @@ export function filesTab(live: Live): Tab {
   const bring = async (file: File, replace = false) => {
     try {
       const kept = await api.put(file.name, file, replace);
-      say(`${kept.name}, ${bytes(kept.bytes)}: ${kept.kind === "unknown" ? "kept; what it is could not be told" : kept.kind}.`, kept.hint);
+      say(`${kept.name}, ${bytes(kept.bytes)}: ${kept.kind === "unknown" ? "saved; its type is not known" : kept.kind}.`, kept.hint);
       await refresh();
     } catch (error) {
       const there = error instanceof Refused && error.kind === "conflict";

@@ -1,4 +1,4 @@
-// Long work on the server: start it, watch it, cancel it, take its result. It runs on when the page is closed.
+// Jobs on the server: start, watch and cancel them, use their results. They continue when the page is closed.
 
 import { api, fileAddress } from "../server";
 import { fill, h, type Child } from "../dom";
@@ -8,12 +8,12 @@ import type { Job, Vec3 } from "../types";
 import type { Tab } from "./tab";
 import { testsDialog } from "./tests-dialog";
 
-/** What it is called, what it does, and the table of the study that bounds it. */
+/** Name, description, and the table of the study with its bounds. */
 const KINDS: [string, string, string, string | null][] = [
-  ["run", "Run the study", "Every question, with tables, pictures and report in the study's folder.", null],
-  ["place", "Find the best place", "Where the part should lie so that a path deviates least.", "place"],
-  ["posture", "Find the best posture", "The best turn of the tool and branch along the paths; needs a path.", "posture"],
-  ["identify", "Identify compliances", "Joint compliances from load tests: a table in the study's folder.", null],
+  ["run", "Run the study", "All analyses, with tables, pictures and report in the folder of the study.", null],
+  ["place", "Find the best placement", "The placement of the part with the smallest deviation of a path.", "place"],
+  ["posture", "Find the best posture", "The best spin of the tool and branch along the paths; requires a path.", "posture"],
+  ["identify", "Identify compliances", "Joint compliances from load tests: a table in the folder of the study.", null],
 ];
 const over = (job: Job): boolean => job.state === "done" || job.state === "failed" || job.state === "cancelled";
 
@@ -67,14 +67,14 @@ export function jobsTab(live: Live, { go, table }: { go: (tab: string) => void; 
   const start = async (kind: string) => {
     status.textContent = "";
     try {
-      if (kind === "identify") return await tests.ask();
+      if (kind === "identify") return await tests.open();
       await begin(kind);
     } catch (error) {
       fail(error);
     }
   };
-  // A card is built anew when the state of its job changes; while it runs only bar and words move, so that a click on
-  // "Cancel" and the focus are not lost ten times a second.
+  // A card is rebuilt when the state of its job changes. While it runs only bar and text are updated, so that a click on
+  // "Cancel" and the focus are not lost.
   const cards = new Map<string, { state: string; root: HTMLElement; tick: (job: Job) => void }>();
   const begin = async (kind: string, options?: unknown) => {
     await api.start(kind, live.text, options);
@@ -94,7 +94,7 @@ export function jobsTab(live: Live, { go, table }: { go: (tab: string) => void; 
       cards.set(job.id, made);
       return made.root;
     });
-    const shown = roots.length > 0 ? roots : [h("p", { class: "empty" }, "No work yet. What is started here runs on the server and survives closing this page.")];
+    const shown = roots.length > 0 ? roots : [h("p", { class: "empty" }, "No jobs yet. Jobs run on the server and continue when this page is closed.")];
     if (shown.length !== list.children.length || shown.some((root, i) => root !== list.children[i])) list.replaceChildren(...shown);
   };
   const card = (first: Job): { root: HTMLElement; tick: (job: Job) => void } => {
@@ -104,7 +104,7 @@ export function jobsTab(live: Live, { go, table }: { go: (tab: string) => void; 
     const tick = (job: Job) => {
       time.textContent = `${ago(job.started_s_ago)}, ${duration(job.seconds)}`;
       const counted = job.of && !over(job) ? `${job.done} of ${job.of}` : "";
-      fill(words, counted, job.best ? [counted ? " · " : "", over(job) || job.kind !== "place" ? null : h("span", {}, "best so far "), h("b", {}, job.best)] : null);
+      fill(words, counted, job.best ? [counted ? " · " : "", over(job) || job.kind !== "place" ? null : null, h("b", {}, job.best)] : null);
       if (bar && job.of) bar.value = Math.min(1, job.done / job.of);
     };
     const root = h(
@@ -139,7 +139,7 @@ export function jobsTab(live: Live, { go, table }: { go: (tab: string) => void; 
                 go("live");
               },
             },
-            "Show this place",
+            "Show this placement",
           )
         : null,
     ];
@@ -147,13 +147,13 @@ export function jobsTab(live: Live, { go, table }: { go: (tab: string) => void; 
   const root = h(
     "div",
     { class: "page" },
-    h("header", { class: "page-head" }, h("h1", {}, "Long work")),
+    h("header", { class: "page-head" }, h("h1", {}, "Jobs")),
     h("div", { class: "starters" }, KINDS.map(([kind, text, about, bounds]) =>
         h(
           "div",
           { class: "starter" },
           h("button", { type: "button", "data-kind": kind, onclick: () => void start(kind) }, h("b", {}, text), h("span", {}, about)),
-          bounds ? h("button", { type: "button", class: "link", onclick: () => table(bounds) }, bounds === "place" ? "What may move: [place]" : "What is tried: [posture]") : null,
+          bounds ? h("button", { type: "button", class: "link", onclick: () => table(bounds) }, bounds === "place" ? "Bounds: [place]" : "Bounds: [posture]") : null,
         ),
       )),
     status,

@@ -1,4 +1,4 @@
-// The live view: settings on the left, the scene in the middle under its verdict, what is known of the point on the right.
+// The live view: settings on the left, the verdict and the scene in the middle, values at the point on the right.
 
 import { controls } from "../controls/controls";
 import { h } from "../dom";
@@ -9,7 +9,7 @@ import { joints } from "../panels/joints";
 import { matrix } from "../panels/matrix";
 import { notes } from "../panels/notes";
 import { point } from "../panels/point";
-import { stand } from "../panels/stand";
+import { target } from "../panels/target";
 import { shares } from "../panels/shares";
 import { verdict } from "../panels/verdict";
 import { overlay } from "../scene/overlay";
@@ -18,11 +18,11 @@ import type { Tab } from "./tab";
 
 export function liveTab(live: Live): Tab & { view: SceneView } {
   const host = h("div", { class: "stage", tabindex: "0", role: "group", "aria-label": "The robot, the plate with its deviations, and the tool. Keys 1 to 5: views. All numbers are in the panels." });
-  const right = h("aside", { class: "right", "aria-label": "At the tool" }, point(live), stand(live), shares(live), branches(live), cases(live), joints(live), matrix(live), notes(live));
+  const right = h("aside", { class: "right", "aria-label": "At the tool" }, point(live), target(live), shares(live), branches(live), cases(live), joints(live), matrix(live), notes(live));
   let waits: ReturnType<typeof setTimeout> | undefined;
   live.listen(["moving"], () => {
     right.setAttribute("aria-busy", String(live.moving));
-    // Only what takes long is seen to: each change of looks costs a frame.
+    // Only long waits are shown: each change of style costs a frame.
     clearTimeout(waits);
     if (live.moving) waits = setTimeout(() => right.classList.add("waits"), 250);
     else right.classList.remove("waits");

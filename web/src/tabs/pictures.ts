@@ -1,4 +1,4 @@
-// The pictures of the command for what is asked, each to be had as SVG, PNG, and the numbers as CSV.
+// The pictures of the analysis, for download as SVG and PNG, and their numbers as CSV.
 
 import { api } from "../server";
 import { fill, h } from "../dom";
@@ -11,7 +11,7 @@ import type { Tab } from "./tab";
 export function picturesTab(live: Live): Tab {
   const list = h("div", { class: "gallery" });
   const status = h("p", { class: "note", role: "status" });
-  const csv = h("button", { type: "button", class: "quiet", onclick: () => void saveTable(plainName(live.ask ?? "study"), false) }, "Table as CSV");
+  const csv = h("button", { type: "button", class: "quiet", onclick: () => void saveTable(plainName(live.analysis ?? "study"), false) }, "Table as CSV");
   const title = h("h1", {});
   const large = h("dialog", { class: "large", onclick: () => large.close() });
   const root = h("div", { class: "page" }, h("header", { class: "page-head" }, title, csv), status, list, large);
@@ -21,7 +21,7 @@ export function picturesTab(live: Live): Tab {
 
   const saveTable = async (name: string, measured: boolean) => {
     try {
-      download(`${name}.csv`, await api.table(live.text, live.ask, measured));
+      download(`${name}.csv`, await api.table(live.text, live.analysis, measured));
     } catch (error) {
       status.textContent = error instanceof Error ? error.message : String(error);
     }
@@ -29,7 +29,7 @@ export function picturesTab(live: Live): Tab {
   const savePng = async (picture: Picture, image: HTMLImageElement) => {
     let blob: Blob;
     try {
-      blob = await api.png(live.text, live.ask, picture.name);
+      blob = await api.png(live.text, live.analysis, picture.name);
     } catch {
       blob = await rendered(image);
     }
@@ -49,16 +49,16 @@ export function picturesTab(live: Live): Tab {
         h("span", {}, picture.title),
         h("button", { type: "button", class: "quiet small", onclick: () => download(`${picture.name}.svg`, new Blob([picture.svg], { type: "image/svg+xml" })) }, "SVG"),
         h("button", { type: "button", class: "quiet small", onclick: () => void savePng(picture, image) }, "PNG"),
-        h("button", { type: "button", class: "quiet small", title: picture.measured ? "The curves of the budget, a row an angle" : "The points of the question, of which this is drawn", onclick: () => void saveTable(picture.name, picture.measured) }, "CSV"),
+        h("button", { type: "button", class: "quiet small", title: picture.measured ? "The curves of the budget, a row an angle" : "The points of the analysis in this picture", onclick: () => void saveTable(picture.name, picture.measured) }, "CSV"),
       ),
     );
   };
-  const work = new Newest<{ text: string; ask: string | null }, Picture[]>({
-    work: async ({ text, ask }, signal) => (await api.pictures(text, ask, signal)).pictures,
+  const work = new Newest<{ text: string; analysis: string | null }, Picture[]>({
+    work: async ({ text, analysis }, signal) => (await api.pictures(text, analysis, signal)).pictures,
     done: (pictures) => {
       urls.forEach((url) => URL.revokeObjectURL(url));
       urls = [];
-      status.textContent = pictures.length === 0 ? "This question has no pictures." : "";
+      status.textContent = pictures.length === 0 ? "This analysis has no pictures." : "";
       fill(list, ...pictures.map(card));
     },
     failed: (error) => {
@@ -67,18 +67,18 @@ export function picturesTab(live: Live): Tab {
     },
   });
   const refresh = () => {
-    title.textContent = live.ask ?? "Pictures";
-    const key = `${live.ask}\n${live.text}`;
+    title.textContent = live.analysis ?? "Pictures";
+    const key = `${live.analysis}\n${live.text}`;
     if (!visible || key === drawn || live.text === "") return;
     drawn = key;
     status.textContent = "Drawing …";
-    work.submit({ text: live.text, ask: live.ask });
+    work.submit({ text: live.text, analysis: live.analysis });
   };
   live.listen(["answer"], refresh);
   return { id: "pictures", title: "Pictures", root, shown: () => ((visible = true), refresh()), left: () => void (visible = false) };
 }
 
-/** Width and height of the drawing, so that nothing jumps when it comes. */
+/** Width and height of the picture, so that the layout does not change when it is loaded. */
 function sizeOf(svg: string): { width?: number; height?: number } {
   const box = /viewBox="[\d.-]+ [\d.-]+ ([\d.]+) ([\d.]+)"/.exec(svg);
   return box ? { width: Math.round(Number(box[1])), height: Math.round(Number(box[2])) } : {};

@@ -1,4 +1,4 @@
-// The study as text and as fields: checked while it is typed, saved as it stands, comments and all.
+// The study as text and as fields: checked while it is typed, saved with its comments.
 
 import { api, Refused } from "../server";
 import { fill, h } from "../dom";
@@ -13,7 +13,7 @@ export function studyTab(live: Live): Tab & { reveal: (table: string) => void } 
   const text = h("textarea", { id: "study-text", spellcheck: "false", wrap: "off", "aria-label": "Study file, TOML", "aria-describedby": "study-problems" });
   const problems = h("div", { class: "problems", id: "study-problems", role: "status" });
   const save = h("button", { type: "button", class: "primary" }, "Save");
-  const undo = h("button", { type: "button", class: "quiet" }, "Back to the file");
+  const undo = h("button", { type: "button", class: "quiet" }, "Discard changes");
   const name = h("h1", {});
   const message = h("p", { class: "note", role: "status" });
   let checked: Checked | null = null;
@@ -24,12 +24,12 @@ export function studyTab(live: Live): Tab & { reveal: (table: string) => void } 
     fill(lines, ...Array.from({ length: count }, (_, i) => (at.has(i + 1) ? h("b", { title: at.get(i + 1)! }, i + 1) : h("span", {}, i + 1))));
     lines.scrollTop = text.scrollTop;
   };
-  const told = (list: Problem[]) => {
+  const showProblems = (list: Problem[]) => {
     number(list);
     fill(
       problems,
       list.length === 0
-        ? h("p", { class: "fine" }, "✓ The study is sound.")
+        ? h("p", { class: "fine" }, "✓ No problems")
         : [
             h("p", { class: "wrong" }, list.length === 1 ? "1 problem" : `${list.length} problems`),
             h("ul", {}, list.map((p) => h("li", {}, h("button", { type: "button", class: "link", onclick: () => jump(p) }, p.line === null ? "study" : `line ${p.line}${p.column === null ? "" : `, column ${p.column}`}`), " ", p.message, p.hint ? h("span", { class: "hint" }, p.hint) : null))),
@@ -44,7 +44,7 @@ export function studyTab(live: Live): Tab & { reveal: (table: string) => void } 
     text.setSelectionRange(from + (p.column ?? 1) - 1, from + rows[p.line - 1]!.length);
     text.scrollTop = Math.max(0, (p.line - 8) * 20);
   };
-  // A field changes the text that stands there when its turn comes: one after the other.
+  // Fields change the text one after the other.
   let turn: Promise<void> = Promise.resolve();
   const fields = new Fields((path, value) => {
     const made = turn.then(async () => {
@@ -67,7 +67,7 @@ export function studyTab(live: Live): Tab & { reveal: (table: string) => void } 
     done: ([answer, tables], _, settled) => {
       if (!settled) return;
       checked = answer;
-      told(answer.problems);
+      showProblems(answer.problems);
       fields.show(tables);
     },
     failed: (error) => void (message.textContent = error instanceof Error ? error.message : String(error)),
@@ -84,24 +84,24 @@ export function studyTab(live: Live): Tab & { reveal: (table: string) => void } 
     const same = text.value === study?.text;
     save.disabled = !study?.writable || same;
     undo.disabled = same;
-    message.textContent = study && !study.writable ? "An example study: it can be changed and answered here, not saved. Start `armill serve` in your own folder to save." : same ? "" : "Changed, not saved.";
+    message.textContent = study && !study.writable ? "An example study: changes cannot be saved. Start `armill serve` in your own folder to save." : same ? "" : "Unsaved changes.";
   };
   const store = async () => {
     try {
       const study = await api.save(text.value, live.study!.version);
       live.study = study;
-      live.use(study.text, study.asks);
+      live.use(study.text, study.analyses);
       buttons();
       message.textContent = "Saved.";
     } catch (error) {
       if (error instanceof Refused && error.kind === "conflict") return conflict(error.message);
-      if (error instanceof Refused && error.problems.length > 0) told(error.problems);
+      if (error instanceof Refused && error.problems.length > 0) showProblems(error.problems);
       message.textContent = error instanceof Error ? error.message : String(error);
     }
   };
   const conflict = (why: string) => {
-    const theirs = h("button", { type: "button", class: "link", onclick: () => void reload() }, "Take the file's text");
-    const mine = h("button", { type: "button", class: "link", onclick: () => void overwrite() }, "Save mine over it");
+    const theirs = h("button", { type: "button", class: "link", onclick: () => void reload() }, "Load the file");
+    const mine = h("button", { type: "button", class: "link", onclick: () => void overwrite() }, "Overwrite the file");
     fill(message, `${why} `, theirs, " or ", mine);
   };
   const reload = async () => {
@@ -137,9 +137,9 @@ export function studyTab(live: Live): Tab & { reveal: (table: string) => void } 
       if (text.value !== live.text) text.value = live.text;
       edited();
     },
-    // What is sound goes to the live view by itself.
+    // A text without problems is used by the live view.
     left: () => {
-      if (text.value !== live.text && checked && checked.problems.length === 0) live.use(text.value, checked.asks);
+      if (text.value !== live.text && checked && checked.problems.length === 0) live.use(text.value, checked.analyses);
     },
   };
 }

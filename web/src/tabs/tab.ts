@@ -1,4 +1,4 @@
-// A tab of the page: what it is called, its element, and what happens when it comes into view.
+// A tab of the page: its name, its element, and what happens when it is shown.
 
 export interface Tab {
   id: string;

@@ -1,15 +1,15 @@
-// Which table of load tests the compliances are to be found from: one of the folder's.
+// Choice of the table of load tests for the identification, among the files of the folder.
 
 import { api } from "../server";
 import { fill, h } from "../dom";
 
-export function testsDialog(chosen: (name: string) => void): { root: HTMLDialogElement; ask: () => Promise<void> } {
+export function testsDialog(chosen: (name: string) => void): { root: HTMLDialogElement; open: () => Promise<void> } {
   const select = h("select", { id: "tests-file" });
   const go = h("button", { type: "submit", class: "primary" }, "Start");
   const none = h("p", { class: "note" }, "There is no .csv in the study's folder yet: drop the table of tests in Files first.");
   const root: HTMLDialogElement = h(
     "dialog",
-    { class: "analysis", "aria-labelledby": "tests-name" },
+    { class: "file-dialog", "aria-labelledby": "tests-name" },
     h(
       "form",
       { method: "dialog", onsubmit: () => chosen(select.value) },
@@ -17,10 +17,10 @@ export function testsDialog(chosen: (name: string) => void): { root: HTMLDialogE
       h("label", { for: "tests-file", class: "visually-hidden" }, "File"),
       select,
       none,
-      h("div", { class: "ask-buttons" }, h("button", { type: "button", class: "quiet", onclick: () => root.close() }, "Cancel"), go),
+      h("div", { class: "dialog-buttons" }, h("button", { type: "button", class: "quiet", onclick: () => root.close() }, "Cancel"), go),
     ),
   );
-  const ask = async () => {
+  const open = async () => {
     const { files } = await api.files();
     const tables = files.filter((f) => f.name.endsWith(".csv") && !f.name.includes("/"));
     fill(select, ...tables.map((f) => h("option", { value: f.name }, f.name)));
@@ -28,5 +28,5 @@ export function testsDialog(chosen: (name: string) => void): { root: HTMLDialogE
     none.hidden = tables.length > 0;
     root.showModal();
   };
-  return { root, ask };
+  return { root, open };
 }

@@ -8,45 +8,45 @@ import { launch, open, serve, settled } from "./setup.mjs";
 
 const STUDY = `format = 1
 robot = "yaskawa/mh12"
-limit_um = 200
+tolerance_um = 200
 tool = { flange_from_tool_mm_deg = [0, 0, 100, 0, 0, 0] }
 plane = { centre_mm = [1000, 0, 800], half_size_mm = 150, step_mm = 25 }
 load = { cases_n = [[6, 10, 10], [6, -10, 10]] }
 
-[[ask]]
+[[analysis]]
 kind = "map"
 name = "plate"
 
-[[ask]]
+[[analysis]]
 kind = "sections"
 name = "distances"
 distances_mm = [900, 1000, 1100]
 
-[[ask]]
+[[analysis]]
 kind = "volume"
 name = "space"
 box = { half_size_mm = [100, 100, 100], step_mm = 25 }
 
-[[ask]]
+[[analysis]]
 kind = "path"
 name = "groove"
 circle = { radius_mm = 100 }
 
-[[ask]]
+[[analysis]]
 kind = "path"
 name = "turned"
 circle = { radius_mm = 100 }
 step_mm = 20
 posture.search = { step_deg = 30 }
 
-[[ask]]
+[[analysis]]
 kind = "holes"
 name = "panel"
 posture.search = { step_deg = 30 }
 holes = { at_mm = [[0, 0, 0], [60, 20, 0], [-50, 60, 0], [20, -70, 0]] }
 
 [measured]
-ask = "groove"
+analysis = "groove"
 part = "part.csv"
 radius_mm = 100
 ballbar = ["run.csv"]
@@ -79,10 +79,10 @@ const CHARTS = {
   turned: [["turns", "along"], "turn_deg"],
   panel: [["holes"], "in_plane_um"],
 };
-for (const [ask, [names, column]] of Object.entries(CHARTS))
-  test(`the charts of ${ask}: drawn, and each to be had as SVG, PNG and CSV`, async () => {
+for (const [analysis, [names, column]] of Object.entries(CHARTS))
+  test(`the charts of ${analysis} are drawn and can be downloaded as SVG, PNG and CSV`, async () => {
     const page = await open(browser, server.url);
-    await page.selectOption("#field-ask", ask);
+    await page.selectOption("#field-analysis", analysis);
     await settled(page);
     await page.click("#tab-pictures");
     await page.waitForSelector(".picture img", { timeout: 60_000 });

@@ -6,11 +6,11 @@ import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { client, launch, open, serve, settled } from "./setup.mjs";
 
-let server, browser, ask;
+let server, browser, request;
 before(async () => {
   server = await serve((text) => text.replace(/\[place\]\n(.+\n)+/, ""));
   browser = await launch();
-  ask = client(server.url);
+  request = client(server.url);
 });
 after(async () => {
   await browser?.close();
@@ -38,8 +38,8 @@ test("[place] by fields: made, changed, wrong, taken away; the comments stay", a
   await page.waitForFunction(() => document.querySelector("#study-text").value.includes("x_mm = [700, 1100]"));
   assert.match(await text(), /\[place\]\nx_mm = \[700, 1100\]/);
   assert.match(await text(), /# Fig. 6: a vertical plate/);
-  await field(page, "place.goal").locator("select").selectOption("mean");
-  await page.waitForFunction(() => document.querySelector("#study-text").value.includes('goal = "mean"'));
+  await field(page, "place.objective").locator("select").selectOption("mean");
+  await page.waitForFunction(() => document.querySelector("#study-text").value.includes('objective = "mean"'));
   await fine(page);
   // Beyond its bounds: told by the server, at the field.
   await field(page, "place.margin_deg").locator("input").fill("120");
@@ -47,7 +47,7 @@ test("[place] by fields: made, changed, wrong, taken away; the comments stay", a
   await page.waitForSelector('.row[data-path="place.margin_deg"] [aria-invalid=true]');
   assert.match(await field(page, "place.margin_deg").locator(".field-error").innerText(), /margin_deg.*90/s);
   assert.equal(await page.locator('[data-table="place"].wrong').count(), 1);
-  // No number: told before it is asked.
+  // Not a number: reported before any request.
   const margin = field(page, "place.margin_deg").locator("input");
   await margin.fill("wide");
   await margin.press("Tab");
@@ -63,7 +63,7 @@ test("[place] by fields: made, changed, wrong, taken away; the comments stay", a
   await page.context().close();
 });
 
-test("[posture.search], [tool] and the asks by fields; what they change is answered", async () => {
+test("[posture.search], [tool] and the analyses as fields; their changes are answered", async () => {
   const page = await open(browser, server.url);
   await page.click("#tab-study");
   await fine(page);
@@ -84,27 +84,27 @@ test("[posture.search], [tool] and the asks by fields; what they change is answe
   await fine(page);
   await page.click("#tab-live");
   await settled(page);
-  const doubled = await ask("POST", "/api/change", { text: readFileSync(join(server.folder, "study.toml"), "utf8"), ask: null, changes: [{ key: "load.cases_n", value: forces.map((f) => f.map((v) => 2 * v)) }] });
-  const { maps } = await ask("POST", "/api/answer", { text: doubled.text, ask: "Fig. 6" });
+  const doubled = await request("POST", "/api/change", { text: readFileSync(join(server.folder, "study.toml"), "utf8"), analysis: null, changes: [{ key: "load.cases_n", value: forces.map((f) => f.map((v) => 2 * v)) }] });
+  const { maps } = await request("POST", "/api/answer", { text: doubled.text, analysis: "Fig. 6" });
   assert.ok((await page.locator("[data-follow=worst] .extreme-value").innerText()).startsWith(String(Math.round(maps[0].worst.in_plane_um))));
   assert.deepEqual(page.complaints, []);
   await page.context().close();
 });
 
-test("an ask is added, filled in, answered and removed again; a list inside it likewise", async () => {
+test("an analysis is added, filled in, answered and removed again; so is a list in it", async () => {
   const page = await open(browser, server.url);
   await page.click("#tab-study");
   await fine(page);
   const text = () => page.inputValue("#study-text");
   const before = await text();
-  const asks = (before.match(/^\[\[ask\]\]/gm) ?? []).length;
-  const at = `ask[${asks}]`;
-  await page.getByRole("button", { name: "Add ask", exact: true }).click();
+  const analyses = (before.match(/^\[\[analysis\]\]/gm) ?? []).length;
+  const at = `analysis[${analyses}]`;
+  await page.getByRole("button", { name: "Add analysis", exact: true }).click();
   await field(page, `${at}.kind`).waitFor();
-  // Behind the last ask, before what is said of the next table.
-  const last = before.lastIndexOf("[[ask]]");
+  // After the last analysis, before the comment of the next table.
+  const last = before.lastIndexOf("[[analysis]]");
   const next = last + before.slice(last).search(/\n\n/) + 1;
-  assert.equal(await text(), `${before.slice(0, next)}\n[[ask]]\nkind = "map"\n${before.slice(next)}`);
+  assert.equal(await text(), `${before.slice(0, next)}\n[[analysis]]\nkind = "map"\n${before.slice(next)}`);
   // Ready to be filled in: its first field has the focus.
   await page.waitForFunction((key) => document.activeElement?.dataset.key === key, `${at}.kind 0`);
   await field(page, `${at}.kind`).locator("select").selectOption("path");
@@ -112,12 +112,12 @@ test("an ask is added, filled in, answered and removed again; a list inside it l
   await page.waitForSelector(".problems .wrong");
   await field(page, `${at}.name`).locator("input").fill("rim");
   await field(page, `${at}.name`).locator("input").press("Tab");
-  await page.locator(`[data-table="${at}"] > summary`, { hasText: "ask: rim" }).waitFor();
+  await page.locator(`[data-table="${at}"] > summary`, { hasText: "analysis: rim" }).waitFor();
   await unfold(page, `${at}.circle`);
   await field(page, `${at}.circle.radius_mm`).locator("input").fill("40");
   await field(page, `${at}.circle.radius_mm`).locator("input").press("Tab");
   await fine(page);
-  // An entry of a list inside of a table: what it needs is there, and what is wrong with it stands at its field.
+  // An entry of a list inside of a table: required keys are there, and its problem is shown at its field.
   await unfold(page, "tool");
   await page.locator('[data-key="add tool.spring"]').click();
   await field(page, "tool.spring[0].at").waitFor();
@@ -128,12 +128,12 @@ test("an ask is added, filled in, answered and removed again; a list inside it l
   assert.doesNotMatch(await text(), /spring = /);
   await page.click("#tab-live");
   await settled(page);
-  await page.locator("#field-ask").selectOption("rim");
+  await page.locator("#field-analysis").selectOption("rim");
   await settled(page);
-  const { paths } = await ask("POST", "/api/answer", { text: `${before}\n[[ask]]\nkind = "path"\nname = "rim"\ncircle = { radius_mm = 40 }\n`, ask: "rim" });
+  const { paths } = await request("POST", "/api/answer", { text: `${before}\n[[analysis]]\nkind = "path"\nname = "rim"\ncircle = { radius_mm = 40 }\n`, analysis: "rim" });
   assert.ok((await page.locator("[data-follow=worst] .extreme-value").innerText()).startsWith(String(Math.round(paths[0].worst.in_plane_um))));
   await page.click("#tab-study");
-  await page.getByRole("button", { name: "Remove ask: rim", exact: true }).click();
+  await page.getByRole("button", { name: "Remove analysis: rim", exact: true }).click();
   await page.waitForFunction((text) => document.querySelector("#study-text").value === text, before);
   // Its table goes once the text has been read anew.
   await page.locator(`[data-table="${at}"]`).waitFor({ state: "detached" });
@@ -145,8 +145,8 @@ test("an ask is added, filled in, answered and removed again; a list inside it l
 test("joints are counted as the controller does, or as the chain does", async () => {
   const page = await open(browser, server.url);
   const text = readFileSync(join(server.folder, "study.toml"), "utf8");
-  const { maps } = await ask("POST", "/api/answer", { text, ask: "Fig. 6" });
-  const pose = await ask("POST", "/api/pose", { text, ask: "Fig. 6", at: { y_mm: maps[0].worst.in_plane_mm[0], z_mm: maps[0].worst.in_plane_mm[1] }, case: maps[0].worst.deciding_case });
+  const { maps } = await request("POST", "/api/answer", { text, analysis: "Fig. 6" });
+  const pose = await request("POST", "/api/pose", { text, analysis: "Fig. 6", at: { y_mm: maps[0].worst.in_plane_mm[0], z_mm: maps[0].worst.in_plane_mm[1] }, case: maps[0].worst.worst_case });
   const shown = pose.answer.postures.findIndex((p) => p.branch === maps[0].worst.branch);
   const written = (list) => list.map((q) => `${q < -0.05 ? "−" : ""}${Math.abs(q).toFixed(1)}°`);
   const read = () => page.locator("#panel-joints .bar-value").allInnerTexts();

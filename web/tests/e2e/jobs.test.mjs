@@ -1,4 +1,4 @@
-// Long work in the page: to its end, cancelled, over a reload; its results in the page and as files.
+// Jobs in the page: finished, cancelled, after a reload; their results in the page and as files.
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
@@ -15,14 +15,14 @@ after(() => browser?.close());
 
 const study = (path, place = "") => `format = 1
 robot = "yaskawa/mh12"
-limit_um = 50
+tolerance_um = 50
 [plane]
 centre_mm = [1000, 0, 800]
 half_size_mm = 100
 step_mm = 20
 [load]
 cases_n = [[3, 5, 5]]
-[[ask]]
+[[analysis]]
 kind = "path"
 name = "groove"
 circle.radius_mm = 100
@@ -30,7 +30,7 @@ ${path}
 ${place}`;
 // So few points and so little room that a search is over soon; so much work at each point that it is not.
 const SMALL = study("step_mm = 60", "[place]\nx_mm = [900, 1100]\n");
-const LARGE = study("step_mm = 0.5", "[place]\nx_mm = [700, 1200]\ny_mm = [-300, 300]\nz_mm = [400, 1100]\ntilt_deg = [-30, 60]\n").replace("limit_um = 50", "limit_um = 50\nload_dependent = true");
+const LARGE = study("step_mm = 0.5", "[place]\nx_mm = [700, 1200]\ny_mm = [-300, 300]\nz_mm = [400, 1100]\ntilt_deg = [-30, 60]\n").replace("tolerance_um = 50", "tolerance_um = 50\nload_dependent = true");
 
 /** A page on a server of this study, at its jobs. */
 async function at(text, work) {
@@ -60,7 +60,7 @@ test("a small placement runs to its end: its place is told, shown, and lies in t
     const links = await page.locator(".job.done .files a").evaluateAll((all) => all.map((a) => a.href));
     assert.ok(links.length > 3);
     for (const link of links) assert.equal(await page.evaluate(async (to) => (await fetch(to)).status, link), 200, link);
-    await page.click("text=Show this place");
+    await page.click("text=Show this placement");
     await settled(page);
     assert.equal(Number(await page.inputValue("#field-x")), placed.place.centre_mm[0]);
     assert.notEqual(placed.place.centre_mm[0], 1000);

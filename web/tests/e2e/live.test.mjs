@@ -6,11 +6,11 @@ import { after, before, test } from "node:test";
 import { client, launch, open, serve, settled, STUDY, um } from "./setup.mjs";
 
 const text = readFileSync(STUDY, "utf8");
-let server, browser, ask;
+let server, browser, request;
 before(async () => {
   server = await serve();
   browser = await launch();
-  ask = client(server.url);
+  request = client(server.url);
 });
 after(async () => {
   await browser?.close();
@@ -19,22 +19,22 @@ after(async () => {
 
 const extreme = async (page, which) => (await page.locator(`[data-follow=${which}] .extreme-value`).innerText()).replaceAll("\u00a0", " ");
 async function showsAnswer(page, study, name) {
-  const { maps } = await ask("POST", "/api/answer", { text: study, ask: name });
+  const { maps } = await request("POST", "/api/answer", { text: study, analysis: name });
   assert.equal(await extreme(page, "worst"), `${um(maps[0].worst.in_plane_um)} ± ${um(maps[0].worst.in_plane_u_um)} µm`);
   assert.equal(await extreme(page, "best"), `${um(maps[0].best.in_plane_um)} ± ${um(maps[0].best.in_plane_u_um)} µm`);
   return maps[0];
 }
-const changed = async (name, ...changes) => (await ask("POST", "/api/change", { text, ask: name, changes: changes.map(([key, value]) => ({ key, value })) })).text;
+const changed = async (name, ...changes) => (await request("POST", "/api/change", { text, analysis: name, changes: changes.map(([key, value]) => ({ key, value })) })).text;
 
 test("the paper's study: the numbers of the page are those of the server, the token is out of the address", async () => {
   const page = await open(browser, server.url);
   const map = await showsAnswer(page, text, "Fig. 6");
   assert.equal(map.fraction_within, 0);
-  assert.match(await page.locator(".verdict-line").innerText(), /No point of the plate holds 50\u00a0µm/);
+  assert.match(await page.locator(".verdict-line").innerText(), /No point of the plate is within 50\u00a0µm/);
   assert.ok(!page.url().includes("token"));
-  const pose = await ask("POST", "/api/pose", { text, ask: "Fig. 6", at: { y_mm: map.worst.in_plane_mm[0], z_mm: map.worst.in_plane_mm[1] }, case: map.worst.deciding_case });
+  const pose = await request("POST", "/api/pose", { text, analysis: "Fig. 6", at: { y_mm: map.worst.in_plane_mm[0], z_mm: map.worst.in_plane_mm[1] }, case: map.worst.worst_case });
   const shown = pose.answer.postures.findIndex((p) => p.branch === map.worst.branch);
-  const values = pose.in_plane[shown][map.worst.deciding_case - 1];
+  const values = pose.in_plane[shown][map.worst.worst_case - 1];
   assert.deepEqual(await page.locator("#panel-point .figure-value").allInnerTexts(), [um(values.in_plane_um), um(values.normal_um), um(values.full_um)]);
   assert.deepEqual(await page.locator("#panel-shares .bar-value").allInnerTexts(), map.worst.joint_share_um.map(um));
   assert.equal(await page.locator("#panel-branches .branch").count(), pose.answer.postures.length);
@@ -65,27 +65,27 @@ test("distance and tilt: each change shows the map of the changed study", async 
   await page.context().close();
 });
 
-test("scrubbing does not pile up: the last value is shown, most between are never asked", async () => {
+test("scrubbing does not pile up: the last value is shown, most others are never requested", async () => {
   const page = await open(browser, server.url);
-  let asked = 0;
-  page.on("request", (r) => r.url().endsWith("/api/view") && asked++);
+  let requests = 0;
+  page.on("request", (r) => r.url().endsWith("/api/view") && requests++);
   await page.locator("#field-x").focus();
   for (let i = 0; i < 60; i++) await page.keyboard.press("ArrowUp", { delay: 5 });
   await settled(page);
   assert.equal(await page.locator("#field-x").inputValue(), "1400");
   await showsAnswer(page, await changed("Fig. 6", ["plane.centre_mm", [1400, 0, 1000]]), "Fig. 6");
-  assert.ok(asked > 0 && asked < 60, `${asked} answers were asked for`);
+  assert.ok(requests > 0 && requests < 60, `${requests} answers were requested`);
   await page.context().close();
 });
 
 test("a change is one question, and what is shown of map and arm comes with it", async () => {
   const page = await open(browser, server.url);
-  const asked = [];
-  page.on("request", (r) => r.url().includes("/api/") && asked.push(new URL(r.url()).pathname));
+  const requests = [];
+  page.on("request", (r) => r.url().includes("/api/") && requests.push(new URL(r.url()).pathname));
   await page.locator("#field-x").focus();
   await page.keyboard.press("ArrowUp");
   await settled(page);
-  assert.deepEqual(asked, ["/api/view"]);
+  assert.deepEqual(requests, ["/api/view"]);
   const map = await showsAnswer(page, await changed("Fig. 6", ["plane.centre_mm", [810, 0, 1000]]), "Fig. 6");
   assert.deepEqual(await page.locator("#panel-shares .bar-value").allInnerTexts(), map.worst.joint_share_um.map(um));
   // The same numbers in the same elements: a panel takes on what is new, it is not made anew.
@@ -99,10 +99,10 @@ test("a change is one question, and what is shown of map and arm comes with it",
 
 const HOLES = `format = 1
 robot = "yaskawa/mh12"
-limit_um = 90
+tolerance_um = 90
 plane = { centre_mm = [900, 0, 900], half_size_mm = 100, step_mm = 50 }
 load = { cases_n = [[3, 5, 5]] }
-[[ask]]
+[[analysis]]
 kind = "holes"
 name = "rivets"
 holes = { at_mm = [[-50, 0, 0], [0, 0, 0], [50, 0, 0]] }
@@ -110,10 +110,10 @@ holes = { at_mm = [[-50, 0, 0], [0, 0, 0], [50, 0, 0]] }
 test("holes: verdict, limit and the robot at the worst", async () => {
   const own = await serve(() => HOLES);
   const page = await open(browser, own.url);
-  const { holes } = await client(own.url)("POST", "/api/answer", { text: HOLES, ask: "rivets" });
-  assert.match(await page.locator(".verdict-line").innerText(), /holes? holds? 90\u00a0µm/);
+  const { holes } = await client(own.url)("POST", "/api/answer", { text: HOLES, analysis: "rivets" });
+  assert.match(await page.locator(".verdict-line").innerText(), /holes? (is|are) within 90\u00a0µm/);
   assert.equal(await extreme(page, "worst"), `${um(holes[0].worst_holes[0].point.in_plane_um)} ± ${um(holes[0].worst_holes[0].point.in_plane_u_um)} µm`);
-  assert.equal(await page.inputValue("#stand-point"), String(holes[0].worst_holes[0].hole));
+  assert.equal(await page.inputValue("#target-point"), String(holes[0].worst_holes[0].hole));
   assert.match(await page.locator(".legend").innerText(), /limit 90/);
   assert.deepEqual(page.complaints, []);
   await page.context().close();
@@ -130,15 +130,15 @@ test("a click on the plate sends the robot there", async () => {
   const place = (await page.locator(".tip dd").first().innerText()).replace(" mm", "").replaceAll("−", "-").split(", ").map(Number);
   await page.mouse.click(box.x + box.width * 0.42, box.y + box.height * 0.4);
   await settled(page);
-  assert.deepEqual([await page.inputValue("#stand-y"), await page.inputValue("#stand-z")].map(Number), place);
+  assert.deepEqual([await page.inputValue("#target-y"), await page.inputValue("#target-z")].map(Number), place);
   const told = (await page.locator("#panel-point .facts dd").first().innerText()).replace(" mm", "").replaceAll("−", "-").split(", ").map(Number);
   assert.deepEqual(told, [800, place[0], 1000 + place[1]]);
-  const { maps } = await ask("POST", "/api/answer", { text, ask: "Fig. 6" });
+  const { maps } = await request("POST", "/api/answer", { text, analysis: "Fig. 6" });
   const { y_mm, z_mm, in_plane_um } = maps[0].grid;
   const here = in_plane_um[z_mm.indexOf(place[1]) * y_mm.length + y_mm.indexOf(place[0])];
   assert.equal(await page.locator("#panel-point .figure-value").first().innerText(), um(here));
   // The same by number, without a mouse.
-  await page.fill("#stand-y", "0");
+  await page.fill("#target-y", "0");
   await settled(page);
   assert.match(await page.locator("#panel-point .facts dd").first().innerText(), /^800, 0, /);
   assert.deepEqual(page.complaints, []);
@@ -159,13 +159,13 @@ test("another branch: its map, and it stays where the study said", async () => {
   await page.context().close();
 });
 
-test("another load case: its numbers, until the deciding one is wanted again", async () => {
+test("another load case: its numbers, until the worst one is chosen again", async () => {
   const page = await open(browser, server.url);
   const rows = page.locator("#panel-cases tbody tr");
   await rows.nth(0).locator("button").click();
   await settled(page);
   assert.equal(await page.locator("#panel-point .figure-value").first().innerText(), await rows.nth(0).locator("td").first().innerText());
-  await page.click("text=Show the deciding case");
+  await page.click("text=Show the worst case");
   await settled(page);
   assert.equal(await page.locator("#panel-point .figure-value").first().innerText(), await page.locator("#panel-cases td.strong").innerText());
   await page.context().close();
@@ -174,12 +174,12 @@ test("another load case: its numbers, until the deciding one is wanted again", a
 test("a path: its worst point, and a walk along it", async () => {
   const name = "(ii) vertical plate, tool 100 mm, elbow up";
   const page = await open(browser, server.url);
-  await page.selectOption("#field-ask", name);
+  await page.selectOption("#field-analysis", name);
   await settled(page);
-  const { paths } = await ask("POST", "/api/answer", { text, ask: name });
+  const { paths } = await request("POST", "/api/answer", { text, analysis: name });
   assert.equal(await extreme(page, "worst"), `${um(paths[0].worst.in_plane_um)} ± ${um(paths[0].worst.in_plane_u_um)} µm`);
   assert.equal(await page.locator("#panel-point .figure-value").first().innerText(), um(paths[0].worst.in_plane_um));
-  await page.fill("#stand-point", "1");
+  await page.fill("#target-point", "1");
   await settled(page);
   assert.match(await page.locator("#panel-point .facts dd").first().innerText(), /^1000, 100, 800 mm/);
   assert.deepEqual(page.complaints, []);

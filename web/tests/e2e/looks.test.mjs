@@ -93,23 +93,23 @@ test("the keyboard reaches tabs, settings, points and branches, and what has foc
     seen.add(String(at.name).split(" ")[0]);
     assert.ok(at.outline, `${at.name} shows no focus`);
   }
-  for (const name of ["tab-live", "icon", "field-ask", "field-x", "field-branch", "extreme", "stage", "stand-y", "branch", "use", "row-button"]) assert.ok(seen.has(name), `${name} is not reached: ${[...seen]}`);
+  for (const name of ["tab-live", "icon", "field-analysis", "field-x", "field-branch", "extreme", "stage", "target-y", "branch", "use", "row-button"]) assert.ok(seen.has(name), `${name} is not reached: ${[...seen]}`);
   await page.context().close();
 });
 
 const VIEWS = {
   map: async () => {},
   plate: async (page) => {
-    await page.selectOption("#field-ask", "Fig. 6, elbow down");
+    await page.selectOption("#field-analysis", "Fig. 6, elbow down");
     await settled(page);
     await page.click(".views button:nth-child(5)");
   },
   path: async (page) => {
-    await page.selectOption("#field-ask", "(i) horizontal plate, tool 250 mm, elbow up");
+    await page.selectOption("#field-analysis", "(i) horizontal plate, tool 250 mm, elbow up");
     await settled(page);
   },
   sections: async (page) => {
-    await page.selectOption("#field-ask", "Table 4");
+    await page.selectOption("#field-analysis", "Table 4");
     await settled(page);
   },
   study: (page) => page.click("#tab-study"),

@@ -36,7 +36,7 @@ ${LINKS.slice(1).map(([name, at, axis], i) => `<joint name="${name}" type="revol
 const STUDY = `format = 1
 title = "A robot in its own shape"
 robot = "boxes.urdf"
-limit_um = 60
+tolerance_um = 60
 plane = { centre_mm = [950, 0, 700], half_size_mm = 200, step_mm = 20 }
 load = { cases_n = [[3, 5, 5], [3, -5, 5]] }
 tool = { flange_from_tool_mm_deg = [0, 0, 120, 0, 0, 0] }
@@ -62,15 +62,15 @@ after(async () => {
   await server?.stop();
 });
 
-/** The page with the robot, once it has asked for its meshes; and how they were answered. */
+/** The page with the robot, after it has requested its meshes, and their responses. */
 async function shown(options) {
   const page = await open(browser, server.url, { answers: false });
-  const asked = [];
-  page.on("response", (r) => r.url().endsWith("/api/mesh") && asked.push(r.status()));
+  const requests = [];
+  page.on("response", (r) => r.url().endsWith("/api/mesh") && requests.push(r.status()));
   await settled(page);
   await page.waitForTimeout(400);
   await page.locator(".shown summary").click();
-  return { page, asked, own: page.locator(".shown label", { hasText: "Its own shape" }), ...options };
+  return { page, requests, own: page.locator(".shown label", { hasText: "CAD meshes" }), ...options };
 }
 /** The scene; the pointer far away, so that nothing of it depends on where it is. */
 async function stage(page) {
@@ -81,8 +81,8 @@ async function stage(page) {
 const same = async (page, a, b) => (await difference(page, a, b)) < 0.001;
 
 test("the meshes are fetched once each, drawn, and can be taken away", async () => {
-  const { page, asked, own } = await shown();
-  assert.deepEqual(asked, LINKS.map(() => 200));
+  const { page, requests, own } = await shown();
+  assert.deepEqual(requests, LINKS.map(() => 200));
   assert.ok(await own.isVisible());
   const boxes = await stage(page);
   await own.locator("input").uncheck();
@@ -91,8 +91,8 @@ test("the meshes are fetched once each, drawn, and can be taken away", async () 
   assert.ok(await same(page, await stage(page), boxes), "the same as before");
   // Another posture moves them without asking again.
   await page.locator("#panel-branches .branch").last().click();
-  assert.ok(!(await same(page, await stage(page), boxes)), "it stands otherwise");
-  assert.equal(asked.length, LINKS.length);
+  assert.ok(!(await same(page, await stage(page), boxes)), "its pose differs");
+  assert.equal(requests.length, LINKS.length);
   assert.deepEqual(page.complaints, []);
   await page.context().close();
 });
@@ -100,7 +100,7 @@ test("the meshes are fetched once each, drawn, and can be taken away", async () 
 test("a mesh that is none, and one that is missing: the arm is drawn from its chain", async () => {
   writeFileSync(join(server.folder, "meshes/l3.stl"), "no mesh at all");
   const broken = await shown();
-  assert.equal(broken.asked.length, LINKS.length);
+  assert.equal(broken.requests.length, LINKS.length);
   await broken.own.locator("input").uncheck();
   const without = await stage(broken.page);
   await broken.own.locator("input").check();
@@ -109,7 +109,7 @@ test("a mesh that is none, and one that is missing: the arm is drawn from its ch
   await broken.page.context().close();
   rmSync(join(server.folder, "meshes/l3.stl"));
   const missing = await shown();
-  assert.deepEqual(missing.asked, []);
+  assert.deepEqual(missing.requests, []);
   assert.ok(!(await missing.own.isVisible()));
   await missing.page.context().close();
   put();

@@ -36,7 +36,7 @@ export async function serve(edit = (text) => text) {
 
 export const launch = () => chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: FLAGS });
 
-/** The server as a program asks it. */
+/** Requests to the server by a program. */
 export function client(url) {
   const at = new URL(url);
   const token = at.searchParams.get("token");
@@ -63,7 +63,7 @@ export async function open(browser, url, { width = 1280, height = 800, dark = fa
   });
   page.on("request", (request) => {
     const to = new URL(request.url());
-    if (to.protocol.startsWith("http") && to.host !== new URL(url).host) page.complaints.push(`asked ${to.href}`);
+    if (to.protocol.startsWith("http") && to.host !== new URL(url).host) page.complaints.push(`requested ${to.href}`);
   });
   await page.goto(url);
   if (answers) await settled(page);

@@ -21,7 +21,7 @@ const save = async (page) => {
   await page.getByText("Saved.", { exact: true }).waitFor();
 };
 
-test("pictures of what is asked, to be had as SVG, PNG and CSV", async () => {
+test("pictures of the analysis can be downloaded as SVG, PNG and CSV", async () => {
   const page = await open(browser, server.url);
   await page.click("#tab-pictures");
   await page.waitForSelector(".picture img");
@@ -43,11 +43,11 @@ test("the study: checked while it is typed, saved with its comments", async () =
   await page.click("#tab-study");
   const editor = page.locator("#study-text");
   const text = await editor.inputValue();
-  await editor.fill(text.replace("limit_um = 50", "limit_um = -5"));
+  await editor.fill(text.replace("tolerance_um = 50", "tolerance_um = -5"));
   await page.waitForSelector(".problems .wrong");
-  assert.match(await page.locator(".problems li").first().innerText(), /line 12.*limit_um/s);
+  assert.match(await page.locator(".problems li").first().innerText(), /line 12.*tolerance_um/s);
   assert.equal(await page.locator(".lines b").innerText(), "12");
-  await editor.fill(text.replace("limit_um = 50", "limit_um = 130 # wider"));
+  await editor.fill(text.replace("tolerance_um = 50", "tolerance_um = 130 # wider"));
   await page.waitForSelector(".problems .fine");
   await page.click("#tab-live");
   await settled(page);
@@ -55,7 +55,7 @@ test("the study: checked while it is typed, saved with its comments", async () =
   await page.click("#tab-study");
   await save(page);
   const saved = readFileSync(join(server.folder, "study.toml"), "utf8");
-  assert.match(saved, /limit_um = 130 # wider/);
+  assert.match(saved, /tolerance_um = 130 # wider/);
   assert.match(saved, /# Fig. 6: a vertical plate/);
   await editor.fill(text);
   await page.waitForSelector(".problems .fine");
@@ -78,13 +78,13 @@ test("a change of a control is saved with the comments kept", async () => {
 });
 
 test("a broken study opens in the editor with every problem marked", async () => {
-  const broken = await serve((text) => text.replace("limit_um = 50", "limit_um = -5").replace("step_mm = 10", 'step_mm = "ten"'));
+  const broken = await serve((text) => text.replace("tolerance_um = 50", "tolerance_um = -5").replace("step_mm = 10", 'step_mm = "ten"'));
   try {
     const page = await open(browser, broken.url, { answers: false });
     await page.waitForSelector(".problems .wrong");
     assert.equal(await page.locator("#tab-study").getAttribute("aria-selected"), "true");
     assert.ok((await page.locator(".lines b").count()) >= 1);
-    await page.locator("#study-text").fill((await page.inputValue("#study-text")).replace("limit_um = -5", "limit_um = 50").replace('step_mm = "ten"', "step_mm = 10"));
+    await page.locator("#study-text").fill((await page.inputValue("#study-text")).replace("tolerance_um = -5", "tolerance_um = 50").replace('step_mm = "ten"', "step_mm = 10"));
     await page.waitForSelector(".problems .fine");
     await page.click("#tab-live");
     await settled(page);

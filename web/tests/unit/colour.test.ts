@@ -18,7 +18,7 @@ test("larger is lighter everywhere, so that it reads in grey", () => {
   for (let i = 1; i <= 200; i++) expect(luminance(viridis(i / 200))).toBeGreaterThan(luminance(viridis((i - 1) / 200)));
 });
 
-test("a scale holds all values, on round numbers", () => {
+test("a scale contains all values, with round limits", () => {
   const scale = scaleOf(109.2, 158.8, 50);
   expect(scale.low).toBe(100);
   expect(scale.high).toBe(160);

@@ -4,7 +4,7 @@ import { apart, isCovered } from "../../src/scene/covered";
 
 const v = (x: number, y: number, z: number) => new THREE.Vector3(x, y, z);
 
-test("segments: crossing, beside each other, end to end, points", () => {
+test("segments: crossing, parallel, end to end, points", () => {
   expect(apart(v(0, 0, 0), v(10, 0, 0), v(5, -3, 2), v(0, 6, 0))).toBeCloseTo(2);
   expect(apart(v(0, 0, 0), v(10, 0, 0), v(2, 4, 0), v(5, 0, 0))).toBeCloseTo(4);
   expect(apart(v(0, 0, 0), v(1, 0, 0), v(4, 4, 0), v(1, 0, 0))).toBeCloseTo(5);
@@ -25,7 +25,7 @@ test("the least distance of segments is that of the nearest of many of their poi
   }
 });
 
-test("what lies behind a limb is covered, what lies before it or on it is not", () => {
+test("points behind a limb are covered, points in front of it or on it are not", () => {
   const limbs = [{ from: v(0, -100, 0), to: v(0, 100, 0), radius: 10 }];
   const eye = v(1000, 0, 0);
   expect(isCovered(limbs, eye, v(-500, 0, 0))).toBe(true);

@@ -70,7 +70,7 @@ test("slow work that nothing newer waits for may end", async () => {
   expect(shown).toEqual([[5000, true]]);
 });
 
-test("what fails is told, unless something newer waits", async () => {
+test("errors are reported, unless a newer request waits", async () => {
   const { newest, shown, failed } = watched();
   newest.submit(-10);
   await vi.runAllTimersAsync();

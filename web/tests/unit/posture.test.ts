@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { choosePosture, decidingCase, envelope, fits } from "../../src/posture";
+import { choosePosture, worstCase, envelope, fits } from "../../src/posture";
 import type { CaseValues, Pose } from "../../src/types";
 
 const values = (...in_plane: number[]): CaseValues[] =>
@@ -20,9 +20,9 @@ const pose = (...rows: [string, boolean, number][]): Pose =>
   }) as unknown as Pose;
 
 test("the largest case decides, counted from 1", () => {
-  expect(decidingCase(values(3, 9, 9, 1))).toBe(2);
+  expect(worstCase(values(3, 9, 9, 1))).toBe(2);
   expect(envelope([])).toBeNull();
-  expect(decidingCase([])).toBeNull();
+  expect(worstCase([])).toBeNull();
 });
 
 test("a branch fits where all its words are there", () => {
@@ -31,7 +31,7 @@ test("a branch fits where all its words are there", () => {
   expect(fits(null, "front")).toBe(false);
 });
 
-test("wanted by name, else asked by the study, else the best; inside limits before outside", () => {
+test("chosen by name, else specified by the study, else the best; inside limits before outside", () => {
   const here = pose(["front elbow-up flip", true, 159], ["front elbow-down flip", false, 63], ["back elbow-up flip", true, 120]);
   expect(choosePosture(here, "front elbow-down flip", "front elbow-up")).toBe(1);
   expect(choosePosture(here, null, "front elbow-up")).toBe(0);

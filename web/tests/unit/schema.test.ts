@@ -10,7 +10,7 @@ const SCHEMA: Schema = {
     title: { type: ["string", "null"] },
     plane: { $ref: "#/$defs/Plane" },
     place: { anyOf: [{ $ref: "#/$defs/Place" }, { type: "null" }] },
-    ask: { type: "array", items: { $ref: "#/$defs/Plane" } },
+    analysis: { type: "array", items: { $ref: "#/$defs/Plane" } },
   },
   $defs: {
     Plane: { type: "object", properties: { half_size_mm: { anyOf: [{ type: "number" }, { type: "array", items: { type: "number" }, minItems: 2, maxItems: 2 }] }, cases_n: { type: "array", items: { type: "array", items: { type: "number" } } } } },

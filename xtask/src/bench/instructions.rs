@@ -1,13 +1,13 @@
 //! Instructions a pose costs, counted by Valgrind: a measure that no other load on the machine disturbs.
 //!
-//! Compared with what `bench/instructions.tsv` records (function, instructions per pose, compiler); `--record` writes it
-//! anew. Valgrind emulates AVX2 and FMA but not AVX-512: it is the AVX2 path that is counted.
+//! Compared with what `bench/instructions.tsv` records (function, instructions per pose, compiler); `--record` writes
+//! it again. Valgrind emulates AVX2 and FMA but not AVX-512: the AVX2 path is counted.
 //!
 //! | column of the record | meaning |
 //! |---|---|
 //! | `function` | name in `bench/benches/instructions.rs` |
 //! | `instructions_per_pose` | one decimal |
-//! | `compiler` | what `rustc --version` says; told, not compared |
+//! | `compiler` | what `rustc --version` prints; reported, not compared |
 //!
 //! A rise of more than 2 % against the record is a regression and leaves with 1; a fall is reported and needs a new
 //! record only to be kept.
@@ -64,7 +64,7 @@ pub fn run(record: bool) -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// Says why, and gives the exit code.
+/// Prints the reason, and returns the exit code.
 fn could_not_run(problem: &str) -> ExitCode {
     eprintln!("{problem}");
     ExitCode::from(COULD_NOT_RUN)
@@ -126,7 +126,7 @@ fn named(heading: &str) -> Option<(&str, f64)> {
     Some((path.rsplit("::").next()?, poses))
 }
 
-/// One line for a person, and whether it is a regression.
+/// One line of the report, and whether it is a regression.
 fn compared(count: &Count, before: Option<&Count>) -> (String, bool) {
     let now = format!("{}: {:.0} instructions a pose", count.function, count.per_pose);
     let Some(before) = before else {
@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_written_is_read() {
+    fn written_files_can_be_read() {
         assert_eq!(read(&written(&[count(25.0)], "rustc 1.95.0")), [count(25.0)]);
     }
 

@@ -1,10 +1,11 @@
 //! Speed: armill and its peers at the same work on the same poses, in one run.
 //!
-//! `bench/` holds what runs: a Cargo package of its own (never built with armill), Python and C++. Each prints rows; here
-//! they are called, put side by side ([`page`]) and held against the goals ([`goals`]). What a peer needs is installed
-//! under `target/` ([`peers`]); a peer that cannot be had is left out in plain words.
+//! `bench/` contains the programs: a separate Cargo package (never built with armill), Python and C++. Each prints
+//! rows; here they are called, put side by side ([`page`]) and compared with the goals ([`goals`]). What a peer needs
+//! is installed under `target/` ([`peers`]); a peer that is not available is reported and left out.
 //!
-//! `row`: what a program prints; `instructions`: the same work in instructions instead of time; `machine`: where it ran.
+//! `row`: what a program prints; `instructions`: the same work in instructions instead of time; `machine`: where it
+//! ran.
 //!
 //! | arguments | what runs | writes the page |
 //! |---|---|---|
@@ -27,13 +28,13 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, ExitCode};
 
-/// What `--help` says.
+/// Description in the list of tasks.
 pub const ABOUT: &str =
     "Times armill and its peers: [--quick] [--only rust|paths] | --instructions [--record].";
 
 /// The page that a full run writes.
 const PAGE: &str = "docs/performance.md";
-/// Where the poses lie that all peers read.
+/// The poses that all peers read.
 const WORKLOAD: &str = "target/bench-workload";
 /// Where `bench/` is built.
 const TARGET: &str = "target/bench";
@@ -49,18 +50,18 @@ struct Options {
     record: bool,
 }
 
-/// What a run is kept to.
+/// The selected part of the benchmarks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Only {
     /// armill and the peers in Rust.
     Rust,
-    /// Tool paths, beside the yardstick.
+    /// Tool paths, in addition to the yardstick.
     Paths,
 }
 
 /// What a run found.
 #[derive(Default)]
-struct Found {
+struct BenchRun {
     rows: Vec<Row>,
     /// Who is missing, and why.
     skipped: Vec<String>,
@@ -110,8 +111,8 @@ fn options(arguments: &[String]) -> Option<Options> {
 ///
 /// # Errors
 /// A program that is there fails: its rows would be missing without a reason.
-fn measured(options: &Options) -> Result<Found, String> {
-    let mut found = Found::default();
+fn measured(options: &Options) -> Result<BenchRun, String> {
+    let mut found = BenchRun::default();
     let venv = match options.only {
         Some(_) => Err("left out by --only".to_owned()),
         None => peers::virtual_environment(),
@@ -136,7 +137,7 @@ fn measured(options: &Options) -> Result<Found, String> {
 }
 
 /// armill and the peers in Rust; writes the poses for the others.
-fn rust(options: &Options, found: &mut Found) -> Result<(), String> {
+fn rust(options: &Options, found: &mut BenchRun) -> Result<(), String> {
     let mut command = bench_cargo(&["run", "--release"]);
     if let Some(cmake) = peers::cmake() {
         command.args(["--features", "ik-geo"]).env("CMAKE", cmake);
@@ -162,7 +163,7 @@ fn bench_cargo(arguments: &[&str]) -> Command {
 }
 
 /// Prints the page, and writes it after a full run.
-fn publish(options: &Options, found: &Found) -> Result<(), String> {
+fn publish(options: &Options, found: &BenchRun) -> Result<(), String> {
     let page = page::page(&found.rows, &found.skipped, &machine::lines());
     println!("{page}");
     if options.quick || options.only.is_some() {
@@ -182,7 +183,7 @@ impl Options {
     }
 }
 
-impl Found {
+impl BenchRun {
     /// Takes the rows, and the words of those who could not run, out of what a program printed.
     fn read(&mut self, printed: &str) {
         for line in printed.lines() {
@@ -216,7 +217,7 @@ mod tests {
 
     #[test]
     fn rows_and_missing_peers_are_reported_apart() {
-        let mut found = Found::default();
+        let mut found = BenchRun::default();
         found.read("a\tdev\t1\t2.0\t1.5\t2.5\tnote\nskipped\tEAIK\tno module\n");
         assert_eq!(found.rows.len(), 1);
         assert_eq!(found.skipped, ["EAIK: no module"]);

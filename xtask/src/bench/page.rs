@@ -136,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn rates_stand_beside_their_ratio_to_the_yardstick() {
+    fn rates_are_next_to_their_ratio_to_the_yardstick() {
         let table = side_by_side(&rows());
         assert!(
             table.contains("| armill evaluate, 2 threads | 2.00 (0.500x) |  |"),
@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn the_page_tells_every_row_and_who_is_missing() {
+    fn the_page_shows_every_row_and_what_was_not_measured() {
         let page = page(
             &rows(),
             &["EAIK: no module".to_owned()],

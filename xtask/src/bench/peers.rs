@@ -1,11 +1,11 @@
 //! What the peers need: a virtual environment under `target/`, a C++ compiler, cmake.
 //!
-//! Pinocchio comes as a wheel that contains its C++ headers, and Eigen's and Boost's beside them; so does cmake.
+//! Pinocchio comes as a wheel that contains its C++ headers and those of Eigen and Boost; so does cmake.
 //!
 //! | thing | where | made from |
 //! |---|---|---|
-//! | virtual environment | `target/bench-venv` | `bench/python/requirements.txt`, anew when that changes |
-//! | programs in C++ | `target/bench-...` | `bench/cpp/`, anew when the source is younger |
+//! | virtual environment | `target/bench-venv` | `bench/python/requirements.txt`, again when that changes |
+//! | programs in C++ | `target/bench-...` | `bench/cpp/`, again when the source is newer |
 //!
 //! All work on one thread. Nothing outside `target/` is installed.
 
@@ -40,7 +40,7 @@ const THREADS: &[&str] = &[
 /// Why it cannot be had.
 pub fn virtual_environment() -> Result<(), String> {
     let requested = fs::read_to_string(REQUIREMENTS).map_err(|problem| problem.to_string())?;
-    // A copy of the list lies beside what was installed from it.
+    // A copy of the list is next to what was installed from it.
     let installed = Path::new(VENV).join("requirements.txt");
     if fs::read_to_string(&installed).is_ok_and(|installed| installed == requested) {
         return Ok(());
@@ -63,12 +63,12 @@ pub fn python() -> Command {
 /// A source in C++ and the program made of it.
 struct CppPeer {
     source: &'static str,
-    /// Where the program lies that is made of it.
+    /// The path of the program.
     program: &'static str,
 }
 
 impl CppPeer {
-    /// Compiles it for this processor if it is not yet, with these arguments besides.
+    /// Compiles it for this processor if it is not yet compiled, with these additional arguments.
     fn command(&self, arguments: impl FnOnce(&mut Command)) -> Result<Command, String> {
         let modified = |path: &str| fs::metadata(path).and_then(|file| file.modified()).ok();
         if modified(self.program) <= modified(self.source) {
@@ -91,7 +91,7 @@ impl CppPeer {
 pub fn pinocchio() -> Result<Command, String> {
     let include = headers().ok_or("the wheel has no headers")?;
     PINOCCHIO.command(|compiler| {
-        // As Pinocchio's own build has it: a joint is one of more kinds than Boost's lists hold by default.
+        // As Pinocchio's own build has it: a joint is one of more kinds than Boost's lists contain by default.
         compiler.args([
             "-DBOOST_MPL_LIMIT_LIST_SIZE=30",
             "-DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS",

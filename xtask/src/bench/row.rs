@@ -7,7 +7,7 @@
 //! Rates are million poses (or points) per second. Lines with another number of fields, or words where numbers
 //! belong, are talk and no rows.
 
-/// A rate of somebody at some work, million poses per second.
+/// A rate of one program at one work, million poses per second.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
     /// Name with version.

@@ -1,8 +1,8 @@
 //! The bill of materials (SBOM) for programs: CycloneDX 1.6 in JSON.
 //!
-//! It holds what every component is, its licence, the checksum of its package, and which others it uses; nothing of when and
-//! where it was made, so that the same sources give the same bytes.
-//! Format: ECMA-424, <https://cyclonedx.org/docs/1.6/json/>
+//! It lists what every component is, its licence, the checksum of its package, and which others it uses; nothing of
+//! when and where it was made, so that the same sources give the same bytes. Format: ECMA-424,
+//! <https://cyclonedx.org/docs/1.6/json/>
 
 use super::component::{Component, Components};
 
@@ -80,7 +80,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     #[test]
-    fn a_bill_tells_component_licence_checksum_and_use() {
+    fn a_bill_lists_component_licence_checksum_and_use() {
         let armill = Component {
             name: "armill".to_owned(),
             version: "0.1.0".to_owned(),
@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn what_json_cannot_hold_is_escaped() {
+    fn characters_that_json_cannot_represent_are_escaped() {
         assert_eq!(quoted("a\"b\\c\n"), "\"a\\\"b\\\\c\\u000a\"");
     }
 }

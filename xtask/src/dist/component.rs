@@ -15,15 +15,15 @@ use std::{env, fs};
 pub struct Component {
     pub name: String,
     pub version: String,
-    /// As SPDX writes it; empty where the package does not tell.
+    /// As SPDX writes it; empty where the package does not state it.
     pub licence: String,
-    /// Where its sources are; empty where it does not tell.
+    /// Where its sources are; empty where it does not state it.
     pub repository: String,
     /// SHA-256 of its package, as the lock file has it.
     pub sha256: Option<String>,
     /// Package URLs of what it uses.
     pub uses: BTreeSet<String>,
-    /// Where its licence lies; none for ours.
+    /// The folder of its licence; none for ours.
     pub folder: Option<PathBuf>,
 }
 
@@ -35,7 +35,7 @@ const PAGE_IN: &str = "armill-web";
 /// Pictures use the fonts.
 const FONTS_IN: &str = "armill-report";
 
-/// Tells the packages of the page, one a line.
+/// Lists the packages of the page, one a line.
 const PAGE_PACKAGES: &str = "web/dev/bundled.mjs";
 
 /// Everything that is built in.
@@ -81,7 +81,7 @@ pub fn all(release: &Release) -> Result<Components, String> {
 /// The components of `cargo tree --prefix depth --format '{p}|{l}|{r}'`.
 fn read_tree(given: &str) -> Components {
     let mut components = Components::new();
-    // What stands above a line: at each depth the last one.
+    // The components above a line: at each depth the last one.
     let mut above: Vec<String> = Vec::new();
     for line in given.lines() {
         let digits = line.chars().take_while(char::is_ascii_digit).count();
@@ -153,7 +153,7 @@ fn page_package(line: &str) -> Option<(String, Component)> {
     ))
 }
 
-/// The fonts of pictures; what they are stands beside them.
+/// The fonts of pictures; a file next to them describes them.
 fn fonts() -> Component {
     Component {
         name: "DejaVu fonts".to_owned(),
@@ -215,7 +215,7 @@ mod tests {
 ";
 
     #[test]
-    fn a_tree_tells_each_component_once_and_who_uses_it() {
+    fn a_tree_lists_each_component_once_and_what_uses_it() {
         let components = read_tree(TREE);
         let urls: Vec<&str> = components.keys().map(String::as_str).collect();
         let toml = "pkg:cargo/toml@1.2.1%2Bspec-1.1.0";

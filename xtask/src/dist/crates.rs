@@ -19,7 +19,7 @@ const CRATES: &[&str] = &[
 /// Packs and builds all of them, and gives the paths of the packages.
 ///
 /// # Errors
-/// In a line: one cannot be packed, or does not build by itself.
+/// In a line: one cannot be packed, or does not build separately.
 pub fn package(release: &Release) -> Result<Vec<PathBuf>, String> {
     let mut command = locked(&["package"]);
     command.args(CRATES.iter().flat_map(|name| ["-p", name]));
@@ -52,7 +52,7 @@ mod tests {
     }
 
     #[test]
-    fn every_crate_is_handed_out_or_says_that_it_is_not() {
+    fn every_crate_is_published_or_marked_as_unpublished() {
         for manifest in manifests() {
             let name = manifest.lines().find_map(|line| line.strip_prefix("name = \""));
             let name = name.unwrap().trim_end_matches('"');
@@ -66,7 +66,7 @@ mod tests {
     }
 
     #[test]
-    fn no_crate_stands_before_one_that_it_needs() {
+    fn no_crate_precedes_one_that_it_needs() {
         for manifest in manifests() {
             let name = manifest.lines().find_map(|line| line.strip_prefix("name = \""));
             let name = name.unwrap().trim_end_matches('"');

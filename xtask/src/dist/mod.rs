@@ -1,6 +1,6 @@
-//! All that is handed out of a version: crates, Python wheel, a tarball with the command, lists of what is in them.
+//! The release artifacts of a version: crates, Python wheel, a tarball with the command, lists of what is in them.
 //!
-//! | file | holds |
+//! | file | content |
 //! |---|---|
 //! | `armill-VERSION-TARGET.tar.gz` | command with its page, completions, manual pages, documentation, examples, licences |
 //! | `armill-VERSION-....whl` | the Python package |
@@ -9,11 +9,11 @@
 //! | `armill-VERSION.cdx.json` | the same as a bill of materials: CycloneDX 1.6 |
 //! | `SHA256SUMS` | checksums of all |
 //!
-//! `tools`: what is needed, and gets installed; `component`: what is built in; `third_party`, `bill`: told to people and to
-//! programs; `program`: the command; `wheel`; `tarball`; `crates`.
+//! `tools`: what is needed, and gets installed; `component`: what is built in; `third_party`, `bill`: lists of it for
+//! people and for programs; `program`: the command; `wheel`; `tarball`; `crates`.
 //!
 //! Linux with glibc: linked by zig against glibc 2.17, so that the command and the wheel run on any distribution since
-//! 2014. Elsewhere, and with `--native`, the C library of this machine is the oldest that will do. One commit gives the same
+//! 2014. Elsewhere, and with `--native`, the C library of this machine is the oldest supported one. One commit gives the same
 //! tarball on any folder: names are sorted, times are that of the commit, paths of this machine are cut.
 
 mod bill;
@@ -33,16 +33,16 @@ use std::time::Instant;
 use std::{env, fs};
 use tools::Tools;
 
-/// What `--help` says.
-pub const ABOUT: &str = "Makes what is handed out: tarball, wheel, crates, licences, SBOM: [--out DIR] [--native] [--allow-dirty].";
+/// Description in the list of tasks.
+pub const ABOUT: &str = "Builds the release artifacts: tarball, wheel, crates, licences, SBOM: [--out DIR] [--native] [--allow-dirty].";
 
 const HELP: &str = "\
-Makes all that is handed out of this version: crates, Python wheel, a tarball with the command, its completions, manual
+Builds the release artifacts of this version: crates, Python wheel, a tarball with the command, its completions, manual
 pages and documentation, the licences of all that is built in, a bill of materials (SBOM), checksums.
 
 usage: cargo xtask dist [--out DIR] [--native] [--allow-dirty]
 
-  --out DIR      where they go; files of the same name are written anew [default: target/dist]
+  --out DIR      output folder; files of the same name are replaced [default: target/dist]
   --native       link against the C library of this machine, without zig: runs on systems as new as this one
   --allow-dirty  also with changes that are not committed
 
@@ -50,7 +50,7 @@ It takes from ten minutes to half an hour, and needs git, tar, Python 3 with ven
 maturin and zig come from PyPI into target/dist-venv.
 ";
 
-/// Where they go where nothing else is said.
+/// The default output folder.
 const OUT: &str = "target/dist";
 
 /// What was requested.
@@ -98,7 +98,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
     }
 }
 
-/// What the arguments ask for.
+/// The options that the arguments set.
 ///
 /// # Errors
 /// In a line: an argument that is not known, or lacks its value.
@@ -134,15 +134,13 @@ fn prepared(options: &Options) -> Result<Release, String> {
     let changed = printed(Command::new("git").args(["status", "--porcelain"]))?;
     if !changed.is_empty() && !options.allow_dirty {
         return Err(format!(
-            "there are changes that are not committed; commit them, or say --allow-dirty:\n{changed}"
+            "there are changes that are not committed; commit them, or use --allow-dirty:\n{changed}"
         ));
     }
     let rustc = printed(Command::new("rustc").arg("-vV"))?;
-    let target = host(&rustc).ok_or("rustc -vV tells no host")?.to_owned();
+    let target = host(&rustc).ok_or("rustc -vV reports no host")?.to_owned();
     let manifest = fs::read_to_string("Cargo.toml").map_err(|error| format!("Cargo.toml: {error}"))?;
-    let version = version(&manifest)
-        .ok_or("Cargo.toml tells no version")?
-        .to_owned();
+    let version = version(&manifest).ok_or("Cargo.toml has no version")?.to_owned();
     let committed_s = printed(Command::new("git").args(["log", "-1", "--format=%ct"]))?;
     fs::create_dir_all(&options.out).map_err(|error| format!("{}: {error}", options.out.display()))?;
     let zig = !options.native && target.ends_with("-linux-gnu");
@@ -155,7 +153,7 @@ fn prepared(options: &Options) -> Result<Release, String> {
     })
 }
 
-/// Makes everything, and says what came out and how long it took.
+/// Makes everything, and prints the results and the times.
 ///
 /// # Errors
 /// In a line, of the step that failed.
@@ -256,7 +254,7 @@ fn copy(from: &Path, to: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// The target triple in what `rustc -vV` says.
+/// The target triple in the output of `rustc -vV`.
 fn host(given: &str) -> Option<&str> {
     given.lines().find_map(|line| line.strip_prefix("host: "))
 }
@@ -274,23 +272,23 @@ fn version(manifest: &str) -> Option<&str> {
 mod tests {
     use super::*;
 
-    fn asked(words: &[&str]) -> Result<Options, String> {
+    fn options_of(words: &[&str]) -> Result<Options, String> {
         let words: Vec<String> = words.iter().map(|word| (*word).to_owned()).collect();
         options(&words)
     }
 
     #[test]
     fn options_are_read_and_others_refused() {
-        let all = asked(&["--native", "--out", "there", "--allow-dirty"]).unwrap();
+        let all = options_of(&["--native", "--out", "there", "--allow-dirty"]).unwrap();
         assert_eq!(all.out, Path::new("there"));
         assert!(all.native && all.allow_dirty);
-        let none = asked(&[]).unwrap();
+        let none = options_of(&[]).unwrap();
         assert_eq!(none.out, Path::new(OUT));
         assert!(!none.native && !none.allow_dirty);
-        assert!(asked(&["--fast"]).unwrap_err().contains("`--fast`"));
-        assert!(asked(&["--out"]).unwrap_err().contains("takes a folder"));
+        assert!(options_of(&["--fast"]).unwrap_err().contains("`--fast`"));
+        assert!(options_of(&["--out"]).unwrap_err().contains("takes a folder"));
         assert!(
-            asked(&["--out", "--native"])
+            options_of(&["--out", "--native"])
                 .unwrap_err()
                 .contains("takes a folder")
         );
@@ -308,8 +306,8 @@ mod tests {
 
     #[test]
     fn host_and_version_are_found() {
-        let told = "rustc 1.95.0\nbinary: rustc\nhost: x86_64-unknown-linux-gnu\nrelease: 1.95.0\n";
-        assert_eq!(host(told), Some("x86_64-unknown-linux-gnu"));
+        let printed_text = "rustc 1.95.0\nbinary: rustc\nhost: x86_64-unknown-linux-gnu\nrelease: 1.95.0\n";
+        assert_eq!(host(printed_text), Some("x86_64-unknown-linux-gnu"));
         let manifest = "[workspace]\nversion = \"9\"\n[workspace.package]\nversion = \"0.1.0\"\n";
         assert_eq!(version(manifest), Some("0.1.0"));
         assert_eq!(version("[package]\nversion = \"1\"\n"), None);

@@ -41,25 +41,29 @@ pub fn build(release: &Release) -> Result<PathBuf, String> {
         .built()
         .join(format!("armill{}", std::env::consts::EXE_SUFFIX));
     match left_out(&program, Path::new(PAGE)).map_err(|error| format!("{}: {error}", program.display()))? {
-        Some(file) => Err(format!("{} does not hold {}", program.display(), file.display())),
+        Some(file) => Err(format!(
+            "{} does not contain {}",
+            program.display(),
+            file.display()
+        )),
         None => Ok(program),
     }
 }
 
-/// The first file of the page that the program does not hold, byte by byte.
+/// The first file of the page that the program does not contain, byte by byte.
 fn left_out(program: &Path, page: &Path) -> io::Result<Option<PathBuf>> {
     let program = fs::read(program)?;
     for file in fs::read_dir(page)? {
         let file = file?.path();
-        if !holds(&program, &fs::read(&file)?) {
+        if !contains(&program, &fs::read(&file)?) {
             return Ok(Some(file));
         }
     }
     Ok(None)
 }
 
-/// Whether these bytes stand somewhere in those.
-fn holds(whole: &[u8], part: &[u8]) -> bool {
+/// Whether `whole` contains these bytes.
+fn contains(whole: &[u8], part: &[u8]) -> bool {
     part.is_empty() || whole.windows(part.len()).any(|window| window == part)
 }
 
@@ -68,12 +72,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_part_is_found_where_it_stands_whole() {
+    fn a_part_is_found_only_if_it_is_complete() {
         for part in ["", "a", "bcd", "abcde"] {
-            assert!(holds(b"abcde", part.as_bytes()), "{part}");
+            assert!(contains(b"abcde", part.as_bytes()), "{part}");
         }
         for part in ["bd", "abcdef", "e f"] {
-            assert!(!holds(b"abcde", part.as_bytes()), "{part}");
+            assert!(!contains(b"abcde", part.as_bytes()), "{part}");
         }
     }
 }

@@ -38,11 +38,11 @@ const COMPLETIONS: &[(&str, &str)] = &[
     ("zsh", "_armill"),
 ];
 
-/// Packs the command, with what it tells of itself, and these files beside it.
+/// Packs the command, its help texts, and these other files.
 ///
 /// # Errors
 /// In a line: the command does not run; a file cannot be copied; tar fails.
-pub fn pack(release: &Release, program: &Path, beside: &[&Path]) -> Result<PathBuf, String> {
+pub fn pack(release: &Release, program: &Path, others: &[&Path]) -> Result<PathBuf, String> {
     let name = format!("armill-{}-{}", release.version, release.target);
     let above = target_folder().join("dist-tarball");
     match fs::remove_dir_all(&above) {
@@ -53,7 +53,7 @@ pub fn pack(release: &Release, program: &Path, beside: &[&Path]) -> Result<PathB
     }
     let folder = above.join(&name);
     copy(program, &folder.join(program.file_name().unwrap_or_default()))?;
-    for file in beside {
+    for file in others {
         copy(file, &folder.join(file.file_name().unwrap_or_default()))?;
     }
     let tracked = printed(Command::new("git").args(["ls-files", "-z"]).args(WITH_IT))?;
@@ -105,7 +105,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_goes_with_the_command_is_there() {
+    fn the_files_of_the_command_exist() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
         for path in WITH_IT {
             assert!(root.join(path).exists(), "{path}");

@@ -1,4 +1,4 @@
-//! The licences of all that is built in, told to people: a table, and every text once.
+//! The licences of all that is built in, for people: a table, and every text once.
 
 use super::Release;
 use super::component::{Component, Components};
@@ -9,7 +9,7 @@ use std::{fs, io};
 /// The name of the page.
 pub const NAME: &str = "THIRD-PARTY-LICENSES.md";
 
-/// How the names of files begin that hold a licence or a notice, in capitals.
+/// How the names of files begin that contain a licence or a notice, in capitals.
 const BEGINNINGS: &[&str] = &[
     "LICENSE",
     "LICENCE",
@@ -66,7 +66,7 @@ fn table(components: &Components) -> String {
     format!("| package | version | licence | from |\n|---|---|---|---|\n{rows}")
 }
 
-/// What brings no text of its licence.
+/// Packages that contain no text of their licence.
 fn unaccompanied(without: &[&Component]) -> String {
     if without.is_empty() {
         return String::new();
@@ -74,7 +74,7 @@ fn unaccompanied(without: &[&Component]) -> String {
     let line = |it: &&Component| format!("- {} {}: {}\n", it.name, it.version, it.licence);
     format!(
         "\n## Licences without a text in the package\n\n\
-         Their standard texts stand at https://spdx.org/licenses/; those of Apache-2.0 and MIT also below, and beside this file.\n\n{}",
+         Their standard texts are at https://spdx.org/licenses/; those of Apache-2.0 and MIT also below, and next to this file.\n\n{}",
         without.iter().map(line).collect::<String>()
     )
 }
@@ -85,7 +85,7 @@ fn all_texts(texts: BTreeMap<String, Vec<String>>) -> String {
     texts.sort();
     let one = |(of, text): &(Vec<String>, String)| {
         let of: String = of.iter().map(|one| format!("- {one}\n")).collect();
-        // Longer than any fence that a licence holds.
+        // Longer than any fence in a licence.
         format!("\n{of}\n``````text\n{text}\n``````\n")
     };
     format!("\n## Texts\n{}", texts.iter().map(one).collect::<String>())

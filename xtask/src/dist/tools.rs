@@ -47,7 +47,7 @@ pub fn missing() -> Result<(), String> {
     Err(format!("not installed, and needed: {}", missing.join("; ")))
 }
 
-/// Whether a command succeeds; what it says is not shown.
+/// Whether a command succeeds; its output is not shown.
 fn starts(command: &[&str]) -> bool {
     let mut words = command.iter();
     let mut command = Command::new(words.next().unwrap_or(&""));

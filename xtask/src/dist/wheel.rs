@@ -5,7 +5,7 @@ use crate::command::succeeded;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-/// Where the package lies.
+/// The folder of the package.
 const PACKAGE: &str = "python";
 
 /// Builds the wheel with the licences in it and gives its path.

@@ -1,4 +1,4 @@
-//! The fuzzing program: built with counters at every branch, asked which targets it has.
+//! The fuzzing program: built with counters at every branch; lists its targets.
 //!
 //! `fuzz/` is a workspace of its own with its own lock file; it is built into `target/fuzz/build`, so that
 //! neither its flags nor its products touch those of the workspace.
@@ -9,8 +9,8 @@ use std::ffi::{OsStr, OsString};
 use std::path::Path;
 use std::process::Command;
 
-/// What puts the counters in that libFuzzer reads. All are options of the stable compiler; no sanitizer is linked, since
-/// safe Rust needs none to see a fault.
+/// What puts the counters in that libFuzzer reads. All are options of the stable compiler; no sanitizer is linked,
+/// since safe Rust needs none to see a fault.
 const FLAGS: &[&str] = &[
     "-Cpasses=sancov-module",
     // Edges, calls and counters.
@@ -19,7 +19,7 @@ const FLAGS: &[&str] = &[
     "-Cllvm-args=-sanitizer-coverage-pc-table",
     // Both sides of comparisons, so that words and numbers are guessed.
     "-Cllvm-args=-sanitizer-coverage-trace-compares",
-    // Branches that were folded together could not be told apart.
+    // Branches that were folded together could not be distinguished.
     "-Cllvm-args=-simplifycfg-branch-fold-threshold=0",
     // The pass wants a crate in one piece.
     "-Ccodegen-units=1",
@@ -32,7 +32,7 @@ const BETWEEN: &str = "\x1f";
 /// Builds the program and gives its path.
 ///
 /// # Errors
-/// What the compiler says is on stderr; here, that it failed.
+/// The compiler reports on stderr; here, only that it failed.
 pub fn program() -> Result<OsString, String> {
     let host = host()?;
     let folder = Path::new(FOLDER).join("build");
@@ -50,7 +50,7 @@ pub fn program() -> Result<OsString, String> {
     Ok(built(&folder, &host))
 }
 
-/// The names of all targets, as the program tells them.
+/// The names of all targets, as the program lists them.
 ///
 /// # Errors
 /// The program does not run.
@@ -60,7 +60,7 @@ pub fn targets(program: &OsStr) -> Result<Vec<String>, String> {
     Ok(given.lines().map(str::to_owned).collect())
 }
 
-/// The machine that rustc builds for when nobody says otherwise, such as `x86_64-unknown-linux-gnu`.
+/// The target that rustc builds for by default, such as `x86_64-unknown-linux-gnu`.
 ///
 /// # Errors
 /// Rustc does not start, or names none.

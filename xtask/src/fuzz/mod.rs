@@ -1,8 +1,8 @@
 //! Hostile input: every parser under coverage-guided fuzzing, one after another.
 //!
-//! `fuzz/` holds what runs: a Cargo package of its own with libFuzzer, one program for all parsers. Here it is built
-//! with the compiler's coverage counters ([`build`]), called for each target, and what it says is read ([`said`]).
-//! All that is written lies under `target/fuzz/`: `corpus/TARGET/` (kept from run to run), `crashes/TARGET/`,
+//! `fuzz/` contains the program: a separate Cargo package with libFuzzer, one program for all parsers. Here it is built
+//! with the compiler's coverage counters ([`build`]), called for each target, and its output is read ([`output`]).
+//! All output is under `target/fuzz/`: `corpus/TARGET/` (kept from run to run), `crashes/TARGET/`,
 //! `dictionaries/`, `build/`.
 //!
 //! | argument | meaning | left out |
@@ -13,33 +13,33 @@
 //! | `--input FILE` | one input instead of a campaign, to repeat a finding | - |
 //!
 //! A finding is a panic, an input that takes longer than 10 s, or more than 2 GiB of memory. It is written to
-//! `crashes/TARGET/` and told with the line that repeats it.
+//! `crashes/TARGET/` and reported with the line that repeats it.
 
 mod build;
-mod said;
+mod output;
 
 use crate::command::command_line;
 use crate::{COULD_NOT_RUN, FOUND_WRONG};
-use said::Said;
+use output::FuzzRun;
 use std::ffi::OsString;
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Command, ExitCode, Stdio};
 
-/// What `--help` says.
+/// Description in the list of tasks.
 pub const ABOUT: &str =
     "Feeds hostile input to the parsers: [TARGET] [--seconds N] [--jobs N] | TARGET --input FILE.";
 
-/// Where everything lies that a run writes.
+/// The output folder of a run.
 const FOLDER: &str = "target/fuzz";
-/// Time for each target where none is said, s.
+/// Default time for each target, s.
 const SECONDS: u32 = 60;
-/// An input that takes longer is a finding, s: users wait for none of these parsers.
+/// An input that takes longer is a finding, s: parsers must be fast.
 const LONGEST_S: u32 = 10;
 /// A parser that takes more memory is a finding, MiB.
 const MOST_MIB: u32 = 2048;
-/// Inputs are no longer: 64 KiB hold any robot and any study, and longer ones run slowly.
+/// Inputs are no longer: 64 KiB are enough for any robot and any study, and longer ones run slowly.
 const LONGEST_BYTES: u32 = 64 << 10;
 
 /// What was requested; numbers are above 0.
@@ -115,7 +115,7 @@ fn fuzzed(options: &Options) -> Result<bool, String> {
     for target in chosen {
         let mut command = Command::new(&program);
         command.env("ARMILL_FUZZ_TARGET", target);
-        let said = match &options.input {
+        let run = match &options.input {
             Some(file) => watch(command.args(limits()).arg(file))?,
             None => {
                 let crashes = format!("{FOLDER}/crashes/{target}/");
@@ -128,23 +128,23 @@ fn fuzzed(options: &Options) -> Result<bool, String> {
                 )?
             }
         };
-        if !said.passed {
+        if !run.passed {
             sound = false;
-            if let Some(file) = said.written.as_ref().or(options.input.as_ref()) {
+            if let Some(file) = run.written.as_ref().or(options.input.as_ref()) {
                 println!("{target}: FOUND {file}\n  repeat: cargo xtask fuzz {target} --input {file}");
             } else {
                 println!("{target}: FAILED without an input; see above");
             }
         }
-        rows.push(said.row(target));
+        rows.push(run.row(target));
     }
     if options.input.is_none() {
-        println!("{}{}", said::HEADING, rows.concat());
+        println!("{}{}", output::HEADING, rows.concat());
     }
     Ok(sound)
 }
 
-/// What libFuzzer is reported for a run over time: corpus, dictionary, place of findings, seconds, processes.
+/// The arguments of libFuzzer for a campaign: corpus, dictionary, place of findings, seconds, processes.
 fn campaign(target: &str, crashes: &str, options: &Options) -> Vec<String> {
     let mut arguments = limits();
     arguments.push(format!("{FOLDER}/corpus/{target}"));
@@ -167,28 +167,28 @@ fn limits() -> Vec<String> {
     ]
 }
 
-/// Runs it, passes on what a person wants to see of its talk, and keeps what it counted.
+/// Runs it, prints the relevant lines of its output, and keeps its counts.
 ///
 /// # Errors
 /// It does not start, or its end cannot be waited for. That it found something is not an error.
-fn watch(command: &mut Command) -> Result<Said, String> {
+fn watch(command: &mut Command) -> Result<FuzzRun, String> {
     let line = command_line(command);
     eprintln!("+ {line}");
     let spawned = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn();
     let mut child = spawned.map_err(|problem| format!("{line} does not start: {problem}"))?;
-    let mut said = Said::default();
-    if let Some(talk) = child.stderr.take() {
-        // An input may be printed as it is, so that the talk need not be UTF-8.
-        for line in BufReader::new(talk).split(b'\n').map_while(Result::ok) {
+    let mut run = FuzzRun::default();
+    if let Some(log) = child.stderr.take() {
+        // An input may be printed as it is, so that the output need not be UTF-8.
+        for line in BufReader::new(log).split(b'\n').map_while(Result::ok) {
             let line = String::from_utf8_lossy(&line);
-            if said.hear(&line) {
+            if run.read_line(&line) {
                 eprintln!("{line}");
             }
         }
     }
     let status = child.wait().map_err(|problem| format!("{line}: {problem}"))?;
-    said.passed = status.success();
-    Ok(said)
+    run.passed = status.success();
+    Ok(run)
 }
 
 /// The path of the program that cargo built in `folder` for `host`.
@@ -225,7 +225,7 @@ mod tests {
     }
 
     #[test]
-    fn limits_hold_for_a_campaign_and_for_one_input() {
+    fn limits_apply_to_a_campaign_and_to_one_input() {
         let options = requested("dh").unwrap();
         let arguments = campaign("dh", "target/fuzz/crashes/dh/", &options);
         assert!(limits().iter().all(|limit| arguments.contains(limit)));

@@ -6,7 +6,7 @@
 //! | nextest | `Summary [   0.01s] 5 tests run: 5 passed, 1 skipped` | 5, 0, 1; one line in all |
 //! | vitest | `Tests  1 failed \| 5 passed \| 1 skipped (7)` | 5, 1, 1; one line in all |
 //! | pytest | `===== 1 failed, 5 passed, 1 skipped in 0.12s =====` | 5, 1, 1; one line in all; what breaks before its test counts as failed |
-//! | node | `ℹ pass 5`, or `# pass 5`; likewise `fail`, `skipped` | a line each |
+//! | node | `ℹ pass 5`, or `# pass 5`; the same with `fail`, `skipped` | a line each |
 //!
 //! Not checked: what the runners print elsewhere; a summary in other words counts nothing, and a run that
 //! counts nothing is reported as one that could not run.
@@ -197,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn other_lines_count_nothing() {
+    fn other_lines_are_not_counted() {
         assert_eq!(
             Count::in_line("PASS [0.003s] armill-core 3 passed"),
             Count::default()
@@ -206,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn closing_line_reads_as_a_sentence_of_counts() {
+    fn closing_line_states_the_counts() {
         let count = Count {
             passed: 3,
             failed: 0,

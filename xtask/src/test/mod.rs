@@ -1,4 +1,4 @@
-//! All tests on a fresh machine: every step is said, counted and timed; a failed step does not stop the next.
+//! All tests on a fresh machine: every step is announced, counted and timed; a failed step does not stop the next.
 //!
 //! `ARMILL_SAMPLES` goes through to the tests: with it a missing sample fails a test, without it the test
 //! says that it was skipped.
@@ -16,7 +16,7 @@
 //! | the page, tested | see `page` |
 //! | the Python package | see `python` |
 //!
-//! Exit codes as for any chore; a run without a single test is one that could not run.
+//! Exit codes as for any task; a run without a single test could not run.
 
 mod count;
 mod page;
@@ -31,13 +31,12 @@ use std::env;
 use std::process::{Command, ExitCode, Stdio};
 use step::{Outcome, Step};
 
-/// What `--help` says.
-pub const ABOUT: &str =
-    "Passes all tests on a fresh machine: unit, integration, documentation, the page in a browser, Python.";
+/// Description in the list of tasks.
+pub const ABOUT: &str = "Runs all tests, also on a fresh machine: unit, integration, documentation, the page in a browser, Python.";
 
 /// What makes up "all tests", in order. A new step, an installation included, is one line here.
 fn steps() -> Vec<Step> {
-    // First, so that the program whose tests run holds the page.
+    // First, so that the program whose tests run contains the page.
     let mut steps = page::build();
     steps.extend([
         Step::new("unit and integration tests", test_runner()),
@@ -59,9 +58,9 @@ fn steps() -> Vec<Step> {
 /// The target whose back end no test machine of ours can run.
 const NEON: &str = "aarch64-unknown-linux-gnu";
 
-/// Whether rustc can compile for `target`; asks rustup to install what is missing, and says so if it cannot.
+/// Whether rustc can compile for `target`; installs what is missing with rustup, and says so if it cannot.
 fn has_target(target: &str) -> bool {
-    eprintln!("installing the standard library for {target}, if rustup is here and it is missing");
+    eprintln!("installing the standard library for {target}, if it is missing and rustup is installed");
     let added = Command::new("rustup").args(["target", "add", target]).status();
     let has = added.is_ok_and(|status| status.success());
     if !has {
@@ -70,7 +69,7 @@ fn has_target(target: &str) -> bool {
     has
 }
 
-/// Runs all steps, then says how long each took and, in the closing line, how many tests there were.
+/// Runs all steps, then prints the time of each and, in the closing line, the number of tests.
 pub fn run(arguments: &[String]) -> ExitCode {
     if let Err(code) = expect_no_arguments("test", arguments) {
         return code;
@@ -83,7 +82,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
             eprintln!("samples: ARMILL_SAMPLES is not set; tests that need them say that they are skipped");
         }
     }
-    room::tell_if_little();
+    room::warn_if_little();
     let outcomes: Vec<Outcome> = steps().into_iter().map(Step::run).collect();
     println!("\n{}", table(&outcomes));
     let total = outcomes
@@ -94,7 +93,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
     verdict(&outcomes, total)
 }
 
-/// Asks Debian for these packages, and says so.
+/// Installs these packages with apt-get, and says so.
 fn install(packages: &[&str]) {
     eprintln!("installing for the tests: {}", packages.join(", "));
     for arguments in [
@@ -127,7 +126,7 @@ fn test_runner() -> Command {
             "--no-tests=pass",
         ]);
     }
-    eprintln!("cargo-nextest is not installed: cargo test does the same, with less to read");
+    eprintln!("cargo-nextest is not installed: cargo test is used instead");
     // `--doc` has a step of its own, and these targets leave it out.
     cargo(&[
         "test",
@@ -160,13 +159,13 @@ fn table(outcomes: &[Outcome]) -> String {
     outcomes.iter().map(line).collect()
 }
 
-/// A run without a single test counts as one that could not run: it says nothing about the code.
+/// A run without a single test is reported as one that could not run.
 fn verdict(outcomes: &[Outcome], total: Count) -> ExitCode {
     if outcomes.iter().any(|outcome| !outcome.passed) {
         return ExitCode::from(FOUND_WRONG);
     }
     if total.passed == 0 {
-        eprintln!("no test ran: the runner's summary was not understood, or there are no tests");
+        eprintln!("no test ran: the summary of the runner was not recognised, or there are no tests");
         return ExitCode::from(COULD_NOT_RUN);
     }
     ExitCode::SUCCESS

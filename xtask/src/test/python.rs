@@ -7,9 +7,10 @@
 //! | wheel | the package does not build; in the development profile, so that what tests have built is used again |
 //! | installed | the wheel cannot be installed |
 //! | tests | a test fails, those of README and guide included |
-//! | types | the package is typed wrongly (mypy, pyright), or its stubs tell something else than it holds (stubtest) |
+//! | types | the package is typed wrongly (mypy, pyright), or its stubs differ from the package (stubtest) |
 //!
-//! Python with its module `venv` is installed by `apt-get` where it is missing and that is there; without it the steps fail.
+//! Python with its module `venv` is installed by `apt-get` where it is missing and that is there; without it the steps
+//! fail.
 
 use super::install;
 use super::step::Step;

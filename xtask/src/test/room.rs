@@ -1,4 +1,4 @@
-//! The room on the disk: compilers and linkers tell a full one in a hundred lines, none of which names it.
+//! Free disk space: compilers and linkers report a full disk in a hundred lines, none of which names it.
 
 use std::process::Command;
 
@@ -6,24 +6,24 @@ use std::process::Command;
 /// the browser. Rounded up from a run on a fresh clone, which filled 6.
 const NEEDED_GIB: f64 = 10.0;
 
-/// Says so where less is free than a run from nothing fills; where `target` holds an earlier run it may do.
-pub fn tell_if_little() {
+/// Warns where less is free than a first run needs; with an earlier run in `target` it may still be enough.
+pub fn warn_if_little() {
     if let Some(line) = free_gib().and_then(warning) {
         eprintln!("{line}");
     }
 }
 
-/// What to say where `free` GiB are there, if anything.
+/// The warning for `free` GiB, if any.
 fn warning(free: f64) -> Option<String> {
     (free < NEEDED_GIB).then(|| {
         format!(
-            "{free:.1} GiB free on this disk, a first run fills up to {NEEDED_GIB:.0}: where it ends with \
-             \"No space left on device\", make room (`cargo clean` empties target)"
+            "{free:.1} GiB free on this disk, a first run needs up to {NEEDED_GIB:.0}: if it ends with \
+             \"No space left on device\", free some space (`cargo clean` empties target)"
         )
     })
 }
 
-/// The GiB that are free where we stand, as `df` tells them; nothing where there is no such program.
+/// The GiB that are free in the current folder, as `df` reports them; nothing where there is no `df`.
 fn free_gib() -> Option<f64> {
     let output = Command::new("df").args(["-P", "-k", "."]).output().ok()?;
     available_gib(&String::from_utf8(output.stdout).ok()?)

@@ -1,6 +1,6 @@
 //! One step of a run: a named command whose output goes through to the reader and is counted on the way.
 //!
-//! Output stays as it is on its way: a person sees it at once, as if the command ran alone. Standard output and
+//! Output is passed on unchanged and at once, as if the command ran alone. Standard output and
 //! errors are relayed by a thread each, since a runner may write its summary to either.
 
 use super::count::Count;
@@ -22,7 +22,7 @@ pub struct Outcome {
     pub name: &'static str,
     /// Whether the command started and exited with 0.
     pub passed: bool,
-    /// The tests its output tells of.
+    /// The tests that its output reports.
     pub count: Count,
     /// From start to end.
     pub wall_time: Duration,
@@ -34,7 +34,7 @@ impl Step {
         Self { name, command }
     }
 
-    /// Says what runs and runs it, without input.
+    /// Prints the command and runs it, without input.
     pub fn run(mut self) -> Outcome {
         eprintln!("\n== {}\n+ {}", self.name, command_line(&self.command));
         let start = Instant::now();
@@ -51,14 +51,14 @@ impl Step {
     }
 }
 
-/// Runs `command`; gives whether it succeeded and the tests that either of its outputs tells of.
+/// Runs `command`; returns whether it succeeded and the tests that either of its outputs reports.
 fn run_and_count(command: &mut Command) -> io::Result<(bool, Count)> {
     let mut child = command
         .stdin(Stdio::null())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()?;
-    // Both are read at once: a full pipe that nobody reads would stop the child.
+    // Both are read at once: a full pipe that is not read would stop the child.
     let talk = child
         .stderr
         .take()
@@ -75,7 +75,7 @@ fn run_and_count(command: &mut Command) -> io::Result<(bool, Count)> {
     Ok((child.wait()?.success(), data.plus(talk)))
 }
 
-/// Copies `from` to `to` line by line and counts the tests that the lines tell of.
+/// Copies `from` to `to` line by line and counts the tests that the lines report.
 fn relay(from: impl Read, mut to: impl Write) -> io::Result<Count> {
     let mut from = BufReader::new(from);
     let mut count = Count::default();

@@ -1,25 +1,25 @@
-//! ARCHITECTURE.md names every crate, every folder and every file of the root, every chore, and nothing else.
+//! ARCHITECTURE.md names every crate, every folder and every file of the root, every task, and nothing else.
 //!
-//! The page is the map that a stranger begins with: the tree in its first code block, the sentence on the files
-//! of the root, the line of the chores. What each folder is for is not checked, only that it is named.
+//! The page is the entry point for new readers: the tree in its first code block, the sentence on the files
+//! of the root, the line of the tasks. What each folder is for is not checked, only that it is named.
 
 use super::Rule;
 use super::tree::Tree;
 use super::violation::Violation;
-use crate::CHORES;
+use crate::TASKS;
 
 /// The rule and its reason.
 pub const RULE: Rule = Rule {
     name: "architecture page",
-    reason: "a folder that the map leaves out is one that a stranger cannot place",
+    reason: "every folder must be described for new readers",
     check,
 };
 
 const PAGE: &str = "ARCHITECTURE.md";
 /// How the sentence begins that names the files of the root.
-const ROOT: &str = "In the root stand";
-/// What precedes the names of the chores.
-const CHORES_ARE: &str = "chores in Rust: ";
+const ROOT: &str = "In the root are";
+/// What precedes the names of the tasks.
+const TASKS_ARE: &str = "tasks in Rust: ";
 
 /// Folders and files whose name begins with a dot are exempt: tools find them by that name, readers skip them.
 fn check(tree: &Tree) -> Vec<Violation> {
@@ -34,7 +34,7 @@ fn check(tree: &Tree) -> Vec<Violation> {
     let mut violations = missing_folders(tree, page);
     violations.extend(check_tree(tree, page));
     violations.extend(extra_files(tree, page));
-    violations.extend(wrong_chores(page));
+    violations.extend(wrong_tasks(page));
     violations
 }
 
@@ -50,7 +50,7 @@ fn missing_folders(tree: &Tree, page: &str) -> Vec<Violation> {
     reported.collect()
 }
 
-/// Lines of the tree that lead nowhere, or name another package than the folder holds.
+/// Lines of the tree that lead nowhere, or name another package than that of the folder.
 fn check_tree(tree: &Tree, page: &str) -> Vec<Violation> {
     let mut violations = Vec::new();
     let mut parent = "";
@@ -108,26 +108,21 @@ fn extra_files(tree: &Tree, page: &str) -> Vec<Violation> {
         .filter(|path| !path.contains('/') && !path.starts_with('.'));
     let extra = files.filter(|file| *file != PAGE && !paragraph.contains(&format!("`{file}`")));
     let reported = extra.map(|file| {
-        let hint = format!("put it into a folder; {PAGE} names what stands in the root");
+        let hint = format!("put it into a folder; {PAGE} names what is in the root");
         Violation::new(file, 1, "a file in the root", hint)
     });
     reported.collect()
 }
 
-/// The chores of the page, where they are not those of the program.
-fn wrong_chores(page: &str) -> Option<Violation> {
-    let (before, list) = page.split_once(CHORES_ARE)?;
+/// The tasks of the page, where they are not those of the program.
+fn wrong_tasks(page: &str) -> Option<Violation> {
+    let (before, list) = page.split_once(TASKS_ARE)?;
     let list = list.lines().next().unwrap_or_default();
-    let names: Vec<&str> = CHORES.iter().map(|chore| chore.name).collect();
+    let names: Vec<&str> = TASKS.iter().map(|task| task.name).collect();
     let names = names.join(", ");
     (list != names).then(|| {
         let line = before.lines().count();
-        Violation::new(
-            PAGE,
-            line,
-            format!("chores `{list}`"),
-            format!("they are {names}"),
-        )
+        Violation::new(PAGE, line, format!("tasks `{list}`"), format!("they are {names}"))
     })
 }
 
@@ -161,7 +156,7 @@ mod tests {
     #[test]
     fn a_page_that_names_all_passes() {
         let page = "```\ncrates/\n  core/  package armill-core  mathematics\n         and no more\nrobots/  arms\n```\n\
-                    In the root stand `a.toml` and\n`b.md`.\n";
+                    In the root are `a.toml` and\n`b.md`.\n";
         let files = [
             "crates/core/Cargo.toml",
             "robots/a.toml",
@@ -174,7 +169,7 @@ mod tests {
 
     #[test]
     fn a_tree_that_is_not_so_is_reported() {
-        let page = "```\ncrates/\n  core/  package core\n  gone/\n```\nIn the root stand `a.toml`.\n\n`b.md` is elsewhere.\n";
+        let page = "```\ncrates/\n  core/  package core\n  gone/\n```\nIn the root are `a.toml`.\n\n`b.md` is elsewhere.\n";
         assert_eq!(
             reported(page, &["crates/core/Cargo.toml", "b.md"]),
             [
@@ -186,9 +181,9 @@ mod tests {
     }
 
     #[test]
-    fn chores_are_those_of_the_program() {
-        let names: Vec<&str> = CHORES.iter().map(|chore| chore.name).collect();
-        assert!(wrong_chores(&format!("xtask/  {CHORES_ARE}{}\n", names.join(", "))).is_none());
-        assert!(wrong_chores(&format!("{CHORES_ARE}test\n")).is_some());
+    fn tasks_are_those_of_the_program() {
+        let names: Vec<&str> = TASKS.iter().map(|task| task.name).collect();
+        assert!(wrong_tasks(&format!("xtask/  {TASKS_ARE}{}\n", names.join(", "))).is_none());
+        assert!(wrong_tasks(&format!("{TASKS_ARE}test\n")).is_some());
     }
 }

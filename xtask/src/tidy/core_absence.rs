@@ -33,7 +33,7 @@ const STD_MODULES: &[(&str, &str)] = &[
         "reading and writing belongs to armill-formats and armill-study",
     ),
     ("env", "settings come in as parameters"),
-    ("time", "the core knows no clock; its callers measure time"),
+    ("time", "the core does not use a clock; its callers measure time"),
     ("process", "the core starts nothing"),
     ("net", "the core reaches nothing outside itself"),
     ("thread", "work is spread by rayon, written by index"),
@@ -62,9 +62,9 @@ const NAMES: &[(&str, &str)] = &[
 ];
 
 /// What to do instead of a static.
-const STATE: &str = "there is no global state: values come in and go out";
+const STATE: &str = "there is no global state: pass values as arguments and return them";
 
-/// The one static there is, and where: a flag that nobody sets.
+/// The only static, and where: a flag that is never set.
 const NEVER: (&str, &str) = ("crates/core/src/watch.rs", "static NEVER: AtomicBool");
 
 /// Looks at the core without its tests; comments and literals may name these things.
@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn global_state_is_reported_and_a_lifetime_is_none() {
+    fn global_state_is_reported_and_a_lifetime_is_not() {
         let text = "pub static A: u8 = 0;\nconst B: &'static str = \"\";\nuse std::sync::OnceLock;\nstd::thread::spawn(f);\n";
         assert_eq!(
             found(text),

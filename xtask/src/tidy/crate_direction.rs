@@ -1,7 +1,7 @@
-//! Which crate may depend on which: core <- formats <- study <- web <- cli <- py, report <- study; programs beside them.
+//! Which crate may depend on which: core <- formats <- study <- web <- cli <- py, report <- study; programs separately.
 //!
 //! ```text
-//! core <- formats <- study <- web <- cli <- py  report <- study        validation, bench, fuzz, xtask: on them nobody depends
+//! core <- formats <- study <- web <- cli <- py  report <- study        validation, bench, fuzz, xtask: no crate uses them
 //! ```
 //!
 //! Direct dependencies alone are read, in any table of a `Cargo.toml`, tests included: a test may not turn the
@@ -151,7 +151,7 @@ fn dependencies(text: &str) -> Vec<Dependency<'_>> {
         let name = if let Some(header) = line.strip_prefix('[').and_then(|line| line.strip_suffix(']')) {
             inside = header.ends_with("dependencies") && header != "workspace.dependencies";
             of_tests = header.contains("dev-dependencies") || header.contains("build-dependencies");
-            // `[dependencies.armill-core]` is a dependency by itself.
+            // `[dependencies.armill-core]` is a dependency alone.
             header.rsplit_once("dependencies.").map(|(_, name)| name)
         } else if inside && !line.is_empty() && !line.starts_with('#') {
             line.split(['=', '.', ' ']).next()
@@ -219,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_core_is_not_built_of_is_reported_but_its_tests_may_use_it() {
+    fn forbidden_modules_are_reported_in_the_core_but_allowed_in_its_tests() {
         let text = "[dependencies]\nnalgebra = \"1\"\nserde = \"1\"\n[dev-dependencies]\nproptest = \"1\"\n";
         assert_eq!(
             reported(&[("crates/core/Cargo.toml", text)]),
@@ -228,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn programs_stand_beside_the_crates() {
+    fn programs_are_separate_from_the_crates() {
         let root = "[workspace]\nmembers = [\"crates/*\", \"fuzz\"]\n[workspace.dependencies]\narmill-fuzz = \"1\"\n";
         let found = reported(&[
             ("Cargo.toml", root),

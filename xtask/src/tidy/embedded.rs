@@ -10,14 +10,15 @@ use super::violation::Violation;
 /// The rule and its reason.
 pub const RULE: Rule = Rule {
     name: "embedded library",
-    reason: "every command works from an empty folder: what is not embedded is not there for users",
+    reason: "every command works from an empty folder: files must be embedded",
     check,
 };
 
 /// Where the library is embedded: this file, or a folder of that name.
 const LIBRARY: &str = "crates/study/src/library";
 
-/// The library must name each file of `robots/`, `materials/` and `studies/` by its path from the repository root. Pages for readers (`.md`) need not be embedded.
+/// The library must name each file of `robots/`, `materials/` and `studies/` by its path from the repository root.
+/// Pages for readers (`.md`) need not be embedded.
 fn check(tree: &Tree) -> Vec<Violation> {
     let library: String = tree.texts_in(LIBRARY, ".rs").map(|(_, text)| text).collect();
     let files = tree.paths().filter(|path| {
@@ -29,7 +30,7 @@ fn check(tree: &Tree) -> Vec<Violation> {
     missing
         .map(|path| {
             let what = format!("not embedded: {LIBRARY}.rs does not name it");
-            Violation::new(path, 1, what, "add it there, or take it out of the library")
+            Violation::new(path, 1, what, "add it there, or remove it from the library")
         })
         .collect()
 }
@@ -46,7 +47,7 @@ mod tests {
     ];
 
     #[test]
-    fn what_the_library_does_not_name_is_reported() {
+    fn files_missing_in_the_library_are_reported() {
         let library = "include_str!(\"../../../robots/maker/one.toml\")";
         let tree = Tree::of(&[FILES, &[("crates/study/src/library.rs", library)]].concat());
         let paths: Vec<String> = check(&tree).into_iter().map(|violation| violation.path).collect();

@@ -1,4 +1,4 @@
-//! The exit codes of the command are reported alike wherever they are reported.
+//! The exit codes of the command are described with the same words everywhere.
 //!
 //! Compared are the words from the first `Exit code` of a file to the full stop, line breaks and `//!` taken
 //! out.
@@ -10,7 +10,7 @@ use super::violation::Violation;
 /// The rule and its reason.
 pub const RULE: Rule = Rule {
     name: "exit codes",
-    reason: "scripts are written by what a page says",
+    reason: "scripts rely on the described exit codes",
     check,
 };
 
@@ -31,8 +31,8 @@ fn check(tree: &Tree) -> Vec<Violation> {
     let others = given.iter().skip(1).filter(|(_, codes)| codes != witness);
     others
         .map(|(path, codes)| {
-            let what = format!("exit codes `{codes}`, where {} tells `{witness}`", PLACES[0]);
-            Violation::new(path, 1, what, "tell them alike")
+            let what = format!("exit codes `{codes}`, where {} has `{witness}`", PLACES[0]);
+            Violation::new(path, 1, what, "use the same words")
         })
         .collect()
 }
@@ -53,7 +53,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn other_words_are_reported_and_line_breaks_are_none() {
+    fn other_words_are_reported_and_line_breaks_are_ignored() {
         let tree = Tree::of(&[
             (
                 PLACES[0],

@@ -1,6 +1,6 @@
-//! No Rust file is longer than a sitting, its tests not counted.
+//! No Rust file is too long to be read at once, its tests not included.
 //!
-//! 500 lines, comments and blank lines counted; `predict.rs`, which tells the whole idea, has 80.
+//! 500 lines, comments and blank lines included; `predict.rs`, which shows the whole idea, has 80.
 
 use super::Rule;
 use super::tree::Tree;
@@ -9,14 +9,14 @@ use super::violation::Violation;
 /// The rule and its reason.
 pub const RULE: Rule = Rule {
     name: "file length",
-    reason: "a file is one idea, and one idea fits into one sitting",
+    reason: "a file is one idea, and short enough to be read at once",
     check,
 };
 
 /// Lines before the tests.
 const LIMIT: usize = 500;
 
-/// The file that tells the whole idea, and the lines that it may take for it.
+/// The file that shows the whole idea, and its number of lines.
 const IDEA: (&str, usize) = ("crates/core/src/predict.rs", 80);
 
 /// Looks at all Rust; files that are tests alone may be longer.

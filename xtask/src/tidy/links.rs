@@ -11,7 +11,7 @@ use super::violation::Violation;
 /// The rule and its reason.
 pub const RULE: Rule = Rule {
     name: "links",
-    reason: "a link that leads nowhere costs the reader the way there and the trust in the next one",
+    reason: "a broken link costs the reader time and trust",
     check,
 };
 

@@ -8,7 +8,7 @@ use super::violation::Violation;
 /// The rule and its reason.
 pub const RULE: Rule = Rule {
     name: "machine paths",
-    reason: "a path of one machine works nowhere else, and the project speaks of itself alone",
+    reason: "a path of one machine is not valid on another",
     check,
 };
 
@@ -31,7 +31,7 @@ fn check(tree: &Tree) -> Vec<Violation> {
                     path,
                     index + 1,
                     what,
-                    "count from the repository, or take it out",
+                    "give the path relative to the repository, or remove it",
                 ));
             }
         }
@@ -42,7 +42,7 @@ fn check(tree: &Tree) -> Vec<Violation> {
 /// Whether `found` is in `line` as the beginning of a path, not inside of a longer one or a method call.
 fn begins_a_path(line: &str, found: &str) -> bool {
     let inside = |c: char| is_word(c) || matches!(c, '.' | ')' | ']' | '}' | '-');
-    // A hidden folder may are in any other.
+    // A hidden folder may be in any other.
     let hidden = found.starts_with("/.");
     line.match_indices(found)
         .any(|(at, _)| hidden || !line[..at].ends_with(inside))

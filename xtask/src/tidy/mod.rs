@@ -1,10 +1,10 @@
-//! What must hold in this repository and what a machine can see: each rule with its reason, all told at once.
+//! What must be true in this repository and what a machine can check: each rule with its reason, all reported at once.
 //!
 //! A rule looks at the text of the files that git knows or would take; it builds nothing. To add a rule: one
 //! file here with its `RULE`, one line in [`RULES`].
 //!
-//! Whether code compiles, is formatted and passes clippy is not asked here. A violation is reported as
-//! `path:line: what; hint`; the reason of a rule stands once over its violations. Exit code 1 where there is
+//! Whether code compiles, is formatted and passes clippy is not checked here. A violation is reported as
+//! `path:line: what; hint`; the reason of a rule is printed once over its violations. Exit code 1 where there is
 //! one.
 
 // The repository as the rules see it.
@@ -29,6 +29,7 @@ mod notation_page;
 mod own_rules;
 mod page_paths;
 mod pictures;
+mod plain_words;
 mod robot_formats;
 mod sources;
 mod thin_command;
@@ -45,10 +46,10 @@ use std::process::ExitCode;
 use tree::Tree;
 use violation::Violation;
 
-/// What `--help` says.
+/// Description in the list of tasks.
 pub const ABOUT: &str = "Checks the architecture: directions, sizes, names, units, sources, links.";
 
-/// Something that must hold everywhere.
+/// A requirement on the whole repository.
 struct Rule {
     /// How people call it.
     name: &'static str,
@@ -71,6 +72,7 @@ const RULES: &[Rule] = &[
     thin_python::RULE,
     file_length::RULE,
     vague_names::RULE,
+    plain_words::RULE,
     units::RULE,
     notation_page::RULE,
     exit_codes::RULE,
@@ -84,7 +86,7 @@ const RULES: &[Rule] = &[
     own_rules::RULE,
 ];
 
-/// Checks every rule and tells every violation, with the reason of each broken rule.
+/// Checks every rule and reports every violation, with the reason of each broken rule.
 pub fn run(arguments: &[String]) -> ExitCode {
     if let Err(code) = expect_no_arguments("tidy", arguments) {
         return code;

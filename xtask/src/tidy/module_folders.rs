@@ -1,7 +1,7 @@
-//! A module that is a folder begins with its `mod.rs`, which introduces every file of it: by name in its header, or by a
-//! comment over a group of them.
+//! A module that is a folder begins with its `mod.rs`, which introduces every file of it: by name in its header, or by
+//! a comment over a group of them.
 //!
-//! So there is one place to begin in a folder, never a file `name.rs` beside a folder `name/`. Test modules
+//! So there is one place to begin in a folder, never a file `name.rs` next to a folder `name/`. Test modules
 //! need no introduction.
 
 use super::Rule;
@@ -12,24 +12,24 @@ use super::violation::Violation;
 /// The rule and its reason.
 pub const RULE: Rule = Rule {
     name: "module folders",
-    reason: "whoever opens a folder finds its question first, and what to read next",
+    reason: "the first file of a folder states its purpose, and what to read next",
     check,
 };
 
-/// Looks at all Rust that ships; the tests of a module may are in a folder beside it.
+/// Looks at all Rust that ships; the tests of a module may be in a folder next to it.
 fn check(tree: &Tree) -> Vec<Violation> {
     let files = tree.rust_files("");
     let mut violations = Vec::new();
     for file in &files {
         let stem = file.path.trim_end_matches(".rs");
-        let beside = files.iter().find(|other| {
+        let folder_file = files.iter().find(|other| {
             other
                 .path
                 .strip_prefix(stem)
                 .is_some_and(|rest| rest.starts_with('/'))
         });
-        if let Some(beside) = beside {
-            let what = format!("its module goes on in `{}`", beside.path);
+        if let Some(folder_file) = folder_file {
+            let what = format!("its module continues in `{}`", folder_file.path);
             let hint = format!("move it to {stem}/mod.rs");
             violations.push(Violation::new(file.path, 1, what, hint));
         }
@@ -85,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_beside_its_file_is_reported_unless_it_holds_tests_alone() {
+    fn a_folder_next_to_its_file_is_reported_unless_it_contains_tests_alone() {
         let found = reported(&[
             ("src/a.rs", "mod b;\n"),
             ("src/a/b.rs", ""),

@@ -11,14 +11,14 @@ use super::violation::Violation;
 /// The rule and its reason.
 pub const RULE: Rule = Rule {
     name: "module order",
-    reason: "the core can be read from top to bottom: nothing is needed that was not yet told",
+    reason: "the core can be read from top to bottom: each module uses only earlier ones",
     check,
 };
 
 /// What every module may use: how long work is watched and cancelled.
 const FOR_ALL: &[&str] = &["watch", "Watch"];
 
-/// The page that tells the order, the root that declares the modules, and where they lie.
+/// The page with the order, the root that declares the modules, and their folder.
 const PAGE: &str = "ARCHITECTURE.md";
 const ROOT: &str = "crates/core/src/lib.rs";
 const SOURCE_FOLDER: &str = "crates/core/src/";
@@ -33,7 +33,7 @@ fn check(tree: &Tree) -> Vec<Violation> {
         };
         let place = order.iter().position(|name| *name == module);
         if place.is_none() && !FOR_ALL.contains(&module) {
-            let what = format!("module `{module}` has no place in the reading order");
+            let what = format!("module `{module}` is missing in the reading order");
             let hint = "give it a row in the table of modules of ARCHITECTURE.md";
             violations.push(Violation::new(file.path, 1, what, hint));
             continue;
@@ -48,7 +48,7 @@ fn check(tree: &Tree) -> Vec<Violation> {
                 (what, "move the shared part up, or the caller down")
             } else {
                 let what = format!("`crate::{used}` hides the module it comes from");
-                (what, "name the module, so that the order is seen")
+                (what, "name the module, so that the order is visible")
             };
             violations.push(Violation::new(file.path, line, what, hint));
         }
@@ -81,7 +81,7 @@ fn against_root(tree: &Tree, order: &[&str]) -> Vec<Violation> {
         .filter(|name| !declared.iter().any(|declared| declared == *name));
     let absent = absent.map(|name| {
         let what = format!("`{name}` of the table of modules is not in the core");
-        Violation::new(PAGE, 1, what, "take its row out")
+        Violation::new(PAGE, 1, what, "remove its row")
     });
     let unlisted = declared.iter().filter(|name| !order.contains(&name.as_str()));
     let unlisted = unlisted.map(|name| {
@@ -154,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn what_comes_before_and_what_is_for_all_passes() {
+    fn earlier_and_shared_modules_pass() {
         let text = "use crate::watch::Watch;\nuse crate::robot::{self, Robot};\n\
                     use super::joint::Joint;\nuse crate::compliance::gravity;\n";
         assert_eq!(lines("crates/core/src/compliance/cartesian.rs", text), []);

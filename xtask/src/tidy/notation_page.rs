@@ -1,4 +1,4 @@
-//! docs/notation.md tells every word once, and every unit that a name may end in.
+//! docs/notation.md defines every word once, and every unit that a name may end in.
 //!
 //! Words are those in bold in the first column of the table under `| word |`, suffixes those in backticks under
 //! `| suffix |`. The units are those that the rule of units knows.
@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 /// The rule and its reason.
 pub const RULE: Rule = Rule {
     name: "notation page",
-    reason: "one word for one idea: a word with two meanings has none",
+    reason: "one word for one idea: a word with two meanings is ambiguous",
     check,
 };
 
@@ -28,7 +28,7 @@ fn check(tree: &Tree) -> Vec<Violation> {
     for (line, cell) in first_cells(page, "| word |") {
         for word in cell.split("**").skip(1).step_by(2) {
             if !given.insert(word) {
-                let what = format!("`{word}` is told twice");
+                let what = format!("`{word}` is defined twice");
                 violations.push(Violation::new(
                     PAGE,
                     line,
@@ -50,7 +50,7 @@ fn check(tree: &Tree) -> Vec<Violation> {
             PAGE,
             1,
             what,
-            "tell its unit, or take it out of xtask/src/tidy/units.rs",
+            "add its unit, or remove it from xtask/src/tidy/units.rs",
         )
     }));
     violations
@@ -69,7 +69,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_word_told_twice_and_a_suffix_in_no_row_are_reported() {
+    fn a_word_defined_twice_and_a_suffix_in_no_row_are_reported() {
         let suffixes: Vec<String> = UNITS
             .iter()
             .chain(UNITS_AFTER_PER)
@@ -87,11 +87,11 @@ mod tests {
                 .map(|violation| violation.what)
                 .collect()
         };
-        assert_eq!(given(&page(&suffixes)), ["`robot` is told twice"]);
+        assert_eq!(given(&page(&suffixes)), ["`robot` is defined twice"]);
         let first = format!("the suffix `_{}` is in no row", UNITS[0]);
         assert_eq!(
             given(&page(&suffixes[1..])),
-            ["`robot` is told twice".to_owned(), first]
+            ["`robot` is defined twice".to_owned(), first]
         );
     }
 }

@@ -9,7 +9,7 @@ use super::violation::Violation;
 /// The rule and its reason.
 pub const RULE: Rule = Rule {
     name: "own rules",
-    reason: "a rule that nobody calls holds nothing",
+    reason: "a rule that is never called checks nothing",
     check,
 };
 

@@ -1,6 +1,6 @@
 //! Every path that ARCHITECTURE.md names in backticks is there.
 //!
-//! A path may be told from the root, or by an end that only one file has: `backend.rs`. NAME and MAKER stand
+//! A path may be given from the root, or by an end that only one file has: `backend.rs`. NAME and MAKER mean
 //! for any name.
 
 use super::Rule;
@@ -11,7 +11,7 @@ use super::violation::Violation;
 /// The rule and its reason.
 pub const RULE: Rule = Rule {
     name: "paths of the page",
-    reason: "a stranger who follows the map must arrive",
+    reason: "every path on the page must exist",
     check,
 };
 
@@ -23,7 +23,7 @@ const ANY: &[&str] = &["NAME", "MAKER"];
 /// Endings of files that the page names without a folder.
 const ENDINGS: &[&str] = &[".rs", ".toml", ".md"];
 
-/// What a study leaves behind, and what a user's folder holds: no files of the repository.
+/// Files of a study or of a user's folder: not files of the repository.
 const OF_USERS: &[&str] = &["study.toml"];
 
 /// Looks at what is between backticks outside of code blocks.
@@ -64,7 +64,8 @@ fn leads_to(token: &str, path: &str) -> bool {
     let token: Vec<&str> = token.trim_end_matches('/').split('/').collect();
     let parts: Vec<&str> = path.split('/').collect();
     let same = |(requested, part): (&&str, &&str)| {
-        let any = |any: &&str| part.ends_with(requested.trim_start_matches(any)) && requested.starts_with(any);
+        let any =
+            |any: &&str| part.ends_with(requested.trim_start_matches(any)) && requested.starts_with(any);
         requested == part || ANY.iter().any(any)
     };
     parts
@@ -76,8 +77,8 @@ fn leads_to(token: &str, path: &str) -> bool {
 fn is_whole(tree: &Tree, token: &str) -> bool {
     let token = token.trim_end_matches('/');
     let folder = token.rsplit_once('/').map_or("", |(folder, _)| folder);
-    let stands_for_any = ANY.iter().any(|any| token.contains(any));
-    tree.has(token) || (stands_for_any && tree.has(folder.split("/MAKER").next().unwrap_or_default()))
+    let is_placeholder = ANY.iter().any(|any| token.contains(any));
+    tree.has(token) || (is_placeholder && tree.has(folder.split("/MAKER").next().unwrap_or_default()))
 }
 
 #[cfg(test)]
@@ -108,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn whole_paths_unique_ends_and_names_for_any_pass() {
+    fn full_paths_unique_ends_and_placeholders_pass() {
         let page = "`law.rs`, `load/mod.rs`, `crates/core/src/load/NAME.rs`, `robots/MAKER/`, `crates/core/src/`, `no path`";
         assert_eq!(reported(page), [""; 0]);
     }

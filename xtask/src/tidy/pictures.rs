@@ -11,7 +11,7 @@ use super::violation::Violation;
 /// The rule and its reason.
 pub const RULE: Rule = Rule {
     name: "pictures",
-    reason: "a picture that no table names is drawn a second time, one that no gallery shows goes wrong unseen",
+    reason: "every picture must be listed in the table and shown in the gallery",
     check,
 };
 

@@ -1,6 +1,6 @@
 //! Every robot format is read, described, mutated and fuzzed.
 //!
-//! | place | what must stand there |
+//! | place | required content |
 //! |---|---|
 //! | `robot/format.rs` | an arm of the last `match` that calls `module::read` |
 //! | the module | `pub fn read`, or `read_to_tip` where a file has several ends |
@@ -15,11 +15,11 @@ use super::violation::Violation;
 /// The rule and its reason.
 pub const RULE: Rule = Rule {
     name: "robot formats",
-    reason: "a format that is only half there is found out by a user",
+    reason: "a format that is only half supported would fail at a user",
     check,
 };
 
-/// Where formats are read, spoiled, told and fuzzed.
+/// Where formats are read, mutated, described and fuzzed.
 const FOLDER: &str = "crates/formats/src/robot/";
 const MUTATIONS: &str = "crates/formats/tests/robots/mutations.rs";
 const GUIDE: &str = "docs/guide/your-robot.md";

@@ -63,7 +63,7 @@ impl<'a> RustFile<'a> {
         }
     }
 
-    /// The paths where the test modules that this file declares may lie.
+    /// The paths where the test modules that this file declares may be.
     pub fn test_files(&self) -> Vec<String> {
         let folder = self.path.rsplit_once('/').map_or("", |(folder, _)| folder);
         let stem = self
@@ -97,7 +97,7 @@ impl<'a> RustFile<'a> {
     }
 }
 
-/// Whether `c` can are in a Rust name.
+/// Whether `c` can be in a Rust name.
 pub fn is_word(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }
@@ -109,7 +109,7 @@ pub fn find_word(line: &str, word: &str) -> Option<usize> {
         .find(|at| !line[..*at].ends_with(is_word) && !line[at + word.len()..].starts_with(is_word))
 }
 
-/// Whether a file at `path` holds tests or benchmarks alone.
+/// Whether a file at `path` contains tests or benchmarks alone.
 fn is_test_path(path: &str) -> bool {
     let mut parts = path.rsplit('/');
     let file = parts.next().unwrap_or_default();
@@ -179,7 +179,7 @@ fn code_lines(text: &str) -> Vec<String> {
         if end == at + 1 {
             code.push(c);
         } else {
-            // What stood here may not glue its neighbours together, and lines must still be counted.
+            // The removed text may not join its neighbours, and lines must still be counted.
             code.push(if c == '/' { ' ' } else { '"' });
             code.extend(chars[at..end].iter().filter(|c| **c == '\n'));
         }

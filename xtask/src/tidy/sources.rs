@@ -1,4 +1,4 @@
-//! Every number of a robot or a material says where it comes from.
+//! Every number of a robot or a material names its source.
 //!
 //! ```text
 //! [joints]                 a number here is covered by `source` here, or in a table around it,
@@ -16,11 +16,11 @@ use super::violation::Violation;
 /// The rule and its reason.
 pub const RULE: Rule = Rule {
     name: "sources of numbers",
-    reason: "a stiffness that nobody can trace is a guess, and a prediction from it too",
+    reason: "a stiffness without a traceable source is a guess, and so is a prediction from it",
     check,
 };
 
-/// Where the numbers lie.
+/// The folders with the numbers.
 const LIBRARIES: &[&str] = &["robots/", "materials/"];
 
 /// `[sources.NAME]` says what and where a source is; `source = "NAME"` or `mass_source = "NAME"` refers to it.
@@ -65,7 +65,7 @@ fn check_file(path: &str, tables: &[Table]) -> Vec<Violation> {
             violations.push(Violation::new(
                 path,
                 line,
-                format!("{name} holds numbers without a source"),
+                format!("{name} has numbers without a source"),
                 hint,
             ));
         }
@@ -76,7 +76,7 @@ fn check_file(path: &str, tables: &[Table]) -> Vec<Violation> {
             path,
             *line,
             what,
-            "name it where its numbers stand, or take it out",
+            "name it where its numbers are, or remove it",
         ));
     }
     violations.sort_by_key(|violation| violation.line);
@@ -125,7 +125,7 @@ mod tests {
     #[test]
     fn numbers_without_a_source_are_reported() {
         let text = format!("{PAPER}[joints]\nsource = \"paper\"\nk = 1\n[mass]\nm_kg = 2.0\n");
-        assert_eq!(reported(&text), ["8 mass holds numbers without a source"]);
+        assert_eq!(reported(&text), ["8 mass has numbers without a source"]);
     }
 
     #[test]
@@ -151,6 +151,6 @@ mod tests {
     #[test]
     fn a_source_of_another_table_does_not_help() {
         let text = format!("mass_source = \"paper\"\n{PAPER}[[joints]]\nk = 1\n");
-        assert_eq!(reported(&text), ["6 joints holds numbers without a source"]);
+        assert_eq!(reported(&text), ["6 joints has numbers without a source"]);
     }
 }

@@ -10,7 +10,7 @@ use super::violation::Violation;
 /// The rule and its reason.
 pub const RULE: Rule = Rule {
     name: "thin command",
-    reason: "an answer that only the command can give is one that no other surface gives alike",
+    reason: "every answer must be available in the command, on the page and in Python",
     check,
 };
 

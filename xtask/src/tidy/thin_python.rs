@@ -1,7 +1,7 @@
-//! The native part of the Python package computes nothing: it hands arrays over.
+//! The native part of the Python package computes nothing: it passes arrays on.
 //!
-//! Looked for are the functions that mechanics is made of, turns between units, and numbers with a fraction but those that
-//! fill arrays.
+//! Looked for are the functions that mechanics is made of, turns between units, and numbers with a fraction but those
+//! that fill arrays.
 
 use super::Rule;
 use super::rust::{find_word, is_word};
@@ -11,7 +11,7 @@ use super::violation::Violation;
 /// The rule and its reason.
 pub const RULE: Rule = Rule {
     name: "thin Python",
-    reason: "what only Python computes is what command and page cannot tell alike",
+    reason: "what only Python computes would be missing in the command and on the page",
     check,
 };
 

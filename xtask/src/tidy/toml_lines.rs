@@ -1,4 +1,4 @@
-//! TOML as the rules need it: tables with their line, which sources they name, whether they hold numbers.
+//! TOML as the rules need it: tables with their line, which sources they name, whether they contain numbers.
 //! Read line by line; our files have one key a line.
 //!
 //! ```text
@@ -11,7 +11,7 @@
 
 use super::rust::is_word;
 
-/// Keys that hold a number nobody measured.
+/// Keys of numbers that were not measured.
 const NOT_MEASURED: &[&str] = &[
     "format",
     "format_version",

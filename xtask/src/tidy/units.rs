@@ -1,4 +1,4 @@
-//! Every number in a file, a result or an option says its unit in its name.
+//! Every number in a file, a result or an option has its unit in its name.
 //!
 //! ```text
 //! depth_mm   feed_mm_per_min   compliance_rad_per_n_m       end in a unit
@@ -7,7 +7,7 @@
 //! ```
 //!
 //! Looked at are fields of floating-point numbers of the types that cross a boundary (`boundary_fields`), in
-//! the crates whose types users see. Not checked: that the number is in the unit that its name says.
+//! the crates whose types users see. Not checked: that the number is in the unit of its name.
 
 use super::Rule;
 use super::boundary_fields::{Field, boundary_fields};
@@ -40,11 +40,11 @@ pub const UNITS_AFTER_PER: &[&str] = &["min", "tooth"];
 /// Names of numbers without unit, and of the SI matrices.
 const NO_UNIT: &[&str] = &[
     "jacobian",         // SI: m and rad per rad, the exception that the architecture names
-    "compliance",       // SI: m and rad per N and N m, likewise
+    "compliance",       // SI: m and rad per N and N m, without a suffix
     "quaternion_wxyz",  // of length one; the name says the order
     "axis",             // a direction of length one
-    "direction",        // likewise
-    "normal",           // likewise
+    "direction",        // unit vector
+    "normal",           // unit vector
     "sign",             // +1 or -1
     "ratio",            // a value over another of the same unit
     "factor",           // a pure multiplier
@@ -87,7 +87,7 @@ fn check(tree: &Tree) -> Vec<Violation> {
 /// The fields of one file that do not say their unit.
 fn check_file(file: &RustFile<'_>) -> Vec<Violation> {
     let fields = boundary_fields(file).into_iter();
-    let unclear = fields.filter(|field| holds_numbers(field) && !says_its_unit(&field.name));
+    let unclear = fields.filter(|field| has_numbers(field) && !says_its_unit(&field.name));
     unclear
         .filter(|field| !is_exempt(file, field.line))
         .map(|field| {
@@ -99,7 +99,7 @@ fn check_file(file: &RustFile<'_>) -> Vec<Violation> {
 }
 
 /// Whether its type has a floating-point number anywhere in it.
-fn holds_numbers(field: &Field) -> bool {
+fn has_numbers(field: &Field) -> bool {
     find_word(&field.of_type, "f64").is_some() || find_word(&field.of_type, "f32").is_some()
 }
 
@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn a_comment_may_say_the_unit_instead() {
+    fn accepts_the_unit_in_a_comment() {
         assert_eq!(
             lines("a: f64, // unit: as the column\n/// Doc.\n// unit: SI\n#[serde(default)]\nb: f64,\n"),
             []

@@ -12,7 +12,7 @@ use super::violation::Violation;
 /// The rule and its reason.
 pub const RULE: Rule = Rule {
     name: "unsafe code",
-    reason: "memory is safe because the compiler says so, and a few calls that anyone can check",
+    reason: "memory safety is checked by the compiler, except for a few calls that are easy to review",
     check,
 };
 
@@ -45,7 +45,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn one_more_than_allowed_is_reported_and_the_name_of_the_lint_is_none() {
+    fn one_more_than_allowed_is_reported_and_the_name_of_the_lint_is_not() {
         let call = "unsafe { f() }\n";
         let tree = Tree::of(&[
             (

@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 /// The rule and its reason.
 pub const RULE: Rule = Rule {
     name: "vague names",
-    reason: "a name that fits anything collects anything, and nobody finds it there",
+    reason: "a vague name says nothing about the content, and search does not find it",
     check,
 };
 
@@ -19,7 +19,7 @@ const VAGUE: &[&str] = &[
     "util", "utils", "helper", "helpers", "misc", "common", "func", "funcs", "manager", "managers",
 ];
 
-const HINT: &str = "name it by the idea it holds";
+const HINT: &str = "name it for what it contains";
 
 /// Looks at every file and folder of any kind, and at modules written inside a Rust file.
 fn check(tree: &Tree) -> Vec<Violation> {

@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 /// The rule and its reason.
 pub const RULE: Rule = Rule {
     name: "validation cases",
-    reason: "a case without its page proves nothing, one outside the table is one nobody looks at",
+    reason: "a case without a page is not explained, and one outside the table is not run",
     check,
 };
 

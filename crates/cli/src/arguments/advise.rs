@@ -1,4 +1,4 @@
-//! `armill advise STUDY`: what to do so that a path holds its tolerance.
+//! `armill advise STUDY`: measures that bring a path within its tolerance.
 
 use clap::Args;
 
@@ -17,7 +17,7 @@ pub(crate) struct AdviseArguments {
 
 const ADVISE_EXAMPLES: &str = "\
 Examples:
-  armill advise cell                               the part may move by 300 mm to all sides
+  armill advise cell                               the part may move by up to 300 mm in each direction
   armill advise cell --x-mm 700,1300 --tilt-deg 0,90 --branch any
   armill advise cell --analysis rim --json
-The result is that of `armill run` with all that is advised, in the folder `advice`, with advice.json beside it.";
+The results are those of `armill run` with all recommended measures, in the folder `advice`, with advice.json.";

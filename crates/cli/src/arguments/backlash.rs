@@ -1,6 +1,6 @@
-//! What can be typed behind `armill backlash`.
+//! Arguments of `armill backlash`.
 //!
-//! `--circles` and `--simulate` ask for something else than the gaps, and exclude each other.
+//! `--circles` and `--simulate` do not estimate backlash; they exclude each other.
 
 use std::path::PathBuf;
 
@@ -9,8 +9,9 @@ use clap::Args;
 use super::writing::WritingOptions;
 
 const AFTER: &str = "\
-STUDY has circles (asks of kind = \"path\") and, for the gaps, what a ball-bar measured on them: [[ballbar]] with ask and files.
-Angles of the files are turned onto the circle by zero_deg and mirrored. The guide: docs/guide/ballbar.md
+STUDY has circles (analyses of kind = \"path\") and, to estimate backlash, the ball-bar records measured on them:
+[[ballbar]] with analysis and files. zero_deg and mirrored relate the angles of the files to the circle.
+Guide: docs/guide/ballbar.md
 
 Examples:
   armill backlash cell
@@ -23,16 +24,16 @@ Examples:
 pub(crate) struct BacklashArguments {
     /// Folder with a study.toml, the file itself, or the name of an example study
     pub study: PathBuf,
-    /// Lobes a turn that are no backlash and taken off each circle
+    /// Lobes per revolution that are removed from each circle because they are not caused by backlash
     #[arg(long, value_name = "N", default_value_t = 6)]
     pub lobes: usize,
-    /// Standard deviation of a sample [gaps: from the residuals; --circles: 1; --simulate: 0]
+    /// Standard deviation of a sample [estimate: from the residuals; --circles: 1; --simulate: 0]
     #[arg(long, value_name = "UM")]
     pub noise_um: Option<f64>,
-    /// Propose N circles to drive beside those of the study
+    /// Propose N circles to measure in addition to those of the study
     #[arg(long, value_name = "N", conflicts_with = "simulate")]
     pub circles: Option<usize>,
-    /// Half of the box of their centres about the first circle of the study (with --circles)
+    /// Half the size of the box for their centres, about the first circle of the study (with --circles)
     #[arg(
         long,
         value_name = "X,Y,Z",
@@ -40,27 +41,27 @@ pub(crate) struct BacklashArguments {
         default_value = "200,200,200"
     )]
     pub within_mm: Vec<f64>,
-    /// Their radii (with --circles) [that of the first circle, and one and a half of it]
+    /// Their radii (with --circles) [that of the first circle, and 1.5 times it]
     #[arg(long, value_name = "R,...", value_delimiter = ',')]
     pub radii_mm: Vec<f64>,
-    /// Write what a ball-bar would show of the robot file into this folder, a file a circle
+    /// Simulate the ball-bar records of the robot file and write them into this folder, one file per circle
     #[arg(long, value_name = "FOLDER")]
     pub simulate: Option<PathBuf>,
-    /// Runs each way (with --simulate)
+    /// Runs in each direction (with --simulate)
     #[arg(long, value_name = "N", default_value_t = 2)]
     pub runs: usize,
     /// Seed of the noise (with --simulate)
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u64,
-    /// Circles of the study, by name, where not all are meant (with --circles and --simulate)
+    /// Circles of the study, by name; all if not given (with --circles and --simulate)
     #[arg(long, value_name = "NAME")]
     pub analysis: Vec<String>,
-    /// Folder for answer, table and pictures (nothing is written if left out)
+    /// Folder for the result, the table and the pictures (nothing is written if not given)
     #[arg(long, value_name = "FOLDER", conflicts_with_all = ["circles", "simulate"])]
     pub out: Option<PathBuf>,
     #[command(flatten)]
     pub writing: WritingOptions,
-    /// Machine-readable answer and errors
+    /// Print the result and errors as JSON
     #[arg(long)]
     pub json: bool,
 }

@@ -1,4 +1,4 @@
-//! What can be typed behind `armill budget`.
+//! Arguments of `armill budget`.
 
 use std::path::PathBuf;
 
@@ -7,9 +7,9 @@ use clap::Args;
 use super::writing::WritingOptions;
 
 const AFTER: &str = "\
-Puts what was measured on a circle of the study ([measured]: the profile of the part, circular tests of the path without
-load) beside the deviation that is predicted under load: each part of the error with bias and scatter, their sums, how
-much of the part they explain, wave by wave. The guide: docs/guide/budget.md
+Compares the measurements of a circle of the study ([measured]: the profile of the part, circular tests without load)
+with the deviation predicted under load. Reports each contribution to the error with its bias and scatter, their sums,
+and how much of the measured error they explain, also per harmonic. Guide: docs/guide/budget.md
 
 Examples:
   armill budget experiment
@@ -21,12 +21,12 @@ Examples:
 pub(crate) struct BudgetArguments {
     /// Folder with a study.toml, the file itself, or the name of an example study
     pub study: PathBuf,
-    /// Folder for table and pictures (nothing is written if left out)
+    /// Folder for the table and the pictures (nothing is written if not given)
     #[arg(long, value_name = "FOLDER")]
     pub out: Option<PathBuf>,
     #[command(flatten)]
     pub writing: WritingOptions,
-    /// Machine-readable answer and errors
+    /// Print the result and errors as JSON
     #[arg(long)]
     pub json: bool,
 }

@@ -1,6 +1,6 @@
-//! What can be typed behind `armill check`.
+//! Arguments of `armill check`.
 //!
-//! Neither study nor `--schema` is refused by clap.
+//! Clap requires a study unless `--schema` is given.
 
 use std::path::PathBuf;
 
@@ -9,7 +9,7 @@ use clap::Args;
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
-  armill check cell                  every problem of cell/study.toml at once
+  armill check cell                  report all problems of cell/study.toml
   armill check --schema > study.schema.json   JSON Schema, for your editor")]
 pub(crate) struct CheckArguments {
     /// Folder with a study.toml, the file itself, or the name of an example study

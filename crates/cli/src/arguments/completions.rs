@@ -1,4 +1,4 @@
-//! What can be typed behind `armill completions`.
+//! Arguments of `armill completions`.
 
 use clap::Args;
 use clap_complete::Shell;
@@ -9,6 +9,6 @@ Examples:
   armill completions bash > /etc/bash_completion.d/armill
   armill completions fish > ~/.config/fish/completions/armill.fish")]
 pub(crate) struct CompletionsArguments {
-    /// Which shell
+    /// Shell
     pub shell: Shell,
 }

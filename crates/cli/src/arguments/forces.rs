@@ -1,7 +1,7 @@
-//! What can be typed behind `armill forces`.
+//! Arguments of `armill forces`.
 //!
-//! `--columns` and `--rate-hz` are for a CSV, `--channels` and `--cycle` for an export of DynoWare. `--air-s`
-//! stays text until `command::forces` reads it, since clap would take its two numbers for two stretches.
+//! `--columns` and `--rate-hz` are for a CSV, `--channels` and `--cycle` for a DynoWare export. `--air-s` is text
+//! until `command::forces` reads it, because clap would read its two numbers as two intervals.
 
 use std::path::PathBuf;
 
@@ -13,8 +13,8 @@ use super::writing::WritingOptions;
 #[command(
     allow_negative_numbers = true,
     after_help = "\
-FILE is a text export of DynoWare, or a CSV whose names end in units (time_s,fx_n,fy_n,fz_n). The guide:
-docs/guide/measured-forces.md
+FILE is a DynoWare text export, or a CSV whose column names end in units (time_s,fx_n,fy_n,fz_n).
+Guide: docs/guide/measured-forces.md
 
 Examples:
   armill forces groove.txt
@@ -22,30 +22,30 @@ Examples:
   armill forces groove.csv --spindle-rpm 9000 --json"
 )]
 pub(crate) struct ForcesArguments {
-    /// Record of the forces
+    /// Force record
     pub file: PathBuf,
-    /// A stretch where nothing is cut, from when to when, once a stretch (the quietest ones if left out)
+    /// Interval without cutting, in seconds (repeatable) [default: the quietest intervals]
     #[arg(long, value_name = "FROM,TO", allow_hyphen_values = true)]
     pub air_s: Vec<String>,
-    /// Leave the drift in
+    /// Do not remove the drift
     #[arg(long, conflicts_with = "air_s")]
     pub no_drift: bool,
-    /// Keep only what is slower than this
+    /// Low-pass filter: cut-off frequency
     #[arg(long, value_name = "F")]
     pub low_pass_hz: Option<f64>,
-    /// Speed of the spindle: mean and extremes of each turn
+    /// Spindle speed: report mean and extremes per revolution
     #[arg(long, value_name = "N")]
     pub spindle_rpm: Option<f64>,
-    /// Cycle of an export that holds several, from 1
+    /// Number of the cycle, from 1, for an export with several
     #[arg(long, value_name = "N")]
     pub cycle: Option<usize>,
-    /// What an export calls its forces, and its moments if it has any
+    /// Channel names of the forces in the export, and of the moments if present
     #[arg(long, value_name = "FX,FY,FZ[,MX,MY,MZ]", value_delimiter = ',')]
     pub channels: Option<Vec<String>>,
-    /// Samples a second, of a CSV without column of time
+    /// Sampling rate, for a CSV without a time column
     #[arg(long, value_name = "F", conflicts_with = "channels")]
     pub rate_hz: Option<f64>,
-    /// Columns in order, of a CSV without header: time_s,fx_n,...
+    /// Column names in order, for a CSV without a header: time_s,fx_n,...
     #[arg(
         long,
         value_name = "NAMES",

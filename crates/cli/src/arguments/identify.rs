@@ -1,7 +1,7 @@
-//! What can be typed behind `armill identify`.
+//! Arguments of `armill identify`.
 //!
 //! A table of tests and `--plan` exclude each other. `--points`, `--prior` and their variants are types here,
-//! so that clap lists them in the help; `command::identify` carries them over to those of `armill_study`.
+//! so that clap lists them in the help; `command::identify` converts them to those of `armill_study`.
 
 use std::path::PathBuf;
 
@@ -14,10 +14,10 @@ use super::writing::WritingOptions;
 #[command(
     allow_negative_numbers = true,
     after_help = "\
-TESTS.csv has one row a test; the unit stands in each column's name: joint positions (A1_deg or q1_deg ...), force on
-the tool in base axes (fx_n, fy_n, fz_n), displacement in base axes (dx_mm, dy_mm, dz_mm; empty where not measured).
-Springs: drives; bending (about the two axes beside each drive); base (the floor); tool (holder and tool along the
-flange axes); lost-motion (gaps in drives). The guide: docs/guide/measure-stiffness.md
+TESTS.csv has one row per test; column names end in units: joint positions (A1_deg or q1_deg ...), force on the tool in
+base axes (fx_n, fy_n, fz_n), displacement in base axes (dx_mm, dy_mm, dz_mm; empty where not measured).
+Springs: drives; bending (about the two axes perpendicular to each drive); base (the foundation); tool (holder and tool
+along the flange axes); lost-motion (backlash in drives). Guide: docs/guide/measure-stiffness.md
 
 Examples:
   armill identify --plan 20 --robot yaskawa/mh12 --tool-mm 0,0,150 --out tests.csv
@@ -30,34 +30,34 @@ pub(crate) struct IdentifyArguments {
     pub tests: Option<PathBuf>,
     #[arg(long, value_name = "NAME", help = ROBOT_HELP)]
     pub robot: String,
-    /// Springs to find: groups with + between
+    /// Springs to identify: groups joined by +
     #[arg(long, value_name = "GROUPS", default_value = "drives+bending+base")]
     pub unknowns: String,
-    /// Whether force point and gauge point are where the tests say
+    /// Whether the points of force and measurement are as given in the tests
     #[arg(long, value_enum, default_value_t = PointsArgument::Known)]
     pub points: PointsArgument,
-    /// How far off they may be (standard uncertainty), where they are not known
+    /// Standard uncertainty of these points, if they are not known
     #[arg(long, value_name = "U", default_value_t = 200.0)]
     pub point_u_mm: f64,
-    /// What is known of the springs beforehand
+    /// Prior knowledge of the springs
     #[arg(long, value_enum, default_value_t = PriorArgument::Typical)]
     pub prior: PriorArgument,
-    /// Flange to the point where force acts and displacement is measured
+    /// Flange to the point where the force acts and the displacement is measured
     #[arg(long, value_name = "X,Y,Z", value_delimiter = ',', allow_hyphen_values = true)]
     pub tool_mm: Option<Vec<f64>>,
-    /// Write the robot with its new compliances (with --plan: the table) to this file
+    /// Write the robot with its identified compliances (with --plan: the table) to this file
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Propose N tests instead
     #[arg(long, value_name = "N", conflicts_with = "tests")]
     pub plan: Option<usize>,
-    /// Pull that you can apply (with --plan)
+    /// Force that you can apply (with --plan)
     #[arg(long, value_name = "F", default_value_t = 150.0)]
     pub pull_n: f64,
-    /// Standard uncertainty of your gauge (with --plan)
+    /// Standard uncertainty of the displacement sensor (with --plan)
     #[arg(long, value_name = "U", default_value_t = 10.0)]
     pub gauge_um: f64,
-    /// Take readings as they are, however far from those of any arm
+    /// Accept values that are implausible for a robot
     #[arg(long)]
     pub trust_units: bool,
     #[command(flatten)]
@@ -67,22 +67,22 @@ pub(crate) struct IdentifyArguments {
     pub json: bool,
 }
 
-/// Where force acts and displacement is measured.
+/// Points where the force acts and the displacement is measured.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum PointsArgument {
-    /// As the tests say
+    /// As given in the tests
     Known,
-    /// Both off by the same shift, which is found
+    /// Both offset by the same vector, which is identified
     Common,
-    /// Each off by itself, which is found
+    /// Each with its own offset, which is identified
     Separate,
 }
 
-/// What is known beforehand.
+/// Prior knowledge of the springs.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum PriorArgument {
-    /// Arms are alike within powers of ten; tests far off count less
+    /// Compliances of robots are within some powers of ten; tests that fit badly have less weight
     Typical,
-    /// Nothing: plain least squares, no compliance negative
+    /// None: plain least squares, no negative compliance
     None,
 }

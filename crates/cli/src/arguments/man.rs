@@ -1,4 +1,4 @@
-//! What can be typed behind `armill man`.
+//! Arguments of `armill man`.
 
 use std::path::PathBuf;
 
@@ -8,12 +8,12 @@ use super::writing::WritingOptions;
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Pages that are there already are written anew.
+Existing pages are overwritten.
 
 Examples:
   armill man ~/.local/share/man/man1 && man armill-run")]
 pub(crate) struct ManArguments {
-    /// Folder to write them into
+    /// Folder for the pages
     pub dir: PathBuf,
     #[command(flatten)]
     pub writing: WritingOptions,

@@ -1,10 +1,11 @@
-//! What can be typed behind `armill materials`.
+//! Arguments of `armill materials`.
 
 use clap::Args;
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
-A study names a material in its [cut]. Forces come from the mean of its whole sets; their scatter is the uncertainty.
+A study names a material in its [cut]. Forces are the mean of its complete coefficient sets; their scatter gives the
+uncertainty.
 
 Examples:
   armill materials

@@ -1,14 +1,16 @@
-//! What can be typed behind `armill`: a file here for each command of the same name in `command`.
+//! Arguments of `armill`: one file per command, with the same name as in `command`.
 //!
 //! `run`, `check`, `compare`, `new`, `robots`, `materials`, `pose`, `posture`, `place`, `advise`, `compensate`,
-//! `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `serve`, `completions`, `man`; `poses` and `program` are for two of them each, `writing` for all that write files.
+//! `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `backlash`, `budget`, `pose_accuracy`, `path_accuracy`,
+//! `serve`, `completions`, `man`; `poses` and `program` are used by two of them each, `writing` by all that write
+//! files.
 //!
 //! Doc comments of fields and variants are the text of `--help`: one line without a full stop, the unit in the
-//! option's name. What a developer should know stands in `//` comments and in these heads. Names of options are
-//! names of fields with hyphens; `--json` is an option of every command that has an answer.
+//! option's name. Notes for developers are in `//` comments and in these module docs. Names of options are
+//! names of fields with hyphens; every command that has a result has the option `--json`.
 //!
-//! Clap checks that options go together and that numbers are numbers; how many there are, and whether they can
-//! be, is checked in `command`, so that all refusals sound alike.
+//! Clap checks combinations of options and that numbers are numbers; how many there are, and their range,
+//! is checked in `command`, so that all error messages have the same form.
 
 mod advise;
 mod backlash;
@@ -65,10 +67,10 @@ pub(crate) use serve::ServeArguments;
 
 use clap::{Parser, Subcommand};
 
-/// What every option says that takes a robot.
+/// Help text of every option that accepts a robot.
 const ROBOT_HELP: &str = "Library name, or a robot file (.toml, .urdf, .xacro, .yaml, .dh, .chain)";
 
-/// How far from the drawing will this robot cut, why, and what can be done about it?
+/// Predict, explain and reduce the machining error of industrial robots.
 #[derive(Debug, Parser)]
 #[command(name = "armill", version, propagate_version = true, arg_required_else_help = true, after_help = EXAMPLES)]
 pub(crate) struct Arguments {
@@ -78,10 +80,10 @@ pub(crate) struct Arguments {
 
 const EXAMPLES: &str = "\
 Examples:
-  armill run studies/mh12-groove            the paper's study, with pictures and a report in its folder out/
-  armill new cell && armill run cell        your own, from a commented study file
+  armill run studies/mh12-groove            the study of the paper, with pictures and a report in its folder out/
+  armill new cell && armill run cell        your own study, from a commented study file
   armill pose yaskawa/mh12 --at-mm 1000,0,800 --wrench-n 3,5,5
-Lengths in mm, angles in degrees, forces in N, moments in N m; deviations come back in micrometres.";
+Lengths in mm, angles in degrees, forces in N, moments in N m; deviations are reported in micrometres.";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
@@ -89,43 +91,43 @@ pub(crate) enum Command {
     Run(RunArguments),
     /// Check a study file without running it
     Check(CheckArguments),
-    /// The same path in several cells: robots or set-ups side by side
+    /// Compare the same paths in several cells: robots or set-ups
     Compare(CompareArguments),
-    /// Make a folder with a commented study that runs
+    /// Create a folder with a commented study that runs
     New(NewArguments),
     /// List the robot library, show one robot, or import one
     Robots(RobotsArguments),
     /// List the material library, or show one material
     Materials(MaterialsArguments),
-    /// Every posture of one pose: joints, compliance, deviation
+    /// List all postures of one pose: joints, compliance, deviation
     Pose(Box<PoseArguments>),
-    /// The best turn of the tool and branch along the paths of a study
+    /// Optimize the spin of the tool and the branch along the paths of a study
     Posture(PostureArguments),
-    /// Where the part should lie so that a path deviates least
+    /// Optimize the placement of the part for the least deviation along a path
     Place(Box<PlaceArguments>),
-    /// What to do so that a path holds its tolerance: place, turn, compensation, cut
+    /// Recommend measures to bring a path within its tolerance: placement, spin, compensation, cut
     Advise(Box<AdviseArguments>),
-    /// The paths to command so that the tool goes where it is drawn
+    /// Compensate the paths of a study for the predicted deviation
     Compensate(CompensateArguments),
-    /// Joint compliances from load tests, and which tests to do
+    /// Identify joint compliances from load tests, or plan the tests
     Identify(IdentifyArguments),
-    /// Lengths, angles and zeros of this very arm from measured poses
+    /// Calibrate the kinematics from measured poses
     Calibrate(Box<CalibrateArguments>),
-    /// What is in a record of a dynamometer, without drift and teeth
+    /// Analyse a dynamometer record: remove drift, average over spindle revolutions
     Forces(ForcesArguments),
-    /// How round a measured profile is: the four reference circles, filter, harmonics
+    /// Evaluate the roundness of a measured profile: four reference circles, filter, harmonics
     Roundness(RoundnessArguments),
-    /// How round the tool goes, and why not rounder, from a ball-bar
+    /// Analyse a ball-bar test: circularity and its causes
     Ballbar(Box<BallbarArguments>),
-    /// How much play each joint has, from a ball-bar; which circles tell; made-up tests
+    /// Estimate joint backlash from ball-bar tests, plan circles, or simulate tests
     Backlash(Box<BacklashArguments>),
-    /// How near the arm comes to its poses, and how alike, from a laser tracker
+    /// Evaluate pose accuracy and repeatability from laser tracker data
     PoseAccuracy(Box<PoseAccuracyArguments>),
-    /// How near the tip keeps to a path, and how alike, from a laser tracker
+    /// Evaluate path accuracy and repeatability from laser tracker data
     PathAccuracy(PathAccuracyArguments),
-    /// What the error of a measured circle is made of, and how much of it is predicted
+    /// Compare the measured error of a circle with its predicted contributions
     Budget(BudgetArguments),
-    /// The live page of a study in the browser, on this machine alone
+    /// Serve the live page of a study to the browser on this machine
     Serve(ServeArguments),
     /// Print shell completions
     Completions(CompletionsArguments),
@@ -134,7 +136,7 @@ pub(crate) enum Command {
 }
 
 impl Command {
-    /// Whether stdout is to hold JSON, also of problems.
+    /// Whether stdout is JSON, also for errors.
     pub(crate) fn wants_json(&self) -> bool {
         match self {
             Command::Run(a) => a.run.json,

@@ -1,6 +1,6 @@
-//! What can be typed behind `armill new`.
+//! Arguments of `armill new`.
 //!
-//! The folder may exist, a study in it may not. The robot is the one that the new study names; an example has its own.
+//! The folder may exist, a study in it may not. `--robot` is the robot of the new study; an example has its own.
 
 use std::path::PathBuf;
 
@@ -16,17 +16,17 @@ Examples:
   armill new cell --robot kuka/kr120r2500pro
   armill new pocket --example r2000ic-pocket")]
 pub(crate) struct NewArguments {
-    /// Folder to make
+    /// Folder to create
     pub dir: PathBuf,
     #[arg(long, value_name = "NAME", default_value = "yaskawa/mh12", help = ROBOT_HELP)]
     pub robot: String,
-    /// A copy of this example, with all of its files: mh12-groove, kr120-groove, r2000ic-pocket, kr210-rivets, mh12-ballbar,
+    /// Copy this example with all of its files: mh12-groove, kr120-groove, r2000ic-pocket, kr210-rivets, mh12-ballbar,
     /// r2000ic-measured
     #[arg(long, value_name = "NAME", conflicts_with = "robot")]
     pub example: Option<String>,
     #[command(flatten)]
     pub writing: WritingOptions,
-    /// Print what was made as JSON on stdout
+    /// Print what was created as JSON on stdout
     #[arg(long)]
     pub json: bool,
 }

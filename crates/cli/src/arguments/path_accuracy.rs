@@ -1,4 +1,4 @@
-//! What can be typed behind `armill path-accuracy`.
+//! Arguments of `armill path-accuracy`.
 
 use std::path::PathBuf;
 
@@ -8,8 +8,8 @@ use super::writing::WritingOptions;
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Files have one row a point (x_mm, y_mm, z_mm), in the order of time and in the same axes; a column `run` parts several runs
-of one file. The guide: docs/guide/calibrate.md
+Files have one row per point (x_mm, y_mm, z_mm), in the order of time and in the same axes; a column `run` separates the
+runs of one file. Guide: docs/guide/calibrate.md
 
 Examples:
   armill path-accuracy tracker.csv --commanded path.csv
@@ -21,10 +21,10 @@ pub(crate) struct PathAccuracyArguments {
     /// The commanded path (CSV)
     #[arg(long, value_name = "FILE")]
     pub commanded: PathBuf,
-    /// Write what was found at every commanded point to this file (CSV)
+    /// Write the results at every commanded point to this file (CSV)
     #[arg(long, value_name = "FILE")]
     pub points: Option<PathBuf>,
-    /// Draw both along the path to this file (.svg, .png)
+    /// Draw accuracy and repeatability along the path to this file (.svg, .png)
     #[arg(long, value_name = "FILE")]
     pub drawing: Option<PathBuf>,
     #[command(flatten)]

@@ -1,4 +1,4 @@
-//! `armill place STUDY`: where the part should lie so that a path deviates least.
+//! `armill place STUDY`: the placement of the part for the least deviation along a path.
 
 use armill_study::file::placement::RankByName;
 use clap::{Args, ValueEnum};
@@ -16,80 +16,79 @@ pub(crate) struct PlaceArguments {
     pub place: PlaceOptions,
 }
 
-// Where the part may lie; what an option leaves out the study's own `[place]` says.
+// Permitted placements; options that are not given are taken from `[place]` of the study.
 #[derive(Debug, Args)]
 pub(crate) struct PlaceOptions {
-    /// The path to place, where the study asks for several
+    /// Name of the path, if the study has several
     #[arg(long, value_name = "NAME")]
     pub analysis: Option<String>,
 
-    /// Least and greatest x of the plane's centre [without any bound: 300 mm to all sides]
+    /// Range of x of the plane's centre [if nothing is given: 300 mm in each direction]
     #[arg(long, value_name = "LEAST,GREATEST", value_parser = bounds, allow_hyphen_values = true)]
     pub x_mm: Option<[f64; 2]>,
 
-    /// Its y
+    /// Range of its y
     #[arg(long, value_name = "LEAST,GREATEST", value_parser = bounds, allow_hyphen_values = true)]
     pub y_mm: Option<[f64; 2]>,
 
-    /// Its z
+    /// Range of its z
     #[arg(long, value_name = "LEAST,GREATEST", value_parser = bounds, allow_hyphen_values = true)]
     pub z_mm: Option<[f64; 2]>,
 
-    /// Heading: turn of the part about the vertical, beside where it lies
+    /// Range of the heading: rotation of the part about the vertical, relative to its nominal placement
     #[arg(long, value_name = "LEAST,GREATEST", value_parser = bounds, allow_hyphen_values = true)]
     pub heading_deg: Option<[f64; 2]>,
 
-    /// Tilt, as plane.tilt_deg
+    /// Range of the tilt, as plane.tilt_deg
     #[arg(long, value_name = "LEAST,GREATEST", value_parser = bounds, allow_hyphen_values = true)]
     pub tilt_deg: Option<[f64; 2]>,
 
-    /// Turn of the part about the plane's normal, beside where it lies
+    /// Range of the rotation of the part about the plane's normal, relative to its nominal placement
     #[arg(long, value_name = "LEAST,GREATEST", value_parser = bounds, allow_hyphen_values = true)]
     pub roll_deg: Option<[f64; 2]>,
 
-    /// Turn of the tool about its axis, the same all along, beside the one it has
+    /// Range of the spin of the tool, constant along the path, relative to that of the study
     #[arg(long, value_name = "LEAST,GREATEST", value_parser = bounds, allow_hyphen_values = true)]
     pub spin_deg: Option<[f64; 2]>,
 
-    /// Where the rail under the robot stands
+    /// Range of the position of the rail under the robot
     #[arg(long, value_name = "LEAST,GREATEST", value_parser = bounds, allow_hyphen_values = true)]
     pub rail_mm: Option<[f64; 2]>,
 
-    /// Branches that may be taken: words of a branch, or `any`
+    /// Permitted branches: words of a branch, or `any`
     #[arg(long, value_name = "WORDS")]
     pub branch: Option<String>,
 
-    /// What shall be least
+    /// Objective to minimise
     #[arg(long)]
     pub objective: Option<ObjectiveArgument>,
 
-    /// Which part of the deviation counts
+    /// Component of the deviation to minimise
     #[arg(long)]
     pub component: Option<ComponentArgument>,
 
-    /// How far every joint stays from its limits, the elbow from stretched, the wrist from straight [default: 0]
+    /// Margin of joints to their limits, of the elbow to stretched and of the wrist to straight [default: 0]
     #[arg(long, value_name = "DEG")]
     pub margin_deg: Option<f64>,
 
-    /// What places are compared by: the goal as if all were known, with two standard uncertainties, or how probably it keeps
-    /// the limit [default: nominal]
+    /// Criterion by which placements are ranked [default: nominal]
     #[arg(long)]
     pub rank_by: Option<RankByArgument>,
 
-    /// Seed of the search: the same seed gives the same place
+    /// Seed of the search: the same seed gives the same result
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u32,
 }
 
-/// `--sure`.
+/// `--rank-by`.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum RankByArgument {
-    /// As if all were known
+    /// The objective, without uncertainty
     Nominal,
-    /// With two standard uncertainties
+    /// The objective plus two standard uncertainties
     PlusTwoSigma,
-    /// How probably the limit is kept
-    WithinLimit,
+    /// The probability of meeting the tolerance
+    WithinTolerance,
 }
 
 impl From<RankByArgument> for RankByName {
@@ -97,7 +96,7 @@ impl From<RankByArgument> for RankByName {
         match rank_by {
             RankByArgument::Nominal => RankByName::Nominal,
             RankByArgument::PlusTwoSigma => RankByName::PlusTwoSigma,
-            RankByArgument::WithinLimit => RankByName::WithinLimit,
+            RankByArgument::WithinTolerance => RankByName::WithinTolerance,
         }
     }
 }
@@ -115,6 +114,6 @@ const PLACE_EXAMPLES: &str = "\
 Examples:
   armill place cell --x-mm 700,1300 --y-mm -400,400
   armill place cell --x-mm 700,1300 --z-mm 400,1200 --tilt-deg -60,90 --branch any --spin-deg -180,180
-  armill place cell --margin-deg 5 --goal mean --analysis rim
-The result is that of `armill run` with the path at the place found, in the folder `place`, with placement.json beside it.
-A search that was stopped goes on where it was when it is started again.";
+  armill place cell --margin-deg 5 --objective mean --analysis rim
+The results are those of `armill run` with the path at the best placement, in the folder `place`, together with
+placement.json. An interrupted search continues when the command is started again.";

@@ -1,9 +1,9 @@
-//! What can be typed behind `armill pose`.
+//! Arguments of `armill pose`.
 //!
-//! The place of the tool is told in one of two ways, which exclude each other: `--joints-deg`, or `--at-mm`
-//! with what turns the tool (`--axis` or `--tilt-deg`, `--spin-deg`) and what arms with joints to spare are
-//! drawn to (`--home-deg`). Without a load there is no deviation in the answer, without compliances neither
-//! deviation nor compliance.
+//! The pose of the tool is given in one of two ways, which exclude each other: `--joints-deg`, or `--at-mm` with the
+//! orientation of the tool (`--axis` or `--tilt-deg`, `--spin-deg`) and the preferred positions of redundant joints
+//! (`--home-deg`). Without a load the result has no deviation, without compliances neither deviation nor
+//! compliance.
 
 use std::path::PathBuf;
 
@@ -16,7 +16,7 @@ use super::writing::WritingOptions;
 #[command(
     allow_negative_numbers = true,
     after_help = "\
-Joints are in the robot file's own signs and zeros. Heights count from base_link unless --base says otherwise.
+Joints have the signs and zeros of the robot file. Positions are relative to base_link unless --base is given.
 --tool-mm is flange to TCP in the flange frame (z out of the flange), turns about the fixed axes x, y, z.
 --tilt-deg puts the tool against the outward normal of a plane tilted from the vertical about base y:
 0 faces the robot (tool along +x, the default), 90 faces up (tool down).
@@ -30,7 +30,7 @@ Examples:
 pub(crate) struct PoseArguments {
     #[arg(help = ROBOT_HELP)]
     pub robot: String,
-    /// Joint positions A,B,... in degrees (mm for sliding joints)
+    /// Joint positions A,B,... in degrees (mm for prismatic joints)
     #[arg(
         long,
         value_name = "A,B,...",
@@ -48,7 +48,7 @@ pub(crate) struct PoseArguments {
         required_unless_present = "joints_deg"
     )]
     pub at_mm: Option<Vec<f64>>,
-    /// Tilt of the plane that the tool stands against
+    /// Tilt of the plane to which the tool is perpendicular
     #[arg(long, value_name = "A", allow_hyphen_values = true, requires = "at_mm", conflicts_with_all = ["axis", "joints_deg"])]
     pub tilt_deg: Option<f64>,
     /// Tool axis, from the spindle towards the part
@@ -61,7 +61,7 @@ pub(crate) struct PoseArguments {
         conflicts_with = "joints_deg"
     )]
     pub axis: Option<Vec<f64>>,
-    /// Turn of the tool about its axis; at 0 its second axis lies as near as possible to base y
+    /// Spin of the tool about its axis; at 0 its second axis is as near as possible to base y
     #[arg(
         long,
         value_name = "S",
@@ -70,7 +70,7 @@ pub(crate) struct PoseArguments {
         conflicts_with = "joints_deg"
     )]
     pub spin_deg: Option<f64>,
-    /// Where a rail stands (mm) and what joints to spare are drawn to (deg), one a joint; else the middle of their ranges
+    /// Position of a rail (mm), preferred positions of redundant joints (deg), one per joint [default: middle of range]
     #[arg(
         long,
         value_name = "A,B,...",
@@ -96,7 +96,7 @@ pub(crate) struct PoseArguments {
         allow_hyphen_values = true
     )]
     pub wrench_n: Option<Vec<f64>>,
-    /// Joint compliances in place of the robot file's (m/N for sliding joints)
+    /// Joint compliances in place of those of the robot file (m/N for prismatic joints)
     #[arg(
         long,
         value_name = "C1,...",
@@ -107,10 +107,10 @@ pub(crate) struct PoseArguments {
     /// Assumed joint compliances by payload: light (to 20 kg), medium (to 100 kg), heavy (to 300 kg)
     #[arg(long, value_name = "CLASS", conflicts_with = "compliance_rad_per_n_m")]
     pub compliance_class: Option<String>,
-    /// Let the load act on the arm as it has yielded, instead of as it stood
+    /// Apply the load to the deflected arm (force-deflection equilibrium) instead of the undeflected one
     #[arg(long)]
     pub load_dependent: bool,
-    /// Joint positions where the tool was set: gravity counts against them (needs masses in the robot file)
+    /// Joint positions at which the tool was measured, the reference for gravity (needs masses in the robot file)
     #[arg(
         long,
         value_name = "A,B,...",
@@ -118,10 +118,10 @@ pub(crate) struct PoseArguments {
         allow_hyphen_values = true
     )]
     pub reference_joints_deg: Option<Vec<f64>>,
-    /// Write a drawing of the arm there to this file (.svg, .png): the first posture inside limits, the others faintly
+    /// Draw the arm to this file (.svg, .png): the first posture within joint limits, the others faintly
     #[arg(long, value_name = "FILE")]
     pub drawing: Option<PathBuf>,
-    /// Frame that positions count from
+    /// Frame of the positions
     #[arg(long, value_name = "FRAME", default_value = armill_study::BASE_LINK)]
     pub base: String,
     #[command(flatten)]

@@ -1,4 +1,4 @@
-//! What can be typed behind `armill pose-accuracy`.
+//! Arguments of `armill pose-accuracy`.
 
 use std::path::PathBuf;
 
@@ -11,8 +11,8 @@ use super::poses::PosesOptions;
 #[command(
     allow_negative_numbers = true,
     after_help = "\
-FILE has one row a visit: joint positions (q1_deg ...), the measured point in the tracker's axes (x_mm, y_mm, z_mm), and
-pose, direction, rx_deg ... if known. The guide: docs/guide/calibrate.md
+FILE has one row per visit: joint positions (q1_deg ...), the measured point in tracker axes (x_mm, y_mm, z_mm), and
+pose, direction, rx_deg ... if known. Guide: docs/guide/calibrate.md
 
 Examples:
   armill pose-accuracy poses.csv --robot universal-robots/ur10

@@ -1,26 +1,26 @@
-//! `armill posture STUDY`: the best turn of the tool and branch along the paths of a study.
+//! `armill posture STUDY`: the best spin of the tool and branch along the paths of a study.
 
 use armill_study::file::posture_search::{ComponentName, ObjectiveName};
 use clap::{Args, ValueEnum};
 
 use super::run::RunOptions;
 
-// Without any of the numbers the study's own `posture.search` counts; with one they stand for all of it.
+// Without any of these options `posture.search` of the study is used; with one or more they replace all of it.
 #[derive(Debug, Args)]
 #[command(after_help = POSTURE_EXAMPLES)]
 pub(crate) struct PostureArguments {
     #[command(flatten)]
     pub run: RunOptions,
 
-    /// What shall be least
+    /// Objective to minimise
     #[arg(long)]
     pub objective: Option<ObjectiveArgument>,
 
-    /// Which part of the deviation counts
+    /// Component of the deviation to minimise
     #[arg(long)]
     pub component: Option<ComponentArgument>,
 
-    /// First and last turn of the tool about its axis, beside the one it has [default: -180,180]
+    /// Range of the spin of the tool about its axis, relative to that of the study [default: -180,180]
     #[arg(
         long,
         value_name = "FIRST,LAST",
@@ -29,42 +29,42 @@ pub(crate) struct PostureArguments {
     )]
     pub turns_deg: Option<Vec<f64>>,
 
-    /// From one turn to the next [default: 5]
+    /// Step of the spin [default: 5]
     #[arg(long, value_name = "DEG")]
     pub step_deg: Option<f64>,
 
-    /// How much the tool may turn along the path [default: 1]
+    /// Greatest change of the spin along the path [default: 1]
     #[arg(long, value_name = "DEG/MM")]
     pub turn_deg_per_mm: Option<f64>,
 
-    /// Least angle by which the wrist is bent [default: 3]
+    /// Least angle of the wrist from its straight position [default: 3]
     #[arg(long, value_name = "DEG")]
     pub least_wrist_deg: Option<f64>,
 
-    /// What a joint that turns back weighs: as much as so much more deviation over 1 mm of the path [default: 0]
+    /// Penalty for a reversal of a joint: additional deviation times length of the path [default: 0]
     #[arg(long, value_name = "UM*MM")]
     pub reversal_um_mm: Option<f64>,
 }
 
-/// `--goal`.
+/// `--objective`.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum ObjectiveArgument {
     /// The largest deviation along the path
     Worst,
-    /// The mean of its points
+    /// The mean deviation of its points
     Mean,
-    /// What is above the limit
-    AboveLimit,
+    /// The deviation above the tolerance
+    AboveTolerance,
 }
 
-/// `--counts`.
+/// `--component`.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum ComponentArgument {
-    /// Across the tool
+    /// Perpendicular to the tool axis
     InPlane,
-    /// Across tool and feed: what walls get
+    /// Perpendicular to tool axis and feed: the error of walls
     CrossTrack,
-    /// Along the tool: what floors get
+    /// Along the tool axis: the error of floors
     Axial,
 }
 
@@ -73,7 +73,7 @@ impl From<ObjectiveArgument> for ObjectiveName {
         match objective {
             ObjectiveArgument::Worst => ObjectiveName::Worst,
             ObjectiveArgument::Mean => ObjectiveName::Mean,
-            ObjectiveArgument::AboveLimit => ObjectiveName::AboveLimit,
+            ObjectiveArgument::AboveTolerance => ObjectiveName::AboveTolerance,
         }
     }
 }
@@ -90,9 +90,9 @@ impl From<ComponentArgument> for ComponentName {
 
 const POSTURE_EXAMPLES: &str = "\
 Examples:
-  armill posture cell                              the tool free about its axis, in every branch
-  armill posture cell --turns-deg -30,30 --goal mean
-  armill posture cell --counts cross-track --step-deg 2 --out best
-  armill posture cell --reversal-um-mm 200         fewer reversals: each is worth 20 um more over 10 mm
-The result is that of `armill run` with the turns found; the table of a path has them as turn_deg, the picture
-NAME-turns.svg shows what each turn would bring.";
+  armill posture cell                              any spin of the tool, in all branches
+  armill posture cell --turns-deg -30,30 --objective mean
+  armill posture cell --component cross-track --step-deg 2 --out best
+  armill posture cell --reversal-um-mm 200         fewer reversals: one equals 20 um more over 10 mm
+The results are those of `armill run` with the spins found; the table of a path has them as turn_deg. The picture
+NAME-turns.svg shows the deviation of every spin.";

@@ -1,7 +1,7 @@
-//! What can be typed behind `armill robots`.
+//! Arguments of `armill robots`.
 //!
-//! Without a subcommand a name is shown and no name lists the library; options of the one do not go with the
-//! other.
+//! A name without a subcommand shows that robot; without a name the library is listed. Options of a subcommand are not
+//! valid without it.
 
 use std::path::PathBuf;
 
@@ -39,45 +39,45 @@ pub(crate) struct RobotsArguments {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum RobotsAction {
-    /// Make a robot file of armill from a URDF, xacro, OPW file, DH table or chain, or from one of the library
+    /// Convert a URDF, xacro, OPW file, DH table, chain or library robot to a robot file of armill
     Import(ImportArguments),
-    /// Compare a robot file with poses read from its pendant, and say which sign, zero or base differs
+    /// Check a robot file against poses read from its pendant: report which sign, zero or base differs
     Check(RobotsCheckArguments),
 }
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The format follows from the ending: .urdf, .xacro, .xml; .yaml (OPW parameters); .dh, .csv (Denavit-Hartenberg table);
-.chain, .fsf (elementary motions). The file made says in comments what was assumed and what is missing.
+The extension selects the format: .urdf, .xacro, .xml; .yaml (OPW parameters); .dh, .csv (Denavit-Hartenberg table);
+.chain, .fsf (elementary motions). Comments in the robot file report what was assumed and what is missing.
 
 Examples:
   armill robots import kr120.urdf --out kr120.toml
-  armill robots import yaskawa/mh12 --out mine.toml      a copy to add play, masses, measured stiffness to
+  armill robots import yaskawa/mh12 --out mine.toml      a copy, to add backlash, masses, measured stiffness
   armill robots import m20ia_macro.xacro --tip tool0 --out m20ia.toml
   armill robots import opw_parameters_mh12.yaml > mh12.toml
   armill robots import table.txt --format dh --out arm.toml --force")]
 pub(crate) struct ImportArguments {
     /// Robot file of another format, or a robot of the library
     pub file: PathBuf,
-    /// Link of a URDF or xacro that is the flange (the end with the most moving joints if left out)
+    /// Flange link of a URDF or xacro [default: the end of the chain with the most joints]
     #[arg(long, value_name = "LINK")]
     pub tip: Option<String>,
-    /// Format: urdf, xacro, opw, dh, chain (by ending and content if left out)
+    /// Format: urdf, xacro, opw, dh, chain [default: by extension and content]
     #[arg(long, value_name = "NAME")]
     pub format: Option<Format>,
-    /// Robot file to make (printed on stdout if left out)
+    /// Robot file to write (printed on stdout if not given)
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
     #[command(flatten)]
     pub writing: WritingOptions,
-    /// Print what was made as JSON on stdout
+    /// Print the result as JSON on stdout
     #[arg(long)]
     pub json: bool,
 }
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
-A reading is joint positions, then the pose that the pendant shows with them: X,Y,Z in mm and the orientation
+A reading is joint positions, then the pose that the pendant shows for them: X,Y,Z in mm and the orientation
 kuka A,B,C; fanuc W,P,R; yaskawa and staubli Rx,Ry,Rz (deg); abb q1,q2,q3,q4; ur rotation vector (rad).
 Read two or three poses with every joint well away from 0 and 90 deg, base and world frame of the robot, tool 0.
 
@@ -86,7 +86,7 @@ Examples:
 pub(crate) struct RobotsCheckArguments {
     #[arg(help = ROBOT_HELP)]
     pub robot: String,
-    /// What the pendant shows: joints = pose; give it once a reading
+    /// A reading of the pendant: joints = pose (repeatable)
     #[arg(
         long,
         value_name = "J1,... = X,Y,Z,...",
@@ -94,10 +94,10 @@ pub(crate) struct RobotsCheckArguments {
         allow_hyphen_values = true
     )]
     pub pose: Vec<String>,
-    /// Whose pendant: kuka, abb, fanuc, yaskawa, staubli, ur
+    /// Manufacturer of the pendant: kuka, abb, fanuc, yaskawa, staubli, ur
     #[arg(long, value_name = "MAKER")]
     pub convention: String,
-    /// Flange to TCP that the pendant had active
+    /// Flange to TCP of the tool active on the pendant
     #[arg(
         long,
         value_name = "X,Y,Z[,RX,RY,RZ]",
@@ -105,7 +105,7 @@ pub(crate) struct RobotsCheckArguments {
         allow_hyphen_values = true
     )]
     pub tool_mm: Option<Vec<f64>>,
-    /// Frame that the pendant is believed to count from
+    /// Frame to which the readings are expected to be relative
     #[arg(long, value_name = "FRAME", default_value = armill_study::BASE_LINK)]
     pub base: String,
     /// Distance within which a reading agrees

@@ -1,6 +1,7 @@
-//! What can be typed behind `armill roundness`.
+//! Arguments of `armill roundness`.
 //!
-//! `--unit` and `--radius-mm` say what a file does not; `--upr` and `--harmonics` what is asked of its points.
+//! `--unit` and `--radius-mm` give what a file does not contain; `--upr` and `--harmonics` are settings of the
+//! evaluation.
 
 use std::path::PathBuf;
 
@@ -13,8 +14,8 @@ use super::writing::WritingOptions;
 #[command(
     allow_negative_numbers = true,
     after_help = "\
-FILE is a table whose names end in units (x_mm,y_mm or x_mm,y_mm,z_mm or angle_deg,radius_mm), or rows of numbers with
---unit. The guide: docs/guide/roundness.md
+FILE is a table whose column names end in units (x_mm,y_mm or x_mm,y_mm,z_mm or angle_deg,radius_mm), or rows of numbers
+with --unit. Guide: docs/guide/roundness.md
 
 Examples:
   armill roundness bore.csv
@@ -23,22 +24,22 @@ Examples:
   armill roundness cir2d1.ds --unit mm"
 )]
 pub(crate) struct RoundnessArguments {
-    /// Points of a profile, one file a profile
+    /// Points of a profile, one file per profile
     #[arg(required = true)]
     pub files: Vec<PathBuf>,
-    /// Cut-off of the Gaussian filter, undulations per revolution (nothing is filtered if left out)
+    /// Cut-off of the Gaussian filter, undulations per revolution [default: no filter]
     #[arg(long, value_name = "N")]
     pub upr: Option<u32>,
-    /// Waves a turn to tell, from 1
+    /// Number of harmonics to report, from 1
     #[arg(long, value_name = "N", default_value_t = 15)]
     pub harmonics: usize,
-    /// The radius that deviations are told from, of a table with angle and deviation
+    /// Nominal radius, for a table of angles and deviations
     #[arg(long, value_name = "R")]
     pub radius_mm: Option<f64>,
-    /// Unit of rows without names: mm, um, m or in
+    /// Unit of rows without column names: mm, um, m or in
     #[arg(long, value_name = "UNIT")]
     pub unit: Option<LengthUnit>,
-    /// Write table and picture into this folder
+    /// Write tables and pictures into this folder
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     #[command(flatten)]

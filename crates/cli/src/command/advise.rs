@@ -1,11 +1,13 @@
-//! `armill advise`: what to do so that a path holds its tolerance.
+//! `armill advise`: measures that bring a path within its tolerance.
 //!
-//! `--out` (`advice` beside the study) takes the results of the path with all that is advised, as `armill run` writes them, and
-//! before them `advice.json`. Like `armill place` it goes on where it was stopped. Stdout has the advice in sentences.
+//! `--out` (`advice` next to the study) receives the results of the path with all recommended measures, as from
+//! `armill run`,
+//! and before them `advice.json`. Like `armill place` it continues an interrupted search. Stdout has the advice as
+//! text.
 
 use armill_study::advise::advise;
 use armill_study::output::Opening;
-use armill_study::place::{Journal, Placing};
+use armill_study::place::{Journal, PlacementSearch};
 use armill_study::{StudyError, output, studies};
 
 use super::place::requested;
@@ -14,22 +16,22 @@ use crate::Outcome;
 use crate::arguments::AdviseArguments;
 use crate::progress::Progress;
 
-/// Searches, turns, compensates, and runs what is advised.
+/// Searches, optimizes the spin, compensates, and runs the recommended path.
 ///
 /// # Errors
-/// No study there, or its problems; no such path; bounds that leave nothing; a folder where nothing can be written.
+/// No such study, or its problems; no such path; empty bounds; a folder that cannot be written.
 pub(crate) fn run(arguments: &AdviseArguments) -> Result<Outcome, StudyError> {
     let found = studies::find(&arguments.run.study)?;
     let study = found.read()?;
     let seed = u64::from(arguments.place.seed);
-    let placing = Placing::new(&study, requested(&arguments.place)?, seed)?;
+    let placing = PlacementSearch::new(&study, requested(&arguments.place)?, seed)?;
     let out = folder(("advise", "advice"), &found, &arguments.run)?;
     let mut journal = Journal::kept_in(&out);
     let advice = in_pool(arguments.run.threads, || {
         let progress = Progress::of("places", placing.place_count());
         progress.watch(|watch| {
-            let given = |what: &str| progress.tell(what);
-            advise((&found, &study), &placing, &mut journal, (watch, &given))
+            let note = |what: &str| progress.set_message(what);
+            advise((&found, &study), &placing, &mut journal, (watch, &note))
         })
     })??;
     let json = serde_json::to_string_pretty(&advice.answer)? + "\n";
@@ -42,7 +44,7 @@ pub(crate) fn run(arguments: &AdviseArguments) -> Result<Outcome, StudyError> {
     output::write_pictures(drawn, &out)?;
     let sentences = advice.answer.advice.join("\n");
     let opening = Opening {
-        heading: "What to do",
+        heading: "Recommended measures",
         sentences: advice.answer.advice.clone(),
         pictures: advice.pictures,
     };

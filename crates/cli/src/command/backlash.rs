@@ -1,19 +1,19 @@
-//! `armill backlash`: how much play each joint has, from circular tests; which circles to drive; made-up tests.
+//! `armill backlash`: the backlash of each joint from circular tests; plans of circles; simulated tests.
 //!
-//! Stdout holds a [`BacklashAnswer`] (or a [`PlanAnswer`], or what was written), in words or as JSON.
+//! Stdout has a [`BacklashAnswer`] (or a [`PlanAnswer`], or a list of the files written), as text or JSON.
 //!
 //! ```text
-//! circle groove: radius 100 mm about (1000, 0, 800) mm; files           one a circle
-//! joint   turns back at deg   step um   crossed CW deg   CCW deg        both ways at the same place
-//! joint   backlash   +-   inflation   robot file                        of all circles together
+//! circle groove: radius 100 mm about (1000, 0, 800) mm; files           one per circle
+//! joint   reverses at deg     step um   crossed CW deg   CCW deg        in both directions at the same place
+//! joint   backlash   +-   inflation   robot file                        from all circles together
 //! ```
 
 use armill_study::StudyError;
 use armill_study::backlash::answer::{CircleAnswer, JointAnswer, ReversalAnswer};
-use armill_study::backlash::plan::{ExpectedAnswer, KnownAnswer, ProposedAnswer, candidate_count};
+use armill_study::backlash::plan::{ExpectedAnswer, IdentifiabilityAnswer, ProposedAnswer, candidate_count};
 use armill_study::backlash::{
-    BacklashAnswer, PlanAnswer, PlanWanted, Simulated, SimulationWanted, Wanted, estimate, output, plan,
-    simulate,
+    BacklashAnswer, EstimateOptions, PlanAnswer, PlanOptions, SimulatedFile, SimulationOptions, estimate,
+    output, plan, simulate,
 };
 use armill_study::{Study, studies};
 
@@ -23,15 +23,15 @@ use crate::arguments::BacklashArguments;
 use crate::progress::Progress;
 use crate::terminal::{Align, columns, print, say};
 
-/// Most lobes, circles, runs and radii.
+/// Greatest number of lobes, circles, runs and radii.
 const MOST: usize = 100;
-/// Noise that is taken for a plan where none is told, um.
+/// Noise for a plan if none is given, um.
 const PLAN_NOISE_UM: f64 = 1.0;
 
-/// Reads the study, does what was asked for, and prints.
+/// Reads the study, runs the requested task, and prints the result.
 ///
 /// # Errors
-/// No study there, or its problems; options that cannot be; nothing measured; a folder or stdout that takes no more.
+/// No such study, or its problems; invalid options; no measurements; a folder or stdout that cannot be written.
 pub(crate) fn run(arguments: &BacklashArguments) -> Result<Outcome, StudyError> {
     for (flag, value, least) in [
         ("--lobes", arguments.lobes, 0),
@@ -57,9 +57,9 @@ pub(crate) fn run(arguments: &BacklashArguments) -> Result<Outcome, StudyError> 
     Ok(Outcome::Fine)
 }
 
-/// The gaps.
+/// Estimates backlash.
 fn estimated(arguments: &BacklashArguments, study: &Study, noise: Option<f64>) -> Result<String, StudyError> {
-    let requested = Wanted {
+    let requested = EstimateOptions {
         most_lobes: arguments.lobes,
         noise,
     };
@@ -67,7 +67,7 @@ fn estimated(arguments: &BacklashArguments, study: &Study, noise: Option<f64>) -
     let (found, given) = progress.watch(|watch| estimate(study, &requested, watch))?;
     if let Some(out) = &arguments.out {
         output::write(&given, &found, &arguments.writing.writer("backlash").folder(out)?)?;
-        say(&format!("answer, table and pictures in {}", out.display()));
+        say(&format!("result, table and pictures in {}", out.display()));
     }
     for warning in &given.warnings {
         say(&format!("warning: {warning}"));
@@ -78,7 +78,7 @@ fn estimated(arguments: &BacklashArguments, study: &Study, noise: Option<f64>) -
     })
 }
 
-/// Circles to drive.
+/// Plans circles.
 fn planned(
     arguments: &BacklashArguments,
     study: &Study,
@@ -87,24 +87,33 @@ fn planned(
     let half = match arguments.within_mm[..] {
         [x, y, z] => [x, y, z],
         _ => {
-            let message = format!("--within-mm: {} numbers are no box", arguments.within_mm.len());
+            let message = format!(
+                "--within-mm: 3 numbers are required (got {})",
+                arguments.within_mm.len()
+            );
             return Err(StudyError::value(
                 message,
-                "half of its sides, such as 200,200,200",
+                "half the lengths of the sides, such as 200,200,200",
             ));
         }
     };
     finite("--within-mm", &half)?;
     if let Some(negative) = half.iter().find(|half| **half < 0.0) {
         let message = format!("--within-mm: {negative} is below 0");
-        return Err(StudyError::value(message, "half of the sides of a box"));
+        return Err(StudyError::value(
+            message,
+            "half the lengths of the sides of the box",
+        ));
     }
     if arguments.radii_mm.len() > MOST {
-        let message = format!("--radii-mm: {} are more than {MOST}", arguments.radii_mm.len());
-        return Err(StudyError::value(message, "the lengths of your bar"));
+        let message = format!(
+            "--radii-mm: at most {MOST} radii (got {})",
+            arguments.radii_mm.len()
+        );
+        return Err(StudyError::value(message, "the lengths of your ball-bar"));
     }
     let radii = arguments.radii_mm.iter().map(|mm| above_zero("--radii-mm", *mm));
-    let requested = PlanWanted {
+    let requested = PlanOptions {
         analyses: arguments.analysis.clone(),
         count,
         half: half.map(|mm| mm * 1e-3),
@@ -122,9 +131,9 @@ fn planned(
     })
 }
 
-/// Files of a bar.
+/// Simulates ball-bar files.
 fn simulated(arguments: &BacklashArguments, study: &Study, noise: Option<f64>) -> Result<String, StudyError> {
-    let requested = SimulationWanted {
+    let requested = SimulationOptions {
         analyses: arguments.analysis.clone(),
         runs: arguments.runs,
         noise: noise.unwrap_or(0.0),
@@ -134,7 +143,14 @@ fn simulated(arguments: &BacklashArguments, study: &Study, noise: Option<f64>) -
     let points = simulate::point_count(study, &requested.analyses)?;
     let writer = arguments.writing.writer("backlash");
     let given = Progress::new(points).watch(|watch| simulate(study, (&requested, folder, &writer), watch))?;
-    let line = |one: &Simulated| format!("{}: {} um at most, in {}", one.analysis, um(one.largest_um), one.file);
+    let line = |one: &SimulatedFile| {
+        format!(
+            "{}: {} um at most, in {}",
+            one.analysis,
+            um(one.largest_um),
+            one.file
+        )
+    };
     Ok(match arguments.json {
         true => serde_json::to_string_pretty(&given)?,
         false => given.iter().map(line).collect::<Vec<_>>().join("\n"),
@@ -145,7 +161,7 @@ fn um(value: f64) -> String {
     format!("{value:.1}")
 }
 
-/// The gaps as a person reads them, see the head of this file.
+/// The result as text, see the documentation of this module.
 fn as_text(given: &BacklashAnswer) -> String {
     let mut lines = Vec::new();
     for circle in &given.circles {
@@ -158,7 +174,7 @@ fn as_text(given: &BacklashAnswer) -> String {
     lines.extend(columns(&rows, &[Align::Left]));
     lines.push(String::new());
     lines.push(format!(
-        "{} samples: {:.2} um rms beside place, size and lobes, {:.2} um beside the gaps too",
+        "{} samples: {:.2} um rms residual of centre, radius and lobes, {:.2} um with backlash fitted too",
         given.samples, given.rms_before_um, given.rms_after_um
     ));
     lines.join("\n")
@@ -172,13 +188,7 @@ fn circle_as_text(circle: &CircleAnswer) -> Vec<String> {
         circle.radius_mm,
         circle.files.join(", ")
     )];
-    let head = [
-        "joint",
-        "turns back at deg",
-        "step um",
-        "crossed CW deg",
-        "CCW deg",
-    ];
+    let head = ["joint", "reverses at deg", "step um", "crossed CW deg", "CCW deg"];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     let deg = |value: Option<f64>| value.map_or("-".to_owned(), |deg| format!("{deg:.1}"));
     rows.extend(circle.reversals.iter().map(|at: &ReversalAnswer| {
@@ -215,7 +225,7 @@ fn joint_as_row(joint: &JointAnswer) -> Vec<String> {
     vec![joint.joint.clone(), gap, u, inflation, file]
 }
 
-/// Circles to drive, as a person reads them.
+/// The plan as text.
 fn plan_as_text(given: &PlanAnswer) -> String {
     let list = |numbers: &[f64]| {
         let words: Vec<String> = numbers.iter().map(|mm| format!("{mm:.0}")).collect();
@@ -224,7 +234,7 @@ fn plan_as_text(given: &PlanAnswer) -> String {
     let [low, high] = &given.box_mm;
     let mut lines = vec![
         format!(
-            "looked at {} circles, {} followed: {} centres a side from ({}) to ({}) mm, planes {}, radii {} mm",
+            "{} circles searched, {} analysed: {} centres per axis from ({}) to ({}) mm, planes {}, radii {} mm",
             given.candidates,
             given.followed,
             given.along,
@@ -233,7 +243,10 @@ fn plan_as_text(given: &PlanAnswer) -> String {
             given.planes.join(" "),
             list(&given.radii_mm)
         ),
-        format!("tool against the normal of the plane; noise {} um", given.noise_um),
+        format!(
+            "tool axis against the normal of the plane; noise {} um",
+            given.noise_um
+        ),
         String::new(),
         format!("{:<10} {}", "study", given.begun.join(", ")),
         format!("{:<10} {}", "", known_as_text(&given.known)),
@@ -243,7 +256,7 @@ fn plan_as_text(given: &PlanAnswer) -> String {
     }
     if let Some(last) = given.circles.last().map(|circle| &circle.known) {
         lines.push(String::new());
-        lines.push("standard uncertainty to expect with all of them".to_owned());
+        lines.push("expected standard uncertainty with all of these circles".to_owned());
         let row = |joint: &ExpectedAnswer| {
             let u = match (joint.backlash_u_deg, joint.backlash_u_mm) {
                 (Some(deg), _) => format!("{deg:.6} deg"),
@@ -271,25 +284,25 @@ fn proposed_as_text(number: usize, circle: &ProposedAnswer) -> [String; 3] {
             "{number:<10} {}, centre ({x:.0}, {y:.0}, {z:.0}) mm, radius {:.0} mm; rotation_deg = [{a:.0}, {b:.0}, {c:.0}]",
             circle.plane, circle.radius_mm
         ),
-        format!("{:<10} turn back: {}", "", turns.join(", ")),
+        format!("{:<10} reversals: {}", "", turns.join(", ")),
         format!("{:<10} {}", "", known_as_text(&circle.known)),
     ]
 }
 
-fn known_as_text(known: &KnownAnswer) -> String {
+fn known_as_text(known: &IdentifiabilityAnswer) -> String {
     let names: Vec<&str> = known.joints.iter().map(|joint| joint.joint.as_str()).collect();
     let mut parts = vec![match &names[..] {
-        [] => "tells no joint apart".to_owned(),
-        names => format!("tells {}", names.join(", ")),
+        [] => "identifies no joint separately".to_owned(),
+        names => format!("identifies {}", names.join(", ")),
     }];
     parts.extend(
         known
             .not_identifiable
             .iter()
-            .map(|set| format!("not apart {}", set.join(", "))),
+            .map(|set| format!("not separable {}", set.join(", "))),
     );
     if !known.unseen.is_empty() {
-        parts.push(format!("does not show {}", known.unseen.join(", ")));
+        parts.push(format!("no effect of {}", known.unseen.join(", ")));
     }
     parts.extend(known.inflation_ratio.map(|ratio| format!("inflation {ratio:.1}")));
     parts.join("; ")

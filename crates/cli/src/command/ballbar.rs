@@ -1,15 +1,15 @@
-//! `armill ballbar`: how round the tool goes, and why not rounder, from files of a ball-bar.
+//! `armill ballbar`: circularity and its causes, from ball-bar files.
 //!
-//! Stdout holds a [`BallbarAnswer`], in words or as JSON; `--out` takes it with tables, pictures and a report, `--teach`
-//! the points of the circle to teach, `--program` a program of the robot through them.
+//! Stdout has a [`BallbarAnswer`], as text or JSON; `--out` receives it with tables, pictures and a report, `--teach`
+//! the points of the corrected circle, `--program` a robot program of it.
 //!
 //! ```text
 //! circle of 100 mm in XY, 1000 mm/min; least-squares centre, (12.1, -3.4) um from the set-up
 //! runs   G   F max   F min           each run, then each direction
 //! G(b), D, H                         ISO 230-4
-//! differences                        runs the same way, and the directions
-//! parts                              what makes the circle what it is, with standard uncertainty
-//! lobes                              of what both directions have in common
+//! differences                        between runs of the same direction, and between directions
+//! parts                              contributions to the circular deviation, with standard uncertainty
+//! lobes                              common to both directions
 //! ```
 
 use std::path::PathBuf;
@@ -21,8 +21,9 @@ use armill_study::ballbar::answer::{LobeAnswer, PartAnswer, ShownAnswer};
 use armill_study::ballbar::results::FeatureAnswer;
 use armill_study::ballbar::teach::ComparedQuantity;
 use armill_study::ballbar::{
-    BallbarAnswer, Centring, CircleWanted, Cyclic, Found, Measured, Question, TaughtAnswer, TaughtCircle,
-    Wanted, analyse, answer, before, output, points_within, read, sagitta, taught_program, teach,
+    BallbarAnalysis, BallbarAnswer, Centring, CirclePlacement, Cyclic, FileOptions, Measured, Question,
+    TaughtAnswer, TaughtCircle, analyse, answer, before, output, points_within, read, sagitta,
+    taught_program, teach,
 };
 use armill_study::number::decimals;
 use armill_study::studies;
@@ -33,18 +34,18 @@ use crate::Outcome;
 use crate::arguments::{BallbarArguments, CentreChoice};
 use crate::terminal::{Align, columns, print, say};
 
-/// Most lobes: beyond these nothing is measured.
+/// Highest lobe: higher ones cannot be measured.
 const MOST_LOBES: usize = 360;
-/// Points that are taught, and most of them.
+/// Default and greatest number of corrected points.
 const USUAL_POINTS: usize = 72;
 const MOST_POINTS: usize = 3600;
-/// Outliers that are told in words.
+/// Number of outliers listed in the text.
 const MOST_OUTLIERS: usize = 10;
 
-/// Reads, analyses, writes what was asked for and prints.
+/// Reads, analyses, writes the requested files and prints the result.
 ///
 /// # Errors
-/// Files that cannot be read, or their problems; options that cannot be; a place where nothing can be written.
+/// Files that cannot be read, or their problems; invalid options; files that cannot be written.
 pub(crate) fn run(arguments: &BallbarArguments) -> Result<Outcome, StudyError> {
     let (requested, question) = (requested(arguments)?, question(arguments)?);
     let measured = read(&arguments.files, &requested)?;
@@ -73,10 +74,10 @@ pub(crate) fn run(arguments: &BallbarArguments) -> Result<Outcome, StudyError> {
             out.path().display()
         ));
     }
-    // Last, so that points stand nowhere if the folder cannot be written.
+    // Last, so that no points are written if the folder cannot be written.
     if let (Some(file), Some(table)) = (&arguments.teach, &table) {
         writer.write(file, table)?;
-        say(&format!("points to teach in {}", file.display()));
+        say(&format!("corrected points in {}", file.display()));
     }
     if let Some((_, _, Some((folder, written)))) = &taught {
         save(&writer, folder, written)?;
@@ -92,16 +93,16 @@ pub(crate) fn run(arguments: &BallbarArguments) -> Result<Outcome, StudyError> {
     Ok(Outcome::Fine)
 }
 
-/// A program, with the folder that it goes to.
+/// A program and its folder.
 type Program = (PathBuf, Written);
 
-/// The circle to teach, where it is asked for, and its program.
+/// The corrected circle, if requested, and its program.
 fn taught(
     arguments: &BallbarArguments,
-    (measured, found): (&Measured, &Found),
+    (measured, found): (&Measured, &BallbarAnalysis),
 ) -> Result<Option<(TaughtAnswer, TaughtCircle, Option<Program>)>, StudyError> {
-    let told_feed = measured.feed.map(|feed| feed * 60e3);
-    let program = program::requested(&arguments.program, arguments.feed_mm_per_min.or(told_feed))?;
+    let file_feed = measured.feed.map(|feed| feed * 60e3);
+    let program = program::requested(&arguments.program, arguments.feed_mm_per_min.or(file_feed))?;
     if arguments.teach.is_none() && program.is_none() {
         return Ok(None);
     }
@@ -114,10 +115,10 @@ fn taught(
         .unwrap_or(needed.unwrap_or(USUAL_POINTS).min(MOST_POINTS));
     if points <= 2 * arguments.teach_lobes {
         let message = format!(
-            "--points: {points} points cannot hold the {} lobes of --teach-lobes",
+            "--points: {points} points are too few for the {} lobes of --teach-lobes",
             arguments.teach_lobes
         );
-        return Err(StudyError::value(message, "more than two points a lobe"));
+        return Err(StudyError::value(message, "more than two points per lobe"));
     }
     let (given, circle) = teach(found, (points, arguments.teach_lobes))?;
     let Some((folder, requested)) = program else {
@@ -125,12 +126,12 @@ fn taught(
     };
     let Some(study) = &arguments.study else {
         return Err(StudyError::value(
-            "--program: where the circle lies, and of which robot, a study tells",
+            "--program requires a study that gives the circle and the robot",
             "--study STUDY",
         ));
     };
     finite("--zero-deg", &[arguments.zero_deg])?;
-    let place = CircleWanted {
+    let place = CirclePlacement {
         analysis: arguments.analysis.clone(),
         zero: arguments.zero_deg.to_radians(),
         mirrored: arguments.mirrored,
@@ -140,7 +141,7 @@ fn taught(
     let sagitta = sagitta(radius, points);
     if sagitta > requested.within {
         written.notes.push(format!(
-            "straight moves between {points} points leave the circle by {:.1} um; {} points keep within {} um",
+            "linear moves between {points} points deviate by {:.1} um from the circle; {} points are within {} um",
             sagitta * 1e6,
             points_within(radius, requested.within),
             arguments.program.within_um
@@ -149,15 +150,16 @@ fn taught(
     Ok(Some((given, circle, Some((folder, written)))))
 }
 
-/// What files do not tell.
-fn requested(arguments: &BallbarArguments) -> Result<Wanted, StudyError> {
+/// Data that the files do not contain.
+fn requested(arguments: &BallbarArguments) -> Result<FileOptions, StudyError> {
     let direction = arguments.direction.as_deref().map(|word| {
-        direction_of(word)
-            .ok_or_else(|| StudyError::value(format!("--direction: `{word}` is no direction"), "CW or CCW"))
+        direction_of(word).ok_or_else(|| {
+            StudyError::value(format!("--direction: `{word}` is not a direction"), "CW or CCW")
+        })
     });
     let positive = |flag: &str, value: Option<f64>| value.map(|value| above_zero(flag, value)).transpose();
     finite("--start-deg", arguments.start_deg.as_slice())?;
-    Ok(Wanted {
+    Ok(FileOptions {
         given: BallbarReadOptions {
             radius: positive("--radius-mm", arguments.radius_mm)?.map(|mm| mm * 1e-3),
             direction: direction.transpose()?,
@@ -168,7 +170,7 @@ fn requested(arguments: &BallbarArguments) -> Result<Wanted, StudyError> {
     })
 }
 
-/// What is asked.
+/// Settings of the analysis.
 fn question(arguments: &BallbarArguments) -> Result<Question, StudyError> {
     for (flag, value, [least, most]) in [
         ("--lobes", arguments.lobes, [0, MOST_LOBES]),
@@ -187,15 +189,15 @@ fn question(arguments: &BallbarArguments) -> Result<Question, StudyError> {
     finite("--reversal-deg", &arguments.reversal_deg)?;
     let cyclic = match arguments.cyclic.as_deref() {
         None => Cyclic::None,
-        Some("found") => Cyclic::Found,
+        Some("found") => Cyclic::Search,
         Some(word) => {
             let period = word.parse().map_err(|_| {
                 StudyError::value(
-                    format!("--cyclic: `{word}` is no period"),
+                    format!("--cyclic: `{word}` is not a period"),
                     "millimetres such as 10, or `found`",
                 )
             })?;
-            Cyclic::Told(above_zero("--cyclic", period)? * 1e-3)
+            Cyclic::Period(above_zero("--cyclic", period)? * 1e-3)
         }
     };
     Ok(Question {
@@ -215,7 +217,7 @@ fn question(arguments: &BallbarArguments) -> Result<Question, StudyError> {
     })
 }
 
-/// The answer as a person reads it, see the head of this file.
+/// The result as text, see the documentation of this module.
 fn as_text(answer: &BallbarAnswer) -> String {
     let mut lines = vec![head(answer), String::new()];
     lines.extend(table(
@@ -238,7 +240,7 @@ fn as_text(answer: &BallbarAnswer) -> String {
     ));
     lines.push(String::new());
     lines.push(format!(
-        "both ways    G(b) {} um, D {} um, H {} um",
+        "both directions    G(b) {} um, D {} um, H {} um",
         um(answer.circular_bidirectional_um),
         um(answer.mean_bidirectional_um),
         um(answer.hysteresis_um)
@@ -285,9 +287,9 @@ fn head(answer: &BallbarAnswer) -> String {
         .unwrap_or_default();
     let centre = match (answer.centring.centre, answer.centring.offset_um) {
         ("setup", Some([x, y])) => {
-            format!("as set up; the least-squares centre lies ({x:.1}, {y:.1}) um from it")
+            format!("as set up; the least-squares centre is ({x:.1}, {y:.1}) um from it")
         }
-        (_, Some([x, y])) => format!("least-squares, ({x:.1}, {y:.1}) um from the set-up taken off"),
+        (_, Some([x, y])) => format!("least-squares, offset ({x:.1}, {y:.1}) um from the set-up removed"),
         (_, None) => "as set up".to_owned(),
     };
     format!(
@@ -309,17 +311,17 @@ fn shown(name: &str, samples: String, of: &ShownAnswer) -> Vec<String> {
     ]
 }
 
-/// Rows below each other, the first column to the left.
+/// Aligned rows, the first column to the left.
 fn table(rows: impl Iterator<Item = Vec<String>>) -> Vec<String> {
     columns(&rows.collect::<Vec<_>>(), &[Align::Left])
 }
 
-/// A tenth of a micrometre; a dash where there is none.
+/// In tenths of a micrometre; a dash for no value.
 fn um(value: Option<f64>) -> String {
     value.map_or_else(|| "-".to_owned(), |value| format!("{value:.1}"))
 }
 
-/// What makes the circle what it is.
+/// Contributions to the circular deviation.
 fn parts(answer: &BallbarAnswer) -> Vec<String> {
     let Some(parts) = &answer.parts else {
         return Vec::new();
@@ -327,7 +329,7 @@ fn parts(answer: &BallbarAnswer) -> Vec<String> {
     let mut lines = vec![
         String::new(),
         format!(
-            "parts        {:.2} um rms about the circle, {:.2} um unexplained",
+            "contributions  {:.2} um rms about the circle, {:.2} um unexplained",
             parts.rms_before_um, parts.rms_after_um
         ),
     ];
@@ -338,7 +340,7 @@ fn parts(answer: &BallbarAnswer) -> Vec<String> {
             format!("+- {:.2} um", 2.0 * part.u_um),
         ]
     };
-    // Lobes have a line of their own below.
+    // Lobes have their own line below.
     let shown = parts.radial.iter().filter(|part| part.kind != "lobes");
     lines.extend(table(shown.map(row)));
     let [a, b] = &answer.axes;
@@ -358,7 +360,7 @@ fn parts(answer: &BallbarAnswer) -> Vec<String> {
     }
     if let (Some(late), Some(u)) = (parts.servo_mismatch_s, parts.servo_mismatch_u_s) {
         lines.push(format!(
-            "servo        {a} follows {b} by {:+.3} ms, +- {:.3} ms",
+            "servo        {a} lags {b} by {:+.3} ms, +- {:.3} ms",
             late * 1e3,
             2e3 * u
         ));
@@ -378,11 +380,7 @@ fn outliers(answer: &BallbarAnswer) -> Vec<String> {
         .iter()
         .take(MOST_OUTLIERS)
         .map(|of| {
-            let why = if of.at_reversal {
-                ", a spike of a reversal"
-            } else {
-                ""
-            };
+            let why = if of.at_reversal { ", a reversal spike" } else { "" };
             format!(
                 "outlier      {} at {:.2} deg: {:+.1} um{why}",
                 of.run, of.angle_deg, of.off_um
@@ -403,16 +401,16 @@ fn outliers(answer: &BallbarAnswer) -> Vec<String> {
     lines
 }
 
-/// What the bar's own program made of it.
+/// Results of the software of the ball-bar.
 fn results(answer: &BallbarAnswer) -> Vec<String> {
     let mut lines = Vec::new();
     for of in &answer.results {
         lines.push(String::new());
-        lines.push(format!("{}: results of the bar's own program, no radii", of.file));
+        lines.push(format!("{}: results of the ball-bar software, no radii", of.file));
         let row = |feature: &FeatureAnswer| {
             let ours = feature
                 .ours
-                .map_or_else(String::new, |ours| format!("ours {ours:.1}"));
+                .map_or_else(String::new, |ours| format!("armill {ours:.1}"));
             vec![
                 format!("  {}", feature.name),
                 feature.value.to_string(),
@@ -422,19 +420,19 @@ fn results(answer: &BallbarAnswer) -> Vec<String> {
         };
         lines.extend(table(of.features.iter().map(row)));
         if !of.without_number.is_empty() {
-            lines.push(format!("  without a number: {}", of.without_number.join(", ")));
+            lines.push(format!("  without a value: {}", of.without_number.join(", ")));
         }
     }
     lines
 }
 
-/// The circle to teach, and the test before.
+/// The corrected circle, and the comparison with the previous test.
 fn steps(answer: &BallbarAnswer) -> Vec<String> {
     let mut lines = Vec::new();
     if let Some(taught) = &answer.taught {
         lines.push(String::new());
         lines.push(format!(
-            "to teach     {} points, moved by up to {:.1} um: a ring of {} um becomes {} um, as expected; {} um stay whatever is taught",
+            "to teach     {} points, moved by up to {:.1} um: circularity {} um, expected {} um; {} um cannot be corrected",
             taught.points,
             taught.largest_correction_um,
             um(taught.circular_before_um),

@@ -1,14 +1,14 @@
-//! `armill budget`: what the error of a measured circle is made of, and how much of it is predicted.
+//! `armill budget`: contributions to the error of a measured circle, and how much of it is predicted.
 //!
-//! Stdout holds a [`BudgetAnswer`], in words or as JSON; `--out` takes table and pictures.
+//! Stdout has a [`BudgetAnswer`], as text or JSON; `--out` receives the table and the pictures.
 //!
 //! ```text
 //! circle: radius 100 mm, 72 angles over 360 deg; centre least-squares, radius least-squares     circle, datum
-//! contribution   largest um   at deg   rms um   scatter um   u um   alone %   without %         each part of the error
-//! sums                                                                                          what they make together
-//! without load, predicted                                                                       beside what was measured
+//! contribution   largest um   at deg   rms um   scatter um   u um   alone %   without %         each contribution
+//! sums                                                                                          their combinations
+//! without load, predicted                                                                       compared with the measurement
 //! part, residual                                                                                how much is explained
-//! waves   part um   predicted um   phase deg   explained %                                      wave by wave
+//! waves   part um   predicted um   phase deg   explained %                                      per harmonic
 //! ```
 
 use armill_study::StudyError;
@@ -21,16 +21,20 @@ use crate::arguments::BudgetArguments;
 use crate::progress::Progress;
 use crate::terminal::{print, say};
 
-/// Runs the circle, writes what was asked for and prints.
+/// Runs the circle, writes the requested files and prints the result.
 ///
 /// # Errors
-/// No study there, or its problems; nothing measured; a folder or stdout that takes no more.
+/// No such study, or its problems; no measurements; a folder or stdout that cannot be written.
 pub(crate) fn run(arguments: &BudgetArguments) -> Result<Outcome, StudyError> {
     let study = studies::find(&arguments.study)?.read()?;
     let progress = Progress::new(point_count(&study)?);
     let (combined, given) = progress.watch(|watch| budget(&study, watch))?;
     if let Some(out) = &arguments.out {
-        output::write(&given, &combined, &arguments.writing.writer("budget").folder(out)?)?;
+        output::write(
+            &given,
+            &combined,
+            &arguments.writing.writer("budget").folder(out)?,
+        )?;
         say(&format!("table and pictures in {}", out.display()));
     }
     print(&match arguments.json {
@@ -40,7 +44,7 @@ pub(crate) fn run(arguments: &BudgetArguments) -> Result<Outcome, StudyError> {
     Ok(Outcome::Fine)
 }
 
-/// The answer as a person reads it, see the head of this file.
+/// The result as text, see the documentation of this module.
 fn as_text(given: &BudgetAnswer) -> String {
     let mut lines = vec![format!(
         "{} ({}): radius {} mm, {} angles over {:.0} deg; centre {}, radius {}",
@@ -53,7 +57,8 @@ fn as_text(given: &BudgetAnswer) -> String {
         given.datum.radius
     )];
     lines.extend(
-        given.files
+        given
+            .files
             .iter()
             .map(|file| format!("{:<18} {}", file.of, file.file)),
     );
@@ -78,12 +83,12 @@ fn as_text(given: &BudgetAnswer) -> String {
     }));
     let sums = &given.sums;
     lines.push(String::new());
-    lines.push(format!("{:<30} {:>10}", "largest together", "um"));
+    lines.push(format!("{:<30} {:>10}", "largest of the sum", "um"));
     lines.extend(
         [
-            ("added with their signs", sums.as_functions_um),
-            ("and twice the scatter", sums.with_scatter_um),
-            ("root of the squares", sums.root_sum_square_um),
+            ("signed sum", sums.as_functions_um),
+            ("signed sum and twice the scatter", sums.with_scatter_um),
+            ("root sum square", sums.root_sum_square_um),
         ]
         .map(|(name, um)| format!("{name:<30} {um:>10.2}")),
     );
@@ -91,15 +96,15 @@ fn as_text(given: &BudgetAnswer) -> String {
         "{:<30} {:>10.2}   load {:.2} and path without load {:.2}",
         "plain sum", sums.plain_um, sums.load_um, sums.unloaded_um
     ));
-    if let Some(beside) = &given.without_load {
+    if let Some(reference) = &given.without_load {
         lines.push(format!(
-            "{:<30} {:>10.2}   at {:.1} deg; measured {:.2} at {:.1} deg, explained {:.1} %; in no sum",
+            "{:<30} {:>10.2}   at {:.1} deg; measured {:.2} at {:.1} deg, explained {:.1} %; not part of the sums",
             "without load, predicted",
-            beside.predicted_um,
-            beside.predicted_at_deg,
-            beside.measured_um,
-            beside.measured_at_deg,
-            beside.explained_percent
+            reference.predicted_um,
+            reference.predicted_at_deg,
+            reference.measured_um,
+            reference.measured_at_deg,
+            reference.explained_percent
         ));
     }
     if let Some(part) = &given.part {
@@ -111,7 +116,7 @@ fn as_text(given: &BudgetAnswer) -> String {
     lines.join("\n")
 }
 
-/// The part and its waves.
+/// The part and its harmonics.
 fn of_part(part: &PartAnswer) -> Vec<String> {
     let percent = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.1}"));
     let mut lines = vec![
@@ -133,7 +138,7 @@ fn of_part(part: &PartAnswer) -> Vec<String> {
             part.explained_percent, part.explainable_percent
         ),
         format!(
-            "shapes alike by {} %, best size {} % of the predicted, turned as good at {} % of all angles",
+            "similarity of shape {} %, best size {} % of the predicted, as good when rotated for {} % of all angles",
             percent(part.likeness_percent),
             percent(part.best_size_percent),
             percent(part.turns_as_good_percent)

@@ -1,20 +1,20 @@
-//! `armill calibrate`: the geometry of this very arm from measured poses.
+//! `armill calibrate`: the geometry of one robot from measured poses.
 //!
-//! Stdout holds a [`CalibrateAnswer`], in words or as JSON; `--out` takes the robot with the small motions that were found,
-//! `--residuals` what is left at every pose, `--drawing` a picture of it.
+//! Stdout has a [`CalibrateAnswer`], as text or JSON; `--out` receives the robot with the identified corrections,
+//! `--residuals` the residual of every pose, `--drawing` a picture of them.
 //!
 //! ```text
 //! robot: file, poses, parameters
-//! errors            mean   rms   max             before and after; of the poses that it was found from, and held out
+//! errors            mean   rms   max             before and after; of the training poses and the validation poses
 //! parameter         value +- standard uncertainty
-//! not told          what does the same
-//! base, point                                    where they were found
+//! not separable     parameters with the same effect
+//! base, point                                    their identified frames
 //! ```
 
-use armill_core::calibrate::{Asked, Prior};
+use armill_core::calibrate::{ParameterSet, Prior};
 use armill_study::calibrate::answer::ParameterAnswer;
 use armill_study::calibrate::{
-    CalibrateAnswer, HoldOut, SetAnswer, answer, calibrate, drawing, read, residuals, robot_file,
+    CalibrateAnswer, SetAnswer, ValidationPoses, answer, calibrate, drawing, read, residuals, robot_file,
 };
 use armill_study::{StudyError, robots};
 
@@ -24,23 +24,28 @@ use crate::Outcome;
 use crate::arguments::{CalibrateArguments, UnknownsArgument};
 use crate::terminal::{print, say};
 
-/// Reads, calibrates, writes what was asked for and prints.
+/// Reads, calibrates, writes the requested files and prints the result.
 ///
 /// # Errors
-/// No such robot; options that cannot be; the problems of a file; poses that tell too little; a file that cannot be
+/// No such robot; invalid options; the problems of a file; poses that determine too little; a file that cannot be
 /// written.
 pub(crate) fn run(arguments: &CalibrateArguments) -> Result<Outcome, StudyError> {
     let found = robots::find(&arguments.robot, ".".as_ref())?;
     let requested = match arguments.unknowns {
-        UnknownsArgument::Geometry => Asked::Geometry,
-        UnknownsArgument::Zeros => Asked::Zeros,
+        UnknownsArgument::Geometry => ParameterSet::Geometry,
+        UnknownsArgument::Zeros => ParameterSet::Zeros,
     };
     let (mut question, given) = question(&arguments.poses, requested)?;
     question.prior = prior(arguments)?;
-    let hold_out = hold_out(arguments)?;
+    let validation = validation(arguments)?;
     let shown = arguments.poses_file.display().to_string();
     let measured = read((&shown, &arguments.poses_file), &found.robot, &given, &question)?;
-    let calibration = calibrate(&found.robot, (&shown, &measured), &question, (&hold_out, &given))?;
+    let calibration = calibrate(
+        &found.robot,
+        (&shown, &measured),
+        &question,
+        (&validation, &given),
+    )?;
     let answer = answer(&found.robot, &calibration, &question);
     let writer = arguments.writing.writer("calibrate");
     if let Some(file) = &arguments.out {
@@ -63,7 +68,7 @@ pub(crate) fn run(arguments: &CalibrateArguments) -> Result<Outcome, StudyError>
     Ok(Outcome::Fine)
 }
 
-/// How far small motions of the chain are from zero, as the options tell it.
+/// Prior standard deviations of the corrections, from the options.
 fn prior(arguments: &CalibrateArguments) -> Result<Option<Prior>, StudyError> {
     let Some((mm, deg)) = arguments.prior_mm.zip(arguments.prior_deg) else {
         return Ok(None);
@@ -74,24 +79,26 @@ fn prior(arguments: &CalibrateArguments) -> Result<Option<Prior>, StudyError> {
     }))
 }
 
-/// A number is a part of the file, all else another file.
-fn hold_out(arguments: &CalibrateArguments) -> Result<HoldOut, StudyError> {
-    let Some(text) = &arguments.hold_out else {
-        return Ok(HoldOut::Nothing);
+/// A number is a fraction of the file, any other text another file.
+fn validation(arguments: &CalibrateArguments) -> Result<ValidationPoses, StudyError> {
+    let Some(text) = &arguments.validation else {
+        return Ok(ValidationPoses::Nothing);
     };
     match text.parse::<f64>() {
-        Err(_) => Ok(HoldOut::File {
+        Err(_) => Ok(ValidationPoses::File {
             path: text.into(),
             same_set_up: arguments.same_set_up,
         }),
         Ok(part) if arguments.same_set_up => Err(StudyError::value(
-            format!("--same-set-up: the part {part} is of the same file, and so of the same set-up"),
-            "it goes with a file of other poses",
+            format!(
+                "--same-set-up: the fraction {part} is of the same file and therefore of the same set-up"
+            ),
+            "use it with a file of other poses",
         )),
-        Ok(part) if part > 0.0 && part < 1.0 => Ok(HoldOut::Fraction(part)),
+        Ok(part) if part > 0.0 && part < 1.0 => Ok(ValidationPoses::Fraction(part)),
         Ok(part) => Err(StudyError::value(
-            format!("--hold-out: {part} is not between 0 and 1"),
-            "a part such as 0.2, or a file of other poses",
+            format!("--validation: {part} is not between 0 and 1"),
+            "a fraction such as 0.2, or a file of other poses",
         )),
     }
 }
@@ -107,12 +114,12 @@ fn as_text(answer: &CalibrateAnswer) -> String {
     )];
     lines.extend(answer.prior.as_ref().map(|prior| {
         format!(
-            "prior {} mm and {} deg; of parameters, base and point the poses tell {:.1}",
+            "prior {} mm and {} deg; effective number of parameters, base and point included: {:.1}",
             prior.length_mm, prior.angle_deg, answer.effective_parameters
         )
     }));
     if !answer.unused.is_empty() {
-        lines.push(format!("passed over: {}", answer.unused.join(", ")));
+        lines.push(format!("unused columns: {}", answer.unused.join(", ")));
     }
     if answer.not_measured > 0 {
         lines.push(format!("rows without a measured point: {}", answer.not_measured));
@@ -122,17 +129,17 @@ fn as_text(answer: &CalibrateAnswer) -> String {
         lines.push(errors_head(&format!("{name}, {}", set.poses)));
         lines.push(errors_text("before", &set.before));
         lines.push(errors_text("after", &set.after));
-        let standing_out = set.worst.iter().filter(|pose| pose.stands_out);
-        lines.extend(standing_out.map(|pose| {
+        let outliers = set.worst.iter().filter(|pose| pose.is_outlier);
+        lines.extend(outliers.map(|pose| {
             format!(
-                "stands out             line {} of {}: {:.3} mm",
+                "outlier                line {} of {}: {:.3} mm",
                 pose.line, set.file, pose.error_mm
             )
         }));
     };
-    set("found from", training);
-    if let Some(held_out) = &answer.held_out {
-        set("held out", held_out);
+    set("training", training);
+    if let Some(validation) = &answer.validation {
+        set("validation", validation);
     }
     lines.push(String::new());
     lines.push(format!(
@@ -146,10 +153,10 @@ fn as_text(answer: &CalibrateAnswer) -> String {
             .not_identifiable
             .iter()
             .map(|redundant| match &redundant.same_as[..] {
-                [] => format!("not seen        {}: no pose shows it", redundant.name),
-                [one] => format!("not told apart  {}: {one} does the same", redundant.name),
+                [] => format!("no effect       {}: not determined by any pose", redundant.name),
+                [one] => format!("not separable   {}: same effect as {one}", redundant.name),
                 same => format!(
-                    "not told apart  {}: {} together do the same",
+                    "not separable   {}: same effect as {} together",
                     redundant.name,
                     same.join(", ")
                 ),

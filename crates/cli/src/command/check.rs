@@ -1,6 +1,7 @@
-//! `armill check`: every problem of a study at once.
+//! `armill check`: all problems of a study.
 //!
-//! Problems are told on stderr, with `--json` on stdout too; where there are none, stderr says how much there is to run.
+//! Problems are printed on stderr, with `--json` on stdout too. If there are none, stderr reports the size of the
+//! study.
 //! `--schema` prints the JSON Schema of the study file instead.
 
 use armill_formats::document::schema_json;
@@ -15,7 +16,7 @@ use crate::terminal::{print, say};
 /// Checks the study, or prints the schema.
 ///
 /// # Errors
-/// No study there; every problem of its file, told together.
+/// No such study; all problems of its file together.
 pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, StudyError> {
     if arguments.schema {
         print(schema_json::<StudyFile>().trim_end())?;
@@ -26,10 +27,12 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, StudyError> {
     if arguments.json {
         print(r#"{"problems":[]}"#)?;
     }
-    let counted = |count: usize, noun: &str| format!("{count} {noun}{}", if count == 1 { "" } else { "s" });
+    let counted = |count: usize, [one, several]: [&str; 2]| {
+        format!("{count} {}", if count == 1 { one } else { several })
+    };
     let (analyses, points) = (
-        counted(study.analyses.len(), "analysis"),
-        counted(point_count(&study), "point"),
+        counted(study.analyses.len(), ["analysis", "analyses"]),
+        counted(point_count(&study), ["point", "points"]),
     );
     say(&format!("{}: fine; {analyses}, {points}", found.shown));
     Ok(Outcome::Fine)

@@ -1,7 +1,8 @@
-//! `armill compare`: the same path in several cells, side by side.
+//! `armill compare`: the same paths in several cells.
 //!
-//! Files go into `--out` (`compare` beside the first study). Stdout holds a table an ask, paths first, each with its ranking
-//! in a sentence, what differs, and what makes it doubtful; or with `--json` all of `result.json`.
+//! Files go into `--out` (`compare` next to the first study). Stdout has one table per analysis, paths first, each
+//! with its
+//! ranking as text, the differences, and what limits the comparison; or with `--json` all of `result.json`.
 
 use armill_study::StudyError;
 use armill_study::compare::{
@@ -16,10 +17,11 @@ use crate::arguments::CompareArguments;
 use crate::progress::Progress;
 use crate::terminal::{Align, columns, print, say};
 
-/// Compares and writes.
+/// Compares and writes the results.
 ///
 /// # Errors
-/// No study there, its problems, or nothing to compare; a folder where nothing can be written, told before any work is done.
+/// No such study, its problems, or nothing to compare; a folder that cannot be written (reported before the work
+/// starts).
 pub(crate) fn run(arguments: &CompareArguments) -> Result<Outcome, StudyError> {
     let of = comparable(cells(&arguments.studies, &arguments.robots)?)?;
     let writer = arguments.writing.writer("compare");
@@ -36,7 +38,7 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<Outcome, StudyError> {
     let compared = in_pool(arguments.threads, || {
         let progress = Progress::new(of.point_count());
         let compared = progress.watch(|watch| compare(&of, watch))?;
-        write(&compared, (&out, requested), &|name| progress.tell(name))?;
+        write(&compared, (&out, requested), &|name| progress.set_message(name))?;
         Ok::<_, StudyError>(compared)
     })??;
     let answer = &compared.answer;
@@ -52,7 +54,7 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<Outcome, StudyError> {
     Ok(Outcome::Fine)
 }
 
-/// A paragraph an ask.
+/// One paragraph per analysis.
 fn as_text(answer: &ComparisonAnswer) -> String {
     let mut lines = Vec::new();
     let mut given: Vec<String> = Vec::new();
@@ -60,9 +62,11 @@ fn as_text(answer: &ComparisonAnswer) -> String {
         if !lines.is_empty() {
             lines.push(String::new());
         }
-        lines.extend(of_ask(analysis));
-        // What all asks have in common to say is said once.
-        let notes = differences(analysis).into_iter().chain(analysis.notes.iter().cloned());
+        lines.extend(of_analysis(analysis));
+        // Sentences that all analyses have in common are printed once.
+        let notes = differences(analysis)
+            .into_iter()
+            .chain(analysis.notes.iter().cloned());
         for note in notes {
             if !given.contains(&note) {
                 lines.push(note.clone());
@@ -77,8 +81,8 @@ fn as_text(answer: &ComparisonAnswer) -> String {
     lines.join("\n")
 }
 
-/// The ranking and the table of one ask, um.
-fn of_ask(analysis: &ComparedAnswer) -> Vec<String> {
+/// The ranking and the table of one analysis, um.
+fn of_analysis(analysis: &ComparedAnswer) -> Vec<String> {
     let head = [
         "cell",
         "robot",
@@ -91,9 +95,9 @@ fn of_ask(analysis: &ComparedAnswer) -> Vec<String> {
         "largest",
         "± (k=2)",
         "normal",
-        "limit",
+        "tolerance",
         "within",
-        "mostly by",
+        "largest joint",
     ];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     rows.extend(analysis.cells.iter().map(row));
@@ -150,10 +154,10 @@ fn row(cell: &CellNumbers) -> Vec<String> {
     ]
 }
 
-/// What has columns of the table.
+/// Differences that have a column in the table.
 const IN_COLUMNS: [&str; 3] = ["robot", "compliance", "tolerance"];
 
-/// In what the cells differ besides what the table has, a line each.
+/// Differences between the cells that are not in the table, one line each.
 fn differences(analysis: &ComparedAnswer) -> Vec<String> {
     let differing = analysis
         .traits
@@ -162,7 +166,9 @@ fn differences(analysis: &ComparedAnswer) -> Vec<String> {
     differing
         .map(|one| {
             let of = analysis.cells.iter().zip(&one.of);
-            let given: Vec<String> = of.map(|(cell, given)| format!("{}: {given}", cell.cell)).collect();
+            let given: Vec<String> = of
+                .map(|(cell, given)| format!("{}: {given}", cell.cell))
+                .collect();
             format!("Differs: {}. {}.", one.what, given.join("; "))
         })
         .collect()

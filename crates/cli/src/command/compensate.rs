@@ -1,7 +1,7 @@
-//! `armill compensate`: the paths that must be commanded so that the tool goes where it is drawn.
+//! `armill compensate`: compensated paths, commanded so that the tool follows the nominal path.
 //!
-//! `--out` (`compensated` beside the study) takes a table and a picture a path; stdout a line each, before and
-//! after. `--program` takes the path as a program of the robot, in the language of its ending.
+//! `--out` (`compensated` next to the study) receives one table and one picture per path; stdout one line each, before
+//! and after. `--program` writes the path as a robot program, in the language of its extension.
 
 use std::fmt::Write as _;
 
@@ -12,16 +12,16 @@ use armill_study::in_place::allow_programs;
 use armill_study::program_out::program;
 use armill_study::{StudyError, studies};
 
-use super::program::{save, requested};
+use super::program::{requested, save};
 use crate::Outcome;
 use crate::arguments::CompensateArguments;
 use crate::progress::Progress;
 use crate::terminal::{print, say};
 
-/// Compensates and writes.
+/// Compensates and writes the results.
 ///
 /// # Errors
-/// No study there, or its problems; no such path; a folder where nothing can be written.
+/// No such study, or its problems; no such path; a folder that cannot be written.
 pub(crate) fn run(arguments: &CompensateArguments) -> Result<Outcome, StudyError> {
     let found = studies::find(&arguments.study)?;
     let study = found.read()?;
@@ -61,17 +61,17 @@ pub(crate) fn run(arguments: &CompensateArguments) -> Result<Outcome, StudyError
     if let Some((folder, requested)) = &requested {
         let [one] = &commanded[..] else {
             let message = format!(
-                "--program: the study has {} paths, a program is one",
+                "--program: the study has {} paths, a program contains one",
                 commanded.len()
             );
-            return Err(StudyError::value(message, "name it: --analysis NAME"));
+            return Err(StudyError::value(message, "select one: --analysis NAME"));
         };
         let written = program(&study, one.setting, (&one.path.0, &one.path.1), requested)?;
         save(&writer, folder, &written)?;
     }
     let any = |known: fn(&StiffnessModel) -> bool| commanded.iter().any(|one| known(&one.setting.model));
     let answer = CompensationAnswer {
-        backlash: any(|model| model.structure.gaps().next().is_some()),
+        backlash: any(|model| model.structure.joints_with_backlash().next().is_some()),
         geometry: any(|model| model.actual.is_some()),
         paths: commanded.into_iter().map(|one| one.given).collect(),
         compliance_assumed: study.compliance_is_assumed(),
@@ -81,15 +81,15 @@ pub(crate) fn run(arguments: &CompensateArguments) -> Result<Outcome, StudyError
     } else {
         as_text(&answer)
     })?;
-    say(&format!("paths to command in {}", out.display()));
+    say(&format!("commanded paths in {}", out.display()));
     Ok(Outcome::Fine)
 }
 
-/// What came of the program that a path came from.
+/// Result for a path from a robot program.
 fn in_place(path: &CompensatedPath) -> Vec<String> {
     let written = path.in_place.iter().map(|given| {
         format!(
-            "{}: {} written with {} targets moved: in its own moves {:.2} µm ({:.2} µm rms)",
+            "{}: {} written with {} changed targets; largest deviation of its moves {:.2} µm ({:.2} µm rms)",
             path.name,
             given.files.join(", "),
             given.moved_targets,
@@ -111,11 +111,11 @@ fn as_text(answer: &CompensationAnswer) -> String {
         .iter()
         .map(|path| match path.rounds {
             0 => format!(
-                "{}: as it is drawn; the tool goes {:.1} µm from it at most ({:.1} µm rms)",
+                "{}: not compensated; largest deviation of the tool {:.1} µm ({:.1} µm rms)",
                 path.name, path.before.max_um, path.before.rms_um
             ),
             _ => format!(
-                "{}: the tool goes {:.1} µm from the path at most ({:.1} µm rms), compensated {:.2} µm ({:.2} µm rms); points move by up to {:.1} µm",
+                "{}: largest deviation of the tool {:.1} µm ({:.1} µm rms), compensated {:.2} µm ({:.2} µm rms); points move by up to {:.1} µm",
                 path.name, path.before.max_um, path.before.rms_um, path.after.max_um, path.after.rms_um, path.largest_correction_um
             ),
         })
@@ -126,14 +126,14 @@ fn as_text(answer: &CompensationAnswer) -> String {
         .filter(|path| path.unreachable + path.outside_joint_limits > 0)
     {
         lines.push(format!(
-            "{}: {} of {} points are out of reach and stay; {} stand outside joint limits",
+            "{}: {} of {} points are out of reach and remain unchanged; {} are outside joint limits",
             path.name, path.unreachable, path.points, path.outside_joint_limits
         ));
     }
     lines.extend(answer.paths.iter().flat_map(in_place));
     let parts = [
         (answer.backlash, "backlash"),
-        (answer.geometry, "the geometry of the arm"),
+        (answer.geometry, "the geometric errors of the robot"),
     ];
     let named = |counts: bool| {
         parts
@@ -142,10 +142,10 @@ fn as_text(answer: &CompensationAnswer) -> String {
             .map(|part| part.1)
     };
     let within = ["elastic deviation"].into_iter().chain(named(true));
-    let mut known = format!("As predicted of {}", within.collect::<Vec<_>>().join(", "));
+    let mut known = format!("Predicted from {}", within.collect::<Vec<_>>().join(", "));
     let without: Vec<&str> = named(false).collect();
     if !without.is_empty() {
-        let _ = write!(known, "; {}: not known, not in it", without.join(", "));
+        let _ = write!(known, "; not known and not included: {}", without.join(", "));
     }
     lines.push(known + ".");
     if answer.compliance_assumed {

@@ -1,4 +1,4 @@
-//! `armill completions`: the script that a shell sources, on stdout.
+//! `armill completions`: the completion script for a shell, on stdout.
 
 use armill_study::StudyError;
 use clap::CommandFactory;
@@ -6,10 +6,10 @@ use clap::CommandFactory;
 use crate::Outcome;
 use crate::arguments::{Arguments, CompletionsArguments};
 
-/// Prints the script, made from the same arguments that are parsed.
+/// Prints the script, generated from the definition of the arguments.
 ///
 /// # Errors
-/// Stdout takes no more.
+/// Stdout cannot be written.
 pub(crate) fn run(arguments: &CompletionsArguments) -> Result<Outcome, StudyError> {
     let mut script = Vec::new();
     clap_complete::generate(arguments.shell, &mut Arguments::command(), "armill", &mut script);

@@ -1,18 +1,18 @@
-//! Drawings on disk, as SVG or PNG by the name of the file.
+//! Drawings in files, as SVG or PNG depending on the extension.
 
 use std::path::Path;
 
 use armill_formats::file::Writer;
 use armill_study::StudyError;
 
-/// Pixels of a PNG to one of an SVG, each way: sharp on paper.
+/// Pixels of a PNG per unit of the SVG, in each direction: sharp in print.
 const PIXELS: f64 = 2.0;
 
-/// Writes `svg` to `file`: as it is where the name ends in `.svg`, as pixels where it ends in `.png`, in
-/// letters of either case. Says on stderr where it is.
+/// Writes `svg` to `file`: unchanged for the extension `.svg`, as pixels for `.png`, in upper or
+/// lower case. Reports the file on stderr.
 ///
 /// # Errors
-/// Another ending; a picture that cannot become pixels; a place where nothing can be written.
+/// Another extension; a picture that cannot be converted; a file that cannot be written.
 pub(super) fn write(writer: &Writer, file: &Path, svg: &str) -> Result<(), StudyError> {
     let ends_in = |requested: &str| {
         let ending = file.extension();
@@ -24,8 +24,8 @@ pub(super) fn write(writer: &Writer, file: &Path, svg: &str) -> Result<(), Study
         svg.as_bytes().to_vec()
     } else {
         return Err(StudyError::value(
-            format!("--drawing: {} is no picture that armill draws", file.display()),
-            "a name that ends in .svg or .png",
+            format!("--drawing: {} does not end in .svg or .png", file.display()),
+            "use one of these extensions",
         ));
     };
     writer.write(file, &bytes)?;

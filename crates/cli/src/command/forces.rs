@@ -1,17 +1,19 @@
-//! `armill forces`: what is in a record of a dynamometer, before and after drift and teeth are taken off.
+//! `armill forces`: a dynamometer record before and after removal of drift and filtering.
 //!
-//! `--rate-hz`, `--columns` and `--channels` say how the file is read, `--air-s` or `--no-drift`, `--low-pass-hz` and
-//! `--spindle-rpm` what is done to it. Stdout holds a [`ForcesAnswer`], in words or as JSON; `--out` takes tables and pictures.
+//! `--rate-hz`, `--columns` and `--channels` control how the file is read, `--air-s` or `--no-drift`, `--low-pass-hz`
+//! and
+//! `--spindle-rpm` how it is processed. Stdout has a [`ForcesAnswer`], as text or JSON; `--out` receives tables and
+//! pictures.
 //!
 //! ```text
 //! groove.txt: DynoWare, cycle 1 of 2                                 file, format
 //! 30000 samples from 0 s to 2.9999 s, 10000 Hz; Fx, Fy, Fz           what was read
-//! passed over: Ch4                                                   columns not used
-//! drift        (ox, oy, oz) N and (rx, ry, rz) N/s                   at the first sample, and its rate; or "left in"
+//! unused columns: Ch4                                                columns not used
+//! drift        (ox, oy, oz) N and (rx, ry, rz) N/s                   at the first sample, and its rate; or "not removed"
 //! N            mean least greatest   mean least greatest             as measured | as used: Fx, Fy, Fz, size
 //! ```
 //!
-//! Times and rates are told to a microsecond, forces to a hundredth of a newton.
+//! Times and rates are reported to a microsecond, forces to a hundredth of a newton.
 
 use armill_core::load::ActsOn;
 use armill_formats::measurement::format::ForceReadOptions;
@@ -26,11 +28,11 @@ use crate::Outcome;
 use crate::arguments::ForcesArguments;
 use crate::terminal::{print, say};
 
-/// Reads, treats, writes what was asked for and prints.
+/// Reads, processes, writes the requested files and prints the result.
 ///
 /// # Errors
-/// A file that cannot be read, or its problems; a refusal of what is asked, under the name of its option; a
-/// folder or stdout that takes no more.
+/// A file that cannot be read, or its problems; an invalid setting, under the name of its option; a
+/// folder or stdout that cannot be written.
 pub(crate) fn run(arguments: &ForcesArguments) -> Result<Outcome, StudyError> {
     let shown = arguments.file.display().to_string();
     let requested = ForceReadOptions {
@@ -43,8 +45,13 @@ pub(crate) fn run(arguments: &ForcesArguments) -> Result<Outcome, StudyError> {
         low_pass_hz: arguments.low_pass_hz,
         spindle_rpm: arguments.spindle_rpm,
     };
-    // Nothing here asks what the force acts on: numbers are told as they stand in the file.
-    let measured = read((&shown, &arguments.file), ActsOn::Part, &requested, arguments.cycle);
+    // The direction of the force (on tool or part) is not needed here: numbers are reported as in the file.
+    let measured = read(
+        (&shown, &arguments.file),
+        ActsOn::Part,
+        &requested,
+        arguments.cycle,
+    );
     let measured = measured.map_err(|unread| match unread {
         Unread::File(problems) => problems,
         Unread::Value(refusal) => refused(refusal),
@@ -67,7 +74,7 @@ pub(crate) fn run(arguments: &ForcesArguments) -> Result<Outcome, StudyError> {
     Ok(Outcome::Fine)
 }
 
-/// A refusal of `armill_study`, told under the name of its option instead of that of its key.
+/// An error of `armill_study`, under the name of the option instead of that of the key.
 fn refused(refusal: Refusal) -> StudyError {
     let message = match refusal.key {
         "file" => refusal.message,
@@ -81,14 +88,14 @@ fn refused(refusal: Refusal) -> StudyError {
     StudyError::value(message, refusal.hint)
 }
 
-/// Where nothing is cut: `--no-drift` keeps the drift, `--air-s` tells the stretches, without either they are
-/// found.
+/// Intervals without cutting: `--no-drift` keeps the drift, `--air-s` gives the intervals, otherwise they are
+/// detected.
 fn air(arguments: &ForcesArguments) -> Result<Air, StudyError> {
     if arguments.no_drift {
-        return Ok(Air::Kept);
+        return Ok(Air::NotRemoved);
     }
     if arguments.air_s.is_empty() {
-        return Ok(Air::Found);
+        return Ok(Air::Detected);
     }
     let stretch = |text: &String| {
         let numbers: Vec<f64> = text
@@ -98,17 +105,17 @@ fn air(arguments: &ForcesArguments) -> Result<Air, StudyError> {
         match numbers[..] {
             [from, to] if text.split(',').count() == 2 => Ok([from, to]),
             _ => Err(StudyError::value(
-                format!("--air-s: `{text}` is no stretch of time"),
-                "its begin and its end in seconds, such as 0,0.5; give the option once a stretch",
+                format!("--air-s: `{text}` is not an interval"),
+                "begin and end in seconds, such as 0,0.5; repeat the option for several intervals",
             )),
         }
     };
-    Ok(Air::Told(
+    Ok(Air::Given(
         arguments.air_s.iter().map(stretch).collect::<Result<_, _>>()?,
     ))
 }
 
-/// The answer as a person reads it, see the head of this file.
+/// The result as text, see the documentation of this module.
 fn as_text(answer: &ForcesAnswer) -> String {
     let [cycle, cycles] = answer.cycle_of;
     let of_cycles = match cycles {
@@ -127,12 +134,12 @@ fn as_text(answer: &ForcesAnswer) -> String {
         ),
     ];
     if !answer.unused.is_empty() {
-        lines.push(format!("passed over: {}", answer.unused.join(", ")));
+        lines.push(format!("unused columns: {}", answer.unused.join(", ")));
     }
     lines.push(String::new());
     lines.push(match &answer.drift {
         Some(drift) => drift_text(drift),
-        None => "drift        left in".to_owned(),
+        None => "drift        not removed".to_owned(),
     });
     lines.extend(answer.low_pass_hz.map(|hz| format!("low-pass     {hz} Hz")));
     lines.push(String::new());
@@ -154,15 +161,15 @@ fn as_text(answer: &ForcesAnswer) -> String {
     lines.join("\n")
 }
 
-/// A row of the table: its name and where it is.
+/// A row of the table: its name and its values.
 type Row = (&'static str, fn(&SummaryAnswer) -> RangeAnswer);
 
-/// The rows of the table: components in the record's axes, and the size of the force.
+/// The rows of the table: components in the axes of the record, and the magnitude of the force.
 const ROWS: [Row; 4] = [
     ("Fx", |summary| summary.fx_n),
     ("Fy", |summary| summary.fy_n),
     ("Fz", |summary| summary.fz_n),
-    ("size", |summary| summary.size_n),
+    ("magnitude", |summary| summary.size_n),
 ];
 
 /// Mean, least and greatest as measured, then as used, N.
@@ -176,7 +183,7 @@ fn row(name: &str, before: RangeAnswer, after: RangeAnswer) -> String {
     format!("{name:<12} {}   {}", three(before), three(after))
 }
 
-/// What was taken off: force and rate, and the stretches that it was found in.
+/// The drift removed: force and rate, and the intervals from which it was determined.
 fn drift_text(drift: &DriftAnswer) -> String {
     let three = |[x, y, z]: [f64; 3]| format!("({x:.3}, {y:.3}, {z:.3})");
     let stretch = |[from, to]: &[f64; 2]| format!("{} to {} s", reported(*from), reported(*to));
@@ -188,8 +195,8 @@ fn drift_text(drift: &DriftAnswer) -> String {
         air.join(", "),
         drift.samples,
         match drift.air_found {
-            true => "found as the quietest; tell it with --air-s if it is not so",
-            false => "as told",
+            true => "detected as the quietest; use --air-s to change them",
+            false => "as given",
         }
     )
 }

@@ -1,16 +1,18 @@
-//! `armill identify`: springs from load tests, and which tests to do.
+//! `armill identify`: springs from load tests, and plans of tests.
 //!
-//! A table of tests gives an [`Answer`] on stdout and, with `--out`, the robot with its new compliances; `--plan` gives a
-//! table to fill in, on stdout or in `--out`, and on stderr what it will tell. `--unknowns`, `--points`, `--prior` and
+//! A table of tests gives an [`Answer`] on stdout and, with `--out`, the robot with its identified compliances;
+//! `--plan`
+//! gives a table to fill in, on stdout or in `--out`, and on stderr the expected result. `--unknowns`, `--points`,
+//! `--prior` and
 //! `--tool-mm` are the [`Question`] of both.
 //!
 //! | `--plan` | stdout | `--out` | stderr |
 //! |---|---|---|---|
-//! | given | the table, unless it goes to `--out`; the plan with `--json` | the table | what the tests will tell |
-//! | not given | springs, points, errors, in words or JSON | the robot with its compliances | where it is |
+//! | given | the table, unless it goes to `--out`; the plan with `--json` | the table | the expected uncertainty |
+//! | not given | springs, points, errors, as text or JSON | the robot with its compliances | the file written |
 //!
-//! Compliances are rad/(N m) about an axis and um/N along one; `+-` stands before a standard uncertainty in per
-//! cent of its value.
+//! Compliances are rad/(N m) about an axis and um/N along one; `+-` precedes a standard uncertainty in per
+//! cent of the value.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -22,7 +24,7 @@ use armill_formats::robot::RobotDescription;
 use armill_study::identify::answer::{ErrorsAnswer, PointAnswer};
 use armill_study::identify::robot_file::robot_file;
 use armill_study::identify::{
-    Answer, PlanAnswer, PointsAsked, PriorAsked, Question, SpringAnswer, Units, answer, plan,
+    Answer, PlanAnswer, PointsModel, PriorModel, Question, SpringAnswer, Units, answer, plan,
 };
 use armill_study::{StudyError, robots};
 
@@ -34,8 +36,8 @@ use crate::terminal::{print, say};
 /// Identifies from tests, or plans tests.
 ///
 /// # Errors
-/// No such robot; a number that cannot be; neither a table nor a plan asked for; the problems of the table;
-/// springs that cannot be found from it; a file that cannot be written.
+/// No such robot; an invalid number; neither a table nor a plan requested; the problems of the table;
+/// springs that cannot be identified from it; a file that cannot be written.
 pub(crate) fn run(arguments: &IdentifyArguments) -> Result<Outcome, StudyError> {
     let found = robots::find(&arguments.robot, ".".as_ref())?;
     let question = question(arguments)?;
@@ -43,14 +45,14 @@ pub(crate) fn run(arguments: &IdentifyArguments) -> Result<Outcome, StudyError> 
         (_, Some(count)) => plan_tests(arguments, &found, &question, count),
         (Some(tests), None) => from_tests(arguments, &found, &question, tests),
         (None, None) => Err(StudyError::value(
-            "neither a table of tests nor --plan",
+            "a table of tests or --plan is required",
             "`armill identify TESTS.csv --robot R`, or `armill identify --plan 20 --robot R` for a table to fill in",
         )),
     }
 }
 
-/// What is asked of tests and of plans alike, in SI. The pull and the gauge are checked even where no plan
-/// needs them.
+/// Settings for tests and plans, in SI. The force and the sensor are checked even if no plan
+/// uses them.
 fn question(arguments: &IdentifyArguments) -> Result<Question, StudyError> {
     let tool_point_mm = match &arguments.tool_mm {
         Some(tool_mm) => three("--tool-mm", tool_mm)?,
@@ -61,14 +63,14 @@ fn question(arguments: &IdentifyArguments) -> Result<Question, StudyError> {
     Ok(Question {
         unknowns: arguments.unknowns.clone(),
         points: match arguments.points {
-            PointsArgument::Known => PointsAsked::Known,
-            PointsArgument::Common => PointsAsked::Common,
-            PointsArgument::Separate => PointsAsked::Separate,
+            PointsArgument::Known => PointsModel::Known,
+            PointsArgument::Common => PointsModel::Common,
+            PointsArgument::Separate => PointsModel::Separate,
         },
         point_u: above_zero("--point-u-mm", arguments.point_u_mm)? * 1e-3,
         prior: match arguments.prior {
-            PriorArgument::Typical => PriorAsked::Typical,
-            PriorArgument::None => PriorAsked::None,
+            PriorArgument::Typical => PriorModel::Typical,
+            PriorArgument::None => PriorModel::None,
         },
         tool_point: tool_point_mm * 1e-3,
         units: if arguments.trust_units {
@@ -79,7 +81,7 @@ fn question(arguments: &IdentifyArguments) -> Result<Question, StudyError> {
     })
 }
 
-/// Proposes `count` tests and says what they will tell.
+/// Proposes `count` tests and reports the expected result.
 fn plan_tests(
     arguments: &IdentifyArguments,
     found: &RobotDescription,
@@ -110,11 +112,12 @@ fn plan_tests(
     Ok(Outcome::Fine)
 }
 
-/// For each spring how well the tests will know it; less than half from the tests counts as hardly anything.
+/// The expected uncertainty of each spring; springs determined less than half by the tests are reported as hardly
+/// known.
 fn plan_text(plan: &PlanAnswer) -> String {
     let mut text = format!(
-        "{} tests in {} postures of {}. Check each posture for room before you go there.\n\
-         What they will tell, if the gauge is as good as you say:",
+        "{} tests in {} postures of {}. Check each posture for collisions before you move there.\n\
+         Expected standard uncertainty, with the given uncertainty of the sensor:",
         plan.tests.len(),
         plan.postures,
         plan.robot
@@ -122,7 +125,7 @@ fn plan_text(plan: &PlanAnswer) -> String {
     for spring in &plan.springs {
         let percent = spring.relative_u_ratio * 100.0;
         let known = if spring.fraction_known_from_tests < 0.5 {
-            "hardly anything".to_owned()
+            "hardly determined".to_owned()
         } else if percent < 1.0 {
             "within 1 %".to_owned()
         } else {
@@ -133,7 +136,7 @@ fn plan_text(plan: &PlanAnswer) -> String {
     text
 }
 
-/// Reads the table and finds the springs; with `--out` a robot file that has them.
+/// Reads the table and identifies the springs; with `--out` writes a robot file with them.
 fn from_tests(
     arguments: &IdentifyArguments,
     found: &RobotDescription,
@@ -144,7 +147,7 @@ fn from_tests(
     let bytes = input::read(tests).map_err(|error| {
         StudyError::value(
             format!("cannot read {shown}: {error}"),
-            "a table of load tests, CSV; `armill identify --plan 20 --robot ...` makes one to fill in",
+            "a table of load tests, CSV; `armill identify --plan 20 --robot ...` writes one to fill in",
         )
     })?;
     let tests = load_tests::read(&shown, bytes.as_slice(), &found.robot, question.tool_point)?;
@@ -166,7 +169,7 @@ fn from_tests(
     Ok(Outcome::Fine)
 }
 
-/// The answer as a person reads it: springs, lost motion, points, errors, outliers, what cannot be told apart,
+/// The result as text: springs, lost motion, points, errors, outliers, springs that cannot be separated,
 /// notes.
 fn as_text(answer: &Answer) -> String {
     let mut lines = vec![format!(
@@ -178,7 +181,7 @@ fn as_text(answer: &Answer) -> String {
     )];
     lines.push(String::new());
     lines.push(format!(
-        "{:<16} {:>26} {:>20}   known from the tests",
+        "{:<16} {:>26} {:>20}   determined by the tests",
         "spring", "compliance", "stiffness"
     ));
     lines.extend(answer.springs.iter().map(spring_text));
@@ -205,16 +208,16 @@ fn as_text(answer: &Answer) -> String {
             .map(|test| format!("{} ({:.1} times the scatter)", test.name, test.residual_ratio))
             .collect();
         lines.push(format!(
-            "outliers     {}; they stay in, with limited weight",
+            "outliers     {}; they are used, with limited weight",
             named.join(", ")
         ));
     }
     for set in &answer.not_identifiable {
         lines.push(if set.len() == 1 {
-            format!("not seen     {}: no test loads it", set.join(", "))
+            format!("no effect    {}: not loaded in any test", set.join(", "))
         } else {
             format!(
-                "not told apart: {}: only some sums of them are known",
+                "not separable  {}: only some sums of them are known",
                 set.join(", ")
             )
         });
@@ -223,7 +226,7 @@ fn as_text(answer: &Answer) -> String {
     lines.join("\n")
 }
 
-/// One line a spring: compliance with its uncertainty, stiffness, and how much of it the tests tell.
+/// One line per spring: compliance with its uncertainty, stiffness, and how much of it the tests determine.
 fn spring_text(spring: &SpringAnswer) -> String {
     let (value, u, unit) = match (spring.compliance_rad_per_n_m, spring.compliance_um_per_n) {
         (Some(value), _) => (value, spring.compliance_u_rad_per_n_m.unwrap_or(0.0), "rad/(N m)"),
@@ -246,26 +249,26 @@ fn spring_text(spring: &SpringAnswer) -> String {
     )
 }
 
-/// A part of a whole in per cent; 0 of nothing.
+/// A fraction of a whole in per cent; 0 if the whole is 0.
 fn percent(part: f64, whole: f64) -> f64 {
     if whole > 0.0 { 100.0 * part / whole } else { 0.0 }
 }
 
-/// Where a point was found, in the flange frame, mm.
+/// An identified point, in the flange frame, mm.
 fn point_text(what: &str, point: &PointAnswer) -> String {
     let three = |[x, y, z]: [f64; 3]| format!("({x:.1}, {y:.1}, {z:.1})");
     format!(
-        "{what}  {} mm in the flange frame, {} mm from where it was told (standard uncertainty {} mm)",
+        "{what}  {} mm in the flange frame, {} mm from the given point (standard uncertainty {} mm)",
         three(point.tool_point_mm),
         three(point.shift_mm),
         three(point.shift_u_mm)
     )
 }
 
-/// How far the springs found miss the readings.
+/// The residuals of the identified springs.
 fn errors_text(what: &str, errors: &ErrorsAnswer) -> String {
     format!(
-        "{what:<12} mean {:.1} um, rms {:.1} um, largest {:.1} um; mean {:.1} % of what was measured",
+        "{what:<12} mean {:.1} um, rms {:.1} um, largest {:.1} um; mean {:.1} % of the measured displacement",
         errors.mean_um,
         errors.rms_um,
         errors.max_um,

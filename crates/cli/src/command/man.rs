@@ -1,4 +1,4 @@
-//! `armill man`: a manual page for `armill` and one for each of its commands, such as `armill-run.1`.
+//! `armill man`: one manual page for `armill` and one for each of its commands, such as `armill-run.1`.
 
 use std::path::PathBuf;
 
@@ -10,12 +10,12 @@ use clap_mangen::Man;
 use crate::Outcome;
 use crate::arguments::{Arguments, ManArguments};
 
-/// Writes the pages, made from the same arguments that are parsed, and prints their paths.
+/// Writes the pages, generated from the definition of the arguments, and prints their paths.
 ///
 /// # Errors
-/// A place where nothing can be written; stdout takes no more.
+/// A folder that cannot be written; stdout cannot be written.
 pub(crate) fn run(arguments: &ManArguments) -> Result<Outcome, StudyError> {
-    // What `armill help` would repeat has a page.
+    // `armill help` would repeat the pages of the commands.
     let mut armill = Arguments::command().disable_help_subcommand(true);
     // Names such as `armill-robots-import` are given here.
     armill.build();

@@ -1,7 +1,8 @@
-//! `armill materials`: the material library, one line a material ([`MaterialRow`]), or one with every set and what is used of
-//! them ([`KnownMaterial`]); in words or as JSON on stdout.
+//! `armill materials`: the material library, one line per material ([`MaterialRow`]), or one material with all sets
+//! and the
+//! values used ([`MaterialDetails`]); as text or JSON on stdout.
 
-use armill_study::materials::{KnownKienzle, KnownMaterial, KnownMechanistic, MaterialRow};
+use armill_study::materials::{KienzleDetails, MaterialDetails, MaterialRow, MechanisticDetails};
 use armill_study::number::{decimals, digits};
 use armill_study::{StudyError, library};
 
@@ -12,11 +13,11 @@ use crate::terminal::{Align, columns, print};
 /// Prints the library or one material of it.
 ///
 /// # Errors
-/// A name that is not there; a stdout that takes no more.
+/// An unknown name; stdout cannot be written.
 pub(crate) fn run(arguments: &MaterialsArguments) -> Result<Outcome, StudyError> {
     print(&match &arguments.name {
         Some(name) => {
-            let found = KnownMaterial::of(name, &library::find_material(name)?);
+            let found = MaterialDetails::of(name, &library::find_material(name)?);
             if arguments.json {
                 serde_json::to_string(&found)?
             } else {
@@ -38,7 +39,7 @@ pub(crate) fn run(arguments: &MaterialsArguments) -> Result<Outcome, StudyError>
     Ok(Outcome::Fine)
 }
 
-/// One line a material: name, title, and how many whole sets of each law.
+/// One line per material: name, title, and the number of complete sets for each law.
 fn table(rows: &[MaterialRow]) -> String {
     let law = |law: &str, sets: usize| match sets {
         0 => String::new(),
@@ -47,7 +48,7 @@ fn table(rows: &[MaterialRow]) -> String {
     };
     let cells = |row: &MaterialRow| {
         let mechanistic = if row.mechanistic_sets == 0 && row.mechanistic_listed > 0 {
-            "mechanistic (no whole set)".to_owned()
+            "mechanistic (no complete set)".to_owned()
         } else {
             law("mechanistic", row.mechanistic_sets)
         };
@@ -62,8 +63,8 @@ fn table(rows: &[MaterialRow]) -> String {
     columns(&cells, &[Align::Left; 4]).join("\n")
 }
 
-/// Every set of one material by law, under them what forces are computed from, and the sources.
-fn as_text(found: &KnownMaterial) -> String {
+/// All sets of one material by law, then the values used for forces, and the sources.
+fn as_text(found: &MaterialDetails) -> String {
     let mut lines = vec![format!("{} ({})", found.title, found.name)];
     lines.extend(found.note.iter().cloned());
     if !found.mechanistic.is_empty() {
@@ -76,7 +77,7 @@ fn as_text(found: &KnownMaterial) -> String {
         rows.extend(found.mechanistic.iter().map(mechanistic_row));
         rows.push(match &found.used.mechanistic {
             Some(used) => used_row(used.sets, &used.coefficients()),
-            None => vec!["no force is computed from these: no set has all six".to_owned()],
+            None => vec!["no forces can be computed from these: no set has all six coefficients".to_owned()],
         });
         lines.extend(indented(&rows));
         let notes = found
@@ -111,22 +112,22 @@ fn heads(symbols: &[&str]) -> Vec<String> {
     [String::new()].into_iter().chain(symbols).collect()
 }
 
-/// Rows below their heads, words to the left, numbers to the right.
+/// Rows below their headings, text to the left, numbers to the right.
 fn indented(rows: &[Vec<String>]) -> Vec<String> {
     let lines = columns(rows, &[Align::Left]);
     lines.iter().map(|line| format!("  {line}")).collect()
 }
 
-/// A set of coefficients under its tool and source; a dash for one that the source does not give.
-fn mechanistic_row(set: &KnownMechanistic) -> Vec<String> {
+/// A set of coefficients with its tool and source; a dash for one that the source does not give.
+fn mechanistic_row(set: &MechanisticDetails) -> Vec<String> {
     let numbers = set.coefficients();
     let numbers = numbers.map(|value| value.map_or("-".to_owned(), plain));
     let title = format!("{} [{}]", set.tool, set.source);
     [title].into_iter().chain(numbers).collect()
 }
 
-/// A pair of Kienzle values under its condition, group and source.
-fn kienzle_row(set: &KnownKienzle) -> Vec<String> {
+/// A pair of Kienzle values with its condition, group and source.
+fn kienzle_row(set: &KienzleDetails) -> Vec<String> {
     let group = set.group.map(|group| format!("group {group}"));
     let words: Vec<String> = set.condition.iter().cloned().chain(group).collect();
     let title = format!("{} [{}]", words.join(", "), set.source);
@@ -137,11 +138,11 @@ fn kienzle_row(set: &KnownKienzle) -> Vec<String> {
     ]
 }
 
-/// What forces are computed from: means, and the standard deviation of one set among the others, in four digits.
+/// Values used for forces: means, and the standard deviation between the sets, in four digits.
 fn used_row(sets: usize, numbers: &[(f64, Option<f64>)]) -> Vec<String> {
     let title = match sets {
-        1 => "used: the one whole set".to_owned(),
-        sets => format!("used: mean of {sets} whole sets"),
+        1 => "used: the only complete set".to_owned(),
+        sets => format!("used: mean of {sets} complete sets"),
     };
     let numbers = numbers.iter().map(|(mean, spread)| match spread {
         None => plain(*mean),
@@ -150,7 +151,7 @@ fn used_row(sets: usize, numbers: &[(f64, Option<f64>)]) -> Vec<String> {
     [title].into_iter().chain(numbers).collect()
 }
 
-/// As many digits as the source has, at most three behind the point.
+/// As many digits as the source has, at most three decimals.
 fn plain(value: f64) -> String {
     decimals(value, 3).to_string()
 }

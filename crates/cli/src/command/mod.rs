@@ -1,12 +1,16 @@
-//! What each command does: options into a question, the answer of `armill-study` onto stdout, in words or as JSON.
+//! The commands: options to a call of `armill-study`, its result to stdout, as text or JSON.
 //!
-//! A file a command: `run`, `check`, `compare`, `new`, `robots` (a folder, for its own commands), `materials`, `pose`, `posture`, `place`, `advise`, `compensate`, `identify`, `calibrate`,
-//! `forces`, `roundness`, `ballbar`, `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `serve`, `completions`, `man`. `poses`: options of measured poses. `program`: options of a program of the robot. `numbers`: what an option that takes numbers refuses. `drawing`: pictures that were asked for.
+//! One file per command: `run`, `check`, `compare`, `new`, `robots` (a folder, for its subcommands), `materials`,
+//! `pose`,
+//! `posture`, `place`, `advise`, `compensate`, `identify`, `calibrate`,
+//! `forces`, `roundness`, `ballbar`, `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `serve`, `completions`,
+//! `man`. `poses`: options of measured poses. `program`: options of a robot program. `numbers`: checks of options with
+//! numbers. `drawing`: writes requested pictures.
 //!
 //! Each command has one function `run(&Arguments) -> Result<Outcome, StudyError>`: it finds robot or study,
-//! makes the question from the options (numbers checked, mm and degrees into SI), asks `armill_study`, writes
-//! the files that were asked for, and prints the answer last. So a file that cannot be written is told before
-//! an answer that would seem complete. The functions called `as_text` or `..._text` make words out of an answer
+//! converts the options (numbers checked, mm and degrees to SI), calls `armill_study`, writes
+//! the requested files, and prints the result last. An error in writing a file is therefore reported before
+//! a result that would seem complete. The functions `as_text` or `..._text` format a result
 //! and compute no more than the length of a vector or a percentage.
 
 pub(crate) mod advise;

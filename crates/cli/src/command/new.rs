@@ -1,7 +1,8 @@
 //! `armill new`: a commented study that runs.
 //!
-//! Its text comes from [`armill_study::new`] by `--robot`, or all files of an example from [`armill_study::library`]; here
-//! they go into `DIR`, all or none. Stderr says what to do next; stdout is empty, or holds the paths as
+//! Its text is from [`armill_study::new`] for `--robot`, or all files of an example from [`armill_study::library`];
+//! here
+//! they are written into `DIR`, all or none. Stderr reports the next steps; stdout is empty, or has the paths as
 //! JSON.
 
 use std::path::PathBuf;
@@ -14,21 +15,21 @@ use crate::Outcome;
 use crate::arguments::NewArguments;
 use crate::terminal::{print, say};
 
-/// Makes the folder and the study in it.
+/// Creates the folder and the study in it.
 ///
 /// # Errors
-/// No such robot or example; a file that is there already; a place where nothing can be written.
+/// No such robot or example; a file that already exists; a folder that cannot be written.
 pub(crate) fn run(arguments: &NewArguments) -> Result<Outcome, StudyError> {
     let (files, first) = match &arguments.example {
         Some(name) => {
             let files = library::example(name)?;
             let texts = files.into_iter().map(|(name, file)| (name, file.text.to_owned()));
-            (texts.collect(), "look at it")
+            (texts.collect(), "check it")
         }
         None => {
             let made = new_study(&arguments.robot)?;
             let first = match made.compliances {
-                Compliances::Missing => "fill in its joint compliances",
+                Compliances::Missing => "add its joint compliances",
                 Compliances::Known | Compliances::Assumed => "edit it",
             };
             (vec![("study.toml", made.text)], first)
@@ -37,18 +38,18 @@ pub(crate) fn run(arguments: &NewArguments) -> Result<Outcome, StudyError> {
     let mut made = written(arguments, files)?.into_iter();
     let study = made.next().unwrap_or_default();
     let given = format!(
-        "made {study}; {first}, then: armill run {}",
+        "created {study}; {first}, then: armill run {}",
         arguments.dir.display()
     );
     if arguments.json {
-        let beside = made.collect();
-        print(&serde_json::to_string(&MadeStudy { study, beside })?)?;
+        let files = made.collect();
+        print(&serde_json::to_string(&MadeStudy { study, files })?)?;
     }
     say(&given);
     Ok(Outcome::Fine)
 }
 
-/// Writes these files, or none of them, and gives their paths.
+/// Writes all of these files or none, and returns their paths.
 fn written(arguments: &NewArguments, files: Vec<(&str, String)>) -> Result<Vec<String>, StudyError> {
     let files: Vec<(PathBuf, &[u8])> = (files.iter())
         .map(|(name, text)| (arguments.dir.join(name), text.as_bytes()))

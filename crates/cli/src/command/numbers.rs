@@ -1,24 +1,24 @@
-//! What an option that takes numbers refuses, in one voice: `--at-mm: 2 numbers`, `--axis: nan is not a finite number`.
+//! Checks of options with numbers, with uniform messages: `--at-mm: 2 numbers`, `--axis: nan is not a finite number`.
 //!
-//! | function | takes | refuses |
+//! | function | accepts | refuses |
 //! |---|---|---|
 //! | `finite` | any numbers | not finite; beyond 1e9 |
 //! | `above_zero` | one | also 0 and less |
 //! | `three` | three, as a vector | also another count |
-//! | `three_or_six` | a place, or a place and turns | also another count |
+//! | `three_or_six` | a position, or a position and angles | also another count |
 //!
-//! All keep the unit of their option; who calls them turns it into SI.
+//! All keep the unit of their option; the caller converts it to SI.
 
 use armill_core::nalgebra::Vector3;
 use armill_study::StudyError;
 
-/// No length (mm), angle (deg) or force (N) of a real cell is larger; beyond it a unit is wrong.
+/// No length (mm), angle (deg) or force (N) of a real cell is larger; a larger one has a wrong unit.
 const LARGEST: f64 = 1e9;
 
-/// Nothing, where all are numbers that a cell may have.
+/// `Ok` if all numbers are plausible.
 ///
 /// # Errors
-/// The first that is not finite, or beyond [`LARGEST`], behind the name of its option.
+/// The first number that is not finite, or beyond [`LARGEST`], with the name of its option.
 pub(super) fn finite(flag: &str, values: &[f64]) -> Result<(), StudyError> {
     if let Some(value) = values.iter().find(|value| !value.is_finite()) {
         return Err(StudyError::value(
@@ -35,7 +35,7 @@ pub(super) fn finite(flag: &str, values: &[f64]) -> Result<(), StudyError> {
     }
 }
 
-/// `value`, where it is above 0.
+/// `value`, if it is greater than 0.
 ///
 /// # Errors
 /// As [`finite`]; 0 or less.
@@ -60,12 +60,12 @@ pub(super) fn three(flag: &str, values: &[f64]) -> Result<Vector3<f64>, StudyErr
         [x, y, z] => Ok(Vector3::new(*x, *y, *z)),
         _ => Err(StudyError::value(
             format!("{flag}: {} numbers", values.len()),
-            "it takes three, such as 1000,0,800",
+            "three numbers are required, such as 1000,0,800",
         )),
     }
 }
 
-/// Three numbers, or six; the last three are 0 if left out, all six if the option is.
+/// Three or six numbers; the last three are 0 if not given, all six if the option is not given.
 ///
 /// # Errors
 /// As [`finite`]; another count.
@@ -77,7 +77,7 @@ pub(super) fn three_or_six(flag: &str, values: Option<&[f64]>) -> Result<[f64; 6
         [x, y, z, rx, ry, rz] => Ok([*x, *y, *z, *rx, *ry, *rz]),
         _ => Err(StudyError::value(
             format!("{flag}: {} numbers", values.len()),
-            "it takes three or six",
+            "three or six numbers are required",
         )),
     }
 }

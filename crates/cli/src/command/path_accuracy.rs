@@ -1,4 +1,4 @@
-//! `armill path-accuracy`: how near the tip keeps to its path, and how alike from run to run.
+//! `armill path-accuracy`: path accuracy and repeatability of the tip.
 //!
 //! ```text
 //! path: file, points, runs
@@ -13,10 +13,10 @@ use crate::Outcome;
 use crate::arguments::PathAccuracyArguments;
 use crate::terminal::{print, say};
 
-/// Reads, writes what was asked for and prints.
+/// Reads, writes the requested files and prints the result.
 ///
 /// # Errors
-/// Files that cannot be read, or their problems; runs that tell nothing of the path; a place where nothing can be written.
+/// Files that cannot be read, or their problems; runs that do not match the path; a file that cannot be written.
 pub(crate) fn run(arguments: &PathAccuracyArguments) -> Result<Outcome, StudyError> {
     let measured = read(&arguments.commanded, &arguments.files)?;
     let (found, answer) = answer(&measured)?;
@@ -49,7 +49,7 @@ fn as_text(answer: &PathAccuracyAnswer) -> String {
         answer.files.join(", ")
     )];
     if !answer.unused.is_empty() {
-        lines.push(format!("passed over: {}", answer.unused.join(", ")));
+        lines.push(format!("unused columns: {}", answer.unused.join(", ")));
     }
     lines.push(String::new());
     lines.push(format!(

@@ -1,12 +1,14 @@
-//! `armill place`: where the part should lie so that a path deviates least.
+//! `armill place`: the placement of the part for the least deviation along a path.
 //!
-//! `--out` (`place` beside the study) takes the results of the path at the place that was found, as `armill run` writes them, and
-//! before them `placement.json` with the pictures of the search. While it searches, `place.rounds` there keeps what is done:
-//! started again after it was stopped, the search goes on from there. Stdout has the place in sentences, and the lines of a
-//! study that lay the path there.
+//! `--out` (`place` next to the study) receives the results of the path at the best placement, as from `armill run`,
+//! and
+//! before them `placement.json` with the pictures of the search. During the search `place.rounds` there stores its
+//! state:
+//! an interrupted search continues from it. Stdout has the placement as text, and the lines of a
+//! study for it.
 
 use armill_study::file::placement::PlaceTable;
-use armill_study::place::{Journal, Placing};
+use armill_study::place::{Journal, PlacementSearch};
 use armill_study::{StudyError, output, studies};
 
 use super::run::{folder, in_pool, results};
@@ -15,23 +17,27 @@ use crate::arguments::{PlaceArguments, PlaceOptions};
 use crate::progress::Progress;
 use crate::terminal::say;
 
-/// Searches, and runs the path at the place that was found.
+/// Searches, and runs the path at the best placement.
 ///
 /// # Errors
-/// No study there, or its problems; no such path; bounds that leave nothing; a folder where nothing can be written.
+/// No such study, or its problems; no such path; empty bounds; a folder that cannot be written.
 pub(crate) fn run(arguments: &PlaceArguments) -> Result<Outcome, StudyError> {
     let found = studies::find(&arguments.run.study)?;
     let study = found.read()?;
-    let placing = Placing::new(&study, requested(&arguments.place)?, u64::from(arguments.place.seed))?;
+    let placing = PlacementSearch::new(
+        &study,
+        requested(&arguments.place)?,
+        u64::from(arguments.place.seed),
+    )?;
     let out = folder(("place", "place"), &found, &arguments.run)?;
     let mut journal = Journal::kept_in(&out);
     let placed = in_pool(arguments.run.threads, || {
         let progress = Progress::of("places", placing.place_count());
-        progress.watch(|watch| placing.search(&mut journal, watch, &|best| progress.tell(best)))
+        progress.watch(|watch| placing.search(&mut journal, watch, &|best| progress.set_message(best)))
     })??;
     if journal.taken() > 0 {
         say(&format!(
-            "note: {} rounds were done before this start",
+            "note: continued after {} completed rounds",
             journal.taken()
         ));
     }
@@ -53,7 +59,7 @@ pub(crate) fn run(arguments: &PlaceArguments) -> Result<Outcome, StudyError> {
     })
 }
 
-/// What the options ask for.
+/// The settings given by the options.
 pub(super) fn requested(options: &PlaceOptions) -> Result<PlaceTable, StudyError> {
     if let Some(margin) = options.margin_deg.filter(|margin| !(0.0..=90.0).contains(margin)) {
         let message = format!("--margin-deg: {margin} is outside 0 to 90");
@@ -71,9 +77,9 @@ pub(super) fn requested(options: &PlaceOptions) -> Result<PlaceTable, StudyError
         rail_mm: options.rail_mm,
         fixture: Vec::new(),
         branch: options.branch.clone(),
-        counts: options.counts.map(Into::into),
+        component: options.component.map(Into::into),
         objective: options.objective.map(Into::into),
-        sure: options.sure.map(Into::into),
+        rank_by: options.rank_by.map(Into::into),
         margin_deg: options.margin_deg,
         least_wrist_deg: None,
     })

@@ -1,21 +1,23 @@
-//! `armill pose`: every posture of one pose, in words or as a [`PoseAnswer`] on stdout.
+//! `armill pose`: all postures of one pose, as text or as a [`PoseAnswer`] on stdout.
 //!
-//! `--joints-deg`, or `--at-mm` with `--axis` (or `--tilt-deg`) and `--spin-deg`, becomes where the tool is; `--tool-mm` its
-//! place on the flange, `--wrench-n` the load; `--compliance-...` stands in for what the robot file says. `--drawing` draws
+//! `--joints-deg`, or `--at-mm` with `--axis` (or `--tilt-deg`) and `--spin-deg`, gives the pose of the tool;
+//! `--tool-mm` its
+//! position relative to the flange, `--wrench-n` the load; `--compliance-...` replaces the values of the robot file.
+//! `--drawing` draws
 //! the postures found.
 //!
 //! ```text
 //! yaskawa/mh12, positions in base_link
 //!
-//! front elbow-up no-flip                                            a posture by its branch
-//!   joints      S 0.000  L 11.600 ...   (inside limits, ...)        the robot file's signs and zeros
-//!   TCP         (x, y, z) mm                                        counted from --base
+//! front elbow-up no-flip                                            a posture, named by its branch
+//!   joints      S 0.000  L 11.600 ...   (inside limits, ...)        the signs and zeros of the robot file
+//!   TCP         (x, y, z) mm                                        relative to --base
 //!   compliance  a, b, c µm/N in its principal directions, softest along (x, y, z)
 //!   deviation   (x, y, z) µm, ... µm long (standard uncertainty (x, y, z) µm)
-//!   by joint    S 1.20  L 3.40 ... µm                               lengths of the shares: they need not add up
+//!   by joint    S 1.20  L 3.40 ... µm                               magnitudes of the contributions: they need not add up
 //! ```
 //!
-//! A pose that nothing holds gets the reason instead of postures; this is an answer, not an error.
+//! A pose without a posture gets the reason instead of postures; this is a result, not an error.
 
 use armill_core::nalgebra::{Point3, Unit, Vector3};
 use armill_core::robot::{JointCompliance, RobotError};
@@ -33,10 +35,10 @@ use crate::Outcome;
 use crate::arguments::PoseArguments;
 use crate::terminal::print;
 
-/// Finds every posture of the pose and prints it.
+/// Finds all postures of the pose and prints them.
 ///
 /// # Errors
-/// No such robot; a number or a count that cannot be; compliances that the robot does not take; a drawing that
+/// No such robot; an invalid number or count; compliances that do not fit the robot; a drawing that
 /// cannot be written.
 pub(crate) fn run(arguments: &PoseArguments) -> Result<Outcome, StudyError> {
     let mut found = robots::find(&arguments.robot, ".".as_ref())?;
@@ -65,8 +67,8 @@ pub(crate) fn run(arguments: &PoseArguments) -> Result<Outcome, StudyError> {
     Ok(Outcome::Fine)
 }
 
-/// Puts the compliances of `--compliance-rad-per-n-m` (taken as exact) or `--compliance-class` into the robot;
-/// what to say of the latter. Without either option the robot keeps its own.
+/// Puts the compliances of `--compliance-rad-per-n-m` (exact) or `--compliance-class` into the robot;
+/// returns a caution for the latter. Without either option the robot keeps its own.
 fn with_compliances(
     arguments: &PoseArguments,
     found: &mut RobotDescription,
@@ -80,7 +82,7 @@ fn with_compliances(
             });
             let refused = |error| {
                 let message = format!("--compliance-rad-per-n-m: {error}");
-                StudyError::value(message, "one a joint, 0 or more")
+                StudyError::value(message, "one per joint, 0 or more")
             };
             let robot = found.robot.clone().with_other_compliance(given.collect());
             found.robot = robot.map_err(|error: RobotError| refused(error))?;
@@ -94,15 +96,15 @@ fn with_compliances(
     class.caution().map(Some)
 }
 
-/// Joint positions where the tool was set; finite, their count is checked by the study.
+/// Joint positions at which the tool was measured; finite, their count is checked by the study.
 fn reference(arguments: &PoseArguments) -> Result<Option<Vec<f64>>, StudyError> {
     let joints = arguments.reference_joints_deg.clone();
     finite("--reference-joints-deg", joints.as_deref().unwrap_or_default())?;
     Ok(joints)
 }
 
-/// Where the tool is: joints if given, else the TCP in m with its axis and spin. Without `--axis` the tool
-/// stands against a plane at the base's origin, tilted by `--tilt-deg`, which is upright without it.
+/// Pose of the tool: joints if given, otherwise the TCP in m with its axis and spin. Without `--axis` the tool
+/// is perpendicular to a plane at the origin of the base, tilted by `--tilt-deg` (upright without it).
 fn at(arguments: &PoseArguments) -> Result<At, StudyError> {
     if let Some(joints) = &arguments.joints_deg {
         finite("--joints-deg", joints)?;
@@ -113,7 +115,7 @@ fn at(arguments: &PoseArguments) -> Result<At, StudyError> {
     finite("--tilt-deg", &[tilt_deg])?;
     let axis = match &arguments.axis {
         Some(axis) => Unit::try_new(three("--axis", axis)?, 1e-12)
-            .ok_or_else(|| StudyError::value("--axis 0,0,0 points nowhere", "such as --axis 0,0,-1"))?,
+            .ok_or_else(|| StudyError::value("--axis 0,0,0 has no direction", "such as --axis 0,0,-1"))?,
         None => Plane::tilted(Point3::origin(), tilt_deg.to_radians()).tool_axis(),
     };
     let spin_deg = arguments.spin_deg.unwrap_or(0.0);
@@ -134,7 +136,7 @@ fn wrench(values: &[f64]) -> Result<Wrench, StudyError> {
     })
 }
 
-/// The answer as a person reads it, see the head of this file.
+/// The result as text, see the documentation of this module.
 fn as_text(answer: &PoseAnswer) -> String {
     let mut lines = vec![format!("{}, positions in {}", answer.robot, answer.base)];
     if answer.model.len() > 1 {
@@ -151,7 +153,7 @@ fn as_text(answer: &PoseAnswer) -> String {
     lines.join("\n")
 }
 
-/// The lines of one posture; what is not known has none.
+/// The lines of one posture; unknown values have no line.
 fn posture_text(answer: &PoseAnswer, posture: &PostureAnswer) -> Vec<String> {
     let three = |v: &[f64; 3]| {
         let [x, y, z] = v.map(without_minus_zero);
@@ -179,7 +181,7 @@ fn posture_text(answer: &PoseAnswer, posture: &PostureAnswer) -> Vec<String> {
     let limits = match (&posture.limit_joint, posture.limit_margin_deg) {
         (Some(joint), Some(margin)) if posture.within_limits => {
             format!(
-                "inside limits, {joint} nearest, by {margin:.1} {}",
+                "inside limits, smallest margin {joint}, {margin:.1} {}",
                 unit_of(joint)
             )
         }
@@ -224,7 +226,7 @@ fn posture_text(answer: &PoseAnswer, posture: &PostureAnswer) -> Vec<String> {
     lines
 }
 
-/// What prints as -0.000 prints as 0.000: less than half of the last of three decimals.
+/// Avoids -0.000: numbers smaller than half of the third decimal are 0.
 fn without_minus_zero(value: f64) -> f64 {
     if value.abs() < 5e-4 { 0.0 } else { value }
 }

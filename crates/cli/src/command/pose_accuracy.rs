@@ -1,14 +1,14 @@
-//! `armill pose-accuracy`: how near the arm comes to its poses, and how alike from time to time.
+//! `armill pose-accuracy`: pose accuracy and repeatability.
 //!
 //! ```text
 //! robot: file, visits, poses
 //! errors        mean   rms   max                of all visits
 //! AP, RP, vAP   mean, max                       of poses reached more than once
 //! pose          cycles   AP   RP                the worst of them
-//! base, point                                   where they were found
+//! base, point                                   their identified frames
 //! ```
 
-use armill_core::calibrate::Asked;
+use armill_core::calibrate::ParameterSet;
 use armill_study::calibrate::read;
 use armill_study::pose_accuracy::{PoseAccuracyAnswer, answer};
 use armill_study::{StudyError, robots};
@@ -18,16 +18,16 @@ use crate::Outcome;
 use crate::arguments::PoseAccuracyArguments;
 use crate::terminal::print;
 
-/// Poses that are told one by one.
-const MOST_TOLD: usize = 10;
+/// Number of poses listed.
+const MOST_LISTED: usize = 10;
 
-/// Reads, fits base and point, and prints.
+/// Reads, fits base and point, and prints the result.
 ///
 /// # Errors
-/// No such robot; options that cannot be; the problems of the file; poses that tell too little.
+/// No such robot; invalid options; the problems of the file; poses that determine too little.
 pub(crate) fn run(arguments: &PoseAccuracyArguments) -> Result<Outcome, StudyError> {
     let found = robots::find(&arguments.robot, ".".as_ref())?;
-    let (question, given) = question(&arguments.poses, Asked::BaseAndTool)?;
+    let (question, given) = question(&arguments.poses, ParameterSet::BaseAndTool)?;
     let shown = arguments.file.display().to_string();
     let measured = read((&shown, &arguments.file), &found.robot, &given, &question)?;
     let answer = answer(&found.robot, (&shown, &measured), &question)?;
@@ -44,7 +44,7 @@ fn as_text(answer: &PoseAccuracyAnswer) -> String {
         answer.robot, answer.file, answer.visits, answer.poses
     )];
     if !answer.unused.is_empty() {
-        lines.push(format!("passed over: {}", answer.unused.join(", ")));
+        lines.push(format!("unused columns: {}", answer.unused.join(", ")));
     }
     if answer.not_measured > 0 {
         lines.push(format!("rows without a measured point: {}", answer.not_measured));
@@ -71,14 +71,14 @@ fn as_text(answer: &PoseAccuracyAnswer) -> String {
         ));
         let mut worst: Vec<_> = answer.by_pose.iter().collect();
         worst.sort_by(|a, b| b.ap_mm.total_cmp(&a.ap_mm));
-        lines.extend(worst.iter().take(MOST_TOLD).map(|pose| {
+        lines.extend(worst.iter().take(MOST_LISTED).map(|pose| {
             format!(
                 "{:<16} {:>6} {:>8.3} {:>8.3}",
                 pose.name, pose.cycles, pose.ap_mm, pose.rp_mm
             )
         }));
-        if worst.len() > MOST_TOLD {
-            lines.push(format!("and {} more (--json)", worst.len() - MOST_TOLD));
+        if worst.len() > MOST_LISTED {
+            lines.push(format!("and {} more (--json)", worst.len() - MOST_LISTED));
         }
     }
     lines.push(String::new());

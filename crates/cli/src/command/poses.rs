@@ -1,6 +1,6 @@
-//! Options of measured poses in SI, and how frames and errors are told; for `calibrate` and `pose_accuracy`.
+//! Options of measured poses in SI, and the text of frames and errors; for `calibrate` and `pose_accuracy`.
 
-use armill_core::calibrate::Asked;
+use armill_core::calibrate::ParameterSet;
 use armill_core::nalgebra::Vector3;
 use armill_formats::measurement::poses::{PoseReadOptions, TurnOrder};
 use armill_study::StudyError;
@@ -10,11 +10,14 @@ use armill_study::calibrate::{ErrorsAnswer, Question};
 use super::numbers::{above_zero, three};
 use crate::arguments::{PosesOptions, TurnArgument};
 
-/// What the options ask, and what they tell of the file.
+/// Settings of the fit, and how the file is read.
 ///
 /// # Errors
-/// Numbers that cannot be.
-pub(super) fn question(options: &PosesOptions, requested: Asked) -> Result<(Question, PoseReadOptions), StudyError> {
+/// Invalid numbers.
+pub(super) fn question(
+    options: &PosesOptions,
+    requested: ParameterSet,
+) -> Result<(Question, PoseReadOptions), StudyError> {
     let tool_point_mm = match &options.tool_mm {
         Some(tool_mm) => three("--tool-mm", tool_mm)?,
         None => Vector3::zeros(),
@@ -49,7 +52,7 @@ pub(super) fn errors_text(name: &str, errors: &ErrorsAnswer) -> String {
     )
 }
 
-/// The heads of such lines.
+/// The headings of such lines.
 pub(super) fn errors_head(name: &str) -> String {
     format!(
         "{name:<22} {:>8} {:>8} {:>8}   rms of x, y, z",
@@ -57,12 +60,12 @@ pub(super) fn errors_head(name: &str) -> String {
     )
 }
 
-/// Where base and measured point were found.
+/// Identified base and measured point.
 pub(super) fn frames_text(base: &FrameAnswer, point: &FrameAnswer) -> [String; 2] {
     let three = |[x, y, z]: [f64; 3]| format!("({x:.3}, {y:.3}, {z:.3})");
     [
         format!(
-            "base   at {} mm in the tracker, turned {} deg",
+            "base   at {} mm in the tracker, rotated {} deg",
             three(base.at_mm),
             three(base.turned_deg)
         ),

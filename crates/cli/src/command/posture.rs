@@ -1,7 +1,7 @@
-//! `armill posture`: the best turn of the tool and branch along the paths of a study.
+//! `armill posture`: the best spin of the tool and branch along the paths of a study.
 //!
-//! The study is run with a search on every path, and all of its results are written as `armill run` writes them, into `--out`
-//! (`posture` beside the study). Stdout has a sentence a path: before and after.
+//! The study is run with a search on every path, and all results are written as by `armill run`, into `--out`
+//! (`posture` next to the study). Stdout has one sentence per path: before and after.
 
 use armill_study::answer::StudyAnswer;
 use armill_study::file::posture_search::{ComponentName, ObjectiveName, SearchTable};
@@ -11,10 +11,10 @@ use super::run::{folder, results};
 use crate::Outcome;
 use crate::arguments::PostureArguments;
 
-/// Searches along every path of the study and writes its results.
+/// Searches along all paths of the study and writes the results.
 ///
 /// # Errors
-/// No study there, or its problems; a study without paths; turns that are none; a folder where nothing can be written.
+/// No such study, or its problems; a study without paths; an invalid range of spins; a folder that cannot be written.
 pub(crate) fn run(arguments: &PostureArguments) -> Result<Outcome, StudyError> {
     let found = studies::find(&arguments.run.study)?;
     let mut study = found.read()?;
@@ -23,7 +23,7 @@ pub(crate) fn run(arguments: &PostureArguments) -> Result<Outcome, StudyError> {
     results((&study, &out), (&arguments.run, None), summary)
 }
 
-/// What the options ask for; `None` where they leave all to the study.
+/// The settings given by the options; `None` if there are none.
 fn requested(arguments: &PostureArguments) -> Result<Option<SearchTable>, StudyError> {
     let bounded = |option: &str, value: Option<f64>, [least, most]: [f64; 2]| match value {
         Some(value) if !(value >= least && value <= most) => Err(StudyError::value(
@@ -34,7 +34,7 @@ fn requested(arguments: &PostureArguments) -> Result<Option<SearchTable>, StudyE
     };
     let turns: Option<[f64; 2]> = match &arguments.turns_deg {
         Some(turns) => Some(turns.as_slice().try_into().map_err(|_| {
-            let message = format!("--turns-deg: {} numbers, where there are 2", turns.len());
+            let message = format!("--turns-deg: {} numbers, 2 are required", turns.len());
             StudyError::value(message, "the first and the last: --turns-deg -90,90")
         })?),
         None => None,
@@ -45,7 +45,7 @@ fn requested(arguments: &PostureArguments) -> Result<Option<SearchTable>, StudyE
     let table = SearchTable {
         turns_deg: turns,
         step_deg: bounded("--step-deg", arguments.step_deg, [0.1, 180.0])?,
-        counts: arguments.counts.map(ComponentName::from),
+        component: arguments.component.map(ComponentName::from),
         objective: arguments.objective.map(ObjectiveName::from),
         turn_deg_per_mm: bounded("--turn-deg-per-mm", arguments.turn_deg_per_mm, [1e-6, 1e3])?,
         least_wrist_deg: bounded("--least-wrist-deg", arguments.least_wrist_deg, [0.0, 80.0])?,
@@ -54,7 +54,7 @@ fn requested(arguments: &PostureArguments) -> Result<Option<SearchTable>, StudyE
     Ok((!table.is_empty()).then_some(table))
 }
 
-/// A sentence a path.
+/// One sentence per path.
 fn summary(answer: &StudyAnswer) -> String {
     let of_paths = answer.paths.iter().filter_map(|path| {
         let search = path.search.as_ref()?;

@@ -1,23 +1,23 @@
-//! Options of a program of the robot in SI, for `compensate` and `ballbar`; and its files, written.
+//! Options of a robot program in SI, for `compensate` and `ballbar`; and its files, written.
 
 use std::path::{Path, PathBuf};
 
 use armill_formats::file::{Writer, create_folder};
 use armill_formats::robot_program::{Language, Written};
 use armill_study::StudyError;
-use armill_study::program_out::ProgramWanted;
+use armill_study::program_out::ProgramSettings;
 
 use crate::arguments::ProgramOptions;
 use crate::terminal::say;
 
-/// The program that is asked for, and its folder; `feed_mm_per_min` is the speed where the path tells none.
+/// The requested program and its folder; `feed_mm_per_min` is the feed if the path does not specify it.
 ///
 /// # Errors
-/// An ending of no language; numbers that cannot be.
+/// An unknown extension; invalid numbers.
 pub(super) fn requested(
     options: &ProgramOptions,
     feed_mm_per_min: Option<f64>,
-) -> Result<Option<(PathBuf, ProgramWanted)>, StudyError> {
+) -> Result<Option<(PathBuf, ProgramSettings)>, StudyError> {
     let Some(file) = &options.program else {
         return Ok(None);
     };
@@ -28,12 +28,12 @@ pub(super) fn requested(
     let language = ending.as_deref().and_then(Language::of_ending);
     let language = language.ok_or_else(|| {
         let message = format!(
-            "--program: the ending of {} is that of no language",
+            "--program: the extension of {} is not that of a robot language",
             file.display()
         );
         StudyError::value(message, ".src, .mod, .jbi, .ls, .script or .pjx")
     })?;
-    let requested = ProgramWanted {
+    let requested = ProgramSettings {
         language,
         name: file
             .file_stem()
@@ -54,7 +54,7 @@ pub(super) fn requested(
     Ok(Some((folder.unwrap_or(".".as_ref()).to_path_buf(), requested)))
 }
 
-/// `value`, where it is from `least` to `most`.
+/// `value`, if it is from `least` to `most`.
 fn within(option: &str, value: f64, [least, most]: [f64; 2]) -> Result<f64, StudyError> {
     match value >= least && value <= most {
         true => Ok(value),
@@ -65,7 +65,7 @@ fn within(option: &str, value: f64, [least, most]: [f64; 2]) -> Result<f64, Stud
     }
 }
 
-/// Writes the files of a program into `folder`, and says so.
+/// Writes the files of a program into `folder`, and reports them.
 ///
 /// # Errors
 /// A folder or file that cannot be written.

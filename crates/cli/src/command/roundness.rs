@@ -1,8 +1,9 @@
-//! `armill roundness`: how round a measured profile is, by the four circles of ISO 12181.
+//! `armill roundness`: roundness of a measured profile, by the four circles of ISO 12181.
 //!
-//! `--unit` and `--radius-mm` say how a file is read, `--upr` and `--harmonics` what is asked. Stdout holds a
-//! [`RoundnessAnswer`], in words or as JSON: one for a file, a list of them for several. `--out` takes table and picture,
-//! of several files in a folder each.
+//! `--unit` and `--radius-mm` control how a file is read, `--upr` and `--harmonics` the evaluation. Stdout has a
+//! [`RoundnessAnswer`], as text or JSON: one for a file, a list of them for several. `--out` receives tables and
+//! pictures,
+//! with one folder per file if there are several.
 //!
 //! ```text
 //! bore.csv: table, 3600 points, largest gap 0.10 deg                 file, format
@@ -12,31 +13,31 @@
 //! waves   amplitude um   phase deg                                   harmonics
 //! ```
 //!
-//! Roundness is told to a nanometre, places to a ten thousandth of a millimetre.
+//! Roundness is reported to a nanometre, positions to a ten thousandth of a millimetre.
 
 use std::path::Path;
 
 use armill_formats::measurement::profile::ProfileReadOptions;
 use armill_study::StudyError;
 use armill_study::number::decimals;
-use armill_study::roundness::{Question, RoundnessAnswer, answer, judge, output, read};
+use armill_study::roundness::{Question, RoundnessAnswer, answer, evaluate, output, read};
 
 use crate::Outcome;
 use crate::arguments::RoundnessArguments;
 use crate::terminal::{print, say};
 
-/// More waves than this are no harmonics but noise, and their sums take long.
+/// Harmonics above this are noise, and their sums take long.
 const MOST_HARMONICS: usize = 500;
-/// A filter of more passes what no instrument sees.
+/// A filter with a higher cut-off passes what no instrument measures.
 const MOST_UPR: u32 = 15_000;
-/// Outliers that are named one by one.
+/// Number of outliers listed.
 const MOST_NAMED: usize = 5;
 
-/// Reads, judges, writes what was asked for and prints.
+/// Reads, evaluates, writes the requested files and prints the result.
 ///
 /// # Errors
-/// A file that cannot be read, or its problems; points without a circle; options that cannot be; a folder or stdout that
-/// takes no more.
+/// A file that cannot be read, or its problems; points without a circle; invalid options; a folder or stdout that
+/// cannot be written.
 pub(crate) fn run(arguments: &RoundnessArguments) -> Result<Outcome, StudyError> {
     let question = question(arguments)?;
     let requested = ProfileReadOptions {
@@ -45,20 +46,20 @@ pub(crate) fn run(arguments: &RoundnessArguments) -> Result<Outcome, StudyError>
         unit: arguments.unit,
     };
     let mut answers = Vec::new();
-    let mut judged = Vec::new();
+    let mut evaluations = Vec::new();
     for file in &arguments.files {
         let shown = file.display().to_string();
         let measured = read((&shown, file), &requested)?;
-        let found = judge(&shown, &measured, &question)?;
+        let found = evaluate(&shown, &measured, &question)?;
         answers.push(answer(&shown, &measured, &question, &found));
-        judged.push(found);
+        evaluations.push(found);
     }
     if let Some(out) = &arguments.out {
-        for (index, (answer, judged)) in answers.iter().zip(&judged).enumerate() {
+        for (index, (answer, evaluation)) in answers.iter().zip(&evaluations).enumerate() {
             let folder = folder(out, arguments, index);
             output::write(
                 answer,
-                judged,
+                evaluation,
                 &arguments.writing.writer("roundness").folder(&folder)?,
             )?;
         }
@@ -73,7 +74,7 @@ pub(crate) fn run(arguments: &RoundnessArguments) -> Result<Outcome, StudyError>
     Ok(Outcome::Fine)
 }
 
-/// What is asked of every file.
+/// Settings of the evaluation.
 fn question(arguments: &RoundnessArguments) -> Result<Question, StudyError> {
     if let Some(upr) = arguments.upr.filter(|upr| !(1..=MOST_UPR).contains(upr)) {
         return Err(StudyError::value(
@@ -84,7 +85,7 @@ fn question(arguments: &RoundnessArguments) -> Result<Question, StudyError> {
     if arguments.harmonics > MOST_HARMONICS {
         return Err(StudyError::value(
             format!("--harmonics: {} is above {MOST_HARMONICS}", arguments.harmonics),
-            "the coarse waves are what a machine makes",
+            "high harmonics are mostly noise",
         ));
     }
     Ok(Question {
@@ -93,7 +94,7 @@ fn question(arguments: &RoundnessArguments) -> Result<Question, StudyError> {
     })
 }
 
-/// Where table and picture of a file go: of several each has a folder named after its file and its number.
+/// Folder of the table and pictures of a file: if there are several files, named after the file and its number.
 fn folder(out: &Path, arguments: &RoundnessArguments, index: usize) -> std::path::PathBuf {
     if arguments.files.len() == 1 {
         return out.to_owned();
@@ -102,7 +103,7 @@ fn folder(out: &Path, arguments: &RoundnessArguments, index: usize) -> std::path
     out.join(format!("{}-{}", index + 1, stem.to_string_lossy()))
 }
 
-/// The answer as a person reads it, see the head of this file.
+/// The result as text, see the documentation of this module.
 fn as_text(answer: &RoundnessAnswer) -> String {
     let filter = match answer.filter_upr {
         Some(upr) => format!("Gaussian filter {upr} UPR"),
@@ -116,7 +117,7 @@ fn as_text(answer: &RoundnessAnswer) -> String {
         decimals(answer.largest_gap_deg, 4)
     )];
     if !answer.unused.is_empty() {
-        lines.push(format!("passed over: {}", answer.unused.join(", ")));
+        lines.push(format!("unused columns: {}", answer.unused.join(", ")));
     }
     if let Some(plane) = &answer.plane {
         lines.push(format!(
@@ -188,7 +189,7 @@ fn as_text(answer: &RoundnessAnswer) -> String {
     }
     lines.extend(answer.outliers.iter().take(MOST_NAMED).map(|point| {
         format!(
-            "stands out   line {}, at {:.2} deg: {:+.2} um off its neighbours",
+            "outlier      line {}, at {:.2} deg: {:+.2} um from its neighbours",
             point.line, point.angle_deg, point.off_um
         )
     }));
@@ -222,7 +223,7 @@ fn reported(radius_mm: f64) -> String {
     format!("{radius_mm:.4}")
 }
 
-/// A direction of length one, without what rounding leaves behind.
+/// A unit vector, without rounding noise.
 fn direction(direction: [f64; 3]) -> String {
     let [x, y, z] = direction.map(|part| decimals(part, 4));
     format!("({x}, {y}, {z})")

@@ -1,12 +1,12 @@
 //! `armill run`: a study from file to report.
 //!
-//! Everything goes into `--out` (`out` beside the study): `--no-pictures` leaves pictures and report away, `--csv` adds tables.
-//! Stdout holds the answer in words, or with `--json` all of `result.json`; warnings and progress go to stderr. `--strict`
-//! exits with 1 unless every point holds its limit.
+//! All files go into `--out` (`out` next to the study): `--no-pictures` omits pictures and report, `--csv` adds tables.
+//! Stdout has the result as text, or with `--json` all of `result.json`; warnings and progress go to stderr. `--strict`
+//! exits with 1 if the tolerance is not met at every point.
 
 use armill_formats::file::ResultFolder;
 use armill_study::answer::{StudyAnswer, answer};
-use armill_study::output::{self, Csv, Opening, Pictures, Wanted};
+use armill_study::output::{self, Csv, Opening, OutputOptions, Pictures};
 use armill_study::run::{point_count, run as run_study};
 use armill_study::studies::{self, FoundStudy};
 use armill_study::{Study, StudyError};
@@ -17,11 +17,11 @@ use crate::listener;
 use crate::progress::Progress;
 use crate::terminal::{print, say};
 
-/// Runs the study and writes all of its results.
+/// Runs the study and writes all results.
 ///
 /// # Errors
-/// No study there, or its problems; a folder where nothing can be written, told before any work is done; a
-/// fault while results are written.
+/// No such study, or its problems; a folder that cannot be written (reported before the work starts); an
+/// error while results are written.
 pub(crate) fn run(arguments: &RunArguments) -> Result<Outcome, StudyError> {
     let found = studies::find(&arguments.run.study)?;
     let study = found.read()?;
@@ -32,7 +32,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<Outcome, StudyError> {
 /// The folder for the results of the command `by`: the one that the options name, or `name` in the folder of the study.
 ///
 /// # Errors
-/// A folder where nothing can be written, or where another run writes.
+/// A folder that cannot be written, or that another run is writing.
 pub(super) fn folder(
     (by, name): (&'static str, &str),
     found: &FoundStudy,
@@ -45,19 +45,19 @@ pub(super) fn folder(
     })
 }
 
-/// Runs a study, writes all of its results into the folder `out`, with `opening` before the report, and says what came out,
-/// in words those of `summary`.
+/// Runs a study, writes all results into the folder `out`, with `opening` before the report, and prints the result;
+/// as text the sentences of `summary`.
 ///
 /// # Errors
-/// Files that may not be replaced, before any work is done; a fault while results are written.
+/// Files that must not be replaced (reported before the work starts); an error while results are written.
 pub(super) fn results(
     (study, out): (&Study, &ResultFolder),
     (options, opening): (&RunOptions, Option<&Opening>),
     summary: impl FnOnce(&StudyAnswer) -> String,
 ) -> Result<Outcome, StudyError> {
-    let mut requested = Wanted {
+    let mut requested = OutputOptions {
         opening,
-        ..Wanted::USUAL
+        ..OutputOptions::USUAL
     };
     if options.no_pictures {
         requested.pictures = Pictures::None;
@@ -76,14 +76,14 @@ pub(super) fn results(
         say(&format!("warning: {warning}"));
     }
     say(&format!("results in {}", out.path().display()));
-    Ok(if options.strict && !answer.holds_everywhere() {
-        Outcome::ToleranceNotHeld
+    Ok(if options.strict && !answer.meets_tolerance() {
+        Outcome::ToleranceNotMet
     } else {
         Outcome::Fine
     })
 }
 
-/// Runs `work` on this many threads, or on as many as there are processors; the numbers are the same.
+/// Runs `work` on this many threads, or one per processor; the numbers are the same.
 pub(super) fn in_pool<T: Send>(
     threads: Option<u16>,
     work: impl FnOnce() -> T + Send,
@@ -99,19 +99,22 @@ pub(super) fn in_pool<T: Send>(
     Ok(pool.install(|| listener::heard_by(listener, work)))
 }
 
-/// From the study to its answer and its files, under a bar.
-fn work(study: &Study, (out, requested): (&ResultFolder, Wanted<'_>)) -> Result<StudyAnswer, StudyError> {
+/// Computes the study and writes its files, under a progress bar.
+fn work(
+    study: &Study,
+    (out, requested): (&ResultFolder, OutputOptions<'_>),
+) -> Result<StudyAnswer, StudyError> {
     let progress = Progress::new(point_count(study));
     let found = progress.watch(|watch| run_study(study, watch))?;
     let answer = answer(study, &found);
     output::write(study, &found, &answer, (out, requested), &|name| {
-        progress.tell(name);
+        progress.set_message(name);
     })?;
     Ok(answer)
 }
 
-/// The answer as a person reads it: the sentence that answers, then each statement of a source beside the
-/// readings that could be meant, each with the range of its in-plane deviation.
+/// The result as text: the main sentence, then each statement of a source with the
+/// possible readings, each with the range of its in-plane deviation.
 fn summary(answer: &StudyAnswer) -> String {
     let mut lines = vec![answer.answer.clone()];
     for statement in &answer.statements {
@@ -139,7 +142,8 @@ fn summary(answer: &StudyAnswer) -> String {
     }
     if !answer.statements.is_empty() {
         lines.push(
-            "Consistent is not confirmed: the source leaves open what tells these readings apart.".to_owned(),
+            "\"Consistent\" does not mean confirmed: the source does not state which reading applies."
+                .to_owned(),
         );
     }
     lines.join("\n")

@@ -1,6 +1,6 @@
 //! `armill serve`: the live page of a study, until it is interrupted.
 //!
-//! The first line on stdout is the address, with the token that it needs; all else is said on stderr.
+//! The first line on stdout is the address, with the required token; messages go to stderr.
 
 use armill_study::StudyError;
 use armill_web::{Options, Server, has_page};
@@ -12,7 +12,7 @@ use crate::terminal::{print, say};
 /// Serves until Ctrl-C.
 ///
 /// # Errors
-/// No study there; a port that is taken; stdout takes no more.
+/// No such study; a port in use; stdout cannot be written.
 pub(crate) fn run(arguments: &ServeArguments) -> Result<Outcome, StudyError> {
     let server = Server::start(&Options {
         study: arguments.study.clone(),
@@ -21,10 +21,10 @@ pub(crate) fn run(arguments: &ServeArguments) -> Result<Outcome, StudyError> {
     })?;
     print(server.url())?;
     if !has_page() {
-        say("warning: this armill was built without its page, and serves its answers under /api alone");
-        say("help: in the sources, with Node 20 or later installed: cargo xtask web, then build again");
+        say("warning: this armill was built without its page, and only serves the API under /api");
+        say("help: in the source tree, with Node 20 or later: cargo xtask web, then build again");
     }
-    say("the page is open on this machine alone; Ctrl-C ends it");
+    say("the page can only be opened on this machine; Ctrl-C ends it");
     server.run();
     Ok(Outcome::Fine)
 }

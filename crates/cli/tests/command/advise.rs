@@ -1,4 +1,5 @@
-//! `armill advise`: place, turns, compensation and forces in sentences, and the study that comes of them run.
+//! `armill advise`: recommended placement, spin, compensation and forces as sentences, and the run of the resulting
+//! study.
 
 use crate::cell::{Cell, number};
 
@@ -15,7 +16,10 @@ step_mm = 20
 
 fn cell(tolerance_um: &str, place: &str) -> Cell {
     let cell = Cell::new();
-    cell.file("study.toml", format!("tolerance_um = {tolerance_um}\n{CELL}{place}"));
+    cell.file(
+        "study.toml",
+        format!("tolerance_um = {tolerance_um}\n{CELL}{place}"),
+    );
     cell
 }
 
@@ -25,7 +29,7 @@ fn advice(cell: &Cell) -> serde_json::Value {
 }
 
 #[test]
-fn a_path_that_does_not_hold_is_moved_turned_and_told_what_it_comes_to() {
+fn a_path_out_of_tolerance_is_improved_and_the_result_is_reported() {
     let cell = cell("40", "");
     let said = cell
         .armill(&[
@@ -39,59 +43,63 @@ fn a_path_that_does_not_hold_is_moved_turned_and_told_what_it_comes_to() {
         ])
         .fine();
     for words in [
-        "ring: lay the part at centre (",
-        "of the path then holds 40 µm, at most ",
-        "as drawn).",
-        "Compensated (`armill compensate`), the tool is predicted to stay within ",
-        "µm that are not known of arm and force.",
+        "ring: place the part at centre (",
+        "of the path is then within 40 µm, largest deviation ",
+        "(nominal: ",
+        "Compensated (`armill compensate`), the predicted largest deviation from the path is ",
+        "µm from robot and force.",
     ] {
         assert!(said.out.contains(words), "{words}: {}", said.out);
     }
     let advice = advice(&cell);
     let largest = |of: &str| number(&advice[of]["max_in_plane_um"]);
     assert_eq!(advice["moves"], true);
-    assert!(largest("as_advised") < largest("nominal"), "{advice}");
-    // Compensated it goes nearer to the path than it deviated.
-    assert!(number(&advice["compensated"]["max_um"]) < 0.5 * largest("as_advised"));
-    // What is advised is what was run.
+    assert!(largest("recommended") < largest("nominal"), "{advice}");
+    // The compensated path is nearer to the nominal one than the uncompensated.
+    assert!(number(&advice["compensated"]["max_um"]) < 0.5 * largest("recommended"));
+    // The recommended study is the one that was run.
     let run = &cell.result("advice")["paths"][0];
     assert_eq!(run["worst"]["in_plane_u_um"], advice["compensated_u_um"]);
     assert!(number(&advice["compensated_u_um"]) > number(&advice["compensated"]["max_um"]));
-    assert!((number(&run["max_in_plane_um"]) - largest("as_advised")).abs() < 1e-9);
-    // Forces are told by what is left of the tolerance.
+    assert!((number(&run["max_in_plane_um"]) - largest("recommended")).abs() < 1e-9);
+    // Forces are reported relative to the remaining tolerance.
     let factor = number(&advice["force_factor"]);
-    assert!((factor * largest("as_advised") - 40.0).abs() < 1e-6);
+    assert!((factor * largest("recommended") - 40.0).abs() < 1e-6);
 }
 
 #[test]
-fn what_does_not_hold_even_so_is_told_with_its_place_and_reason() {
+fn stretches_out_of_tolerance_are_reported_with_place_and_reason() {
     let cell = cell("1", "");
     let said = cell
         .armill(&["advise", "study.toml", "--no-pictures", "--x-mm", "990,1010"])
         .fine();
-    assert!(said.out.contains("It does not hold from 0 to "), "{}", said.out);
-    assert!(said.out.contains("mostly by joint "), "{}", said.out);
+    assert!(
+        said.out.contains("The tolerance is not met from 0 to "),
+        "{}",
+        said.out
+    );
+    assert!(said.out.contains("largest contribution: joint "), "{}", said.out);
     assert!(said.out.contains(" times these forces"), "{}", said.out);
     let advice = advice(&cell);
-    let stretch = &advice["not_held"][0];
+    let stretch = &advice["out_of_tolerance"][0];
     assert_eq!(stretch["points"], advice["placement"]["points"]);
     assert!(number(&advice["force_factor"]) < 1.0);
 }
 
 #[test]
-fn where_nothing_can_be_better_part_and_tool_stay() {
+fn part_and_tool_are_kept_if_nothing_is_better() {
     // One place, one turn: nothing is free.
     let cell = cell(
         "500",
         "[place]\nx_mm = [1000, 1000]\n[posture]\nbranch = \"front elbow-up no-flip\"\n[posture.search]\nturns_deg = [0, 0]\n",
     );
     let said = cell.armill(&["advise", "study.toml", "--no-pictures"]).fine();
+    assert!(said.out.contains("keep part and tool"), "{}", said.out);
     assert!(
-        said.out.contains("leave part and tool as they are"),
+        said.out.contains("The path is within the tolerance with up to "),
         "{}",
         said.out
     );
-    assert!(said.out.contains("There is room for "), "{}", said.out);
     assert_eq!(advice(&cell)["moves"], false);
 }
 

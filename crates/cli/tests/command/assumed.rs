@@ -1,4 +1,4 @@
-//! A robot whose joints nobody measured: what the user is told, and how assumed values are marked.
+//! A robot without measured joint compliances: messages, and marking of assumed values.
 
 use crate::cell::{Cell, number, numbers};
 
@@ -25,7 +25,7 @@ fn refused(from: &str, to: &str, words: &[&str]) {
 }
 
 #[test]
-fn a_robot_without_compliance_is_told_with_two_ways_out() {
+fn a_robot_without_compliance_is_refused_with_two_alternatives() {
     refused(
         "[compliance]\nclass = \"heavy\"\n",
         "",
@@ -71,7 +71,7 @@ fn values_of_a_class_are_marked_in_answer_warnings_and_report() {
 }
 
 #[test]
-fn a_class_beside_given_values_is_refused() {
+fn a_class_together_with_given_values_is_refused() {
     refused(
         "class = \"heavy\"",
         "class = \"heavy\"\nrad_per_n_m = [1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 1e-6]\nsource = \"mine\"",
@@ -100,7 +100,7 @@ fn an_unknown_class_and_an_empty_table_are_refused() {
 }
 
 #[test]
-fn a_pose_with_a_class_says_so() {
+fn a_pose_with_a_class_reports_the_assumption() {
     let cell = Cell::new();
     let arguments = [
         "pose",
@@ -139,11 +139,11 @@ fn a_pose_with_a_class_says_so() {
 }
 
 #[test]
-fn a_class_leaves_no_covariance_of_other_compliances() {
+fn a_class_removes_the_covariance_of_other_compliances() {
     let cell = Cell::new();
     let library = concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots/yaskawa/mh12.toml");
     let plain = std::fs::read_to_string(library).unwrap();
-    // 50 % of what joint L yields, where the file says 20 %.
+    // 50 % of the compliance of joint L, where the file has 20 %.
     let covariance = "[covariance]\nof = [\"S\", \"L\"]\nmatrix_rad2_per_n2_m2 = [[1.8e-13, 0], [0, 1.6e-12]]\nsource = \"paper\"\n";
     cell.file("plain.toml", &plain);
     cell.file("known.toml", format!("{plain}\n{covariance}"));

@@ -1,5 +1,6 @@
-//! `armill backlash` as a user runs it: a robot file with play is measured, made up, and its gaps come back; circles that tell;
-//! and everything that can be wrong.
+//! `armill backlash` as a user runs it: the backlash of a robot file is simulated and identified again; informative
+//! circles;
+//! and invalid input.
 
 use serde_json::Value;
 
@@ -31,20 +32,20 @@ circle = { radius_mm = 100 }
 
 const MEASURED: &str = r#"
 [[ballbar]]
-ask = "flat"
+analysis = "flat"
 files = ["runs/flat.csv"]
 [[ballbar]]
-ask = "upright"
+analysis = "upright"
 files = ["runs/upright.csv"]
 [[ballbar]]
-ask = "tilted"
+analysis = "tilted"
 files = ["runs/tilted.csv"]
 "#;
 
-/// The MH12 with a gap of its own in each joint, deg.
+/// Backlash of each joint of the MH12, deg.
 const GAPS: [f64; 6] = [0.007, 0.005, 0.009, 0.015, 0.012, 0.02];
 
-fn with_play() -> String {
+fn with_backlash() -> String {
     let text = std::fs::read_to_string(repository().join("robots/yaskawa/mh12.toml")).unwrap();
     let mut parts = text.split("\ncompliance_source = \"paper\"");
     let first = parts.next().unwrap().to_owned();
@@ -58,7 +59,7 @@ fn with_play() -> String {
 
 fn cell() -> Cell {
     let cell = Cell::with_study(CELL);
-    cell.file("arm.toml", with_play());
+    cell.file("arm.toml", with_backlash());
     cell
 }
 
@@ -68,14 +69,14 @@ fn reported(cell: &Cell, arguments: &[&str]) -> Value {
 }
 
 #[test]
-fn gaps_of_the_robot_file_come_back_from_what_it_would_show() {
+fn the_backlash_of_the_robot_file_is_identified_from_simulated_records() {
     let cell = cell();
     let written = reported(&cell, &["--simulate", "runs", "--noise-um", "2", "--seed", "4"]);
     assert_eq!(written.as_array().unwrap().len(), 3);
     cell.file("study.toml", format!("{CELL}{MEASURED}"));
     let found = reported(&cell, &["--out", "out"]);
     for (joint, gap) in found["joints"].as_array().unwrap().iter().zip(GAPS) {
-        assert_eq!(joint["state"], "told", "{joint}");
+        assert_eq!(joint["state"], "identified", "{joint}");
         let [value, u] = ["backlash_deg", "backlash_u_deg"].map(|key| number(&joint[key]));
         assert!(
             (value - gap).abs() < 3.5 * u && u < 0.1 * gap,
@@ -99,14 +100,14 @@ fn gaps_of_the_robot_file_come_back_from_what_it_would_show() {
     // In words.
     let words = cell.armill(&["backlash", "study.toml"]).fine();
     assert!(
-        words.out.contains("turns back at deg") && words.out.contains("robot file"),
+        words.out.contains("reverses at deg") && words.out.contains("robot file"),
         "{}",
         words.out
     );
 }
 
 #[test]
-fn the_same_seed_makes_the_same_file_and_armill_ballbar_reads_it() {
+fn the_same_seed_gives_the_same_file_and_armill_ballbar_reads_it() {
     let cell = cell();
     let noise = [
         "--noise-um",
@@ -133,11 +134,11 @@ fn the_same_seed_makes_the_same_file_and_armill_ballbar_reads_it() {
 }
 
 #[test]
-fn files_in_other_angles_give_the_same_gaps() {
+fn files_in_other_angles_give_the_same_backlash() {
     let cell = cell();
     reported(&cell, &["--simulate", "runs", "--analysis", "flat"]);
     let text = std::fs::read_to_string(cell.at("runs/flat.csv")).unwrap();
-    // The bar was looked at from above: x is 0 deg, and the other way round.
+    // The ball-bar was viewed from above: x is 0 deg, in the opposite direction.
     let turned = text.lines().map(|line| {
         let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
         if let Ok(deg) = cells[0].parse::<f64>() {
@@ -151,7 +152,7 @@ fn files_in_other_angles_give_the_same_gaps() {
     let of = |table: &str| {
         cell.file(
             "study.toml",
-            format!("{CELL}[[ballbar]]\nask = \"flat\"\n{table}\n"),
+            format!("{CELL}[[ballbar]]\nanalysis = \"flat\"\n{table}\n"),
         );
         reported(&cell, &[])["joints"].clone()
     };
@@ -159,7 +160,7 @@ fn files_in_other_angles_give_the_same_gaps() {
     let other = of("files = [\"runs/turned.csv\"]\nzero_deg = 90\nmirrored = true");
     for (one, other) in plain.as_array().unwrap().iter().zip(other.as_array().unwrap()) {
         assert_eq!(one["state"], other["state"]);
-        if one["state"] == "told" {
+        if one["state"] == "identified" {
             let [one, other] = [one, other].map(|joint| number(&joint["backlash_deg"]));
             assert!((one - other).abs() < 1e-6, "{one} {other}");
         }
@@ -167,11 +168,18 @@ fn files_in_other_angles_give_the_same_gaps() {
 }
 
 #[test]
-fn circles_that_tell_the_joints_apart_are_proposed() {
+fn proposes_circles_that_separate_the_joints() {
     let cell = cell();
     let plan = reported(
         &cell,
-        &["--circles", "2", "--analysis", "flat", "--within-mm", "150,150,150"],
+        &[
+            "--circles",
+            "2",
+            "--analysis",
+            "flat",
+            "--within-mm",
+            "150,150,150",
+        ],
     );
     let circles = plan["circles"].as_array().unwrap();
     assert_eq!(circles.len(), 2);
@@ -186,14 +194,14 @@ fn circles_that_tell_the_joints_apart_are_proposed() {
     assert!(one <= two);
     let words = cell.armill(&["backlash", "study.toml", "--circles", "1"]).fine();
     assert!(
-        words.out.contains("looked at 216 circles") && words.out.contains("rotation_deg"),
+        words.out.contains("216 circles searched") && words.out.contains("rotation_deg"),
         "{}",
         words.out
     );
 }
 
 #[test]
-fn what_cannot_be_is_refused() {
+fn refuses_invalid_values() {
     let cell = cell();
     let refused = |arguments: &[&str], said: &[&str]| {
         cell.armill(&[&["backlash", "study.toml"], arguments].concat())
@@ -203,7 +211,7 @@ fn what_cannot_be_is_refused() {
     refused(&["--circles", "0"], &["--circles: 0 is outside 1 to 100"]);
     refused(
         &["--circles", "1", "--within-mm", "1,2"],
-        &["--within-mm: 2 numbers"],
+        &["--within-mm: 3 numbers are required (got 2)"],
     );
     refused(&["--circles", "1", "--radii-mm", "0"], &["--radii-mm"]);
     refused(&["--simulate", "runs", "--noise-um", "nan"], &["--noise-um"]);
@@ -216,14 +224,14 @@ fn what_cannot_be_is_refused() {
     cell.file(
         "study.toml",
         format!(
-            "{CELL}[[ballbar]]\nask = \"ring\"\nfiles = [\"none.csv\"]\n[[ballbar]]\nfiles = [\"none.csv\"]\n"
+            "{CELL}[[ballbar]]\nanalysis = \"ring\"\nfiles = [\"none.csv\"]\n[[ballbar]]\nfiles = [\"none.csv\"]\n"
         ),
     );
     refused(
         &[],
         &[
             "`ring`",
-            "there is no file none.csv",
+            "file none.csv not found",
             "the study has 3 circles",
             "study.toml:2",
         ],
@@ -234,7 +242,7 @@ fn what_cannot_be_is_refused() {
     assert!(!cell.at("runs").exists());
     cell.file(
         "study.toml",
-        format!("{CELL}[[ballbar]]\nask = \"flat\"\nfiles = [\"short.csv\"]\n"),
+        format!("{CELL}[[ballbar]]\nanalysis = \"flat\"\nfiles = [\"short.csv\"]\n"),
     );
     let rows: String = (0..360).fold(String::new(), |text, deg| format!("{text}{deg},1,CW,1\n"));
     cell.file(

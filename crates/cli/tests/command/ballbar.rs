@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use crate::cell::armill;
 
-/// Half a degree beside whole ones: 12 um large, an ellipse of 30 um, 20 um of backlash in X, 40 um off along X.
+/// Offset by half a degree: 12 um amplitude, an ellipse of 30 um, 20 um of backlash in X, an offset of 40 um along X.
 fn deviation_um(degrees: f64, sign: f64) -> f64 {
     let a = degrees.to_radians();
     12.0 + 40.0 * a.cos() + 30.0 * (2.0 * a).cos() + sign * 10.0 * a.sin().signum() * a.cos()
@@ -66,7 +66,7 @@ fn part<'a>(reported: &'a Value, what: &str) -> &'a Value {
 }
 
 #[test]
-fn a_test_is_told_in_quantities_differences_and_parts() {
+fn a_test_is_reported_as_quantities_differences_and_contributions() {
     let folder = folder();
     let reported = reported(folder.path(), &["test.csv"]);
     assert_eq!(reported["axes"], serde_json::json!(["X", "Y"]));
@@ -94,12 +94,13 @@ fn a_test_is_told_in_quantities_differences_and_parts() {
         0.05,
     );
     assert_eq!(setup["centring"]["centre"], "setup");
-    let [one, other] = [&reported, &setup].map(|reported| reported["circular_bidirectional_um"].as_f64().unwrap());
+    let [one, other] =
+        [&reported, &setup].map(|reported| reported["circular_bidirectional_um"].as_f64().unwrap());
     assert!((one - other).abs() < 1e-6);
 }
 
 #[test]
-fn files_of_one_circle_are_one_test_and_what_they_lack_is_told_beside() {
+fn files_of_one_circle_are_one_test_and_options_give_missing_data() {
     let folder = folder();
     let both = reported(
         folder.path(),
@@ -108,15 +109,15 @@ fn files_of_one_circle_are_one_test_and_what_they_lack_is_told_beside() {
     assert_eq!(both["axes"], serde_json::json!(["Z", "X"]));
     assert_eq!(both["runs"][1]["name"], "CCW1");
     number(&both["hysteresis_um"], 20.0, 0.01);
-    assert!(both["warnings"].to_string().contains("one CW run alone"));
+    assert!(both["warnings"].to_string().contains("only one CW run"));
     let one = reported(folder.path(), &["cw.csv", "--radius-mm", "100"]);
     assert!(one["circular_bidirectional_um"].is_null() && one["hysteresis_um"].is_null());
     let warned = one["warnings"].to_string();
     assert!(
-        warned.contains("no CCW run") && warned.contains("not told apart: squareness, servo mismatch"),
+        warned.contains("no CCW run") && warned.contains("not separable: squareness, servo mismatch"),
         "{warned}"
     );
-    // A sum of two errors is neither: what it is along the radius is told, not an angle or a scale.
+    // The sum of two errors has only its radial amplitude, not an angle or a scale.
     number(&part(&one, "squareness")["value_um"], 0.0, 0.02);
     let parts = &one["parts"];
     for of in [
@@ -132,7 +133,7 @@ fn files_of_one_circle_are_one_test_and_what_they_lack_is_told_beside() {
 }
 
 #[test]
-fn tables_pictures_and_report_come_out() {
+fn writes_tables_pictures_and_report() {
     let folder = folder();
     let (code, out, err) = armill(folder.path(), &["ballbar", "test.csv", "--out", "o"]);
     assert_eq!(code, 0, "{err}");
@@ -171,7 +172,7 @@ fn tables_pictures_and_report_come_out() {
 }
 
 #[test]
-fn a_circle_is_taught_and_the_second_test_put_beside_the_first() {
+fn a_corrected_circle_is_written_and_a_second_test_compared_with_the_first() {
     let folder = folder();
     let first = reported(folder.path(), &["test.csv", "--teach", "p.csv", "--points", "36"]);
     let table = std::fs::read_to_string(folder.path().join("p.csv")).unwrap();
@@ -197,7 +198,7 @@ fn a_circle_is_taught_and_the_second_test_put_beside_the_first() {
 }
 
 #[test]
-fn few_samples_tell_few_lobes() {
+fn few_samples_resolve_few_lobes() {
     let folder = folder();
     // 36 samples of ten lobes, 5 um high.
     let rows = (0..36).fold(String::new(), |text, k| {
@@ -212,7 +213,7 @@ fn few_samples_tell_few_lobes() {
     assert!(
         found["warnings"]
             .to_string()
-            .contains("17 lobes are told, not 100"),
+            .contains("17 lobes are reported, not 100"),
         "{}",
         found["warnings"]
     );
@@ -222,14 +223,14 @@ fn few_samples_tell_few_lobes() {
     assert!(
         found["warnings"]
             .to_string()
-            .contains("takes off 17 lobes, not 30"),
+            .contains("compensates 17 lobes, not 30"),
         "{}",
         found["warnings"]
     );
 }
 
 #[test]
-fn columns_that_are_passed_over_are_told() {
+fn unused_columns_are_reported() {
     let folder = folder();
     let text = format!(
         "{HEAD}{}{}",
@@ -239,7 +240,7 @@ fn columns_that_are_passed_over_are_told() {
     std::fs::write(folder.path().join("odd.csv"), text).unwrap();
     let (code, _, err) = armill(folder.path(), &["ballbar", "odd.csv"]);
     assert!(
-        code == 0 && err.contains("a column was passed over, odd.csv: run_no"),
+        code == 0 && err.contains("unused column: odd.csv: run_no"),
         "{err}"
     );
 }
@@ -253,7 +254,7 @@ fn points_are_written_where_all_else_is_too() {
 }
 
 #[test]
-fn dirt_is_told_and_left_out_on_demand() {
+fn dirt_is_reported_and_excluded_on_request() {
     let folder = folder();
     let kept = reported(folder.path(), &["dirt.csv"]);
     assert_eq!(kept["outliers"].as_array().unwrap().len(), 1);
@@ -261,9 +262,9 @@ fn dirt_is_told_and_left_out_on_demand() {
     assert!(kept["warnings"].to_string().contains("--leave-out-outliers"));
     let clean = reported(folder.path(), &["dirt.csv", "--leave-out-outliers"]);
     let g = |reported: &Value| reported["directions"][0]["circular_um"].as_f64().unwrap();
-    // 80 um on top of a flank of the ellipse.
+    // 80 um on top of a slope of the ellipse.
     assert!(g(&kept) > g(&clean) + 5.0, "{kept} {clean}");
-    // The circle to teach is that of the samples that are left: at 100 degrees, beside the dirt.
+    // The corrected circle is that of the remaining samples: at 100 degrees, next to the dirt.
     let correction = |more: &[&str]| -> f64 {
         let teach = ["dirt.csv", "--teach", "p.csv", "--teach-lobes", "30"];
         let _ = reported(folder.path(), &[&teach, more].concat());
@@ -282,7 +283,7 @@ fn dirt_is_told_and_left_out_on_demand() {
 }
 
 #[test]
-fn an_arc_says_that_it_is_one() {
+fn reports_an_arc() {
     let folder = folder();
     let arc: String = (0..=220).fold(String::new(), |text, deg| {
         text + &format!("{deg},{},CCW,1\n", deviation_um(f64::from(deg) + 0.25, 1.0))
@@ -293,11 +294,11 @@ fn an_arc_says_that_it_is_one() {
     number(&reported["runs"][0]["arc_deg"], 220.0, 0.1);
     let warned = reported["warnings"].to_string();
     assert!(warned.contains("CCW1 has no samples from"), "{warned}");
-    assert!(warned.contains("nothing is known of the step Y-"), "{warned}");
-    // A sample stands on 0 degrees, and none before it.
-    assert!(warned.contains("nothing is known of the step X+"), "{warned}");
+    assert!(warned.contains("step Y- is not known"), "{warned}");
+    // There is a sample at 0 degrees, and none before it.
+    assert!(warned.contains("step X+ is not known"), "{warned}");
     assert!(part(&reported, "step X+").is_null() && !part(&reported, "step X-").is_null());
-    // An arc tells one scale better than the other.
+    // An arc determines one scale better than the other.
     let both_ways = format!("{HEAD}{NAMES}{arc}{}", arc.replace("CCW", "CW"));
     std::fs::write(folder.path().join("arcs.csv"), both_ways).unwrap();
     let u = &self::reported(folder.path(), &["arcs.csv"])["parts"]["scale_u_um_per_m"];
@@ -323,7 +324,7 @@ fn an_error_that_repeats_is_found_with_its_period() {
 }
 
 #[test]
-fn results_of_the_bar_are_shown_beside_ours() {
+fn results_of_the_ballbar_software_are_compared_with_those_of_armill() {
     let folder = folder();
     let results = "<BALLBAR><MACHINE_TESTED NAME='MH12'/><FEATURE NAME='AF_CIRCULARITY' DT='UT_LENGTH_UM'>70.5</FEATURE>\
         <FEATURE NAME='AF_BACKLASH_A_POS' DT='UT_LENGTH_UM'>19.5</FEATURE></BALLBAR>";
@@ -335,7 +336,7 @@ fn results_of_the_bar_are_shown_beside_ours() {
 }
 
 #[test]
-fn what_is_wrong_is_told_with_its_place_and_a_hint() {
+fn errors_are_reported_with_position_and_hint() {
     let folder = folder();
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
     write("unit.csv", "angle,radius_dev\n0,1\n");
@@ -373,17 +374,17 @@ fn what_is_wrong_is_told_with_its_place_and_a_hint() {
             &["cells.csv"],
             &[
                 "cells.csv:3:3: `x` is not a number",
-                "cells.csv:3:5: `left` is no direction",
+                "cells.csv:3:5: `left` is not a direction",
                 "cells.csv:4:1",
             ],
         ),
         (&["unit.csv", "cells.csv"], &["unit.csv:1", "cells.csv:3"]),
-        (&["cw.csv"], &["nothing tells the nominal radius", "radius_mm"]),
+        (&["cw.csv"], &["the nominal radius is not given", "radius_mm"]),
         (
             &["mixed.csv"],
             &["mixed.csv:363:5: the radius is off by 90000 mm, more than half the nominal 100 mm"],
         ),
-        // The radius comes from another file: the run is told by its file and its name.
+        // The radius is from another file: the run is reported by its file and its name.
         (
             &["test.csv", "far.csv"],
             &["far.csv: CW3 (run `1`), sample 361: the radius is off by"],
@@ -391,15 +392,15 @@ fn what_is_wrong_is_told_with_its_place_and_a_hint() {
         (&["each.csv"], &["each.csv:102:1: more than 100 runs"]),
         (
             &["test.csv", "--before", "small.csv"],
-            &["--before: the nominal radius was 150 mm, and is 100 mm now"],
+            &["--before: the nominal radius was 150 mm, but is 100 mm now"],
         ),
         (
             &["test.csv", "--before", "fast.csv"],
-            &["--before: the feed was 2000 mm/min, and is 1000 mm/min now"],
+            &["--before: the feed was 2000 mm/min, but is 1000 mm/min now"],
         ),
         (
             &["test.csv", "--before", "yz.csv"],
-            &["--before: the plane was YZ, and is XY now"],
+            &["--before: the plane was YZ, but is XY now"],
         ),
         (
             &["test.csv", "--cyclic", "1e-306"],
@@ -419,7 +420,7 @@ fn what_is_wrong_is_told_with_its_place_and_a_hint() {
                 "--teach-lobes",
                 "30",
             ],
-            &["--points: 60 points cannot hold the 30 lobes of --teach-lobes"],
+            &["--points: 60 points are too few for the 30 lobes of --teach-lobes"],
         ),
         (
             &["test.csv", "small.csv"],
@@ -427,7 +428,7 @@ fn what_is_wrong_is_told_with_its_place_and_a_hint() {
         ),
         (
             &["test.csv", "--radius-mm", "150"],
-            &["another nominal radius was told before"],
+            &["another nominal radius was given before"],
         ),
         (&["test.csv", "--plane", "YZ"], &["another plane than the option"]),
         (
@@ -437,9 +438,12 @@ fn what_is_wrong_is_told_with_its_place_and_a_hint() {
         (&["cw.csv", "--radius-mm", "1e6"], &["a nominal radius of"]),
         (
             &["cw.csv", "--direction", "up"],
-            &["--direction: `up` is no direction"],
+            &["--direction: `up` is not a direction"],
         ),
-        (&["test.csv", "--cyclic", "no"], &["--cyclic: `no` is no period"]),
+        (
+            &["test.csv", "--cyclic", "no"],
+            &["--cyclic: `no` is not a period"],
+        ),
         (&["test.csv", "--cyclic", "0"], &["--cyclic: 0 is not above 0"]),
         (
             &["test.csv", "--lobes", "999"],
@@ -479,12 +483,12 @@ circle = { radius_mm = 100 }
 "#;
 
 #[test]
-fn the_taught_circle_comes_as_a_program_that_passes_every_point() {
+fn the_corrected_circle_is_written_as_a_program_through_every_point() {
     use armill_formats::robot_program::{Motion, ProgramText, Speed, Target, read};
     let folder = folder();
     let at = folder.path();
     std::fs::write(at.join("study.toml"), CIRCLE).unwrap();
-    // Angle 0 of the bar lies at 90 degrees of the circle, and its angles grow the other way.
+    // Angle 0 of the ball-bar is at 90 degrees of the circle, and its angles have the opposite direction.
     for (zero_deg, way, keys) in [
         (0.0, 1.0, &[][..]),
         (90.0, -1.0, &["--zero-deg", "90", "--mirrored"][..]),
@@ -506,7 +510,7 @@ fn the_taught_circle_comes_as_a_program_that_passes_every_point() {
             assert_eq!(code, 0, "{err}");
             // Straight moves between 48 points leave the circle by R (1 - cos(pi / 48)) = 214 um.
             assert!(
-                err.contains("leave the circle by 214.1 um; 324 points keep within 5 um"),
+                err.contains("deviate by 214.1 um from the circle; 324 points are within 5 um"),
                 "{err}"
             );
             let table = std::fs::read_to_string(at.join("p.csv")).unwrap();
@@ -540,7 +544,7 @@ fn the_taught_circle_comes_as_a_program_that_passes_every_point() {
                 "{ending}"
             );
             let tip = |target: &Target| target.pose().unwrap().translation.vector * 1e3;
-            // The circle lies on the plane about the origin of its frame, -x is y' and y is z'.
+            // The circle is on the plane about the origin of its frame, -x is y' and y is z'.
             let expected: Vec<[f64; 2]> = rows
                 .iter()
                 .map(|row| {
@@ -558,7 +562,7 @@ fn the_taught_circle_comes_as_a_program_that_passes_every_point() {
                     "{ending} {keys:?}: {nearest} {tip}"
                 );
             }
-            // Every point once, in one way round.
+            // Every point once, in one direction.
             let close = (tip(&moves[0].target) - tip(&moves[48].target)).norm();
             assert!(close < 1e-9, "{ending}: {close}");
             let angles: Vec<f64> = moves[..48]
@@ -586,7 +590,7 @@ fn the_taught_circle_comes_as_a_program_that_passes_every_point() {
         "study.toml",
     ];
     let (code, _, err) = armill(at, &requested);
-    assert!(code == 0 && !err.contains("leave the circle"), "{err}");
+    assert!(code == 0 && !err.contains("um from the circle"), "{err}");
     assert_eq!(
         std::fs::read_to_string(at.join("p.csv")).unwrap().lines().count(),
         325
@@ -594,7 +598,7 @@ fn the_taught_circle_comes_as_a_program_that_passes_every_point() {
 }
 
 #[test]
-fn a_program_of_another_circle_or_of_none_is_refused() {
+fn refuses_a_program_of_another_circle_or_without_a_circle() {
     let folder = folder();
     let at = folder.path();
     std::fs::write(at.join("study.toml"), CIRCLE).unwrap();
@@ -603,7 +607,8 @@ fn a_program_of_another_circle_or_of_none_is_refused() {
         CIRCLE.replace("radius_mm = 100", "radius_mm = 60"),
     )
     .unwrap();
-    let two = format!("{CIRCLE}[[analysis]]\nkind = \"path\"\nname = \"other\"\ncircle = {{ radius_mm = 50 }}\n");
+    let two =
+        format!("{CIRCLE}[[analysis]]\nkind = \"path\"\nname = \"other\"\ncircle = {{ radius_mm = 50 }}\n");
     std::fs::write(at.join("two.toml"), two).unwrap();
     std::fs::write(
         at.join("line.toml"),
@@ -617,7 +622,7 @@ fn a_program_of_another_circle_or_of_none_is_refused() {
         (&["--program", "a.src"][..], "--study STUDY"),
         (
             &["--program", "a.txt", "--study", "study.toml"],
-            "that of no language",
+            "is not that of a robot language",
         ),
         (
             &["--program", "a.src", "--study", "small.toml"],
@@ -631,10 +636,7 @@ fn a_program_of_another_circle_or_of_none_is_refused() {
             &["--program", "a.src", "--study", "two.toml", "--analysis", "third"],
             "no circle called `third`",
         ),
-        (
-            &["--program", "a.src", "--study", "line.toml"],
-            "asks for no circle",
-        ),
+        (&["--program", "a.src", "--study", "line.toml"], "has no circle"),
         (
             &["--program", "a.src", "--study", "study.toml", "--zero-deg", "nan"],
             "not a finite number",

@@ -94,7 +94,7 @@ fn load_um(folder: &Path) -> Vec<f64> {
     lines.enumerate().map(um).collect()
 }
 
-/// A study with its experiment: `keys` beside the files, noise of both measurements in um.
+/// A study with its experiment: `keys` in addition to the files, noise of both measurements in um.
 fn experiment(noise_um: [f64; 2], keys: &str, (turn, sign): (f64, f64)) -> (tempfile::TempDir, Vec<f64>) {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
@@ -108,7 +108,7 @@ fn experiment(noise_um: [f64; 2], keys: &str, (turn, sign): (f64, f64)) -> (temp
         let a = (k as f64).to_radians();
         let um = load + path_um(a) + reversal_um(a) + noise_um[1] * noise(9, k);
         let (r, f) = (100.0 + um * 1e-3, sign * (a - turn));
-        // The part lies anywhere on the table of the measuring machine.
+        // The part has any position on the table of the measuring machine.
         let _ = writeln!(part, "{:.7},{:.7}", 312.5 + r * f.cos(), -40.25 + r * f.sin());
     }
     std::fs::write(at.join("cmm.csv"), part).unwrap();
@@ -131,7 +131,7 @@ fn number(value: &Value, path: &str) -> f64 {
 }
 
 #[test]
-fn an_experiment_without_noise_is_explained_whole_whichever_way_its_files_look() {
+fn an_experiment_without_noise_is_explained_completely_for_all_orientations_of_its_files() {
     let quarter = TAU / 4.0;
     for (keys, seen) in [
         ("", (0.0, 1.0)),
@@ -142,7 +142,10 @@ fn an_experiment_without_noise_is_explained_whole_whichever_way_its_files_look()
         let reported = reported(folder.path());
         // The load moves the centre by a third of a millimetre, and angles about it by 0.2 degrees: near a reversal a
         // sample or two differ.
-        assert!(number(&reported, "/part/explained_percent") > 99.5, "{keys}: {reported}");
+        assert!(
+            number(&reported, "/part/explained_percent") > 99.5,
+            "{keys}: {reported}"
+        );
         assert!(number(&reported, "/part/turns_as_good_percent") < 0.5, "{keys}");
         let waves = reported["part"]["waves"].as_array().unwrap();
         assert!(number(&waves[1], "/phase_difference_deg").abs() < 0.5);
@@ -150,7 +153,10 @@ fn an_experiment_without_noise_is_explained_whole_whichever_way_its_files_look()
         let mean = load.iter().sum::<f64>() / 360.0;
         assert!((number(&reported, "/contributions/0/radius_um") - mean).abs() < 0.1);
         let name = |k: usize| reported["contributions"][k]["name"].as_str().unwrap().to_owned();
-        assert_eq!([name(1), name(2)], ["path without load, both ways", "reversal"]);
+        assert_eq!(
+            [name(1), name(2)],
+            ["path without load, both directions", "reversal"]
+        );
         // What is left of 45 cos 2a and 18 cos 3a: root of half of the squares.
         let rms = number(&reported, "/contributions/1/rms_um");
         assert!(
@@ -167,10 +173,13 @@ fn an_experiment_without_noise_is_explained_whole_whichever_way_its_files_look()
 }
 
 #[test]
-fn noise_is_told_as_scatter_and_no_more_is_missing_than_it_brings() {
+fn noise_is_reported_as_scatter_and_explains_the_residual() {
     let (folder, _) = experiment([2.0, 3.0], "part_u_um = 3\n", (0.0, 1.0));
     let reported = reported(folder.path());
-    assert!((number(&reported, "/repeatability_um") - 2.0).abs() < 0.2, "{reported}");
+    assert!(
+        (number(&reported, "/repeatability_um") - 2.0).abs() < 0.2,
+        "{reported}"
+    );
     let [explained, explainable] =
         ["/part/explained_percent", "/part/explainable_percent"].map(|path| number(&reported, path));
     assert!(
@@ -183,16 +192,16 @@ fn noise_is_told_as_scatter_and_no_more_is_missing_than_it_brings() {
 }
 
 #[test]
-fn a_wrong_zero_is_seen_though_all_sizes_are_right() {
+fn a_wrong_zero_is_detected_although_all_sizes_agree() {
     let (folder, _) = experiment([0.0, 0.0], "zero_deg = 45\nballbar_zero_deg = 0\n", (0.0, 1.0));
     let reported = reported(folder.path());
     assert!(number(&reported, "/part/explained_percent") < 20.0);
     let warned = reported["warnings"].to_string();
-    assert!(warned.contains("zero_deg wrong"), "{warned}");
+    assert!(warned.contains("zero_deg is wrong"), "{warned}");
 }
 
 #[test]
-fn a_run_compares_by_itself_and_its_report_shows_it() {
+fn a_run_includes_the_comparison_in_its_report() {
     let (folder, _) = experiment([0.0, 0.0], "", (0.0, 1.0));
     let at = folder.path();
     let (code, _, err) = armill(at, &["run", ".", "--out", "out"]);
@@ -201,7 +210,7 @@ fn a_run_compares_by_itself_and_its_report_shows_it() {
         serde_json::from_str(&std::fs::read_to_string(at.join("out/result.json")).unwrap()).unwrap();
     assert_eq!(result["measured"], reported(at));
     let report = std::fs::read_to_string(at.join("out/report.html")).unwrap();
-    assert!(report.contains("What was measured, beside what is predicted"));
+    assert!(report.contains("Measurement and prediction"));
     for picture in ["groove-budget.svg", "groove-measured.svg", "groove-waves.svg"] {
         assert!(at.join("out").join(picture).exists(), "{picture}");
     }
@@ -210,21 +219,18 @@ fn a_run_compares_by_itself_and_its_report_shows_it() {
     assert!(out.contains("plain sum") && out.contains("explained "), "{out}");
     let table = std::fs::read_to_string(at.join("budget/budget.csv")).unwrap();
     assert_eq!(table.lines().filter(|line| !line.starts_with('#')).count(), 361);
-    // Nothing measured: nothing told.
+    // Without measurements there is no budget.
     std::fs::write(at.join("study.toml"), STUDY.replace("[measured]\n", "")).unwrap();
     armill(at, &["run", ".", "--out", "bare"]);
     let bare: Value =
         serde_json::from_str(&std::fs::read_to_string(at.join("bare/result.json")).unwrap()).unwrap();
     assert!(bare["measured"].is_null());
     let (code, _, err) = armill(at, &["budget", "."]);
-    assert!(
-        code == 2 && err.contains("names nothing that was measured"),
-        "{err}"
-    );
+    assert!(code == 2 && err.contains("has no measurements"), "{err}");
 }
 
 #[test]
-fn all_problems_are_told_at_once_each_where_it_stands() {
+fn all_problems_are_reported_together_at_their_positions() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
     std::fs::write(at.join("bad.csv"), "angle_deg,radius_mm\n0,100\nx,100\n").unwrap();
@@ -234,17 +240,17 @@ fn all_problems_are_told_at_once_each_where_it_stands() {
         assert!(code == 2 && out.is_empty(), "{keys}: {code} {out}");
         err
     };
-    let err = refused("ask = \"grove\"\npart = \"bad.csv\"\nballbar = [\"none.csv\", \"nor.csv\"]\n");
+    let err = refused("analysis = \"grove\"\npart = \"bad.csv\"\nballbar = [\"none.csv\", \"nor.csv\"]\n");
     for said in [
         "nothing called `grove`",
-        "there is no file none.csv",
-        "there is no file nor.csv",
+        "file none.csv not found",
+        "file nor.csv not found",
         "bad.csv:3",
         "study.toml:15",
     ] {
         assert!(err.contains(said), "{said}: {err}");
     }
-    assert!(refused("ask = \"groove\"\n").contains("nothing measured is named"));
+    assert!(refused("analysis = \"groove\"\n").contains("no measurement is named"));
     assert!(refused("part = \"none.csv\"\n").contains("cannot read"));
     assert!(refused("part = \"bad.csv\"\nradius_mm = -1\n").contains("radius_mm"));
     assert!(refused("part = \"bad.csv\"\ncentre = \"middle\"\n").contains("least-squares"));
@@ -255,7 +261,7 @@ fn all_problems_are_told_at_once_each_where_it_stands() {
         })
     };
     std::fs::write(at.join("arc.csv"), arc(80)).unwrap();
-    assert!(refused("part = \"arc.csv\"\n").contains("less than a third of a turn"));
+    assert!(refused("part = \"arc.csv\"\n").contains("at least a third of a turn"));
     std::fs::write(at.join("few.csv"), arc(5)).unwrap();
     assert!(refused("part = \"few.csv\"\n").contains("a run of 5 samples"));
     let line = STUDY.replace(
@@ -264,15 +270,15 @@ fn all_problems_are_told_at_once_each_where_it_stands() {
     );
     std::fs::write(
         at.join("study.toml"),
-        format!("{line}ask = \"groove\"\npart = \"arc.csv\"\n"),
+        format!("{line}analysis = \"groove\"\npart = \"arc.csv\"\n"),
     )
     .unwrap();
     let (code, _, err) = armill(at, &["check", "."]);
-    assert!(code == 2 && err.contains("`groove` is no circle"), "{err}");
+    assert!(code == 2 && err.contains("`groove` is not a circle"), "{err}");
 }
 
-/// The MH12 with play in all joints.
-fn with_play() -> String {
+/// The MH12 with backlash in all joints.
+fn with_backlash() -> String {
     let mh12 =
         std::fs::read_to_string(crate::documents::repository().join("robots/yaskawa/mh12.toml")).unwrap();
     let play = "\nbacklash_deg = 0.01\nbacklash_u_deg = 0.001\nbacklash_source = \"paper\"\ncompliance_source = \"paper\"";
@@ -280,12 +286,12 @@ fn with_play() -> String {
 }
 
 #[test]
-fn backlash_that_the_ballbar_saw_is_not_counted_again() {
+fn backlash_measured_by_the_ballbar_is_not_included_twice() {
     let (folder, plain_load) = experiment([0.0, 0.0], "", (0.0, 1.0));
     let at = folder.path();
     let plain = reported(at);
     assert!(plain["without_load"].is_null());
-    std::fs::write(at.join("arm.toml"), with_play()).unwrap();
+    std::fs::write(at.join("arm.toml"), with_backlash()).unwrap();
     let study = std::fs::read_to_string(at.join("study.toml")).unwrap();
     let study = study.replace("robot = \"yaskawa/mh12\"", "robot = \"arm.toml\"");
     // What backlash adds along this circle, from runs with and without it.
@@ -299,7 +305,7 @@ fn backlash_that_the_ballbar_saw_is_not_counted_again() {
         .collect();
     assert!(play.iter().any(|um| um.abs() > 40.0), "{play:?}");
 
-    // The same ball-bar and the same part as without backlash: nothing of the budget changes.
+    // The same ball-bar and the same part as without backlash: the budget does not change.
     std::fs::write(at.join("study.toml"), &study).unwrap();
     let same = reported(at);
     for k in 0..3 {
@@ -314,12 +320,12 @@ fn backlash_that_the_ballbar_saw_is_not_counted_again() {
     assert!(
         (number(&same, "/part/explained_percent") - number(&plain, "/part/explained_percent")).abs() < 0.01
     );
-    // That ball-bar saw another arm, and the row beside it says so.
+    // That ball-bar measured another robot, and the row for comparison shows it.
     assert!(number(&same, "/without_load/predicted_um") > 20.0);
     assert!(number(&same, "/without_load/explained_percent") < 50.0, "{same}");
     let (_, text, _) = armill(at, &["budget", "."]);
     assert!(
-        text.contains("without load, predicted") && text.contains("in no sum"),
+        text.contains("without load, predicted") && text.contains("not part of the sums"),
         "{text}"
     );
 
@@ -335,7 +341,7 @@ fn backlash_that_the_ballbar_saw_is_not_counted_again() {
     // The table of the run has three decimals.
     assert!(number(&own, "/without_load/explained_percent") > 99.9, "{own}");
 
-    // Without a ball-bar the prediction stands for it, as a part of its own.
+    // Without a ball-bar the prediction is used, as a separate contribution.
     let part = format!("{bare}[measured]\npart = \"cmm.csv\"\n");
     std::fs::write(at.join("study.toml"), part).unwrap();
     let alone = reported(at);
@@ -347,7 +353,7 @@ fn backlash_that_the_ballbar_saw_is_not_counted_again() {
     assert!(
         alone["warnings"]
             .to_string()
-            .contains("is predicted from gravity"),
+            .contains("is predicted only from gravity"),
         "{alone}"
     );
     // Gaps known to a tenth: no more than a tenth of what they make, and less, for they are independent.
@@ -358,7 +364,7 @@ fn backlash_that_the_ballbar_saw_is_not_counted_again() {
     assert!(u > 0.02 * rms && u < 0.1 * rms * 6f64.sqrt(), "{u} {rms}");
     assert!(alone["repeatability_um"].is_null());
 
-    // And what the data sheet says stands for the scatter of runs.
+    // And the repeatability of the data sheet is used for the scatter of runs.
     let study = std::fs::read_to_string(at.join("study.toml")).unwrap();
     let scattering = study.replacen("tolerance_um", "repeatability_mm = 0.08\ntolerance_um", 1);
     std::fs::write(at.join("study.toml"), scattering).unwrap();
@@ -366,20 +372,22 @@ fn backlash_that_the_ballbar_saw_is_not_counted_again() {
     assert_eq!(scattering["contributions"][2]["name"], "repeatability");
     assert!((number(&scattering, "/contributions/2/scatter_um") - 80.0 / 3.616_088).abs() < 1e-4);
     assert!((number(&scattering, "/repeatability_um") - 80.0 / 3.616_088).abs() < 1e-4);
-    let sum = |reported: &Value| number(reported, "/sums/with_scatter_um") - number(reported, "/sums/as_functions_um");
+    let sum = |reported: &Value| {
+        number(reported, "/sums/with_scatter_um") - number(reported, "/sums/as_functions_um")
+    };
     assert!(sum(&scattering) > sum(&alone) + 20.0, "{scattering}");
 }
 
 #[test]
-fn doubt_of_compliances_stands_beside_the_load_and_is_less_without_centre_and_radius() {
+fn uncertainty_of_compliances_is_reported_for_the_load_and_is_less_without_centre_and_radius() {
     let (folder, _) = experiment([0.0, 0.0], "", (0.0, 1.0));
     let at = folder.path();
     let free = number(&reported(at), "/contributions/0/bias_u_um");
     assert!(free > 0.05, "{free}");
     let study = std::fs::read_to_string(at.join("study.toml")).unwrap();
-    // Twice the load, twice the doubt.
-    let sure = study.replace("cases_n = [[6, 10, 10]]", "cases_n = [[12, 20, 20]]");
-    std::fs::write(at.join("study.toml"), &sure).unwrap();
+    // Twice the load, twice the uncertainty.
+    let doubled = study.replace("cases_n = [[6, 10, 10]]", "cases_n = [[12, 20, 20]]");
+    std::fs::write(at.join("study.toml"), &doubled).unwrap();
     let twice = number(&reported(at), "/contributions/0/bias_u_um");
     assert!((twice / free - 2.0).abs() < 1e-6, "{twice} {free}");
     let kept = format!("{study}centre = \"as-measured\"\nradius = \"as-measured\"\n");
@@ -394,7 +402,7 @@ fn doubt_of_compliances_stands_beside_the_load_and_is_less_without_centre_and_ra
 }
 
 #[test]
-fn waves_that_are_hardly_there_have_neither_phase_nor_share() {
+fn harmonics_of_negligible_amplitude_have_neither_phase_nor_share() {
     let (folder, _) = experiment([0.0, 0.0], "", (0.0, 1.0));
     let reported = reported(folder.path());
     let least = number(&reported, "/part/least_wave_um");

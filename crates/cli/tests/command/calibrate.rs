@@ -1,4 +1,5 @@
-//! `armill calibrate` and `armill pose-accuracy` as a user runs them: a lever with known errors, a UR10 that was measured,
+//! `armill calibrate` and `armill pose-accuracy` as a user runs them: a lever with known errors, a UR10 that was
+//! measured,
 //! and what can be wrong.
 
 use std::fmt::Write;
@@ -87,14 +88,14 @@ fn folder() -> tempfile::TempDir {
 }
 
 #[test]
-fn a_long_arm_and_a_wrong_zero_are_found_and_the_robot_that_is_written_has_them() {
+fn a_wrong_length_and_a_wrong_zero_are_identified_and_written_to_the_robot_file() {
     let folder = folder();
     let requested = [
         "calibrate",
         "poses.csv",
         "--robot",
         "lever.toml",
-        "--hold-out",
+        "--validation",
         "0.25",
     ];
     let answer = json(
@@ -112,9 +113,15 @@ fn a_long_arm_and_a_wrong_zero_are_found_and_the_robot_that_is_written_has_them(
     };
     assert!((value("A along x") - 0.5).abs() < 1e-5, "{answer}");
     assert_eq!(answer["training"]["poses"], 30);
-    assert_eq!(answer["held_out"]["poses"], 10);
-    assert!(number(&answer["held_out"]["before"]["max_mm"]) > 0.1, "{answer}");
-    assert!(number(&answer["held_out"]["after"]["max_mm"]) < 1e-5, "{answer}");
+    assert_eq!(answer["validation"]["poses"], 10);
+    assert!(
+        number(&answer["validation"]["before"]["max_mm"]) > 0.1,
+        "{answer}"
+    );
+    assert!(
+        number(&answer["validation"]["after"]["max_mm"]) < 1e-5,
+        "{answer}"
+    );
     let names: Vec<&str> = answer["not_identifiable"]
         .as_array()
         .unwrap()
@@ -126,7 +133,7 @@ fn a_long_arm_and_a_wrong_zero_are_found_and_the_robot_that_is_written_has_them(
     assert_eq!(residuals.lines().count(), 41);
     let again = json(folder.path(), &["calibrate", "poses.csv", "--robot", "mine.toml"]);
     assert!(number(&again["training"]["before"]["max_mm"]) < 1e-5, "{again}");
-    assert!(again["held_out"].is_null());
+    assert!(again["validation"].is_null());
     let (code, out, err) = armill(
         folder.path(),
         &["calibrate", "poses.csv", "--robot", "lever.toml"],
@@ -134,8 +141,8 @@ fn a_long_arm_and_a_wrong_zero_are_found_and_the_robot_that_is_written_has_them(
     assert_eq!(code, 0, "{err}");
     for part in [
         "before",
-        "not told apart  A about z: base about z",
-        "no poses were held out",
+        "not separable   A about z: same effect as base about z",
+        "no validation poses",
     ] {
         assert!(out.contains(part), "{part}\n{out}");
     }
@@ -158,7 +165,7 @@ fn cycles_from_two_sides_have_accuracy_repeatability_and_variation() {
     );
     assert_eq!((&answer["visits"], &answer["poses"]), (&80.into(), &40.into()));
     let all = &answer["repeated"];
-    // Both cycles lie 10 um from their middle: no scatter of the distances.
+    // Both cycles are 10 um from their mean: no scatter of the distances.
     assert!((number(&all["rp_mean_mm"]) - 0.01).abs() < 1e-6, "{all}");
     assert!((number(&all["vap_max_mm"]) - 0.02).abs() < 1e-6, "{all}");
     assert!(number(&all["ap_max_mm"]) > 0.1, "{all}");
@@ -172,7 +179,7 @@ fn cycles_from_two_sides_have_accuracy_repeatability_and_variation() {
 }
 
 #[test]
-fn what_cannot_be_is_refused_with_all_problems_at_once() {
+fn refuses_invalid_input_with_all_problems_at_once() {
     let folder = folder();
     std::fs::write(
         folder.path().join("bad.csv"),
@@ -192,20 +199,20 @@ fn what_cannot_be_is_refused_with_all_problems_at_once() {
         (&["calibrate", "none.csv"], &["cannot read none.csv"]),
         (&["calibrate", "few.csv"], &["few.csv: 1 poses"]),
         (
-            &["calibrate", "poses.csv", "--hold-out", "2"],
-            &["--hold-out: 2 is not between 0 and 1"],
+            &["calibrate", "poses.csv", "--validation", "2"],
+            &["--validation: 2 is not between 0 and 1"],
         ),
         (
-            &["calibrate", "poses.csv", "--hold-out", "0.01"],
-            &["leaves 40 and 0"],
+            &["calibrate", "poses.csv", "--validation", "0.01"],
+            &["leaves 40 for training and 0 for validation"],
         ),
         (
-            &["calibrate", "poses.csv", "--hold-out", "none.csv"],
+            &["calibrate", "poses.csv", "--validation", "none.csv"],
             &["cannot read none.csv"],
         ),
         (
             &["calibrate", "poses.csv", "--turns"],
-            &["--turns: poses.csv tells no turns"],
+            &["--turns: poses.csv has no orientations"],
         ),
         (
             &["calibrate", "poses.csv", "--turns", "--turn-mm", "0"],
@@ -217,8 +224,8 @@ fn what_cannot_be_is_refused_with_all_problems_at_once() {
             &["--turns"],
         ),
         (
-            &["calibrate", "poses.csv", "--hold-out", "0.2", "--same-set-up"],
-            &["--same-set-up: the part 0.2 is of the same file"],
+            &["calibrate", "poses.csv", "--validation", "0.2", "--same-set-up"],
+            &["--same-set-up: the fraction 0.2 is of the same file"],
         ),
         (
             &["calibrate", "poses.csv", "--tool-mm", "1,2"],
@@ -257,7 +264,7 @@ fn ur10(name: &str) -> Option<PathBuf> {
 }
 
 #[test]
-fn a_measured_ur10_misses_its_poses_by_what_was_computed_elsewhere() {
+fn errors_of_a_measured_ur10_equal_independent_results() {
     let Some(cubes) = ur10("Series_D/measurements_iso_cubes.csv") else {
         return;
     };
@@ -279,7 +286,7 @@ fn a_measured_ur10_misses_its_poses_by_what_was_computed_elsewhere() {
 }
 
 #[test]
-fn a_ur10_calibrated_by_random_poses_is_judged_by_others_of_them_and_by_cubes_elsewhere() {
+fn a_ur10_calibrated_by_random_poses_is_validated_by_others_and_by_cubes_elsewhere() {
     let (Some(random), Some(cubes)) = (
         ur10("Series_C/measurements_random_poses.csv"),
         ur10("Series_D/measurements_iso_cubes.csv"),
@@ -293,44 +300,44 @@ fn a_ur10_calibrated_by_random_poses_is_judged_by_others_of_them_and_by_cubes_el
         random,
         "--robot",
         "universal-robots/ur10",
-        "--hold-out",
+        "--validation",
     ];
     let rms = |answer: &Value, set: &str, when: &str| number(&answer[set][when]["rms_mm"]);
-    // Where the arm was measured, half of the error goes, in poses that were held out too.
+    // In the measured region half of the error is removed, also for validation poses.
     let inside = json(folder.path(), &[&requested[..], &["0.2"]].concat());
     assert!(
-        rms(&inside, "held_out", "after") < 0.51 * rms(&inside, "held_out", "before"),
+        rms(&inside, "validation", "after") < 0.51 * rms(&inside, "validation", "before"),
         "{inside}"
     );
-    // All cubes lie elsewhere: next to nothing is gained, and that is told.
+    // All cubes are elsewhere: the improvement is small, and a note says so.
     let answer = json(
         folder.path(),
         &[&requested[..], &[cubes, "--out", "ur10.toml"]].concat(),
     );
     assert_eq!(answer["parameters"].as_array().unwrap().len(), 16);
-    assert!((rms(&answer, "held_out", "before") - 0.77).abs() < 0.0051);
+    assert!((rms(&answer, "validation", "before") - 0.77).abs() < 0.0051);
     assert!(
-        rms(&answer, "held_out", "after") < rms(&answer, "held_out", "before"),
+        rms(&answer, "validation", "after") < rms(&answer, "validation", "before"),
         "{answer}"
     );
     assert!(
-        number(&answer["held_out"]["beyond_found_range"]) > 600.0,
+        number(&answer["validation"]["beyond_found_range"]) > 600.0,
         "{answer}"
     );
-    // The robot that was written is the one that was judged.
+    // The robot that was written is the one that was validated.
     let again = json(folder.path(), &["pose-accuracy", cubes, "--robot", "ur10.toml"]);
-    assert!((number(&again["absolute"]["rms_mm"]) - rms(&answer, "held_out", "after")).abs() < 1e-5);
+    assert!((number(&again["absolute"]["rms_mm"]) - rms(&answer, "validation", "after")).abs() < 1e-5);
 }
 
 #[test]
-fn a_prior_keeps_what_poses_do_not_tell_and_the_drawing_shows_both_sets() {
+fn a_prior_keeps_undetermined_parameters_near_nominal_and_the_drawing_shows_both_sets() {
     let folder = folder();
     let requested = [
         "calibrate",
         "poses.csv",
         "--robot",
         "lever.toml",
-        "--hold-out",
+        "--validation",
         "0.25",
     ];
 
@@ -360,8 +367,8 @@ fn a_prior_keeps_what_poses_do_not_tell_and_the_drawing_shows_both_sets() {
     assert!(number(&answer["effective_parameters"]) > 2.0);
     let drawing = std::fs::read_to_string(folder.path().join("errors.svg")).unwrap();
     for part in [
-        "found from, before",
-        "held out, after",
+        "training, before",
+        "validation, after",
         "lever: errors of position",
     ] {
         assert!(drawing.contains(part), "{part}");
@@ -372,7 +379,7 @@ fn a_prior_keeps_what_poses_do_not_tell_and_the_drawing_shows_both_sets() {
             &["--prior-mm", "0", "--prior-deg", "1"],
             "--prior-mm: 0 is not above 0",
         ),
-        (&["--drawing", "errors.jpg"], "is no picture that armill draws"),
+        (&["--drawing", "errors.jpg"], "does not end in .svg or .png"),
     ] {
         let (code, _, err) = armill(folder.path(), &[&requested[..], arguments].concat());
         assert!(code == 2 && err.contains(said), "{arguments:?}: {err}");
@@ -380,12 +387,12 @@ fn a_prior_keeps_what_poses_do_not_tell_and_the_drawing_shows_both_sets() {
 }
 
 #[test]
-fn a_ur10_of_twenty_poses_meets_others_better_with_a_prior() {
+fn a_prior_improves_a_calibration_with_twenty_poses() {
     let Some(random) = ur10("Series_C/measurements_random_poses.csv") else {
         return;
     };
     let folder = tempfile::tempdir().unwrap();
-    // Every tenth row or so of the file: twenty poses, and the file itself to judge by.
+    // About every tenth row of the file: twenty poses, and the file itself for validation.
     let text = std::fs::read_to_string(&random).unwrap();
     let count = text.lines().count() - 1;
     let some = text
@@ -400,22 +407,22 @@ fn a_ur10_of_twenty_poses_meets_others_better_with_a_prior() {
         "few.csv",
         "--robot",
         "universal-robots/ur10",
-        "--hold-out",
+        "--validation",
         random,
         "--same-set-up",
     ];
     let rms = |prior: &[&str]| {
         let answer = json(folder.path(), &[&requested[..], prior].concat());
         assert_eq!(answer["training"]["poses"], 20);
-        ["before", "after"].map(|when| number(&answer["held_out"][when]["rms_mm"]))
+        ["before", "after"].map(|when| number(&answer["validation"][when]["rms_mm"]))
     };
     let [before, free] = rms(&[]);
-    let [same, held] = rms(&["--prior-mm", "0.5", "--prior-deg", "0.05"]);
-    println!("before {before}, free {free}, held {held}");
+    let [same, with_prior] = rms(&["--prior-mm", "0.5", "--prior-deg", "0.05"]);
+    println!("before {before}, free {free}, with prior {with_prior}");
     assert!((before - same).abs() < 1e-9);
     assert!(
-        held < free && held < before,
-        "before {before}, free {free}, held {held}"
+        with_prior < free && with_prior < before,
+        "before {before}, free {free}, with prior {with_prior}"
     );
 }
 

@@ -26,7 +26,7 @@ step_mm = 50
 cases_n = [[3, 5, 5], [3, -5, 5]]
 "#;
 
-/// One ask of every kind but holes, to be appended to [`SMALL`]: 25 + 2 x 25 + 27 + 36 points.
+/// One analysis of every kind but holes, to be appended to [`SMALL`]: 25 + 2 x 25 + 27 + 36 points.
 pub const EVERY_KIND: &str = r#"
 [[analysis]]
 kind = "map"
@@ -221,7 +221,7 @@ impl Said {
     }
 }
 
-/// Every file of a folder by name; nothing where there is no folder.
+/// Every file of a folder by name; nothing if the folder does not exist.
 pub fn files_in(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let Ok(entries) = std::fs::read_dir(folder) else {
         return BTreeMap::new();
@@ -273,7 +273,9 @@ pub fn what_is_half(name: &str, bytes: &[u8]) -> Option<String> {
 /// `value` as a number.
 #[track_caller]
 pub fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("`{value}` is no number"))
+    value
+        .as_f64()
+        .unwrap_or_else(|| panic!("`{value}` is not a number"))
 }
 
 /// `value` as a list of numbers.
@@ -281,7 +283,7 @@ pub fn number(value: &Value) -> f64 {
 pub fn numbers(value: &Value) -> Vec<f64> {
     value
         .as_array()
-        .unwrap_or_else(|| panic!("`{value}` is no list"))
+        .unwrap_or_else(|| panic!("`{value}` is not a list"))
         .iter()
         .map(number)
         .collect()
@@ -292,7 +294,7 @@ pub fn numbers(value: &Value) -> Vec<f64> {
 pub fn rows(value: &Value) -> Vec<Vec<f64>> {
     value
         .as_array()
-        .unwrap_or_else(|| panic!("`{value}` is no list"))
+        .unwrap_or_else(|| panic!("`{value}` is not a list"))
         .iter()
         .map(numbers)
         .collect()

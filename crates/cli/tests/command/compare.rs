@@ -1,4 +1,4 @@
-//! `armill compare`: cells side by side in words, JSON and files; what cannot be compared is told.
+//! `armill compare`: cells compared in text, JSON and files; errors for what cannot be compared.
 
 use crate::cell::{Cell, number};
 
@@ -26,7 +26,7 @@ fn but(of: &str, instead: &str) -> String {
 }
 
 #[test]
-fn two_studies_stand_side_by_side_best_first_with_what_differs() {
+fn two_studies_are_ranked_with_their_differences() {
     let cell = Cell::new();
     cell.file("short/study.toml", CELL);
     cell.file(
@@ -34,7 +34,7 @@ fn two_studies_stand_side_by_side_best_first_with_what_differs() {
         but("[0, 0, 150, 0, 0, 0]", "[0, 0, 400, 0, 0, 0]"),
     );
     let said = cell.armill(&["compare", "long", "short", "--no-pictures"]).fine();
-    // The longer tool yields more: short comes first although it was named last.
+    // The longer tool has more compliance: short is first although it was named last.
     assert!(said.out.starts_with("ring: "), "{}", said.out);
     let row = |name: &str| said.out.find(&format!("\n  {name}  ")).unwrap();
     assert!(row("short") < row("long"), "{}", said.out);
@@ -91,7 +91,7 @@ fn numbers_are_those_of_a_run() {
 }
 
 #[test]
-fn another_robot_brings_its_own_compliance_and_is_told_as_assumed() {
+fn another_robot_has_its_own_compliance_which_is_reported_as_assumed() {
     let cell = Cell::new();
     cell.file("study.toml", CELL);
     let args = [
@@ -130,14 +130,14 @@ fn another_robot_brings_its_own_compliance_and_is_told_as_assumed() {
         assert!(cell.at("compare").join(name).is_file(), "{name}");
     }
     let report = std::fs::read_to_string(cell.at("compare/report.html")).unwrap();
-    assert!(report.contains("what the cells are") && report.contains("the same"));
+    assert!(report.contains("properties of the cells") && report.contains("the same"));
     let table = std::fs::read_to_string(cell.at("compare/cells.csv")).unwrap();
-    // A head, and three cells of each of two asks.
+    // A heading, and three cells of each of two analyses.
     assert_eq!(table.lines().count(), 7);
 }
 
 #[test]
-fn compliances_and_statements_of_the_study_stay_with_its_own_robot() {
+fn compliances_and_statements_of_the_study_apply_to_its_own_robot_only() {
     let cell = Cell::new();
     let study = format!(
         "{CELL}\n[[statement]]\ntext = \"t\"\nsource = \"s\"\nat_most_um = 5\nof = [\"ring\"]\n[compliance]\nrad_per_n_m = [1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 1e-6]\nsource = \"test\"\n"
@@ -166,7 +166,7 @@ fn compliances_and_statements_of_the_study_stay_with_its_own_robot() {
 }
 
 #[test]
-fn out_of_reach_is_an_outcome_with_its_counts() {
+fn out_of_reach_is_a_result_with_its_counts() {
     let cell = Cell::new();
     cell.file("study.toml", but("[850, 50, 300]", "[1700, 0, 900]"));
     let said = cell
@@ -183,7 +183,7 @@ fn out_of_reach_is_an_outcome_with_its_counts() {
 }
 
 #[test]
-fn asks_of_one_cell_alone_and_paths_that_are_not_the_same_are_told() {
+fn analyses_of_one_cell_only_and_different_paths_are_reported() {
     let cell = Cell::new();
     cell.file("a.toml", CELL);
     let other = but("circle.radius_mm = 60", "circle.radius_mm = 70").replace("\"plate\"", "\"sheet\"");
@@ -192,8 +192,8 @@ fn asks_of_one_cell_alone_and_paths_that_are_not_the_same_are_told() {
         .armill(&["compare", "a.toml", "b.toml", "--no-pictures"])
         .fine();
     for given in [
-        "map `plate` is asked of a alone and left out.",
-        "map `sheet` is asked of b alone and left out.",
+        "map `plate` is left out: only a has it.",
+        "map `sheet` is left out: only b has it.",
         "The paths `ring` of a and b are not the same: 38 points over 377.0 mm against 44 points over 439.8 mm.",
     ] {
         assert!(said.out.contains(given), "{given}: {}", said.out);
@@ -201,7 +201,7 @@ fn asks_of_one_cell_alone_and_paths_that_are_not_the_same_are_told() {
 }
 
 #[test]
-fn what_cannot_be_compared_is_refused_with_what_to_do() {
+fn refuses_what_cannot_be_compared_with_a_hint() {
     let cell = Cell::new();
     cell.file("a.toml", CELL);
     let gravity = "\n[gravity]\nreference_joints_deg = [0, 0, 0, 0, -90, 0]\n[[tool.mass]]\nat = \"tool\"\nmass_kg = 5\ncentre_mm = [0, 0, 0]\nsource = \"test\"\n";
@@ -243,7 +243,7 @@ fn what_cannot_be_compared_is_refused_with_what_to_do() {
     );
     refused(
         &["a.toml", "--robot", "kuka/lbr-iiwa-14-r820"],
-        &["six turning joints", "a study of its own"],
+        &["six revolute joints", "a separate study"],
     );
     refused(
         &["heavy.toml", "--robot", "fanuc/r2000ic"],
@@ -254,7 +254,12 @@ fn what_cannot_be_compared_is_refused_with_what_to_do() {
     );
     refused(
         &["a.toml", "apart.toml"],
-        &["nothing in common", "map `plate`", "path `rim`", "same `name`"],
+        &[
+            "no analysis in common",
+            "map `plate`",
+            "path `rim`",
+            "same `name`",
+        ],
     );
     refused(&["a.toml", "wrong.toml"], &["wrong.toml:3:"]);
     refused(&["a.toml", "nowhere"], &["no study at nowhere"]);

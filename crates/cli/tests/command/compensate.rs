@@ -25,7 +25,7 @@ fn cell(program: &str, rest: &str) -> Cell {
 }
 
 #[test]
-fn the_commanded_path_read_again_deviates_onto_the_drawn_one() {
+fn the_commanded_path_read_again_deviates_onto_the_nominal_one() {
     let cell = cell("file = \"ring.ngc\", limits = false", "");
     let said = cell.armill(&["compensate", "study.toml"]).fine();
     assert!(said.out.starts_with("ring: the tool goes "), "{}", said.out);
@@ -48,7 +48,7 @@ fn the_commanded_path_read_again_deviates_onto_the_drawn_one() {
     cell.armill(&["run", "again.toml", "--no-pictures", "--out", "again"])
         .fine();
     let (drawn, commanded) = (rows(&cell, "drawn"), rows(&cell, "again"));
-    // The table holds every point: with long steps its program is sampled at them.
+    // The table has every point: with long steps its program is sampled at them.
     assert_eq!(drawn.len(), commanded.len());
     for (drawn, commanded) in drawn.iter().zip(&commanded).step_by(7) {
         let full = number_of(commanded, "full_um");
@@ -104,7 +104,7 @@ fn turns_that_are_searched_for_are_part_of_the_path() {
 }
 
 #[test]
-fn a_program_of_the_robot_goes_along_the_commanded_path_and_up_between_cuts() {
+fn a_robot_program_follows_the_commanded_path_and_retracts_between_cuts() {
     use armill_formats::robot_program::{Frame, Motion, ProgramText, Speed, Target, read};
     let cell = cell("file = \"ring.ngc\", limits = false", "");
     // Two cuts with a rapid between them.
@@ -129,8 +129,8 @@ fn a_program_of_the_robot_goes_along_the_commanded_path_and_up_between_cuts() {
             .unwrap();
         let text = ProgramText::new(&name.display().to_string(), &std::fs::read(&name).unwrap());
         let program = read(vec![text]).unwrap();
-        // The zero lies at 500 mm above the floor, and the controller counts from 450 mm.
-        if let Frame::Told(frame) = program.moves[program.moves.len() - 1].frame {
+        // The zero is 500 mm above the floor, and the controller is relative to 450 mm.
+        if let Frame::Given(frame) = program.moves[program.moves.len() - 1].frame {
             let z = frame.translation.vector.z;
             assert!((z - 0.05).abs() < 1e-9 || z.abs() < 1e-12, "{ending}: {z}");
         }
@@ -168,9 +168,9 @@ fn a_program_of_the_robot_goes_along_the_commanded_path_and_up_between_cuts() {
         );
     }
     cell.armill(&["compensate", "study.toml", "--program", "ring.txt"])
-        .refused(&["that of no language"]);
+        .refused(&["is not that of a robot language"]);
     cell.armill(&["compensate", "study.toml", "--program", "1ring.src"])
-        .refused(&["`1ring` is no name in KUKA KRL"]);
+        .refused(&["`1ring` is not a valid name in KUKA KRL"]);
     cell.armill(&[
         "compensate",
         "study.toml",
@@ -179,7 +179,7 @@ fn a_program_of_the_robot_goes_along_the_commanded_path_and_up_between_cuts() {
         "--retract-mm",
         "5000",
     ])
-    .refused(&["the arm cannot go 5000 mm up from here"]);
+    .refused(&["the robot cannot retract by 5000 mm here"]);
 }
 
 /// A cut in the language of KUKA; the controller of the arm counts from 450 mm above the floor.
@@ -189,7 +189,7 @@ const KRL: &str = "&ACCESS RVP\r\nDEF part ( ) ; \u{fc}ber\r\n$BASE={X 1000,Y 0,
     LIN {X -40,Y -40,Z 0,A 0,B 180,C 0}\r\nPTP {X -40,Y -40,Z 60,A 0,B 180,C 0,S 2,T 35}\r\nEND\r\n";
 
 #[test]
-fn a_program_of_a_robot_comes_back_with_its_targets_moved_and_nothing_else() {
+fn a_robot_program_is_rewritten_with_changed_targets_only() {
     use armill_formats::robot_program::{ProgramText, read};
     let cell = cell("file = \"part.src\", limits = false", "");
     cell.file("part.src", KRL);
@@ -222,7 +222,7 @@ fn a_program_of_a_robot_comes_back_with_its_targets_moved_and_nothing_else() {
         .zip(&after)
         .map(|(a, b)| (a - b).norm() * 1e6)
         .collect();
-    // The place above the part cuts nothing and stays; all others move by about what the arm yields.
+    // The position above the part cuts nothing and is unchanged; all others move by about the deflection of the robot.
     assert_eq!(moved[5], 0.0);
     assert!(
         moved[..5].iter().all(|by| (by / of("before") - 1.0).abs() < 0.2),
@@ -241,7 +241,7 @@ fn a_program_of_a_robot_comes_back_with_its_targets_moved_and_nothing_else() {
     };
     assert_eq!(rest(KRL), rest(&written));
     assert_ne!(KRL, written);
-    // The program that was written, run as it stands, deviates onto the drawn one: as was told.
+    // The written program, run as it is, deviates onto the nominal path, as was reported.
     cell.file(
         "again.toml",
         study
@@ -278,21 +278,21 @@ fn a_program_of_a_robot_comes_back_with_its_targets_moved_and_nothing_else() {
             ["x_mm", "y_mm", "z_mm"].map(|name| at(first, name) * 1e3),
         )
     };
-    let ((stands, _), (_, drawn)) = (table("again"), table("drawn"));
-    let apart: f64 = stands
+    let ((written, _), (_, nominal)) = (table("again"), table("drawn"));
+    let apart: f64 = written
         .iter()
-        .zip(drawn)
+        .zip(nominal)
         .map(|(a, b)| (a - b).powi(2))
         .sum::<f64>()
         .sqrt();
-    assert!(apart <= placed + 1.0, "{apart} um, {placed} um told");
+    assert!(apart <= placed + 1.0, "{apart} um, {placed} um reported");
     // Over itself it is not written.
     cell.armill(&["compensate", "study.toml", "--out", "."])
         .refused(&["part.src", "this command reads that file"]);
 }
 
 #[test]
-fn what_keeps_a_program_from_being_written_in_place_is_said() {
+fn reports_why_a_program_is_not_rewritten() {
     let cell = cell("file = \"part.src\", limits = false", "");
     cell.file(
         "part.src",
@@ -357,7 +357,7 @@ fn the_program_of_a_circle_ends_where_it_begins() {
 }
 
 #[test]
-fn a_path_as_it_is_drawn_makes_up_for_nothing() {
+fn a_nominal_path_is_not_compensated() {
     let cell = Cell::with_study(&format!("{CELL}{CIRCLE}"));
     let all = [
         "compensate",
@@ -370,7 +370,8 @@ fn a_path_as_it_is_drawn_makes_up_for_nothing() {
     ];
     let said = cell.armill(&all).fine();
     assert!(
-        said.out.starts_with("round: as it is drawn; the tool goes "),
+        said.out
+            .starts_with("round: not compensated; largest deviation of the tool "),
         "{}",
         said.out
     );
@@ -390,11 +391,10 @@ fn a_path_as_it_is_drawn_makes_up_for_nothing() {
 }
 
 #[test]
-fn what_cannot_be_compensated_says_why() {
+fn reports_what_cannot_be_compensated() {
     let cell = cell("file = \"ring.ngc\"", "");
     cell.armill(&["compensate", "study.toml", "--analysis", "rim"])
         .refused(&["no path called `rim`"]);
     cell.file("map.toml", CELL.replace("frame = \"feed\"", ""));
-    cell.armill(&["compensate", "map.toml"])
-        .refused(&["asks for no path"]);
+    cell.armill(&["compensate", "map.toml"]).refused(&["has no path"]);
 }

@@ -1,7 +1,8 @@
-//! The documents run: every `console` block of README and guide gives what it shows.
+//! Checks that every `console` block of README and guide shows the actual output.
 //!
-//! A page gets one folder, empty but for the URDFs of `validation/urdf-forward`. A line `$ ...` is a command of `armill` (a shell runs it, so `>` and `&&` work);
-//! the lines after it are its output, stdout and stderr in either order; `...` stands for any lines.
+//! A page gets one folder, empty but for the URDFs of `validation/urdf-forward`. A line `$ ...` is a command of
+//! `armill` (a shell runs it, so `>` and `&&` work);
+//! the lines after it are its output, stdout and stderr in either order; `...` matches any lines.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -28,7 +29,7 @@ fn commands(page: &str) -> Vec<(String, Vec<String>)> {
     commands
 }
 
-/// Whether `shown` is `real`, with any lines where `...` stands.
+/// Whether `shown` matches `real`, where `...` matches any lines.
 fn fits(shown: &[String], real: &[&str]) -> bool {
     match shown.split_first() {
         None => real.is_empty(),
@@ -127,7 +128,7 @@ fn every_page_of_the_guide_is_run() {
 }
 
 #[test]
-fn dots_stand_for_any_lines_and_nothing_else_does() {
+fn dots_match_any_lines_and_nothing_else_does() {
     let shown = |text: &str| text.lines().map(str::to_owned).collect::<Vec<_>>();
     assert!(fits(&shown("a\n...\nd"), &["a", "b", "c", "d"]));
     assert!(fits(&shown("a\n..."), &["a"]));

@@ -34,7 +34,7 @@ fn folder() -> tempfile::TempDir {
 }
 
 #[test]
-fn a_record_is_told_before_and_after_whatever_its_format() {
+fn a_record_is_reported_before_and_after_processing_in_any_format() {
     let folder = folder();
     for (file, format) in [("r.csv", "CSV"), ("r.txt", "DynoWare")] {
         let (code, out, err) = armill(
@@ -74,20 +74,20 @@ fn a_record_is_told_before_and_after_whatever_its_format() {
 }
 
 #[test]
-fn quiet_stretches_are_found_and_said_so() {
+fn quiet_intervals_are_detected_and_reported() {
     let folder = folder();
     let (code, out, err) = armill(folder.path(), &["forces", "r.csv"]);
     assert_eq!(code, 0, "{err}");
     assert!(
-        out.contains("found as the quietest") && out.contains("(5.000, 0.000, 0.000) N"),
+        out.contains("detected as the quietest") && out.contains("(5.000, 0.000, 0.000) N"),
         "{out}"
     );
     let (_, out, _) = armill(folder.path(), &["forces", "r.csv", "--no-drift"]);
-    assert!(out.contains("left in") && out.contains("37.00"), "{out}");
+    assert!(out.contains("not removed") && out.contains("37.00"), "{out}");
 }
 
 #[test]
-fn tables_and_pictures_come_out_and_can_be_read_again() {
+fn writes_tables_and_pictures_that_can_be_read_again() {
     let folder = folder();
     let (code, _, err) = armill(
         folder.path(),
@@ -116,7 +116,7 @@ fn tables_and_pictures_come_out_and_can_be_read_again() {
 }
 
 #[test]
-fn what_is_wrong_is_told_with_its_place_and_a_hint() {
+fn errors_are_reported_with_position_and_hint() {
     let folder = folder();
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
     write(
@@ -128,16 +128,16 @@ fn what_is_wrong_is_told_with_its_place_and_a_hint() {
     write("two.txt", &record('\t', EXPORT).repeat(2));
     for (arguments, words) in [
         (&["none.csv"][..], &["cannot read none.csv", "help:"][..]),
-        (&["trap.txt"], &["trap.txt:4:1", "which is which cannot be told"]),
-        (&["volts.txt"], &["volts.txt:3", "`V` is no unit"]),
+        (&["trap.txt"], &["trap.txt:4:1", "they cannot be distinguished"]),
+        (&["volts.txt"], &["volts.txt:3", "`V` is not a unit"]),
         (&["no-unit.csv"], &["no-unit.csv:1", "missing columns: `Fy`"]),
         (
             &["two.txt", "--no-drift"],
-            &["--cycle", "holds 2 cycles", "from 1 to 2"],
+            &["--cycle", "has 2 cycles", "from 1 to 2"],
         ),
-        (&["r.txt", "--cycle", "0"], &["not a cycle 0"]),
-        (&["r.csv", "--air-s", "0"], &["--air-s", "`0` is no stretch"]),
-        (&["r.csv", "--air-s", "0,1,2"], &["is no stretch"]),
+        (&["r.txt", "--cycle", "0"], &["but no cycle 0"]),
+        (&["r.csv", "--air-s", "0"], &["--air-s", "`0` is not an interval"]),
+        (&["r.csv", "--air-s", "0,1,2"], &["is not an interval"]),
         (
             &["r.csv", "--air-s", "8,9"],
             &["--air-s", "0 samples", "to 2.999 s"],
@@ -147,7 +147,7 @@ fn what_is_wrong_is_told_with_its_place_and_a_hint() {
         (&["r.csv", "--low-pass-hz", "nan"], &["--low-pass-hz", "NaN Hz"]),
         (&["r.csv", "--spindle-rpm", "0"], &["--spindle-rpm"]),
         (&["r.txt", "--channels", "Fx,Fy"], &["2 names of channels"]),
-        (&["r.csv", "--rate-hz", "10"], &["leave the rate out"]),
+        (&["r.csv", "--rate-hz", "10"], &["leave out the rate"]),
         (&["r.csv", "--out", "r.txt"], &["r.txt"]),
     ] {
         let (code, out, err) = armill(folder.path(), &[&["forces"], arguments].concat());

@@ -215,7 +215,7 @@ fn no_command_replaces_its_input_even_by_force() {
 }
 
 #[test]
-fn no_command_replaces_a_file_that_it_did_not_make_without_force() {
+fn no_command_replaces_a_foreign_file_without_force() {
     let cell = cell();
     let before = all_files(&cell);
     for words in OVER_OTHERS {
@@ -256,7 +256,7 @@ fn a_plan_is_made_again_until_it_is_filled_in() {
 }
 
 #[test]
-fn commands_that_write_into_a_folder_remove_and_replace_nothing_of_the_user() {
+fn commands_that_write_into_a_folder_keep_the_files_of_the_user() {
     let cell = cell();
     let before = all_files(&cell);
     let place = ["place", ".", "--x-mm", "990,1010", "--no-pictures", "--out", "."];
@@ -288,7 +288,7 @@ fn a_backlash_folder_keeps_the_pictures_of_the_user() {
 }
 
 #[test]
-fn a_run_removes_its_own_stale_files_and_not_those_that_were_changed() {
+fn a_run_removes_its_own_stale_files_except_changed_ones() {
     let cell = Cell::with_study(&format!("{SMALL}{RING}"));
     cell.armill(&["run", ".", "--no-pictures"]).fine();
     cell.file("study.toml", format!("{SMALL}{}", RING.replace("ring", "rim")));
@@ -367,11 +367,11 @@ fn a_second_run_into_a_folder_is_refused_with_the_name_of_the_first() {
     let cell = Cell::with_study(&format!("{SMALL}{RING}"));
     // Another run writes into the folder: the test itself.
     let writer = armill_formats::file::Writer::new("place", false);
-    let held = writer.folder(&cell.at("out")).unwrap();
+    let locked = writer.folder(&cell.at("out")).unwrap();
     let own = format!("armill place, process {}", std::process::id());
     cell.armill(&["run", ".", "--no-pictures"])
         .refused(&[&own, "wait for it"]);
-    drop(held);
+    drop(locked);
     cell.armill(&["run", ".", "--no-pictures"]).fine();
     assert!(!cell.at("out/.armill-lock").exists());
 }
@@ -455,7 +455,7 @@ fn only_files_of_the_study_and_of_the_command_line_are_quoted() {
 }
 
 #[test]
-fn every_command_that_writes_says_what_force_does() {
+fn help_of_every_writing_command_describes_force() {
     let folder = tempfile::tempdir().unwrap();
     for words in [
         &["run"][..],

@@ -62,7 +62,7 @@ fn each_hole_deviates_as_its_posture_does() {
 }
 
 #[test]
-fn a_hole_that_only_a_straight_wrist_holds_is_told_with_a_warning_and_lost_to_a_search() {
+fn a_hole_with_only_a_singular_posture_is_reported_with_a_warning_and_unreachable_for_a_search() {
     let cell = Cell::new();
     // A level tool on the height of a level forearm: however it is turned, the wrist is straight.
     let level = PANEL
@@ -83,7 +83,7 @@ fn a_hole_that_only_a_straight_wrist_holds_is_told_with_a_warning_and_lost_to_a_
     assert_eq!(json["holes"][0]["fraction_within"], 0.0);
     let warned = json["warnings"].to_string();
     assert!(
-        warned.contains("panel: for 1 of 1 holes every turn and branch is refused, hole 1 first (singular)"),
+        warned.contains("panel: for 1 of 1 holes every turn and branch is rejected, hole 1 first (singular)"),
         "{warned}"
     );
 }
@@ -94,7 +94,7 @@ fn a_run_leaves_table_pictures_and_report() {
     cell.file("study.toml", PANEL);
     let said = cell.armill(&["run", "study.toml"]).fine();
     assert!(
-        said.out.starts_with("panel: ") && said.out.contains("of 3 holes hold 150 µm"),
+        said.out.starts_with("panel: ") && said.out.contains("of 3 holes are within 150 µm"),
         "{}",
         said.out
     );

@@ -1,4 +1,5 @@
-//! Hostile numbers and bytes through the front door: every run ends by itself, within bounds of memory and time, with an answer or a
+//! Hostile numbers and bytes through the command line: every run ends, within limits of memory and time, with a
+//! result or an
 //! refusal.
 //!
 //! Links and files of the user are in `guarded`; parsers are fuzzed by `cargo xtask fuzz`.

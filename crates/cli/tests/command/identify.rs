@@ -46,7 +46,7 @@ fn filled_in(folder: &Path) {
 }
 
 #[test]
-fn a_plan_filled_in_gives_the_springs_back_and_a_robot_that_predicts() {
+fn a_completed_plan_gives_the_springs_and_a_robot_for_predictions() {
     let folder = tempfile::tempdir().unwrap();
     filled_in(folder.path());
     let arguments = [
@@ -97,7 +97,7 @@ fn a_plan_filled_in_gives_the_springs_back_and_a_robot_that_predicts() {
 }
 
 #[test]
-fn a_plan_expects_what_the_compliances_of_the_robot_file_give() {
+fn a_plan_expects_displacements_by_the_compliances_of_the_robot_file() {
     let folder = tempfile::tempdir().unwrap();
     let plan = [
         "identify",
@@ -138,7 +138,10 @@ fn a_plan_expects_what_the_compliances_of_the_robot_file_give() {
         );
         for (mm, um) in expected.iter().zip(&given) {
             // Degrees are turned into radians and back, and written in full.
-            assert!((mm - um / 1e3).abs() < 1e-9 * (1.0 + mm.abs()), "{test} {given:?}");
+            assert!(
+                (mm - um / 1e3).abs() < 1e-9 * (1.0 + mm.abs()),
+                "{test} {given:?}"
+            );
         }
     }
 }
@@ -165,7 +168,7 @@ fn the_table_on_the_screen_names_every_spring_and_the_error_to_expect() {
         "left out",
         "outliers",
         "N m/rad",
-        "not told apart",
+        "not separable",
     ] {
         assert!(stdout.contains(part), "{part} in\n{stdout}");
     }
@@ -196,7 +199,7 @@ fn readings_a_thousand_times_too_large_are_refused_with_the_unit_as_reason() {
 }
 
 #[test]
-fn tests_that_are_too_few_or_in_one_posture_are_refused_with_what_to_do() {
+fn refuses_too_few_tests_and_tests_in_one_posture_with_a_hint() {
     let folder = tempfile::tempdir().unwrap();
     filled_in(folder.path());
     let table = std::fs::read_to_string(folder.path().join("tests.csv")).unwrap();
@@ -205,7 +208,7 @@ fn tests_that_are_too_few_or_in_one_posture_are_refused_with_what_to_do() {
     let (code, _, stderr) = armill(folder.path(), &["identify", "few.csv", "--robot", "yaskawa/mh12"]);
     assert_eq!(code, 2);
     assert!(
-        stderr.contains("6 readings for ") && stderr.contains("--unknowns drives"),
+        stderr.contains("6 readings are not sufficient for ") && stderr.contains("--unknowns drives"),
         "{stderr}"
     );
     let same: Vec<&str> = std::iter::once(lines[0]).chain([lines[1]; 12]).collect();
@@ -215,11 +218,11 @@ fn tests_that_are_too_few_or_in_one_posture_are_refused_with_what_to_do() {
         &["identify", "same.csv", "--robot", "yaskawa/mh12"],
     );
     assert_eq!(code, 2);
-    assert!(stderr.contains("all 12 tests stand in one posture"), "{stderr}");
+    assert!(stderr.contains("all 12 tests are in one posture"), "{stderr}");
 }
 
 #[test]
-fn problems_of_the_table_come_together_with_their_places_and_nothing_is_written() {
+fn problems_of_the_table_are_reported_together_and_nothing_is_written() {
     let folder = tempfile::tempdir().unwrap();
     let table = "S_deg,L_deg,U_deg,R_deg,B_deg,fz_n,dz\n0,10,x,0,40,-98,0.1\n0,999,0,0,40,-98,0.1\n";
     std::fs::write(folder.path().join("tests.csv"), table).unwrap();
@@ -268,7 +271,7 @@ fn options_that_cannot_be_are_refused() {
                 "--unknowns",
                 "springs",
             ],
-            "`springs` is no group",
+            "`springs` is not a group",
         ),
         (
             &[

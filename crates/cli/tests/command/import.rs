@@ -94,7 +94,7 @@ fn without_out_the_file_is_printed() {
 }
 
 #[test]
-fn what_cannot_be_imported_is_refused_and_nothing_is_written() {
+fn refuses_what_cannot_be_imported_and_writes_nothing() {
     let cell = Cell::new();
     cell.file("arm.urdf", MH12_URDF);
     cell.file("arm.step", "ISO-10303-21;");
@@ -102,7 +102,7 @@ fn what_cannot_be_imported_is_refused_and_nothing_is_written() {
     for (arguments, words) in [
         (["arm.urdf", "--tip", "gripper"], "`gripper`"),
         (["arm.urdf", "--format", "chain"], "defines nothing"),
-        (["arm.step", "--tip", "x"], "the ending of no robot file"),
+        (["arm.step", "--tip", "x"], "is not an ending of robot files"),
         (["table.csv", "--format", "dh"], "convention = standard"),
         (["gone.urdf", "--tip", "x"], "cannot read robot file gone.urdf"),
         (["arm.toml", "--format", "armill"], "already"),

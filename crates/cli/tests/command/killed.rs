@@ -6,8 +6,9 @@ use std::time::{Duration, Instant};
 
 use crate::cell::{ARMILL, Cell, SMALL, files_in, what_is_half};
 
-/// Moments at which a run is killed, shares of the time that an undisturbed one takes: scattered by the golden ratio: early
-/// and late ones, never twice the same. `ARMILL_KILLS=100` asks for more than the few that every test
+/// Moments at which a run is killed, shares of the time that an undisturbed one takes: scattered by the golden ratio:
+/// early
+/// and late ones, never twice the same. `ARMILL_KILLS=100` runs more than the few that every test
 /// run has time for.
 fn moments() -> Vec<f64> {
     let count = std::env::var("ARMILL_KILLS").map_or(8, |count| count.parse().expect("ARMILL_KILLS=100"));
@@ -16,8 +17,8 @@ fn moments() -> Vec<f64> {
         .collect()
 }
 
-/// Two asks: enough files to be killed among, few enough to be drawn often.
-const ASKS: &str = r#"
+/// Two analyses: enough files to be interrupted between, few enough to be drawn often.
+const ANALYSES: &str = r#"
 [[analysis]]
 kind = "map"
 name = "plate"
@@ -41,7 +42,7 @@ fn start(cell: &Cell, out: &str) -> Child {
         .unwrap()
 }
 
-/// Files under their own names; a temporary one that a killed run could not remove is told apart by its name.
+/// Files under their own names; a temporary one that a killed run could not remove is recognised by its name.
 fn finished_files(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let temporary = |name: &str| name.starts_with(".armill-");
     files_in(folder)
@@ -51,8 +52,8 @@ fn finished_files(folder: &Path) -> Vec<(String, Vec<u8>)> {
 }
 
 #[test]
-fn a_killed_run_leaves_no_half_file_and_can_be_repeated() {
-    let cell = Cell::with_study(&format!("{SMALL}{ASKS}"));
+fn a_killed_run_leaves_no_partial_file_and_can_be_repeated() {
+    let cell = Cell::with_study(&format!("{SMALL}{ANALYSES}"));
     let begun = Instant::now();
     assert!(start(&cell, "undisturbed").wait().unwrap().success());
     let whole_time = begun.elapsed();
@@ -111,13 +112,16 @@ fn a_killed_run_leaves_no_half_file_and_can_be_repeated() {
 }
 
 #[test]
-fn a_run_killed_over_an_older_answer_never_leaves_that_answer_beside_its_own_tables() {
-    let cell = Cell::with_study(&format!("{SMALL}{ASKS}"));
+fn a_run_killed_over_an_older_result_never_leaves_that_result_with_its_own_tables() {
+    let cell = Cell::with_study(&format!("{SMALL}{ANALYSES}"));
     assert!(start(&cell, "out").wait().unwrap().success());
     let older = finished_files(&cell.at("out"));
     cell.file(
         "study.toml",
-        format!("{}{ASKS}", SMALL.replace("tolerance_um = 130", "tolerance_um = 10")),
+        format!(
+            "{}{ANALYSES}",
+            SMALL.replace("tolerance_um = 130", "tolerance_um = 10")
+        ),
     );
     let begun = Instant::now();
     assert!(start(&cell, "newer").wait().unwrap().success());
@@ -155,7 +159,7 @@ fn a_run_killed_while_it_computes_has_written_nothing() {
 }
 
 #[test]
-fn a_search_killed_again_and_again_ends_at_the_same_place() {
+fn a_repeatedly_killed_search_ends_at_the_same_placement() {
     let ring = "[[analysis]]\nkind = \"path\"\nname = \"groove\"\ncircle.radius_mm = 60\nstep_mm = 20\n";
     let free =
         "[place]\nx_mm = [700, 1200]\nz_mm = [500, 1100]\ntilt_deg = [-30, 60]\nroll_deg = [-90, 90]\n";
@@ -172,7 +176,7 @@ fn a_search_killed_again_and_again_ends_at_the_same_place() {
     let begun = Instant::now();
     assert!(place("undisturbed").wait().unwrap().success());
     let whole_time = begun.elapsed();
-    // How many rounds were done before is told, and is all that may differ.
+    // Only the reported number of rounds completed before may differ.
     let found = |out: &str| {
         let mut files = finished_files(&cell.at(out));
         for (name, bytes) in &mut files {

@@ -1,7 +1,10 @@
 //! The command as a user meets it: one program with all its tests, so that it is linked once.
 //!
-//! `cell` is where they run. What a user meets first: `new_and_robots`, `shell`, `documents` (every page is run). Commands: `run`,
-//! `pose`, `place`, `advise`, `springs`, `assumed`, `robots_check`, `import`, `materials`, `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `budget`, `path_accuracy`, `compare`, `holes`, `unloaded` (backlash). What goes wrong: `refused`, `guarded` (files of the user), `hostile` (numbers and bytes),
+//! `cell` is where they run. What a user meets first: `new_and_robots`, `shell`, `documents` (every page is run).
+//! Commands: `run`,
+//! `pose`, `place`, `advise`, `springs`, `assumed`, `robots_check`, `import`, `materials`, `identify`, `calibrate`,
+//! `forces`, `roundness`, `ballbar`, `budget`, `path_accuracy`, `compare`, `holes`, `unloaded` (backlash). What goes
+//! wrong: `refused`, `guarded` (files of the user), `hostile` (numbers and bytes),
 //! `terminal`, `killed`, `rough` (places and inputs).
 
 // A panic is how a test says that its claim is false; helper functions too.

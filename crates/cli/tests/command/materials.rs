@@ -60,10 +60,10 @@ fn a_material_is_shown_with_every_set_and_what_is_used() {
 }
 
 #[test]
-fn a_single_set_has_no_spread_and_a_part_of_one_gives_no_force() {
+fn a_single_set_has_no_spread_and_an_incomplete_one_gives_no_force() {
     let cell = Cell::new();
     let single = cell.armill(&["materials", "aluminium-6082-t6"]).fine();
-    assert!(single.out.contains("used: the one whole set") && !single.out.contains('±'));
+    assert!(single.out.contains("used: the only complete set") && !single.out.contains('±'));
     let shown = cell
         .armill(&["materials", "aluminium-6082-t6", "--json"])
         .fine()

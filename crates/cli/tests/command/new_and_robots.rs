@@ -17,7 +17,7 @@ fn a_new_study_is_commented_and_runs_for_every_robot_of_the_library() {
         );
         assert!(text.contains(&format!("robot = \"{name}\"")), "{text}");
         if name == "kuka/lbr-iiwa-14-r820" {
-            // Seven joints: no class fits, and none is made up.
+            // Seven joints: no class fits, and none is assumed.
             cell.armill(&["check", &folder]).refused(&["rad_per_n_m", "7"]);
             let known = text.replace(
                 "rad_per_n_m = []",
@@ -41,7 +41,7 @@ fn a_new_study_is_commented_and_runs_for_every_robot_of_the_library() {
 }
 
 #[test]
-fn a_new_study_of_a_robot_without_compliance_says_that_it_is_assumed() {
+fn a_new_study_of_a_robot_without_compliance_reports_the_assumption() {
     let cell = Cell::new();
     cell.armill(&["new", "cell", "--robot", "kuka/kr120r2500pro"])
         .fine();
@@ -88,14 +88,14 @@ fn a_new_study_leaves_the_files_of_an_existing_folder_alone() {
 }
 
 #[test]
-fn what_was_made_is_told_as_json_on_request() {
+fn the_files_created_are_reported_as_json_on_request() {
     let said = Cell::new().armill(&["new", "größe 1", "--json"]).fine();
     assert_eq!(said.json()["study"], "größe 1/study.toml");
     assert!(said.err.contains("armill run"), "{}", said.err);
 }
 
 #[test]
-fn the_library_is_listed_with_what_is_known_of_each_robot() {
+fn the_library_is_listed_with_the_data_of_each_robot() {
     let said = Cell::new().armill(&["robots"]).fine();
     assert!(
         said.out
@@ -180,14 +180,14 @@ fn a_urdf_is_shown_as_the_chain_it_is() {
     {
         assert_eq!((&a["name"], &a["sign"]), (&b["name"], &b["sign"]));
         for (a, b) in numbers(&a["limits_deg"]).iter().zip(numbers(&b["limits_deg"])) {
-            // Told to 1e-9 deg.
+            // Reported to 1e-9 deg.
             assert!((a - b).abs() < 2e-9, "{a} deg and {b} deg");
         }
     }
 }
 
 #[test]
-fn an_arm_is_drawn_to_the_file_asked_for() {
+fn a_robot_is_drawn_to_the_requested_file() {
     let cell = Cell::new();
     for file in ["arm.svg", "arm.png", "Großer Arm.PNG"] {
         cell.armill(&["robots", "kuka/kr120r2500pro", "--drawing", file])
@@ -205,11 +205,11 @@ fn an_arm_is_drawn_to_the_file_asked_for() {
 }
 
 #[test]
-fn a_sound_study_is_told_with_its_points() {
+fn a_valid_study_is_reported_with_its_number_of_points() {
     let said = Cell::with_study(crate::cell::SMALL)
         .armill(&["check", "study.toml"])
         .fine();
-    assert_eq!(said.err, "study.toml: fine; 1 ask, 25 points\n");
+    assert_eq!(said.err, "study.toml: fine; 1 analysis, 25 points\n");
     let json = Cell::with_study(crate::cell::SMALL)
         .armill(&["check", ".", "--json"])
         .fine()
@@ -245,7 +245,7 @@ fn the_schema_names_every_field_of_the_study() {
 }
 
 #[test]
-fn every_command_has_help_with_examples_of_its_own() {
+fn every_command_has_help_with_its_own_examples() {
     for command in ["run", "check", "new", "robots", "pose", "completions"] {
         let said = Cell::new().armill(&[command, "--help"]).fine();
         assert!(
@@ -286,13 +286,13 @@ fn examples_of_the_help_work() {
 }
 
 #[test]
-fn an_example_comes_with_all_of_its_files_and_runs() {
+fn an_example_is_copied_with_all_of_its_files_and_runs() {
     let cell = Cell::new();
     let said = cell
         .armill(&["new", "pocket", "--example", "r2000ic-pocket", "--json"])
         .fine();
     assert_eq!(said.json()["study"], "pocket/study.toml");
-    assert_eq!(said.json()["beside"][0], "pocket/pocket.ngc");
+    assert_eq!(said.json()["files"][0], "pocket/pocket.ngc");
     let run = cell.armill(&["run", "pocket", "--no-pictures"]).fine();
     assert!(
         run.out.starts_with("pocket, branch front elbow-up"),
@@ -319,7 +319,7 @@ fn an_example_of_several_files_is_made_before_it_is_run() {
         ]);
     cell.armill(&["new", "mh12-ballbar", "--example", "mh12-ballbar"])
         .fine();
-    // The gaps that its measurements were made with.
+    // The backlash with which its measurements were simulated.
     let given = cell.armill(&["backlash", "mh12-ballbar", "--json"]).fine().json();
     let made = [0.009, 0.006, 0.012, 0.015, 0.010];
     for (joint, gap) in given["joints"].as_array().unwrap().iter().zip(made) {
@@ -329,7 +329,7 @@ fn an_example_of_several_files_is_made_before_it_is_run() {
 }
 
 #[test]
-fn the_arm_of_the_measured_example_is_what_its_tests_give() {
+fn the_robot_of_the_measured_example_is_identified_from_its_tests() {
     let cell = Cell::new();
     cell.armill(&["new", "arm", "--example", "r2000ic-measured"])
         .fine();
@@ -363,10 +363,11 @@ fn the_arm_of_the_measured_example_is_what_its_tests_give() {
         // Seven digits are written; the rest is for other processors.
         assert!((here / there - 1.0).abs() < 1e-4, "{here} {there}");
     }
-    // The prediction and the published stiffness beside it.
+    // The prediction and the published stiffness for comparison.
     let run = cell.armill(&["run", "arm", "--no-pictures"]).fine();
     assert!(
-        run.out.contains("ring, branch front elbow-up no-flip") && run.out.contains("mostly by joint J1"),
+        run.out.contains("ring, branch front elbow-up no-flip")
+            && run.out.contains("largest contribution: joint J1"),
         "{}",
         run.out
     );

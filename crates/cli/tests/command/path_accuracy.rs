@@ -1,4 +1,4 @@
-//! `armill path-accuracy` as a user runs it: runs beside a line and round an arc, and what can be wrong.
+//! `armill path-accuracy` as a user runs it: runs with an offset from a line and an arc, and invalid input.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -20,7 +20,7 @@ fn armill(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
     )
 }
 
-/// A line of 500 mm, and three runs that lie 10, 20 and 60 um beside it, each sampled in its own way.
+/// A line of 500 mm, and three runs with an offset of 10, 20 and 60 um, each sampled differently.
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
@@ -86,7 +86,7 @@ fn runs_of_several_files_have_accuracy_and_repeatability() {
     assert_eq!(given["unused"][0], "time (both.csv)");
     let notes = given["notes"].to_string();
     assert!(
-        notes.contains("asks for 10 cycles of a path; here are 3"),
+        notes.contains("requires 10 cycles of a path; this file has 3"),
         "{notes}"
     );
     let table = std::fs::read_to_string(folder.path().join("points.csv")).unwrap();
@@ -118,7 +118,7 @@ fn runs_of_several_files_have_accuracy_and_repeatability() {
 }
 
 #[test]
-fn what_cannot_be_is_told() {
+fn invalid_input_is_reported() {
     let folder = folder();
     let at = folder.path();
     std::fs::write(at.join("bad.csv"), "x_mm,y_mm,z_mm\n1,a,3\n1,2\n").unwrap();
@@ -129,7 +129,7 @@ fn what_cannot_be_is_told() {
         (
             "third.csv",
             "both.csv",
-            &["both.csv: 2 runs, a commanded path is one"],
+            &["both.csv: 2 runs; a commanded path has one"],
         ),
         (
             "away.csv",
@@ -137,7 +137,7 @@ fn what_cannot_be_is_told() {
             &["no point of the commanded path is passed by all runs"],
         ),
         ("one.csv", "line.csv", &["run number 1 has 1 points"]),
-        ("third.csv", "one.csv", &["fewer than two"]),
+        ("third.csv", "one.csv", &["at least 2 are needed"]),
         ("none.csv", "line.csv", &["cannot read none.csv"]),
     ] {
         let (code, out, err) = armill(

@@ -1,4 +1,5 @@
-//! `armill place`: a better place in words and files, fixtures, a search that goes on after a kill, and what is refused.
+//! `armill place`: a better placement in text and files, fixtures, a search that continues after a kill, and what is
+//! refused.
 
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
@@ -31,12 +32,16 @@ fn placement(cell: &Cell, out: &str) -> serde_json::Value {
 }
 
 #[test]
-fn the_place_is_told_in_words_files_and_lines_that_lay_the_path_there() {
+fn the_placement_is_reported_in_text_files_and_lines_for_the_study() {
     let cell = cell("");
     let args = ["place", "study.toml", "--x-mm", "700,1200", "--tilt-deg", "0,90"];
     let said = cell.armill(&args).fine();
-    assert!(said.out.starts_with("ring: at most "), "{}", said.out);
-    assert!(said.out.contains("; as drawn at most 1"), "{}", said.out);
+    assert!(
+        said.out.starts_with("ring: largest in-plane deviation "),
+        "{}",
+        said.out
+    );
+    assert!(said.out.contains("; nominal: 1"), "{}", said.out);
     assert!(said.out.contains("None is better of "), "{}", said.out);
     let placed = placement(&cell, "place");
     let cost = number(&placed["found"]["cost_um"]);
@@ -52,7 +57,7 @@ fn the_place_is_told_in_words_files_and_lines_that_lay_the_path_there() {
     );
     // Where nothing is kept that the search needed on its way.
     assert!(!cell.at("place/place.rounds").exists());
-    // The lines that were told, pasted into the ask.
+    // The reported lines, pasted into the analysis.
     let lines: String = said
         .out
         .lines()
@@ -96,7 +101,7 @@ fn the_same_seed_gives_the_same_bytes_on_any_number_of_threads() {
 }
 
 #[test]
-fn of_fixtures_the_best_is_named_and_those_out_of_reach_do_no_harm() {
+fn the_best_fixture_is_named_and_unreachable_ones_are_skipped() {
     let cell = cell(
         r#"
 [place]
@@ -127,14 +132,14 @@ rotation_deg = [90, 0, -90]
 }
 
 #[test]
-fn where_no_place_holds_the_path_that_is_told() {
+fn a_path_without_a_reachable_placement_is_reported() {
     let cell = cell("");
     let said = cell
         .armill(&["place", "study.toml", "--no-pictures", "--x-mm", "3000,4000"])
         .fine();
     assert!(
         said.out
-            .starts_with("ring: no place was found that the arm holds everywhere"),
+            .starts_with("ring: no placement was found at which all points can be reached"),
         "{}",
         said.out
     );
@@ -144,7 +149,7 @@ fn where_no_place_holds_the_path_that_is_told() {
 }
 
 #[test]
-fn a_search_that_was_killed_goes_on_to_the_same_place() {
+fn a_killed_search_continues_to_the_same_placement() {
     let free =
         "[place]\nx_mm = [700, 1200]\nz_mm = [500, 1100]\ntilt_deg = [-30, 60]\nroll_deg = [-90, 90]\n";
     let cell = cell(free);
@@ -174,11 +179,7 @@ fn a_search_that_was_killed_goes_on_to_the_same_place() {
     child.wait().unwrap();
     assert!(!cell.at("killed/result.json").exists());
     let said = cell.armill(&[&args[..], &["killed"]].concat()).fine();
-    assert!(
-        said.err.contains("rounds were done before this start"),
-        "{}",
-        said.err
-    );
+    assert!(said.err.contains("completed rounds"), "{}", said.err);
     let (mut whole, mut killed) = (placement(&cell, "whole"), placement(&cell, "killed"));
     assert!(number(&killed["rounds_taken_up"]) >= 1.0);
     for placed in [&mut whole, &mut killed] {
@@ -188,7 +189,7 @@ fn a_search_that_was_killed_goes_on_to_the_same_place() {
 }
 
 #[test]
-fn bounds_that_leave_nothing_are_told_together_at_their_places() {
+fn empty_bounds_are_reported_together_at_their_positions() {
     let cell = cell(
         r#"
 [place]
@@ -204,8 +205,8 @@ rotation_deg = [0, 0, 0]
     );
     cell.armill(&["place", "study.toml"]).refused(&[
         "study.toml:14:",
-        "`x_mm` goes from 1200 to 700: there is nothing between",
-        "`x_mm` beside fixtures",
+        "`x_mm` ranges from 1200 to 700: the range is empty",
+        "`x_mm` cannot be combined with fixtures",
         "`spin_deg` spans 600 deg",
         "`sideways`",
         "fixture `vice` has both `tilt_deg` and `rotation_deg`",
@@ -214,7 +215,7 @@ rotation_deg = [0, 0, 0]
 }
 
 #[test]
-fn what_cannot_be_placed_is_refused_with_what_to_do() {
+fn refuses_what_cannot_be_placed_with_a_hint() {
     let more = "[[analysis]]\nkind = \"path\"\nname = \"second\"\ncircle.radius_mm = 20\nstep_mm = 10\n";
     let cell = cell(more);
     let refused = |args: &[&str], given: &str| {
@@ -223,7 +224,7 @@ fn what_cannot_be_placed_is_refused_with_what_to_do() {
     };
     refused(&[], "the study has several paths: `ring`, `second`");
     refused(&["--analysis", "rim"], "no path called `rim`");
-    refused(&["--analysis", "ring", "--x-mm", "900,800"], "nothing between");
+    refused(&["--analysis", "ring", "--x-mm", "900,800"], "the range is empty");
     refused(&["--analysis", "ring", "--x-mm", "900"], "two numbers");
     refused(
         &["--analysis", "ring", "--margin-deg", "91"],
@@ -236,7 +237,7 @@ fn what_cannot_be_placed_is_refused_with_what_to_do() {
 }
 
 #[test]
-fn holes_are_placed_each_held_in_its_best_turn_and_branch() {
+fn holes_are_placed_each_with_its_best_spin_and_branch() {
     let holes =
         CELL[..CELL.find("[[analysis]]").unwrap()].replace("posture = { branch = \"front elbow-up\" }\n", "");
     let analysis = r#"
@@ -262,22 +263,20 @@ posture.search.step_deg = 45
     let placed = placement(&cell, "place");
     let cost = number(&placed["found"]["cost_um"]);
     assert!(cost < number(&placed["nominal"]["cost_um"]), "{placed}");
-    // The run there holds each hole so, through the door that asks for holes take.
+    // The run there has the same postures, computed by the code for holes.
     let largest = number(&cell.result("place")["holes"][0]["max_in_plane_um"]);
     assert!((largest - cost).abs() < 1e-3 * cost, "{largest} {cost}");
     cell.armill(&["place", "study.toml", "--spin-deg", "0,90"])
-        .refused(&[
-            "holes are each held in their best turn",
-            "posture.search.turns_deg",
-        ]);
+        .refused(&["each hole has its own best spin", "posture.search.turns_deg"]);
     cell.armill(&["advise", "study.toml"])
         .refused(&["advice is for paths", "`armill place`"]);
 }
 
-/// An MH12 on a rail along its side: the best place of the rail is the one that brings the arm to where a part that may move
+/// An MH12 on a rail along its side: the best place of the rail is the one that brings the arm to where a part that
+/// may move
 /// along the rail would go.
 #[test]
-fn a_rail_brings_the_arm_to_where_a_part_would_go() {
+fn a_rail_moves_the_robot_as_far_as_the_part_would_move() {
     let cell = Cell::new();
     let urdf = MH12_URDF.replace(
         "<link name=\"base_link\"/>",
@@ -320,8 +319,8 @@ fn a_rail_brings_the_arm_to_where_a_part_would_go() {
     let cost = number(&placed["found"]["cost_um"]);
     assert!((largest - cost).abs() < 1e-3 * cost, "{largest} {cost}");
     cell.armill(&["place", "study.toml", "--rail-mm", "0,2500"])
-        .refused(&["`rail_mm` goes from 0 to 2500 mm, joint rail from -1000 to 2000 mm"]);
+        .refused(&["`rail_mm` ranges from 0 to 2500 mm, joint rail from -1000 to 2000 mm"]);
     cell.file("fixed.toml", CELL);
     cell.armill(&["place", "fixed.toml", "--rail-mm", "0,500"])
-        .refused(&["stands on no rail"]);
+        .refused(&["has no rail"]);
 }

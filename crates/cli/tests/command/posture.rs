@@ -20,14 +20,14 @@ fn text(cell: &Cell, name: &str) -> String {
 }
 
 #[test]
-fn before_and_after_stand_in_one_sentence_and_the_table_has_the_turns() {
+fn before_and_after_are_in_one_sentence_and_the_table_has_the_spins() {
     let cell = Cell::new();
     cell.file("study.toml", CELL);
     let said = cell
         .armill(&["posture", "study.toml", "--step-deg", "15", "--no-pictures"])
         .fine();
     assert!(
-        said.out.starts_with("ring: in ") && said.out.contains("where it deviated by"),
+        said.out.starts_with("ring: in ") && said.out.contains("the tool deviates by at most"),
         "{}",
         said.out
     );
@@ -41,14 +41,14 @@ fn before_and_after_stand_in_one_sentence_and_the_table_has_the_turns() {
             "15",
             "--no-pictures",
             "--json",
-            "--goal",
+            "--objective",
             "mean",
         ])
         .fine()
         .json();
     let search = &json["paths"][0]["search"];
     assert_eq!(
-        (search["goal"].as_str(), number(&search["turns"])),
+        (search["objective"].as_str(), number(&search["turns"])),
         (Some("mean"), 24.0)
     );
     assert!(number(&search["with"]["mean_in_plane_um"]) <= number(&search["without"]["mean_in_plane_um"]));
@@ -64,7 +64,7 @@ fn joints_turn_back_less_often_where_that_has_a_price() {
             "study.toml",
             "--step-deg",
             "15",
-            "--goal",
+            "--objective",
             "mean",
             "--reversal-um-mm",
             price,
@@ -96,11 +96,11 @@ fn pictures_have_the_lattice() {
     cell.armill(&["posture", "study.toml", "--step-deg", "30", "--out", "found"])
         .fine();
     assert!(text(&cell, "found/ring-turns.svg").contains("turn of the tool (deg)"));
-    assert!(text(&cell, "found/report.html").contains("for each turn of the tool"));
+    assert!(text(&cell, "found/report.html").contains("for each spin of the tool"));
 }
 
 #[test]
-fn what_cannot_be_is_refused_with_the_option() {
+fn refuses_invalid_values_with_the_option() {
     let cell = Cell::new();
     cell.file("study.toml", CELL);
     cell.armill(&["posture", "study.toml", "--step-deg", "0"])
@@ -108,7 +108,7 @@ fn what_cannot_be_is_refused_with_the_option() {
     cell.armill(&["posture", "study.toml", "--reversal-um-mm", "1e10"])
         .refused(&["--reversal-um-mm: 10000000000 is outside 0 to 1000000000"]);
     cell.armill(&["posture", "study.toml", "--turns-deg", "90,-90"])
-        .refused(&["turns from 90 to -90 deg"]);
+        .refused(&["turns range from 90 to -90 deg"]);
     let map = CELL
         .split("[[analysis]]")
         .next()
@@ -116,5 +116,5 @@ fn what_cannot_be_is_refused_with_the_option() {
         .unwrap_or_default();
     cell.file("map.toml", &map);
     cell.armill(&["posture", "map.toml"])
-        .refused(&["asks for no path"]);
+        .refused(&["the study has no path along which"]);
 }

@@ -1,8 +1,9 @@
-//! `armill robots check`: a robot file beside what its pendant shows.
+//! `armill robots check`: a robot file compared with readings of its pendant.
 
 use crate::cell::Cell;
 
-/// Yaskawa MH12, counted from the controller's frame, worked out by hand-written 4 x 4 products; two decimals as a pendant shows.
+/// Yaskawa MH12, relative to the frame of the controller, computed by hand-written 4 x 4 products; two decimals as a
+/// pendant shows.
 const READINGS: [&str; 2] = [
     "10,20,-30,40,50,60 = 991.88,224.90,203.74,96.64,-5.38,129.09",
     "-25,35,-15,-50,35,-70 = 1026.10,-526.96,102.20,-113.47,11.34,-148.39",
@@ -45,7 +46,7 @@ fn a_wrong_sign_and_the_base_are_named_in_the_words_of_the_file() {
     let cell = changed("name = \"U\"\nsign = -1", "name = \"U\"\nsign = 1");
     let said = cell.armill(&check("arm.toml", &[])).fine();
     for words in [
-        "joint U counts the other way: sign = -1 in place of 1",
+        "joint U has the opposite sign: sign = -1 in place of 1",
         "a base 450.00 mm above base_link, its frame `controller`",
     ] {
         assert!(said.out.contains(words), "no `{words}` in:\n{}", said.out);
@@ -57,14 +58,14 @@ fn a_wrong_sign_and_the_base_are_named_in_the_words_of_the_file() {
 }
 
 #[test]
-fn a_wrong_length_is_explained_by_nothing() {
+fn a_wrong_length_is_not_explained() {
     let cell = changed("length_mm = 614", "length_mm = 640");
     let said = cell.armill(&check("arm.toml", &[])).fine();
     assert!(said.out.contains("no sign, zero, coupling"), "{}", said.out);
 }
 
 #[test]
-fn one_reading_at_zero_is_told_to_be_too_little() {
+fn one_reading_at_zero_is_reported_as_insufficient() {
     let arguments = [
         "robots",
         "check",
@@ -77,7 +78,7 @@ fn one_reading_at_zero_is_told_to_be_too_little() {
     let pose = "0,0,0,0,0,0 = 895,0,1264,180,-90,0";
     let said = Cell::new().armill(&[&arguments[..], &[pose]].concat()).fine();
     assert!(
-        said.out.contains("These readings would not show it if")
+        said.out.contains("These readings do not show whether")
             && said.out.contains("joint L counts the other way"),
         "{}",
         said.out
@@ -85,7 +86,7 @@ fn one_reading_at_zero_is_told_to_be_too_little() {
 }
 
 #[test]
-fn what_is_no_reading_is_refused() {
+fn refuses_an_invalid_reading() {
     let cell = Cell::new();
     let said = |convention: &str, pose: &str| {
         cell.armill(&[

@@ -1,5 +1,6 @@
-//! Places and inputs that are not as one wishes: odd names, another locale, Windows' line ends, a disk that is full, files
-//! of gigabytes, and nobody at the other end of any stream.
+//! Places and inputs that are not as one wishes: odd names, another locale, Windows' line ends, a disk that is full,
+//! files
+//! of gigabytes, and closed streams.
 
 use std::process::Command;
 
@@ -8,14 +9,15 @@ use crate::cell::{ARMILL, Cell, EVERY_KIND, MH12_URDF, SMALL, what_is_half};
 /// A program of a machine with a line and an arc.
 const PROGRAM: &str = "G21 G90\nG0 X-60 Y0 Z20\nG1 Z0 F300\nG1 X60\nG3 X-60 Y0 I-60 J0\nM2\n";
 
-/// What the study of a robot file and a program asks.
-const ASK: &str = "\n[[analysis]]\nkind = \"path\"\nname = \"part\"\nprogram.file = \"part.nc\"\nstep_mm = 5\n";
+/// The analysis of a program for the study of a robot file.
+const ANALYSIS: &str =
+    "\n[[analysis]]\nkind = \"path\"\nname = \"part\"\nprogram.file = \"part.nc\"\nstep_mm = 5\n";
 
-/// [`SMALL`] of a robot that lies beside it.
+/// [`SMALL`] with a robot file next to it.
 fn with_own_robot() -> String {
     let own = SMALL.replace("\"yaskawa/mh12\"", "\"mh12.urdf\"");
     let compliance = "[compliance]\nrad_per_n_m = [2.1e-6, 2.5e-6, 4.0e-5, 6.0e-5, 6.0e-5, 8.0e-5]\nsource = \"made-up\"\n";
-    format!("{own}\n{compliance}{ASK}")
+    format!("{own}\n{compliance}{ANALYSIS}")
 }
 
 /// `command`, run by the shell in the folder of `cell` with `$ARMILL` set: exit code and stderr.
@@ -32,7 +34,7 @@ fn shell(cell: &Cell, command: &str) -> (Option<i32>, String) {
 }
 
 #[test]
-fn odd_names_and_a_locale_with_decimal_commas_change_no_byte() {
+fn odd_names_and_a_locale_with_decimal_commas_do_not_change_the_output() {
     let text = format!("{SMALL}{EVERY_KIND}");
     let (plain, odd) = (Cell::with_study(&text), Cell::new());
     plain.armill(&["run", "study.toml"]).fine();
@@ -61,7 +63,7 @@ fn odd_names_and_a_locale_with_decimal_commas_change_no_byte() {
 }
 
 #[test]
-fn line_ends_of_windows_change_no_byte() {
+fn line_ends_of_windows_do_not_change_the_output() {
     let [plain, windows] = [false, true].map(|crlf| {
         let cell = Cell::new();
         for (name, text) in [
@@ -82,7 +84,7 @@ fn line_ends_of_windows_change_no_byte() {
 
 #[cfg(unix)]
 #[test]
-fn a_disk_that_is_full_is_told_and_leaves_no_half_file() {
+fn a_full_disk_is_reported_and_leaves_no_partial_file() {
     let cell = Cell::with_study(&format!("{SMALL}{EVERY_KIND}"));
     // No file may grow beyond 8 KiB: the write that goes over it fails, as on a full disk.
     let (code, said) = shell(
@@ -102,7 +104,7 @@ fn a_disk_that_is_full_is_told_and_leaves_no_half_file() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_folder_that_takes_no_file_is_told() {
+fn a_folder_that_cannot_be_written_is_reported() {
     let cell = Cell::with_study(SMALL);
     // Not even root makes a folder there.
     cell.armill(&["run", "study.toml", "--out", "/proc/armill"])

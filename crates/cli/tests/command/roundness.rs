@@ -53,7 +53,7 @@ fn folder() -> tempfile::TempDir {
 }
 
 #[test]
-fn the_four_circles_are_told_as_json_without_a_filter() {
+fn the_four_circles_are_reported_as_json_without_a_filter() {
     let folder = folder();
     let given = json(folder.path(), &["roundness", "full.csv"]);
     for (circle, radius) in [("lsci", 25.0), ("mcci", 25.0045), ("mici", 24.9955)] {
@@ -78,7 +78,7 @@ fn the_four_circles_are_told_as_json_without_a_filter() {
 }
 
 #[test]
-fn deviations_with_a_radius_tell_the_same_as_points() {
+fn deviations_with_a_radius_give_the_same_as_points() {
     let folder = folder();
     let points = json(folder.path(), &["roundness", "full.csv"]);
     let polar = json(folder.path(), &["roundness", "polar.csv", "--radius-mm", "25"]);
@@ -103,7 +103,7 @@ fn a_filter_takes_fine_waves_off_and_refuses_few_points() {
     );
     assert_eq!(given["filter_upr"], 15);
     for (file, part) in [
-        ("few.csv", "105 even points a turn"),
+        ("few.csv", "105 even points per turn"),
         ("arc.csv", "the largest step between points is 210"),
     ] {
         let (code, out, err) = armill(folder.path(), &["roundness", file, "--upr", "15"]);
@@ -113,7 +113,7 @@ fn a_filter_takes_fine_waves_off_and_refuses_few_points() {
 }
 
 #[test]
-fn an_arc_has_no_inscribed_circle_and_says_why() {
+fn an_arc_has_no_inscribed_circle_and_the_reason_is_reported() {
     let folder = folder();
     let given = json(folder.path(), &["roundness", "arc.csv"]);
     assert_eq!(given["mici"], Value::Null);
@@ -147,8 +147,8 @@ fn words_name_dirt_waves_and_sources() {
         "dirty.csv: table, 720 points, largest gap 0.5",
         "LSCI",
         "RONp",
-        "stands out   line 202, at 100.0",
-        "none was left out",
+        "outlier      line 202, at 100.0",
+        "they are included",
         "    3          4.0",
         "source: reference circles and parameters: ISO 12181-1",
     ] {
@@ -184,7 +184,7 @@ fn table_and_pictures_are_written_for_one_file_and_for_several() {
 }
 
 #[test]
-fn what_is_wrong_is_told_and_nothing_is_written() {
+fn errors_are_reported_and_nothing_is_written() {
     let folder = folder();
     std::fs::write(folder.path().join("bad.csv"), "x_mm,y_mm\n1,two\n3\n").unwrap();
     std::fs::write(folder.path().join("rows.ds"), "3\n1 2 3\n4 5 6\n9 8 1\n").unwrap();
@@ -199,11 +199,11 @@ fn what_is_wrong_is_told_and_nothing_is_written() {
             vec!["line.csv"],
             vec!["line.csv: no circle is nearest to the points"],
         ),
-        (vec!["rows.ds"], vec!["nothing tells the unit"]),
+        (vec!["rows.ds"], vec!["the unit of these numbers is not given"]),
         (vec!["polar.csv"], vec!["deviations need the radius"]),
         (
             vec!["full.csv", "--radius-mm", "25"],
-            vec!["no column holds deviations"],
+            vec!["no column contains deviations"],
         ),
         (
             vec!["full.csv", "--upr", "0"],
@@ -231,7 +231,7 @@ fn what_is_wrong_is_told_and_nothing_is_written() {
 }
 
 #[test]
-fn circles_of_nist_are_read_as_they_are_and_qif_samples_are_told_for_what_they_hold() {
+fn circles_of_nist_are_read_and_qif_samples_are_refused_by_their_format() {
     let Some(samples) = std::env::var_os("ARMILL_SAMPLES") else {
         println!("skipped: ARMILL_SAMPLES is not set");
         return;
@@ -244,7 +244,7 @@ fn circles_of_nist_are_read_as_they_are_and_qif_samples_are_told_for_what_they_h
     for (file, part) in [
         (
             "Results/QIF_Results_Sample.QIF",
-            "3 circles, but no points of them: HOLE1 diameter 9.4995 mm",
+            "3 circles, but not their points: HOLE1 diameter 9.4995 mm",
         ),
         ("QIF Widget/WIDGET_QIF_RESULTS.QIF", "7 circles"),
         (

@@ -31,7 +31,7 @@ fn counts_add_up_to_the_points_and_the_fraction_is_those_within() {
         let deviations = numbers(&map["grid"]["in_plane_um"]);
         let within = deviations.iter().filter(|um| **um <= 130.0).count();
         assert_eq!(number(&map["counts"]["within"]), within as f64);
-        // The grid is told to 1e-4 um.
+        // The grid is reported to 1e-4 um.
         let largest = deviations.iter().copied().fold(0.0, f64::max);
         assert!((number(&map["max_in_plane_um"]) - largest).abs() <= 0.5e-4 + 1e-9);
     }
@@ -70,7 +70,7 @@ fn maps_and_paths_carry_name_and_branch() {
 }
 
 #[test]
-fn folder_and_file_name_the_same_study_and_out_lies_beside_it() {
+fn folder_and_file_name_the_same_study_and_out_is_next_to_it() {
     let cell = Cell::new();
     cell.file("by folder/study.toml", SMALL);
     cell.file("by file/study.toml", SMALL);
@@ -136,12 +136,12 @@ fn without_pictures_there_are_tables_and_the_answer_only() {
     extensions.sort_unstable();
     extensions.dedup();
     assert_eq!(extensions, ["csv", "json", "parquet", "vti", "vtp"]);
-    // Parquet and VTK of four asks, CSV of the map and the path, the answer.
+    // Parquet and VTK of four analyses, CSV of the map and the path, the result.
     assert_eq!(files.len(), 4 * 2 + 2 + 1);
 }
 
 #[test]
-fn series_and_volumes_have_a_csv_when_it_is_asked_for() {
+fn series_and_volumes_have_a_csv_on_request() {
     let cell = Cell::with_study(&every_kind());
     cell.armill(&TABLES_ONLY).fine();
     let files = || {
@@ -158,7 +158,7 @@ fn series_and_volumes_have_a_csv_when_it_is_asked_for() {
 }
 
 #[test]
-fn files_that_a_run_no_longer_writes_are_removed_and_those_of_others_stay() {
+fn stale_files_of_a_run_are_removed_and_those_of_others_kept() {
     let cell = Cell::with_study(&every_kind());
     cell.armill(&["run", "study.toml"]).fine();
     cell.file("out/notes.txt", "mine");
@@ -217,7 +217,7 @@ fn the_answer_in_words_is_one_line_with_its_numbers() {
     let said = Cell::with_study(SMALL).armill(&TABLES_ONLY).fine();
     assert_eq!(said.out.lines().count(), 1, "{}", said.out);
     assert!(
-        said.out.contains("holds 130 µm") && said.out.contains("mostly by joint U"),
+        said.out.contains("within 130 µm") && said.out.contains("largest contribution: joint U"),
         "{}",
         said.out
     );
@@ -267,7 +267,7 @@ fn a_plane_half_in_reach_counts_both_halves() {
 }
 
 #[test]
-fn strict_exits_with_1_where_the_tolerance_is_not_held() {
+fn strict_exits_with_1_if_the_tolerance_is_not_met() {
     let exit = |study: &str| {
         Cell::with_study(study)
             .armill(&["run", "study.toml", "--no-pictures", "--strict"])
@@ -276,7 +276,7 @@ fn strict_exits_with_1_where_the_tolerance_is_not_held() {
     let wide = SMALL.replace("tolerance_um = 130", "tolerance_um = 1000");
     assert_eq!((exit(SMALL), exit(&wide)), (1, 0));
     let far = wide.replace("[1000, 0, 800]", "[9000, 0, 800]");
-    assert_eq!(exit(&far), 1, "what is not reached is not held");
+    assert_eq!(exit(&far), 1, "an unreachable point does not meet the tolerance");
     assert_eq!(
         Cell::with_study(SMALL).armill(&TABLES_ONLY).code,
         0,
@@ -313,14 +313,14 @@ fn heights_of_the_controller_frame_give_the_map_450_mm_higher() {
         .iter()
         .zip(numbers(&controller["grid"]["in_plane_um"]))
     {
-        // Told to 1e-4 um.
+        // Reported to 1e-4 um.
         assert!((a - b).abs() <= 1e-4 + 1e-9, "{a} um and {b} um");
     }
     assert_eq!(numbers(&controller["setting"]["centre_mm"]), [1000.0, 0.0, 350.0]);
 }
 
 #[test]
-fn a_path_with_blanks_and_letters_of_other_scripts_is_taken() {
+fn a_path_with_blanks_and_letters_of_other_scripts_is_accepted() {
     let cell = Cell::new();
     cell.file("meine Größen/Zelle 1/Studie ü.toml", SMALL);
     let said = cell
@@ -336,7 +336,7 @@ fn a_path_with_blanks_and_letters_of_other_scripts_is_taken() {
 }
 
 #[test]
-fn asks_named_in_any_script_have_files_of_their_own() {
+fn analyses_named_in_any_script_have_their_own_files() {
     let analyses = ["карта", "плита", "größe", "grüße", "面"]
         .map(|name| format!("[[analysis]]\nkind = \"map\"\nname = \"{name}\"\n"));
     let cell = Cell::with_study(&format!("{SMALL}{}", analyses.concat()));
@@ -348,7 +348,7 @@ fn asks_named_in_any_script_have_files_of_their_own() {
 }
 
 #[test]
-fn names_and_titles_may_hold_anything() {
+fn names_and_titles_may_contain_anything() {
     let study = SMALL.replace("title = \"Small\"", r#"title = "</script> a\u0001 & 'b' \" <c>""#);
     let analysis = "[[analysis]]\nkind = \"map\"\nname = \"x<y & z \\u0007 ]]>\"\n";
     let cell = Cell::with_study(&format!("{study}{analysis}"));
@@ -362,12 +362,12 @@ fn names_and_titles_may_hold_anything() {
     let report = String::from_utf8(files["report.html"].clone()).unwrap();
     assert!(
         !report.contains("</script> a") && !report.contains("<c>"),
-        "the title stands raw in the report"
+        "the title is not escaped in the report"
     );
 }
 
 #[test]
-fn planes_of_one_point_and_of_one_line_are_drawn_and_told() {
+fn planes_of_one_point_and_of_one_line_are_drawn_and_reported() {
     let analyses = "[[analysis]]\nkind = \"map\"\nname = \"point\"\nplane.half_size_mm = 0\n\
                 [[analysis]]\nkind = \"map\"\nname = \"line\"\nplane.half_size_mm = [100, 0]\n\
                 [[analysis]]\nkind = \"volume\"\nname = \"cell\"\nbox = { half_size_mm = [0, 0, 0], step_mm = 50 }\n\
@@ -393,7 +393,7 @@ fn planes_of_one_point_and_of_one_line_are_drawn_and_told() {
         let text = String::from_utf8_lossy(bytes);
         assert!(
             !text.contains("NaN") && !text.contains("\"inf"),
-            "{name} holds a number that is none"
+            "{name} has an invalid number"
         );
     }
 }
@@ -432,11 +432,14 @@ fn an_older_answer_does_not_outlive_the_tables_it_belonged_to() {
     // A folder in place of a table stops the second run after its work, while it writes.
     std::fs::remove_file(cell.at("out/map.vtp")).unwrap();
     std::fs::create_dir(cell.at("out/map.vtp")).unwrap();
-    cell.file("study.toml", SMALL.replace("tolerance_um = 130", "tolerance_um = 10"));
+    cell.file(
+        "study.toml",
+        SMALL.replace("tolerance_um = 130", "tolerance_um = 10"),
+    );
     cell.armill(&TABLES_ONLY).refused(&["map.vtp"]);
     assert!(
         !cell.at("out/result.json").exists(),
-        "the first answer stands beside tables of the second"
+        "the first result is together with tables of the second"
     );
 }
 

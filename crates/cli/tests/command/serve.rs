@@ -85,7 +85,8 @@ fn wait_until(what: &str, happens: impl Fn() -> bool) {
     }
 }
 
-/// A server that opens the browser, in whose place a script notes its arguments, the modes of what it is given, and then
+/// A server that opens the browser, in whose place a script notes its arguments, the modes of what it is given, and
+/// then
 /// its text; with the folder for temporary files.
 #[cfg(target_os = "linux")]
 fn with_browser(cell: &Cell) -> (Served, std::path::PathBuf) {
@@ -107,7 +108,7 @@ fn with_browser(cell: &Cell) -> (Served, std::path::PathBuf) {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn no_command_line_holds_the_token_and_the_page_that_leads_to_it_is_private() {
+fn no_command_line_contains_the_token_and_the_page_that_leads_to_it_is_private() {
     let cell = Cell::new();
     let (server, temporary) = with_browser(&cell);
     wait_until("no browser was opened", || cell.at("noted").exists());
@@ -122,7 +123,7 @@ fn no_command_line_holds_the_token_and_the_page_that_leads_to_it_is_private() {
     );
     assert_eq!((file, folder), ("600", "700"));
     assert!(text.contains(&format!("url={}", server.1)), "{text}");
-    // It is there until the browser has the address, whatever others ask for.
+    // It exists until the browser has the address, whatever other clients request.
     let page = std::path::Path::new(arguments);
     let (host, _) = server.1.strip_prefix("http://").unwrap().split_once('/').unwrap();
     let analysis = |path: &str| {
@@ -185,7 +186,7 @@ fn the_page_of_a_killed_server_is_removed_by_a_later_one_and_that_of_an_ended_on
     assert_eq!(pages(&temporary).len(), 0);
 }
 
-/// The issue that was found: 520 clients without the token ask and never read. As many of them ask for nothing at all.
+/// A defect found before: 520 clients without the token send requests and never read. As many send nothing.
 #[cfg(unix)]
 #[test]
 fn clients_without_the_token_do_not_keep_out_one_that_has_it() {
@@ -212,7 +213,7 @@ fn clients_without_the_token_do_not_keep_out_one_that_has_it() {
 }
 
 #[test]
-fn a_port_that_is_taken_and_a_study_that_is_none_are_told() {
+fn a_used_port_and_an_invalid_study_are_reported() {
     let cell = Cell::new();
     let taken = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
     let port = taken.local_addr().unwrap().port().to_string();
@@ -284,7 +285,7 @@ impl Served {
     }
 }
 
-/// Placement and result without what tells that it was stopped, and every other file.
+/// Placement and result without the mark of an interruption, and every other file.
 fn placed(cell: &Cell) -> ([Value; 2], Vec<(String, Vec<u8>)>) {
     let mut files = files_in(&cell.at("place"));
     let mut json = |name: &str| -> Value { serde_json::from_slice(&files.remove(name).unwrap()).unwrap() };
@@ -299,7 +300,7 @@ fn placed(cell: &Cell) -> ([Value; 2], Vec<(String, Vec<u8>)>) {
 }
 
 #[test]
-fn a_placement_goes_on_after_the_server_was_killed() {
+fn a_placement_continues_after_the_server_was_killed() {
     let whole = Cell::with_study(PLACED);
     let server = served(&whole);
     let id = server.place();

@@ -61,7 +61,7 @@ fn completions_know_every_command_and_flag() {
 }
 
 #[test]
-fn bash_reads_its_completions_and_offers_what_begins_so() {
+fn bash_reads_its_completions_and_offers_matching_names() {
     if !is_here("bash") {
         return;
     }
@@ -128,7 +128,7 @@ fn groff_sets_every_page_without_a_warning() {
 }
 
 #[test]
-fn a_place_where_no_page_can_be_written_is_told() {
+fn a_folder_where_no_page_can_be_written_is_reported() {
     let cell = Cell::new();
     cell.file("man1", "a file");
     cell.armill(&["man", "man1"]).refused(&["man1", "is a file"]);

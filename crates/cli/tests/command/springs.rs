@@ -28,7 +28,7 @@ fn with_body() -> Cell {
 const STRETCHED: [&str; 4] = ["pose", "lever.toml", "--joints-deg", "0,0"];
 
 #[test]
-fn a_spring_of_the_base_has_a_share_of_its_own() {
+fn a_spring_of_the_base_has_its_own_contribution() {
     let cell = with_body();
     let push = [&STRETCHED[..], &["--wrench-n", "0,10,0"]].concat();
     let said = cell.armill(&push).fine();
@@ -44,7 +44,7 @@ fn a_spring_of_the_base_has_a_share_of_its_own() {
         said.out
     );
     assert!(
-        said.out.contains("1 mass is known, but gravity is left out"),
+        said.out.contains("1 mass is known, but gravity is neglected"),
         "{}",
         said.out
     );
@@ -84,7 +84,7 @@ fn gravity_counts_against_the_pose_where_the_tool_was_set() {
 #[test]
 fn a_lever_that_is_pressed_too_hard_buckles() {
     let cell = with_body();
-    // Both springs in series: 3e-6 rad/(N m), lever 0.5 m: it holds up to 1/(3e-6 x 0.5) = 666 667 N.
+    // Both springs in series: 3e-6 rad/(N m), lever 0.5 m: stable up to 1/(3e-6 x 0.5) = 666 667 N.
     let press = |force: &str| {
         let arguments = ["--wrench-n", force, "--load-dependent"];
         cell.armill(&[&STRETCHED[..], &arguments].concat()).fine().out
@@ -113,7 +113,7 @@ fn the_compliance_under_load_is_softer_where_the_load_presses() {
 }
 
 #[test]
-fn robots_shows_what_an_arm_has_beside_its_drives() {
+fn robots_shows_what_a_robot_has_apart_from_its_drives() {
     let cell = with_body();
     let said = cell.armill(&["robots", "lever.toml"]).fine();
     assert!(
@@ -130,7 +130,7 @@ fn robots_shows_what_an_arm_has_beside_its_drives() {
 }
 
 #[test]
-fn a_joint_that_slides_is_told_in_mm_and_um_per_n() {
+fn a_prismatic_joint_is_reported_in_mm_and_um_per_n() {
     let cell = Cell::new();
     cell.file("lever.toml", LEVER);
     let said = cell.armill(&["robots", "lever.toml"]).fine();
@@ -149,7 +149,7 @@ fn a_joint_that_slides_is_told_in_mm_and_um_per_n() {
 }
 
 #[test]
-fn a_posture_tells_where_a_slide_stands_and_how_far_it_is_from_its_end_in_mm() {
+fn a_posture_reports_the_position_and_limit_margin_of_a_prismatic_joint_in_mm() {
     let cell = Cell::new();
     cell.file("lever.toml", LEVER);
     // 0.1 mm from its end the slide is nearest: rad and m are compared as they are.
@@ -158,7 +158,7 @@ fn a_posture_tells_where_a_slide_stands_and_how_far_it_is_from_its_end_in_mm() {
         .fine();
     assert!(
         said.out
-            .contains("A 10.000  B 249.900 mm   (inside limits, B nearest, by 0.1 mm)"),
+            .contains("A 10.000  B 249.900 mm   (inside limits, smallest margin B, 0.1 mm)"),
         "{}",
         said.out
     );

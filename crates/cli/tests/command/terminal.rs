@@ -1,4 +1,4 @@
-//! Stdout that closes, that is full, that is no terminal; colour only where it is wanted.
+//! Stdout that closes, that is full, that is not a terminal; colour only if requested.
 
 use std::io::Read;
 use std::process::{Command, Stdio};
@@ -11,7 +11,7 @@ fn broken() -> Cell {
 }
 
 #[test]
-fn a_reader_that_goes_away_is_no_error() {
+fn a_closed_pipe_is_not_an_error() {
     let cell = Cell::with_study(&format!("{SMALL}{EVERY_KIND}"));
     for arguments in [
         &["pose", "yaskawa/mh12", "--at-mm", "1000,0,800", "--json"][..],
@@ -54,7 +54,11 @@ fn characters_of_the_input_that_control_a_terminal_are_shown_as_escapes() {
         (named.clone(), &["check", "study.toml"][..], 0),
         (named.clone(), &["check", "study.toml", "--json"], 0),
         // An excerpt, a message and a file name.
-        (named.replace("tolerance_um", "limit"), &["check", "study.toml"], 2),
+        (
+            named.replace("tolerance_um", "limit"),
+            &["check", "study.toml"],
+            2,
+        ),
         (
             named.replace("tolerance_um", "limit"),
             &["check", "study.toml", "--json"],
@@ -166,7 +170,7 @@ fn on_a_terminal(cell: &Cell, command: &str, no_colour: Option<&str>) -> Option<
     (!none).then(|| String::from_utf8_lossy(&output.stdout).into_owned())
 }
 
-/// How a terminal is told a colour: bold red, or any other.
+/// Escape sequences of a colour: bold red, or any other.
 #[cfg(target_os = "linux")]
 fn is_coloured(text: &str) -> bool {
     text.split("\u{1b}[").skip(1).any(|rest| {
@@ -195,7 +199,7 @@ fn on_a_terminal_problems_are_coloured_unless_no_color_is_set() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn no_color_holds_for_wrong_arguments_and_the_progress_bar_too() {
+fn no_color_applies_to_argument_errors_and_the_progress_bar_too() {
     let cell = Cell::with_study(&format!("{SMALL}{EVERY_KIND}"));
     for command in ["fly", "--help", "run study.toml"] {
         let Some(said) = on_a_terminal(&cell, command, Some("1")) else {

@@ -1,4 +1,4 @@
-//! What moves the tool along a path beside its load: a robot file with backlash, and the arm as it was measured.
+//! Deviations along a path apart from the load: a robot file with backlash, and the calibrated robot.
 
 use crate::cell::{Cell, number, numbers, rows};
 use crate::documents::repository;
@@ -20,8 +20,8 @@ fn mh12() -> String {
     std::fs::read_to_string(repository().join("robots/yaskawa/mh12.toml")).unwrap()
 }
 
-/// The MH12 with play in all joints.
-fn with_play() -> String {
+/// The MH12 with backlash in all joints.
+fn with_backlash() -> String {
     let play = "\nbacklash_deg = 0.01\nbacklash_u_deg = 0.001\nbacklash_source = \"paper\"\ncompliance_source = \"paper\"";
     mh12().replace("\ncompliance_source = \"paper\"", play)
 }
@@ -37,13 +37,13 @@ fn backlash_of_the_robot_file_is_part_of_the_deviation_along_a_path() {
     cell.file("arm.toml", mh12());
     let without = ring(&cell, "without");
     assert!(without["unloaded"].is_null());
-    cell.file("arm.toml", with_play());
+    cell.file("arm.toml", with_backlash());
     let with = ring(&cell, "with");
     let unloaded = &with["unloaded"];
     let joints = unloaded["joints"].as_array().unwrap();
     assert_eq!(joints.len(), 6);
     assert!((number(&joints[0]["backlash_deg"]) - 0.01).abs() < 1e-12);
-    // On a ring every joint of the arm turns back at least once.
+    // On a ring every joint of the arm reverses at least once.
     assert!(
         joints[..3].iter().all(|joint| number(&joint["reversals"]) >= 1.0),
         "{unloaded}"
@@ -54,7 +54,7 @@ fn backlash_of_the_robot_file_is_part_of_the_deviation_along_a_path() {
         "0.01 deg at a metre are 170 um a joint, half of it either way: {most}"
     );
     assert!(number(&with["max_in_plane_um"]) > number(&without["max_in_plane_um"]) + 0.2 * most);
-    // The worst point, asked by itself, is the same, and its shares add up to it.
+    // The worst point, computed alone, is the same, and its contributions add up to it.
     let worst = &with["worst_points"][0]["point"];
     let in_plane = number(&worst["in_plane_um"]);
     assert!((in_plane - number(&with["max_in_plane_um"])).abs() < 1e-3);
@@ -73,8 +73,9 @@ fn backlash_of_the_robot_file_is_part_of_the_deviation_along_a_path() {
 
 #[test]
 fn what_is_known_of_backlash_and_geometry_is_compensated() {
-    let cell = Cell::with_study(&CELL.replace("arm.toml\"", "yaskawa/mh12\"\ncalibrated_robot = \"arm.toml\""));
-    // Longer links, and play.
+    let cell =
+        Cell::with_study(&CELL.replace("arm.toml\"", "yaskawa/mh12\"\ncalibrated_robot = \"arm.toml\""));
+    // Longer links, and backlash.
     cell.file(
         "arm.toml",
         mh12()
@@ -85,7 +86,7 @@ fn what_is_known_of_backlash_and_geometry_is_compensated() {
     let path = &given["paths"][0];
     let [before, after] = ["before", "after"].map(|when| number(&path[when]["rms_um"]));
     assert!(before > 200.0 && after < 1.0, "{before} {after}");
-    cell.file("arm.toml", with_play());
+    cell.file("arm.toml", with_backlash());
     cell.file("study.toml", CELL);
     let given = cell.armill(&["compensate", "study.toml", "--json"]).fine().json();
     let path = &given["paths"][0];
@@ -94,7 +95,7 @@ fn what_is_known_of_backlash_and_geometry_is_compensated() {
 }
 
 #[test]
-fn maps_have_play_where_it_moves_the_tool_farthest_and_say_so() {
+fn maps_report_the_worst_case_of_backlash() {
     let map = CELL.split_once("[[analysis]]").unwrap().0;
     let cell = Cell::with_study(map);
     let given = |arm: String| {
@@ -104,8 +105,8 @@ fn maps_have_play_where_it_moves_the_tool_farthest_and_say_so() {
     };
     let without = given(mh12());
     assert!(!without["warnings"].to_string().contains("gaps"));
-    let with = given(with_play());
-    let farthest = "maps, sections, volumes and holes tell where backlash moves the tool farthest";
+    let with = given(with_backlash());
+    let farthest = "maps, sections, volumes and holes report the worst case";
     assert!(
         with["warnings"].to_string().contains(farthest),
         "{}",
@@ -127,7 +128,7 @@ fn maps_have_play_where_it_moves_the_tool_farthest_and_say_so() {
 fn a_single_pose_has_the_deviation_of_the_map_with_backlash_in_it_and_its_shares() {
     let map = CELL.split_once("[[analysis]]").unwrap().0;
     let cell = Cell::with_study(&map.replace("step_mm = 50", "step_mm = 100"));
-    cell.file("arm.toml", with_play());
+    cell.file("arm.toml", with_backlash());
     let run = cell
         .armill(&["run", "study.toml", "--no-pictures", "--json"])
         .fine()
@@ -155,7 +156,7 @@ fn a_single_pose_has_the_deviation_of_the_map_with_backlash_in_it_and_its_shares
     };
     let given = pose("arm.toml");
     let deviation = numbers(&given["deviation_um"]);
-    // The plane stands upright: its normal, and the tool axis, is vertical.
+    // The plane is upright: its normal, and the tool axis, is vertical.
     let axis = 2;
     let in_plane = (0..3)
         .filter(|k| *k != axis)
@@ -184,7 +185,8 @@ fn a_single_pose_has_the_deviation_of_the_map_with_backlash_in_it_and_its_shares
 #[test]
 fn a_map_of_a_measured_arm_has_its_geometry() {
     let map = CELL.split_once("[[analysis]]").unwrap().0;
-    let cell = Cell::with_study(&map.replace("arm.toml\"", "yaskawa/mh12\"\ncalibrated_robot = \"arm.toml\""));
+    let cell =
+        Cell::with_study(&map.replace("arm.toml\"", "yaskawa/mh12\"\ncalibrated_robot = \"arm.toml\""));
     let fraction = |arm: String| {
         cell.file("arm.toml", arm);
         let said = cell
@@ -203,13 +205,18 @@ fn a_map_of_a_measured_arm_has_its_geometry() {
     let longer = mh12().replace("length_mm = 640", "length_mm = 641");
     let (within, most, answer) = fraction(longer);
     assert!(within < 0.5 && most > 500.0, "{within} {most}");
-    assert!(answer.contains("mostly by the geometry ("), "{answer}");
+    assert!(
+        answer.contains("largest contribution: the geometry ("),
+        "{answer}"
+    );
 }
 
 #[test]
 fn an_arm_that_does_not_fit_is_refused_at_its_place() {
-    let cell =
-        Cell::with_study(&CELL.replace("arm.toml\"", "yaskawa/mh12\"\ncalibrated_robot = \"nowhere.toml\""));
+    let cell = Cell::with_study(&CELL.replace(
+        "arm.toml\"",
+        "yaskawa/mh12\"\ncalibrated_robot = \"nowhere.toml\"",
+    ));
     cell.armill(&["check", "study.toml"])
         .refused(&["study.toml:3:", "nowhere.toml"]);
     cell.file("lever.toml", LEVER);
@@ -225,7 +232,8 @@ fn an_arm_that_does_not_fit_is_refused_at_its_place() {
 
 #[test]
 fn an_arm_whose_zero_is_another_is_no_measured_one() {
-    let cell = Cell::with_study(&CELL.replace("arm.toml\"", "yaskawa/mh12\"\ncalibrated_robot = \"other.toml\""));
+    let cell =
+        Cell::with_study(&CELL.replace("arm.toml\"", "yaskawa/mh12\"\ncalibrated_robot = \"other.toml\""));
     cell.file("other.toml", mh12().replacen("sign = -1", "sign = 1", 1));
     cell.armill(&["check", "study.toml"]).refused(&[
         "study.toml:3:",
@@ -249,7 +257,7 @@ where = "here"
 licence = "none"
 "#;
 
-/// The largest uncertainty, the setting's scatter and the parts of the model that are told of a map.
+/// The largest uncertainty, the scatter of the setting and the parts of the model reported for a map.
 fn unsure(cell: &Cell) -> (f64, f64, String) {
     let given = cell
         .armill(&["run", "study.toml", "--no-pictures", "--json"])
@@ -264,7 +272,7 @@ fn unsure(cell: &Cell) -> (f64, f64, String) {
 }
 
 #[test]
-fn an_arm_that_scatters_is_less_sure_by_that_and_the_study_knows_better() {
+fn scatter_increases_the_uncertainty_and_the_study_has_precedence() {
     let map = CELL.split_once("[[analysis]]").unwrap().0;
     let cell = Cell::with_study(map);
     cell.file("arm.toml", mh12());
@@ -295,9 +303,9 @@ fn an_arm_that_scatters_is_less_sure_by_that_and_the_study_knows_better() {
 }
 
 #[test]
-fn the_table_has_what_no_load_makes() {
+fn the_table_has_the_deviation_without_load() {
     let cell = Cell::with_study(&CELL.replace("[[3, -5, -5]]", "[[0, 0, 0]]"));
-    cell.file("arm.toml", with_play());
+    cell.file("arm.toml", with_backlash());
     ring(&cell, "out");
     let table = std::fs::read_to_string(cell.at("out/ring.csv")).unwrap();
     let mut lines = table.lines().filter(|line| !line.starts_with('#'));

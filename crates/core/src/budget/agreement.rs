@@ -1,40 +1,40 @@
-//! How much of a measured curve another one explains.
+//! Agreement of a measured curve with a predicted one.
 //!
 //! ```text
-//! explained = 1 - <m - p, m - p> / <m, m>     1: all of it; 0: as good as nothing; below: worse than nothing
-//! likeness  = <m, p> / (|m| |p|)              shape alone: 1 alike, 0 unlike, -1 upside down
-//! gain      = <m, p> / <p, p>                 what p had to be multiplied by to explain most
+//! explained = 1 - <m - p, m - p> / <m, m>     1: all of it; 0: like no prediction; below: worse than no prediction
+//! likeness  = <m, p> / (|m| |p|)              shape only: 1 equal, 0 unrelated, -1 opposite
+//! gain      = <m, p> / <p, p>                 factor on p that explains most
 //! ```
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | `m`, `p` | measured, predicted radial deviation, from the same datum | m |
 //!
-//! `explained` is at most `likeness^2`, and reaches it where the gain is 1: shape and size must both be right.
+//! `explained` is at most `likeness^2`, and equals it where the gain is 1: shape and size must both be right.
 
 use super::turn::{Turn, largest};
 
-/// How one curve explains another.
+/// Agreement of one curve with another.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Agreement {
     /// Share of the measured mean square.
     pub explained: f64,
     /// Likeness of the shapes; none where nothing is predicted.
     pub likeness: Option<f64>,
-    /// The factor that would explain most; none where nothing is predicted.
+    /// The factor on the prediction that explains most; none where nothing is predicted.
     pub gain: Option<f64>,
     /// Measured minus predicted, m.
     pub residual: Vec<f64>,
     /// Its root mean square, m.
     pub residual_rms: f64,
-    /// Its largest by size, and the place of that among the angles, m.
+    /// The largest by size, and its index among the angles, m.
     pub residual_largest: (usize, f64),
 }
 
-/// A curve that is smaller than this is none, m: a billionth of a micrometre.
+/// A curve that is smaller than this is zero, m: a billionth of a micrometre.
 const NOTHING: f64 = 1e-15;
 
-/// How `predicted` explains `measured`; `None` where nothing was measured that could be explained.
+/// How much of `measured` `predicted` explains; `None` where the measured curve is zero.
 pub fn agreement(turn: &Turn, predicted: &[f64], measured: &[f64]) -> Option<Agreement> {
     let of = turn.rms(measured);
     if of < NOTHING {
@@ -88,7 +88,7 @@ mod tests {
 
     #[test]
     fn a_curve_of_the_right_size_at_the_wrong_angle_explains_nothing() {
-        // Two numbers of equal size are no agreement: a quarter of a wave makes both amplitudes equal and all else wrong.
+        // Equal amplitudes are not sufficient: a quarter of a wave makes both amplitudes equal and all else wrong.
         let m = curve(|a| 2e-4 * (2.0 * a).cos());
         let p = curve(|a| 2e-4 * (2.0 * a).sin());
         let found = agreement(&turn(), &p, &m).unwrap();
@@ -96,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn half_of_the_truth_explains_three_quarters_and_the_gain_says_two() {
+    fn half_of_the_curve_explains_three_quarters_and_the_gain_is_two() {
         let m = curve(|a| 1e-5 * (3.0 * a).cos());
         let half: Vec<f64> = m.iter().map(|x| x / 2.0).collect();
         let found = agreement(&turn(), &half, &m).unwrap();
@@ -105,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn scale_and_start_angle_change_nothing() {
+    fn scale_and_start_angle_have_no_effect() {
         let of = |a: f64| 1e-5 * (2.0 * a).cos() + 2e-6 * (7.0 * a).sin();
         let by = |a: f64| 0.8e-5 * (2.0 * a + 0.1).cos();
         let plain = agreement(&turn(), &curve(by), &curve(of)).unwrap();

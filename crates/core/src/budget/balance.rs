@@ -1,7 +1,7 @@
-//! The whole budget: contributions and their sums, and beside them what was measured on the part.
+//! The whole budget: contributions, their sums, and the comparison with the measured part.
 //!
-//! All curves are brought to one datum first, each by its own centre and radius, as far as those are removed. What the
-//! known scatter leaves unexplained is the best that any prediction could do:
+//! All curves are reduced to one datum first, each by its own centre and radius, as far as those are removed. The
+//! known scatter limits the explained share of any prediction:
 //!
 //! ```text
 //! explainable   = 1 - (<s, s> + u_m^2) / <m, m>
@@ -26,49 +26,49 @@ use super::waves::{WavePair, least_amplitude, pairs, turns_as_good};
 pub struct Balance {
     /// From their datum.
     pub contributions: Vec<Contribution>,
-    /// What was taken off each.
+    /// The datum removed from each.
     pub datums: Vec<Datum>,
-    /// What they make together.
+    /// Their sums.
     pub sums: Sums,
-    /// The measured part; none where none was measured, or nothing of it is left without its datum.
+    /// The measured part; none where none was measured, or nothing remains of it without its datum.
     pub comparison: Option<Comparison>,
 }
 
-/// The measured part beside the prediction.
+/// The measured part compared with the prediction.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
     /// Measured, from its datum, m.
     pub measured: Vec<f64>,
-    /// What was taken off it.
+    /// The datum removed from it.
     pub datum: Datum,
     /// Its root mean square, m.
     pub measured_rms: f64,
-    /// How all contributions together explain it.
+    /// Agreement with the sum of all contributions.
     pub together: Agreement,
-    /// What each does for it.
+    /// Agreement of each contribution.
     pub shares: Vec<Share>,
-    /// What could be explained if all biases were known: the rest is scatter.
+    /// Share that could be explained if all biases were known: the rest is scatter.
     pub explainable: f64,
     /// Root mean square of the residual beyond all known scatter and uncertainty, m.
     pub beyond_known: f64,
     /// Wave by wave.
     pub waves: Vec<WavePair>,
-    /// Waves of less amplitude are none, m.
+    /// Waves of less amplitude are not reported, m.
     pub least_wave: f64,
-    /// Share of all turns of the prediction at which it agrees as well; none without waves.
+    /// Share of all rotations of the prediction with the same or a better agreement; none without waves.
     pub turns_as_good: Option<f64>,
 }
 
-/// What one contribution explains.
+/// Agreement of one contribution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Share {
-    /// If it were alone.
+    /// Of this contribution alone.
     pub alone: f64,
     /// Of all others without it.
     pub without: f64,
 }
 
-/// The budget of `contributions`, and what it explains of `measured` (its curve, and the standard uncertainty of a
+/// The budget of `contributions`, and its agreement with `measured` (its curve, and the standard uncertainty of a
 /// point; m), waves up to `most`.
 pub fn balance(
     turn: &Turn,
@@ -76,14 +76,14 @@ pub fn balance(
     measured: Option<(&[f64], f64)>,
     (removed, most): (Removed, usize),
 ) -> Balance {
-    let taken_off = |one: Contribution| {
-        let (datum, bias) = Datum::taken_off(turn, &one.bias, removed);
+    let removed_from = |one: Contribution| {
+        let (datum, bias) = Datum::remove(turn, &one.bias, removed);
         (Contribution { bias, ..one }, datum)
     };
-    let (contributions, datums): (Vec<_>, Vec<_>) = contributions.into_iter().map(taken_off).unzip();
+    let (contributions, datums): (Vec<_>, Vec<_>) = contributions.into_iter().map(removed_from).unzip();
     let sums = Sums::of(&contributions, turn.angle().len());
     let comparison = measured.and_then(|(curve, u)| {
-        let (datum, curve) = Datum::taken_off(turn, curve, removed);
+        let (datum, curve) = Datum::remove(turn, curve, removed);
         compare(turn, (&contributions, &sums), (curve, datum, u), most)
     });
     Balance {
@@ -171,11 +171,11 @@ mod tests {
         vec![one(Origin::Load, load, 0.0), one(Origin::Unloaded, path, scatter)]
     }
 
-    /// Noise of no pattern, of standard deviation 1: sums of twelve numbers from 0 to 1, less 6.
+    /// Random noise of standard deviation 1: sums of twelve numbers from 0 to 1, less 6.
     fn noise(seed: u64) -> Vec<f64> {
         let mut state = seed << 32;
         let mut next = || {
-            // SplitMix64: neighbouring seeds have nothing in common.
+            // SplitMix64: neighbouring seeds are independent.
             state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
             let mixed = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
             let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_that_sum_up_to_the_measurement_explain_all_of_it_wherever_the_part_lay() {
+    fn parts_that_sum_up_to_the_measurement_explain_all_of_it_whatever_the_centre() {
         let measured = curve(|a| load(a) + path(a) + 3e-4 * a.cos() - 2e-4 * a.sin() + 5e-5);
         let found = balance(&turn(), parts(0.0), Some((&measured, 0.0)), (BOTH, 10));
         let given = found.comparison.unwrap();
@@ -196,11 +196,11 @@ mod tests {
         for share in &given.shares {
             assert!(share.alone < 0.9 && share.without < 0.9);
         }
-        // What one explains alone is what all others lack without the rest.
+        // The share of one alone is the share that all others lack.
         assert_eq!(given.shares[0].alone, given.shares[1].without);
         let wave = given.waves[1];
         assert!(wave.phase_difference().abs() < 1e-9 && (wave.explained().unwrap() - 1.0).abs() < 1e-9);
-        // Kept, the centre of the part is an error like any other.
+        // If it is kept, the centre of the part is an error like any other.
         let none = Removed {
             centre: false,
             radius: false,
@@ -210,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn independent_noise_leaves_as_much_as_it_brings() {
+    fn independent_noise_increases_the_residual_by_its_own_size() {
         let sigma = 3e-5;
         let (mut off, mut beyond) = (Vec::new(), Vec::new());
         for seed in 1..40 {
@@ -222,8 +222,8 @@ mod tests {
             off.push(given.together.explained - given.explainable);
             beyond.push(given.beyond_known);
         }
-        // 1 - sigma^2 / <m, m> in the mean. One turn of 720 points misses by a twentieth of what is left, and by twice what
-        // noise and signal have in common by chance: together a fiftieth.
+        // 1 - sigma^2 / <m, m> in the mean. One turn of 720 points deviates by a twentieth of the rest, and by twice
+        // the random correlation of noise and signal: together a fiftieth.
         let mean = off.iter().sum::<f64>() / off.len() as f64;
         assert!(mean.abs() < 1e-2, "{mean}");
         assert!(off.iter().all(|off| off.abs() < 0.06), "{off:?}");
@@ -243,7 +243,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_measured_and_nothing_left_compare_with_nothing() {
+    fn without_a_measured_form_there_is_no_comparison() {
         let found = balance(&turn(), parts(0.0), None, (BOTH, 10));
         assert_eq!(found.comparison, None);
         // A shifted circle has no form.

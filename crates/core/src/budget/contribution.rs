@@ -1,10 +1,10 @@
-//! One part of the error: its bias, a signed function of the angle, and its scatter; and what several make together.
+//! One part of the error: its bias, a signed function of the angle, and its scatter; and the sums of several.
 //!
 //! ```text
-//! as functions     max over a of |sum of b_i(a)|             what happens, where signs and angles are known
+//! as functions     max over a of |sum of b_i(a)|             with known signs and angles
 //!   with scatter   max over a of |sum of b_i(a)| + 2 s(a)    s^2 = sum of s_i^2: covers 95 of 100 cuts
-//! plain            sum over origins of max |b_o|             as if all were worst at one angle, one way
-//! squares          root of the sum of (max |b_o|)^2          as if nobody knew the angles and signs
+//! plain            sum over origins of max |b_o|             as if all had their worst angle and sign together
+//! squares          root of the sum of (max |b_o|)^2          as if angles and signs were unknown
 //! ```
 //!
 //! | symbol | meaning | unit |
@@ -12,31 +12,31 @@
 //! | `b_i`, `s_i` | bias and standard deviation of a contribution | m |
 //! | `b_o` | the biases of one origin together: of the load, of the unloaded path | m |
 //!
-//! The plain sum is that of the paper this work begins with: 60 um of the load and 140 um of the unloaded path are
-//! 200 um.
+//! The plain sum is that of the paper on which this work is based: 60 um of the load and 140 um of the unloaded path
+//! are 200 um.
 
 use super::turn::largest;
 
-/// Where a contribution comes from.
+/// Origin of a contribution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
-    /// What pushes on the tool: predicted.
+    /// The load on the tool: predicted.
     Load,
     /// The path without load: measured, or predicted where it was not.
     Unloaded,
 }
 
 impl Origin {
-    /// Both, in the order in which results tell them.
+    /// Both, in the order of the results.
     pub const BOTH: [Origin; 2] = [Origin::Load, Origin::Unloaded];
 }
 
 /// One part of the error at the angles of a turn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contribution {
-    /// What it is.
+    /// Its name.
     pub name: String,
-    /// Where it comes from.
+    /// Its origin.
     pub origin: Origin,
     /// Signed, outwards positive, m.
     pub bias: Vec<f64>,
@@ -46,14 +46,14 @@ pub struct Contribution {
     pub u: Option<f64>,
 }
 
-/// What contributions make together.
+/// Sums of contributions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sums {
-    /// Biases together, m.
+    /// Sum of the biases, m.
     pub bias: Vec<f64>,
     /// Standard deviation of one cut, m.
     pub scatter: Vec<f64>,
-    /// Standard uncertainty of the bias round the circle, as far as those of its parts are known, m.
+    /// Standard uncertainty of the bias round the circle, of the parts for which it is known, m.
     pub u: f64,
     /// Largest bias of each origin, m.
     pub of_origin: [f64; 2],
@@ -61,17 +61,17 @@ pub struct Sums {
     pub largest: f64,
     /// Largest bias and twice the scatter there, m.
     pub largest_with_scatter: f64,
-    /// The largest of each origin added plainly, m.
+    /// Sum of the largest of each origin, m.
     pub plain: f64,
-    /// The root of the sum of their squares, m.
+    /// Root sum of their squares, m.
     pub root_sum_square: f64,
 }
 
-/// Standard deviations that cover 95 of 100.
+/// Coverage factor for 95 %.
 const COVERAGE: f64 = 2.0;
 
 impl Sums {
-    /// Of these contributions, all of `count` angles.
+    /// Of these contributions, all at `count` angles.
     pub fn of(contributions: &[Contribution], count: usize) -> Sums {
         let bias = bias_of(contributions.iter(), count);
         let variance = |k: usize| {

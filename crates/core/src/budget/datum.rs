@@ -1,4 +1,4 @@
-//! Centre and radius of a curve: where the circle lies and how large it is, which is no error of form.
+//! Centre and radius of a curve: position and size of the circle, which are not errors of form.
 //!
 //! ```text
 //! dr(a) = x cos a + y sin a + dR + form(a)        least over the turn: <form, form>
@@ -9,22 +9,22 @@
 //! | `x`, `y` | shift of the centre along the axes of the plane | m |
 //! | `dR` | radius beyond the nominal one | m |
 //!
-//! To first order in the shift over the radius; shifts that are larger are taken off before, by the circle itself.
+//! To first order in the shift over the radius; larger shifts are removed before, by the circle itself.
 
 use nalgebra::{Matrix3, Vector2, Vector3};
 
 use super::turn::Turn;
 
-/// What is taken off every curve before curves are compared.
+/// The datum that is removed from every curve before the comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Removed {
-    /// The centre: nobody knows where the part lay.
+    /// The centre: the position of the part is not known.
     pub centre: bool,
-    /// The radius: cutters and gauges have other radii than they should.
+    /// The radius: cutters and gauges differ from their nominal radii.
     pub radius: bool,
 }
 
-/// Centre and radius of a curve; 0 where they are not asked for.
+/// Centre and radius of a curve; 0 where they are not removed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Datum {
     /// m
@@ -34,8 +34,8 @@ pub struct Datum {
 }
 
 impl Datum {
-    /// That of `curve` as far as `removed` says, and the curve without it.
-    pub fn taken_off(turn: &Turn, curve: &[f64], removed: Removed) -> (Datum, Vec<f64>) {
+    /// The datum of `curve` as selected by `removed`, and the curve without it.
+    pub fn remove(turn: &Turn, curve: &[f64], removed: Removed) -> (Datum, Vec<f64>) {
         let row = |a: &f64| {
             let (sin, cos) = a.sin_cos();
             let requested = |is: bool, value: f64| if is { value } else { 0.0 };
@@ -47,13 +47,13 @@ impl Datum {
         let parts = [part(0), part(1), part(2)];
         let mut normal = Matrix3::from_fn(|i, j| turn.product(&parts[i], &parts[j]));
         let right = Vector3::from_fn(|i, _| turn.product(&parts[i], curve));
-        // What is not asked for comes out as 0.
+        // Parameters that are not removed are 0.
         for i in 0..3 {
             if !(if i == 2 { removed.radius } else { removed.centre }) {
                 normal[(i, i)] = 1.0;
             }
         }
-        // An arc of a third of a turn, the least of a `Turn`, tells all three.
+        // An arc of a third of a turn, the least of a `Turn`, determines all three.
         let found = normal.cholesky().map_or_else(Vector3::zeros, |n| n.solve(&right));
         let left = rows.iter().zip(curve).map(|(row, value)| value - row.dot(&found));
         let datum = Datum {
@@ -71,7 +71,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn centre_and_radius_come_off_as_asked_and_what_is_left_is_the_form() {
+    fn the_selected_centre_and_radius_are_removed_and_the_form_remains() {
         for arc in [1.0, 0.6] {
             let angle: Vec<f64> = (0..200).map(|k| arc * TAU * f64::from(k) / 200.0).collect();
             let turn = Turn::new(angle.clone()).unwrap();
@@ -81,26 +81,26 @@ mod tests {
                 centre: true,
                 radius: true,
             };
-            let (datum, left) = Datum::taken_off(&turn, &curve, both);
+            let (datum, left) = Datum::remove(&turn, &curve, both);
             assert!((datum.centre - Vector2::new(30e-6, -20e-6)).norm() < 1e-16);
             assert!((datum.radius - 8e-6).abs() < 1e-16 && turn.rms(&left) < 1e-16);
             let none = Removed {
                 centre: false,
                 radius: false,
             };
-            assert_eq!(Datum::taken_off(&turn, &curve, none).1, curve);
+            assert_eq!(Datum::remove(&turn, &curve, none).1, curve);
         }
     }
 
     #[test]
-    fn what_is_taken_off_once_is_not_there_again() {
+    fn a_datum_that_was_removed_is_zero_afterwards() {
         let angle: Vec<f64> = (0..360).map(|deg| f64::from(deg).to_radians()).collect();
         let turn = Turn::new(angle.clone()).unwrap();
         let curve: Vec<f64> = angle.iter().map(|a| (a.sin() + 0.3).powi(3) * 1e-5).collect();
         for (centre, radius) in [(true, true), (true, false), (false, true)] {
             let removed = Removed { centre, radius };
-            let (_, left) = Datum::taken_off(&turn, &curve, removed);
-            let (again, _) = Datum::taken_off(&turn, &left, removed);
+            let (_, left) = Datum::remove(&turn, &curve, removed);
+            let (again, _) = Datum::remove(&turn, &left, removed);
             assert!(again.centre.norm() < 1e-18 && again.radius.abs() < 1e-18);
             assert!(turn.rms(&left) < turn.rms(&curve));
         }

@@ -1,10 +1,10 @@
-//! The angles at which curves are compared, each with the part of the turn that it stands for.
+//! The angles at which curves are compared, each with its weight.
 //!
 //! ```text
 //! <f, g> = sum of w_k f(a_k) g(a_k)        w_k: half of the way to both neighbours, over all; sum of w_k = 1
 //! ```
 //!
-//! Angles may be uneven: a stretch that was probed closely has no more weight than any other. Across a gap wider than
+//! Angles may be uneven: a densely probed stretch has no more weight than any other. Across a gap wider than
 //! that of a ball-bar's profile nothing is known, and its ends get the weight of half such a gap.
 
 use std::f64::consts::TAU;
@@ -19,25 +19,25 @@ pub struct Turn {
     arc: f64,
 }
 
-/// Why angles are no turn.
+/// Why angles are not a valid turn.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum TurnError {
     /// Too few.
-    #[error("{0} angles are fewer than the {least} that a comparison needs", least = Turn::LEAST)]
+    #[error("{0} angles are not sufficient for a comparison: at least {least} are needed", least = Turn::LEAST)]
     TooFew(usize),
     /// Too short an arc.
-    #[error("{:.1} deg of the circle are known together, less than a third of a turn", .0.to_degrees())]
+    #[error("{:.1} deg of the circle are measured without a gap: at least a third of a turn is needed", .0.to_degrees())]
     TooShort(f64),
 }
 
 impl Turn {
-    /// Fewest angles.
+    /// Minimum number of angles.
     pub const LEAST: usize = 12;
 
     /// At these angles (rad): rising, from 0 to below a turn, each once.
     ///
     /// # Errors
-    /// Too few; an arc from which a centre is not known.
+    /// Too few; an arc too short for a centre.
     pub fn new(angle: Vec<f64>) -> Result<Turn, TurnError> {
         let count = angle.len();
         if count < Turn::LEAST {
@@ -68,12 +68,12 @@ impl Turn {
         &self.angle
     }
 
-    /// How much of a turn is known, rad.
+    /// Measured part of a turn, rad.
     pub fn arc(&self) -> f64 {
         self.arc
     }
 
-    /// A curve at these angles, straight between its values, which stand at even angles from 0 on; zeros of none.
+    /// A curve at these angles, by linear interpolation of its values at even angles from 0 on; zeros of none.
     pub fn of_even(&self, values: &[f64]) -> Vec<f64> {
         let count = values.len();
         let at = |angle: &f64| {
@@ -105,7 +105,7 @@ impl Turn {
     }
 }
 
-/// The largest of a curve by size, and its place; 0 of none.
+/// The largest of a curve by size, and its index; 0 of none.
 pub fn largest(curve: &[f64]) -> (usize, f64) {
     let sizes = curve.iter().map(|value| value.abs()).enumerate();
     sizes.fold(
@@ -144,7 +144,7 @@ mod tests {
         assert!(refused.to_string().starts_with("99.0 deg of the circle"));
         // Samples every 20 degrees are all gaps.
         assert_eq!(Turn::new(even(18)), Err(TurnError::TooShort(0.0)));
-        // Every 15 degrees will do.
+        // Every 15 degrees is sufficient.
         assert!(Turn::new(even(24)).is_ok());
     }
 
@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn the_largest_is_by_size() {
+    fn the_largest_is_that_of_the_absolute_values() {
         assert_eq!(largest(&[1.0, -3.0, 2.0]), (1, 3.0));
         assert_eq!(largest(&[]), (0, 0.0));
     }

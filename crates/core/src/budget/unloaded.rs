@@ -1,18 +1,19 @@
-//! The path without load, in parts: what is the same both ways round, what turns with the way, and what does not come
-//! again.
+//! The path without load, in parts: the mean of both directions, the part that changes with the direction, and the
+//! scatter.
 //!
 //! ```text
-//! mean(a)     = (c(a) + o(a)) / 2        bias of the way that was cut c, of the other o: means of their runs
+//! mean(a)     = (c(a) + o(a)) / 2        bias in the direction of the cut c, of the other o: means of their runs
 //! reversal(a) = (c(a) - o(a)) / 2        mean + reversal = c
 //! s^2         = sum over runs of <x_k - x_way, x_k - x_way> / (runs - ways)
 //! ```
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | `x_k`, `x_way` | a run, and the mean of all that go its way, from the datum | m |
-//! | `s` | standard deviation of a run about the mean of its way | m |
+//! | `x_k`, `x_way` | a run, and the mean of all runs in its direction, from the datum | m |
+//! | `s` | standard deviation of a run about the mean of its direction | m |
 //!
-//! Backlash and what follows the direction of motion make the reversal part; it is half of the gap between the ways.
+//! Backlash and other effects of the direction of motion make the reversal part; it is half of the difference between
+//! the directions.
 
 use crate::measure::ballbar::{CircularTest, Direction, Profile};
 
@@ -22,15 +23,15 @@ use super::turn::Turn;
 /// The unloaded path at the angles of a turn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unloaded {
-    /// The same both ways; of one way alone, that way. m
+    /// The mean of both directions; with one direction only, that direction. m
     pub mean: Vec<f64>,
-    /// What the way that was cut has more; none where one way alone was measured. m
+    /// Half the difference between the directions; none where only one was measured. m
     pub reversal: Option<Vec<f64>>,
-    /// Standard deviation of one run; none where no way has two. m
+    /// Standard deviation of one run; none where no direction has two. m
     pub scatter: Option<f64>,
-    /// Standard uncertainty of `mean` and of `reversal`, as far as runs differ. m
+    /// Standard uncertainty of `mean` and of `reversal`, from the scatter of runs. m
     pub u: Option<f64>,
-    /// Whether the way that was cut was measured.
+    /// Whether the direction of the cut was measured.
     pub has_cut_way: bool,
 }
 
@@ -41,8 +42,8 @@ pub fn known_angles(test: &CircularTest, angles: &[f64]) -> Vec<f64> {
     angles.iter().copied().filter(known).collect()
 }
 
-/// What `test` shows at the angles of `turn`, where all its runs are known, for a cut that goes the way `cut`; `None` where
-/// a run is unknown at one of them.
+/// The parts of `test` at the angles of `turn`, where all its runs are known, for a cut in the direction `cut`; `None`
+/// where a run is unknown at one of them.
 pub fn unloaded(test: &CircularTest, turn: &Turn, cut: Direction, removed: Removed) -> Option<Unloaded> {
     let seen =
         |profile: Profile| -> Option<Vec<f64>> { turn.angle().iter().map(|a| profile.at(*a)).collect() };
@@ -74,9 +75,9 @@ pub fn unloaded(test: &CircularTest, turn: &Turn, cut: Direction, removed: Remov
     })
 }
 
-/// Mean squares (m^2) of what each of these runs misses their mean by, summed: at the angles of the first, since between
-/// samples a curve is a mean of two that scatters less; where those make no turn, at the angles of `turn`. `None` where a
-/// run is unknown there.
+/// Sum of the mean square differences (m^2) of these runs from their mean: at the angles of the first, since between
+/// samples a curve is a mean of two that scatters less; where those are not a valid turn, at the angles of `turn`.
+/// `None` where a run is unknown there.
 fn squares_of(runs: &[Profile], turn: &Turn, removed: Removed) -> Option<f64> {
     let known = |angle: &f64| runs.iter().all(|run| run.at(*angle).is_some());
     let samples = runs.first().into_iter().flat_map(Profile::samples);
@@ -85,7 +86,7 @@ fn squares_of(runs: &[Profile], turn: &Turn, removed: Removed) -> Option<f64> {
     let seen = |run: &Profile| turn.angle().iter().map(|angle| run.at(*angle)).collect();
     let curves: Vec<Vec<f64>> = runs.iter().map(seen).collect::<Option<_>>()?;
     let mean = mean(&curves, turn.angle().len());
-    let form = |curve: &Vec<f64>| Datum::taken_off(turn, &minus(curve, &mean), removed).1;
+    let form = |curve: &Vec<f64>| Datum::remove(turn, &minus(curve, &mean), removed).1;
     Some(curves.iter().map(|curve| turn.rms(&form(curve)).powi(2)).sum())
 }
 
@@ -128,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn form_and_reversal_come_apart_and_add_up_to_the_way_that_was_cut() {
+    fn form_and_reversal_are_separated_and_add_up_to_the_direction_of_the_cut() {
         let turn = Turn::new(angles()).unwrap();
         let runs = Direction::BOTH.map(|way| run(way, |a| form(a) + way.sign() * gap(a)));
         let test = CircularTest::new(0.1, runs.to_vec()).unwrap();
@@ -144,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn runs_that_differ_by_a_wave_scatter_by_it_and_the_mean_is_known_better() {
+    fn runs_that_differ_by_a_wave_scatter_by_it_and_the_mean_has_less_uncertainty() {
         let turn = Turn::new(angles()).unwrap();
         let wave = |sign: f64| move |a: f64| form(a) + sign * 1e-5 * (4.0 * a).cos();
         let cw = [1.0, -1.0].map(|sign| run(Direction::Clockwise, wave(sign)));
@@ -157,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn a_centre_that_drifts_between_runs_is_no_scatter_of_form() {
+    fn a_centre_that_drifts_between_runs_does_not_add_to_the_scatter_of_form() {
         let turn = Turn::new(angles()).unwrap();
         let runs = [0.0, 4e-5].map(|by| run(Direction::Clockwise, move |a| form(a) + by * a.cos() + by));
         let test = CircularTest::new(0.1, runs.to_vec()).unwrap();
@@ -171,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn one_way_alone_has_no_reversal_and_gaps_are_not_guessed() {
+    fn one_direction_has_no_reversal_and_gaps_are_not_filled() {
         let turn = Turn::new(angles()).unwrap();
         let test = CircularTest::new(0.1, vec![run(Direction::Clockwise, form)]).unwrap();
         let parts = unloaded(&test, &turn, Direction::Anticlockwise, NONE).unwrap();

@@ -1,4 +1,4 @@
-//! Predicted and measured waves beside each other: amplitude and phase, and how likely they are alike by chance.
+//! Predicted and measured waves compared: amplitude, phase, and the probability of agreement by chance.
 //!
 //! ```text
 //! m(a) = sum of A_n cos(n a - phi_n)     p(a) = sum of B_n cos(n a - psi_n)
@@ -6,14 +6,14 @@
 //! <m, p turned by t>   = 1/2 sum of A_n B_n cos(phi_n - psi_n - n t)
 //! ```
 //!
-//! A wave that is hardly there has no phase, and a share of it means nothing: the least amplitude that is told is
+//! A very small wave has no useful phase and share. The least amplitude that is reported is
 //!
 //! ```text
 //! A_least = max(A_largest / 100, 2 s / sqrt N)        noise s of N angles makes waves of 2 s / sqrt N (rms)
 //! ```
 //!
-//! A prediction that has nothing to do with the measurement may lie right by chance. Turned round the circle it keeps
-//! its size and its shape, and would agree no worse: [`turns_as_good`] is the share of all turns at which it does.
+//! A prediction that is unrelated to the measurement may agree by chance. Rotated about the centre it keeps
+//! its size and its shape, and would agree as well: [`turns_as_good`] is the share of all rotations at which it does.
 
 use std::f64::consts::TAU;
 
@@ -31,11 +31,11 @@ pub struct WavePair {
 }
 
 impl WavePair {
-    /// This pair without what is smaller than `least` (m): phases of two waves that are there, a share of a measured one.
-    pub fn reported(&self, least: f64) -> ToldPair {
+    /// This pair without amplitudes below `least` (m): phases require both waves, a share the measured one.
+    pub fn reported(&self, least: f64) -> ReportedPair {
         let is_there = |wave: &Harmonic| wave.amplitude >= least && wave.amplitude > 0.0;
         let [measured, predicted] = [is_there(&self.measured), is_there(&self.predicted)];
-        ToldPair {
+        ReportedPair {
             measured_phase: measured.then_some(self.measured.phase),
             predicted_phase: predicted.then_some(self.predicted.phase),
             phase_difference: (measured && predicted).then(|| self.phase_difference()),
@@ -43,7 +43,7 @@ impl WavePair {
         }
     }
 
-    /// Phase of the prediction beyond that of the measurement, -pi to pi, rad.
+    /// Phase of the prediction relative to the measurement, -pi to pi, rad.
     pub fn phase_difference(&self) -> f64 {
         let by = self.predicted.phase - self.measured.phase;
         (by + 0.5 * TAU).rem_euclid(TAU) - 0.5 * TAU
@@ -57,9 +57,9 @@ impl WavePair {
     }
 }
 
-/// What of a pair means anything.
+/// A pair of waves, limited to significant values.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ToldPair {
+pub struct ReportedPair {
     /// rad
     pub measured_phase: Option<f64>,
     /// rad
@@ -70,10 +70,10 @@ pub struct ToldPair {
     pub explained: Option<f64>,
 }
 
-/// Waves of less than this part of the largest of both curves are none.
+/// Waves of less than this part of the largest of both curves are ignored.
 const LITTLE: f64 = 0.01;
 
-/// The least amplitude (m) that is a wave: of curves with noise of this standard deviation (m) at so many angles.
+/// The least significant amplitude (m) of curves with noise of this standard deviation (m) at this many angles.
 pub fn least_amplitude(pairs: &[WavePair], noise: f64, angles: usize) -> f64 {
     let sizes = pairs
         .iter()
@@ -82,7 +82,7 @@ pub fn least_amplitude(pairs: &[WavePair], noise: f64, angles: usize) -> f64 {
     (LITTLE * sizes.fold(0.0, f64::max)).max(of_noise)
 }
 
-/// Waves 1 to `most` of both curves, or as many as the angles tell.
+/// Waves 1 to `most` of both curves, or as many as the angles resolve.
 pub fn pairs(turn: &Turn, (predicted, measured): (&[f64], &[f64]), most: usize) -> Vec<WavePair> {
     let waves = |curve: &[f64]| Polar::of_deviations(turn.angle(), curve).harmonics(most);
     let both = waves(measured).into_iter().zip(waves(predicted));
@@ -90,11 +90,11 @@ pub fn pairs(turn: &Turn, (predicted, measured): (&[f64], &[f64]), most: usize) 
         .collect()
 }
 
-/// Turns that are tried: every half degree.
+/// Rotations that are tried: every half degree.
 const TURNS: usize = 720;
 
-/// The share of all turns of the prediction about the centre at which it is as like the measurement as it is unturned, or
-/// more; none where either has no waves.
+/// The share of all rotations of the prediction about the centre at which its correlation with the measurement is at
+/// least that without rotation; none where either has no waves.
 pub fn turns_as_good(pairs: &[WavePair]) -> Option<f64> {
     let like = |turned: usize| -> f64 {
         let by = TAU * turned as f64 / TURNS as f64;
@@ -126,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn waves_stand_beside_each_other_with_their_phases() {
+    fn waves_are_paired_with_their_phases() {
         let m = curve(|a| 2e-5 * (2.0 * a - 0.5).cos() + 4e-6 * (3.0 * a).cos());
         let p = curve(|a| 1e-5 * (2.0 * a - 0.9).cos() + 4e-6 * (3.0 * a).cos());
         let reported = pairs(&turn(), (&p, &m), 6);
@@ -142,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn shares_of_waves_weighed_by_their_squares_are_the_share_of_all() {
+    fn shares_of_waves_weighted_by_their_squares_are_the_share_of_the_curve() {
         let m = curve(|a| 2e-5 * (2.0 * a - 0.5).cos() + 4e-6 * (3.0 * a).cos());
         let p = curve(|a| 1e-5 * (2.0 * a - 0.9).cos() + 7e-6 * (3.0 * a + 1.0).cos());
         let reported = pairs(&turn(), (&p, &m), 10);
@@ -155,16 +155,16 @@ mod tests {
     }
 
     #[test]
-    fn a_wave_that_is_hardly_there_has_neither_phase_nor_share() {
-        // The ellipse is 20 um; three waves are a thousandth of it, four a fiftieth and predicted alone.
+    fn a_wave_below_the_least_amplitude_has_neither_phase_nor_share() {
+        // The ellipse is 20 um; wave three is a thousandth of it, wave four a fiftieth and predicted alone.
         let m = curve(|a| 2e-5 * (2.0 * a).cos() + 2e-8 * (3.0 * a).cos());
         let p = curve(|a| 1e-5 * (2.0 * a - 0.9).cos() + 2e-8 * (3.0 * a).sin() + 4e-7 * (4.0 * a).cos());
         let found = pairs(&turn(), (&p, &m), 6);
         let least = least_amplitude(&found, 0.0, 360);
         assert!((least - 2e-7).abs() < 1e-12);
-        let reported: Vec<ToldPair> = found.iter().map(|pair| pair.reported(least)).collect();
+        let reported: Vec<ReportedPair> = found.iter().map(|pair| pair.reported(least)).collect();
         assert!(reported[1].phase_difference.is_some() && reported[1].explained.is_some());
-        let nothing = ToldPair {
+        let nothing = ReportedPair {
             measured_phase: None,
             predicted_phase: None,
             phase_difference: None,
@@ -176,8 +176,8 @@ mod tests {
     }
 
     #[test]
-    fn noise_makes_waves_of_the_amplitude_that_counts_as_none() {
-        // Hashed, so that neighbours have nothing to do with each other: evenly spread, standard deviation 1 / root of 12.
+    fn waves_of_noise_have_the_least_significant_amplitude() {
+        // Hashed, so that neighbours are independent: evenly spread, standard deviation 1 / root of 12.
         let noise = |seed: u64, k: usize| {
             let hashed = ((seed << 32) | (k as u64 + 1)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
             let hashed = (hashed ^ (hashed >> 29)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn a_turned_prediction_is_seldom_as_good_as_a_true_one_and_often_as_good_as_a_wrong_one() {
+    fn a_rotated_prediction_is_seldom_as_good_as_a_true_one_and_often_as_good_as_a_wrong_one() {
         let of = |a: f64| (2.0 * a - 0.5).cos() + 0.5 * (3.0 * a).cos() + 0.4 * (5.0 * a + 1.0).cos();
         let m = curve(|a| 1e-5 * of(a));
         let right = turns_as_good(&pairs(&turn(), (&m, &m), 8)).unwrap();

@@ -1,32 +1,32 @@
-//! The chain with a small displacement after each joint, between the tracker and the measured point.
+//! The chain with a small displacement after each joint, from the tracker to the measured point.
 //!
 //! ```text
 //! tracker_from_point = tracker_from_base  A_1 E_1 A_2 E_2 ... A_n  flange_from_point
 //! E_i = Tx Ty Tz Rx Ry Rz of joint i
 //! ```
 //!
-//! A step along or about the axis `z` through `o` moves the point `p` by `z` or `z x (p - o)`, and turns it by 0 or `z`, exactly,
-//! whatever its size: these are the columns. Base and tool are changed by twists in their own axes.
+//! A step along or about the axis `z` through `o` moves the point `p` by `z` or `z x (p - o)`, and turns it by 0 or
+//! `z`, exactly, whatever its size: these are the columns. Base and tool are changed by twists in their own axes.
 
 use nalgebra::{DMatrix, Matrix3, UnitQuaternion, Vector3};
 
 use super::pose::MeasuredPose;
-use super::unknown::{Place, Unknown};
+use super::unknown::{ParameterLocation, Unknown};
 use crate::frame::{Isometry, turn_between};
 use crate::robot::Robot;
 use crate::robot::chain::{Amount, Motion};
 
-/// What was found so far.
+/// The state of the fit.
 #[derive(Clone, Debug)]
 pub(super) struct Arm<'a> {
     robot: &'a Robot,
-    /// Of the unknowns after joints, m or rad: six a joint.
+    /// The unknowns after joints, m or rad: six per joint.
     pub small: Vec<[f64; 6]>,
     pub tracker_from_base: Isometry,
     pub flange_from_point: Isometry,
 }
 
-/// A step on the way from the tracker to the point.
+/// A step of the chain from the tracker to the point.
 struct Step {
     axis: Vector3<f64>,
     origin: Vector3<f64>,
@@ -41,7 +41,7 @@ struct Reached {
 }
 
 impl<'a> Arm<'a> {
-    /// The arm as its chain says, between these two frames.
+    /// The nominal arm, between these two frames.
     pub fn nominal(robot: &'a Robot, tracker_from_base: Isometry, flange_from_point: Isometry) -> Arm<'a> {
         Arm {
             robot,
@@ -51,7 +51,7 @@ impl<'a> Arm<'a> {
         }
     }
 
-    /// The position (m) and the axes of the point with these joints, told in the tracker.
+    /// The position (m) and the axes of the point with these joints, in the tracker frame.
     pub fn predicted(&self, joints: &[f64]) -> (Vector3<f64>, Matrix3<f64>) {
         let reached = self.reached(joints);
         (reached.position, reached.axes)
@@ -71,7 +71,7 @@ impl<'a> Arm<'a> {
                     };
                     for (component, by) in small.iter().enumerate() {
                         let unknown = Unknown {
-                            place: Place::After(joint),
+                            place: ParameterLocation::After(joint),
                             component,
                         };
                         let step = unknown.motion(*by);
@@ -93,7 +93,7 @@ impl<'a> Arm<'a> {
         }
     }
 
-    /// Measured less predicted: position (m), and turn (rad) where that was measured, in the axes of the tracker.
+    /// Measured less predicted: position (m), and rotation (rad) where that was measured, in the axes of the tracker.
     pub fn residual(&self, pose: &MeasuredPose) -> (Vector3<f64>, Option<Vector3<f64>>) {
         let (position, axes) = self.predicted(&pose.joints);
         let turn =
@@ -101,7 +101,7 @@ impl<'a> Arm<'a> {
         (pose.position - position, pose.rotation.map(turn))
     }
 
-    /// The rows of a pose: one column an unknown, the residual last. Turns count by `length` (m).
+    /// The rows of a pose: one column per unknown, the residual last. Rotations are weighted by `length` (m).
     pub fn rows(&self, unknowns: &[Unknown], pose: &MeasuredPose, length: f64) -> DMatrix<f64> {
         let reached = self.reached(&pose.joints);
         let (linear, angular) = self.residual(pose);
@@ -118,13 +118,13 @@ impl<'a> Arm<'a> {
         for (column, unknown) in unknowns.iter().enumerate() {
             let axis = unknown.axis().index();
             let step = match unknown.place {
-                Place::After(joint) => &reached.steps[6 * joint + unknown.component],
-                Place::Base => &Step {
+                ParameterLocation::After(joint) => &reached.steps[6 * joint + unknown.component],
+                ParameterLocation::Base => &Step {
                     axis: base_axes.column(axis).into_owned(),
                     origin: self.tracker_from_base.translation.vector,
                     turns: unknown.turns(),
                 },
-                Place::Tool => &Step {
+                ParameterLocation::Tool => &Step {
                     axis: reached.axes.column(axis).into_owned(),
                     origin: reached.position,
                     turns: unknown.turns(),
@@ -143,11 +143,11 @@ impl<'a> Arm<'a> {
         rows
     }
 
-    /// What a small motion of the chain has come to, m or rad; 0 of base and tool, whose frames have taken it.
+    /// Value of a small motion of the chain, m or rad; 0 of base and tool, whose frames include it.
     pub fn value(&self, unknown: &Unknown) -> f64 {
         match unknown.place {
-            Place::After(joint) => self.small[joint][unknown.component],
-            Place::Base | Place::Tool => 0.0,
+            ParameterLocation::After(joint) => self.small[joint][unknown.component],
+            ParameterLocation::Base | ParameterLocation::Tool => 0.0,
         }
     }
 
@@ -157,9 +157,9 @@ impl<'a> Arm<'a> {
         let mut twists = [[0.0; 6]; 2];
         for (unknown, by) in unknowns.iter().zip(by) {
             match unknown.place {
-                Place::After(joint) => arm.small[joint][unknown.component] += by,
-                Place::Base => twists[0][unknown.component] += by,
-                Place::Tool => twists[1][unknown.component] += by,
+                ParameterLocation::After(joint) => arm.small[joint][unknown.component] += by,
+                ParameterLocation::Base => twists[0][unknown.component] += by,
+                ParameterLocation::Tool => twists[1][unknown.component] += by,
             }
         }
         arm.tracker_from_base *= displacement(twists[0]);
@@ -178,7 +178,7 @@ fn displacement([x, y, z, a, b, c]: [f64; 6]) -> Isometry {
 
 #[cfg(test)]
 mod tests {
-    use super::super::unknown::{Asked, unknowns};
+    use super::super::unknown::{ParameterSet, unknowns};
     use super::*;
     use crate::arms;
 
@@ -188,8 +188,10 @@ mod tests {
         for robot in [arms::mh12(), arms::other::on_rail(&arms::mh12())] {
             let frame = Isometry::new(Vector3::new(1.0, -2.0, 0.3), Vector3::new(0.4, 1.1, -2.0));
             let tool = Isometry::new(Vector3::new(0.02, 0.03, 0.2), Vector3::new(0.2, -0.4, 0.9));
-            let requested = unknowns(&robot, Asked::Geometry, true);
-            let some: Vec<f64> = (0..requested.len()).map(|k| 1e-2 * (k as f64 * 1.7).sin()).collect();
+            let requested = unknowns(&robot, ParameterSet::Geometry, true);
+            let some: Vec<f64> = (0..requested.len())
+                .map(|k| 1e-2 * (k as f64 * 1.7).sin())
+                .collect();
             let arm = Arm::nominal(&robot, frame, tool).changed(&requested, &some);
             let joints = stream.joints(&robot);
             let (position, axes) = arm.predicted(&joints);
@@ -204,7 +206,7 @@ mod tests {
                 let step = 1e-5;
                 let mut by = vec![0.0; requested.len()];
                 by[column] = step;
-                // The residual goes down as the prediction goes up.
+                // The residual decreases as the prediction increases.
                 let side = |sign: f64| {
                     let by: Vec<f64> = by.iter().map(|b| sign * b).collect();
                     arm.changed(&requested, &by).rows(&[], &pose, 0.5)

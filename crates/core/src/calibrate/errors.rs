@@ -1,4 +1,4 @@
-//! How far predicted poses lie from measured ones.
+//! Errors of predicted poses relative to measured ones.
 
 use nalgebra::Vector3;
 
@@ -18,7 +18,7 @@ pub struct Spread {
 pub struct PoseErrors {
     /// Measured less predicted position of each pose, m, axes of the tracker.
     pub position: Vec<Vector3<f64>>,
-    /// Likewise the turn, rad, of those whose turn was measured.
+    /// The same for the rotation, rad, of those with measured rotation.
     pub turn: Vec<Vector3<f64>>,
 }
 
@@ -46,7 +46,7 @@ impl PoseErrors {
         Spread::of(self.position.iter().map(Vector3::norm))
     }
 
-    /// Angles of the errors of turn, rad; `None` where none was measured.
+    /// Angles of the rotation errors, rad; `None` where no rotation was measured.
     pub fn of_turn(&self) -> Option<Spread> {
         Spread::of(self.turn.iter().map(Vector3::norm))
     }
@@ -64,7 +64,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn mean_rms_and_largest_are_of_lengths_and_axes_apart() {
+    fn mean_rms_and_largest_are_of_lengths_and_axes_separately() {
         let errors = PoseErrors {
             position: vec![Vector3::new(3.0, 4.0, 0.0), Vector3::new(0.0, 0.0, -1.0)],
             turn: vec![],

@@ -1,16 +1,17 @@
 //! The most likely geometry of an arm, from measured poses.
 //!
-//! Levenberg and Marquardt in two rounds: base and tool alone, from a best turn of the flange's places onto the measured
-//! ones; then, of all that is asked, what `select` keeps there. Each pose counts alike. With `m` rows, `p` unknowns kept and
-//! residuals `r` at the end:
+//! Levenberg and Marquardt in two rounds: base and tool only, from the best rotation of the flange positions onto the
+//! measured ones; then all unknowns that `select` keeps there. All poses have equal weight. With `m` rows, `p` unknowns
+//! kept and residuals `r` at the end:
 //!
 //! ```text
 //! s^2 = |r|^2 / (m - p)        cov = s^2 (J'J)^-1        standard uncertainty = sqrt(diagonal)
 //! ```
 //!
-//! With a [prior](super::prior) small motions are held to zero, and `p` is the number that the poses tell.
+//! With a [prior](super::prior) small motions are pulled towards zero, and `p` is the effective number of parameters.
 //!
-//! These uncertainties take what the geometry leaves (sag, gears, tracker) for noise that is independent from pose to pose.
+//! These uncertainties treat the remaining error of the geometry (gravity, gears, tracker) as noise that is independent
+//! between poses.
 //!
 //! Source: Mooring, Roth and Driels 1991; Everett, Driels and Mooring 1987; `docs/theory/calibration.md`.
 
@@ -19,56 +20,56 @@ use nalgebra::{DMatrix, Matrix3, Rotation3, UnitQuaternion, Vector3};
 use super::arm::Arm;
 use super::errors::PoseErrors;
 use super::pose::MeasuredPose;
-use super::prior::{Hold, Prior};
+use super::prior::{Prior, PriorWeights};
 use super::select::{Redundant, select};
 use super::triangle::{Triangle, solve};
-use super::unknown::{Asked, Place, Unknown, unknowns};
+use super::unknown::{ParameterLocation, ParameterSet, Unknown, unknowns};
 use crate::frame::Isometry;
 use crate::robot::chain::{Amount, Motion};
 use crate::robot::forward::forward;
 use crate::robot::{Robot, RobotError};
 
-/// Steps of a round; the second ends after some five.
+/// Maximum number of steps of a round; the second ends after some five.
 const MOST_STEPS: usize = 60;
 /// A step that lowers the sum of squares by less than this part of it is the last.
 const SETTLED: f64 = 1e-13;
-/// Damping at first, and where no step helps any more.
+/// Initial damping, and the damping at which the search is given up.
 const DAMPING: [f64; 2] = [1e-3, 1e9];
 /// Rounds of scatter and geometry with a prior, and the change of the variance that ends them.
 const MOST_ROUNDS: usize = 40;
 const SAME_SCATTER: f64 = 1e-6;
-/// Fewest poses: below, base and tool alone meet any measurement.
+/// Minimum number of poses: with fewer, base and tool alone fit any measurement.
 const FEWEST_POSES: usize = 4;
-/// Greatest position that a tracker measures, m.
+/// Greatest coordinate that a tracker measures, m.
 const FARTHEST: f64 = 1e4;
 
-/// What is asked.
+/// Input of a calibration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
-    /// Of the chain.
-    pub requested: Asked,
-    /// About where the measured point sits on the flange.
+    /// The unknowns of the chain.
+    pub requested: ParameterSet,
+    /// Approximate position of the measured point on the flange.
     pub flange_from_point: Isometry,
-    /// So many metres count as much as a radian.
+    /// Weight of rotations: metres per radian.
     pub turn_length: f64,
-    /// What is known of small motions of the chain before; nothing if left out.
+    /// Prior knowledge of the small motions of the chain; `None` for none.
     pub prior: Option<Prior>,
 }
 
-/// Why there is no answer.
+/// Why a calibration is refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Refusal {
     /// Too few poses.
-    #[error("{poses} poses with {rows} readings do not tell {unknowns} unknowns")]
+    #[error("{poses} poses with {rows} readings are not sufficient for {unknowns} unknowns")]
     TooFew {
-        /// Given.
+        /// Poses given.
         poses: usize,
         /// Numbers measured.
         rows: usize,
-        /// To find.
+        /// Unknowns.
         unknowns: usize,
     },
-    /// A pose with another count of joints than the robot has, or with a number that cannot be.
+    /// A pose with another number of joints than the robot, or with a number that is not valid.
     #[error("pose number {}: {what}", .index + 1)]
     Pose {
         /// From 0.
@@ -76,68 +77,68 @@ pub enum Refusal {
         /// What is wrong.
         what: &'static str,
     },
-    /// Some poses with a turn and others without.
-    #[error("the turn was measured in {with} of {poses} poses: in all of them or in none")]
+    /// Some poses with a rotation and others without.
+    #[error("{with} of {poses} poses have a measured rotation: measure it in all of them or in none")]
     TurnsMissing {
         /// Poses with it.
         with: usize,
         /// All.
         poses: usize,
     },
-    /// A weight of turns that is not above 0.
-    #[error("a radian counts as {0} m, which is no length above 0")]
+    /// A weight of rotations that is not above 0.
+    #[error("the weight of rotations, {0} m per radian, must be above 0")]
     TurnLength(f64),
-    /// A prior that holds nothing, or all.
-    #[error("a prior of {} m and {} rad: both must be above 0", .0.length, .0.angle)]
+    /// A prior that is not positive and finite.
+    #[error("the prior of {} m and {} rad is not valid: both must be above 0", .0.length, .0.angle)]
     Prior(Prior),
-    /// The search left the finite numbers or found no independent unknown.
+    /// The search diverged or found no independent unknown.
     #[error("no geometry near the nominal one was found; do these poses belong to this robot?")]
     NotFound,
 }
 
-/// An unknown that was found.
+/// An estimated unknown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
-    /// Which.
+    /// The unknown.
     pub unknown: Unknown,
-    /// m or rad; of base and tool 0, since their frames have taken it.
+    /// m or rad; 0 of base and tool, whose frames include it.
     pub value: f64,
     /// Same unit.
     pub standard_uncertainty: f64,
 }
 
-/// The geometry that was found.
+/// The estimated geometry.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Calibrated {
-    /// What was found, in the order of asking.
+    /// The estimates, in the order of the unknowns.
     pub estimates: Vec<Estimate>,
     /// Covariance of the estimates, in their order, m and rad.
     pub covariance: DMatrix<f64>,
-    /// All that was asked for.
+    /// All unknowns.
     pub unknowns: Vec<Unknown>,
-    /// What stays at its nominal value; indices are of `unknowns`.
+    /// Unknowns that stay at their nominal value; indices are of `unknowns`.
     pub redundant: Vec<Redundant>,
-    /// Where the base stands in the tracker.
+    /// The base in the tracker frame.
     pub tracker_from_base: Isometry,
-    /// Where the point sits on the flange; turned only if turns were measured.
+    /// The point on the flange; rotated only if rotations were measured.
     pub flange_from_point: Isometry,
-    /// Of the poses that it was found from.
+    /// Errors at the poses of the fit.
     pub errors: PoseErrors,
-    /// `s`, m: standard deviation of a single reading about the geometry that was found.
+    /// `s`, m: standard deviation of a single reading about the estimated geometry.
     pub standard_deviation: f64,
-    /// How many of the estimates the poses tell: all without a prior.
-    pub given: f64,
+    /// Effective number of parameters: that of the estimates without a prior.
+    pub effective_parameters: f64,
     /// Of each joint but the last, m and rad.
     small: Vec<[f64; 6]>,
 }
 
 impl Calibrated {
-    /// The motions that come right after joint `index`: those that were found.
+    /// The estimated motions right after joint `index`.
     pub fn motions_after(&self, index: usize) -> Vec<Motion> {
         let here = self
             .estimates
             .iter()
-            .filter(|estimate| estimate.unknown.place == Place::After(index));
+            .filter(|estimate| estimate.unknown.place == ParameterLocation::After(index));
         let mut found: Vec<&Estimate> = here.collect();
         found.sort_by_key(|estimate| estimate.unknown.component);
         let motion = |estimate: &&Estimate| estimate.unknown.motion(estimate.value);
@@ -156,18 +157,18 @@ impl Calibrated {
         motions
     }
 
-    /// `robot` with this geometry and nothing else of its own: no compliance, no frames.
+    /// `robot` with only this geometry: no compliance, no frames.
     ///
     /// # Errors
-    /// A chain that became longer than any robot.
+    /// A chain that exceeds the range of a robot.
     pub fn bare_robot(&self, robot: &Robot) -> Result<Robot, RobotError> {
         Robot::new(robot.name(), self.motions(robot), robot.joints().to_vec())
     }
 
-    /// Errors of other poses of `robot`, predicted by what was found here.
+    /// Errors of other poses of `robot`, predicted by this geometry.
     ///
     /// # Errors
-    /// A pose of another robot, or with a number that cannot be.
+    /// A pose of another robot, or with a number that is not valid.
     pub fn errors_of(&self, robot: &Robot, poses: &[MeasuredPose]) -> Result<PoseErrors, Refusal> {
         check(robot, poses)?;
         let mut arm = Arm::nominal(robot, self.tracker_from_base, self.flange_from_point);
@@ -197,7 +198,7 @@ pub fn fit(robot: &Robot, poses: &[MeasuredPose], question: &Question) -> Result
     let free = Data {
         poses,
         length,
-        hold: Hold::NOTHING,
+        prior: PriorWeights::NONE,
     };
     let rows = if with > 0 { 6 } else { 3 } * poses.len();
     let enough = |unknowns: usize| match rows > unknowns && poses.len() >= FEWEST_POSES {
@@ -208,39 +209,39 @@ pub fn fit(robot: &Robot, poses: &[MeasuredPose], question: &Question) -> Result
             unknowns,
         }),
     };
-    let frames = unknowns(robot, Asked::BaseAndTool, with > 0);
+    let frames = unknowns(robot, ParameterSet::BaseAndTool, with > 0);
     if poses.len() < FEWEST_POSES {
         enough(frames.len())?;
     }
     let start = start(robot, poses, &question.flange_from_point);
-    let (in_frames, _) = told_apart(&start, &frames, &free);
+    let (in_frames, _) = identifiable(&start, &frames, &free);
     let mut arm = settle(start, &in_frames, &free)?;
     enough(in_frames.len())?;
     let unknowns = unknowns(robot, question.requested, with > 0);
     let mut variance = cost(&arm, &in_frames, &free) / (rows - in_frames.len()) as f64;
-    // Once for all rounds: what is kept in one and not in the next would keep a value that nobody tells.
-    let (kept, redundant) = told_apart(&arm, &unknowns, &free);
+    // Once for all rounds: an unknown kept in one and not in the next would retain a value without information.
+    let (kept, redundant) = identifiable(&arm, &unknowns, &free);
     enough(kept.len())?;
     let (mut rounds, mut is_settled) = (0, false);
     // Without a prior nothing depends on the scatter, and one round is enough.
-    let (inverse, given) = loop {
+    let (inverse, effective_parameters) = loop {
         let data = Data {
-            hold: question
-                .prior
-                .map_or(Hold::NOTHING, |prior| Hold::of(&prior, variance.sqrt())),
+            prior: question.prior.map_or(PriorWeights::NONE, |prior| {
+                PriorWeights::of(&prior, variance.sqrt())
+            }),
             ..free
         };
         arm = settle(arm, &kept, &data)?;
         let (r, z) = triangle(&arm, &kept, &data).whole();
         let (_, inverse) = solve(&r, &z, 0.0).ok_or(Refusal::NotFound)?;
-        let given = data.hold.reported(&kept, &inverse);
-        let next = cost(&arm, &kept, &free) / (rows as f64 - given);
+        let effective_parameters = data.prior.effective_parameters(&kept, &inverse);
+        let next = cost(&arm, &kept, &free) / (rows as f64 - effective_parameters);
         is_settled |= question.prior.is_none() || (next / variance - 1.0).abs() < SAME_SCATTER;
         variance = next;
         rounds += 1;
-        // What is left of perfect poses is rounding, and holds nothing.
+        // The residual of perfect poses is rounding, and gives no weight to the prior.
         if is_settled || rounds == MOST_ROUNDS || variance == 0.0 {
-            break (inverse, given);
+            break (inverse, effective_parameters);
         }
     };
     let covariance = inverse * variance;
@@ -260,7 +261,7 @@ pub fn fit(robot: &Robot, poses: &[MeasuredPose], question: &Question) -> Result
         flange_from_point: arm.flange_from_point,
         errors: errors_of(&arm, poses),
         standard_deviation: variance.sqrt(),
-        given,
+        effective_parameters,
         small: arm.small,
         covariance,
     })
@@ -269,11 +270,11 @@ pub fn fit(robot: &Robot, poses: &[MeasuredPose], question: &Question) -> Result
 fn check(robot: &Robot, poses: &[MeasuredPose]) -> Result<(), Refusal> {
     for (index, pose) in poses.iter().enumerate() {
         let what = if pose.joints.len() != robot.joints().len() {
-            "another count of joints than the robot has"
+            "it has another number of joints than the robot"
         } else if !pose.is_finite() {
-            "a number that is not finite"
+            "it contains a number that is not finite"
         } else if pose.position.norm() > FARTHEST {
-            "its position lies beyond 10 km"
+            "its position is beyond 10 km"
         } else {
             continue;
         };
@@ -282,7 +283,7 @@ fn check(robot: &Robot, poses: &[MeasuredPose]) -> Result<(), Refusal> {
     Ok(())
 }
 
-/// The nominal arm where it stands best: the turn and shift that bring its points nearest to the measured ones (Kabsch 1976).
+/// The nominal arm, placed by the rotation and shift that bring its points nearest to the measured ones (Kabsch 1976).
 fn start<'a>(robot: &'a Robot, poses: &[MeasuredPose], flange_from_point: &Isometry) -> Arm<'a> {
     let base_from_point: Vec<Isometry> = poses
         .iter()
@@ -314,20 +315,20 @@ fn start<'a>(robot: &'a Robot, poses: &[MeasuredPose], flange_from_point: &Isome
     let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(turn));
     let tracker_from_base = Isometry::from_parts((there - turn * here).into(), turn);
     let mut flange_from_point = *flange_from_point;
-    // How a body is turned on the flange nobody knows beforehand: the first pose tells it.
+    // The rotation of the body on the flange is not known beforehand: it is taken from the first pose.
     if let (Some(rotation), Some(frame)) = (poses[0].rotation, base_from_point.first()) {
         flange_from_point.rotation *= (turn * frame.rotation).inverse() * rotation;
     }
     Arm::nominal(robot, tracker_from_base, flange_from_point)
 }
 
-/// What an arm is held against.
+/// The data of the fit.
 #[derive(Clone, Copy)]
 struct Data<'p> {
     poses: &'p [MeasuredPose],
-    /// So many metres count as much as a radian.
+    /// Weight of rotations: metres per radian.
     length: f64,
-    hold: Hold,
+    prior: PriorWeights,
 }
 
 fn triangle(arm: &Arm<'_>, unknowns: &[Unknown], data: &Data<'_>) -> Triangle {
@@ -335,27 +336,27 @@ fn triangle(arm: &Arm<'_>, unknowns: &[Unknown], data: &Data<'_>) -> Triangle {
     for pose in data.poses {
         triangle.take(&arm.rows(unknowns, pose, data.length));
     }
-    triangle.take(&data.hold.rows(arm, unknowns));
+    triangle.take(&data.prior.rows(arm, unknowns));
     triangle
 }
 
-/// Sum of squares of all residuals and of what is held, m^2.
+/// Sum of squares of all residuals and of the prior, m^2.
 fn cost(arm: &Arm<'_>, unknowns: &[Unknown], data: &Data<'_>) -> f64 {
     let of = |pose| {
         let (linear, angular) = arm.residual(pose);
         linear.norm_squared() + angular.map_or(0.0, |turn| turn.norm_squared() * data.length * data.length)
     };
-    data.poses.iter().map(of).sum::<f64>() + data.hold.cost(arm, unknowns)
+    data.poses.iter().map(of).sum::<f64>() + data.prior.cost(arm, unknowns)
 }
 
-/// Those of `unknowns` that the poses can tell apart where `arm` stands, and the others. What is held does not matter.
-fn told_apart(arm: &Arm<'_>, unknowns: &[Unknown], free: &Data<'_>) -> (Vec<Unknown>, Vec<Redundant>) {
+/// The identifiable unknowns of `unknowns` at `arm`, and the others. The prior has no effect on this.
+fn identifiable(arm: &Arm<'_>, unknowns: &[Unknown], free: &Data<'_>) -> (Vec<Unknown>, Vec<Redundant>) {
     let (r, _) = triangle(arm, unknowns, free).whole();
     let (kept, redundant) = select(&r, unknowns);
     (kept.into_iter().map(|k| unknowns[k]).collect(), redundant)
 }
 
-/// The arm at the least sum of squares over the unknowns `kept`; an arm that never comes to rest is none.
+/// The arm with the least sum of squares over the unknowns `kept`; an error if it does not converge.
 fn settle<'a>(mut arm: Arm<'a>, kept: &[Unknown], data: &Data<'_>) -> Result<Arm<'a>, Refusal> {
     let mut least = cost(&arm, kept, data);
     let mut damping = DAMPING[0];

@@ -1,11 +1,11 @@
-//! How long and how straight is this very arm? Its geometry, from poses that a tracker measured.
+//! Calibration: the geometry of one individual arm, from poses measured by a tracker.
 //!
-//! In reading order: [`pose`] (what was measured), [`unknown`] (which small displacements are asked for), `arm` (the chain with
-//! all of them, its forward and its columns), `triangle` (least squares of any number of rows in little memory), `select` (which unknowns
-//! the poses can tell apart), [`prior`] (what is known before), [`errors`] (how far predictions miss), [`fit`](mod@fit) (the most likely geometry, its uncertainty, the
-//! calibrated chain).
+//! In reading order: [`pose`] (a measured pose), [`unknown`] (small displacements to be estimated), `arm` (the chain
+//! with all of them, its forward kinematics and Jacobian), `triangle` (least squares of any number of rows in little
+//! memory), `select` (identifiable unknowns), [`prior`] (prior knowledge), [`errors`] (prediction errors),
+//! [`fit`](mod@fit) (the most likely geometry, its uncertainty, the calibrated chain).
 //!
-//! Theory, sources and what the numbers leave out: `docs/theory/calibration.md`.
+//! Theory, sources and limits of the method: `docs/theory/calibration.md`.
 
 mod arm;
 pub mod errors;
@@ -21,4 +21,4 @@ pub use fit::{Calibrated, Estimate, Question, Refusal, fit};
 pub use pose::MeasuredPose;
 pub use prior::Prior;
 pub use select::Redundant;
-pub use unknown::{Asked, Place, Unknown};
+pub use unknown::{ParameterLocation, ParameterSet, Unknown};

@@ -1,15 +1,15 @@
-//! A pose that was measured while the arm stood still.
+//! A pose measured at standstill.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-/// Joint positions and where the measured point then was.
+/// Joint positions and the measured point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredPose {
-    /// As the controller counts them, rad or m.
+    /// Controller coordinates, rad or m.
     pub joints: Vec<f64>,
     /// The point, m, in the axes of the tracker.
     pub position: Vector3<f64>,
-    /// `tracker_from_point`: how the measured body was turned, if that was measured.
+    /// `tracker_from_point`: rotation of the measured body, if it was measured.
     pub rotation: Option<UnitQuaternion<f64>>,
 }
 

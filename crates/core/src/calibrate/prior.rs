@@ -1,4 +1,4 @@
-//! What is known of an arm before it is measured: its small motions are near zero.
+//! Prior knowledge of an arm: its small motions are near zero.
 //!
 //! Each small motion of the chain is drawn from a normal distribution about zero; readings have the unknown standard
 //! deviation `s`. The most likely geometry is the least of
@@ -10,19 +10,19 @@
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | `x_k`, `sigma_k` | small motion of the chain, standard deviation that arms of its kind have of it | m, rad |
-//! | `r`, `m` | residuals, how many | m |
-//! | `p`, `g` | unknowns, and how many of them the poses tell rather than the prior | |
+//! | `x_k`, `sigma_k` | small motion of the chain, its standard deviation for arms of this kind | m, rad |
+//! | `r`, `m` | residuals, their number | m |
+//! | `p`, `g` | unknowns, effective number of parameters | |
 //!
-//! What poses tell well is as without it; what they hardly tell stays near the drawing in place of taking up what the
-//! model lacks. Base and point are not held. `s` and the geometry are found in turn until `s` stays as it is.
+//! Well determined unknowns are the same as without a prior; others stay near the nominal values instead of
+//! compensating model errors. Base and point have no prior. `s` and the geometry are iterated until `s` is constant.
 //!
 //! Source: D. MacKay, Bayesian interpolation, Neural Computation 4, 1992 (`g`: the effective number of parameters).
 
 use nalgebra::DMatrix;
 
 use super::arm::Arm;
-use super::unknown::{Place, Unknown};
+use super::unknown::{ParameterLocation, Unknown};
 
 /// Standard deviations of the small motions of the chain about zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,30 +34,30 @@ pub struct Prior {
 }
 
 impl Prior {
-    /// Whether both can be.
+    /// Whether both are valid.
     pub(super) fn is_sound(&self) -> bool {
         let sound = |sigma: f64| sigma > 0.0 && sigma.is_finite();
         sound(self.length) && sound(self.angle)
     }
 }
 
-/// How strongly small motions are held to zero: weights `s / sigma`, 1 and m; 0 holds nothing.
+/// Weights of the prior of small motions: `s / sigma`, 1 and m; 0 for no prior.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Hold {
+pub(super) struct PriorWeights {
     length: f64,
     angle: f64,
 }
 
-impl Hold {
-    /// Nothing is held.
-    pub const NOTHING: Hold = Hold {
+impl PriorWeights {
+    /// No prior.
+    pub const NONE: PriorWeights = PriorWeights {
         length: 0.0,
         angle: 0.0,
     };
 
-    /// Of `prior`, with readings of the standard deviation `s`, m.
-    pub fn of(prior: &Prior, s: f64) -> Hold {
-        Hold {
+    /// The weights of `prior`, with readings of the standard deviation `s`, m.
+    pub fn of(prior: &Prior, s: f64) -> PriorWeights {
+        PriorWeights {
             length: s / prior.length,
             angle: s / prior.angle,
         }
@@ -65,17 +65,17 @@ impl Hold {
 
     fn weight(self, unknown: &Unknown) -> f64 {
         match unknown.place {
-            Place::Base | Place::Tool => 0.0,
-            Place::After(_) if unknown.turns() => self.angle,
-            Place::After(_) => self.length,
+            ParameterLocation::Base | ParameterLocation::Tool => 0.0,
+            ParameterLocation::After(_) if unknown.turns() => self.angle,
+            ParameterLocation::After(_) => self.length,
         }
     }
 
-    /// A row for each of `unknowns` that is held: its weight, and what it is short of zero.
+    /// A row for each of `unknowns` that has a prior: its weight, and its distance from zero.
     pub fn rows(self, arm: &Arm<'_>, unknowns: &[Unknown]) -> DMatrix<f64> {
-        let evaluation = self.evaluation(unknowns);
-        let mut rows = DMatrix::zeros(evaluation.len(), unknowns.len() + 1);
-        for (row, (column, weight)) in evaluation.into_iter().enumerate() {
+        let weights = self.weights_of(unknowns);
+        let mut rows = DMatrix::zeros(weights.len(), unknowns.len() + 1);
+        for (row, (column, weight)) in weights.into_iter().enumerate() {
             rows[(row, column)] = weight;
             rows[(row, unknowns.len())] = -weight * arm.value(&unknowns[column]);
         }
@@ -88,14 +88,14 @@ impl Hold {
         unknowns.iter().map(square).sum()
     }
 
-    /// How many of `unknowns` the poses tell; `inverse` is `C`.
-    pub fn reported(self, unknowns: &[Unknown], inverse: &DMatrix<f64>) -> f64 {
+    /// Effective number of parameters among `unknowns`; `inverse` is `C`.
+    pub fn effective_parameters(self, unknowns: &[Unknown], inverse: &DMatrix<f64>) -> f64 {
         let by_prior = |(column, weight): (usize, f64)| weight * weight * inverse[(column, column)];
-        let evaluation = self.evaluation(unknowns);
-        unknowns.len() as f64 - evaluation.into_iter().map(by_prior).sum::<f64>()
+        let weights = self.weights_of(unknowns);
+        unknowns.len() as f64 - weights.into_iter().map(by_prior).sum::<f64>()
     }
 
-    fn evaluation(self, unknowns: &[Unknown]) -> Vec<(usize, f64)> {
+    fn weights_of(self, unknowns: &[Unknown]) -> Vec<(usize, f64)> {
         let weights = unknowns.iter().map(|unknown| self.weight(unknown)).enumerate();
         weights.filter(|(_, weight)| *weight > 0.0).collect()
     }

@@ -1,28 +1,28 @@
-//! Which unknowns can these poses tell apart?
+//! Selection of the identifiable unknowns.
 //!
-//! Unknowns are taken in order, and one is kept if a part of its column of at least so much of its length stands across all
-//! columns kept before it (Gram and Schmidt, twice): a thousandth of what the chain has, a millionth of base and point,
-//! which nothing but rounding makes equal. What is left out does within the poses what others do together: it
-//! stays at its nominal value, and the others take its part.
+//! Unknowns are taken in order, and one is kept if at least this part of its column's length is orthogonal to all
+//! columns kept before it (Gram and Schmidt, twice): a thousandth for the chain, a millionth for base and point,
+//! which are equal only by rounding. The effect of an unknown that is left out is a combination of others: it
+//! stays at its nominal value, and the others include its effect.
 
 use nalgebra::{DMatrix, DVector};
 
-use super::unknown::{Place, Unknown};
+use super::unknown::{ParameterLocation, Unknown};
 
-/// Least part of the effect of a motion inside the chain that no other has. Real poses of arms leave either much less (axes that are parallel
-/// by design) or much more; nearly redundant ones would get large values of opposite signs.
+/// Least part of the effect of a motion inside the chain that no other has. Real arms have either much less (axes that
+/// are parallel by design) or much more; nearly redundant unknowns would get large values of opposite signs.
 const OWN: f64 = 1e-3;
-/// Likewise of base and point. A body that hardly turns leaves them uncertain, which their uncertainties tell.
+/// The same for base and point. A body with little rotation leaves them uncertain, as their uncertainties show.
 const OWN_OF_FRAMES: f64 = 1e-6;
-/// Parts of a redundant unknown that are named, of its effect.
+/// Parts of a redundant unknown that are named, as a fraction of its effect.
 const NAMED: f64 = 0.05;
 
 /// An unknown that was left out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Redundant {
-    /// Its index among those asked for.
+    /// Its index among the unknowns.
     pub unknown: usize,
-    /// Those that do together what it does, the strongest first; empty where no pose shows it.
+    /// Unknowns whose combination has the same effect, the strongest first; empty where no pose shows it.
     pub same_as: Vec<usize>,
 }
 
@@ -48,8 +48,8 @@ pub(super) fn select(j: &DMatrix<f64>, unknowns: &[Unknown]) -> (Vec<usize>, Vec
         }
         let part = own.norm();
         let least = match unknowns[unknown].place {
-            Place::After(_) => OWN,
-            Place::Base | Place::Tool => OWN_OF_FRAMES,
+            ParameterLocation::After(_) => OWN,
+            ParameterLocation::Base | ParameterLocation::Tool => OWN_OF_FRAMES,
         };
         if part >= least {
             basis.push(own / part);
@@ -64,7 +64,7 @@ pub(super) fn select(j: &DMatrix<f64>, unknowns: &[Unknown]) -> (Vec<usize>, Vec
     (kept, left_out)
 }
 
-/// Those of `kept` that do together what `unknown` does.
+/// The combination of `kept` with the effect of `unknown`.
 fn same_as(j: &DMatrix<f64>, kept: &[usize], unknown: usize) -> Vec<usize> {
     let right = j.column(unknown).into_owned();
     let Some((shares, _)) = super::triangle::solve(&j.select_columns(kept), &right, 0.0) else {
@@ -92,7 +92,7 @@ mod tests {
             DVector::from_vec(vec![1.0, 1.0, 0.1, 0.0]),
         ]);
         let inside = Unknown {
-            place: Place::After(0),
+            place: ParameterLocation::After(0),
             component: 0,
         };
         let (kept, left_out) = select(&j, &[inside; 5]);
@@ -103,7 +103,7 @@ mod tests {
             .collect();
         assert_eq!(named, [(1, vec![]), (3, vec![2, 0])]);
         let frame = Unknown {
-            place: Place::Base,
+            place: ParameterLocation::Base,
             component: 0,
         };
         assert_eq!(select(&j, &[frame; 5]).0, [0, 2, 3]);

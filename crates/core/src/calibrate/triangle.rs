@@ -1,33 +1,33 @@
 //! Least squares of any number of rows in the memory of one triangle.
 //!
-//! Rows come in blocks; after each the QR decomposition of what is held and the block leaves a triangle with the same
+//! Rows come in blocks; after each the QR decomposition of the triangle and the block leaves a triangle with the same
 //! columns' lengths and angles, and so the same solution: `min |J x - r| = min |R x - z|`.
 
 use nalgebra::{DMatrix, DVector};
 
-/// Rows that are gathered before they are taken in.
+/// Rows that are gathered before a decomposition.
 const BLOCK: usize = 256;
 
-/// What is left of all rows.
+/// The triangle of all rows.
 #[derive(Clone, Debug)]
 pub(super) struct Triangle {
-    /// Square, one column an unknown and the right-hand side last.
-    evaluation: DMatrix<f64>,
+    /// Square, one column per unknown and the right-hand side last.
+    matrix: DMatrix<f64>,
     block: DMatrix<f64>,
     filled: usize,
 }
 
 impl Triangle {
-    /// Of nothing, for so many unknowns.
+    /// Without rows, for this number of unknowns.
     pub fn new(unknowns: usize) -> Triangle {
         Triangle {
-            evaluation: DMatrix::zeros(unknowns + 1, unknowns + 1),
+            matrix: DMatrix::zeros(unknowns + 1, unknowns + 1),
             block: DMatrix::zeros(BLOCK, unknowns + 1),
             filled: 0,
         }
     }
 
-    /// Takes rows: unknowns, and the right-hand side last.
+    /// Adds rows: unknowns, and the right-hand side last.
     pub fn take(&mut self, rows: &DMatrix<f64>) {
         for row in rows.row_iter() {
             if self.filled == BLOCK {
@@ -39,29 +39,29 @@ impl Triangle {
     }
 
     fn fold(&mut self) {
-        let width = self.evaluation.ncols();
+        let width = self.matrix.ncols();
         let mut whole = DMatrix::zeros(width + self.filled, width);
-        whole.rows_mut(0, width).copy_from(&self.evaluation);
+        whole.rows_mut(0, width).copy_from(&self.matrix);
         whole
             .rows_mut(width, self.filled)
             .copy_from(&self.block.rows(0, self.filled));
-        self.evaluation = whole.qr().r();
+        self.matrix = whole.qr().r();
         self.filled = 0;
     }
 
     /// The matrix of the unknowns and the right-hand side.
     pub fn whole(mut self) -> (DMatrix<f64>, DVector<f64>) {
         self.fold();
-        let width = self.evaluation.ncols() - 1;
+        let width = self.matrix.ncols() - 1;
         (
-            self.evaluation.columns(0, width).into_owned(),
-            self.evaluation.column(width).into_owned(),
+            self.matrix.columns(0, width).into_owned(),
+            self.matrix.column(width).into_owned(),
         )
     }
 }
 
-/// The least-squares solution of `J x = r` held back by `damping` (0: not at all), and the inverse of `J'J`; columns are
-/// brought to length one first. `None` where the columns are not independent.
+/// The least-squares solution of `J x = r` with `damping` (0: none), and the inverse of `J'J`; columns are
+/// scaled to length one first. `None` where the columns are not independent.
 pub(super) fn solve(
     j: &DMatrix<f64>,
     r: &DVector<f64>,
@@ -125,10 +125,10 @@ mod tests {
         assert!(solve(&j, &DVector::zeros(3), 0.0).is_none());
         let j = DMatrix::from_row_slice(3, 1, &[1.0, 0.0, 1.0]);
         let r = DVector::from_vec(vec![1.0, 0.0, 1.0]);
-        let [free, evaluation] = [0.0, 1.0].map(|damping| solve(&j, &r, damping).unwrap().0[0]);
+        let [free, damped] = [0.0, 1.0].map(|damping| solve(&j, &r, damping).unwrap().0[0]);
         assert!(
-            (free - 1.0).abs() < 1e-15 && (evaluation - 0.5).abs() < 1e-15,
-            "{free} {evaluation}"
+            (free - 1.0).abs() < 1e-15 && (damped - 0.5).abs() < 1e-15,
+            "{free} {damped}"
         );
     }
 }

@@ -1,16 +1,16 @@
-//! The small displacements that poses are asked for.
+//! The small displacements to be estimated.
 //!
-//! After each joint but the last the arm may be displaced by six small motions in the axes of that joint: along x, y, z,
-//! then about x, y, z. With the place of the base in the tracker and of the measured point on the flange this is every
-//! error that constant lengths and angles, skew or nearly parallel axes and wrong zeros can make; some of them
-//! twice, which `select` finds.
+//! After each joint but the last the arm may be displaced by six small motions in the axes of that joint: along x, y,
+//! z, then about x, y, z. With the frames of the base in the tracker and of the measured point on the flange this
+//! covers every error by constant lengths and angles, skew or nearly parallel axes and wrong zeros; some of them twice,
+//! which `select` finds.
 
 use crate::robot::chain::{Axis, Motion};
 use crate::robot::{Amount, Robot};
 
-/// Where an unknown sits.
+/// Location of an unknown in the chain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum ParameterLocation {
     /// The base in the tracker.
     Base,
     /// Right after the joint with this index.
@@ -19,28 +19,28 @@ pub enum Place {
     Tool,
 }
 
-/// One small motion whose size is asked.
+/// One small motion of unknown size.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unknown {
-    /// Where.
-    pub place: Place,
-    /// Along x, y, z: 0, 1, 2; about x, y, z: 3, 4, 5; of the axes that stand there.
+    /// Its location.
+    pub place: ParameterLocation,
+    /// Along x, y, z: 0, 1, 2; about x, y, z: 3, 4, 5; of the axes there.
     pub component: usize,
 }
 
-/// What of the chain is asked for, beside base and tool.
+/// Unknowns of the chain, in addition to base and tool.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Asked {
-    /// Nothing: the chain is taken as it is.
+pub enum ParameterSet {
+    /// None: the chain is nominal.
     BaseAndTool,
-    /// Where the joints count from.
+    /// The zeros of the joints.
     Zeros,
     /// Zeros, lengths and angles.
     Geometry,
 }
 
 impl Unknown {
-    /// Whether it turns; else it slides.
+    /// Whether it is a rotation; otherwise a translation.
     pub fn turns(&self) -> bool {
         self.component > 2
     }
@@ -52,7 +52,7 @@ impl Unknown {
 
     /// Whether this is the zero of the joint that it follows.
     pub fn is_zero_of(&self, robot: &Robot) -> bool {
-        let Place::After(joint) = self.place else {
+        let ParameterLocation::After(joint) = self.place else {
             return false;
         };
         match robot.chain().links()[joint].motion {
@@ -70,22 +70,23 @@ impl Unknown {
     }
 }
 
-/// All that is asked, those first that are kept where two do the same: base, tool, zeros, lengths, angles.
+/// All unknowns, those first that are kept where two have the same effect: base, tool, zeros, lengths, angles.
 ///
-/// A body whose turn was not measured has no turn to find.
-pub(super) fn unknowns(robot: &Robot, requested: Asked, turns_measured: bool) -> Vec<Unknown> {
+/// A body without measured rotation has no unknown rotation.
+pub(super) fn unknowns(robot: &Robot, requested: ParameterSet, turns_measured: bool) -> Vec<Unknown> {
     let six = |place| (0..6).map(move |component| Unknown { place, component });
-    let mut all: Vec<Unknown> = six(Place::Base).collect();
-    all.extend(six(Place::Tool).filter(|unknown| turns_measured || !unknown.turns()));
+    let mut all: Vec<Unknown> = six(ParameterLocation::Base).collect();
+    all.extend(six(ParameterLocation::Tool).filter(|unknown| turns_measured || !unknown.turns()));
     let attachments: Vec<Unknown> = (0..robot.joints().len().saturating_sub(1))
-        .flat_map(|joint| six(Place::After(joint)))
+        .flat_map(|joint| six(ParameterLocation::After(joint)))
         .collect();
-    let (zeros, others): (Vec<Unknown>, Vec<Unknown>) =
-        attachments.into_iter().partition(|unknown| unknown.is_zero_of(robot));
-    if requested != Asked::BaseAndTool {
+    let (zeros, others): (Vec<Unknown>, Vec<Unknown>) = attachments
+        .into_iter()
+        .partition(|unknown| unknown.is_zero_of(robot));
+    if requested != ParameterSet::BaseAndTool {
         all.extend(zeros);
     }
-    if requested == Asked::Geometry {
+    if requested == ParameterSet::Geometry {
         all.extend(others.iter().filter(|unknown| !unknown.turns()));
         all.extend(others.iter().filter(|unknown| unknown.turns()));
     }
@@ -100,11 +101,11 @@ mod tests {
     #[test]
     fn a_six_axis_arm_has_six_small_motions_after_five_joints_and_five_zeros_among_them() {
         let robot = arms::mh12();
-        assert_eq!(unknowns(&robot, Asked::BaseAndTool, false).len(), 9);
-        assert_eq!(unknowns(&robot, Asked::BaseAndTool, true).len(), 12);
-        assert_eq!(unknowns(&robot, Asked::Zeros, true).len(), 17);
-        assert_eq!(unknowns(&robot, Asked::Geometry, false).len(), 39);
-        let zeros = unknowns(&robot, Asked::Geometry, false);
+        assert_eq!(unknowns(&robot, ParameterSet::BaseAndTool, false).len(), 9);
+        assert_eq!(unknowns(&robot, ParameterSet::BaseAndTool, true).len(), 12);
+        assert_eq!(unknowns(&robot, ParameterSet::Zeros, true).len(), 17);
+        assert_eq!(unknowns(&robot, ParameterSet::Geometry, false).len(), 39);
+        let zeros = unknowns(&robot, ParameterSet::Geometry, false);
         assert_eq!(
             zeros.iter().filter(|unknown| unknown.is_zero_of(&robot)).count(),
             5

@@ -26,33 +26,33 @@ pub fn compliance_at_tool(screws: &[Twist], joints: &[JointCompliance]) -> Matri
     compliance
 }
 
-/// The block of a 6 x 6 compliance that tells displacement by force, m/N.
+/// The block of a 6 x 6 compliance that gives displacement by force, m/N.
 pub fn by_force(compliance: &Matrix6<f64>) -> Matrix3<f64> {
     compliance.fixed_view::<3, 3>(0, 0).into_owned()
 }
 
-/// The stiffness matrix of eq. (7) and how far it can be trusted.
+/// The stiffness matrix of eq. (7) with its rank and condition number.
 #[derive(Clone, Debug)]
 pub struct Stiffness {
     /// `K = C^-1` (pseudo-inverse where `C` is singular), N/m, N, N m/rad.
     pub matrix: Matrix6<f64>,
-    /// Directions in which the arm yields at all: 6 where `K` is a true inverse.
+    /// Rank: directions in which the arm has a compliance; 6 where `K` is a true inverse.
     pub rank: usize,
     /// Largest over smallest eigenvalue of `C` made dimensionless by `length`; infinite below rank 6.
     pub condition_number: f64,
-    /// The length (m) that made rotations comparable with translations.
+    /// The length (m) that scales rotations to translations.
     pub length: f64,
 }
 
-/// The stiffness at the tool. `length` (m) weighs rotations against translations in rank and condition: take
+/// The stiffness at the tool. `length` (m) weights rotations against translations in rank and condition number: use
 /// the arm's reach or the tool length.
 pub fn stiffness_at_tool(compliance: &Matrix6<f64>, length: f64) -> Stiffness {
     // Twist [m, rad] -> [m, m]: with S = diag(1, 1, 1, L, L, L) the compliance is S C S, in m/N throughout.
-    // Eigenvectors, not the singular value decomposition: that of nalgebra 0.34 loses digits now and then.
+    // Eigenvectors, not the singular value decomposition: that of nalgebra 0.34 sometimes loses digits.
     let scale = Matrix6::from_diagonal(&nalgebra::Vector6::new(1.0, 1.0, 1.0, length, length, length));
     let eigen = (scale * compliance * scale).symmetric_eigen();
     let (values, vectors) = (eigen.eigenvalues, eigen.eigenvectors);
-    // Six products of eps each is what rounding leaves of a zero eigenvalue; a hundred times that is zero.
+    // Six products of eps each are the rounding of a zero eigenvalue; a hundred times that is zero.
     let zero = values.max() * 1e2 * 6.0 * f64::EPSILON;
     let rank = values.iter().filter(|value| **value > zero).count();
     let inverse = values.map(|value| if value > zero { 1.0 / value } else { 0.0 });
@@ -102,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn stiffness_is_the_inverse_where_six_joints_yield() {
+    fn stiffness_is_the_inverse_where_six_joints_are_compliant() {
         let (screws, joints) = six_joints();
         let c = compliance_at_tool(&screws, &joints);
         let k = stiffness_at_tool(&c, 1.0);
@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn fewer_yielding_joints_than_six_lower_the_rank() {
+    fn fewer_than_six_compliant_joints_lower_the_rank() {
         let (screws, joints) = six_joints();
         let k = stiffness_at_tool(&compliance_at_tool(&screws[..4], &joints[..4]), 1.0);
         assert_eq!(k.rank, 4);

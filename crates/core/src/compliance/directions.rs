@@ -1,10 +1,10 @@
-//! Directions: where the arm yields most, and how much force a tolerance permits there.
+//! Directions: the greatest compliance, and the permissible force for a tolerance.
 //!
-//! With `C_t` the translational 3 x 3 block (displacement by force) and `C_plane` its two in-plane rows (2 x 3, force free
-//! in space):
+//! With `C_t` the translational 3 x 3 block (displacement by force) and `C_plane` its two in-plane rows (2 x 3, force
+//! free in space):
 //!
 //! - principal compliances: eigenvalues and eigenvectors of `C_t`;
-//! - permissible force in the unit direction `f` for a limit `e`: `e / |C_plane f|`;
+//! - permissible force in the unit direction `f` for a tolerance `e`: `e / |C_plane f|`;
 //! - in the worst direction: `e / sigma_max(C_plane)`.
 //!
 //! Units: C in m/N, e in m, force in N. Source: `docs/notation.md`; standard linear algebra.
@@ -13,16 +13,16 @@ use nalgebra::{Matrix2x3, Matrix3, Unit, Vector3};
 
 use crate::frame::both_across;
 
-/// A direction in which a force moves the tool along itself.
+/// A principal direction: a force along it moves the tool along it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PrincipalCompliance {
     /// m/N
     pub value: f64,
-    /// Unit vector in base; its sign has no meaning.
+    /// Unit vector in base; its sign is arbitrary.
     pub direction: Vector3<f64>,
 }
 
-/// Principal compliances of the translational block, softest first.
+/// Principal compliances of the translational block, the most compliant first.
 pub fn principal_compliances(by_force: &Matrix3<f64>) -> [PrincipalCompliance; 3] {
     let eigen = by_force.symmetric_eigen();
     let mut principal = [0, 1, 2].map(|i| PrincipalCompliance {
@@ -33,7 +33,7 @@ pub fn principal_compliances(by_force: &Matrix3<f64>) -> [PrincipalCompliance; 3
     principal
 }
 
-/// Greatest force (N) in direction `f` whose in-plane deviation stays within `limit` (m); infinite where such
+/// Greatest force (N) in direction `f` whose in-plane deviation is within `limit` (m); infinite where such
 /// a force moves nothing in the plane. `normal` is the plane's normal, base basis.
 pub fn permissible_force(
     by_force: &Matrix3<f64>,
@@ -44,7 +44,7 @@ pub fn permissible_force(
     limit / (in_plane_rows(by_force, normal) * f.into_inner()).norm()
 }
 
-/// Force (N) that every direction permits for `limit` (m), and the direction that permits no more.
+/// Force (N) that is permissible in every direction for the tolerance `limit` (m), and the critical direction.
 pub fn permissible_force_in_worst_direction(
     by_force: &Matrix3<f64>,
     normal: Unit<Vector3<f64>>,
@@ -86,7 +86,7 @@ mod tests {
     }
 
     #[test]
-    fn permissible_force_uses_up_the_limit_exactly() {
+    fn the_permissible_force_gives_exactly_the_tolerance() {
         let (c, n) = (
             some_compliance(),
             Unit::new_normalize(Vector3::new(0.2, -0.4, 1.0)),

@@ -1,7 +1,7 @@
-//! How much does the arm yield at the tool?
+//! Compliance of the arm at the tool.
 //!
-//! [`cartesian`]: the 6 x 6 compliance and stiffness at the TCP. [`directions`]: in which direction it yields
-//! most, and how much force a tolerance permits.
+//! [`cartesian`]: the 6 x 6 compliance and stiffness at the TCP. [`directions`]: principal compliances
+//! and the permissible force for a tolerance.
 
 pub mod cartesian;
 pub mod directions;

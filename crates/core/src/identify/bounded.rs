@@ -1,4 +1,4 @@
-//! Least squares in which some unknowns may not be negative.
+//! Least squares with some unknowns bounded below by zero.
 //!
 //! `min |A x - b|` with `x_j >= 0` where `bounded[j]`. Lawson & Hanson 1974, *Solving Least Squares Problems*,
 //! algorithm NNLS, with unknowns that are free from the start. Each set of unknowns is solved by Householder QR of
@@ -6,7 +6,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-/// A column whose part beyond the others is smaller than this share of it counts as dependent on them.
+/// A column whose part beyond the others is smaller than this share of it is dependent on them.
 const DEPENDENT: f64 = 1e-9;
 
 /// The solution; `None` where free unknowns depend on each other.
@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn the_solution_holds_the_conditions_of_karush_kuhn_and_tucker() {
+    fn the_solution_meets_the_conditions_of_karush_kuhn_and_tucker() {
         for seed in 0..300 {
             let a = numbers(20, 9, seed);
             let b = numbers(20, 1, seed + 1000).column(0).into_owned();
@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn no_sum_of_columns_is_nearer() {
+    fn no_other_combination_of_columns_is_nearer() {
         let a = numbers(12, 4, 7);
         let b = numbers(12, 1, 8).column(0).into_owned();
         let x = solve(&a, &b, &[true; 4]).unwrap();
@@ -163,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn free_unknowns_that_depend_on_each_other_are_told() {
+    fn dependent_free_unknowns_are_reported() {
         let mut a = numbers(10, 2, 3);
         let first = a.column(0).into_owned();
         a.set_column(1, &first);

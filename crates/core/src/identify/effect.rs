@@ -1,11 +1,11 @@
-//! What each unknown does in each test, and how that changes with the unknowns.
+//! Effect of each unknown in each test, and its derivatives.
 //!
 //! `reading = sum_k c_k g_k(tau_k) a_k`, `tau_k = s_k(force point) . w`, with `a_k` the displacement of the measured
 //! point per unit of unknown `k` (or the turn about a joint's axis).
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | `c_k`, `g_k` | size of the unknown, how it gives way (see `unknown`) | |
+//! | `c_k`, `g_k` | size of the unknown, its force law (see `unknown`) | |
 //! | `s_k` | its screw, base axes | m, rad per unit |
 //! | `w` | wrench on the tool at the force point | N, N m |
 //!
@@ -17,10 +17,10 @@ use super::load_test::{LoadTest, Measured};
 use super::prior::typical_sizes;
 use super::unknown::Unknown;
 use crate::robot::forward::{forward, joint_axis};
-use crate::robot::{Robot, Attachment};
+use crate::robot::{Attachment, Robot};
 use crate::spatial::{Twist, Wrench};
 
-/// A test with all that its posture decides.
+/// A test with the quantities given by its posture.
 #[derive(Clone, Debug)]
 pub struct Effects {
     flange: Matrix3<f64>,
@@ -31,10 +31,10 @@ pub struct Effects {
     measured: Vec<Measured>,
 }
 
-/// What is asked: sizes of the unknowns, and how far the two points lie from where they were said to be.
+/// The unknowns: sizes, and shifts of the two points from their stated positions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State {
-    /// `c`, one an unknown.
+    /// `c`, one per unknown.
     pub sizes: Vec<f64>,
     /// Shift of the force point, m, flange frame.
     pub force_shift: Vector3<f64>,
@@ -43,7 +43,7 @@ pub struct State {
 }
 
 impl State {
-    /// Sizes, and both points where they were said to be.
+    /// Sizes, with both points at their stated positions.
     pub fn of_sizes(sizes: Vec<f64>) -> State {
         State {
             sizes,
@@ -73,7 +73,7 @@ impl Effects {
         }
     }
 
-    /// Torque (N m; N) of the wrench about each unknown, the force acting where it was said to.
+    /// Torque (N m; N) of the wrench about each unknown, with the force at its stated point.
     pub fn torques(&self) -> Vec<f64> {
         let lever = self.flange * self.points[0];
         self.screws
@@ -98,7 +98,7 @@ impl Effects {
         let lever = self.flange * (self.points[1] + state.measured_shift);
         for (k, (unknown, screw)) in unknowns.iter().zip(&self.screws).enumerate() {
             let torque = screw.moved(force_lever).dot(&self.wrench);
-            let (way, slope) = unknown.gives_way(torque);
+            let (way, slope) = unknown.force_law(torque);
             let moved = screw.moved(lever).linear;
             // Moving the force by e changes the torque by w . (e x F) = e . (F x w).
             let by_force = self.flange.transpose() * self.wrench.force.cross(&screw.angular);
@@ -180,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn drives_alone_deflect_as_the_elastic_source_does() {
+    fn drives_only_deflect_as_in_the_elastic_source() {
         let (robot, mut test) = (arm(), test());
         test.measured_point = test.force_point;
         let sizes = vec![2e-6, 3e-6, 1e-5];

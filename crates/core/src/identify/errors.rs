@@ -1,11 +1,11 @@
-//! How far predicted displacements lie from measured ones: lengths of their differences over all tests.
+//! Errors of predicted displacements: lengths of their differences from the measured ones over all tests.
 
 use super::load_test::{LoadTest, Measured};
 
 /// Errors of the displacements (m) over all tests that measured one: lengths of their residual vectors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Errors {
-    /// Tests that count.
+    /// Number of tests included.
     pub tests: usize,
     /// Mean length, m.
     pub mean: f64,
@@ -13,11 +13,11 @@ pub struct Errors {
     pub rms: f64,
     /// Greatest length, m.
     pub largest: f64,
-    /// Mean length over the mean length of what was measured.
+    /// Mean length over the mean length of the measured displacements.
     pub relative: f64,
 }
 
-/// The errors of displacements, given one list of residuals a test; `None` where no test measured a displacement.
+/// The errors of displacements, given one list of residuals per test; `None` where no test measured a displacement.
 pub fn displacement_errors<'a>(
     tests: &[LoadTest],
     residuals: impl Iterator<Item = &'a Vec<f64>>,
@@ -88,7 +88,7 @@ mod tests {
         let turn = Measured::Turn(0);
         let tests = [
             test(&[(x, 3e-3), (y, 4e-3)]),
-            // A turn is no displacement, however far off.
+            // A rotation is not a displacement, whatever its error.
             test(&[(turn, 9.0), (x, 5e-3)]),
             test(&[(turn, 1.0)]),
         ];

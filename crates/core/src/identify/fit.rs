@@ -1,4 +1,4 @@
-//! The most likely springs: Gauss-Newton with robust weights, a prior, and the scatter found from the data.
+//! The most likely compliances: Gauss-Newton with robust weights, a prior, and the scatter estimated from the data.
 //!
 //! Least over the unknowns `x` (logarithms of sizes with a prior, sizes not below zero without; shifts of points):
 //!
@@ -6,9 +6,10 @@
 //! sum over tests rho(|r_t| / sigma) + sum over priors ((p . x - m) / u)^2        r = (predicted - measured) / u_reading
 //! ```
 //!
-//! `rho(n) = n^2` up to 1.5 and `2 * 1.5 n - 1.5^2` beyond (Huber 1964): a test far off pulls with a constant force,
-//! not ever harder. `sigma` makes the tests' residuals as large as their weights expect (Huber's proposal 2), counting
-//! the unknowns that the tests and not the prior decided (MacKay 1992). Both iterate to rest.
+//! `rho(n) = n^2` up to 1.5 and `2 * 1.5 n - 1.5^2` beyond (Huber 1964): the influence of an outlying test is
+//! limited. `sigma` makes the tests' residuals as large as their weights expect (Huber's proposal 2), with the
+//! effective number of unknowns determined by the tests instead of the prior (MacKay 1992). Both are iterated to
+//! convergence.
 
 use nalgebra::{DMatrix, DVector, Vector3};
 
@@ -19,29 +20,29 @@ use super::prior::{LogPrior, Prior, typical, typical_sizes};
 use super::spread::Spread;
 use super::unknown::Unknown;
 
-/// How to identify.
+/// Method of identification.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Method {
-    /// What is known beforehand.
+    /// Prior knowledge.
     pub prior: Prior,
-    /// Whether force and displacement act and are measured where the tests say.
+    /// Whether force and displacement act and are measured at the stated points.
     pub points: Points,
-    /// What a test far off may do.
+    /// Weighting of outlying tests.
     pub loss: Loss,
     /// Whether the standard uncertainties of the readings are known, or only their ratios.
     pub scatter: Scatter,
 }
 
-/// Where force acts and displacement is measured.
+/// Positions of the force point and of the measured point.
 ///
-/// The standard uncertainties count with [`Prior::Typical`] alone: without a prior shifts are free.
+/// The standard uncertainties are used with [`Prior::Typical`] only: without a prior shifts are free.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Points {
-    /// As the tests say.
+    /// As stated by the tests.
     Known,
-    /// Both shifted alike in the flange frame, by about this standard uncertainty, m.
+    /// Both shifted by the same vector in the flange frame, by about this standard uncertainty, m.
     Common(f64),
-    /// Each shifted by itself, by about this, m.
+    /// Each shifted independently, by about this, m.
     Separate(f64),
 }
 
@@ -56,7 +57,7 @@ impl Points {
     }
 }
 
-/// How residuals count.
+/// Weighting of residuals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Loss {
     /// By their squares.
@@ -65,20 +66,20 @@ pub enum Loss {
     Huber,
 }
 
-/// What is known of the scatter of readings.
+/// Knowledge of the scatter of readings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scatter {
-    /// Only ratios: the residuals tell the rest.
+    /// Only ratios: the scale is estimated from the residuals.
     Found,
     /// Standard uncertainties are known: larger residuals enlarge them, smaller ones do not.
     Stated,
 }
 
-/// Beyond so many sigma a test counts linearly.
+/// Beyond this multiple of sigma a test is weighted linearly.
 const BEND: f64 = 1.5;
 const MOST_STEPS: usize = 60;
 const MOST_SCALES: usize = 25;
-/// A scale that changes by less than this share has come to rest: its own uncertainty is some ten per cent.
+/// A scale that changes by less than this share has converged: its own uncertainty is some ten per cent.
 const SAME_SCALE: f64 = 1e-4;
 /// A step in a logarithm longer than this leaves the range of the linearisation.
 const LONGEST_LOG_STEP: f64 = 2.0;
@@ -95,7 +96,7 @@ pub(super) struct Problem<'a> {
     expected_squares: Vec<f64>,
 }
 
-/// The most likely unknowns, and all that was known there.
+/// The most likely unknowns, and the linearisation there.
 #[derive(Clone, Debug)]
 pub(super) struct Fitted {
     pub x: DVector<f64>,
@@ -145,7 +146,7 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Where a search starts that knows nothing yet.
+    /// Start of the search without any knowledge.
     pub fn start(&self) -> Fitted {
         let sizes = typical_sizes(self.unknowns);
         let count = sizes.len() + self.method.points.count();
@@ -161,7 +162,7 @@ impl<'a> Problem<'a> {
         self.method.prior == Prior::Typical
     }
 
-    /// What `x` says.
+    /// The sizes and shifts given by `x`.
     pub fn state(&self, x: &DVector<f64>) -> State {
         let count = self.unknowns.len();
         let sizes = x.iter().take(count);
@@ -182,7 +183,7 @@ impl<'a> Problem<'a> {
     pub fn at_rest(&self, used: &[usize], start: &Fitted) -> Fitted {
         let mut rest = start.clone();
         let readings: usize = used.iter().map(|t| self.tests[*t].readings.len()).sum();
-        // Readings have about nine digits that mean something; less scatter than that is rounding.
+        // Readings have about nine significant digits; less scatter than that is rounding.
         let sizes = used.iter().flat_map(|t| &self.tests[*t].readings);
         let largest = sizes
             .map(|r| (r.value / r.standard_uncertainty).abs())
@@ -275,7 +276,8 @@ impl<'a> Problem<'a> {
         tests + (prior * x - requested).norm_squared()
     }
 
-    /// Rows of the prior and what they should give, over their standard uncertainties; of points that they are not shifted.
+    /// Rows of the prior and their expected values, over their standard uncertainties; for points that they are not
+    /// shifted.
     fn prior_rows(&self, count: usize) -> (DMatrix<f64>, DVector<f64>) {
         let (of_sizes, requested) = LogPrior::rows(&self.prior, count);
         let (Points::Common(u) | Points::Separate(u)) = self.method.points else {
@@ -292,7 +294,7 @@ impl<'a> Problem<'a> {
         (rows, requested.resize_vertically(first + more, 0.0))
     }
 
-    /// Derivatives of what `x` says (sizes, then shifts) by `x`, on a diagonal.
+    /// Derivatives of the sizes, then shifts, by `x`, on a diagonal.
     pub fn slopes(&self, x: &DVector<f64>) -> DMatrix<f64> {
         let mut slopes = DVector::from_element(x.len(), 1.0);
         if self.in_logs() {
@@ -304,7 +306,7 @@ impl<'a> Problem<'a> {
         DMatrix::from_diagonal(&slopes)
     }
 
-    /// The rows of the tests, weighed, over sigma.
+    /// The rows of the tests, weighted, over sigma.
     fn weighed(&self, linear: &Linear, scale: f64) -> (DMatrix<f64>, DVector<f64>) {
         let (mut jacobian, mut residual) = (linear.jacobian.clone(), linear.residual.clone());
         for (rows, length) in linear.first_row.windows(2).zip(linear.lengths()) {
@@ -323,7 +325,7 @@ impl<'a> Problem<'a> {
         Spread::of(&tests, &prior, &active)
     }
 
-    /// Gauss-Newton with Levenberg's damping, only where a full step does not help.
+    /// Gauss-Newton, with Levenberg's damping only where a full step does not reduce the objective.
     fn descend(&self, used: &[usize], mut x: DVector<f64>, scale: f64) -> DVector<f64> {
         let count = x.len();
         let bounded: Vec<bool> = (0..count)
@@ -345,9 +347,9 @@ impl<'a> Problem<'a> {
             b.rows_mut(0, rows).copy_from(&right);
             b.rows_mut(rows, more).copy_from(&requested);
             for j in 0..count {
-                let hold = lengths[j] * f64::sqrt(damping);
-                a[(rows + more + j, j)] = hold;
-                b[rows + more + j] = hold * x[j];
+                let damping_weight = lengths[j] * f64::sqrt(damping);
+                a[(rows + more + j, j)] = damping_weight;
+                b[rows + more + j] = damping_weight * x[j];
             }
             let tried = bounded::solve(&a, &b, &bounded).map(|target| {
                 let mut next = target;
@@ -370,7 +372,7 @@ impl<'a> Problem<'a> {
                     }
                 }
                 _ if damping > 1e6 => break,
-                // A full step from the minimum gains nothing: nor would a shorter one.
+                // A full step from the minimum gains nothing: a shorter one would not either.
                 Some((next, _, _)) if (&next - &x).amax() <= 1e-9 * x.amax() => break,
                 _ => damping = if damping == 0.0 { 1e-4 } else { damping * 10.0 },
             }
@@ -450,7 +452,7 @@ mod tests {
                     };
                     let problem = problem(&unknowns, &tests, method);
                     let sizes = unknowns.len();
-                    // Some way off the middle, points shifted by centimetres.
+                    // Away from the middle, points shifted by centimetres.
                     let x = problem.start().x.map_with_location(|j, _, value| match prior {
                         _ if j >= sizes => 0.03 * next(),
                         Prior::Typical => value + 0.5 * next(),
@@ -464,7 +466,7 @@ mod tests {
                         more[j] += step;
                         less[j] -= step;
                         let difference = (value(&more) - value(&less)) / (2.0 * step);
-                        // The square of the step, and what rounding of the objective makes of it.
+                        // The square of the step, and rounding of the objective.
                         let tolerance = 1e-5 * exact[j].abs() + 1e-13 * here / step;
                         assert!(
                             (difference - exact[j]).abs() < tolerance,
@@ -478,7 +480,7 @@ mod tests {
     }
 
     #[test]
-    fn without_a_prior_no_size_at_rest_can_be_changed_for_the_better() {
+    fn without_a_prior_no_change_of_a_size_improves_the_solution() {
         let robot = arm(1.0);
         let unknowns = [drives(&robot), bending(&robot)].concat();
         // Half of the springs are rigid: noise makes some of them negative, if they may be.
@@ -504,7 +506,7 @@ mod tests {
     }
 
     #[test]
-    fn readings_that_tell_nothing_leave_the_middle_of_the_prior() {
+    fn readings_without_information_leave_the_middle_of_the_prior() {
         let robot = arm(1.0);
         let unknowns = [drives(&robot), bending(&robot)].concat();
         let mut tests = tests(&unknowns, &State::typical(&unknowns), 12, 1e-3);
@@ -530,7 +532,7 @@ mod tests {
     }
 
     #[test]
-    fn slopes_are_those_of_the_sizes_by_what_the_fit_counts_in() {
+    fn slopes_are_those_of_the_sizes_by_the_variables_of_the_fit() {
         let robot = arm(1.0);
         let unknowns = drives(&robot);
         let tests = tests(&unknowns, &State::typical(&unknowns), 4, 0.0);
@@ -562,7 +564,7 @@ mod tests {
     }
 
     #[test]
-    fn a_test_far_off_weighs_as_much_less_as_it_is_farther_off() {
+    fn the_weight_of_an_outlying_test_decreases_with_its_distance() {
         let unknowns = drives(&arm(1.0));
         let tests = tests(&unknowns, &State::typical(&unknowns), 2, 0.0);
         let huber = problem(
@@ -580,7 +582,7 @@ mod tests {
     }
 
     #[test]
-    fn bent_squares_of_several_readings_lie_between_none_and_all_of_their_square() {
+    fn bent_squares_of_several_readings_are_between_none_and_all_of_their_square() {
         // E min(n^2, k^2) of chi-squared with two degrees of freedom: 2 (1 - exp(-k^2/2)).
         let expected = 2.0 * (1.0 - f64::exp(-1.5 * 1.5 / 2.0));
         assert!((expected_bent_square(2) - expected).abs() < 1e-5);

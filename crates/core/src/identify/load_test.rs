@@ -1,10 +1,10 @@
-//! A load test: a posture, a wrench on the tool, and what moved.
+//! A load test: a posture, a wrench on the tool, and the displacements.
 //!
 //! | symbol | meaning | unit, frame |
 //! |---|---|---|
-//! | `q` | posture | rad (m), the controller's counting |
-//! | `w` | load less what was there before, about the force point | N, N m, base axes |
-//! | `p`, `m` | where the force acts, where displacement is measured | m, flange |
+//! | `q` | posture | rad (m), controller coordinates |
+//! | `w` | difference of loaded and unloaded, about the force point | N, N m, base axes |
+//! | `p`, `m` | force point, measured point | m, flange |
 //! | `r`, `u` | a reading loaded less unloaded, and its standard uncertainty | m or rad |
 
 use nalgebra::Vector3;
@@ -15,7 +15,7 @@ use crate::spatial::Wrench;
 /// One loading and the readings that belong to it: loaded minus unloaded, in one posture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoadTest {
-    /// Joint positions in the controller's counting, rad (m).
+    /// Joint positions in controller coordinates, rad (m).
     pub joints: Vec<f64>,
     /// Load on the tool, base axes, moment about the force point: the difference of loaded and unloaded.
     pub wrench: Wrench,
@@ -23,7 +23,7 @@ pub struct LoadTest {
     pub force_point: Vector3<f64>,
     /// Where the displacement is measured, m, flange frame.
     pub measured_point: Vector3<f64>,
-    /// What was read.
+    /// The readings.
     pub readings: Vec<Reading>,
 }
 
@@ -43,7 +43,7 @@ impl LoadTest {
 /// One number read from an instrument.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reading {
-    /// Of what.
+    /// The measured quantity.
     pub what: Measured,
     /// m or rad.
     pub value: f64,
@@ -51,12 +51,12 @@ pub struct Reading {
     pub standard_uncertainty: f64,
 }
 
-/// What an instrument can look at.
+/// Measured quantity of an instrument.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measured {
     /// Displacement of the measured point along a base axis.
     Displacement(Axis),
-    /// Turn of the link after this joint against the link before, about the joint's axis by the right hand of the
-    /// chain: how Shneor & Chapsky 2021 measured, section 3.4.
+    /// Rotation of the link after this joint relative to the link before, about the joint's axis by the right hand of
+    /// the chain: the measurement of Shneor & Chapsky 2021, section 3.4.
     Turn(usize),
 }

@@ -1,12 +1,12 @@
-//! How much does each joint yield? Found from load tests: push the tool, measure how far it goes.
+//! Identification of joint compliances from load tests: load the tool, measure its displacement.
 //!
-//! In reading order: [`unknown`] (which springs are asked for), [`load_test`] (what was done and measured),
-//! [`effect`] (what each unknown does in a test), `bounded` (least squares without negative springs), [`prior`]
-//! (what is known of any arm), [`fit`] (the most likely springs), `spread` (how far they can be trusted),
-//! [`outcome`] (all of it, with every test left out once), [`errors`] (of the displacements), [`units`] (are they right?),
-//! [`mod@plan`] (which tests tell most).
+//! In reading order: [`unknown`] (the springs to be identified), [`load_test`] (loads and readings),
+//! [`effect`] (effect of each unknown in a test), `bounded` (least squares without negative springs), [`prior`]
+//! (prior knowledge), [`fit`] (the most likely springs), `spread` (their uncertainties),
+//! [`outcome`] (the result, with leave-one-out prediction), [`errors`] (of the displacements), [`units`]
+//! (plausibility), [`mod@plan`] (design of tests).
 //!
-//! Theory, sources and what was tried: `docs/theory/identification.md`.
+//! Theory, sources and alternatives: `docs/theory/identification.md`.
 
 mod bounded;
 pub mod effect;

@@ -1,10 +1,10 @@
-//! Springs with their uncertainties, what each test says of them, and how well they predict a test they have not seen.
+//! Compliances with their uncertainties, residuals of each test, and leave-one-out predictions.
 //!
-//! A test is an **outlier** if its residual, root mean square over its readings, is more than 3.5 times what the scatter
-//! of all tests leads one to expect. Outliers stay in the fit, where their pull is limited, and in every error told.
+//! A test is an **outlier** if its residual, root mean square over its readings, is more than 3.5 times the expected
+//! one, given the scatter of all tests. Outliers stay in the fit, with limited influence, and in every reported error.
 //!
 //! **Left out**: every test in turn is predicted from a fit to the others, in which sizes, points, scatter and weights
-//! are all found anew.
+//! are all estimated again.
 
 use nalgebra::{DMatrix, Vector3};
 use rayon::prelude::*;
@@ -15,45 +15,45 @@ use super::load_test::{LoadTest, Measured};
 use super::unknown::Unknown;
 use crate::robot::Robot;
 
-/// A residual beyond so many sigma names its test an outlier.
+/// Beyond this multiple of sigma a residual makes its test an outlier.
 pub const OUTLIER: f64 = 3.5;
 
-/// What load tests tell of an arm.
+/// Result of an identification.
 #[derive(Clone, Debug)]
 pub struct Identified {
-    /// One an unknown.
+    /// One per unknown.
     pub estimates: Vec<FoundSpring>,
     /// Of the sizes, in the squares and products of their units.
     pub covariance: DMatrix<f64>,
-    /// Where the force acted against what the tests say, and its standard uncertainty; m, flange frame.
+    /// Shift of the force point from its stated position, and its standard uncertainty; m, flange frame.
     pub force_shift: Option<[Vector3<f64>; 2]>,
-    /// Where displacement was measured, likewise.
+    /// The same for the measured point.
     pub measured_shift: Option<[Vector3<f64>; 2]>,
-    /// Standard uncertainty of a reading over the one that it states.
+    /// Ratio of the standard uncertainty of a reading to the stated one.
     pub scale: f64,
-    /// One a test.
+    /// One per test.
     pub tests: Vec<TestOutcome>,
-    /// Sets of unknowns of which the tests tell only a sum; a single one is seen by no test.
+    /// Sets of unknowns of which only a sum is identifiable; a single one has no effect on any test.
     pub together: Vec<Vec<usize>>,
 }
 
 /// The size of one unknown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FoundSpring {
-    /// rad/(N m), m/N, or rad, as its role says; 0 where nothing but rigid fits (without prior only).
+    /// rad/(N m), m/N, or rad, by its role; 0 where only a rigid part fits (without prior only).
     pub value: f64,
     /// Same unit.
     pub standard_uncertainty: f64,
-    /// Share known from the tests rather than from the prior, 0 to 1.
+    /// Share of the information from the tests instead of the prior, 0 to 1.
     pub known: f64,
 }
 
-/// One test beside what the springs say.
+/// One test compared with its prediction.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TestOutcome {
-    /// Predicted minus measured, one a reading, m or rad.
+    /// Predicted minus measured, one per reading, m or rad.
     pub residuals: Vec<f64>,
-    /// The same with a prediction that has not seen this test.
+    /// The same with a prediction that was fitted without this test.
     pub left_out: Vec<f64>,
     /// Root mean square of the residuals over their standard uncertainties, scatter included.
     pub standardised: f64,
@@ -63,21 +63,21 @@ pub struct TestOutcome {
     pub outlier: bool,
 }
 
-/// Why tests cannot tell what is asked.
+/// Why the tests are not sufficient.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Refusal {
-    /// More unknowns than numbers.
-    #[error("{readings} readings for {unknowns} unknowns")]
+    /// More unknowns than readings.
+    #[error("{readings} readings are not sufficient for {unknowns} unknowns")]
     TooFewReadings {
         /// Numbers measured.
         readings: usize,
-        /// Springs and coordinates asked for.
+        /// Springs and coordinates to be identified.
         unknowns: usize,
     },
-    /// One posture tells how the tool yields there, not which joint does.
-    #[error("all {tests} tests stand in one posture")]
+    /// One posture shows the compliance of the tool there, but not that of each joint.
+    #[error("all {tests} tests are in one posture")]
     OnePosture {
-        /// How many.
+        /// Number of tests.
         tests: usize,
     },
     /// No load, or all readings zero.
@@ -85,7 +85,7 @@ pub enum Refusal {
     NothingMeasured,
 }
 
-/// Joint positions nearer than this (rad, m) are one posture.
+/// Joint positions closer than this (rad, m) are one posture.
 const SAME_POSTURE: f64 = 1e-3;
 
 /// The sizes of `unknowns` from `tests`.
@@ -317,7 +317,7 @@ mod tests {
     }
 
     #[test]
-    fn the_order_of_tests_and_of_unknowns_does_not_matter() {
+    fn the_order_of_tests_and_of_unknowns_has_no_effect() {
         let robot = arm(1.0);
         let unknowns = [drives(&robot), bending(&robot)].concat();
         let tests = tests(&unknowns, &State::typical(&unknowns), 12, 5e-5);
@@ -326,7 +326,7 @@ mod tests {
         let here = identify(&robot, &unknowns, &tests, usual()).unwrap();
         let there = identify(&robot, &backward, &turned, usual()).unwrap();
         for (one, other) in here.estimates.iter().zip(there.estimates.iter().rev()) {
-            // The scale comes to rest to 1e-4, and moves the sizes by a part of their uncertainty.
+            // The scale converges to 1e-4, which changes the sizes by a part of their uncertainty.
             assert!(
                 (one.value - other.value).abs() < 1e-3 * one.standard_uncertainty,
                 "{one:?} {other:?}"
@@ -362,7 +362,7 @@ mod tests {
     }
 
     #[test]
-    fn the_measured_point_is_as_unsure_as_the_sum_of_both_shifts() {
+    fn the_uncertainty_of_the_measured_point_is_that_of_the_sum_of_both_shifts() {
         let robot = arm(1.0);
         let unknowns = drives(&robot);
         let tests = tests(&unknowns, &State::typical(&unknowns), 14, 1e-5);
@@ -373,7 +373,7 @@ mod tests {
         assert_eq!(common.force_shift, common.measured_shift);
         let apart = with(Points::Separate(0.1));
         let (force, measured) = (apart.force_shift.unwrap(), apart.measured_shift.unwrap());
-        // Both are where they were said to be, to four standard uncertainties.
+        // Both are at their stated positions, within four standard uncertainties.
         for [shift, u] in [force, measured] {
             assert!(
                 (0..3).all(|k| u[k] > 0.0 && shift[k].abs() < 4.0 * u[k]),
@@ -384,19 +384,16 @@ mod tests {
     }
 
     #[test]
-    fn what_is_refused_says_why() {
+    fn every_error_states_its_reason() {
         let given = [
             (
                 Refusal::TooFewReadings {
                     readings: 3,
                     unknowns: 6,
                 },
-                "3 readings for 6 unknowns",
+                "3 readings are not sufficient for 6 unknowns",
             ),
-            (
-                Refusal::OnePosture { tests: 4 },
-                "all 4 tests stand in one posture",
-            ),
+            (Refusal::OnePosture { tests: 4 }, "all 4 tests are in one posture"),
             (
                 Refusal::NothingMeasured,
                 "no test has both a load and a reading other than 0",

@@ -1,10 +1,10 @@
-//! Which tests tell most: postures and pulls that make the springs known best.
+//! Design of load tests: postures and loads that minimise the uncertainty of the compliances.
 //!
 //! D-optimal: the determinant of `sum D_t^T D_t + P^T P` is greatest, `D_t` the derivatives of the readings of test `t`
 //! by the logarithms of the sizes over the uncertainty of the gauge, `P` the typical prior. Candidates are postures of
 //! a Halton sequence inside the joint limits, with the tool clear of the floor and of the arm itself, each with every
-//! pull; tests are added one by one and then exchanged until
-//! nothing is gained (Fedorov 1972; Mitchell 1974). The same question has the same answer.
+//! load; tests are added one by one and then exchanged until there is no further gain (Fedorov 1972; Mitchell 1974).
+//! The result is reproducible.
 
 use nalgebra::{DMatrix, Unit, Vector3};
 
@@ -18,32 +18,32 @@ use crate::robot::forward::forward;
 use crate::robot::{Joint, Limits, Robot};
 use crate::spatial::Wrench;
 
-/// What a plan is asked for.
+/// Input of a plan.
 #[derive(Clone, Debug)]
 pub struct PlanQuestion {
-    /// How many tests.
+    /// Number of tests.
     pub tests: usize,
-    /// Pulls that can be applied, N, base axes.
+    /// Loads that can be applied, N, base axes.
     pub pulls: Vec<Vector3<f64>>,
-    /// Where they act and displacement is measured, m, flange frame.
+    /// Force point and measured point, m, flange frame.
     pub tool_point: Vector3<f64>,
     /// Standard uncertainty of a displacement reading, m.
     pub gauge: f64,
-    /// Below what the tool must not come; `None` where nothing is near.
+    /// The tool must stay above this plane; `None` without such a plane.
     pub floor: Option<Floor>,
 }
 
-/// A floor, a wall or a ceiling that the arm stands on or beside.
+/// A floor, a wall or a ceiling that the arm is mounted on or next to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Floor {
     /// Away from it, base axes.
     pub up: Unit<Vector3<f64>>,
-    /// How far along `up` it lies from the base origin, m.
+    /// Its distance along `up` from the base origin, m.
     pub height: f64,
 }
 
 impl Floor {
-    /// The one that an arm stands on: base z is up, the base origin lies in it.
+    /// The floor that the arm is mounted on: base z is up, the base origin is in it.
     pub fn under_base() -> Floor {
         Floor {
             up: Vector3::z_axis(),
@@ -59,26 +59,26 @@ pub struct PlannedTest {
     pub joints: Vec<f64>,
     /// N, base axes.
     pub force: Vector3<f64>,
-    /// Displacement that typical drives would give, m, base axes.
+    /// Displacement predicted with typical drives, m, base axes.
     pub expected: Vector3<f64>,
 }
 
-/// Tests and what they will tell.
+/// Tests and the expected uncertainties.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// In the order of their postures.
     pub tests: Vec<PlannedTest>,
-    /// Of the logarithms of the sizes: the square root of its diagonal is the relative uncertainty to expect.
+    /// Of the logarithms of the sizes: the square root of its diagonal is the expected relative uncertainty.
     pub spread: Spread,
 }
 
-/// Postures that are looked at.
+/// Number of candidate postures.
 const POSTURES: u32 = 400;
-/// Rounds of exchange; it comes to rest in two or three.
+/// Maximum number of exchange rounds; two or three are usual.
 const ROUNDS: usize = 6;
-/// The tool stays higher than this over the floor, m, and over this part of how far the flange gets.
+/// The tool stays higher than this over the floor, m, and than this fraction of the reach of the flange.
 const LOWEST: [f64; 2] = [0.2, 0.15];
-/// And further than this from the first axis, m, and than this part: outside the arm itself.
+/// And further than this from the first axis, m, and than this fraction: outside the arm itself.
 const NEAREST: [f64; 2] = [0.4, 0.3];
 /// A joint without known limits is turned (moved) by no more than this, rad (m).
 const FREE: f64 = 1.5;
@@ -86,14 +86,14 @@ const FREE: f64 = 1.5;
 const MARGIN: f64 = 0.1;
 const PRIMES: [u32; 8] = [2, 3, 5, 7, 11, 13, 17, 19];
 
-/// A test that may be done, and what it tells of each unknown.
+/// A candidate test, and its rows of the unknowns.
 struct Candidate {
     posture: u32,
     test: PlannedTest,
     rows: DMatrix<f64>,
 }
 
-/// The tests that make `unknowns` known best; fewer than asked only where no posture has room.
+/// The best tests for `unknowns`; fewer than requested only where no further posture is free.
 pub fn plan(robot: &Robot, unknowns: &[Unknown], requested: &PlanQuestion) -> Plan {
     let candidates = candidates(robot, unknowns, requested);
     let (prior, _) = LogPrior::rows(&typical(unknowns), unknowns.len());
@@ -135,8 +135,8 @@ fn add(information: &mut DMatrix<f64>, candidate: &Candidate, times: f64) {
     *information += candidate.rows.tr_mul(&candidate.rows) * times;
 }
 
-/// The candidate that multiplies the determinant most, `det(1 + D M^-1 D^T)`, of those not yet chosen: to do a test twice
-/// tells of scatter alone.
+/// The candidate that multiplies the determinant most, `det(1 + D M^-1 D^T)`, of those not yet chosen: a repeated test
+/// would only show the scatter.
 fn best_addition(information: &DMatrix<f64>, candidates: &[Candidate], chosen: &[usize]) -> usize {
     let inverse = information.clone().cholesky().map(|c| c.inverse());
     let inverse = inverse.unwrap_or_else(|| DMatrix::identity(information.nrows(), information.ncols()));
@@ -149,7 +149,7 @@ fn best_addition(information: &DMatrix<f64>, candidates: &[Candidate], chosen: &
         .enumerate()
         .filter(|(place, _)| !chosen.contains(place));
     let gains = free.map(|(place, candidate)| (place, gain(candidate)));
-    // Of equal ones the first.
+    // The first of equal ones.
     gains
         .fold(
             (0, f64::NEG_INFINITY),
@@ -232,7 +232,7 @@ fn posture(robot: &Robot, index: u32) -> Vec<f64> {
             upper: FREE,
         };
         let limits = described.limits.unwrap_or(free);
-        // A joint that turns more than once around turns the load no further.
+        // A range of more than one turn adds nothing.
         let half = (0.5 * (limits.upper - limits.lower) * (1.0 - 2.0 * MARGIN)).min(std::f64::consts::PI);
         let part = halton(index, PRIMES[joint % PRIMES.len()]);
         let position = limits.middle() + half * (2.0 * part - 1.0);
@@ -278,7 +278,7 @@ mod tests {
         }
     }
 
-    /// Where the tool stands in each test, m, base.
+    /// Position of the tool in each test, m, base.
     fn tools(robot: &Robot, question: &PlanQuestion, plan: &Plan) -> Vec<Vector3<f64>> {
         let tool = |test: &PlannedTest| {
             let frames = forward(robot, &test.joints);
@@ -288,7 +288,7 @@ mod tests {
     }
 
     #[test]
-    fn no_exchange_of_a_single_test_tells_more() {
+    fn no_exchange_of_a_single_test_increases_the_determinant() {
         let robot = arm(1.0);
         let unknowns = [drives(&robot), bending(&robot)].concat();
         let question = question(1.0, Some(Floor::under_base()));
@@ -316,7 +316,7 @@ mod tests {
     }
 
     #[test]
-    fn the_spread_to_expect_is_that_of_the_information_of_the_tests() {
+    fn the_expected_covariance_is_that_of_the_information_of_the_tests() {
         let robot = arm(1.0);
         let unknowns = drives(&robot);
         let question = question(1.0, None);
@@ -330,7 +330,7 @@ mod tests {
         }
         let covariance = information.try_inverse().unwrap();
         assert!((&plan.spread.covariance - &covariance).amax() < 1e-9 * covariance.amax());
-        // More tests tell no less of any spring.
+        // More tests increase no uncertainty.
         let more = PlanQuestion {
             tests: 10,
             ..question
@@ -342,7 +342,7 @@ mod tests {
     }
 
     #[test]
-    fn an_arm_of_a_quarter_of_a_metre_has_a_plan_that_keeps_clear_of_floor_and_arm() {
+    fn a_small_arm_has_a_plan_that_keeps_clear_of_floor_and_arm() {
         for scale in [0.25, 1.0, 4.0] {
             let robot = arm(scale);
             let question = question(scale, Some(Floor::under_base()));
@@ -356,7 +356,7 @@ mod tests {
     }
 
     #[test]
-    fn an_arm_on_a_wall_or_a_ceiling_keeps_clear_of_that() {
+    fn an_arm_on_a_wall_or_a_ceiling_keeps_clear_of_it() {
         let robot = arm(1.0);
         let wall = Floor {
             up: -Vector3::x_axis(),
@@ -374,7 +374,7 @@ mod tests {
                 assert!(tool.dot(&floor.up) - floor.height > 0.14, "{floor:?}: {tool}");
             }
         }
-        // Under a floor that nothing comes above there is no room; without one there is the most.
+        // Under a floor that covers all positions no posture is free; without one all are.
         let deep = Floor {
             height: 10.0,
             ..Floor::under_base()
@@ -389,7 +389,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_of_the_sequence_fill_the_stretch_evenly() {
+    fn elements_of_the_sequence_are_distributed_evenly() {
         for prime in PRIMES {
             let all: Vec<f64> = (1..=400).map(|index| halton(index, prime)).collect();
             assert!(all.iter().all(|value| (0.0..1.0).contains(value)));

@@ -1,13 +1,13 @@
-//! What is known of any arm before a test: about how much its parts yield.
+//! Prior knowledge of any arm: typical compliances.
 //!
 //! Compliances are positive and differ by powers, so the knowledge is of their logarithms, normal with mean and
-//! standard uncertainty. A bending is told relative to the drive of its joint. Every prior is weak: a factor of 3 to 7
-//! either way is one standard uncertainty, and a few good tests outweigh it.
+//! standard uncertainty. A bending compliance is relative to the drive of its joint. Every prior is weak: a factor of 3
+//! to 7 either way is one standard uncertainty, and a few good tests outweigh it.
 //!
 //! | part | prior | from |
 //! |---|---|---|
-//! | drive that turns | 2e-6 rad/(N m), factor e^2 | middle of 6 to 250 kg arms, Shneor & Chapsky 2021 to KUKA KR210 |
-//! | drive that slides | 1e-8 m/N, factor e^2 | ball screw, 100 N/um |
+//! | revolute drive | 2e-6 rad/(N m), factor e^2 | middle of 6 to 250 kg arms, Shneor & Chapsky 2021 to KUKA KR210 |
+//! | prismatic drive | 1e-8 m/N, factor e^2 | ball screw, 100 N/um |
 //! | bending, floor | drive / 3.3, factor e^1.2 | geometric mean and spread of 12 ratios of Staubli TX200, Huynh et al. 2020 |
 //! | tool and holder | 3e-7 m/N, factor e^1.5 | holder 1.07e-7 and tool 9.34e-7 m/N of a roboforming cell, Sci. Rep. 14:20291 |
 //! | lost motion | 3e-5 rad, factor e | a tenth of an arc minute: reducers of industrial arms |
@@ -17,12 +17,12 @@ use nalgebra::{DMatrix, DVector};
 use super::unknown::{Role, Unknown};
 use crate::robot::Attachment;
 
-/// Whether anything is known beforehand.
+/// Kind of prior knowledge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Prior {
-    /// Arms are alike within powers of ten: the table of this module.
+    /// Typical compliances within powers of ten: the table of this module.
     Typical,
-    /// Nothing but that no compliance is negative.
+    /// None, except that no compliance is negative.
     None,
 }
 
@@ -38,7 +38,7 @@ pub struct LogPrior {
 }
 
 impl LogPrior {
-    /// These priors as rows over `count` unknowns, and what the rows should give; both over the standard uncertainties.
+    /// These priors as rows over `count` unknowns, and their values; both over the standard uncertainties.
     pub(super) fn rows(priors: &[LogPrior], count: usize) -> (DMatrix<f64>, DVector<f64>) {
         let mut rows = DMatrix::zeros(priors.len(), count);
         for (row, prior) in priors.iter().enumerate() {
@@ -53,7 +53,7 @@ impl LogPrior {
 
 /// Compliance of a drive, rad/(N m).
 pub const DRIVE: f64 = 2e-6;
-/// Compliance of a sliding drive, m/N.
+/// Compliance of a prismatic drive, m/N.
 pub const SLIDING_DRIVE: f64 = 1e-8;
 const DRIVE_FACTOR: f64 = 2.0;
 /// A bending is stiffer than its drive by this.
@@ -66,10 +66,14 @@ const TOOL_FACTOR: f64 = 1.5;
 const LOST_MOTION: f64 = 3e-5;
 const LOST_MOTION_FACTOR: f64 = 1.0;
 
-/// The typical prior, one row an unknown.
+/// The typical prior, one row per unknown.
 pub fn typical(unknowns: &[Unknown]) -> Vec<LogPrior> {
     let drive_of = |attachment: Attachment| {
-        let attachment = if attachment == Attachment::Base { Attachment::Joint(0) } else { attachment };
+        let attachment = if attachment == Attachment::Base {
+            Attachment::Joint(0)
+        } else {
+            attachment
+        };
         unknowns
             .iter()
             .position(|other| other.role == Role::Drive && other.turns() && other.attachment == attachment)
@@ -98,7 +102,7 @@ pub fn typical(unknowns: &[Unknown]) -> Vec<LogPrior> {
     unknowns.iter().enumerate().map(row).collect()
 }
 
-/// The middle of the typical prior, one value an unknown.
+/// The middle of the typical prior, one value per unknown.
 pub fn typical_sizes(unknowns: &[Unknown]) -> Vec<f64> {
     let size = |unknown: &Unknown| match unknown.role {
         Role::Drive if unknown.turns() => DRIVE,
@@ -158,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn the_middle_lies_at_no_distance_from_the_rows_and_a_factor_at_its_standard_uncertainty() {
+    fn the_middle_meets_all_rows_and_a_factor_deviates_by_its_standard_uncertainty() {
         let unknowns = [
             Unknown::about(Attachment::Joint(0), Axis::Z, Role::Drive),
             Unknown::about(Attachment::Joint(0), Axis::X, Role::Bending),
@@ -173,7 +177,7 @@ mod tests {
         for (k, prior) in priors.iter().enumerate() {
             let mut off = logs.clone();
             off[k] += prior.standard_uncertainty;
-            // Of its own row by one; a drive moves the bending that is told by it, too.
+            // Its own row by one; a drive also changes the bending that is relative to it.
             let away = &rows * &off - &requested;
             assert!((away[k] - 1.0).abs() < 1e-12, "{k}: {away}");
         }

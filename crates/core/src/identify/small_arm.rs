@@ -9,7 +9,7 @@ use crate::robot::chain::{Amount, Axis, Motion};
 use crate::robot::{Joint, Limits, Robot};
 use crate::spatial::Wrench;
 
-/// Reaches to 1 m times `scale` from its first axis.
+/// Reach of 1 m times `scale` from its first axis.
 pub(super) fn arm(scale: f64) -> Robot {
     let about = |axis, joint| Motion::About(axis, Amount::Joint(joint));
     let along = |axis, by: f64| Motion::Along(axis, Amount::Constant(by * scale));
@@ -44,8 +44,8 @@ pub(super) fn numbers(seed: u64) -> impl FnMut() -> f64 {
     }
 }
 
-/// So many tests of `arm(1.0)` with loads of some 300 N, each read along three axes with an error of up to `noise` (m), as
-/// `state` predicts them.
+/// This many tests of `arm(1.0)` with loads of some 300 N, each read along three axes with an error of up to `noise`
+/// (m), predicted by `state`.
 pub(super) fn tests(unknowns: &[Unknown], state: &State, count: usize, noise: f64) -> Vec<LoadTest> {
     let (robot, mut next) = (arm(1.0), numbers(11));
     let mut test = || {

@@ -1,33 +1,33 @@
-//! How far the unknowns can be trusted, and which of them the tests cannot tell apart.
+//! Uncertainty of the unknowns, and which of them are not distinguishable by the tests.
 //!
-//! With `D` the weighed rows of the tests and `P` those of the prior (both over their standard uncertainties):
+//! With `D` the weighted rows of the tests and `P` those of the prior (both over their standard uncertainties):
 //!
 //! - covariance `(D^T D + P^T P)^-1`;
 //! - share known from the tests, not the prior: `1 - [(D^T D + P^T P)^-1 P^T P]_kk`, from 0 to 1 (MacKay 1992);
-//! - a direction with `D v = 0` is one that no test sees.
+//! - a direction with `D v = 0` is not observable.
 //!
-//! Everything by symmetric eigenvalues of matrices with unit diagonal.
+//! All by symmetric eigenvalues of matrices with unit diagonal.
 
 use nalgebra::{DMatrix, DVector};
 
-/// Eigenvalues below this, of a matrix with unit diagonal, are rounding: such directions no test sees.
+/// Eigenvalues below this, of a matrix with unit diagonal, are rounding: such directions are not observable.
 const UNSEEN: f64 = 1e-11;
 /// Parts of a direction that are smaller than this share of its largest are rounding.
 const NAMED: f64 = 1e-3;
 
-/// Covariance and what is known from where.
+/// Covariance and the information by the tests.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Spread {
     /// Of the active unknowns; zero rows for the others.
     pub covariance: DMatrix<f64>,
-    /// Share known from the tests, 0 to 1, one an unknown.
+    /// Share of the information from the tests, 0 to 1, one per unknown.
     pub known: Vec<f64>,
-    /// Sets of unknowns of which no test tells more than a sum; a single one is seen by no test.
+    /// Sets of unknowns of which only a sum is identifiable; a single one has no effect on any test.
     pub together: Vec<Vec<usize>>,
 }
 
 impl Spread {
-    /// From the rows of tests and prior; unknowns that are not active stand at their bound.
+    /// From the rows of tests and prior; unknowns that are not active are at their bound.
     pub fn of(tests: &DMatrix<f64>, prior: &DMatrix<f64>, active: &[bool]) -> Spread {
         let count = tests.ncols();
         let seen_by_tests = tests.tr_mul(tests);
@@ -54,7 +54,7 @@ impl Spread {
     }
 }
 
-/// Scaled to unit diagonal: the matrix and what it was scaled by.
+/// Scaled to unit diagonal: the matrix and its scales.
 fn unit_diagonal(matrix: &DMatrix<f64>) -> (DMatrix<f64>, DVector<f64>) {
     let scale = matrix
         .diagonal()
@@ -71,7 +71,7 @@ fn pseudo_inverse(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     }
     let (scaled, scale) = unit_diagonal(matrix);
     let eigen = scaled.symmetric_eigen();
-    // A direction that neither tests nor prior see is uncertain beyond all others, not certain.
+    // A direction that neither tests nor prior determine has the largest uncertainty, not zero.
     let zero = UNSEEN * 1e-3;
     let inverse = eigen.eigenvalues.map(|v| 1.0 / v.max(zero));
     let whole = &eigen.eigenvectors * DMatrix::from_diagonal(&inverse) * eigen.eigenvectors.transpose();
@@ -80,7 +80,7 @@ fn pseudo_inverse(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     })
 }
 
-/// Directions that no test sees: first single unknowns, then sets that go together.
+/// Directions that are not observable: first single unknowns, then sets.
 fn unseen(seen: &DMatrix<f64>) -> Vec<Vec<usize>> {
     let count = seen.nrows();
     let mut found: Vec<Vec<usize>> = (0..count)
@@ -102,7 +102,7 @@ fn unseen(seen: &DMatrix<f64>) -> Vec<Vec<usize>> {
         }
     }
     found.sort();
-    // Of several directions in one set each shows the whole set.
+    // With several directions in one set each shows the whole set.
     found.dedup();
     found
 }
@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn other_units_of_an_unknown_change_its_own_rows_alone() {
+    fn other_units_of_an_unknown_change_only_its_own_rows() {
         let tests = DMatrix::from_row_slice(
             4,
             3,
@@ -166,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn an_unknown_at_its_bound_is_sure_and_makes_the_others_surer() {
+    fn an_unknown_at_its_bound_is_fixed_and_reduces_the_uncertainty_of_the_others() {
         let tests = DMatrix::from_row_slice(3, 2, &[1.0, 0.0, 1.0, 1.0, 1.0, 2.0]);
         let none = DMatrix::zeros(0, 2);
         let both = Spread::of(&tests, &none, &[true; 2]);

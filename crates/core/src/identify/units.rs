@@ -1,4 +1,4 @@
-//! Are the units of load tests right? Measured displacements beside those of a typical arm.
+//! Plausibility of the units of load tests: measured displacements compared with those of a typical arm.
 
 use super::effect::{Effects, State};
 use super::load_test::LoadTest;
@@ -30,7 +30,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn readings_in_other_units_show_as_the_factor_between_them() {
+    fn readings_in_other_units_show_the_factor_between_them() {
         let robot = arm(1.0);
         let unknowns = drives(&robot);
         let typical = tests(&unknowns, &State::typical(&unknowns), 7, 0.0);
@@ -46,7 +46,7 @@ mod tests {
     }
 
     #[test]
-    fn where_nothing_is_measured_or_nothing_pushes_there_is_nothing_to_compare() {
+    fn without_readings_or_loads_there_is_no_factor() {
         let robot = arm(1.0);
         let mut still = tests(&drives(&robot), &State::typical(&drives(&robot)), 3, 0.0);
         for test in &mut still {

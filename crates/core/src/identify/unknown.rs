@@ -1,55 +1,56 @@
-//! The springs that load tests are asked for.
+//! The springs to be identified from load tests.
 //!
-//! Each unknown sits at a **seat** and moves all that comes after it by a **direction**, a twist at the seat's origin
-//! in the seat's axes. Under a wrench it gives way by `x = c g(tau)`, with `tau` the work of the wrench on its screw:
+//! Each unknown has an **attachment** and moves everything after it along a **direction**, a twist at the origin of the
+//! attachment, in its axes. Under a wrench it deflects by `x = c g(tau)`, with `tau` the work of the wrench on its
+//! screw:
 //!
 //! | role | `g(tau)` | unit of `c` |
 //! |---|---|---|
-//! | spring that turns | `tau` | rad/(N m) |
-//! | spring that slides | `tau` | m/N |
-//! | lost motion | `tanh(tau / tau_0)` | rad: half the gap |
+//! | rotational spring | `tau` | rad/(N m) |
+//! | translational spring | `tau` | m/N |
+//! | lost motion | `tanh(tau / tau_0)` | rad: half the backlash |
 //!
-//! The seat of a joint is the frame right after the joint's motion.
+//! The attachment of a joint is the frame right after the joint's motion.
 
 use nalgebra::Vector3;
 
 use crate::robot::chain::{Axis, Motion};
-use crate::robot::forward::{Frames, forward, joint_axis};
 use crate::robot::deflected_arm::{attachment_frame, spring_screw};
-use crate::robot::{Robot, Attachment};
+use crate::robot::forward::{Frames, forward, joint_axis};
+use crate::robot::{Attachment, Robot};
 use crate::spatial::Twist;
 
-/// What yields there.
+/// The part that deflects.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Role {
     /// The drive of a joint, control loop included.
     Drive,
-    /// A bearing or link beside its drive.
+    /// A bearing or link, in addition to its drive.
     Bending,
     /// The floor under the arm.
     Base,
     /// Tool and holder.
     Tool,
-    /// The gap in a drive, taken up by a torque of about `torque` (N m, or N).
+    /// The backlash of a drive, taken up by a torque of about `torque` (N m, or N).
     LostMotion {
         /// `tau_0`.
         torque: f64,
     },
 }
 
-/// One spring or gap whose size is asked.
+/// One spring or backlash of unknown size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unknown {
-    /// Where it sits.
+    /// Its attachment.
     pub attachment: Attachment,
-    /// How it moves what comes after it, per unit: a twist at the seat's origin, in the seat's axes.
+    /// Its direction, per unit: a twist at the origin of the attachment, in its axes.
     pub direction: Twist,
-    /// What it is.
+    /// Its role.
     pub role: Role,
 }
 
 impl Unknown {
-    /// A spring that turns about an axis of its seat.
+    /// A rotational spring about an axis of its attachment.
     pub fn about(attachment: Attachment, axis: Axis, role: Role) -> Unknown {
         let direction = Twist {
             linear: Vector3::zeros(),
@@ -62,7 +63,7 @@ impl Unknown {
         }
     }
 
-    /// A spring that slides along an axis of its seat.
+    /// A translational spring along an axis of its attachment.
     pub fn along(attachment: Attachment, axis: Axis, role: Role) -> Unknown {
         let direction = Twist {
             linear: axis.unit(),
@@ -75,7 +76,7 @@ impl Unknown {
         }
     }
 
-    /// Whether it turns; a spring that slides has its compliance in m/N.
+    /// Whether it is rotational; a translational spring has its compliance in m/N.
     pub fn turns(&self) -> bool {
         self.direction.angular != Vector3::zeros()
     }
@@ -83,13 +84,13 @@ impl Unknown {
     /// Its screw at the flange origin in base axes.
     pub fn screw_at_flange(&self, frames: &Frames) -> Twist {
         let flange = &frames.base_from_flange;
-        // Tests are told in the flange frame: a tool sits on it as it is.
+        // Tests are given in the flange frame: the tool is included.
         let base_from_attachment = attachment_frame(self.attachment, frames, flange);
         spring_screw(&self.direction, &base_from_attachment, flange.translation.vector)
     }
 
     /// `g(tau)` and its derivative.
-    pub fn gives_way(&self, torque: f64) -> (f64, f64) {
+    pub fn force_law(&self, torque: f64) -> (f64, f64) {
         match self.role {
             Role::LostMotion { torque: to_close } => {
                 let closed = (torque / to_close).tanh();
@@ -111,9 +112,9 @@ pub fn drives(robot: &Robot) -> Vec<Unknown> {
         .collect()
 }
 
-/// Bending of every turning joint about the two axes of its frame beside its own.
+/// Bending of every revolute joint about the two other axes of its frame.
 ///
-/// A bending that lies on the axis of the next drive is left out: nothing tells the two apart.
+/// A bending about the axis of the next drive is left out: the two are not distinguishable.
 pub fn bending(robot: &Robot) -> Vec<Unknown> {
     let mut found = Vec::new();
     for (index, link) in robot.chain().links().iter().enumerate() {
@@ -130,7 +131,7 @@ pub fn bending(robot: &Robot) -> Vec<Unknown> {
     found
 }
 
-/// The floor: turns about the base axes, without the one that is the axis of the first drive.
+/// The floor: rotations about the base axes, without the one that is the axis of the first drive.
 pub fn base(robot: &Robot) -> Vec<Unknown> {
     [Axis::X, Axis::Y, Axis::Z]
         .map(|axis| Unknown::about(Attachment::Base, axis, Role::Base))
@@ -139,14 +140,14 @@ pub fn base(robot: &Robot) -> Vec<Unknown> {
         .collect()
 }
 
-/// Tool and holder: slides along the axes of the flange.
+/// Tool and holder: translations along the axes of the flange.
 pub fn tool() -> Vec<Unknown> {
     [Axis::X, Axis::Y, Axis::Z]
         .map(|axis| Unknown::along(Attachment::Flange, axis, Role::Tool))
         .to_vec()
 }
 
-/// Lost motion of every turning drive, taken up by these torques (N m), one a joint.
+/// Lost motion of every revolute drive, taken up by these torques (N m), one per joint.
 pub fn lost_motion(robot: &Robot, torques: &[f64]) -> Vec<Unknown> {
     drives(robot)
         .into_iter()
@@ -159,10 +160,10 @@ pub fn lost_motion(robot: &Robot, torques: &[f64]) -> Vec<Unknown> {
         .collect()
 }
 
-/// Axes nearer than this (m, rad) are one axis: far below any tolerance of a casting.
+/// Axes closer than this (m, rad) are one axis: far below any tolerance of a casting.
 const SAME_AXIS: f64 = 1e-9;
 
-/// Whether `spring`, which sits on the link before joint `index`, turns about that joint's axis. Both stand still in
+/// Whether `spring`, attached to the link before joint `index`, turns about that joint's axis. Both are fixed in
 /// that link, so one posture decides.
 fn is_drive(robot: &Robot, index: usize, spring: &Unknown) -> bool {
     if !matches!(
@@ -220,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn what_no_test_can_tell_from_a_drive_is_not_asked() {
+    fn springs_that_are_not_distinguishable_from_a_drive_are_left_out() {
         let robot = arm();
         // Of twelve, three are drives: 3 about x is drive 4, 4 about y drive 5, 5 about x drive 6.
         assert_eq!(bending(&robot).len(), 9);
@@ -228,18 +229,21 @@ mod tests {
             .into_iter()
             .filter(|spring| spring.attachment == Attachment::Joint(3))
             .collect();
-        assert_eq!(of_4, [Unknown::about(Attachment::Joint(3), Axis::Z, Role::Bending)]);
+        assert_eq!(
+            of_4,
+            [Unknown::about(Attachment::Joint(3), Axis::Z, Role::Bending)]
+        );
         // The floor turns about x and y; about z it is the first drive.
         assert_eq!(base(&robot).len(), 2);
     }
 
     #[test]
-    fn lost_motion_closes_its_gap_and_no_more() {
+    fn lost_motion_is_limited_to_its_backlash() {
         let gap = lost_motion(&arm(), &[50.0; 6])[0];
-        assert_eq!(gap.gives_way(0.0).0, 0.0);
-        assert!((gap.gives_way(-500.0).0 + 1.0).abs() < 1e-8);
-        let (at, slope) = gap.gives_way(20.0);
-        let difference = (gap.gives_way(20.0 + 1e-4).0 - at) / 1e-4;
+        assert_eq!(gap.force_law(0.0).0, 0.0);
+        assert!((gap.force_law(-500.0).0 + 1.0).abs() < 1e-8);
+        let (at, slope) = gap.force_law(20.0);
+        let difference = (gap.force_law(20.0 + 1e-4).0 - at) / 1e-4;
         assert!((slope - difference).abs() < 1e-6, "{slope} against {difference}");
     }
 }

@@ -1,48 +1,51 @@
-//! What comes out at every point.
+//! Results at every point.
 
 use nalgebra::{Unit, Vector3};
 
 use super::question::Question;
-use crate::robot::{PostureName, Attachment, Singularity, Unreachable};
+use crate::robot::{PostureName, Singularity, Unreachable};
+use crate::source::Contributor;
 use crate::workpiece::Split;
 
-/// How far (rad) outside a limit still counts as at it: rounding of a joint that stands at its limit.
+/// Tolerance (rad) at a limit: rounding of a joint that is at its limit.
 pub const AT_LIMIT: f64 = 1e-9;
 
-/// Deviations that differ by less than this, relative, differ by rounding alone.
+/// Deviations that differ by less than this (relative) differ by rounding only.
 const SAME: f64 = 1e-10;
 
-/// A point where the arm holds the tool. Lengths m, angles rad.
+/// A point that the arm reaches. Lengths m, angles rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Held {
-    /// In this posture.
+pub struct Evaluation {
+    /// The posture.
     pub name: PostureName,
-    /// Least distance of a joint to its limit, negative outside; infinite where no joint has limits.
+    /// Smallest distance of a joint to its limit, negative outside; infinite where no joint has limits.
     pub limit_margin: f64,
-    /// Which joint that is.
+    /// The joint with this distance.
     pub limit_joint: usize,
-    /// Near which singularity, if any.
+    /// The singularity that the posture is near to, if any.
     pub singularity: Option<Singularity>,
     /// Load case with the largest in-plane deviation.
-    pub deciding_case: usize,
+    pub worst_case: usize,
     /// Largest in-plane deviation of all cases.
     pub in_plane: f64,
-    /// Its standard uncertainty: from compliances, load and tool as far as they are known, and the arm's repeatability.
+    /// Its standard uncertainty: from compliances, load and tool as far as these are known, and the repeatability of
+    /// the arm.
     pub in_plane_uncertainty: f64,
-    /// Deviation along the outward normal, of the case where it is largest in size.
+    /// Deviation along the outward normal, of the load case where its magnitude is largest.
     pub normal: f64,
-    /// Largest length of the deviation of all cases.
+    /// Largest magnitude of the deviation of all load cases.
     pub full: f64,
 }
 
-impl Held {
-    /// Takes in the deviations of the load cases (m, base): what they are along and across `normal`, and which decides.
+impl Evaluation {
+    /// Sets the envelope from the deviations of the load cases (m, base): the parts along and across `normal`, and the
+    /// worst case.
     pub(super) fn take_envelope(&mut self, deviations: &[Vector3<f64>], normal: Unit<Vector3<f64>>) {
-        (self.in_plane, self.normal, self.full, self.deciding_case) = (0.0, 0.0, 0.0, 0);
+        (self.in_plane, self.normal, self.full, self.worst_case) = (0.0, 0.0, 0.0, 0);
         for (case, deviation) in deviations.iter().enumerate() {
             let split = Split::of(deviation, normal);
             if split.in_plane > self.in_plane {
-                (self.in_plane, self.deciding_case) = (split.in_plane, case);
+                (self.in_plane, self.worst_case) = (split.in_plane, case);
             }
             if split.normal.abs() > self.normal.abs() {
                 self.normal = split.normal;
@@ -51,38 +54,39 @@ impl Held {
         }
     }
 
-    /// Whether every joint stands inside its limits.
+    /// Whether every joint is inside its limits.
     pub fn within_limits(&self) -> bool {
         self.limit_margin >= -AT_LIMIT
     }
 }
 
-/// Answers at many points, by point index; arrays of several values a point are flat.
+/// Answers at many points, by point index; arrays with several values per point are flat.
 #[derive(Clone, Debug)]
 pub struct Answers {
-    /// How the arm holds the tool, or why it cannot.
-    pub points: Vec<Result<Held, Unreachable>>,
-    /// Joint positions, `joint_count` a point, rad; zeros where unreachable.
+    /// Evaluation of each point, or why it is unreachable.
+    pub points: Vec<Result<Evaluation, Unreachable>>,
+    /// Joint positions, `joint_count` per point, rad; zeros where unreachable.
     pub joints: Vec<f64>,
-    /// Deviation (m, base) under each load case, `case_count` a point; zeros where unreachable.
+    /// Deviation (m, base) under each load case, `case_count` per point; zeros where unreachable.
     pub deviations: Vec<Vector3<f64>>,
-    /// Share of each joint, then of base, flange and tool where springs sit, in `in_plane` (m), `share_count` a point:
-    /// its part along the in-plane deviation of the deciding case. The shares of a point add up to its `in_plane`; under a
-    /// load-dependent model in first order.
+    /// Share of each joint, then of base, flange and tool if they have springs, in `in_plane` (m), `share_count` per
+    /// point: its part along the in-plane deviation of the worst case. The shares of a point add up to its `in_plane`;
+    /// for a load-dependent model in first order.
     pub shares: Vec<f64>,
-    /// Joints of the robot.
+    /// Number of joints of the robot.
     pub joint_count: usize,
-    /// Load cases.
+    /// Number of load cases.
     pub case_count: usize,
-    /// Whom shares are told for: [`crate::source::StiffnessModel::contributors`].
+    /// Number of contributors: [`crate::source::StiffnessModel::contributors`].
     pub share_count: usize,
 }
 
 impl Answers {
-    /// Room for the answers of `question` at so many points, each unanswered; without shares where none are told.
-    pub(super) fn new(question: &Question<'_>, count: usize, given: Told) -> Answers {
+    /// Allocates the answers of `question` at this number of points, all unanswered; without shares where these are not
+    /// requested.
+    pub(super) fn new(question: &Question<'_>, count: usize, detail: AnswerDetail) -> Answers {
         let (joint_count, case_count) = (question.arm.robot.joints().len(), question.cases.len());
-        let share_count = given.contributors(question).len();
+        let share_count = detail.contributors(question).len();
         Answers {
             points: vec![UNANSWERED; count],
             joints: vec![0.0; count * joint_count],
@@ -94,10 +98,10 @@ impl Answers {
         }
     }
 
-    /// The answers to one question at stretches of points, one behind the other; at least one.
+    /// Joins the answers to one question at consecutive stretches of points; at least one.
     pub(crate) fn joined(stretches: Vec<Answers>) -> Answers {
         let mut stretches = stretches.into_iter();
-        let mut joined = stretches.next().expect("one stretch at least");
+        let mut joined = stretches.next().expect("at least one stretch");
         for more in stretches {
             joined.points.extend(more.points);
             joined.joints.extend(more.joints);
@@ -107,9 +111,9 @@ impl Answers {
         joined
     }
 
-    /// Moves the tool at point `index`, where it is held, by as much more under each load case (m, base), seen on a plane
-    /// with this normal. Shares are not told of such answers.
-    pub(crate) fn move_on(&mut self, index: usize, by: &[Vector3<f64>], normal: Unit<Vector3<f64>>) {
+    /// Adds a displacement of the tool under each load case (m, base) at point `index`, if it is reachable, split on a
+    /// plane with this normal. Only for answers without shares.
+    pub(crate) fn add_displacement(&mut self, index: usize, by: &[Vector3<f64>], normal: Unit<Vector3<f64>>) {
         assert_eq!(self.share_count, 0, "shares would no longer add up");
         let deviations = &mut self.deviations[index * self.case_count..][..self.case_count];
         if let Ok(evaluation) = &mut self.points[index] {
@@ -120,7 +124,7 @@ impl Answers {
         }
     }
 
-    /// Where the answers go, in blocks of so many points.
+    /// Output slots, in blocks of this number of points.
     pub(super) fn blocks(&mut self, size: usize) -> Vec<Slots<'_>> {
         let mut rest = Slots {
             points: &mut self.points,
@@ -137,9 +141,9 @@ impl Answers {
         blocks
     }
 
-    /// Memory that the answers at one point take, bytes.
+    /// Memory for the answers at one point, bytes.
     pub fn bytes_per_point(joint_count: usize, share_count: usize, case_count: usize) -> usize {
-        size_of::<Result<Held, Unreachable>>() + 8 * (joint_count + share_count) + 24 * case_count
+        size_of::<Result<Evaluation, Unreachable>>() + 8 * (joint_count + share_count) + 24 * case_count
     }
 
     /// Joint positions at point `index`, rad.
@@ -147,7 +151,7 @@ impl Answers {
         &self.joints[index * self.joint_count..][..self.joint_count]
     }
 
-    /// Deviations at point `index`, one a load case, m, base.
+    /// Deviations at point `index`, one per load case, m, base.
     pub fn deviations_at(&self, index: usize) -> &[Vector3<f64>] {
         &self.deviations[index * self.case_count..][..self.case_count]
     }
@@ -157,28 +161,29 @@ impl Answers {
         &self.shares[index * self.share_count..][..self.share_count]
     }
 
-    /// The point with the largest in-plane deviation, if any point is reached. Of points that differ by rounding alone (a
-    /// plane and its mirror image) it is the first, on every machine.
-    pub fn worst(&self) -> Option<(usize, &Held)> {
+    /// The point with the largest in-plane deviation, if any point is reachable. Of points that differ by rounding only
+    /// (a plane and its mirror image), it is the first one on every machine.
+    pub fn worst(&self) -> Option<(usize, &Evaluation)> {
         let most = self
-            .evaluation()
+            .evaluations()
             .map(|(_, evaluation)| evaluation.in_plane)
             .max_by(f64::total_cmp)?;
-        self.evaluation().find(|(_, evaluation)| evaluation.in_plane >= most * (1.0 - SAME))
+        self.evaluations()
+            .find(|(_, evaluation)| evaluation.in_plane >= most * (1.0 - SAME))
     }
 
-    /// The point with the least in-plane deviation, if any point is reached; of equal ones the first, likewise.
-    pub fn best(&self) -> Option<(usize, &Held)> {
+    /// The point with the smallest in-plane deviation, if any point is reachable; of equal ones the first.
+    pub fn best(&self) -> Option<(usize, &Evaluation)> {
         let least = self
-            .evaluation()
+            .evaluations()
             .map(|(_, evaluation)| evaluation.in_plane)
             .min_by(f64::total_cmp)?;
-        self.evaluation()
+        self.evaluations()
             .find(|(_, evaluation)| evaluation.in_plane <= least * (1.0 + SAME))
     }
 
-    /// The points where the arm holds the tool, with their index.
-    pub fn evaluation(&self) -> impl Iterator<Item = (usize, &Held)> {
+    /// The reachable points, with their index.
+    pub fn evaluations(&self) -> impl Iterator<Item = (usize, &Evaluation)> {
         self.points
             .iter()
             .enumerate()
@@ -186,38 +191,39 @@ impl Answers {
     }
 }
 
-/// What a point holds until it is answered.
-const UNANSWERED: Result<Held, Unreachable> = Err(Unreachable::OtherBranch);
+/// Value of a point before it is answered.
+const UNANSWERED: Result<Evaluation, Unreachable> = Err(Unreachable::OtherBranch);
 
-/// What is told of a point beside its posture and its deviations.
+/// What is computed at a point in addition to its posture and deviations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Told {
-    /// Who made the deviation of the deciding case, and how sure it is; of all that moves the tool.
+pub(super) enum AnswerDetail {
+    /// Shares of the contributors in the deviation of the worst case, and its uncertainty; backlash and geometry are
+    /// included.
     Shares,
-    /// Nothing more, and of what the load does alone.
+    /// Nothing more, and the effect of the load only.
     DeviationsAlone,
 }
 
-impl Told {
-    /// Whom shares are told for.
-    pub fn contributors(self, question: &Question<'_>) -> Vec<Attachment> {
+impl AnswerDetail {
+    /// The contributors that shares are computed for.
+    pub fn contributors(self, question: &Question<'_>) -> Vec<Contributor> {
         match self {
-            Told::Shares => question.arm.model.contributors(question.arm.robot.joints().len()),
-            Told::DeviationsAlone => Vec::new(),
+            AnswerDetail::Shares => question.arm.model.contributors(question.arm.robot.joints().len()),
+            AnswerDetail::DeviationsAlone => Vec::new(),
         }
     }
 }
 
-/// Where the answers of a block of points go; as many values a point as [`Answers`] have.
+/// Output of a block of points; as many values per point as [`Answers`] has.
 pub(super) struct Slots<'a> {
-    pub points: &'a mut [Result<Held, Unreachable>],
+    pub points: &'a mut [Result<Evaluation, Unreachable>],
     pub joints: &'a mut [f64],
     pub deviations: &'a mut [Vector3<f64>],
     pub shares: &'a mut [f64],
 }
 
 impl<'a> Slots<'a> {
-    /// The first points, `count` or as many as there are, and the rest.
+    /// The first points, `count` or as many as there are, and the remaining ones.
     fn split(self, count: usize) -> (Slots<'a>, Slots<'a>) {
         let all = self.points.len();
         let count = count.min(all);
@@ -241,7 +247,7 @@ impl<'a> Slots<'a> {
         (first, rest)
     }
 
-    /// Where the answer of one point of the block goes.
+    /// Output of one point of the block.
     pub fn at(&mut self, index: usize) -> Slot<'_> {
         let all = self.points.len();
         let [joints, cases, shares] =
@@ -255,9 +261,9 @@ impl<'a> Slots<'a> {
     }
 }
 
-/// Where the answer of one point goes.
+/// Output of one point.
 pub(super) struct Slot<'a> {
-    pub point: &'a mut Result<Held, Unreachable>,
+    pub point: &'a mut Result<Evaluation, Unreachable>,
     pub joints: &'a mut [f64],
     pub deviations: &'a mut [Vector3<f64>],
     pub shares: &'a mut [f64],

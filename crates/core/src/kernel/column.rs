@@ -4,13 +4,13 @@
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | `d` | deviation that counts | m |
-//! | `a`, `b` | directions that it counts along, base ([`Push::along`]) | - |
-//! | `delta` | elastic deviation of the tip and what gravity adds ([`crate::predict`]); [by itself](Columns::by_themselves) all that moves it | m |
+//! | `d` | selected component of the deviation | m |
+//! | `a`, `b` | directions of this component, base ([`ColumnLoad::along`]) | - |
+//! | `delta` | elastic deviation of the tip, with gravity ([`crate::predict`]); [at single points](Columns::at_single_points) with backlash and geometry | m |
 //!
-//! A column is made for the poses of one point of a path with the tool turned about its axis: all feel the same forces.
-//! Ortho-parallel arms that yield at their drives alone go through lanes, a block of turns at once; any other arm takes
-//! one pose after the other. Both tell the same to rounding (`tests`).
+//! A column contains the poses of one point of a path with the tool turned about its axis: all have the same forces.
+//! Ortho-parallel arms whose only springs are the drives go through lanes, a block of turns at once; any other arm is
+//! computed one pose after the other. Both agree to rounding (`tests`).
 
 use nalgebra::Vector3;
 
@@ -20,122 +20,121 @@ use super::question::Question;
 use crate::frame::Isometry;
 use crate::predict::deviation_of;
 use crate::robot::forward::{Frames, forward_into, joint_axis};
-use crate::robot::inverse::{Finder, Found, Wanted};
+use crate::robot::inverse::{Finder, InverseSolution, InverseTarget};
 use crate::robot::{Branch, Joint, PostureName, Robot, Singularity};
-use crate::source::{Arm, Links, ArmState};
+use crate::source::{Arm, ArmState, Links};
 use crate::spatial::{Twist, Wrench};
 
-/// Postures a pose has room for; arms without names of branches keep the first so many that are found.
+/// Number of postures stored for a pose. Of arms without branch names, the first postures found are stored.
 pub const SLOTS: usize = 8;
 
-/// What pushes, and what of the deviation counts.
+/// The load, and the component of the deviation.
 #[derive(Clone, Copy, Debug)]
-pub struct Push<'a> {
+pub struct ColumnLoad<'a> {
     /// Wrenches on the tool at the TCP, base; at least one.
     pub cases: &'a [Wrench],
-    /// Directions that the deviation counts along, base; of length 1, or 0 where one is enough.
+    /// Directions of the component of the deviation, base; of length 1, or 0 where one is enough.
     pub along: [Vector3<f64>; 2],
 }
 
-/// Whether a posture may stand for a pose.
+/// Whether a posture can be used at a pose.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Stand {
+pub enum PostureStatus {
     /// Inside its limits, away from singularities.
-    Holds,
+    Usable,
     /// A joint is outside its limits.
     OutsideLimits,
-    /// Joints 4 and 6 are nearer to one line than asked, or the arm near another singularity.
+    /// The angle between axes 4 and 6 is below the limit, or the arm is near another singularity.
     Singular,
-    /// The arm gives way without bound under the load.
+    /// The arm has no stable equilibrium under the load.
     Unstable,
     /// The pose is out of reach in this posture.
     #[default]
     OutOfReach,
 }
 
-impl Stand {
-    /// Every one, what holds first.
-    pub const ALL: [Stand; 5] = [
-        Stand::Holds,
-        Stand::OutsideLimits,
-        Stand::Singular,
-        Stand::Unstable,
-        Stand::OutOfReach,
+impl PostureStatus {
+    /// All, the usable one first.
+    pub const ALL: [PostureStatus; 5] = [
+        PostureStatus::Usable,
+        PostureStatus::OutsideLimits,
+        PostureStatus::Singular,
+        PostureStatus::Unstable,
+        PostureStatus::OutOfReach,
     ];
 
-    /// Its word in results.
+    /// Name in results.
     pub fn word(self) -> &'static str {
         match self {
-            Stand::Holds => "holds",
-            Stand::OutsideLimits => "outside_joint_limits",
-            Stand::Singular => "singular",
-            Stand::Unstable => "unstable",
-            Stand::OutOfReach => "out_of_reach",
+            PostureStatus::Usable => "usable",
+            PostureStatus::OutsideLimits => "outside_joint_limits",
+            PostureStatus::Singular => "singular",
+            PostureStatus::Unstable => "unstable",
+            PostureStatus::OutOfReach => "out_of_reach",
         }
     }
 }
 
-/// The postures of some poses: [`SLOTS`] a pose, pose after pose.
+/// The postures of some poses: [`SLOTS`] per pose, pose after pose.
 #[derive(Clone, Debug, Default)]
 pub struct Column {
-    /// Whether each may stand.
-    pub stands: Vec<Stand>,
-    /// Deviation that counts, m; infinite where it does not stand.
+    /// Whether each posture can be used.
+    pub statuses: Vec<PostureStatus>,
+    /// Selected component of the deviation, m; infinite where the posture cannot be used.
     pub deviations: Vec<f64>,
-    /// Joint positions, rad (m of a sliding joint), as many as the robot has; what stands there where nothing holds is of
-    /// no meaning.
+    /// Joint positions, rad (m of a prismatic joint), as many as the robot has. Not defined where no posture was found.
     pub joints: Vec<f64>,
 }
 
 impl Column {
-    /// Joint positions of posture `slot`, counted through all poses, of an arm with so many joints.
+    /// Joint positions of posture `slot`, with slots numbered through all poses, of an arm with this number of joints.
     pub fn joints_of(&self, slot: usize, joint_count: usize) -> &[f64] {
         &self.joints[slot * joint_count..][..joint_count]
     }
 
-    /// Lets posture `slot` stand at no pose.
+    /// Excludes posture `slot` at every pose.
     pub(crate) fn forbid(&mut self, slot: usize) {
-        for at in (slot..self.stands.len()).step_by(SLOTS) {
-            self.stands[at] = Stand::OutOfReach;
+        for at in (slot..self.statuses.len()).step_by(SLOTS) {
+            self.statuses[at] = PostureStatus::OutOfReach;
             self.deviations[at] = f64::INFINITY;
         }
     }
 
     fn clear(&mut self, poses: usize, joint_count: usize) {
-        self.stands.clear();
-        self.stands.resize(poses * SLOTS, Stand::OutOfReach);
+        self.statuses.clear();
+        self.statuses.resize(poses * SLOTS, PostureStatus::OutOfReach);
         self.deviations.clear();
         self.deviations.resize(poses * SLOTS, f64::INFINITY);
         self.joints.resize(poses * SLOTS * joint_count, 0.0);
     }
 }
 
-/// Makes columns; one a thread.
+/// Computes columns; one per thread.
 pub struct Columns<'q> {
-    keeping: Keeping<'q>,
-    way: Way<'q>,
+    margins: ArmMargins<'q>,
+    method: ColumnMethod<'q>,
 }
 
-/// The arm, and how far it keeps from where it may not stand.
+/// The arm, and the margins to limits and singularities.
 #[derive(Clone, Copy)]
-struct Keeping<'q> {
+struct ArmMargins<'q> {
     arm: Arm<'q>,
     home: Option<&'q [f64]>,
-    /// Least bend of the wrist, rad.
+    /// Smallest bend of the wrist, rad.
     wrist: f64,
-    /// Least distance of every joint that turns from its limits, and of the elbow from stretched, rad.
+    /// Smallest distance of every revolute joint from its limits, and of the elbow from stretched, rad.
     margin: f64,
 }
 
 /// By lanes or one after the other.
-enum Way<'q> {
+enum ColumnMethod<'q> {
     Lanes(Box<Batch<f64>>),
     General(Box<OneByOne<'q>>),
 }
 
 impl<'q> Columns<'q> {
-    /// For this arm; a wrist bent by less than `wrist` (rad) from the line counts as singular, as does what a posture is
-    /// flagged with.
+    /// For this arm. A wrist with a bend below `wrist` (rad) is singular, as is a posture that the inverse kinematics
+    /// flags as singular.
     ///
     /// `home`: see [`Question::home`].
     pub fn new(arm: Arm<'q>, home: Option<&'q [f64]>, wrist: f64) -> Columns<'q> {
@@ -143,66 +142,67 @@ impl<'q> Columns<'q> {
         let lanes = arm.robot.ortho_parallel().filter(|_| arm.model.is_drives_alone());
         match lanes {
             Some(form) => Columns {
-                keeping: Keeping {
+                margins: ArmMargins {
                     arm,
                     home,
                     wrist,
                     margin: 0.0,
                 },
-                way: Way::Lanes(Box::new(Batch::new(&question, form, Backend::fastest()))),
+                method: ColumnMethod::Lanes(Box::new(Batch::new(&question, form, Backend::fastest()))),
             },
             None => Columns::one_by_one(arm, home, [wrist, 0.0]),
         }
     }
 
-    /// [`Columns::new`] for points that no path joins: backlash and geometry count as [`super::evaluate`] has them.
-    pub fn by_themselves(arm: Arm<'q>, home: Option<&'q [f64]>, wrist: f64) -> Columns<'q> {
-        if !arm.model.moves_unloaded() {
+    /// [`Columns::new`] for points that are not on a path: backlash and geometry are included as in
+    /// [`super::evaluate`].
+    pub fn at_single_points(arm: Arm<'q>, home: Option<&'q [f64]>, wrist: f64) -> Columns<'q> {
+        if !arm.model.has_unloaded_deviation() {
             return Columns::new(arm, home, wrist);
         }
         let mut columns = Columns::one_by_one(arm, home, [wrist, 0.0]);
-        if let Way::General(one_by_one) = &mut columns.way {
-            one_by_one.placement = Some(vec![0.0; arm.robot.joints().len()]);
+        if let ColumnMethod::General(one_by_one) = &mut columns.method {
+            one_by_one.link_offsets = Some(vec![0.0; arm.robot.joints().len()]);
         }
         columns
     }
 
-    /// [`Columns::new`] for any arm, one pose after the other; every joint also stays `margin` (rad) away from its limits, and
-    /// of an ortho-parallel arm the elbow so far from stretched and folded.
+    /// [`Columns::new`] for any arm, one pose after the other. Every joint also keeps `margin` (rad) from its limits,
+    /// and the elbow of an ortho-parallel arm the same margin from stretched and folded.
     pub(super) fn one_by_one(
         arm: Arm<'q>,
         home: Option<&'q [f64]>,
         [wrist, margin]: [f64; 2],
     ) -> Columns<'q> {
         Columns {
-            keeping: Keeping {
+            margins: ArmMargins {
                 arm,
                 home,
                 wrist,
                 margin,
             },
-            way: Way::General(Box::new(OneByOne {
+            method: ColumnMethod::General(Box::new(OneByOne {
                 finder: Finder::new(arm.robot),
                 frames: Frames::for_robot(arm.robot),
                 arm_state: ArmState::new(arm),
                 tool_from_flange: arm.flange_from_tool.inverse(),
                 rail: None,
-                placement: None,
+                link_offsets: None,
             })),
         }
     }
 
-    /// Lets the first joint that slides stand at `at` (m) from here on; where the question says if that is `None`. Lanes have no
+    /// Fixes the first prismatic joint at `at` (m) from here on; `None`: where the question specifies it. Lanes have no
     /// rail.
-    pub(super) fn stand_rail(&mut self, at: Option<f64>) {
-        let Way::General(one_by_one) = &mut self.way else {
+    pub(super) fn set_rail(&mut self, at: Option<f64>) {
+        let ColumnMethod::General(one_by_one) = &mut self.method else {
             return;
         };
-        let robot = self.keeping.arm.robot;
+        let robot = self.margins.arm.robot;
         let rail = (0..robot.joints().len()).find(|joint| robot.slides(*joint));
         one_by_one.rail = at.zip(rail).map(|(at, rail)| {
             let middle = |joint: &Joint| joint.limits.map_or(0.0, |limits| limits.middle());
-            let mut home = match self.keeping.home {
+            let mut home = match self.margins.home {
                 Some(home) => home.to_vec(),
                 None => robot.joints().iter().map(middle).collect(),
             };
@@ -211,28 +211,28 @@ impl<'q> Columns<'q> {
         });
     }
 
-    /// Whether slots are branches, in the order of [`Branch::ALL`]; otherwise they are the postures that were found, of one
-    /// pose in another order than of the next.
+    /// Whether slots are branches, in the order of [`Branch::ALL`]; otherwise they are the postures found, in an order
+    /// that differs from pose to pose.
     pub fn slots_are_branches(&self) -> bool {
-        self.keeping.arm.robot.inverse().has_branches()
+        self.margins.arm.robot.inverse().has_branches()
     }
 
     /// Fills `out` with the postures of these poses under `push`.
-    pub fn fill(&mut self, poses: &[Isometry], push: &Push<'_>, out: &mut Column) {
-        let joint_count = self.keeping.arm.robot.joints().len();
+    pub fn fill(&mut self, poses: &[Isometry], push: &ColumnLoad<'_>, out: &mut Column) {
+        let joint_count = self.margins.arm.robot.joints().len();
         out.clear(poses.len(), joint_count);
-        match &mut self.way {
-            Way::Lanes(batch) => {
+        match &mut self.method {
+            ColumnMethod::Lanes(batch) => {
                 batch.push(push.cases, &push.along);
-                let least = self.keeping.wrist.sin().powi(2);
+                let least = self.margins.wrist.sin().powi(2);
                 for (block, poses) in poses.chunks(POINTS).enumerate() {
                     let first = block * POINTS;
                     batch.each_posture(poses, |four, of| {
                         for i in 0..poses.len() {
                             for flip in 0..2 {
                                 let slot = (first + i) * SLOTS + 2 * four + flip;
-                                out.stands[slot] = stand(of.flags[flip][i] as u32, of.bend2[i], least);
-                                if out.stands[slot] == Stand::Holds {
+                                out.statuses[slot] = status_of(of.flags[flip][i] as u32, of.bend2[i], least);
+                                if out.statuses[slot] == PostureStatus::Usable {
                                     out.deviations[slot] = of.deviation[i];
                                 }
                                 for (joint, plane) in
@@ -245,56 +245,56 @@ impl<'q> Columns<'q> {
                     });
                 }
             }
-            Way::General(one_by_one) => {
+            ColumnMethod::General(one_by_one) => {
                 for (i, pose) in poses.iter().enumerate() {
-                    one_by_one.pose(&self.keeping, pose, push, (i, out));
+                    one_by_one.pose(&self.margins, pose, push, (i, out));
                 }
             }
         }
     }
 }
 
-/// What the flags of lanes say, where the squared sine of the wrist's bend must not be below `least`.
-fn stand(flags: u32, bend2: f64, least: f64) -> Stand {
+/// Status from the flags of the lanes; the squared sine of the wrist's bend must be at least `least`.
+fn status_of(flags: u32, bend2: f64, least: f64) -> PostureStatus {
     let near = flag::WRIST_UNDECIDED | flag::NEAR_ELBOW | flag::NEAR_SHOULDER;
     if flags & flag::UNREACHABLE != 0 {
-        Stand::OutOfReach
+        PostureStatus::OutOfReach
     } else if flags & flag::OUTSIDE_LIMITS != 0 {
-        Stand::OutsideLimits
+        PostureStatus::OutsideLimits
     } else if flags & near != 0 || bend2 < least {
-        Stand::Singular
+        PostureStatus::Singular
     } else {
-        Stand::Holds
+        PostureStatus::Usable
     }
 }
 
-/// Room for one pose after the other.
+/// Buffers for one pose after the other.
 struct OneByOne<'q> {
     finder: Finder<'q>,
     frames: Frames,
     arm_state: ArmState<'q>,
     tool_from_flange: Isometry,
-    /// Joint positions at home, with the rail where it was told to stand; `None` where the question says.
+    /// Joint positions at home, with the rail where it was fixed; `None` where the question specifies it.
     rail: Option<Vec<f64>>,
-    /// Where links lie in their gaps, rad (m); `None` where only the load counts.
-    placement: Option<Vec<f64>>,
+    /// Link offsets in the backlash, rad (m); `None` where only the load is included.
+    link_offsets: Option<Vec<f64>>,
 }
 
 impl OneByOne<'_> {
     fn pose(
         &mut self,
-        keeping: &Keeping<'_>,
+        margins: &ArmMargins<'_>,
         pose: &Isometry,
-        push: &Push<'_>,
+        push: &ColumnLoad<'_>,
         (index, out): (usize, &mut Column),
     ) {
-        let arm = keeping.arm;
-        let requested = Wanted {
+        let arm = margins.arm;
+        let requested = InverseTarget {
             base_from_flange: pose * self.tool_from_flange,
             near: None,
-            home: self.rail.as_deref().or(keeping.home),
+            home: self.rail.as_deref().or(margins.home),
         };
-        // What was found at the pose before is no guide: columns may come in any order.
+        // The result at the pose before is not a start value: columns may come in any order.
         self.finder.forget();
         let Ok(found) = self.finder.all(&requested) else {
             return;
@@ -310,30 +310,30 @@ impl OneByOne<'_> {
             };
             let joint_count = one.joints.len();
             out.joints[slot * joint_count..][..joint_count].copy_from_slice(&one.joints);
-            let stand = if !keeping.inside_limits(&one.joints) {
-                Stand::OutsideLimits
+            let status = if !margins.inside_limits(&one.joints) {
+                PostureStatus::OutsideLimits
             } else {
                 forward_into(arm.robot, &one.joints, &mut self.frames);
                 let tcp = pose.translation.vector.into();
                 self.arm_state.set_frames(&one.joints, &self.frames, &tcp);
-                let wrist = keeping.wrist.max(keeping.margin);
+                let wrist = margins.wrist.max(margins.margin);
                 if is_singular(named, one, (self.arm_state.screws(), wrist))
-                    || elbow_bend(arm.robot, &self.frames) < keeping.margin.sin()
+                    || elbow_bend(arm.robot, &self.frames) < margins.margin.sin()
                 {
-                    Stand::Singular
+                    PostureStatus::Singular
                 } else {
-                    Stand::Holds
+                    PostureStatus::Usable
                 }
             };
-            out.stands[slot] = stand;
-            if stand != Stand::Holds {
+            out.statuses[slot] = status;
+            if status != PostureStatus::Usable {
                 continue;
             }
             let mut most = 0.0_f64;
             for wrench in push.cases {
-                let mut links = match &mut self.placement {
+                let mut links = match &mut self.link_offsets {
                     None => Links::Neglected,
-                    Some(placement) => Links::Farthest(push.along, placement),
+                    Some(link_offsets) => Links::Farthest(push.along, link_offsets),
                 };
                 match deviation_of(&mut self.arm_state, wrench, &mut links) {
                     Ok(twist) => {
@@ -345,15 +345,15 @@ impl OneByOne<'_> {
             }
             out.deviations[slot] = most;
             if most.is_infinite() {
-                out.stands[slot] = Stand::Unstable;
+                out.statuses[slot] = PostureStatus::Unstable;
             }
         }
     }
 }
 
-/// Whether a posture is nearer to a singularity than asked: of an arm with named branches by the angle between axes 4 and
-/// 6, of others by what it is flagged with.
-fn is_singular(named: bool, found: &Found, (screws, wrist): (&[Twist], f64)) -> bool {
+/// Whether a posture is nearer to a singularity than allowed: of an arm with branch names by the angle between axes 4
+/// and 6, of others by its flag.
+fn is_singular(named: bool, found: &InverseSolution, (screws, wrist): (&[Twist], f64)) -> bool {
     match (found.singularity, screws) {
         (Some(Singularity::Elbow | Singularity::Shoulder), _) => true,
         (_, [_, _, _, fourth, _, sixth]) if named => {
@@ -363,8 +363,8 @@ fn is_singular(named: bool, found: &Found, (screws, wrist): (&[Twist], f64)) -> 
     }
 }
 
-impl Keeping<'_> {
-    /// Whether every joint is inside its limits, and every one that turns so far inside as asked.
+impl ArmMargins<'_> {
+    /// Whether every joint is inside its limits, and every revolute joint by at least the margin.
     fn inside_limits(&self, joints: &[f64]) -> bool {
         let robot = self.arm.robot;
         robot.joints().iter().enumerate().all(|(index, joint)| {
@@ -376,7 +376,7 @@ impl Keeping<'_> {
     }
 }
 
-/// Sine of the angle between upper arm and forearm of an ortho-parallel arm that stands so; 1 of others.
+/// Sine of the angle between upper arm and forearm of an ortho-parallel arm in this posture; 1 for others.
 fn elbow_bend(robot: &Robot, frames: &Frames) -> f64 {
     let Some(form) = robot.ortho_parallel() else {
         return 1.0;

@@ -1,7 +1,7 @@
-//! An arm stood at many joint positions: whoever asks writes down what he wants of each stand.
+//! Evaluates an arm at many joint positions; the caller defines the output.
 //!
-//! Blocks of points on all threads of the current rayon pool, with one [`ArmState`] a thread; a single block is done
-//! where it is asked for, so that one point costs no more than the work. What is written goes by index.
+//! Blocks of points on all threads of the current rayon pool, with one [`ArmState`] per thread. A single block is
+//! computed on the calling thread, so that one point has no overhead. Results are written by index.
 
 use rayon::prelude::*;
 
@@ -11,35 +11,36 @@ use crate::watch::{Cancelled, Watch};
 /// Points in a block: enough to make the hand-over cheap, few enough to cancel soon.
 const AT_ONCE: usize = 256;
 
-/// Why not every stand was told.
+/// Why not every point was evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum EvaluateError {
-    /// The watch said so.
+    /// Cancelled by the watch.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
-    /// The first point where the arm finds no stable rest.
+    /// The first point without a stable equilibrium.
     #[error("point {point}: {why}")]
     Unstable {
-        /// Which, from 0.
+        /// Index, from 0.
         point: usize,
-        /// Why.
+        /// Reason.
         why: Unstable,
     },
 }
 
-/// Stands `arm` at each of the joint positions `joints` (rad, m; as many a point as joints, one point after the other) and
-/// lets `tell` write `width` numbers of it into its part of `out`, which is as long as all points together.
+/// Positions `arm` at each of the joint positions `joints` (rad, m; one value per joint, point after point) and lets
+/// `write` fill `width` numbers of `out` per point.
 ///
 /// # Errors
-/// [`EvaluateError::Cancelled`] if the watch says so; the first point where `tell` finds no stable rest.
+/// [`EvaluateError::Cancelled`] if the watch cancels; the first point where `write` finds no stable equilibrium.
 ///
 /// # Panics
-/// If `joints` is no whole number of points, `out` has another length, or there are not as many compliances as joints.
+/// If `joints` is not a whole number of points, `out` has another length, or the number of compliances differs from
+/// that of the joints.
 pub fn evaluate_at_joints(
     arm: &Arm<'_>,
     joints: &[f64],
     (out, width): (&mut [f64], usize),
-    tell: impl Fn(&mut ArmState<'_>, &mut [f64]) -> Result<(), Unstable> + Sync,
+    write: impl Fn(&mut ArmState<'_>, &mut [f64]) -> Result<(), Unstable> + Sync,
     watch: Watch<'_>,
 ) -> Result<(), EvaluateError> {
     let dof = arm.robot.joints().len();
@@ -48,8 +49,12 @@ pub fn evaluate_at_joints(
         0,
         "joint positions for a whole number of points"
     );
-    assert_eq!(arm.compliance.len(), dof, "one compliance a joint");
-    assert_eq!(out.len(), joints.len() / dof * width, "room for every point");
+    assert_eq!(arm.compliance.len(), dof, "one compliance per joint");
+    assert_eq!(
+        out.len(),
+        joints.len() / dof * width,
+        "the output has `width` numbers per point"
+    );
     if out.is_empty() {
         return Ok(());
     }
@@ -59,7 +64,7 @@ pub fn evaluate_at_joints(
         }
         for (point, (q, out)) in joints.chunks(dof).zip(out.chunks_mut(width)).enumerate() {
             arm_state.set_joints(q);
-            if let Err(why) = tell(arm_state, out) {
+            if let Err(why) = write(arm_state, out) {
                 return Ok(Some((point, why)));
             }
         }

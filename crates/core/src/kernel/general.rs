@@ -1,35 +1,35 @@
-//! One point after the other: the plain physics of `predict.rs` with scratch that is reused.
+//! One point after the other: the physics of `predict.rs` with reused buffers.
 //!
-//! Any arm goes through it but ortho-parallel ones, whose lanes hand over where they cannot decide: no posture, and
-//! why; joints 4 and 6 in line.
+//! Used for all arms except ortho-parallel ones, and for the points that the lanes cannot decide: no posture and its
+//! reason; joints 4 and 6 in line.
 
 use nalgebra::Vector3;
 
-use super::answer::{Held, Told};
+use super::answer::{AnswerDetail, Evaluation};
 use super::question::{BranchChoice, Question};
 use crate::frame::{Isometry, both_across};
 use crate::predict::deviation_of;
 use crate::robot::forward::{Frames, forward_into};
-use crate::robot::inverse::{Finder, Found, Wanted};
-use crate::robot::{Overrun, PostureName, Attachment, Unreachable};
+use crate::robot::inverse::{Finder, InverseSolution, InverseTarget};
+use crate::robot::{Overrun, PostureName, Unreachable};
 use crate::source::arm_state::LoadedPosture;
-use crate::source::{Links, ArmState};
+use crate::source::{ArmState, Contributor, Links};
 
-/// Envelopes that differ by less (relative) are equal, and the first posture stands: two flips without names differ by
-/// rounding, which would take one here and the other beside it.
+/// Envelopes that differ by less (relative) are equal, and the first posture is used. Two flips without names differ by
+/// rounding, which would otherwise select a different one at neighbouring points.
 const ALIKE: f64 = 1e-9;
 
-/// Room for one point, reused from point to point.
+/// Buffers for one point, reused from point to point.
 pub(super) struct General<'q> {
     tool_from_flange: Isometry,
     finder: Finder<'q>,
-    /// What may stand for the point: postures, the roomier of two flips that are alike.
-    candidates: Vec<Found>,
+    /// Candidate postures for the point: of two equal flips, the one with the larger margin to the limits.
+    candidates: Vec<InverseSolution>,
     frames: Frames,
     arm_state: ArmState<'q>,
-    /// Whom shares are told for; nobody where they are not asked for.
-    contributors: Vec<Attachment>,
-    beside: Beside<'q>,
+    /// Contributors whose shares are computed; empty where shares are not requested.
+    contributors: Vec<Contributor>,
+    links: LinkOffsets<'q>,
     joints: Vec<f64>,
     deviations: Vec<Vector3<f64>>,
     shares: Vec<f64>,
@@ -37,25 +37,25 @@ pub(super) struct General<'q> {
     kept: (Vec<f64>, Vec<Vector3<f64>>, Vec<f64>),
 }
 
-/// What moves the tool beside its load.
-enum Beside<'q> {
-    /// Nothing, or whoever asks adds it.
-    Nothing,
-    /// On a path: geometry, and links that friction dragged here in their gaps, rad (m), one a joint.
-    Dragged(&'q [f64]),
-    /// At a point by itself: geometry, and links that lie where they move the tool farthest; where, one a joint and case.
-    Farthest(Vec<f64>),
+/// Backlash and geometry in addition to the load.
+enum LinkOffsets<'q> {
+    /// Neglected, or added by the caller.
+    Neglected,
+    /// On a path: geometry, and known link offsets (kept there by friction), rad (m), one per joint.
+    Known(&'q [f64]),
+    /// At a single point: geometry, and the link offsets with the largest deviation, one per joint and load case.
+    WorstCase(Vec<f64>),
 }
 
 impl<'q> General<'q> {
-    pub(super) fn new(question: &Question<'q>, given: Told) -> General<'q> {
+    pub(super) fn new(question: &Question<'q>, detail: AnswerDetail) -> General<'q> {
         let (joints, cases) = (question.arm.robot.joints().len(), question.cases.len());
-        let contributors = given.contributors(question);
-        let beside = match given {
-            Told::Shares if question.arm.model.moves_unloaded() => {
-                Beside::Farthest(vec![0.0; joints * cases])
+        let contributors = detail.contributors(question);
+        let links = match detail {
+            AnswerDetail::Shares if question.arm.model.has_unloaded_deviation() => {
+                LinkOffsets::WorstCase(vec![0.0; joints * cases])
             }
-            _ => Beside::Nothing,
+            _ => LinkOffsets::Neglected,
         };
         General {
             tool_from_flange: question.arm.flange_from_tool.inverse(),
@@ -72,31 +72,35 @@ impl<'q> General<'q> {
                 vec![0.0; contributors.len()],
             ),
             contributors,
-            beside,
+            links,
         }
     }
 
-    /// The same on a path, where it is known where links were dragged to in their gaps, rad (m), one a joint.
-    pub(super) fn on_path(question: &Question<'q>, given: Told, dragged: &'q [f64]) -> General<'q> {
+    /// The same on a path with known link offsets, rad (m), one per joint.
+    pub(super) fn on_path(
+        question: &Question<'q>,
+        detail: AnswerDetail,
+        link_offsets: &'q [f64],
+    ) -> General<'q> {
         General {
-            beside: Beside::Dragged(dragged),
-            ..General::new(question, given)
+            links: LinkOffsets::Known(link_offsets),
+            ..General::new(question, detail)
         }
     }
 
-    /// Starts anew: what comes does not follow on what was.
+    /// Resets: the next point does not follow the previous one.
     pub(super) fn forget(&mut self) {
         self.finder.forget();
     }
 
-    /// The answer at one pose; what [`General::write`] gives afterwards belongs to it.
+    /// The answer at one pose; [`General::write`] then writes its values.
     pub(super) fn answer(
         &mut self,
         question: &Question<'_>,
         base_from_tool: &Isometry,
         near: Option<&[f64]>,
-    ) -> Result<Held, Unreachable> {
-        let requested = Wanted {
+    ) -> Result<Evaluation, Unreachable> {
+        let requested = InverseTarget {
             base_from_flange: base_from_tool * self.tool_from_flange,
             near,
             home: question.home,
@@ -110,7 +114,7 @@ impl<'q> General<'q> {
             BranchChoice::Best => {
                 let found = self.finder.all(&requested)?;
                 self.candidates.clear();
-                let by_load_alone = matches!(self.beside, Beside::Nothing);
+                let by_load_alone = matches!(self.links, LinkOffsets::Neglected);
                 let alike =
                     question.arm.model.is_drives_alone() && question.arm.robot.inverse().flips_are_alike();
                 if by_load_alone && alike {
@@ -138,15 +142,21 @@ impl<'q> General<'q> {
         self.kept.2.copy_from_slice(&self.shares);
     }
 
-    /// Of the candidates the one with the least envelope; inside limits, where the question chooses by it.
-    fn least(&mut self, question: &Question<'_>, base_from_tool: &Isometry) -> Result<Held, Unreachable> {
-        let mut best: Option<Held> = None;
+    /// The candidate with the smallest envelope; inside limits, where the question selects the best one.
+    fn least(
+        &mut self,
+        question: &Question<'_>,
+        base_from_tool: &Isometry,
+    ) -> Result<Evaluation, Unreachable> {
+        let mut best: Option<Evaluation> = None;
         let mut miss: Option<Unreachable> = None;
         let candidates = std::mem::take(&mut self.candidates);
         for found in &candidates {
-            let judged = self.judge(question, base_from_tool, found);
-            let outside = |evaluation: &Held| question.choice == BranchChoice::Best && !evaluation.within_limits();
-            let missed = match judged {
+            let evaluated = self.evaluate_posture(question, base_from_tool, found);
+            let outside = |evaluation: &Evaluation| {
+                question.choice == BranchChoice::Best && !evaluation.within_limits()
+            };
+            let missed = match evaluated {
                 Err(reason) => Some(reason),
                 Ok(evaluation) if outside(&evaluation) => Some(outside_limits(question, &evaluation)),
                 Ok(evaluation) => {
@@ -164,24 +174,24 @@ impl<'q> General<'q> {
         best.ok_or(miss.unwrap_or(Unreachable::OtherBranch))
     }
 
-    /// Works out the deviations of a posture.
-    fn judge(
+    /// Computes the deviations of a posture.
+    fn evaluate_posture(
         &mut self,
         question: &Question<'_>,
         base_from_tool: &Isometry,
-        found: &Found,
-    ) -> Result<Held, Unreachable> {
+        found: &InverseSolution,
+    ) -> Result<Evaluation, Unreachable> {
         self.joints.copy_from_slice(&found.joints);
         forward_into(question.arm.robot, &found.joints, &mut self.frames);
         let tcp = base_from_tool.translation.vector.into();
         self.arm_state.set_frames(&found.joints, &self.frames, &tcp);
         let (limit_joint, limit_margin) = limit_margin(question, &found.joints);
-        let mut evaluation = Held {
+        let mut evaluation = Evaluation {
             name: found.name,
             limit_margin,
             limit_joint,
             singularity: found.singularity,
-            deciding_case: 0,
+            worst_case: 0,
             in_plane: 0.0,
             in_plane_uncertainty: 0.0,
             normal: 0.0,
@@ -189,12 +199,12 @@ impl<'q> General<'q> {
         };
         for (case, wrench) in question.cases.iter().enumerate() {
             let unstable = |_| Unreachable::Unstable { case };
-            let mut links = match &mut self.beside {
-                Beside::Nothing => Links::Neglected,
-                Beside::Dragged(dragged) => Links::KeptByFriction(dragged),
-                Beside::Farthest(placement) => {
-                    let placement = &mut placement[case * self.joints.len()..][..self.joints.len()];
-                    Links::Farthest(both_across(&question.normal), placement)
+            let mut links = match &mut self.links {
+                LinkOffsets::Neglected => Links::Neglected,
+                LinkOffsets::Known(link_offsets) => Links::KeptByFriction(link_offsets),
+                LinkOffsets::WorstCase(offsets) => {
+                    let offsets = &mut offsets[case * self.joints.len()..][..self.joints.len()];
+                    Links::Farthest(both_across(&question.normal), offsets)
                 }
             };
             let deviation = deviation_of(&mut self.arm_state, wrench, &mut links);
@@ -207,32 +217,35 @@ impl<'q> General<'q> {
         Ok(evaluation)
     }
 
-    /// Fills the shares of the deciding case and gives the standard uncertainty of its in-plane part.
+    /// Computes the shares of the worst case and returns the standard uncertainty of its in-plane part.
     fn share(
         &mut self,
         question: &Question<'_>,
-        evaluation: &Held,
+        evaluation: &Evaluation,
         base_from_tool: &Isometry,
     ) -> Result<f64, Unreachable> {
-        let case = evaluation.deciding_case;
+        let case = evaluation.worst_case;
         let deviation = self.deviations[case];
         let in_plane = deviation - question.normal.into_inner() * deviation.dot(&question.normal);
         let along = in_plane.try_normalize(0.0).unwrap_or_default();
         let unstable = |_| Unreachable::Unstable { case };
         if case + 1 != question.cases.len() {
-            // The arm stands under the last load case still.
+            // The arm state is still that of the last load case.
             self.arm_state.elastic(&question.cases[case]).map_err(unstable)?;
         }
-        self.arm_state.share_along(&along, &self.contributors, &mut self.shares);
+        self.arm_state
+            .share_along(&along, &self.contributors, &mut self.shares);
         let mut variance = self.arm_state.variance_along(&along).max(0.0) + self.arm_state.scatter().powi(2);
-        let placement = match &self.beside {
-            Beside::Nothing => None,
-            Beside::Dragged(dragged) => Some(*dragged),
-            Beside::Farthest(placement) => Some(&placement[case * self.joints.len()..][..self.joints.len()]),
+        let offsets = match &self.links {
+            LinkOffsets::Neglected => None,
+            LinkOffsets::Known(link_offsets) => Some(*link_offsets),
+            LinkOffsets::WorstCase(offsets) => {
+                Some(&offsets[case * self.joints.len()..][..self.joints.len()])
+            }
         };
-        if let Some(placement) = placement {
-            let (arm_state, placement) = (&self.arm_state, (placement, &question.cases[case]));
-            variance += arm_state.share_backlash(&along, placement, &self.contributors, &mut self.shares);
+        if let Some(offsets) = offsets {
+            let (arm_state, offsets) = (&self.arm_state, (offsets, &question.cases[case]));
+            variance += arm_state.share_unloaded(&along, offsets, &self.contributors, &mut self.shares);
         }
         if !question.uncertainty.is_none() {
             let arm_state = LoadedPosture {
@@ -242,19 +255,19 @@ impl<'q> General<'q> {
                 tool_axis: base_from_tool.rotation * Vector3::z(),
                 wrench: &question.cases[case],
             };
-            let of_doubt = self
+            let of_inputs = self
                 .arm_state
                 .variance_of_inputs(&question.uncertainty, &arm_state, &along);
-            variance += of_doubt.map_err(unstable)?;
+            variance += of_inputs.map_err(unstable)?;
         }
         Ok(variance.sqrt())
     }
 }
 
-/// The posture with the most room of its turning joints to their limits, the first of equal ones: a rail stands still
-/// whatever the posture.
-fn roomiest<'f>(question: &Question<'_>, found: &'f [Found]) -> Option<&'f Found> {
-    let mut roomiest: Option<(f64, &Found)> = None;
+/// The posture with the largest margin of its revolute joints to their limits, the first of equal ones: a rail has the
+/// same position in every posture.
+fn roomiest<'f>(question: &Question<'_>, found: &'f [InverseSolution]) -> Option<&'f InverseSolution> {
+    let mut roomiest: Option<(f64, &InverseSolution)> = None;
     for one in found {
         let robot = question.arm.robot;
         let room = (0..one.joints.len())
@@ -268,8 +281,8 @@ fn roomiest<'f>(question: &Question<'_>, found: &'f [Found]) -> Option<&'f Found
     roomiest.map(|(_, one)| one)
 }
 
-/// By how much a posture leaves the range of the joint that is farthest outside.
-fn outside_limits(question: &Question<'_>, evaluation: &Held) -> Unreachable {
+/// The joint that is farthest outside its range, and by how much.
+fn outside_limits(question: &Question<'_>, evaluation: &Evaluation) -> Unreachable {
     let (joint, by) = (evaluation.limit_joint, -evaluation.limit_margin);
     let by = if question.arm.robot.slides(joint) {
         Overrun::Slid(by)
@@ -279,7 +292,7 @@ fn outside_limits(question: &Question<'_>, evaluation: &Held) -> Unreachable {
     Unreachable::OutsideLimits { joint, by }
 }
 
-/// Whether two branches are the flip of each other.
+/// Whether two branches differ only in the flip.
 fn differ_in_flip(a: PostureName, b: PostureName) -> bool {
     let without_flip = |name: PostureName| name.branch().map(|branch| (branch.shoulder, branch.elbow));
     without_flip(a) == without_flip(b)

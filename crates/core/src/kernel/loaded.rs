@@ -1,11 +1,12 @@
-//! Points that each have a load of their own: a tool path, where forces turn with the feed.
+//! Points with a load each: a tool path, where forces turn with the feed.
 //!
-//! Of a model whose deviation is `C w + g` a point is asked under unit loads, and `C` and `g` serve any wrench, also one
-//! that depends on how the tip yields there; a model in which the load changes the arm is asked under each wrench as it is.
+//! Of a model with the deviation `C w + g`, a point is evaluated under unit loads. `C` and `g` then apply to any
+//! wrench, also to one that depends on the deflection of the tip. A model in which the load changes the arm is
+//! evaluated under each wrench.
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::answer::{Answers, Slot, Slots, Told};
+use super::answer::{AnswerDetail, Answers, Slot, Slots};
 use super::general::General;
 use super::question::Question;
 use super::solver::{BLOCK, Order, Solver};
@@ -14,15 +15,16 @@ use crate::path::Stop;
 use crate::spatial::Wrench;
 use crate::watch::{Cancelled, Watch};
 
-/// Answers `question` at `count` points one after the other, each under wrenches of its own.
+/// Answers `question` at `count` points one after the other, each under separate wrenches.
 ///
-/// `stop(i)` tells where the tool stands; `load(i, tip, wrenches)` fills in the wrenches on the tool at the TCP, base
-/// basis, as many as `question.cases`, whose values, like its `normal` and `doubt`, are not looked at. `tip` tells how the
-/// tip yields to a force there, base; `None` of a model in which that changes with the load. It is asked in order, and only
-/// at points that are reached. No shares and no uncertainties are told: ask [`super::evaluate`] at the points that matter.
+/// `stop(i)` gives the pose of the tool. `load(i, tip, wrenches)` writes the wrenches on the tool at the TCP, base
+/// axes, as many as `question.cases`; their values, `normal` and `uncertainty` of the question are not used. `tip` is
+/// the compliance of the tip for a force at this point, base; `None` for a model in which it depends on the load.
+/// `load` is called in order, and only at points that are reached. Shares and uncertainties are not computed: use
+/// [`super::evaluate`] at the points of interest.
 ///
 /// # Errors
-/// [`Cancelled`] if the watch says so.
+/// [`Cancelled`] if the watch cancels.
 ///
 /// # Panics
 /// If the question has no load case.
@@ -37,8 +39,11 @@ pub fn evaluate_loaded(
         uncertainty: InputUncertainty::NONE,
         ..*question
     };
-    assert!(!question.cases.is_empty(), "a question has a load case at least");
-    let mut answers = Answers::new(&question, count, Told::DeviationsAlone);
+    assert!(
+        !question.cases.is_empty(),
+        "a question needs at least one load case"
+    );
+    let mut answers = Answers::new(&question, count, AnswerDetail::DeviationsAlone);
     let rows = Rows {
         answers: &mut answers,
         wrenches: vec![Wrench::ZERO; question.cases.len()],
@@ -51,7 +56,7 @@ pub fn evaluate_loaded(
     Ok(answers)
 }
 
-/// Answers to be filled, and room for the wrenches of a point.
+/// Answers to be filled, and a buffer for the wrenches of a point.
 struct Rows<'a> {
     answers: &'a mut Answers,
     wrenches: Vec<Wrench>,
@@ -70,7 +75,7 @@ impl Rows<'_> {
             cases: &units,
             ..*question
         };
-        let mut solver = Solver::new(&requested, Order::AlongPath, Told::DeviationsAlone);
+        let mut solver = Solver::new(&requested, Order::AlongPath, AnswerDetail::DeviationsAlone);
         let mut under_units = vec![Vector3::zeros(); BLOCK * units.len()];
         for (block, mut slots) in self.answers.blocks(BLOCK).into_iter().enumerate() {
             let first = block * BLOCK;
@@ -87,10 +92,10 @@ impl Rows<'_> {
                     point, deviations, ..
                 } = slots.at(i);
                 let Ok(evaluation) = point else { continue };
-                let yields = Yields::of(under_units);
-                load(first + i, Some(&yields.tip), &mut self.wrenches);
+                let response = AffineResponse::of(under_units);
+                load(first + i, Some(&response.tip), &mut self.wrenches);
                 for (deviation, wrench) in deviations.iter_mut().zip(&self.wrenches) {
-                    *deviation = yields.under(wrench);
+                    *deviation = response.under(wrench);
                 }
                 evaluation.take_envelope(deviations, stop(first + i).normal);
                 evaluation.in_plane_uncertainty = 0.0;
@@ -106,7 +111,7 @@ impl Rows<'_> {
         mut load: impl FnMut(usize, Option<&TipCompliance>, &mut [Wrench]),
         watch: Watch<'_>,
     ) -> Result<(), Cancelled> {
-        let mut general = General::new(question, Told::DeviationsAlone);
+        let mut general = General::new(question, AnswerDetail::DeviationsAlone);
         let mut before: Option<Vec<f64>> = None;
         let slots = self.answers.blocks(1).into_iter();
         for (index, mut slots) in slots.enumerate() {
@@ -154,19 +159,19 @@ fn unit_loads() -> [Wrench; 7] {
 }
 
 /// `delta = C_f f + C_m m + g`.
-struct Yields {
+struct AffineResponse {
     /// `C_f` and `g`.
     tip: TipCompliance,
     by_moment: Matrix3<f64>,
 }
 
-impl Yields {
+impl AffineResponse {
     /// From the deviations under [`unit_loads`].
-    fn of(deviations: &[Vector3<f64>]) -> Yields {
+    fn of(deviations: &[Vector3<f64>]) -> AffineResponse {
         let unloaded = deviations[0];
         let columns =
             |first: usize| Matrix3::from_fn(|row, column| (deviations[first + column] - unloaded)[row]);
-        Yields {
+        AffineResponse {
             tip: TipCompliance {
                 by_force: columns(1),
                 unloaded,

@@ -1,20 +1,22 @@
 //! Many points at once: the same physics as `predict.rs`, over blocks of points.
 //!
-//! [`evaluate`] is the door. It finds a posture for each tool pose, the deviation of each load case there, the
-//! envelope over the cases and what decides it. Ortho-parallel arms with drive springs alone go through [`lanes`], many
-//! points in one instruction; where those cannot decide, and for every other model, `general` takes one point after the
-//! other. [`evaluate_loaded`] takes a load of its own at every point, [`evaluate_on_path`] one point of a path with all that
-//! moves the tool beside its load, [`evaluate_at_joints`] any chain at joint positions that are known, for whoever writes down what he
-//! wants of it, [`postures_at`] every posture of many poses. Blocks run on all threads of the current rayon pool; every point is written by index, so any number of threads
-//! gives the same bits.
+//! [`evaluate`] is the main entry. It finds a posture for each tool pose, the deviation under each load case, the
+//! envelope over the load cases and the worst case. Ortho-parallel arms whose only springs are the drives go through
+//! [`lanes`], many points in one instruction. Where the lanes cannot decide, and for every other model, `general`
+//! computes one point after the other. [`evaluate_loaded`] uses a separate load at every point, [`evaluate_on_path`]
+//! one point of a path with backlash and geometry in addition to the load, [`evaluate_at_joints`] any chain at given
+//! joint positions with a user-defined output, [`postures_at`] every posture of many poses. Blocks run on all threads
+//! of the current rayon pool. Every point is written by index, so any number of threads gives the same bits.
 //!
-//! `question` and `answer`: what goes in and comes out; `solver`: a block of points, by lanes and by `general`; `loaded`:
-//! points that each have a load of their own; `column`: every posture of a few poses under a load; `placed`: a path wherever its part lies.
+//! `question` and `answer`: input and output; `solver`: a block of points, by lanes and by `general`; `loaded`: points
+//! with a load each; `column`: every posture of a few poses under a load; `placed`: a path on a part with a variable
+//! placement.
 
 mod answer;
 mod column;
 mod general;
 // Loops over lanes index many planes at once.
+mod evaluate_at_joints;
 #[allow(clippy::needless_range_loop)]
 pub mod lanes;
 mod loaded;
@@ -22,34 +24,43 @@ mod placed;
 mod postures_at;
 mod question;
 mod solver;
-mod evaluate_at_joints;
 
-pub use answer::{AT_LIMIT, Answers, Held};
-pub use column::{Column, Columns, Push, SLOTS, Stand};
+pub use answer::{AT_LIMIT, Answers, Evaluation};
+pub use column::{Column, ColumnLoad, Columns, PostureStatus, SLOTS};
+pub use evaluate_at_joints::{EvaluateError, evaluate_at_joints};
 pub use loaded::evaluate_loaded;
-pub use placed::{Glance, Judge, Judged, Keeping, PartPlacement, PlacedPath, Pushes, Sighted, ToldIn};
+pub use placed::{
+    PartPlacement, PathTotals, PathWrenches, PlacedPath, PlacedPoint, PlacementEvaluator, PlacementScreen,
+    PostureMargins, WrenchAxes,
+};
 pub use postures_at::{PosturesAt, postures_at};
 pub use question::{BranchChoice, Question};
-pub use evaluate_at_joints::{EvaluateError, evaluate_at_joints};
 
 use rayon::prelude::*;
 
 use crate::frame::Isometry;
 use crate::watch::{Cancelled, Watch};
-use answer::{Slot, Told};
+use answer::{AnswerDetail, Slot};
 use general::General;
 use solver::{BLOCK, Order, Solver};
 
-/// Answers `question` at one pose of a path, where links were `dragged` to in their gaps, rad (m), one a joint: what moves
-/// the tool beside the load is told too, backlash in the shares of its joints, geometry in nobody's.
+/// Answers `question` at one pose of a path with known `link_offsets` in the backlash, rad (m), one per joint. Backlash
+/// and geometry are included: backlash in the shares of its joints, geometry in no share.
 ///
 /// # Panics
-/// If the question has no load case, or a link is missing.
-pub fn evaluate_on_path(question: &Question<'_>, base_from_tool: &Isometry, dragged: &[f64]) -> Answers {
-    assert!(!question.cases.is_empty(), "a question has a load case at least");
-    assert_eq!(dragged.len(), question.arm.robot.joints().len(), "a link a joint");
-    let mut answers = Answers::new(question, 1, Told::Shares);
-    let mut general = General::on_path(question, Told::Shares, dragged);
+/// If the question has no load case, or the number of link offsets is wrong.
+pub fn evaluate_on_path(question: &Question<'_>, base_from_tool: &Isometry, link_offsets: &[f64]) -> Answers {
+    assert!(
+        !question.cases.is_empty(),
+        "a question needs at least one load case"
+    );
+    assert_eq!(
+        link_offsets.len(),
+        question.arm.robot.joints().len(),
+        "one link offset per joint"
+    );
+    let mut answers = Answers::new(question, 1, AnswerDetail::Shares);
+    let mut general = General::on_path(question, AnswerDetail::Shares, link_offsets);
     for mut slots in answers.blocks(1) {
         let Slot {
             point,
@@ -66,11 +77,11 @@ pub fn evaluate_on_path(question: &Question<'_>, base_from_tool: &Isometry, drag
 
 /// Answers `question` at `count` tool poses; `base_from_tool(i)` gives the pose of point `i`.
 ///
-/// Backlash and geometry count: a torque holds the link of a joint on its flank, or, where friction decides, it lies on the
-/// one on which it moves the tool farthest across the normal, for which one it is nobody knows at a pose by itself.
+/// Backlash and geometry are included. A torque determines the side of the backlash of a joint. Where friction decides,
+/// the side is not known at a single pose: the side with the largest in-plane deviation is used.
 ///
 /// # Errors
-/// [`Cancelled`] if the watch says so.
+/// [`Cancelled`] if the watch cancels.
 ///
 /// # Panics
 /// If the question has no load case.
@@ -80,11 +91,11 @@ pub fn evaluate(
     base_from_tool: impl Fn(usize) -> Isometry + Sync,
     watch: Watch<'_>,
 ) -> Result<Answers, Cancelled> {
-    let mut answers = Answers::new(question, count, Told::Shares);
+    let mut answers = Answers::new(question, count, AnswerDetail::Shares);
     let mut blocks = answers.blocks(BLOCK);
-    // One block is done here: a hand-over to the pool would take longer than a point.
+    // A single block is computed here: a hand-over to the pool would take longer than a point.
     if blocks.len() == 1 {
-        let mut solver = Solver::new(question, Order::Any, Told::Shares);
+        let mut solver = Solver::new(question, Order::Any, AnswerDetail::Shares);
         for slots in blocks.drain(..) {
             solver.answer(&base_from_tool, slots, watch)?;
         }
@@ -92,17 +103,17 @@ pub fn evaluate(
         return Ok(answers);
     }
     blocks.into_par_iter().enumerate().try_for_each_init(
-        || Solver::new(question, Order::Any, Told::Shares),
+        || Solver::new(question, Order::Any, AnswerDetail::Shares),
         |solver, (block, slots)| solver.answer(|i| base_from_tool(block * BLOCK + i), slots, watch),
     )?;
     Ok(answers)
 }
 
-/// [`evaluate`] along a path: one block after the other, so that joint 4 keeps its place through a wrist
-/// singularity. For arms that nothing moves but load and gravity: where a path drags links is not looked at.
+/// [`evaluate`] along a path: one block after the other, so that joint 4 keeps its position through a wrist
+/// singularity. Only for arms without backlash and geometry errors: links kept by friction are neglected.
 ///
 /// # Errors
-/// [`Cancelled`] if the watch says so.
+/// [`Cancelled`] if the watch cancels.
 ///
 /// # Panics
 /// If the question has no load case.
@@ -112,8 +123,8 @@ pub fn evaluate_in_order(
     base_from_tool: impl Fn(usize) -> Isometry,
     watch: Watch<'_>,
 ) -> Result<Answers, Cancelled> {
-    let mut answers = Answers::new(question, count, Told::Shares);
-    let mut solver = Solver::new(question, Order::AlongPath, Told::Shares);
+    let mut answers = Answers::new(question, count, AnswerDetail::Shares);
+    let mut solver = Solver::new(question, Order::AlongPath, AnswerDetail::Shares);
     for (block, slots) in answers.blocks(BLOCK).into_iter().enumerate() {
         solver.answer(|i| base_from_tool(block * BLOCK + i), slots, watch)?;
     }

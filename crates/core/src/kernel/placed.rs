@@ -1,132 +1,133 @@
-//! A path on a part, judged where the part lies: what a search for a placement asks ten thousand times.
+//! A path on a part, evaluated at a placement of the part: called tens of thousands of times by a placement search.
 //!
-//! The points, the directions that count and the wrenches are told on the part once; a place ([`PartPlacement`]) then tells where the
-//! part lies and how far the tool is turned. Each of the arm's postures is judged over all points ([`Judged`]).
+//! The points, the directions of the deviation and the wrenches are given once, relative to the part. A placement
+//! ([`PartPlacement`]) then specifies the pose of the part and the spin of the tool. Each posture of the arm is
+//! evaluated over all points ([`PathTotals`]).
 //!
-//! Ortho-parallel arms that yield at their drives alone go through lanes; any other arm takes one pose after the other. Both
-//! tell the same to rounding (`tests`).
+//! Ortho-parallel arms whose only springs are the drives go through lanes; any other arm is computed one pose after the
+//! other. Both agree to rounding (`tests`).
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use super::column::{Column, Columns, Push, SLOTS, Stand};
-use super::lanes::{Laid, Placer, Precision, Tallied};
+use super::column::{Column, ColumnLoad, Columns, PostureStatus, SLOTS};
+use super::lanes::{PlacementPoints, Placer, Precision, Tallied};
 use super::question::Question;
 use crate::frame::Isometry;
 use crate::robot::{Branch, BranchPattern};
 use crate::source::Arm;
 use crate::spatial::Wrench;
 
-/// A point of a path as it is on the part.
+/// A point of a path relative to the part.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sighted {
-    /// The tool there, with its turn before any other.
+pub struct PlacedPoint {
+    /// The tool at this point, without additional spin.
     pub part_from_tool: Isometry,
-    /// Directions that its deviation counts along, part axes; of length 1, or 0 where one is enough.
+    /// Directions of the selected component of the deviation, part axes; of length 1, or 0 where one is enough.
     pub along: [Vector3<f64>; 2],
 }
 
-/// The axes that wrenches are told in.
+/// The axes that wrenches are given in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ToldIn {
-    /// Those of the robot's base: they stay where they are wherever the part lies.
+pub enum WrenchAxes {
+    /// Those of the robot's base: independent of the placement of the part.
     Base,
-    /// Those of the part: they lie as it does.
+    /// Those of the part: they rotate with the part.
     Part,
 }
 
 /// Wrenches on the tool at the TCP.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Pushes {
+pub struct PathWrenches {
     /// Their axes.
-    pub told_in: ToldIn,
-    /// How many at each point.
+    pub wrench_axes: WrenchAxes,
+    /// Load cases per point.
     pub cases: usize,
-    /// So many for all points, or so many for each, point after point.
+    /// One value per load case for all points, or for each point, point after point.
     pub wrenches: Vec<Wrench>,
 }
 
-/// Where a part lies, and how far the tool is turned about its axis beside the turn it has there.
+/// Pose of a part, and the spin of the tool in addition to that of the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PartPlacement {
     /// The part in base.
     pub base_from_part: Isometry,
-    /// Turn of the tool, rad.
+    /// Additional spin of the tool, rad.
     pub spin: f64,
-    /// Where the rail under the arm stands, m: its first joint that slides; `None` where the question says. Of arms that
-    /// lanes answer for, which have none, it is not looked at.
+    /// Position of the rail (the first prismatic joint), m; `None` where the question specifies it. Not used for arms
+    /// in lanes, which have no rail.
     pub rail: Option<f64>,
 }
 
-/// How far postures keep from where they may not stand, and what deviation is tolerated.
+/// Margins of postures to limits and singularities, and the tolerance.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Keeping {
-    /// Least distance of every joint that turns from its limits, of the elbow from stretched or folded, of the wrist from
-    /// straight, rad.
+pub struct PostureMargins {
+    /// Smallest distance of every revolute joint from its limits, of the elbow from stretched or folded, of the wrist
+    /// from straight, rad.
     pub margin: f64,
-    /// Least bend of the wrist, rad.
+    /// Smallest bend of the wrist, rad.
     pub wrist: f64,
-    /// Deviations above it are summed, m.
-    pub limit: f64,
+    /// The excess of deviations over it is summed, m.
+    pub tolerance: f64,
 }
 
-/// What one posture makes of all points.
+/// Totals of one posture over all points.
 ///
-/// Where points are lost, lanes count the deviations of those that are only outside joint limits, and one pose after the
-/// other does not: compare such places by the points lost.
+/// Where points are unreachable, lanes include the deviations of points that are only outside joint limits; the general
+/// computation does not. Compare such placements by their unreachable points.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Judged {
-    /// Points where it does not stand.
-    pub lost: usize,
-    /// Largest deviation that counts where it stands, m.
+pub struct PathTotals {
+    /// Points where the posture cannot be used.
+    pub unreachable: usize,
+    /// Largest selected component of the deviation at the other points, m.
     pub worst: f64,
-    /// Sum of the deviations there, m.
+    /// Sum of the deviations at these points, m.
     pub sum: f64,
-    /// Sum of what is above the limit, m.
+    /// Sum of the excess over the tolerance, m.
     pub above: f64,
 }
 
 /// A path on a part.
 #[derive(Debug)]
 pub struct PlacedPath {
-    points: Vec<Sighted>,
-    pushes: Pushes,
-    laid: Laid<f64>,
+    points: Vec<PlacedPoint>,
+    load: PathWrenches,
+    double: PlacementPoints<f64>,
     /// The same in single precision.
-    single: Laid<f32>,
+    single: PlacementPoints<f32>,
 }
 
 impl PlacedPath {
-    /// These points under these wrenches.
+    /// A path of these points under these wrenches.
     ///
     /// # Panics
-    /// If the wrenches are neither those of all points nor those of each, or there is none.
-    pub fn new(points: Vec<Sighted>, pushes: Pushes) -> PlacedPath {
-        let given = pushes.wrenches.len();
+    /// If the number of wrenches is neither that of the load cases nor that of the load cases at all points, or zero.
+    pub fn new(points: Vec<PlacedPoint>, load: PathWrenches) -> PlacedPath {
+        let given = load.wrenches.len();
         assert!(
-            pushes.cases > 0 && (given == pushes.cases || given == pushes.cases * points.len()),
-            "wrenches of all points or of each"
+            load.cases > 0 && (given == load.cases || given == load.cases * points.len()),
+            "one wrench per load case, for all points or for each point"
         );
         PlacedPath {
-            laid: Laid::new(&points, &pushes),
-            single: Laid::new(&points, &pushes),
+            double: PlacementPoints::new(&points, &load),
+            single: PlacementPoints::new(&points, &load),
             points,
-            pushes,
+            load,
         }
     }
 
-    /// How many points.
+    /// Number of points.
     pub fn len(&self) -> usize {
         self.points.len()
     }
 
-    /// Whether there is none.
+    /// Whether there is no point.
     pub fn is_empty(&self) -> bool {
         self.points.is_empty()
     }
 
-    /// Every number of points and wrenches, in order: what tells one path from another.
+    /// Every number of points and wrenches, in order: identifies the path.
     pub fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
-        let of_point = |point: &Sighted| {
+        let of_point = |point: &PlacedPoint| {
             let pose = point.part_from_tool;
             let (at, turn) = (pose.translation.vector, pose.rotation.coords);
             let [a, b] = point.along;
@@ -139,18 +140,18 @@ impl PlacedPath {
                 w.force.x, w.force.y, w.force.z, w.moment.x, w.moment.y, w.moment.z,
             ]
         };
-        let wrenches = self.pushes.wrenches.iter().flat_map(of_wrench);
+        let wrenches = self.load.wrenches.iter().flat_map(of_wrench);
         self.points.iter().flat_map(of_point).chain(wrenches)
     }
 
-    /// Load cases a point.
+    /// Load cases per point.
     pub fn case_count(&self) -> usize {
-        self.pushes.cases
+        self.load.cases
     }
 
-    /// The wrenches at point `index`, told axes.
+    /// The wrenches at point `index`, in their axes.
     fn wrenches(&self, index: usize) -> &[Wrench] {
-        let Pushes { cases, wrenches, .. } = &self.pushes;
+        let PathWrenches { cases, wrenches, .. } = &self.load;
         let first = if wrenches.len() == *cases {
             0
         } else {
@@ -160,78 +161,91 @@ impl PlacedPath {
     }
 }
 
-/// Judges places; one a thread.
-pub struct Judge<'q> {
-    keeping: Keeping,
-    way: Way<'q>,
+/// Evaluates placements; one per thread.
+pub struct PlacementEvaluator<'q> {
+    margins: PostureMargins,
+    method: PlacementMethod<'q>,
 }
 
 /// By lanes or one after the other.
-enum Way<'q> {
+enum PlacementMethod<'q> {
     Lanes(Box<Placer<f64>>),
     General(Box<Columns<'q>>),
 }
 
-impl<'q> Judge<'q> {
+impl<'q> PlacementEvaluator<'q> {
     /// For this arm. `home`: see [`Question::home`].
-    pub fn new(arm: Arm<'q>, home: Option<&'q [f64]>, keeping: Keeping) -> Judge<'q> {
+    pub fn new(arm: Arm<'q>, home: Option<&'q [f64]>, margins: PostureMargins) -> PlacementEvaluator<'q> {
         let question = Question::unloaded(arm, home);
         let lanes = arm.robot.ortho_parallel().filter(|_| arm.model.is_drives_alone());
-        Judge {
-            keeping,
-            way: match lanes {
-                Some(form) => Way::Lanes(Box::new(Placer::new(&question, form, &keeping))),
-                None => Judge::general(arm, home, keeping),
+        PlacementEvaluator {
+            margins,
+            method: match lanes {
+                Some(form) => PlacementMethod::Lanes(Box::new(Placer::new(&question, form, &margins))),
+                None => PlacementEvaluator::general(arm, home, margins),
             },
         }
     }
 
-    fn general(arm: Arm<'q>, home: Option<&'q [f64]>, keeping: Keeping) -> Way<'q> {
-        Way::General(Box::new(Columns::one_by_one(
+    fn general(arm: Arm<'q>, home: Option<&'q [f64]>, margins: PostureMargins) -> PlacementMethod<'q> {
+        PlacementMethod::General(Box::new(Columns::one_by_one(
             arm,
             home,
-            [keeping.wrist, keeping.margin],
+            [margins.wrist, margins.margin],
         )))
     }
 
-    /// Whether the eight that are judged are branches, in the order of [`Branch::ALL`]. Of other arms the first alone means
-    /// something: the best posture at each point, whichever that is.
-    pub fn tells_branches(&self) -> bool {
-        match &self.way {
-            Way::Lanes(_) => true,
-            Way::General(columns) => columns.slots_are_branches(),
+    /// Whether the eight results are branches, in the order of [`Branch::ALL`]. For other arms only the first one is
+    /// valid: the best posture at each point.
+    pub fn has_branches(&self) -> bool {
+        match &self.method {
+            PlacementMethod::Lanes(_) => true,
+            PlacementMethod::General(columns) => columns.slots_are_branches(),
         }
     }
 
-    /// What each posture makes of the points of `path` where the part lies so. Branches outside `open` are given up at once,
-    /// those that `worth` says no to after some points; what is told of them is that of the points so far.
-    pub fn judge(
+    /// Totals of each posture over the points of `path` at this placement. Branches outside `open` are skipped. A
+    /// branch is given up as soon as `keep` returns false for its totals so far.
+    pub fn evaluate(
         &mut self,
         path: &PlacedPath,
         placement: &PartPlacement,
         open: BranchPattern,
-        worth: impl FnMut(&Judged) -> bool,
-    ) -> [Option<Judged>; SLOTS] {
+        keep: impl FnMut(&PathTotals) -> bool,
+    ) -> [Option<PathTotals>; SLOTS] {
         let is_open = slots_of(open);
-        match &mut self.way {
-            Way::Lanes(placer) => by_lanes(placer, (&path.laid, placement), is_open, worth),
-            Way::General(columns) => one_by_one((columns, self.keeping.limit), (path, placement), is_open, worth),
+        match &mut self.method {
+            PlacementMethod::Lanes(placer) => by_lanes(placer, (&path.double, placement), is_open, keep),
+            PlacementMethod::General(columns) => one_by_one(
+                (columns, self.margins.tolerance),
+                (path, placement),
+                is_open,
+                keep,
+            ),
         }
     }
 }
 
-impl Judge<'_> {
-    /// What the points of `path` come to where the part lies so and each is held for itself, in the best of these turns of the
-    /// tool (rad, beside the place's) and of the branches that are open.
-    pub fn judge_each(&mut self, path: &PlacedPath, placement: &PartPlacement, open: BranchPattern, spins: &[f64]) -> Judged {
+impl PlacementEvaluator<'_> {
+    /// Totals of the points of `path` at this placement where each point uses its best spin (rad, in addition to that
+    /// of the placement) and its best open branch.
+    pub fn evaluate_each(
+        &mut self,
+        path: &PlacedPath,
+        placement: &PartPlacement,
+        open: BranchPattern,
+        spins: &[f64],
+    ) -> PathTotals {
         let is_open = slots_of(open);
         let mut least = Vec::with_capacity(path.len());
-        match &mut self.way {
-            Way::Lanes(placer) => placer.least_of_each(&path.laid, (placement, spins), is_open, &mut least),
-            Way::General(columns) => {
+        match &mut self.method {
+            PlacementMethod::Lanes(placer) => {
+                placer.least_of_each(&path.double, (placement, spins), is_open, &mut least)
+            }
+            PlacementMethod::General(columns) => {
                 let named = columns.slots_are_branches();
                 let mut column = Column::default();
-                columns.stand_rail(placement.rail);
+                columns.set_rail(placement.rail);
                 for index in 0..path.len() {
                     path.fill_column(columns, (index, placement), spins, &mut column);
                     let allowed = |slot: usize| !named || is_open[slot % SLOTS];
@@ -243,16 +257,16 @@ impl Judge<'_> {
                 }
             }
         }
-        let mut judged = Judged::default();
+        let mut totals = PathTotals::default();
         for deviation in least {
-            judged.take(deviation, self.keeping.limit);
+            totals.take(deviation, self.margins.tolerance);
         }
-        judged
+        totals
     }
 }
 
 impl PlacedPath {
-    /// Fills `out` with the postures at point `index` of a part that lies so, the tool turned by each of `spins` (rad).
+    /// Fills `out` with the postures at point `index` at this placement, for each of the additional `spins` (rad).
     fn fill_column(
         &self,
         columns: &mut Columns<'_>,
@@ -260,9 +274,9 @@ impl PlacedPath {
         spins: &[f64],
         out: &mut Column,
     ) {
-        let axes = match self.pushes.told_in {
-            ToldIn::Base => UnitQuaternion::identity(),
-            ToldIn::Part => placement.base_from_part.rotation,
+        let axes = match self.load.wrench_axes {
+            WrenchAxes::Base => UnitQuaternion::identity(),
+            WrenchAxes::Part => placement.base_from_part.rotation,
         };
         let turned = |given: &Wrench| Wrench {
             force: axes * given.force,
@@ -275,132 +289,137 @@ impl PlacedPath {
             placement.base_from_part * point.part_from_tool * about
         };
         let poses: Vec<Isometry> = spins.iter().map(pose).collect();
-        let push = Push {
+        let load = ColumnLoad {
             cases: &cases,
             along: point.along.map(|along| placement.base_from_part * along),
         };
-        columns.fill(&poses, &push, out);
+        columns.fill(&poses, &load, out);
     }
 }
 
-/// Proves in half the time that a place is not worth judging; one a thread.
+/// Screens placements in half the time; one per thread. It can only prove that a placement is not better than required.
 ///
-/// In single precision: points count as held that nearly are, and deviations stray by [`Glance::strays`].
-pub struct Glance(Box<Placer<f32>>);
+/// In single precision with widened limits: it accepts points just outside them, and deviations have an error of at
+/// most [`PlacementScreen::rounding_error`].
+pub struct PlacementScreen(Box<Placer<f32>>);
 
-impl Glance {
-    /// For this arm; `None` where lanes do not answer for it.
-    pub fn new(arm: Arm<'_>, keeping: Keeping) -> Option<Glance> {
+impl PlacementScreen {
+    /// For this arm; `None` where lanes do not support it.
+    pub fn new(arm: Arm<'_>, margins: PostureMargins) -> Option<PlacementScreen> {
         let form = arm
             .robot
             .ortho_parallel()
             .filter(|_| arm.model.is_drives_alone())?;
         let question = Question::unloaded(arm, None);
-        Some(Glance(Box::new(Placer::generous(&question, form, &keeping))))
+        Some(PlacementScreen(Box::new(Placer::generous(
+            &question, form, &margins,
+        ))))
     }
 
-    /// The deviations it tells along `path` are off by this at most, m.
-    pub fn strays(&self, path: &PlacedPath) -> f64 {
-        self.0.strays(&path.single)
+    /// Largest error of the deviations along `path`, m.
+    pub fn rounding_error(&self, path: &PlacedPath) -> f64 {
+        self.0.rounding_error(&path.single)
     }
 
-    /// Whether a branch that is open may be worth it: whatever its postures truly make of the points, no more of them are held
-    /// and no deviation is more than [`Glance::strays`] below what `worth` is asked.
-    pub fn may_be_worth(
+    /// Whether an open branch may pass `keep`. The exact totals have at least as many unreachable points, and their
+    /// deviations are at most [`PlacementScreen::rounding_error`] below those given to `keep`.
+    pub fn may_pass(
         &mut self,
         path: &PlacedPath,
         placement: &PartPlacement,
         open: BranchPattern,
-        worth: impl FnMut(&Judged) -> bool,
+        keep: impl FnMut(&PathTotals) -> bool,
     ) -> bool {
-        let judged = by_lanes(&mut self.0, (&path.single, placement), slots_of(open), worth);
-        judged.iter().any(Option::is_some)
+        let totals = by_lanes(&mut self.0, (&path.single, placement), slots_of(open), keep);
+        totals.iter().any(Option::is_some)
     }
 }
 
-/// Which of the eight are branches that are open.
+/// Which of the eight branches are open.
 fn slots_of(open: BranchPattern) -> [bool; SLOTS] {
     std::array::from_fn(|slot| open.matches(Branch::ALL[slot]))
 }
 
-/// [`Judge::judge`] by lanes.
+/// [`PlacementEvaluator::evaluate`] by lanes.
 fn by_lanes<T: Precision>(
     placer: &mut Placer<T>,
-    (laid, placement): (&Laid<T>, &PartPlacement),
+    (points, placement): (&PlacementPoints<T>, &PartPlacement),
     open: [bool; SLOTS],
-    mut worth: impl FnMut(&Judged) -> bool,
-) -> [Option<Judged>; SLOTS] {
-    let judged = |tallied: &Tallied, flip: usize| Judged {
-        lost: tallied.lost[flip],
+    mut keep: impl FnMut(&PathTotals) -> bool,
+) -> [Option<PathTotals>; SLOTS] {
+    let totals = |tallied: &Tallied, flip: usize| PathTotals {
+        unreachable: tallied.unreachable[flip],
         worst: tallied.worst,
         sum: tallied.sum,
         above: tallied.above,
     };
-    let mut given_up = [false; SLOTS];
-    let tallied = placer.judge(laid, placement, |four, tallied| {
+    let mut dropped = [false; SLOTS];
+    let tallied = placer.evaluate(points, placement, |four, tallied| {
         let mut any = false;
         for flip in 0..2 {
             let slot = 2 * four + flip;
-            let open = open[slot] && !given_up[slot] && worth(&judged(tallied, flip));
-            given_up[slot] = !open;
+            let open = open[slot] && !dropped[slot] && keep(&totals(tallied, flip));
+            dropped[slot] = !open;
             any |= open;
         }
         any
     });
-    std::array::from_fn(|slot| (!given_up[slot]).then(|| judged(&tallied[slot / 2], slot % 2)))
+    std::array::from_fn(|slot| (!dropped[slot]).then(|| totals(&tallied[slot / 2], slot % 2)))
 }
 
-/// Points after which it is asked whether to go on.
+/// Points between two calls of `keep`.
 const SOME: usize = 20;
 
-/// [`Judge::judge`] one pose after the other.
+/// [`PlacementEvaluator::evaluate`] one pose after the other.
 fn one_by_one(
-    (columns, limit): (&mut Columns<'_>, f64),
+    (columns, tolerance): (&mut Columns<'_>, f64),
     (path, placement): (&PlacedPath, &PartPlacement),
     mut open: [bool; SLOTS],
-    mut worth: impl FnMut(&Judged) -> bool,
-) -> [Option<Judged>; SLOTS] {
+    mut keep: impl FnMut(&PathTotals) -> bool,
+) -> [Option<PathTotals>; SLOTS] {
     let named = columns.slots_are_branches();
     if !named {
-        // One for whatever posture is best at each point.
+        // A single result: the best posture at each point.
         open = std::array::from_fn(|slot| slot == 0);
     }
-    columns.stand_rail(placement.rail);
-    let mut judged = [Judged::default(); SLOTS];
+    columns.set_rail(placement.rail);
+    let mut totals = [PathTotals::default(); SLOTS];
     let mut column = Column::default();
     for index in 0..path.len() {
         path.fill_column(columns, (index, placement), &[0.0], &mut column);
         let best = || column.deviations.iter().copied().fold(f64::INFINITY, f64::min);
-        for (slot, judged) in judged.iter_mut().enumerate().filter(|(slot, _)| open[*slot]) {
+        for (slot, totals) in totals.iter_mut().enumerate().filter(|(slot, _)| open[*slot]) {
             let deviation = match named {
                 true => column.deviations[slot],
                 false => best(),
             };
-            debug_assert!(!named || deviation.is_finite() == (column.stands[slot] == Stand::Holds));
-            judged.take(deviation, limit);
+            debug_assert!(
+                !named || deviation.is_finite() == (column.statuses[slot] == PostureStatus::Usable)
+            );
+            totals.take(deviation, tolerance);
         }
         if (index + 1) % SOME == 0 {
-            for (open, judged) in open.iter_mut().zip(&judged) {
-                *open = *open && worth(judged);
+            for (open, totals) in open.iter_mut().zip(&totals) {
+                *open = *open && keep(totals);
             }
             if open == [false; SLOTS] {
                 break;
             }
         }
     }
-    std::array::from_fn(|slot| open[slot].then_some(judged[slot]))
+    std::array::from_fn(|slot| open[slot].then_some(totals[slot]))
 }
 
-impl Judged {
-    /// Adds a point with this deviation, infinite where no posture stands.
-    fn take(&mut self, deviation: f64, limit: f64) {
+impl PathTotals {
+    /// Adds a point with this deviation, infinite where no posture can be used.
+    fn take(&mut self, deviation: f64, tolerance: f64) {
         if !deviation.is_finite() {
-            self.lost += 1;
+            self.unreachable += 1;
             return;
         }
         self.worst = self.worst.max(deviation);
         self.sum += deviation;
-        self.above += (deviation - limit).max(0.0);
+        self.above += (deviation - tolerance).max(0.0);
     }
 }
 

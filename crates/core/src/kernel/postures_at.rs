@@ -1,37 +1,38 @@
 //! Every posture of many poses, in flat arrays.
 //!
-//! Blocks of poses on all threads of the current rayon pool; a single block is done where it is asked for. Each pose is
-//! looked at by itself: of a searched chain too, what comes out depends on no pose before it and on no thread.
+//! Blocks of poses on all threads of the current rayon pool; a single block is computed on the calling thread. Each
+//! pose is solved separately, also of a chain without a closed-form solution: the result does not depend on other poses
+//! or on the thread.
 
 use rayon::prelude::*;
 
 use super::answer::AT_LIMIT;
 use crate::frame::Isometry;
-use crate::robot::inverse::{Finder, Wanted};
+use crate::robot::inverse::{Finder, InverseTarget};
 use crate::robot::{PostureName, Robot, Unreachable};
 use crate::watch::{Cancelled, Watch};
 
 /// Poses in a block: enough to make the hand-over cheap, few enough to cancel soon.
 const AT_ONCE: usize = 128;
 
-/// The postures of many poses, those of one pose behind those of the pose before.
+/// The postures of many poses, in the order of the poses.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PosturesAt {
-    /// Of each pose how many postures hold it, or why none does.
+    /// Number of postures of each pose, or why there is none.
     pub poses: Vec<Result<usize, Unreachable>>,
-    /// Joint positions of every posture, rad (m), as many a posture as joints.
+    /// Joint positions of every posture, rad (m), one value per joint.
     pub joints: Vec<f64>,
     /// Its name.
     pub names: Vec<PostureName>,
-    /// Whether every joint stands inside its limits.
+    /// Whether every joint is inside its limits.
     pub within_limits: Vec<bool>,
 }
 
-/// Every posture that holds the flange at each of `count` poses; `base_from_flange(i)` gives the pose of point `i`. Of a
-/// searched chain those that were found. `home`: see [`Wanted::home`].
+/// Every posture that reaches the flange pose at each of `count` poses; `base_from_flange(i)` gives the pose of point
+/// `i`. Of a chain without a closed-form solution, the postures that were found. `home`: see [`InverseTarget::home`].
 ///
 /// # Errors
-/// [`Cancelled`] if the watch says so.
+/// [`Cancelled`] if the watch cancels.
 pub fn postures_at(
     robot: &Robot,
     count: usize,
@@ -47,7 +48,7 @@ pub fn postures_at(
         let last = count.min(first + AT_ONCE);
         for i in first..last {
             finder.forget();
-            let requested = Wanted {
+            let requested = InverseTarget {
                 base_from_flange: base_from_flange(i),
                 near: None,
                 home,

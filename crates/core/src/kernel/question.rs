@@ -1,4 +1,4 @@
-//! What is asked at every point.
+//! Input that is common to all points.
 
 use nalgebra::{Unit, Vector3};
 
@@ -7,37 +7,37 @@ use crate::robot::BranchPattern;
 use crate::source::Arm;
 use crate::spatial::Wrench;
 
-/// Which posture stands for a point.
+/// Which posture is used at a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BranchChoice {
-    /// Of the branches that match, the one with the most room to its joint limits, inside them or not. Of an arm whose
-    /// branches have no names the posture that continues the one of the point before (of a map, in the same block of
+    /// Of the branches that match, the one with the largest margin to its joint limits, inside them or not. Of an arm
+    /// without branch names, the posture that continues the one of the point before (of a map, in the same block of
     /// points), or the one nearest to home.
     Of(BranchPattern),
-    /// Of all postures inside the joint limits, the one with the least envelope of in-plane deviation.
+    /// Of all postures inside the joint limits, the one with the smallest envelope of in-plane deviation.
     Best,
 }
 
 /// One question for many tool poses.
 #[derive(Clone, Copy, Debug)]
 pub struct Question<'a> {
-    /// The arm and its tool, with all that yields and weighs. Lanes answer for drives alone.
+    /// The arm and its tool, with all compliances and masses. Lanes support drives only.
     pub arm: Arm<'a>,
-    /// Joint positions where a rail or a joint to spare stands, and that further joints to spare are drawn to; without,
-    /// the middle of their ranges.
+    /// Joint positions of a rail or a redundant joint, and start values of further redundant joints; if not given, the
+    /// middle of their ranges.
     pub home: Option<&'a [f64]>,
-    /// Load cases on the tool at the TCP, base basis; at least one.
+    /// Load cases on the tool at the TCP, base axes; at least one.
     pub cases: &'a [Wrench],
-    /// How sure load and tool are; lanes answer where there is no doubt.
+    /// Uncertainty of load and tool; lanes are used where it is zero.
     pub uncertainty: InputUncertainty,
     /// Outward normal of the plane that deviations are split on, base basis.
     pub normal: Unit<Vector3<f64>>,
-    /// Which posture stands for a point.
+    /// Which posture is used at a point.
     pub choice: BranchChoice,
 }
 
 impl<'a> Question<'a> {
-    /// A question about this arm without load: for work that brings its own loads, normals and branches.
+    /// A question about this arm without load: for functions that set loads, normals and branches themselves.
     pub fn unloaded(arm: Arm<'a>, home: Option<&'a [f64]>) -> Question<'a> {
         Question {
             arm,

@@ -1,21 +1,21 @@
-//! One block of points: through lanes, and where there are none or they cannot decide one after the other.
+//! One block of points: through lanes, and one after the other where lanes cannot be used or cannot decide.
 //!
-//! A block knows nothing of the blocks beside it, but along a path: whatever thread takes it, it gives the same bits.
+//! A block does not depend on other blocks, except along a path: every thread gives the same bits.
 
-use super::answer::{Slot, Slots, Told};
+use super::answer::{AnswerDetail, Slot, Slots};
 use super::general::General;
 use super::lanes::{POINTS, Points};
 use super::question::{BranchChoice, Question};
 use crate::frame::Isometry;
 use crate::watch::{Cancelled, Watch};
 
-/// Points in a block: what lanes take at once.
+/// Points in a block: one call of the lanes.
 pub(super) const BLOCK: usize = POINTS;
 
-/// Room to answer a question, one a thread.
+/// Buffers to answer a question, one per thread.
 pub(super) struct Solver<'q> {
     question: &'q Question<'q>,
-    /// For ortho-parallel arms whose drives alone move the tool.
+    /// For ortho-parallel arms whose only springs are the drives.
     lanes: Option<Points<'q>>,
     general: General<'q>,
     poses: Vec<Isometry>,
@@ -24,24 +24,27 @@ pub(super) struct Solver<'q> {
     before: Option<Vec<f64>>,
 }
 
-/// Whether points follow on each other.
+/// Whether points follow each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Order {
-    /// Each stands for itself.
+    /// Points are independent.
     Any,
-    /// Each starts where the one before left the arm.
+    /// Each point starts from the posture of the point before.
     AlongPath,
 }
 
 impl<'q> Solver<'q> {
-    /// Room for blocks of this question.
+    /// Buffers for blocks of this question.
     ///
     /// # Panics
     /// If it has no load case.
-    pub fn new(question: &'q Question<'q>, order: Order, given: Told) -> Solver<'q> {
-        assert!(!question.cases.is_empty(), "a question has a load case at least");
+    pub fn new(question: &'q Question<'q>, order: Order, detail: AnswerDetail) -> Solver<'q> {
+        assert!(
+            !question.cases.is_empty(),
+            "a question needs at least one load case"
+        );
         let model = question.arm.model;
-        let by_load_alone = given == Told::DeviationsAlone || !model.moves_unloaded();
+        let by_load_alone = detail == AnswerDetail::DeviationsAlone || !model.has_unloaded_deviation();
         Solver {
             question,
             order,
@@ -49,7 +52,7 @@ impl<'q> Solver<'q> {
                 .then(|| question.arm.robot.ortho_parallel())
                 .flatten()
                 .map(|arm| Points::new(question, arm)),
-            general: General::new(question, given),
+            general: General::new(question, detail),
             poses: Vec::with_capacity(BLOCK),
             before: None,
         }
@@ -71,7 +74,7 @@ impl<'q> Solver<'q> {
         if let Some(lanes) = &mut self.lanes {
             lanes.solve(&self.poses);
         }
-        // Along a path one posture is followed; the best of all must know all from time to time.
+        // Along a path one posture is followed; the best of all must examine all from time to time.
         if self.order == Order::Any || self.question.choice == BranchChoice::Best {
             self.general.forget();
         }

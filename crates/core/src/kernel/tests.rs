@@ -1,4 +1,4 @@
-//! Points through lanes, one after the other, under loads of their own and at known joints: the same physics.
+//! Points through lanes, one after the other, under separate loads and at known joints: the same physics.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -9,7 +9,7 @@ use crate::arms::{self, Stream};
 use crate::load::InputUncertainty;
 use crate::robot::inverse::{ToolAt, postures};
 use crate::robot::{
-    BranchPattern, JointCompliance, PostureName, Robot, Attachment, Spring, Structure, Unreachable,
+    Attachment, BranchPattern, JointCompliance, PostureName, Robot, Spring, Structure, Unreachable,
 };
 use crate::source::{Arm, StiffnessModel};
 use crate::spatial::Wrench;
@@ -25,7 +25,7 @@ pub(super) fn cases() -> Vec<Wrench> {
     ]
 }
 
-/// A question to `robot` with a bent tool and an oblique plane.
+/// A question for `robot` with a bent tool and an oblique plane.
 pub(super) fn analysis<T>(
     robot: &Robot,
     model: &StiffnessModel,
@@ -60,7 +60,7 @@ pub(super) fn poses(robot: &Robot, count: usize, seed: u64) -> Vec<Isometry> {
     (0..count).map(pose).collect()
 }
 
-/// A spring at the base: beyond drives alone, and affine.
+/// A spring at the base: not drives only, and affine.
 pub(super) fn springy() -> StiffnessModel {
     let compliance = JointCompliance {
         value: 4e-8,
@@ -75,7 +75,7 @@ pub(super) fn springy() -> StiffnessModel {
     }
 }
 
-/// A watch that cancels once so many points are finished, and how many were.
+/// A watch that cancels once this number of points is finished; returns the number finished.
 pub(super) fn cancelled_after<T>(count: usize, work: impl FnOnce(Watch<'_>) -> T) -> (T, usize) {
     let (done, cancel) = (AtomicUsize::new(0), AtomicBool::new(count == 0));
     let finished = |points: usize| {
@@ -101,14 +101,14 @@ fn work_ends_at_the_block_in_which_it_is_cancelled() {
         assert_eq!((stopped.unwrap_err(), done), (Cancelled, 160));
         let (stopped, done) = cancelled_after(0, |watch| evaluate(question, 300, |i| poses[i], watch));
         assert_eq!((stopped.unwrap_err(), done), (Cancelled, 0));
-        // All threads stop: fewer points than there are.
+        // All threads stop: fewer points than requested.
         let (whole, done) = cancelled_after(1000, |watch| evaluate(question, 300, |i| poses[i], watch));
         assert!(whole.is_ok() && done == 300);
     });
 }
 
 #[test]
-fn points_in_order_and_in_any_order_are_the_same_where_no_wrist_is_straight() {
+fn points_in_order_and_in_any_order_agree_away_from_wrist_singularities() {
     let robot = &arms::ALL[4];
     let poses = poses(robot, 200, 2);
     analysis(robot, StiffnessModel::DRIVES, NOMINAL, |question| {
@@ -123,7 +123,7 @@ fn points_in_order_and_in_any_order_are_the_same_where_no_wrist_is_straight() {
 }
 
 #[test]
-fn an_arm_that_scatters_and_a_model_that_misses_are_as_unsure_through_lanes_as_otherwise() {
+fn repeatability_and_model_error_give_the_same_uncertainty_with_and_without_lanes() {
     let robot = &arms::ALL[0];
     let poses = poses(robot, 100, 9);
     let of = |model: &StiffnessModel| {
@@ -131,7 +131,7 @@ fn an_arm_that_scatters_and_a_model_that_misses_are_as_unsure_through_lanes_as_o
             evaluate(question, 100, |i| poses[i], Watch::NONE).unwrap()
         })
     };
-    // A spring that does not give way keeps points out of lanes.
+    // A spring of zero compliance keeps points out of lanes.
     let rigid = |repeatability, model_error| {
         let mut model = springy();
         model.structure.springs[0].compliance = JointCompliance {
@@ -146,9 +146,9 @@ fn an_arm_that_scatters_and_a_model_that_misses_are_as_unsure_through_lanes_as_o
     drives.structure.repeatability = 2e-5;
     drives.structure.model_error = 0.2;
     let [plain, lanes, general] = [&rigid(0.0, 0.0), &drives, &rigid(2e-5, 0.2)].map(of);
-    let evaluation = plain.points.iter().zip(&lanes.points).zip(&general.points);
+    let all = plain.points.iter().zip(&lanes.points).zip(&general.points);
     let mut count = 0;
-    for ((plain, lanes), general) in evaluation {
+    for ((plain, lanes), general) in all {
         let (Ok(plain), Ok(lanes), Ok(general)) = (plain, lanes, general) else {
             continue;
         };
@@ -162,7 +162,7 @@ fn an_arm_that_scatters_and_a_model_that_misses_are_as_unsure_through_lanes_as_o
 }
 
 #[test]
-#[should_panic(expected = "a question has a load case at least")]
+#[should_panic(expected = "a question needs at least one load case")]
 fn a_question_without_load_is_refused() {
     analysis(&arms::ALL[0], StiffnessModel::DRIVES, NOMINAL, |question| {
         let without = Question {
@@ -175,7 +175,7 @@ fn a_question_without_load_is_refused() {
 }
 
 #[test]
-fn no_points_have_no_answers() {
+fn zero_points_give_zero_answers() {
     analysis(&arms::ALL[0], StiffnessModel::DRIVES, NOMINAL, |question| {
         let none = evaluate(question, 0, |_| Isometry::identity(), Watch::NONE).unwrap();
         assert!(none.points.is_empty() && none.worst().is_none() && none.best().is_none());
@@ -183,7 +183,7 @@ fn no_points_have_no_answers() {
 }
 
 #[test]
-fn the_roomier_flip_stands_unless_one_is_named() {
+fn the_flip_with_the_larger_margin_is_used_unless_one_is_named() {
     let mut stream = Stream(3);
     for robot in arms::all() {
         let tool = arms::bent_tool();
@@ -221,7 +221,7 @@ fn the_roomier_flip_stands_unless_one_is_named() {
                     }
                 },
             );
-            // Named, it stands whatever its room.
+            // A named branch is used whatever its margin.
             analysis(
                 &robot,
                 StiffnessModel::DRIVES,
@@ -236,7 +236,7 @@ fn the_roomier_flip_stands_unless_one_is_named() {
 }
 
 #[test]
-fn the_load_case_that_no_arm_stands_is_named() {
+fn the_load_case_without_equilibrium_is_named() {
     let robot = &arms::ALL[0];
     let poses = poses(robot, 20, 4);
     let model = StiffnessModel {
@@ -266,8 +266,8 @@ fn the_load_case_that_no_arm_stands_is_named() {
 }
 
 #[test]
-fn best_tells_how_far_the_least_bad_posture_leaves_the_limits() {
-    // Joint 2 may stand in a range that no posture of these poses has.
+fn best_reports_how_far_the_best_posture_exceeds_the_limits() {
+    // Joint 2 has a range that no posture of these poses meets.
     let mut joints = arms::mh12().joints().to_vec();
     joints[1].limits = Some(crate::robot::Limits {
         lower: 1e-3,
@@ -295,7 +295,7 @@ fn best_tells_how_far_the_least_bad_posture_leaves_the_limits() {
             let crate::robot::Overrun::Turned(by) = by else {
                 panic!("a turning joint");
             };
-            // Of two flips with the same margin either may be told.
+            // Of two flips with the same margin either may be reported.
             assert!((by + least.1).abs() < 1e-9, "{by} {least:?}");
             assert!(*joint < 6);
         }
@@ -303,7 +303,7 @@ fn best_tells_how_far_the_least_bad_posture_leaves_the_limits() {
 }
 
 #[test]
-fn a_rail_outside_its_range_is_told_in_metres() {
+fn a_rail_outside_its_range_is_reported_in_metres() {
     let railed = arms::other::on_rail(&arms::ALL[0]);
     let mut home = vec![0.0; 7];
     home[0] = 6.5;

@@ -1,12 +1,13 @@
-//! The load along a path: it may turn with the feed, change from point to point, and give way with the tool.
+//! The load along a path: it may turn with the feed, change from point to point, and depend on the deviation of the
+//! tool.
 //!
-//! `w = (R f, R m)`, and of a cut at rest `f_greatest = f_greatest,drawn |f| / |f_drawn|`.
+//! `w = (R f, R m)`. For a cut at equilibrium: `f_greatest = f_greatest,nominal |f| / |f_nominal|`.
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | `w` | wrench on the tool at the TCP, base axes | N, N m |
-//! | `f`, `m` | force and moment as they are told | N, N m |
-//! | `R` | the axes that they are told in, in base ([`LoadFrame`]) | - |
+//! | `f`, `m` | force and moment, in the axes of the input | N, N m |
+//! | `R` | rotation from these axes to base ([`LoadFrame`]) | - |
 
 use nalgebra::{Rotation3, Vector3};
 
@@ -17,58 +18,58 @@ use super::milling::Cut;
 use crate::frame::Isometry;
 use crate::spatial::Wrench;
 
-/// What pushes on the tool at the points of a path.
+/// The load on the tool at the points of a path.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(clippy::large_enum_variant, reason = "there is one for a whole path")]
 pub enum PathLoad {
-    /// The same cases everywhere, told in their frame.
+    /// The same cases at every point, given in their frame.
     Cases(LoadCases),
-    /// Each point has wrenches of its own: so many a point, point after point.
+    /// Each point has its own wrenches: the same number for every point, stored point after point.
     OfEach {
-        /// Wrenches a point.
+        /// Wrenches per point.
         cases: usize,
-        /// Axes that they are told in.
+        /// Axes of their components.
         frame: LoadFrame,
-        /// All of them.
+        /// The wrenches.
         wrenches: Vec<Wrench>,
     },
-    /// A tool cuts on its way.
+    /// Cutting forces of a tool along the path.
     Cuts(CutsAlong),
 }
 
-/// What is cut along a path, and what that pushes with.
+/// The cut along a path and its forces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CutsAlong {
     /// The tools.
     pub cutters: Vec<Cutter>,
-    /// Force of a chip.
+    /// Cutting force law.
     pub law: CuttingLaw,
-    /// What becomes of the greatest force.
-    pub greatest: Greatest,
-    /// The cut at every point.
+    /// Use of the greatest force.
+    pub greatest: GreatestForce,
+    /// The cut at each point.
     pub points: Vec<CutHere>,
 }
 
-/// What becomes of the greatest force of a revolution.
+/// Use of the greatest force of a revolution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Greatest {
-    /// The mean alone is a load case.
+pub enum GreatestForce {
+    /// Only the mean force is a load case.
     LeftOut,
-    /// It is the second load case.
+    /// The greatest force is the second load case.
     SecondCase,
 }
 
-/// The cut at a point as drawn; its forces, feed frame, are those of the drawing until force and tool have come to rest
-/// ([`super::force_equilibrium`]), then those at rest.
+/// The cut at one point of the nominal path. Its forces (feed frame) are the nominal ones until the force-deflection
+/// equilibrium is solved ([`super::force_equilibrium`]), then those at equilibrium.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CutHere {
-    /// Which of the tools.
+    /// Index of the tool.
     pub cutter: usize,
-    /// What is cut; `None` in the air, and where no force is known.
+    /// The cut; `None` in the air and where the force is not known.
     pub cut: Option<Cut>,
     /// Mean force over a revolution, N.
     pub mean: Vector3<f64>,
-    /// Greatest force of a revolution, N; zero where nobody asks for it.
+    /// Greatest force of a revolution, N; zero where it is not requested.
     pub greatest: Vector3<f64>,
 }
 
@@ -81,36 +82,36 @@ impl CutHere {
         greatest: Vector3::new(0.0, 0.0, 0.0),
     };
 
-    /// Its forces where the mean one has become `mean` (N): the greatest goes with it, and is no less where the drawing
-    /// has none to go with.
+    /// Its forces where the mean force has become `mean` (N). The greatest force scales with it; where the nominal path
+    /// has no force, it equals the mean.
     pub fn under(&self, mean: Vector3<f64>) -> [Vector3<f64>; 2] {
-        let drawn = self.mean.norm();
-        if drawn == 0.0 {
+        let nominal = self.mean.norm();
+        if nominal == 0.0 {
             return [mean, mean];
         }
-        [mean, self.greatest * (mean.norm() / drawn)]
+        [mean, self.greatest * (mean.norm() / nominal)]
     }
 }
 
 impl PathLoad {
-    /// Load cases a point.
+    /// Load cases per point.
     pub fn case_count(&self) -> usize {
         match self {
             PathLoad::Cases(load) => load.cases.len(),
             PathLoad::OfEach { cases, .. } => *cases,
             PathLoad::Cuts(cuts) => match cuts.greatest {
-                Greatest::LeftOut => 1,
-                Greatest::SecondCase => 2,
+                GreatestForce::LeftOut => 1,
+                GreatestForce::SecondCase => 2,
             },
         }
     }
 
-    /// Whether it is the same at every point of a path, whatever way that goes.
+    /// Whether the load is the same at every point, whatever the direction of the path.
     pub fn is_steady(&self) -> bool {
         matches!(self, PathLoad::Cases(load) if load.frame != LoadFrame::Feed)
     }
 
-    /// The load along a path that is closed by its first point.
+    /// The load along a path whose first point is added as its last.
     pub fn closed(&self) -> PathLoad {
         let mut closed = self.clone();
         match &mut closed {
@@ -121,7 +122,7 @@ impl PathLoad {
         closed
     }
 
-    /// Whether it tells what pushes at each of so many points, and of cuts with which of its tools.
+    /// Whether the load is given at each of this many points, and every cut refers to one of its tools.
     pub fn covers(&self, points: usize) -> bool {
         match self {
             PathLoad::Cases(_) => true,
@@ -135,7 +136,7 @@ impl PathLoad {
         }
     }
 
-    /// Fills in the wrenches at point `index` in base axes; of cuts those that the points hold now.
+    /// Writes the wrenches at point `index` in base axes; for cuts, the current forces of the point.
     ///
     /// # Panics
     /// If it [covers](PathLoad::covers) fewer points.
@@ -186,7 +187,7 @@ mod tests {
         PathLoad::Cuts(CutsAlong {
             cutters: vec![Cutter::flat(0.01, 2).unwrap()],
             law: CuttingLaw::Mechanistic(law),
-            greatest: Greatest::SecondCase,
+            greatest: GreatestForce::SecondCase,
             points,
         })
     }
@@ -198,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn each_point_has_its_own_wrenches_turned_by_the_axes_that_they_are_told_in() {
+    fn each_point_has_its_own_wrenches_rotated_by_the_axes_of_the_input() {
         let part = from_xyz_and_fixed_angles(Vector3::new(1.0, 2.0, 3.0), Vector3::new(0.3, -0.8, 2.0));
         let feed = Rotation3::new(Vector3::new(-0.4, 1.1, 0.2));
         let wrenches: Vec<Wrench> = (0..6).map(|k| wrench(f64::from(k))).collect();
@@ -214,7 +215,7 @@ mod tests {
             };
             let found = in_base(&each, 2, &part, &feed);
             assert_eq!(found[1].force, axes * wrench(5.0).force, "{frame:?}");
-            // A place has no part in it: a wrench at the TCP is a free pair of vectors.
+            // The position of the part has no effect: a wrench at the TCP is a free pair of vectors.
             assert_eq!(found[0].moment, axes * wrench(4.0).moment, "{frame:?}");
             let same = PathLoad::Cases(LoadCases {
                 frame,
@@ -247,7 +248,7 @@ mod tests {
     }
 
     #[test]
-    fn the_greatest_force_goes_with_the_mean_and_is_no_less_where_nothing_is_drawn() {
+    fn the_greatest_force_scales_with_the_mean_and_equals_it_where_the_nominal_force_is_zero() {
         let here = CutHere {
             mean: Vector3::new(3.0, 4.0, 0.0),
             greatest: Vector3::new(0.0, 12.0, 5.0),
@@ -255,7 +256,7 @@ mod tests {
         };
         let mean = Vector3::new(0.0, 0.0, 10.0);
         assert_eq!(here.under(mean), [mean, here.greatest * 2.0]);
-        // The drawn path passes beside the part, the tool that strays does not.
+        // The nominal path passes next to the part, the deflected tool does not.
         let cut_in_air = CutHere {
             cut: Some(Cut {
                 depth: 1e-3,
@@ -271,7 +272,7 @@ mod tests {
     }
 
     #[test]
-    fn a_load_covers_the_points_that_it_tells_of() {
+    fn a_load_covers_the_points_for_which_it_is_given() {
         let each_of = |points: usize| PathLoad::OfEach {
             cases: 2,
             frame: LoadFrame::Base,
@@ -286,7 +287,7 @@ mod tests {
             ..CutHere::NOTHING
         };
         assert!(!cuts(vec![other_tool]).covers(1));
-        // Closed by their first point they tell of one more.
+        // Closed by their first point they cover one more.
         let [each, cut] = [each_of(3), cut].map(|load| load.closed());
         assert!(each.covers(4) && !each.covers(5) && cut.covers(4) && !cut.covers(5));
         let same = PathLoad::Cases(LoadCases {

@@ -4,7 +4,7 @@
 //! h(phi) = a sin(phi) + b        integrals of 1, sin, cos and of h, h sin, h cos from entry to exit
 //! ```
 //!
-//! They are told by the middle `m` and the half width `w` of the arc, so that a short arc keeps its digits:
+//! They are given by the middle `m` and the half width `w` of the arc, so that a short arc keeps its digits:
 //! `cos p - cos q = 2 sin m sin w`.
 
 use nalgebra::{Matrix3, Vector3};
@@ -59,7 +59,7 @@ impl Chip {
 }
 
 impl EngagedArc {
-    /// What lies in both.
+    /// The intersection of both.
     pub(super) fn common_with(self, other: EngagedArc) -> Option<EngagedArc> {
         let common = EngagedArc {
             entry: self.entry.max(other.entry),
@@ -68,7 +68,7 @@ impl EngagedArc {
         (common.exit > common.entry).then_some(common)
     }
 
-    /// Whether `phi` (rad, from 0 to a turn) lies in it.
+    /// Whether it contains `phi` (rad, from 0 to a turn).
     pub(super) fn contains(self, phi: f64) -> bool {
         self.entry <= phi && phi <= self.exit
     }

@@ -7,7 +7,7 @@ use nalgebra::Rotation3;
 use crate::frame::Isometry;
 use crate::spatial::Wrench;
 
-/// The axes that the components of a load are told in.
+/// The axes of the components of a load.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LoadFrame {
     /// The base frame of the robot.
@@ -28,8 +28,8 @@ pub struct LoadCases {
 }
 
 impl LoadFrame {
-    /// These axes in base, for a part that lies at `base_from_part` and a feed frame that stands so in base; `None` for
-    /// the feed where no path tells it.
+    /// These axes in base, for a part placed at `base_from_part` and a feed frame with this rotation in base; `None`
+    /// for the feed frame where no path gives it.
     pub fn axes(
         self,
         base_from_part: &Isometry,
@@ -44,14 +44,14 @@ impl LoadFrame {
 }
 
 impl LoadCases {
-    /// The cases told in base, for a part that lies at `base_from_part`; `None` where they turn with a feed.
+    /// The cases in base axes, for a part placed at `base_from_part`; `None` where they turn with a feed.
     pub fn in_base(&self, base_from_part: &Isometry) -> Option<Vec<Wrench>> {
         let axes = self.frame.axes(base_from_part, None)?;
         Some(self.cases.iter().map(|given| turned(given, &axes)).collect())
     }
 }
 
-/// A wrench told in `axes`, in the axes that these are told in.
+/// A wrench given in `axes`, in the reference axes of `axes`.
 pub(super) fn turned(given: &Wrench, axes: &Rotation3<f64>) -> Wrench {
     Wrench {
         force: axes * given.force,
@@ -66,7 +66,7 @@ mod tests {
     use nalgebra::{Point3, Vector3};
 
     #[test]
-    fn a_load_told_in_the_part_turns_with_it() {
+    fn a_load_given_in_the_part_frame_turns_with_the_part() {
         let plane = Plane::tilted(Point3::new(0.8, 0.0, 0.8), 0.3);
         let push = Wrench::from_force(Vector3::new(0.0, 0.0, -7.0));
         let load = LoadCases {
@@ -79,7 +79,7 @@ mod tests {
     }
 
     #[test]
-    fn what_turns_with_the_feed_has_no_axes_without_one() {
+    fn axes_that_turn_with_the_feed_require_a_feed() {
         let part = crate::frame::from_xyz_and_fixed_angles(Vector3::x(), Vector3::new(0.3, -0.8, 2.0));
         let feed = Rotation3::new(Vector3::new(-0.4, 1.1, 0.2));
         let load = |frame| LoadCases {

@@ -14,8 +14,8 @@
 //! | `R`, `r` | radius of the cylinder and of its corner | m |
 //! | `kappa` | axial immersion angle: from the tool axis to the normal of the body | rad |
 //! | `beta` | helix angle on the cylinder | rad |
-//! | `psi` | how far a point of the edge trails the tip | rad |
-//! | `rho`, `lambda` | runout: how far the tool's axis is from the spindle's, and where | m, rad |
+//! | `psi` | angle by which a point of the edge trails the tip | rad |
+//! | `rho`, `lambda` | runout: offset of the tool axis from the spindle axis, and its direction | m, rad |
 //!
 //! The spindle turns clockwise, seen from the spindle. Flutes are evenly spaced. Not modelled: edges on the bottom of
 //! a flat or bull nose end mill, tapers, uneven pitch.
@@ -27,13 +27,13 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use super::end_mill_body::EndMillBody;
 use super::error::{CuttingError, checked};
 
-/// Which way the flutes wind.
+/// Helix direction of the flutes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Hand {
-    /// Upper points trail the tip, chips are lifted, the tool is drawn to the part. The common end mill.
+    /// Upper points trail the tip, chips are lifted, the tool is pulled towards the part. The common end mill.
     #[default]
     Right,
-    /// Upper points lead, chips are pressed down, the tool is pushed to the spindle.
+    /// Upper points lead, chips are pressed down, the tool is pushed towards the spindle.
     Left,
 }
 
@@ -47,7 +47,7 @@ impl Hand {
     }
 }
 
-/// How far the tool's axis lies beside the spindle's.
+/// Runout: the offset of the tool axis from the spindle axis.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Runout {
     /// Distance of the two axes, m.
@@ -67,7 +67,7 @@ pub struct Cutter {
     rake: f64,
 }
 
-/// A point of an edge, as its forces need it.
+/// A point of an edge, as needed for its forces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EdgePoint {
     /// Above the tip, m.
@@ -91,7 +91,7 @@ impl Cutter {
     /// An end mill with a sharp corner; straight flutes, no runout, no rake. m.
     ///
     /// # Errors
-    /// Diameter or number of flutes outside what is made.
+    /// Diameter or number of flutes out of range.
     pub fn flat(diameter: f64, flutes: u32) -> Result<Cutter, CuttingError> {
         Cutter::bull_nose(diameter, 0.0, flutes)
     }
@@ -145,7 +145,7 @@ impl Cutter {
         Ok(self)
     }
 
-    /// The same, held beside the spindle's axis.
+    /// The same, clamped with this offset from the spindle axis.
     ///
     /// # Errors
     /// An offset that is negative or beyond half the diameter; numbers that are not finite.
@@ -156,7 +156,7 @@ impl Cutter {
         Ok(self)
     }
 
-    /// The same with this rake angle (rad); counts in Kienzle's law alone.
+    /// The same with this rake angle (rad); used by Kienzle's law only.
     ///
     /// # Errors
     /// A rake beyond 45 deg either way.
@@ -165,7 +165,7 @@ impl Cutter {
         Ok(self)
     }
 
-    /// What it fills as it turns.
+    /// The body that it fills as it turns.
     pub fn body(&self) -> &EndMillBody {
         &self.body
     }
@@ -200,12 +200,12 @@ impl Cutter {
         self.helix
     }
 
-    /// Which way the flutes wind.
+    /// Helix direction of the flutes.
     pub fn hand(&self) -> Hand {
         self.hand
     }
 
-    /// How the cutter is held.
+    /// Runout of the clamped cutter.
     pub fn runout(&self) -> Runout {
         self.runout
     }
@@ -242,7 +242,7 @@ impl Cutter {
         let (sin_kappa, cos_kappa) = kappa.sin_cos();
         let r = self.corner_radius();
         EdgePoint {
-            // 1 - cos, told so that it keeps its digits near the tip.
+            // 1 - cos, in a form that keeps its digits near the tip.
             height: 2.0 * r * (kappa / 2.0).sin().powi(2),
             radius: self.radius() - r + r * sin_kappa,
             sin_kappa,
@@ -259,7 +259,7 @@ impl Cutter {
         }
     }
 
-    /// How much farther out than on a true tool tooth `tooth` stands at `height`, m.
+    /// Radial runout of tooth `tooth` at `height`: its radius less that of a true-running tool, m.
     pub fn radial_runout(&self, tooth: u32, height: f64) -> f64 {
         let trails = f64::from(tooth) * self.pitch() + self.lag(height);
         self.runout.offset * (self.runout.angle - trails).cos()
@@ -318,7 +318,7 @@ mod tests {
     }
 
     #[test]
-    fn teeth_of_an_offset_tool_stand_out_by_nothing_on_the_whole() {
+    fn the_runout_of_all_teeth_adds_up_to_zero() {
         let runout = Runout {
             offset: 20e-6,
             angle: 0.4,
@@ -330,7 +330,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cutter_that_cannot_be_is_refused() {
+    fn refuses_an_invalid_cutter() {
         assert!(Cutter::flat(0.0, 2).is_err());
         assert!(Cutter::flat(f64::NAN, 2).is_err());
         assert!(Cutter::flat(0.01, 0).is_err());
@@ -347,7 +347,7 @@ mod tests {
     }
 
     #[test]
-    fn the_edge_lies_on_the_body_and_its_normal_is_that_of_the_body() {
+    fn the_edge_is_on_the_body_and_its_normal_is_that_of_the_body() {
         for cutter in [
             Cutter::flat(16.0 * MM, 4),
             Cutter::ball(10.0 * MM, 2),

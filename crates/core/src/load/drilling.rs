@@ -24,7 +24,7 @@ use super::error::{CuttingError, checked};
 use super::kienzle::Kienzle;
 use crate::spatial::Wrench;
 
-/// A drill on its way into the part.
+/// A drill with its feed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drilling {
     /// m
@@ -57,7 +57,7 @@ impl Drilling {
     /// Thrust and torque while the whole point is in the part.
     ///
     /// # Errors
-    /// A diameter, feed or point angle outside what is made.
+    /// A diameter, feed or point angle out of range.
     pub fn force(&self) -> Result<DrillingForce, CuttingError> {
         let d = checked("diameter of the drill", self.diameter, [1e-5, 1.0], "m")?;
         let sigma = checked("point angle", self.point_angle, POINT_ANGLES, "rad")?;
@@ -89,7 +89,7 @@ impl DrillingForce {
     pub fn wrench(&self) -> Wrench {
         Wrench {
             force: Vector3::z() * self.thrust,
-            // The spindle turns about -z, the part holds against it.
+            // The spindle turns about -z, the part reacts against it.
             moment: Vector3::z() * self.torque,
         }
     }
@@ -131,7 +131,7 @@ mod tests {
         let torque = kc * 10.0 * 10.0 * 0.2 / 8.0 * 1e-3;
         let force = drilling.force().unwrap();
         assert!((force.torque - torque).abs() < 1e-12, "{} N m", force.torque);
-        // Thrust: half of the cutting force of both lips, laid along the axis: 0.5 kc d f/2 sin 59 deg.
+        // Thrust: half of the cutting force of both lips, along the axis: 0.5 kc d f/2 sin 59 deg.
         let thrust = 0.5 * kc * 10.0 * 0.2 / 2.0 * 59_f64.to_radians().sin();
         assert!((force.thrust - thrust).abs() < 1e-9, "{} N", force.thrust);
     }
@@ -145,13 +145,13 @@ mod tests {
     }
 
     #[test]
-    fn the_part_pushes_the_drill_back_and_holds_against_its_turn() {
+    fn the_part_pushes_the_drill_back_and_reacts_against_its_rotation() {
         let wrench = drilling(0.0).force().unwrap().wrench();
         assert!(wrench.force.z > 0.0 && wrench.moment.z > 0.0);
     }
 
     #[test]
-    fn no_feed_no_force_and_impossible_drills_are_refused() {
+    fn no_feed_gives_no_force_and_invalid_drills_are_refused() {
         let still = Drilling {
             feed: 0.0,
             ..drilling(0.0)

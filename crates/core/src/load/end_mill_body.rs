@@ -1,4 +1,4 @@
-//! The body that a turning end mill fills: how high its bottom stands above the tip.
+//! The body that a turning end mill fills: height of its bottom above the tip.
 //!
 //! ```text
 //! z(rho) = 0                                        rho <= R - r
@@ -32,7 +32,7 @@ impl EndMillBody {
     /// An end mill of this `diameter` with this `corner_radius` (m).
     ///
     /// # Errors
-    /// Numbers that are not finite, a diameter outside what is made, a corner radius beyond half of it.
+    /// Numbers that are not finite, a diameter out of range, a corner radius beyond half of it.
     pub fn new(diameter: f64, corner_radius: f64) -> Result<EndMillBody, CuttingError> {
         let made = [LEAST_DIAMETER, MOST_DIAMETER];
         let radius = checked("diameter of the cutter", diameter, made, "m")? / 2.0;
@@ -105,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn cutters_that_cannot_be_are_refused() {
+    fn refuses_invalid_cutters() {
         for (diameter, corner_radius) in [
             (0.0, 0.0),
             (-0.01, 0.0),

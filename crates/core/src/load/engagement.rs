@@ -1,4 +1,4 @@
-//! Engagement: where round the tool its teeth meet the part, and how thick their chips are.
+//! Engagement: the angles at which the teeth cut, and the chip thickness there.
 //!
 //! Seen from the spindle, feed upwards on this page:
 //!
@@ -11,7 +11,7 @@
 //!              tool                       Part on the right: teeth leave at 180 deg: down-milling.
 //! ```
 //!
-//! The part fills a strip in front of the tool, told by where it lies to the left of the axis. At the radius `R` of a
+//! The part fills a strip in front of the tool, given by its position to the left of the axis. At the radius `R` of a
 //! point of the edge `y = R cos(phi)`, so
 //!
 //! ```text
@@ -39,7 +39,7 @@ use super::arc::EngagedArc;
 use super::cutter::Cutter;
 use super::error::{CuttingError, checked};
 
-/// How the tool meets the part, seen along the feed; the spindle turns clockwise.
+/// How the tool engages the part, seen along the feed; the spindle turns clockwise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Immersion {
     /// Part on the left of the feed, radial depth (m): chips begin thin.
@@ -69,7 +69,7 @@ impl Engagement {
     pub fn of(immersion: Immersion, diameter: f64) -> Result<Engagement, CuttingError> {
         let radius = diameter / 2.0;
         let depth = |ae: f64| {
-            // The least positive number: no cut at all is no engagement.
+            // The least positive number: zero is not a valid radial depth.
             checked("radial depth of cut", ae, [f64::MIN_POSITIVE, diameter], "m")
         };
         Ok(match immersion {
@@ -94,8 +94,8 @@ impl Engagement {
 
     /// The engagement of `cutter` in a cut of this axial `depth` (m).
     ///
-    /// A tool that cuts with its rounded corner alone is no wider than there: the radial depth counts from the widest
-    /// circle that is engaged, and a part that reaches beyond it goes on to the rim of the tool.
+    /// A tool that cuts only with its rounded corner is no wider than there: the radial depth is measured from the
+    /// widest engaged circle, and a part that reaches beyond it extends to the rim of the tool.
     ///
     /// # Errors
     /// As [`Engagement::of`].
@@ -117,8 +117,8 @@ impl Engagement {
         })
     }
 
-    /// The strip from `right` to `left` (m, to the left of the tool axis) before a tool of this `diameter` (m); what lies
-    /// beyond the tool is not looked at.
+    /// The strip from `right` to `left` (m, to the left of the tool axis) before a tool of this `diameter` (m);
+    /// material beyond the tool is ignored.
     ///
     /// # Errors
     /// Numbers that are not finite, a strip without width.
@@ -136,8 +136,8 @@ impl Engagement {
         Ok(Engagement { right, left })
     }
 
-    /// The strip that a tool of this `radius` (m) meets when it runs `cross` (m) to the left of where it should; `None` if
-    /// that takes it past the strip. A strip that reaches the rim goes on beyond it.
+    /// The strip that a tool of this `radius` (m) cuts when it is displaced by `cross` (m) to the left; `None` if
+    /// that takes it past the strip. A strip that reaches the rim continues beyond it.
     pub fn deflected(&self, cross: f64, radius: f64) -> Option<Engagement> {
         let left = if self.left >= radius {
             radius
@@ -152,8 +152,8 @@ impl Engagement {
         (right < left).then_some(Engagement { right, left })
     }
 
-    /// The strip made `width` (m) wide before a tool of this radius that is `widest` (m) where it cuts: from there inwards, if
-    /// it reaches a rim, else about its middle, as far as the tool goes. `None` if nothing is left.
+    /// The strip made `width` (m) wide before a tool of this radius that is `widest` (m) where it cuts: from there
+    /// inwards, if it reaches a rim, else about its middle, as far as the tool goes. `None` if nothing is left.
     pub fn of_width(&self, width: f64, [widest, radius]: [f64; 2]) -> Option<Engagement> {
         let [right, left] = if self.left >= radius {
             [widest - width, radius]
@@ -176,7 +176,7 @@ impl Engagement {
         self.left - self.right
     }
 
-    /// Where a point of the edge at `radius` (m) cuts; `None` if it passes beside the strip.
+    /// Where a point of the edge at `radius` (m) cuts; `None` if it passes outside the strip.
     pub fn arc_at(&self, radius: f64) -> Option<EngagedArc> {
         let angle = |y: f64| (y / radius).clamp(-1.0, 1.0).acos();
         let outside = radius <= 0.0 || self.right >= radius || self.left <= -radius;
@@ -187,7 +187,7 @@ impl Engagement {
         (arc.exit > arc.entry).then_some(arc)
     }
 
-    /// The radii at which the arc begins to depend on them, or ceases to: there it has a kink.
+    /// The radii at which the arc begins or ceases to depend on the radius: it has a kink there.
     pub(super) fn kinks(&self) -> [f64; 2] {
         [self.right.abs(), self.left.abs()]
     }
@@ -196,7 +196,7 @@ impl Engagement {
 /// Feed per tooth (m) from feed speed (m/s), spindle speed (rad/s) and number of flutes.
 ///
 /// # Errors
-/// A spindle that stands still or turns backwards, a negative feed, no flute.
+/// A spindle at rest or turning backwards, a negative feed, no flute.
 pub fn feed_per_tooth(feed: f64, spindle: f64, flutes: u32) -> Result<f64, CuttingError> {
     checked("feed speed", feed, [0.0, f64::MAX], "m/s")?;
     checked("spindle speed", spindle, [f64::MIN_POSITIVE, f64::MAX], "rad/s")?;
@@ -262,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn points_near_the_axis_pass_beside_a_shallow_strip() {
+    fn points_near_the_axis_pass_outside_a_shallow_strip() {
         let up = Engagement::of(Immersion::Up(MM), 10.0 * MM).unwrap();
         assert_eq!(up.arc_at(3.9 * MM), None);
         assert!(up.arc_at(4.1 * MM).is_some());
@@ -300,7 +300,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tool_that_strays_meets_more_or_less_of_a_wall_and_all_of_a_slot() {
+    fn a_displaced_tool_cuts_more_or_less_of_a_wall_and_all_of_a_slot() {
         let (diameter, radius) = (10.0 * MM, 5.0 * MM);
         let up = Engagement::of(Immersion::Up(2.0 * MM), diameter).unwrap();
         let down = Engagement::of(Immersion::Down(2.0 * MM), diameter).unwrap();
@@ -319,7 +319,7 @@ mod tests {
     }
 
     #[test]
-    fn a_shallow_ball_meets_the_radial_depth_within_the_circle_that_it_cuts_with() {
+    fn the_radial_depth_of_a_shallow_ball_is_measured_from_its_cutting_circle() {
         let ball = Cutter::ball(10.0 * MM, 2).unwrap();
         // At 0.2 mm the circle of a ball of 5 mm has a radius of sqrt(2 5 0.2 - 0.2^2) mm = 1.4 mm.
         let at = |immersion| Engagement::at_depth(immersion, &ball, 0.2 * MM).unwrap();
@@ -329,7 +329,7 @@ mod tests {
         assert!(entry == 0.0 && (exit - immersion).abs() < 1e-12);
         let [entry, exit] = met(Immersion::Down(0.5 * MM)).unwrap();
         assert!((entry - (PI - immersion)).abs() < 1e-12 && exit == PI);
-        // Wider than the circle is all of it: a groove of its own.
+        // Wider than the circle is all of it: a slot.
         for all in [
             Immersion::Up(5.0 * MM),
             Immersion::Down(2.9 * MM),
@@ -356,7 +356,7 @@ mod tests {
     }
 
     #[test]
-    fn a_strip_keeps_its_side_when_it_becomes_wider_and_is_counted_from_the_circle_that_cuts() {
+    fn a_strip_keeps_its_side_when_it_becomes_wider_and_is_measured_from_the_cutting_circle() {
         let (radius, diameter) = (5.0 * MM, 10.0 * MM);
         for (immersion, mirrored) in [(Immersion::Up(2.0 * MM), 1.0), (Immersion::Down(2.0 * MM), -1.0)] {
             let strip = Engagement::of(immersion, diameter).unwrap();

@@ -1,18 +1,18 @@
-//! What a cutting force cannot be computed from.
+//! Errors of cutting force inputs.
 
-/// An input of a cutting force that has no meaning.
+/// An input from which no cutting force can be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CuttingError {
-    /// A quantity outside what it can be.
+    /// A quantity out of its range.
     #[error("{what} is {}: must be {}", reported(*.value, .unit), allowed([*.least, *.most], .unit))]
     OutOfRange {
         /// Which quantity.
         what: &'static str,
-        /// As given.
+        /// The value given.
         value: f64,
-        /// Least that it can be.
+        /// Least valid value.
         least: f64,
-        /// Most that it can be.
+        /// Greatest valid value.
         most: f64,
         /// Unit of the three.
         unit: &'static str,
@@ -20,25 +20,25 @@ pub enum CuttingError {
     /// A number that is not finite.
     #[error("{0} is not a finite number")]
     NotFinite(&'static str),
-    /// A covariance that no numbers can have: not symmetric, or a negative variance.
-    #[error("{0} is no covariance: it must be symmetric, with variances that are not negative")]
+    /// Not a valid covariance: not symmetric, or a negative variance.
+    #[error("{0} is not valid: it must be symmetric, with variances of at least 0")]
     NoCovariance(&'static str),
     /// A feed along the tool axis towards the part: the bottom edges cut, which milling forces leave out.
     #[error(
-        "the tool dives {angle_deg:.1} deg below the plane across its axis: milling forces hold to {most_deg:.0} deg"
+        "the feed descends {angle_deg:.1} deg along the tool axis: milling forces are valid up to {most_deg:.0} deg"
     )]
     Plunge {
-        /// Dive of the feed.
+        /// Descent angle of the feed.
         angle_deg: f64,
-        /// Steepest dive that the model takes.
+        /// Steepest descent that the model covers.
         most_deg: f64,
     },
     /// A feed straight along the tool axis away from the part: nothing is cut.
-    #[error("the tool leaves the part along its axis: nothing is cut")]
+    #[error("the tool retracts along its axis: nothing is cut")]
     Withdrawal,
 }
 
-/// A number with its unit: lengths in mm, as people tell them; without what rounding leaves behind the ninth decimal.
+/// A number with its unit: lengths in mm, rounded to nine decimals.
 fn reported(value: f64, unit: &str) -> String {
     let (value, unit) = match unit {
         "m" => (value * 1e3, "mm"),
@@ -53,7 +53,7 @@ fn reported(value: f64, unit: &str) -> String {
     format!("{shown} {unit}").trim_end().to_owned()
 }
 
-/// A range in words: its ends, or the one that means something.
+/// A range in words: its finite ends.
 fn allowed([least, most]: [f64; 2], unit: &str) -> String {
     let upper = reported(most, unit);
     match (least == f64::MIN_POSITIVE, most == f64::MAX) {
@@ -64,7 +64,7 @@ fn allowed([least, most]: [f64; 2], unit: &str) -> String {
     }
 }
 
-/// `value` if it lies between `least` and `most`.
+/// `value` if it is between `least` and `most`.
 pub(super) fn checked(
     what: &'static str,
     value: f64,
@@ -91,7 +91,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_range_is_told_in_millimetres_and_by_the_ends_that_mean_something() {
+    fn a_range_is_reported_in_millimetres_and_by_its_finite_ends() {
         let reported = |value, ends, unit| checked("depth", value, ends, unit).unwrap_err().to_string();
         assert_eq!(
             reported(9e-3, [f64::MIN_POSITIVE, 6e-3], "m"),
@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn every_refusal_names_the_thing_its_value_and_its_limit() {
+    fn every_message_names_the_quantity_its_value_and_its_limit() {
         let reported = [
             (
                 CuttingError::OutOfRange {
@@ -133,19 +133,19 @@ mod tests {
             (CuttingError::NotFinite("kc1"), "kc1 is not a finite number"),
             (
                 CuttingError::NoCovariance("the covariance of the cutting coefficients"),
-                "the covariance of the cutting coefficients is no covariance: it must be symmetric, with variances that \
-                 are not negative",
+                "the covariance of the cutting coefficients is not valid: it must be symmetric, with variances of \
+                 at least 0",
             ),
             (
                 CuttingError::Plunge {
                     angle_deg: 41.25,
                     most_deg: 30.0,
                 },
-                "the tool dives 41.2 deg below the plane across its axis: milling forces hold to 30 deg",
+                "the feed descends 41.2 deg along the tool axis: milling forces are valid up to 30 deg",
             ),
             (
                 CuttingError::Withdrawal,
-                "the tool leaves the part along its axis: nothing is cut",
+                "the tool retracts along its axis: nothing is cut",
             ),
         ];
         for (error, text) in reported {
@@ -154,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn a_value_is_checked_at_both_ends_and_the_ends_themselves_may_be() {
+    fn a_value_is_checked_at_both_ends_which_are_valid() {
         let ends = [-1.0, 2.0];
         for value in [-1.0, 0.0, 2.0] {
             assert_eq!(checked("depth", value, ends, "m"), Ok(value));
@@ -169,7 +169,7 @@ mod tests {
                 Err(CuttingError::NotFinite("depth"))
             );
         }
-        // What rounding leaves behind the ninth decimal is not told, what is smaller than all of it is.
+        // Digits beyond the ninth decimal are not reported, unless the whole number is smaller than that.
         let reported = |value| checked("depth", value, [0.0, 1e-20], "").unwrap_err().to_string();
         assert!(
             reported(0.1 + 0.2).starts_with("depth is 0.3:"),

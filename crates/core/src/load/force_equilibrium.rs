@@ -1,4 +1,4 @@
-//! Where a tool comes to rest that the cut pushes off its path: less is cut then, or more, and the force follows.
+//! Force-deflection equilibrium of tool and cut: the deflected tool cuts less or more, and the force changes with it.
 //!
 //! ```text
 //! d = A F(s) + g,     s = (d_y, d_z)              depth = ap - d_z,     strip of material moved by -d_y
@@ -7,19 +7,19 @@
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | `d` | deviation of the tip, feed frame: along the feed, to its left, to the spindle | m |
-//! | `s` | by how much the tool strays from its path: to the left, away from the part | m |
-//! | `A` | how the tip yields to a force, feed frame | m/N |
-//! | `g` | deviation without the cut, weight for one | m |
-//! | `F` | mean force of the cut as it is with the tool there | N |
-//! | `ap` | axial depth of the path as drawn | m |
+//! | `s` | offset of the tool from its path by the deflection: to the left, away from the part | m |
+//! | `A` | compliance of the tip, feed frame | m/N |
+//! | `g` | deviation without the cut, for example by weight | m |
+//! | `F` | mean force of the cut with the tool at this offset | N |
+//! | `ap` | nominal axial depth of the path | m |
 //!
-//! Along the feed nothing changes: a tool that lags behind cuts the same chip. The surfaces before the tool are those of
-//! the drawing; what an earlier pass left by straying itself is not looked at.
+//! A deviation along the feed has no effect: a tool that lags behind cuts the same chip. The surfaces before the tool
+//! are the nominal ones; material left by the deflection of an earlier pass is neglected.
 //!
-//! `s` is sought by Broyden's method, from where the tool rested a point before: on a path one or two forces a point are
-//! enough. Where the tool rests is told to 1e-5 of the deviation. It does not rest where straying into the part
-//! pushes it farther in than it strayed: `s` then lies opposite to where the force of the drawn path pushes, no cut
-//! begins so: [`Rest::PulledIn`].
+//! `s` is solved by Broyden's method, starting from the equilibrium at the previous point: on a path one or two forces
+//! per point are enough. The equilibrium is accurate to 1e-5 of the deviation. There is no stable equilibrium where an
+//! offset into the part increases the force more than the compliance can balance: the solution `s` is then opposite to
+//! the deflection by the nominal force, and no cut starts this way: [`Rest::PulledIn`].
 //!
 //! Source: quasi-static equilibrium of tool and cut; Broyden, A class of methods for solving nonlinear simultaneous
 //! equations, Mathematics of Computation 19, 1965 \[recalled\]; `docs/theory/cutting.md`.
@@ -30,7 +30,7 @@ use super::cutter::Cutter;
 use super::law::CuttingLaw;
 use super::milling::{Cut, Milling};
 
-/// How a tip yields, in any axes: `d = A F + g`.
+/// Compliance of the tip, in any axes: `d = A F + g`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TipCompliance {
     /// `A`, m/N.
@@ -45,7 +45,7 @@ impl TipCompliance {
         self.by_force * force + self.unloaded
     }
 
-    /// The same told in other axes: `of_these` turns vectors of these axes into those.
+    /// The same in other axes: `of_these` turns vectors of the current axes into the new ones.
     #[must_use]
     pub fn rotated(&self, of_these: &Rotation3<f64>) -> TipCompliance {
         TipCompliance {
@@ -55,37 +55,38 @@ impl TipCompliance {
     }
 }
 
-/// Whether tool and cut rest.
+/// Result of the search for the equilibrium.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Rest {
-    /// They do, under this mean force on the tool; N, feed frame.
+    /// Equilibrium at this mean force on the tool; N, feed frame.
     Settled(Vector3<f64>),
-    /// They do not: the cut draws the tool in.
+    /// No stable equilibrium: the cut pulls the tool into the part.
     PulledIn,
 }
 
-/// Finds where tool and cut rest, point after point.
+/// Finds the equilibrium of tool and cut, point after point.
 #[derive(Clone, Debug)]
 pub struct ForceEquilibrium {
     cutter: Cutter,
     law: CuttingLaw,
-    /// Where the tool rested last, m.
+    /// Offset of the tool at the last equilibrium, m.
     offset: Vector2<f64>,
-    /// How what is missing to rest changes with `s`.
+    /// Derivative of the residual by `s`.
     slope: Matrix2<f64>,
 }
 
-/// What is missing to rest, over the deviation.
+/// Permitted residual, relative to the deviation.
 const CLOSE: f64 = 1e-5;
-/// What may always be missing, m: a hundredth of a nanometre.
+/// Residual that is always permitted, m: a hundredth of a nanometre.
 const FLOOR: f64 = 1e-11;
-/// Most forces at a point.
+/// Maximum number of forces computed per point.
 const MOST_ROUNDS: usize = 40;
-/// Longest step of the search, in depths of the cut: beyond it the force is far from what its slope says.
+/// Longest step of the search, in depths of the cut: beyond it the force is not linear.
 const LONGEST_STEP: f64 = 0.5;
 
 impl Cut {
-    /// What is cut by a tool of this `radius` (m) that strays by `s` (m: to the left, away from the part); `None` if nothing is.
+    /// The cut of a tool of this `radius` (m) with the offset `s` (m: to the left, away from the part); `None` if it
+    /// cuts nothing.
     pub fn deflected(&self, s: Vector2<f64>, radius: f64) -> Option<Cut> {
         let depth = self.depth - s.y;
         let engagement = self.engagement.deflected(s.x, radius)?;
@@ -108,12 +109,13 @@ impl ForceEquilibrium {
         }
     }
 
-    /// The tool from here on.
+    /// Sets the tool for the points that follow.
     pub fn set_cutter(&mut self, cutter: Cutter) {
         self.cutter = cutter;
     }
 
-    /// Where `cut` and a tip that yields so (feed frame) rest; `drawn` is the force of the path as drawn.
+    /// The equilibrium of `cut` and a tip of this compliance (feed frame); `nominal` is the force on the undeflected
+    /// tool.
     pub fn rest(&mut self, cut: &Cut, nominal: Vector3<f64>, tip: &TipCompliance) -> Rest {
         let stiff = offset_under(tip, nominal);
         for restart in [false, true] {
@@ -130,33 +132,33 @@ impl ForceEquilibrium {
         Rest::PulledIn
     }
 
-    /// The mean force (N, feed frame) of `cut` on a tool that does not stray; `None` where there is no such cut.
+    /// The mean force (N, feed frame) of `cut` on the undeflected tool; `None` where there is no such cut.
     pub fn nominal_force(&self, cut: &Cut) -> Option<Vector3<f64>> {
         self.force(cut, Vector2::zeros())
     }
 
-    /// The force at rest, by steps from where the tool rested last.
+    /// The force at equilibrium, by steps from the last equilibrium.
     fn search(&mut self, cut: &Cut, tip: &TipCompliance) -> Option<Vector3<f64>> {
         let mut force = self.force(cut, self.offset)?;
-        let mut missing = self.offset - offset_under(tip, force);
+        let mut residual = self.offset - offset_under(tip, force);
         for _ in 1..MOST_ROUNDS {
-            if missing.norm() <= CLOSE * tip.under(force).norm() + FLOOR {
+            if residual.norm() <= CLOSE * tip.under(force).norm() + FLOOR {
                 return Some(force);
             }
-            let step = -(self.slope.try_inverse()? * missing);
+            let step = -(self.slope.try_inverse()? * residual);
             let longest = LONGEST_STEP * cut.depth;
             let step = step * (longest / step.norm().max(longest));
             self.offset += step;
             force = self.force(cut, self.offset)?;
-            let before = missing;
-            missing = self.offset - offset_under(tip, force);
-            let unforeseen = missing - before - self.slope * step;
-            self.slope += unforeseen * step.transpose() / step.norm_squared();
+            let before = residual;
+            residual = self.offset - offset_under(tip, force);
+            let deviation_from_slope = residual - before - self.slope * step;
+            self.slope += deviation_from_slope * step.transpose() / step.norm_squared();
         }
         None
     }
 
-    /// The mean force on a tool that strays by `s`; `None` where there is no such cut.
+    /// The mean force on a tool with the offset `s`; `None` where there is no such cut.
     fn force(&self, cut: &Cut, s: Vector2<f64>) -> Option<Vector3<f64>> {
         match cut.deflected(s, self.cutter.radius()) {
             None => Some(Vector3::zeros()),
@@ -168,7 +170,7 @@ impl ForceEquilibrium {
     }
 }
 
-/// By how much a tip strays under `force`, m: to the left, away from the part.
+/// Offset of the tip under `force`, m: to the left, away from the part.
 fn offset_under(tip: &TipCompliance, force: Vector3<f64>) -> Vector2<f64> {
     let deviation = tip.under(force);
     Vector2::new(deviation.y, deviation.z)

@@ -1,10 +1,10 @@
-//! How sure the load and the tool are.
+//! Uncertainty of the load and of the tool.
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | `relative` | standard uncertainty of the size of the load, all cases alike | 1 |
 //! | `forces` | three directions, each as long as the standard uncertainty of the force along it; independent | N, base |
-//! | `tool_length` | standard uncertainty of the place of the TCP along the tool axis | m |
+//! | `tool_length` | standard uncertainty of the position of the TCP along the tool axis | m |
 
 use nalgebra::Vector3;
 
@@ -23,16 +23,21 @@ pub struct InputUncertainty {
 }
 
 impl InputUncertainty {
-    /// No doubt.
+    /// No uncertainty.
     pub const NONE: InputUncertainty = InputUncertainty {
         relative: 0.0,
         forces: [Vector3::new(0.0, 0.0, 0.0); 3],
         tool_length: 0.0,
     };
 
-    /// With this doubt (N) of the force's components in `frame`, for a part that lies at `base_from_part`; `None` where
-    /// they turn with a feed.
-    pub fn of_components(self, u: [f64; 3], frame: LoadFrame, base_from_part: &Isometry) -> Option<InputUncertainty> {
+    /// With this standard uncertainty (N) of the force components in `frame`, for a part placed at `base_from_part`;
+    /// `None` where they turn with a feed.
+    pub fn of_components(
+        self,
+        u: [f64; 3],
+        frame: LoadFrame,
+        base_from_part: &Isometry,
+    ) -> Option<InputUncertainty> {
         let axes = frame.axes(base_from_part, None)?;
         let axis = |k: usize| axes * Vector3::ith(k, u[k]);
         Some(InputUncertainty {
@@ -41,7 +46,7 @@ impl InputUncertainty {
         })
     }
 
-    /// Whether everything is sure.
+    /// Whether all inputs are exact.
     pub fn is_none(&self) -> bool {
         *self == InputUncertainty::NONE
     }
@@ -55,7 +60,7 @@ mod tests {
     const U: [f64; 3] = [1.0, 2.0, 0.5];
 
     #[test]
-    fn doubt_told_in_the_part_turns_with_it_and_keeps_its_lengths() {
+    fn uncertainty_given_in_the_part_frame_turns_with_the_part_and_keeps_its_size() {
         let part = from_xyz_and_fixed_angles(Vector3::x(), Vector3::new(0.3, -0.8, 2.0));
         let uncertainty = InputUncertainty {
             relative: 0.1,
@@ -77,7 +82,7 @@ mod tests {
     }
 
     #[test]
-    fn doubt_that_turns_with_a_feed_is_none_without_one() {
+    fn uncertainty_that_turns_with_a_feed_requires_a_feed() {
         let given = InputUncertainty::NONE.of_components(U, LoadFrame::Feed, &Isometry::identity());
         assert_eq!(given, None);
         assert!(InputUncertainty::NONE.is_none());

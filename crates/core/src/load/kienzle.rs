@@ -8,14 +8,14 @@
 //! |---|---|---|
 //! | `h`, `b` | chip thickness, chip width | m |
 //! | `kc1` | specific force of a chip 1 mm thick, at 0 deg rake | Pa |
-//! | `mc` | how fast it falls | - |
-//! | `gamma` | rake; each degree takes a hundredth of the force | deg |
+//! | `mc` | exponent: decrease of the specific force with the chip thickness | - |
+//! | `gamma` | rake; each degree reduces the force by one percent | deg |
 //! | `r`, `a` | radial and axial force over the cutting force | - |
 //!
-//! The tables tell the cutting force alone: the two ratios are inputs, with their uncertainty. Catalogues take one
+//! The tables give only the cutting force: the two ratios are inputs, with their uncertainty. Catalogues take one
 //! specific force at the mean chip, `kc = kc1 hm^-mc`, for all of the arc: [`Kienzle::at_mean_chip`].
 //!
-//! Range: chips of 0.03 to 1 mm; thinner ones are rubbed more than cut, which no power of `h` tells.
+//! Range: chips of 0.03 to 1 mm. Thinner chips are rubbed more than cut, which no power of `h` describes.
 //! Source: Kienzle's law as tool makers print it; the rake factor after Sandvik Coromant's notes on cutting force.
 
 use nalgebra::{Matrix3x4, Matrix6, SMatrix, Vector3, Vector4};
@@ -32,7 +32,7 @@ pub struct Estimate {
     pub standard_uncertainty: f64,
 }
 
-/// What Kienzle's law needs.
+/// Values of Kienzle's law.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct KienzleValues {
     /// `kc1`, Pa.
@@ -53,9 +53,9 @@ pub struct Kienzle {
     rake_factor: f64,
 }
 
-/// Chip thickness that `kc1` is told for, m.
+/// Chip thickness to which `kc1` refers, m.
 const REFERENCE_CHIP: f64 = 1e-3;
-/// Part of the force that a degree of rake takes away.
+/// Reduction of the force per degree of rake.
 const FORCE_PER_DEGREE_OF_RAKE: f64 = 0.01;
 /// Largest `kc1`, Pa: some twenty times that of hardened steel.
 const MOST_SPECIFIC_FORCE: f64 = 1e11;
@@ -68,7 +68,7 @@ impl Kienzle {
     /// The law of these values at 0 deg rake.
     ///
     /// # Errors
-    /// Numbers that are not finite, or beyond any material.
+    /// Numbers that are not finite, or beyond those of any material.
     pub fn new(values: KienzleValues) -> Result<Kienzle, CuttingError> {
         let KienzleValues {
             specific_force,
@@ -95,14 +95,14 @@ impl Kienzle {
         })
     }
 
-    /// The same at a rake of `gamma` (rad), positive where the edge is keener.
+    /// The same at a rake of `gamma` (rad), positive for a sharper edge.
     #[must_use]
     pub fn with_rake(mut self, gamma: f64) -> Kienzle {
         self.rake_factor = 1.0 - FORCE_PER_DEGREE_OF_RAKE * gamma.to_degrees();
         self
     }
 
-    /// What it was made of.
+    /// The values that it was made of.
     pub fn values(&self) -> &KienzleValues {
         &self.values
     }
@@ -138,7 +138,7 @@ impl Kienzle {
         ])
     }
 
-    /// The same, told in six columns of which the last two are empty.
+    /// The same, in six columns of which the last two are empty.
     pub(super) fn derivatives(&self, h: f64) -> SMatrix<f64, 3, 6> {
         let mut by = SMatrix::<f64, 3, 6>::zeros();
         by.fixed_view_mut::<3, 4>(0, 0).copy_from(&self.by_values(h));
@@ -154,7 +154,7 @@ impl Kienzle {
         covariance
     }
 
-    /// The catalogue's form: shear coefficients that hold the specific force of the chip `mean` (m) for all chips.
+    /// The catalogue's form: shear coefficients that take the specific force of the chip `mean` (m) for all chips.
     ///
     /// # Errors
     /// A mean chip that is not above zero.
@@ -212,7 +212,7 @@ mod tests {
         // Worked from the table of Iscar's turning catalogue: cured wrought aluminium, alpha-beta titanium.
         for (kc1, mc, worked) in [(800.0, 0.25, 1692.0), (2110.0, 0.22, 4079.0)] {
             let kc = law(kc1, mc).specific_force(0.05e-3) * 1e-6;
-            // Worked values are told in whole N/mm2.
+            // The published values are in whole N/mm2.
             assert!((kc - worked).abs() < 0.5, "{kc}");
         }
     }

@@ -1,4 +1,5 @@
-//! How much force a chip of some thickness takes, by whichever law: `dF = f(h; k) db`, `cov f = (df/dk) S (df/dk)^T`.
+//! Cutting force per chip width as a function of the chip thickness, for all laws: `dF = f(h; k) db`, `cov f = (df/dk)
+//! S (df/dk)^T`.
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
@@ -25,7 +26,8 @@ pub enum CuttingLaw {
 }
 
 impl CuttingLaw {
-    /// The same for edges of this rake (rad): Kienzle's law turns with it, mechanistic sets hold for their own tool.
+    /// The same for edges of this rake (rad): Kienzle's law depends on it, mechanistic coefficients are valid for their
+    /// own tool.
     #[must_use]
     pub fn with_rake(self, gamma: f64) -> CuttingLaw {
         match self {
@@ -118,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn rake_takes_force_from_the_power_law_alone_and_counts_once() {
+    fn rake_reduces_the_force_of_the_power_law_only_and_is_applied_once() {
         let [linear, power] = both();
         let rake = 12_f64.to_radians();
         assert_eq!(linear.with_rake(rake), linear);

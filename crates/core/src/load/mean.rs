@@ -1,13 +1,13 @@
-//! The mean milling force over a revolution, and how sure it is.
+//! The mean milling force over a revolution, and its uncertainty.
 //!
-//! Every point of an edge passes all angles alike, so the helix drops out:
+//! Every point of an edge passes all angles in the same way; the helix therefore has no effect:
 //!
 //! ```text
 //! F = N/(2 pi) integral over db integral from entry to exit of dF(phi) dphi
 //! ```
 //!
 //! Under a linear law without runout the integral over `phi` is closed, and so is all of it for a flat end mill; along
-//! a rounded corner it is summed over 16 nodes between the points where the arc has a kink. Kienzle's law takes 16
+//! a rounded corner it is summed over 16 nodes between the points where the arc has a kink. Kienzle's law uses 16
 //! nodes in `phi` too. The force is linear in the coefficients `k`, so `F = M k` and
 //!
 //! ```text
@@ -38,7 +38,7 @@ pub struct MeanForce {
     pub covariance: Matrix3<f64>,
 }
 
-/// A force and, where they are asked for, its derivatives by the parameters of the law.
+/// A force and, where requested, its derivatives by the parameters of the law.
 #[derive(Clone, Copy)]
 struct Sum<const WITH_DERIVATIVES: bool> {
     force: Vector3<f64>,
@@ -68,7 +68,7 @@ impl Milling {
             force: Vector3::zeros(),
             by_parameters: SMatrix::zeros(),
         };
-        if self.teeth_cut_alike() {
+        if self.is_independent_of_runout() {
             self.add_corner(&mut sum);
             self.add_cylinder(&mut sum);
             sum.scaled(f64::from(self.cutter.flutes()) / TAU)
@@ -78,13 +78,14 @@ impl Milling {
         }
     }
 
-    /// Whether the mean is that of a true tool: no runout, or a law for which sharing chips otherwise changes nothing.
-    fn teeth_cut_alike(&self) -> bool {
+    /// Whether the mean is that of a true tool: no runout, or a law for which another distribution of the chips has no
+    /// effect.
+    fn is_independent_of_runout(&self) -> bool {
         let ploughs = match &self.law {
             CuttingLaw::Mechanistic(law) => law.coefficients().fixed_rows::<3>(3).amax() > 0.0,
             CuttingLaw::Kienzle(_) => true,
         };
-        // Lifted off by a ramp, an edge stops cutting: what is left behind is then shared otherwise.
+        // Lifted off by a ramp, an edge stops cutting: the remaining material is then shared differently.
         self.cutter.runout().offset == 0.0 || (!ploughs && self.cut.rise <= 0.0)
     }
 
@@ -153,7 +154,7 @@ impl Milling {
         }
     }
 
-    /// Adds every tooth by itself, over the arc in even steps.
+    /// Adds every tooth separately, over the arc in even steps.
     fn add_each_tooth<const D: bool>(&self, sum: &mut Sum<D>) {
         for (point, width) in self.slices() {
             let Some(arc) = self.cut.engagement.arc_at(point.radius) else {

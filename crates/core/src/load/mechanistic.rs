@@ -14,19 +14,19 @@
 //! and draws the tool to the part. Coefficients belong to a tool as much as to a material: published sets of one alloy
 //! differ by a factor of two, so their covariance is an input.
 //!
-//! Source: Altintas, Manufacturing Automation \[recalled\]; its shear terms meet a published mean force, see
+//! Source: Altintas, Manufacturing Automation \[recalled\]; its shear terms match a published mean force, see
 //! `validation/milling-mean-force`.
 
 use nalgebra::{Matrix6, SMatrix, Vector3, Vector6};
 
 use super::error::{CuttingError, checked};
 
-/// Largest coefficient that is taken, Pa or N/m: a hundred times that of the hardest alloys.
+/// Largest valid coefficient, Pa or N/m: a hundred times that of the hardest alloys.
 const MOST_COEFFICIENT: f64 = 1e12;
-/// A covariance may miss symmetry by this much of its largest entry: what is left of a file's digits.
+/// A covariance may miss symmetry by this much of its largest entry: rounding of a file.
 const ASYMMETRY: f64 = 1e-9;
 
-/// Six coefficients and how sure they are.
+/// Six coefficients and their uncertainty.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mechanistic {
     /// Ktc, Krc, Kac, Pa; Kte, Kre, Kae, N/m.
@@ -35,7 +35,7 @@ pub struct Mechanistic {
 }
 
 impl Mechanistic {
-    /// The law of these coefficients (tangential, radial, axial; Pa and N/m), as if they were sure.
+    /// The law of these coefficients (tangential, radial, axial; Pa and N/m), without uncertainty.
     ///
     /// # Errors
     /// Numbers that are not finite or beyond any material.
@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn a_matrix_that_is_no_covariance_is_refused() {
+    fn refuses_a_matrix_that_is_not_a_covariance() {
         let mut skew = Matrix6::identity();
         skew[(0, 1)] = 0.5;
         assert!(some().with_covariance(skew).is_err());

@@ -1,6 +1,6 @@
 //! Milling force on the tool at an angle of the spindle, over a revolution, and at its greatest.
 //!
-//! Every tooth that meets the part pushes with `dFt` against its way, `dFr` along the inward normal of the body and
+//! Every engaged tooth is loaded by `dFt` against its motion, `dFr` along the inward normal of the body and
 //! `dFa` along its profile to the tip (`s` = 1 for a right-hand helix, -1 for a left-hand one):
 //!
 //! ```text
@@ -20,7 +20,7 @@
 //! ```
 //!
 //! So a slot pushes the tool back and to the left; up-milling (part on the left) pushes it back, down-milling (part on
-//! the right) pushes it away from the part, to the left. A right-hand helix draws it to the part (-z).
+//! the right) pushes it away from the part, to the left. A right-hand helix pulls it to the part (-z).
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
@@ -28,12 +28,13 @@
 //! | `kappa`, `psi` | axial immersion angle and lag, see [`super::cutter`] | rad |
 //! | `c`, `c_z` | feed per tooth across the tool axis, and along it to the spindle | m |
 //! | `h`, `db` | chip thickness; chip width, the length of the profile | m |
-//! | `rho_j` | how far tooth `j` stands out by runout | m |
+//! | `rho_j` | radial runout of tooth `j` | m |
 //!
-//! With runout a tooth cuts what the teeth before it left, so one that cuts nothing leaves its chip to the next:
-//! `h = min over m of (m c sin(phi) sin(kappa) + (rho_j - rho_(j-m)) sin(kappa) - m c_z cos(kappa))`, `m` from 1 to `N`.
+//! With runout a tooth cuts the material that the teeth before it left; a tooth that cuts nothing leaves its chip to
+//! the next: `h = min over m of (m c sin(phi) sin(kappa) + (rho_j - rho_(j-m)) sin(kappa) - m c_z cos(kappa))`, `m`
+//! from 1 to `N`.
 //!
-//! Where the engagement of a ramp differs from that of the level cut, and what edges on the bottom do, is left out.
+//! Where the engagement of a ramp differs from that of the level cut and the edges on the bottom are neglected.
 //!
 //! Source: Altintas, Manufacturing Automation; Engin and Altintas 2001 for general end mills [both recalled]; the
 //! signs are derived in `docs/theory/cutting.md` and tested here.
@@ -76,13 +77,13 @@ const MOST_DEPTH_IN_DIAMETERS: f64 = 100.0;
 const MOST_FEED_IN_DIAMETERS: f64 = 1.0;
 /// Slices of the corner, and of the cylinder, where forces are summed.
 const SLICES: u32 = 256;
-/// Lag over the depth of cut, rad, below which an edge counts as straight: its force then differs by rounding.
+/// Lag over the depth of cut, rad, below which an edge is treated as straight: its force then differs by rounding.
 const STRAIGHT: f64 = 1e-12;
 /// Most steps of a revolution.
 const MOST_STEPS: u32 = 100_000;
 
 impl Milling {
-    /// This cutter in this cut; Kienzle's law is taken at the rake of the cutter.
+    /// This cutter in this cut; Kienzle's law is used at the rake of the cutter.
     ///
     /// # Errors
     /// A depth of cut that is not above zero, feeds beyond the diameter, numbers that are not finite.
@@ -109,7 +110,7 @@ impl Milling {
         &self.cut
     }
 
-    /// Force on the tool (N, feed frame) when tooth 0 stands at `angle` (rad) with its tip.
+    /// Force on the tool (N, feed frame) when the tip of tooth 0 is at `angle` (rad).
     ///
     /// In closed form for a flat end mill without runout under a linear law; else summed over 256 slices of the corner
     /// and as many of the cylinder, with an error of some thousandths of the peak where an edge enters or leaves.
@@ -198,7 +199,7 @@ impl Milling {
         corner.chain(cylinder)
     }
 
-    /// Where the cylinder cuts; `None` if the strip lies beside it.
+    /// Where the cylinder cuts; `None` if the strip is outside it.
     fn arc_of_cylinder(&self) -> Option<EngagedArc> {
         self.cut.engagement.arc_at(self.cutter.radius())
     }

@@ -1,4 +1,4 @@
-//! A tool that mills on its way: cutter, law, cut, feed and spindle to a force.
+//! A milling process: the force from cutter, law, cut, feed and spindle speed.
 //!
 //! ```text
 //! rise = asin(feed . z)          c = c_f cos(rise),  c_z = c_f sin(rise)
@@ -7,12 +7,12 @@
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | x, y, z | feed frame: along the feed, to its left, from part to spindle ([`crate::path::placing`]) | - |
-//! | `rise` | how steeply the feed leaves the plane across the tool axis, towards the spindle | rad |
+//! | `rise` | angle of the feed to the plane across the tool axis, positive towards the spindle | rad |
 //! | `c_f` | feed per tooth | m |
 //!
 //! A dive steeper than 30 deg is refused: the edges on the bottom cut then, and they are
 //! not modelled; a straight plunge of a drill is [`super::drilling`]. The force acts at the TCP; the moment that the
-//! spindle's torque makes, and the lever of the depth of cut, are left out.
+//! spindle's torque causes, and the lever of the depth of cut, are neglected.
 
 use nalgebra::{Unit, Vector3};
 
@@ -23,7 +23,7 @@ use super::law::CuttingLaw;
 use super::mean::MeanForce;
 use super::milling::{Cut, Milling};
 
-/// What mills, and how. Not checked before it is asked for a force.
+/// The tool and its cutting data. Not checked until a force is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Process {
     /// The tool.
@@ -32,7 +32,7 @@ pub struct Process {
     pub law: CuttingLaw,
     /// Axial depth of cut, m.
     pub depth: f64,
-    /// Where round the tool it cuts.
+    /// Engagement of the tool.
     pub engagement: Engagement,
     /// Feed speed, m/s.
     pub feed: f64,
@@ -64,9 +64,9 @@ pub struct CuttingForce {
 
 /// Steepest dive, rad.
 const STEEPEST_DIVE: f64 = std::f64::consts::FRAC_PI_6;
-/// Sine of the rise below which a feed counts as level: 1 nm in a metre, far below any path.
+/// Sine of the rise below which a feed is treated as level: 1 nm in a metre, far below any path.
 const LEVEL: f64 = 1e-9;
-/// Part of the feed across the axis below which its direction there says nothing.
+/// Part of the feed across the axis below which its direction there is not defined.
 const ALONG_AXIS: f64 = 1e-6;
 /// Steps of one period at which the peak is sought.
 const PEAK_STEPS: u32 = 360;
@@ -95,8 +95,8 @@ impl Process {
         Milling::new(self.cutter, self.law, cut)
     }
 
-    /// The same with depth and edges of the engagement rounded to multiples of `part` of the diameter: cuts that are alike
-    /// become one.
+    /// The same with depth and edges of the engagement rounded to multiples of `part` of the diameter: cuts that are
+    /// alike become one.
     #[must_use]
     pub fn rounded(&self, part: f64) -> Process {
         let diameter = self.cutter.diameter();
@@ -132,7 +132,8 @@ fn plunge(dive: f64) -> CuttingError {
 }
 
 impl Advance {
-    /// How a tool advances that moves along `feed` and whose `spindle` lies that way from its tip; the same axes for both.
+    /// The advance of a tool that moves along `feed`, with the direction `spindle` from its tip; the same axes for
+    /// both.
     pub fn of(feed: &Unit<Vector3<f64>>, spindle: &Unit<Vector3<f64>>) -> Advance {
         let up = feed.dot(spindle);
         let across = (feed.into_inner() - spindle.into_inner() * up).norm();

@@ -1,28 +1,28 @@
-//! Several sets of one material's numbers together: their mean, and how one set among them scatters.
+//! Several sets of coefficients of one material: their mean, and the scatter of a set among them.
 //!
 //! ```text
 //! mean = sum x_i / n        C = sum (x_i - mean) (x_i - mean)^T / (n - 1)
 //! ```
 //!
-//! `x_i` are the numbers of one law (six coefficients, or `kc1` and `mc`) as one source identified them. `C` says how far
-//! a tool that was not measured may lie from the mean; numbers that rise together keep that.
+//! `x_i` are the numbers of one law (six coefficients, or `kc1` and `mc`) as one source identified them. `C`
+//! is the spread of tools that were not measured; the correlation of the coefficients is kept.
 
 use nalgebra::{SMatrix, SVector};
 
-/// What all sets of a material say together.
+/// Mean and scatter of all sets of a material.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Together<const N: usize> {
+pub struct SetStatistics<const N: usize> {
     /// Their mean, in their order and units.
     pub mean: SVector<f64, N>,
-    /// Covariance of one set among them; `None` of a single set, which tells nothing of others.
+    /// Covariance of one set among them; `None` of a single set, which has no scatter.
     pub covariance: Option<SMatrix<f64, N, N>>,
-    /// How many sets.
+    /// Number of sets.
     pub sets: usize,
 }
 
-impl<const N: usize> Together<N> {
+impl<const N: usize> SetStatistics<N> {
     /// Mean and covariance of these sets; `None` without a set.
-    pub fn of(sets: &[SVector<f64, N>]) -> Option<Together<N>> {
+    pub fn of(sets: &[SVector<f64, N>]) -> Option<SetStatistics<N>> {
         let count = sets.len();
         if count == 0 {
             return None;
@@ -36,7 +36,7 @@ impl<const N: usize> Together<N> {
             }
             covariance
         });
-        Some(Together {
+        Some(SetStatistics {
             mean,
             covariance,
             sets: count,
@@ -53,22 +53,19 @@ mod tests {
     #[test]
     fn sets_that_rise_together_covary_and_what_is_the_same_does_not() {
         let sets = [Vector3::new(100.0, 40.0, 10.0), Vector3::new(140.0, 60.0, 10.0)];
-        let together = Together::of(&sets).unwrap();
-        assert_eq!(
-            (together.sets, together.mean),
-            (2, Vector3::new(120.0, 50.0, 10.0))
-        );
+        let both = SetStatistics::of(&sets).unwrap();
+        assert_eq!((both.sets, both.mean), (2, Vector3::new(120.0, 50.0, 10.0)));
         // 20 and 10 to either side of the mean, over one.
-        let covariance = together.covariance.unwrap();
+        let covariance = both.covariance.unwrap();
         assert_eq!(covariance.diagonal(), Vector3::new(800.0, 200.0, 0.0));
         assert_eq!((covariance[(0, 1)], covariance[(1, 0)]), (400.0, 400.0));
     }
 
     #[test]
     fn one_set_has_no_covariance_and_none_no_mean() {
-        let one = Together::of(&[Vector3::new(1.0, 2.0, 3.0)]).unwrap();
+        let one = SetStatistics::of(&[Vector3::new(1.0, 2.0, 3.0)]).unwrap();
         assert_eq!((one.sets, one.covariance), (1, None));
         assert_eq!(one.mean.z, 3.0);
-        assert_eq!(Together::<3>::of(&[]), None);
+        assert_eq!(SetStatistics::<3>::of(&[]), None);
     }
 }

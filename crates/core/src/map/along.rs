@@ -1,64 +1,65 @@
-//! Deviation along a path: along the track, across it and along the tool, for loads that may turn with the feed.
+//! Deviation along a path: along the feed, across it and along the tool, for loads that may turn with the feed.
 //!
-//! A path is followed in one posture: the branch is chosen once, from points spread over the path, so the arm does not
-//! change its elbow in the middle of a part. A load that is the same everywhere, under a tool that never leans, is answered
-//! with shares and uncertainties at every point; any other load point by point without them. Where a tool cuts, force and
-//! deviation come to rest at every point ([`crate::load::force_equilibrium`]); the branch is chosen under the forces of the path as
-//! drawn.
+//! A path is followed in one posture: the branch is selected once, from points spread over the path, so the elbow does
+//! not change within a part. For a constant load and a tool of constant direction, shares and uncertainties are
+//! computed at every point; for any other load they are not. Where a tool cuts, the force-deflection equilibrium is
+//! computed at every point ([`crate::load::force_equilibrium`]); the branch is selected under the forces of the nominal
+//! path.
 //!
-//! Backlash and geometry come on top of what the load does (`unloaded`); force and depth of a cut do not answer to them.
+//! Backlash and geometry are added to the effect of the load (`backlash_geometry`); they do not change force and depth
+//! of a cut.
 
 use std::ops::Range;
 
+use super::backlash_geometry::{BacklashGeometry, add_backlash_and_geometry};
 use super::turns;
-use super::unloaded::{Unloaded, move_unloaded};
 use crate::kernel::{Answers, BranchChoice, Question, evaluate_in_order, evaluate_loaded};
-use crate::load::{CutsAlong, PathLoad, Rest, ForceEquilibrium, TipCompliance};
+use crate::load::{CutsAlong, ForceEquilibrium, PathLoad, Rest, TipCompliance};
 use crate::path::Track;
 use crate::robot::{Branch, BranchPattern};
 use crate::spatial::Wrench;
 use crate::watch::{Cancelled, Watch};
 
-/// Points of the path that decide on the branch.
+/// Number of points for the selection of the branch.
 const SPREAD: usize = 400;
 
 /// Answers along a path.
 #[derive(Clone, Debug)]
 pub struct AlongPath {
-    /// The branch it was followed in, each from the point with that index on; the first from point 0.
+    /// The branches used, each from the point with that index on; the first from point 0.
     pub choices: Vec<(usize, BranchChoice)>,
-    /// What came out at each point; in-plane is across the tool, normal along it. Shares and uncertainties where the load
-    /// is the same at all points, the tool does not lean, and nothing but load and gravity moves it
-    /// ([`Answers::share_count`] is zero otherwise).
+    /// Results at each point; in-plane is across the tool, normal along it. Shares and uncertainties only for a
+    /// constant load, a tool of constant direction, and without backlash and geometry ([`Answers::share_count`] is zero
+    /// otherwise).
     pub answers: Answers,
-    /// What pushed: of cuts the forces at rest, with the cuts as drawn.
+    /// The load: for cuts the forces at equilibrium, with the nominal cuts.
     pub load: PathLoad,
-    /// How force and deviation came to rest; `None` where no tool cuts, or the load changes the arm.
-    pub rested: Option<Rested>,
-    /// What moved the tool beside the load, which `answers` have too; `None` where nothing does.
-    pub unloaded: Option<Unloaded>,
+    /// The force-deflection equilibrium; `None` where no tool cuts, or the load changes the arm.
+    pub equilibrium: Option<EquilibriumSummary>,
+    /// Effect of backlash and geometry, included in `answers`; `None` without them.
+    pub backlash_geometry: Option<BacklashGeometry>,
 }
 
-/// How force and deviation came to rest along a path.
+/// Force-deflection equilibrium along a path.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Rested {
-    /// Largest in-plane deviation if the forces did not give way, m.
-    pub largest_if_drawn: f64,
-    /// Points at which they do not rest: the cut draws the tool in.
+pub struct EquilibriumSummary {
+    /// Largest in-plane deviation with constant forces, m.
+    pub largest_nominal: f64,
+    /// Points without equilibrium: the cut pulls the tool in.
     pub unsettled: usize,
     /// Index of the first of them.
     pub first_unsettled: Option<usize>,
 }
 
-/// The answers along `track` under `load`. What `question` says of cases and normal is not looked at; of its doubt, where
-/// uncertainties are told.
+/// The answers along `track` under `load`. Cases and normal of `question` are not used; its uncertainty only where
+/// uncertainties are computed.
 ///
-/// Of several branches that match (or of all, for the best one) the arm keeps the one in which it reaches most points
-/// within its limits, judged at some 400 points spread over the path; of equal ones for [`BranchChoice::Best`] the one with
-/// the least of the largest in-plane deviations, otherwise the one with the most room to its limits.
+/// Of several branches that match (or of all, for the best one) the arm keeps the one that reaches most points within
+/// its limits, evaluated at some 400 points spread over the path. Of equal ones, [`BranchChoice::Best`] selects the one
+/// with the smallest largest in-plane deviation, otherwise the one with the largest margin to its limits is used.
 ///
 /// # Errors
-/// [`Cancelled`] if the watch says so.
+/// [`Cancelled`] if the watch cancels.
 ///
 /// # Panics
 /// If `load` does not [cover](PathLoad::covers) the points of the track.
@@ -78,13 +79,14 @@ pub fn along_path(
     along_postures(question, (track, load), vec![(0, choice)], watch)
 }
 
-/// [`along_path`] in branches that are known: each of `choices` from the point with that index on, in order.
+/// [`along_path`] in given branches: each of `choices` from the point with that index on, in order.
 ///
 /// # Errors
-/// [`Cancelled`] if the watch says so.
+/// [`Cancelled`] if the watch cancels.
 ///
 /// # Panics
-/// If the load does not [cover](PathLoad::covers) the points of the track, or the first choice does not begin at point 0.
+/// If the load does not [cover](PathLoad::covers) the points of the track, or the first choice does not begin at point
+/// 0.
 pub fn along_postures(
     question: &Question<'_>,
     (track, load): (&Track, PathLoad),
@@ -94,10 +96,10 @@ pub fn along_postures(
     assert!(load.covers(track.len()), "a load for each point of the track");
     assert!(
         choices.first().is_some_and(|(first, _)| *first == 0),
-        "a choice from the first point on"
+        "the first choice must begin at point 0"
     );
     let mut cases = vec![Wrench::ZERO; load.case_count()];
-    let unloaded = question.arm.model.moves_unloaded();
+    let unloaded = question.arm.model.has_unloaded_deviation();
     let steady = track.steady_normal().filter(|_| load.is_steady() && !unloaded);
     if steady.is_some() {
         track.wrenches(&load, 0, &mut cases);
@@ -113,13 +115,13 @@ pub fn along_postures(
         choices: &choices,
         watch,
     };
-    let (mut answers, load, rested) = match load {
+    let (mut answers, load, equilibrium) = match load {
         load if steady.is_some() => (runs.steady()?, load, None),
         PathLoad::Cuts(cuts) => {
-            let mut resting = Resting::new(track, cuts);
-            let answers = runs.loaded(|i, tip, out| resting.load(i, tip, out))?;
-            let rested = question.arm.model.is_affine().then_some(resting.rested);
-            (answers, PathLoad::Cuts(resting.cuts), rested)
+            let mut forces = EquilibriumForces::new(track, cuts);
+            let answers = runs.loaded(|i, tip, out| forces.load(i, tip, out))?;
+            let equilibrium = question.arm.model.is_affine().then_some(forces.summary);
+            (answers, PathLoad::Cuts(forces.cuts), equilibrium)
         }
         load => {
             let answers = runs.loaded(|i, _, out| track.wrenches(&load, i, out))?;
@@ -127,17 +129,17 @@ pub fn along_postures(
         }
     };
     turns::count_on(question.arm.robot, &mut answers, |i| !track.path.begins(i));
-    let unloaded = move_unloaded(&question.arm, (track, &load), &mut answers);
+    let backlash_geometry = add_backlash_and_geometry(&question.arm, (track, &load), &mut answers);
     Ok(AlongPath {
-        unloaded,
+        backlash_geometry,
         choices,
         answers,
         load,
-        rested,
+        equilibrium,
     })
 }
 
-/// Stretches of a path, each in a branch of its own.
+/// Stretches of a path, each in a separate branch.
 struct Runs<'a> {
     question: Question<'a>,
     track: &'a Track,
@@ -161,7 +163,8 @@ impl Runs<'_> {
     ) -> Result<Answers, Cancelled> {
         self.each(|requested, run| {
             let stop = |i| self.track.stop(run.start + i);
-            let of_run = |i: usize, tip: Option<&TipCompliance>, out: &mut [Wrench]| load(run.start + i, tip, out);
+            let of_run =
+                |i: usize, tip: Option<&TipCompliance>, out: &mut [Wrench]| load(run.start + i, tip, out);
             evaluate_loaded(requested, run.len(), stop, of_run, self.watch)
         })
     }
@@ -184,50 +187,50 @@ impl Runs<'_> {
 }
 
 impl AlongPath {
-    /// The branch that point `index` was followed in.
+    /// The branch used at point `index`.
     pub fn choice_at(&self, index: usize) -> BranchChoice {
         let from = self.choices.partition_point(|(first, _)| *first <= index);
         self.choices[from.max(1) - 1].1
     }
 }
 
-/// Cuts whose forces come to rest point after point.
-struct Resting<'a> {
+/// Cuts whose force-deflection equilibrium is computed point after point.
+struct EquilibriumForces<'a> {
     track: &'a Track,
     cuts: CutsAlong,
     equilibrium: ForceEquilibrium,
-    rested: Rested,
+    summary: EquilibriumSummary,
 }
 
-impl Resting<'_> {
-    fn new(track: &Track, cuts: CutsAlong) -> Resting<'_> {
-        Resting {
+impl EquilibriumForces<'_> {
+    fn new(track: &Track, cuts: CutsAlong) -> EquilibriumForces<'_> {
+        EquilibriumForces {
             track,
             equilibrium: ForceEquilibrium::new(cuts.cutters[0], cuts.law),
             cuts,
-            rested: Rested::default(),
+            summary: EquilibriumSummary::default(),
         }
     }
 
-    /// Brings the force at point `index` to rest, and fills in its wrenches, base.
+    /// Computes the equilibrium at point `index`, and fills in its wrenches, base.
     fn load(&mut self, index: usize, tip: Option<&TipCompliance>, out: &mut [Wrench]) {
         let base_from_feed = self.track.base_from_feed(index);
         let here = &mut self.cuts.points[index];
         if let Some(tip) = tip {
             let tip = tip.rotated(&base_from_feed.inverse());
-            let drawn = [here.mean, here.greatest];
-            for force in &drawn[..out.len().min(drawn.len())] {
+            let nominal = [here.mean, here.greatest];
+            for force in &nominal[..out.len().min(nominal.len())] {
                 // In plane is across the tool.
                 let in_plane = tip.under(*force).xy().norm();
-                self.rested.largest_if_drawn = self.rested.largest_if_drawn.max(in_plane);
+                self.summary.largest_nominal = self.summary.largest_nominal.max(in_plane);
             }
             if let Some(cut) = here.cut {
                 self.equilibrium.set_cutter(self.cuts.cutters[here.cutter]);
                 match self.equilibrium.rest(&cut, here.mean, &tip) {
                     Rest::Settled(force) => [here.mean, here.greatest] = here.under(force),
                     Rest::PulledIn => {
-                        self.rested.unsettled += 1;
-                        self.rested.first_unsettled.get_or_insert(index);
+                        self.summary.unsettled += 1;
+                        self.summary.first_unsettled.get_or_insert(index);
                     }
                 }
             }
@@ -238,7 +241,7 @@ impl Resting<'_> {
     }
 }
 
-/// The one branch that the whole path is followed in.
+/// The one branch for the whole path.
 fn chosen(
     question: &Question<'_>,
     track: &Track,
@@ -284,7 +287,7 @@ fn chosen(
     Ok(BranchChoice::Of(branch))
 }
 
-/// How good a branch is for a path.
+/// Quality of a branch for a path.
 #[derive(Clone, Copy, Debug)]
 struct Score {
     within_limits: usize,
@@ -295,12 +298,18 @@ struct Score {
 
 impl Score {
     fn of(answers: &Answers, choice: BranchChoice) -> Score {
-        let evaluation = || answers.evaluation().map(|(_, evaluation)| evaluation);
-        let margin = evaluation().map(|evaluation| evaluation.limit_margin).fold(f64::INFINITY, f64::min);
-        let largest = evaluation().map(|evaluation| evaluation.in_plane).fold(0.0, f64::max);
+        let evaluations = || answers.evaluations().map(|(_, evaluation)| evaluation);
+        let margin = evaluations()
+            .map(|evaluation| evaluation.limit_margin)
+            .fold(f64::INFINITY, f64::min);
+        let largest = evaluations()
+            .map(|evaluation| evaluation.in_plane)
+            .fold(0.0, f64::max);
         Score {
-            within_limits: evaluation().filter(|evaluation| evaluation.within_limits()).count(),
-            reached: evaluation().count(),
+            within_limits: evaluations()
+                .filter(|evaluation| evaluation.within_limits())
+                .count(),
+            reached: evaluations().count(),
             finer: if choice == BranchChoice::Best {
                 -largest
             } else {

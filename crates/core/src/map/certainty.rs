@@ -1,70 +1,72 @@
-//! How sure is it that the limit holds?
+//! Uncertainty of a map: the probability that the tolerance is met.
 //!
-//! A point's in-plane deviation is taken as normally distributed about its value, with its standard uncertainty.
-//! The deciding case stands for all: they share the uncertainties of the same joints. Where another is nearly as large
-//! in another direction, the probability is told too high, by up to about 0.1.
+//! The in-plane deviation of a point is assumed to be normally distributed about its value, with its standard
+//! uncertainty. Only the worst case is used: all load cases share the uncertainties of the same joints. If another case
+//! is nearly as large in another direction, the probability is too high by up to about 0.1.
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | `m`, `u` | in-plane deviation of the deciding case, its standard uncertainty | m |
-//! | `e` | limit | m |
+//! | `m`, `u` | in-plane deviation of the worst case, its standard uncertainty | m |
+//! | `e` | tolerance | m |
 //!
-//! `P(within) = Phi((e - m) / u)`; surely within where `m + 2 u <= e`, possibly where `m - 2 u <= e`: about 95 %
-//! (JCGM 100:2008, 6.3).
+//! `P(within) = Phi((e - m) / u)`; robustly within where `m + 2 u <= e`, possibly where `m - 2 u <= e`: coverage about
+//! 95 % (JCGM 100:2008, 6.3).
 
 use super::plane::PlaneMap;
 use super::region::{Region, region_within};
-use crate::kernel::Held;
+use crate::kernel::Evaluation;
 
-/// Multiple of the standard uncertainty that counts as sure.
+/// Coverage factor.
 pub const COVERAGE: f64 = 2.0;
 
-/// Probability that the in-plane deviation of a point is at most `limit` (m).
-pub fn probability_within(evaluation: &Held, limit: f64) -> f64 {
-    let room = limit - evaluation.in_plane;
+/// Probability that the in-plane deviation of a point is at most `tolerance` (m).
+pub fn probability_within(evaluation: &Evaluation, tolerance: f64) -> f64 {
+    let room = tolerance - evaluation.in_plane;
     if evaluation.in_plane_uncertainty == 0.0 {
         return if room >= 0.0 { 1.0 } else { 0.0 };
     }
     0.5 * libm::erfc(-room / (evaluation.in_plane_uncertainty * std::f64::consts::SQRT_2))
 }
 
-/// How sure a map is of its region: of points inside the joint limits alone.
+/// Robust and possible region of a map; only points inside the joint limits.
 #[derive(Clone, Debug)]
 pub struct Certainty {
-    /// Where the deviation holds the limit with [`COVERAGE`] uncertainties to spare.
-    pub surely: Region,
-    /// Where it would hold it with so many taken away.
+    /// Where the deviation plus [`COVERAGE`] standard uncertainties is within the tolerance.
+    pub robust: Region,
+    /// Where the deviation minus [`COVERAGE`] standard uncertainties is within the tolerance.
     pub possibly: Region,
-    /// Points in the first over all points.
-    pub fraction_surely: f64,
-    /// Points in the second over all points.
+    /// Fraction of all points in the first region.
+    pub fraction_robust: f64,
+    /// Fraction of all points in the second region.
     pub fraction_possibly: f64,
-    /// Mean probability of all points to be within; a point without posture inside the joint limits is not.
+    /// Mean probability of all points to be within; zero for a point without a posture inside the joint limits.
     pub expected_fraction: f64,
 }
 
 impl PlaneMap {
-    /// How sure the map is of what holds `limit` (m).
-    pub fn certainty(&self, limit: f64) -> Certainty {
+    /// Robust and possible region for `tolerance` (m).
+    pub fn certainty(&self, tolerance: f64) -> Certainty {
         let points = self.answers.points.len().max(1) as f64;
         let away = |uncertainties: f64| {
-            self.inside_joint_limits(|evaluation| evaluation.in_plane + uncertainties * evaluation.in_plane_uncertainty)
+            self.inside_joint_limits(|evaluation| {
+                evaluation.in_plane + uncertainties * evaluation.in_plane_uncertainty
+            })
         };
         let (most, least) = (away(COVERAGE), away(-COVERAGE));
         let fraction = |values: &[Option<f64>]| {
             let within = values
                 .iter()
-                .filter(|value| value.is_some_and(|v| v <= limit))
+                .filter(|value| value.is_some_and(|v| v <= tolerance))
                 .count();
             within as f64 / points
         };
-        let probabilities = self.inside_joint_limits(|evaluation| probability_within(evaluation, limit));
+        let probabilities = self.inside_joint_limits(|evaluation| probability_within(evaluation, tolerance));
         Certainty {
-            fraction_surely: fraction(&most),
+            fraction_robust: fraction(&most),
             fraction_possibly: fraction(&least),
             expected_fraction: probabilities.iter().flatten().sum::<f64>() / points,
-            surely: region_within(&self.grid, &most, limit),
-            possibly: region_within(&self.grid, &least, limit),
+            robust: region_within(&self.grid, &most, tolerance),
+            possibly: region_within(&self.grid, &least, tolerance),
         }
     }
 }
@@ -74,13 +76,13 @@ mod tests {
     use super::*;
     use crate::robot::{Branch, PostureName};
 
-    fn evaluation(in_plane: f64, in_plane_uncertainty: f64) -> Held {
-        Held {
+    fn evaluation(in_plane: f64, in_plane_uncertainty: f64) -> Evaluation {
+        Evaluation {
             name: PostureName::Branch(Branch::ALL[0]),
             limit_margin: f64::INFINITY,
             limit_joint: 0,
             singularity: None,
-            deciding_case: 0,
+            worst_case: 0,
             in_plane,
             in_plane_uncertainty,
             normal: 0.0,

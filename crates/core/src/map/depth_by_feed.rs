@@ -1,4 +1,4 @@
-//! How far a tool deviates over depth and feed, at the points of a program that permit least.
+//! Deviation over depth and feed, at the points of a program with the smallest permitted values.
 
 use super::limits::PointLimits;
 use super::varied::{CutLimits, MOST_DEPTH, MOST_FEED, Permitted, Varied, fed};
@@ -12,22 +12,22 @@ pub struct DepthByFeed {
     pub depths: Vec<f64>,
     /// Feeds per tooth, m.
     pub feeds_per_tooth: Vec<f64>,
-    /// Largest in-plane deviation of the points that decide, m; one row a depth. Infinite where a tool is drawn in.
+    /// Largest in-plane deviation of the limiting points, m; one row per depth. Infinite where a tool is pulled in.
     pub deviations: Vec<f64>,
 }
 
 /// Depths and feeds of the sheet.
 const SHEET: usize = 24;
-/// Points that decide on the sheet: as many that permit the least depth, and as many that permit the least feed.
+/// Number of limiting points: as many with the smallest depth, and as many with the smallest feed.
 const DECIDING: usize = 6;
-/// The sheet reaches to this many times what is drawn or permitted, whichever is more.
+/// The sheet extends to this multiple of the nominal or permitted value, whichever is larger.
 const BEYOND: f64 = 1.6;
 
 impl DepthByFeed {
-    /// Of those `points` that permit least, each with its cut; `None` without a cut.
+    /// Of the limiting ones of `points`, each with its cut; `None` without a cut.
     ///
     /// # Errors
-    /// [`Cancelled`] if the watch says so.
+    /// [`Cancelled`] if the watch cancels.
     pub(super) fn of(
         points: &[PointLimits],
         cut_at: impl FnMut(usize) -> Option<Varied>,
@@ -94,7 +94,7 @@ impl DepthByFeed {
 mod tests {
     use super::*;
     use crate::load::{
-        CutHere, CutsAlong, Cutter, CuttingLaw, Engagement, Greatest, Immersion, Mechanistic, Milling,
+        CutHere, CutsAlong, Cutter, CuttingLaw, Engagement, GreatestForce, Immersion, Mechanistic, Milling,
         TipCompliance,
     };
     use crate::map::limits::PermittedForces;
@@ -130,7 +130,7 @@ mod tests {
         Milling::new(cutters()[cutter], law(), cut).unwrap().mean_force()
     }
 
-    /// Points whose tips yield along the feed by these (m/N), each with its cutter and depth.
+    /// Points with these compliances of the tip along the feed (m/N), each with its cutter and depth.
     fn requested(of: &[(f64, usize, f64)]) -> (Vec<PointLimits>, Vec<Option<Varied>>) {
         let mut varied: Vec<Option<Varied>> = of
             .iter()
@@ -145,7 +145,7 @@ mod tests {
                 let cuts = CutsAlong {
                     cutters: cutters(),
                     law: law(),
-                    greatest: Greatest::LeftOut,
+                    greatest: GreatestForce::LeftOut,
                     points: vec![here],
                 };
                 let tip = TipCompliance {
@@ -176,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn deviation_goes_with_depth_times_feed_where_the_force_does() {
+    fn deviation_is_proportional_to_depth_times_feed_where_the_force_is() {
         let a = 2e-7;
         let sheet = of(&[(a, 0, MM)]);
         let unit = a * force(0, slot(0, MM)).x.abs() / (MM * 0.05 * MM);
@@ -194,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn the_sheet_begins_near_nothing_and_reaches_beyond_what_is_drawn_and_permitted() {
+    fn the_sheet_starts_near_zero_and_extends_beyond_nominal_and_permitted_values() {
         for a in [5e-8, 2e-6] {
             let (points, _) = requested(&[(a, 0, MM)]);
             let cut = points[0].cut.unwrap();
@@ -213,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn of_points_with_tools_of_two_sizes_the_worst_decides_at_each_depth_and_feed() {
+    fn with_tools_of_two_sizes_the_worst_point_is_used_at_each_depth_and_feed() {
         let (wide, thin) = ((2e-7, 0, MM), (3e-7, 1, 0.5 * MM));
         let (both, of_thin) = (of(&[wide, thin]), of(&[thin]));
         let unit = |(a, cutter, depth): (f64, usize, f64)| {
@@ -223,7 +223,7 @@ mod tests {
         for (row, depth) in both.depths.iter().enumerate() {
             let found = both.deviations[row * both.feeds_per_tooth.len()];
             let expected = worst * depth * both.feeds_per_tooth[0];
-            // Deeper than a hundred diameters no tool cuts; here none is that deep.
+            // No tool cuts deeper than a hundred diameters; none is that deep here.
             assert!(
                 (found / expected - 1.0).abs() < 1e-12,
                 "{depth}: {found} {expected}"
@@ -233,15 +233,15 @@ mod tests {
     }
 
     #[test]
-    fn a_point_that_permits_more_than_all_that_decide_changes_nothing() {
-        // Six that permit the least depth decide, and as many for the feed: here the same ones.
+    fn a_point_above_all_limiting_points_changes_nothing() {
+        // Six points with the smallest depth are limiting, and as many for the feed: here the same ones.
         let soft: Vec<_> = (0..DECIDING).map(|k| (2e-7 + 1e-9 * k as f64, 0, MM)).collect();
         let with_stiff = [&soft[..], &[(1e-8, 0, MM)]].concat();
         assert_eq!(of(&with_stiff), of(&soft));
     }
 
     #[test]
-    fn without_a_cut_there_is_no_sheet_and_long_work_can_be_stopped() {
+    fn without_a_cut_there_is_no_sheet_and_the_computation_can_be_cancelled() {
         assert_eq!(DepthByFeed::of(&[], |_| None, Watch::NONE), Ok(None));
         let (points, mut varied) = requested(&[(2e-7, 0, MM)]);
         let cancel = AtomicBool::new(true);

@@ -1,5 +1,4 @@
-//! What part fits: the largest axis-parallel rectangle and the largest circle of grid points that are all
-//! within.
+//! The largest axis-parallel rectangle and the largest circle whose grid points are all within.
 
 use nalgebra::Point2;
 
@@ -67,8 +66,9 @@ pub(super) fn largest_rectangle(grid: &Grid, within: &[bool]) -> Option<Rectangl
     best
 }
 
-/// The largest circle about a grid point that stays on the grid and one pitch away from every grid point outside,
-/// so that the boundary between them lies outside the circle; `None` without a point within. Exact distance transform (Felzenszwalb & Huttenlocher 2012), linear in the points.
+/// The largest circle about a grid point that stays on the grid and one pitch away from every grid point outside, so
+/// that the boundary between them is outside the circle; `None` without a point within. Exact distance transform
+/// (Felzenszwalb & Huttenlocher 2012), linear in the points.
 pub(super) fn largest_disc(grid: &Grid, within: &[bool]) -> Option<Disc> {
     let (columns, rows) = (grid.columns, grid.rows);
     let far = ((columns + rows) as f64).powi(2) * 4.0;
@@ -133,7 +133,7 @@ fn distance_transform(f: &[f64]) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// A field of within/outside that looks random but is not.
+    /// A pseudo-random field of within/outside.
     fn speckled(grid: &Grid, seed: usize) -> Vec<bool> {
         (0..grid.len())
             .map(|i| (i * 7919 + seed * 104_729) % 23 > 3)
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_within_means_nothing_fits() {
+    fn without_a_point_within_there_is_no_inscribed_shape() {
         let grid = Grid {
             columns: 4,
             rows: 4,

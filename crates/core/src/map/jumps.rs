@@ -1,4 +1,4 @@
-//! Where does the arm jump? Points of a cut between which a joint turns so far that no arm follows without a stop.
+//! Jumps: points of a cut between which a joint turns so far that the arm must stop.
 
 use crate::kernel::Answers;
 use crate::path::SampledPath;
@@ -7,25 +7,25 @@ use crate::robot::Robot;
 /// A joint that turns farther than this from one point to the next jumps, rad.
 const FAR: f64 = 0.5;
 
-/// A joint that turns far between two points next to each other on a cut.
+/// A joint that turns far between two neighbouring points of a cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jump {
     /// The point after it.
     pub index: usize,
-    /// Which joint.
+    /// Joint.
     pub joint: usize,
-    /// By how much, rad.
+    /// Angle, rad.
     pub by: f64,
 }
 
-/// The jumps of `robot` along `path`, in order; sliding joints do not count, nor what happens in a rapid.
+/// The jumps of `robot` along `path`, in order; prismatic joints and rapids are not included.
 pub fn jumps<'a>(
     robot: &'a Robot,
     path: &'a SampledPath,
     answers: &'a Answers,
 ) -> impl Iterator<Item = Jump> + 'a {
-    let evaluation = |i: usize| answers.points[i].is_ok();
-    let follow = (1..answers.points.len()).filter(move |i| !path.begins(*i) && evaluation(*i) && evaluation(i - 1));
+    let reached = |i: usize| answers.points[i].is_ok();
+    let follow = (1..answers.points.len()).filter(move |i| !path.begins(*i) && reached(*i) && reached(i - 1));
     follow.flat_map(move |index| {
         let turns = answers.joints_at(index - 1).iter().zip(answers.joints_at(index));
         let by = turns.map(|(before, after)| after - before).enumerate();
@@ -43,7 +43,7 @@ mod tests {
     use crate::path::Shape;
     use crate::robot::{Amount, Axis, Joint, Motion, Unreachable};
 
-    /// A rail that carries a turning joint.
+    /// A rail with a revolute joint.
     fn robot() -> Robot {
         let motions = vec![
             Motion::Along(Axis::X, Amount::Joint(0)),
@@ -63,7 +63,7 @@ mod tests {
         };
         assert_eq!((jump.index, jump.joint), (2, 1));
         assert!((jump.by + 0.69).abs() < 1e-12);
-        // Nobody knows how the arm gets over a point that it does not reach.
+        // It is not known how the arm passes a point that it does not reach.
         answers.points[1] = Err(Unreachable::TooFar { by: 1.0 });
         assert_eq!(jumps(&robot, &path, &answers).count(), 0);
     }

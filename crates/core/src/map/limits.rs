@@ -1,22 +1,23 @@
-//! What may a program ask for? Force, depth, width and feed that keep the tolerance, at its points and on all of it.
+//! Process limits along a path: force, depth, width and feed that keep the deviation within the tolerance, at single
+//! points and on the whole path.
 //!
 //! ```text
-//! |P A f| = e                                  force: along a direction, and in the one that permits least
-//! |P (A F(cut) + g)| = e                       depth, width or feed of the cut, the others as drawn
+//! |P A f| = e                                  force: along a direction, and in the weakest direction
+//! |P (A F(cut) + g)| = e                       depth, width or feed of the cut, the others nominal
 //! ```
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | `e` | permitted deviation across the tool | m |
-//! | `A`, `g` | how the tip yields there, and its deviation without a cut ([`TipCompliance`]) | m/N, m |
-//! | `P` | takes away what lies along the tool | - |
-//! | `F` | force of the cut at rest ([`crate::load::force_equilibrium`]) | N |
+//! | `e` | tolerance across the tool | m |
+//! | `A`, `g` | compliance of the tip, and its deviation without a cut ([`TipCompliance`]) | m/N, m |
+//! | `P` | removes the component along the tool | - |
+//! | `F` | force of the cut at equilibrium ([`crate::load::force_equilibrium`]) | N |
 //!
-//! A force is asked for by itself: `g` does not count. A cut is asked for on the arm as it stands, with `g`
+//! A permitted force is computed without other loads: `g` is not included. A permitted cut is computed with `g`
 //! (`varied`).
 //!
-//! Asked at points spread over the path, and where the deviation is largest; a limit of the whole path is the least of
-//! theirs. Under a model in which the load changes the arm there are no limits here.
+//! Evaluated at points spread over the path, and where the deviation is largest. A limit of the whole path is the
+//! smallest of these. If the load changes the arm, no limits are computed.
 
 use nalgebra::Vector3;
 
@@ -31,18 +32,19 @@ use crate::path::Track;
 use crate::source::ArmState;
 use crate::watch::{Cancelled, Watch};
 
-/// What a point of a program permits.
+/// Limits at a point of a program.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointLimits {
-    /// Which point.
+    /// Index of the point.
     pub index: usize,
-    /// Force beside all else that pushes.
+    /// Force in addition to all other loads.
     pub forces: PermittedForces,
-    /// What the cut may be; `None` where nothing is cut, or no cut is known.
+    /// Limits of the cut; `None` where nothing is cut, or no cut is known.
     pub cut: Option<CutLimits>,
 }
 
-/// Force (N) that a point permits: under it alone, the weight of the arm left out, the tip deviates by the limit in plane.
+/// Permitted force (N) at a point: under this force alone, without gravity, the in-plane deviation of the tip equals
+/// the tolerance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PermittedForces {
     /// Along the feed.
@@ -51,26 +53,27 @@ pub struct PermittedForces {
     pub across: f64,
     /// Along the tool.
     pub normal: f64,
-    /// In the direction that permits least.
+    /// In the weakest direction.
     pub weakest: f64,
 }
 
-/// What a program permits.
+/// Limits along a program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProgramLimits {
-    /// At each point asked, in their order along the path.
+    /// At each evaluated point, in their order along the path.
     pub points: Vec<PointLimits>,
-    /// Depth by feed, all else as drawn; `None` without a cut.
+    /// Depth by feed, all other parameters nominal; `None` without a cut.
     pub depth_by_feed: Option<DepthByFeed>,
 }
 
-/// Points asked at most, beside the worst.
-const POINTS_ASKED: usize = 300;
+/// Maximum number of evaluated points, in addition to the worst.
+const MAX_POINTS: usize = 300;
 
-/// What `found`, the answer along `track` to `question`, permits for `limit` (m); `None` where the load changes the arm.
+/// The limits of `found`, the answer along `track` to `question`, for `tolerance` (m); `None` where the load changes
+/// the arm.
 ///
 /// # Errors
-/// [`Cancelled`] if the watch says so.
+/// [`Cancelled`] if the watch cancels.
 pub fn program_limits(
     question: &Question<'_>,
     track: &Track,
@@ -123,7 +126,7 @@ pub fn program_limits(
 }
 
 impl ProgramLimits {
-    /// The least that any point permits of what `part` takes from its cut; `None` without a cut.
+    /// The smallest value of `part` over all points; `None` without a cut.
     pub fn least(&self, part: impl Fn(&CutLimits) -> Option<Permitted>) -> Option<(&PointLimits, Permitted)> {
         let of = |point| {
             let point: &PointLimits = point;
@@ -138,16 +141,16 @@ impl ProgramLimits {
     }
 }
 
-/// Points spread over those that are reached and cut something, with the worst of all.
+/// Points spread over those that are reached and cut something, and the worst of all.
 fn requested(found: &AlongPath, cuts: Option<&CutsAlong>) -> Vec<usize> {
     let cuts_there = |i: usize| cuts.is_none_or(|cuts| cuts.points[i].cut.is_some());
     let open: Vec<usize> = found
         .answers
-        .evaluation()
+        .evaluations()
         .map(|(i, _)| i)
         .filter(|i| cuts_there(*i))
         .collect();
-    let stride = open.len().div_ceil(POINTS_ASKED).max(1);
+    let stride = open.len().div_ceil(MAX_POINTS).max(1);
     let mut requested: Vec<usize> = open.iter().step_by(stride).copied().collect();
     requested.extend(
         found
@@ -161,7 +164,7 @@ fn requested(found: &AlongPath, cuts: Option<&CutsAlong>) -> Vec<usize> {
     requested
 }
 
-/// How the tip yields along a program.
+/// Compliance of the tip along a program.
 struct Tips<'a> {
     arm_state: ArmState<'a>,
     track: &'a Track,
@@ -169,7 +172,7 @@ struct Tips<'a> {
 }
 
 impl Tips<'_> {
-    /// Feed frame; `None` where the arm does not hold its own weight.
+    /// Feed frame; `None` where the arm is unstable under its own weight.
     fn at(&mut self, index: usize) -> Option<TipCompliance> {
         self.arm_state.set_joints(self.found.answers.joints_at(index));
         let tip = self.arm_state.tip_compliance().ok()?;
@@ -177,7 +180,7 @@ impl Tips<'_> {
     }
 }
 
-/// Force (N) that a tip permits along the feed, to its left, along the tool, and in the direction that permits least.
+/// Permitted force (N) of a tip along the feed, to its left, along the tool, and in the weakest direction.
 fn forces(tip: &TipCompliance, limit: f64) -> [f64; 4] {
     let (a, tool) = (&tip.by_force, Vector3::z_axis());
     let axes = [Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis()];
@@ -206,7 +209,7 @@ mod tests {
             let deviation = deviates(Vector3::ith(axis, permitted));
             assert!((deviation / limit - 1.0).abs() < 1e-14, "{axis}: {deviation}");
         }
-        // Directions half a degree apart about a ball: the softest is met to the square of that.
+        // Directions half a degree apart about a ball: the error at the weakest direction is the square of that.
         let mut softest = 0.0_f64;
         for turn in 0..360 {
             for rise in 0..=180 {
@@ -220,7 +223,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tip_that_yields_only_along_the_tool_permits_any_force() {
+    fn a_tip_compliant_only_along_the_tool_permits_any_force() {
         let tip = TipCompliance {
             by_force: Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, 1e-6)),
             unloaded: Vector3::zeros(),
@@ -229,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn the_least_of_a_program_is_the_least_of_its_points_and_nothing_is_less_than_all() {
+    fn the_limit_of_a_program_is_the_smallest_of_its_points_and_none_is_below_all() {
         let forces = PermittedForces {
             along: 1.0,
             across: 1.0,
@@ -255,7 +258,7 @@ mod tests {
         };
         let some = of(&[Some(AtLeast(3.0)), None, Some(UpTo(0.5)), Some(UpTo(0.4))]);
         assert_eq!(least(&some), Some((3, UpTo(0.4))));
-        // No slot has a width to be least.
+        // No slot has a permitted width.
         assert!(some.least(|cut| cut.width).is_none());
         let with_none = of(&[Some(UpTo(0.4)), Some(Nothing)]);
         assert_eq!(least(&with_none), Some((1, Nothing)));

@@ -1,8 +1,8 @@
 //! The area below a level on a grid, and its boundary: linear between neighbouring points.
 //!
 //! Each cell of four points becomes the polygon where the values, linear along its sides, stay within the
-//! level. A cell with a corner that has no value is left out: the region is never larger than what was
-//! reached. Saddles are cut apart into their two corners.
+//! level. A cell with a corner that has no value is left out: the region is never larger than what was reached. Saddles
+//! are separated into their two corners.
 
 use nalgebra::Point2;
 
@@ -12,7 +12,7 @@ use crate::workpiece::Grid;
 pub(super) struct Within {
     /// m^2
     pub area: f64,
-    /// Closed or open polylines, m, part x and y; the region lies to their left.
+    /// Closed or open polylines, m, part x and y; the region is to their left.
     pub boundary: Vec<Vec<Point2<f64>>>,
 }
 
@@ -29,7 +29,7 @@ pub(super) fn within_level(grid: &Grid, values: &[Option<f64>], level: f64) -> W
             return grid.point(a);
         }
         let (va, vb) = (values[a].unwrap_or(level), values[b].unwrap_or(level));
-        // The sum over a cell's polygon must not depend on the direction in which a side is walked.
+        // The sum over a cell's polygon must not depend on the direction of its sides.
         let t = if vb == va {
             0.5
         } else {
@@ -76,8 +76,8 @@ pub(super) fn within_level(grid: &Grid, values: &[Option<f64>], level: f64) -> W
     }
 }
 
-/// The polygon of the corners `start..=end` (round the cell) with its two crossings: its area; its cut side
-/// goes to `pieces`, region to the left.
+/// The polygon of the corners `start..=end` (round the cell) with its two crossings: its area; its cut side is added to
+/// `pieces`, region to the left.
 fn cut(
     corners: &[usize; 4],
     start: usize,
@@ -317,13 +317,13 @@ mod tests {
             area(|p| Point2::new(-p.x, -p.y)),
             area(|p| Point2::new(p.x, -p.y)),
         ] {
-            // Saddles are cut apart whichever way they lie.
+            // Saddles are separated in both orientations.
             assert!((there - here).abs() < 1e-12, "{here} {there}");
         }
     }
 
     #[test]
-    fn within_and_beyond_a_level_make_up_the_grid_where_no_cell_is_a_saddle() {
+    fn areas_within_and_beyond_a_level_add_up_to_the_grid_without_saddles() {
         let values = field(|p| Some(p.x + 0.3 * p.y));
         let beyond: Vec<_> = values.iter().map(|v| v.map(|v| -v)).collect();
         for level in [-0.3, 0.0, 0.111] {

@@ -1,13 +1,16 @@
-//! Where does the tolerance hold?
+//! Deviation maps and path analyses: where the tolerance is met.
 //!
-//! [`plane`]: deviation over a plane; [`volume`]: in space; [`along`]: along a path; [`radial`]: what becomes of a circle,
-//! [`radial_parts`]: without load, and how sure; [`unloaded`]: what moves the tool there beside its load; `worst` and `jumps`: where a path is worst, and where the arm jumps; [`limits`]: which force and cut a path permits
-//! (`varied`: one cut, varied), [`depth_by_feed`]: over both; [`region`]: the part within a limit, its area, boundary and
-//! what fits; [`certainty`]: how sure that is.
+//! [`plane`]: deviation over a plane; [`volume`]: in space; [`along`]: along a path; [`radial`]: radial deviation and
+//! roundness of a circle; [`radial_parts`]: the part without load, and its uncertainty; [`backlash_geometry`]: effect
+//! of backlash and geometry along a path; `worst` and `jumps`: the largest deviations of a path, and jumps of the
+//! joints; [`limits`]: permitted force and cut along a path (`varied`: one cut with a varied parameter),
+//! [`depth_by_feed`]: depth over feed; [`region`]: the part of a plane within the tolerance, its area, boundary and
+//! inscribed shapes; [`certainty`]: its uncertainty.
 //!
-//! `marching_squares`, `inscribed`: boundaries, and shapes inside them; `turns`: whole turns of joints along a path.
+//! `marching_squares`, `inscribed`: boundaries, and inscribed shapes; `turns`: whole turns of joints along a path.
 
 pub mod along;
+pub mod backlash_geometry;
 pub mod certainty;
 pub mod depth_by_feed;
 mod inscribed;
@@ -19,20 +22,19 @@ pub mod radial;
 pub mod radial_parts;
 pub mod region;
 mod turns;
-pub mod unloaded;
 mod varied;
 pub mod volume;
 mod worst;
 
-pub use along::{AlongPath, Rested, along_path, along_postures};
+pub use along::{AlongPath, EquilibriumSummary, along_path, along_postures};
+pub use backlash_geometry::BacklashGeometry;
 pub use certainty::{COVERAGE, Certainty, probability_within};
 pub use depth_by_feed::DepthByFeed;
 pub use jumps::{Jump, jumps};
 pub use limits::{CutLimits, Permitted, PermittedForces, PointLimits, ProgramLimits, program_limits};
 pub use plane::{Counts, PlaneMap, plane_map};
 pub use radial::{RadialDeviation, radial_deviations};
-pub use radial_parts::{WithoutLoad, radial_doubts, radial_without_load};
+pub use radial_parts::{WithoutLoad, radial_uncertainties, radial_without_load};
 pub use region::{Region, region_within};
-pub use unloaded::Unloaded;
 pub use volume::{BoxGrid, VolumeMap, volume_map};
 pub use worst::worst_points;

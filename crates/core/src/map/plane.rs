@@ -3,7 +3,7 @@
 use nalgebra::Point2;
 
 use crate::frame::Isometry;
-use crate::kernel::{Answers, Held, Question, evaluate};
+use crate::kernel::{Answers, Evaluation, Question, evaluate};
 use crate::robot::Unreachable;
 use crate::watch::{Cancelled, Watch};
 use crate::workpiece::{Grid, Plane};
@@ -17,37 +17,37 @@ pub struct PlaneMap {
     pub plane: Plane,
     /// Its points.
     pub grid: Grid,
-    /// What came out at each, in the grid's order.
+    /// Results at each point, in the grid's order.
     pub answers: Answers,
 }
 
-/// How many points hold the limit, and why the rest does not. The first five add up to all points.
+/// Number of points within the tolerance, and the reasons for the others. The first five add up to all points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
-    /// In-plane deviation within the limit.
+    /// In-plane deviation within the tolerance.
     pub within: usize,
-    /// In-plane deviation over the limit.
+    /// In-plane deviation above the tolerance.
     pub above_tolerance: usize,
-    /// No posture reaches.
+    /// No posture reaches the point.
     pub out_of_reach: usize,
-    /// Postures reach, but none inside the joint limits (only where the best branch is asked for).
+    /// Postures exist, but none inside the joint limits (only if the best branch is requested).
     pub no_posture_inside_limits: usize,
     /// A search found no posture, which does not prove that there is none.
     pub not_found: usize,
     /// The inverse kinematics failed its own check.
     pub unverified: usize,
-    /// A posture holds the point, but the arm finds no stable rest under the load.
+    /// A posture reaches the point, but the arm has no stable equilibrium under the load.
     pub unstable: usize,
-    /// Of the points with a posture: some joint stands outside its limits.
+    /// Of the points with a posture: at least one joint is outside its limits.
     pub outside_joint_limits: usize,
-    /// Of the points within the limit: every joint stands inside its limits.
+    /// Of the points within the tolerance: every joint is inside its limits.
     pub within_and_inside_joint_limits: usize,
     /// Of the points with a posture: near a singularity.
     pub near_singularity: usize,
 }
 
 impl Counts {
-    /// Counts the points of `answers` against `limit` (m).
+    /// Counts the points of `answers` for this `limit` (m): the tolerance.
     pub fn of(answers: &Answers, limit: f64) -> Counts {
         let mut counts = Counts::default();
         for point in &answers.points {
@@ -57,7 +57,8 @@ impl Counts {
                     counts.within += usize::from(within);
                     counts.above_tolerance += usize::from(!within);
                     counts.outside_joint_limits += usize::from(!evaluation.within_limits());
-                    counts.within_and_inside_joint_limits += usize::from(within && evaluation.within_limits());
+                    counts.within_and_inside_joint_limits +=
+                        usize::from(within && evaluation.within_limits());
                     counts.near_singularity += usize::from(evaluation.singularity.is_some());
                 }
                 Err(Unreachable::OutsideLimits { .. }) => counts.no_posture_inside_limits += 1,
@@ -76,32 +77,39 @@ impl Counts {
 
     /// All points.
     pub fn points(&self) -> usize {
-        let evaluation = self.within + self.above_tolerance;
+        let reached = self.within + self.above_tolerance;
         let missed = self.out_of_reach + self.no_posture_inside_limits + self.not_found;
-        evaluation + missed + self.unverified + self.unstable
+        reached + missed + self.unverified + self.unstable
     }
 
-    /// Points within the limit over all points; 0 where there is none.
+    /// Points within the tolerance over all points; 0 where there is none.
     pub fn fraction_within(&self) -> f64 {
         self.within as f64 / self.points().max(1) as f64
     }
 
-    /// Points within the limit and inside the joint limits over all points.
+    /// Points within the tolerance and inside the joint limits over all points.
     pub fn fraction_within_and_inside_joint_limits(&self) -> f64 {
         self.within_and_inside_joint_limits as f64 / self.points().max(1) as f64
     }
 }
 
 impl PlaneMap {
-    /// The region within `limit` (m), of points inside the joint limits.
+    /// The region within the tolerance `limit` (m), of points inside the joint limits.
     pub fn region(&self, limit: f64) -> Region {
-        region_within(&self.grid, &self.inside_joint_limits(|evaluation| evaluation.in_plane), limit)
+        region_within(
+            &self.grid,
+            &self.inside_joint_limits(|evaluation| evaluation.in_plane),
+            limit,
+        )
     }
 
-    /// `value` of each point that a part can be cut at: `None` without posture, or outside joint limits.
-    pub(super) fn inside_joint_limits(&self, value: impl Fn(&Held) -> f64) -> Vec<Option<f64>> {
-        let of = |point: &Result<Held, Unreachable>| {
-            let evaluation = point.as_ref().ok().filter(|evaluation| evaluation.within_limits());
+    /// `value` at each usable point: `None` without posture, or outside joint limits.
+    pub(super) fn inside_joint_limits(&self, value: impl Fn(&Evaluation) -> f64) -> Vec<Option<f64>> {
+        let of = |point: &Result<Evaluation, Unreachable>| {
+            let evaluation = point
+                .as_ref()
+                .ok()
+                .filter(|evaluation| evaluation.within_limits());
             evaluation.map(&value)
         };
         self.answers.points.iter().map(of).collect()
@@ -111,7 +119,7 @@ impl PlaneMap {
 /// The map of `plane` on `grid`. The question's normal and load cases are those of the plane.
 ///
 /// # Errors
-/// [`Cancelled`] if the watch says so.
+/// [`Cancelled`] if the watch cancels.
 pub fn plane_map(
     question: &Question<'_>,
     plane: Plane,

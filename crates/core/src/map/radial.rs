@@ -6,19 +6,19 @@ use crate::kernel::Answers;
 use crate::path::Track;
 use crate::roundness::{ReferenceCircle, least_squares};
 
-/// What becomes of a circle under one load case. m.
+/// Deviations of a circle under one load case. m.
 #[derive(Clone, Debug)]
 pub struct RadialDeviation {
     /// Outward part of the deviation at each point.
     pub outward: Vec<f64>,
     /// The least-squares circle of the deviated points and their roundness about it, path axes.
     pub roundness: ReferenceCircle,
-    /// How far its centre was moved, path x and y.
+    /// Displacement of its centre, path x and y.
     pub centre_shift: Vector2<f64>,
 }
 
-/// What becomes of the circle about `centre` (m, path x and y) that `track` follows, under each load case; empty where a
-/// point of it is not reached, or its points make no circle.
+/// Deviations of the circle about `centre` (m, path x and y) that `track` follows, under each load case; empty where a
+/// point of it is not reached, or its points are not a circle.
 pub fn radial_deviations(track: &Track, answers: &Answers, centre: Point2<f64>) -> Vec<RadialDeviation> {
     if answers.points.iter().any(Result::is_err) {
         return Vec::new();

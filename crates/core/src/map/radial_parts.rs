@@ -1,25 +1,27 @@
-//! Of a circle's radial deviation: what it has without any load, and how far each unknown moves what the load makes.
+//! Parts of the radial deviation of a circle: the part without load, and the effect of each uncertain input on the part
+//! of the load.
 //!
 //! ```text
 //! dr(a) = without(a) + load(a)                     without: the same path in the same postures, no wrench
 //! d_m(a) = sum over k of L_mk e . (s_k(w) - s_k(0))        S = L^T L
-//! d_0(a) = m e . (delta(w) - delta(0))                       by what the model misses
+//! d_0(a) = m e . (delta(w) - delta(0))                       by the model error
 //! u^2(a) = sum over m of d_m^2(a)
-//! g_i(a) = e . s_i u_i u(b_i)/b_i                     of what it has without load, by a gap that is not known exactly
+//! g_i(a) = e . s_i u_i u(b_i)/b_i                     of the part without load, by the uncertainty of a backlash
 //! ```
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | `without` | gravity, backlash, geometry: what a ball-bar sees | m |
-//! | `d_m` | change of the load's part by one independent unknown, off by its standard uncertainty | m |
+//! | `without` | gravity, backlash, geometry: as measured by a ball-bar | m |
+//! | `d_m` | change of the load's part by one standard uncertainty of an independent input | m |
 //! | `s_k(w)` | displacement per unit of compliance k under the wrench `w` | m/(rad/(N m)) |
 //! | `S` | covariance of the compliances | |
 //! | `delta(w)`, `m` | displacement under the wrench `w`; model error, as a fraction of it | m, 1 |
-//! | `g_i` | change of `without` by a gap that is off by its standard uncertainty | m |
-//! | `u_i`, `b_i`, `u(b_i)` | where a link lies in its gap, the gap, its standard uncertainty | rad (m) |
+//! | `g_i` | change of `without` by one standard uncertainty of a backlash | m |
+//! | `u_i`, `b_i`, `u(b_i)` | offset of a link in its backlash, the backlash, its standard uncertainty | rad (m) |
 //! | `e` | unit vector outwards | 1 |
 //!
-//! An unknown is the same all round the circle: its curve keeps its sign, and loses its centre and radius as any other.
+//! An uncertain input is the same all round the circle: its curve keeps its sign, and its centre and radius are removed
+//! as for any curve.
 
 use nalgebra::{Point2, SymmetricEigen, Vector3};
 
@@ -34,20 +36,20 @@ use crate::source::{Arm, ArmState, Unstable};
 use crate::spatial::Wrench;
 use crate::watch::{Cancelled, Watch};
 
-/// A circle where nothing pushes: outward deviations, m.
+/// A circle without load: outward deviations, m.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WithoutLoad {
     /// At each point.
     pub outward: Vec<f64>,
-    /// Its change by each gap that is off by its standard uncertainty: a curve a gap, independent of each other.
+    /// Its change by one standard uncertainty of each backlash: one curve per backlash, independent of each other.
     pub uncertainties: Vec<Vec<f64>>,
 }
 
-/// The circle about `centre` (path x and y, m) where nothing pushes, in the postures of `along`; `None` where nothing but
-/// the load moves the tool, or a point is not reached.
+/// The circle about `centre` (path x and y, m) without load, in the postures of `along`; `None` where only the load
+/// moves the tool, or a point is not reached.
 ///
 /// # Errors
-/// [`Cancelled`] if the watch says so.
+/// [`Cancelled`] if the watch cancels.
 pub fn radial_without_load(
     question: &Question<'_>,
     (track, along): (&Track, &AlongPath),
@@ -55,7 +57,7 @@ pub fn radial_without_load(
     watch: Watch<'_>,
 ) -> Result<Option<WithoutLoad>, Cancelled> {
     let model = question.arm.model;
-    if !model.moves_unloaded() && model.gravity.is_none() {
+    if !model.has_unloaded_deviation() && model.gravity.is_none() {
         return Ok(None);
     }
     let nothing = PathLoad::Cases(LoadCases {
@@ -70,17 +72,22 @@ pub fn radial_without_load(
     let given = radial_deviations(track, &found.answers, centre);
     Ok(given.into_iter().next().map(|case| WithoutLoad {
         outward: case.outward,
-        uncertainties: gap_doubts(&question.arm, (track, &found), centre),
+        uncertainties: backlash_uncertainties(&question.arm, (track, &found), centre),
     }))
 }
 
-/// How far (m) each gap, off by its standard uncertainty, moves the unloaded circle outwards: in proportion to the gap.
-fn gap_doubts(arm: &Arm<'_>, (track, found): (&Track, &AlongPath), centre: Point2<f64>) -> Vec<Vec<f64>> {
-    let Some(unloaded) = &found.unloaded else {
+/// Outward displacement (m) of the unloaded circle by one standard uncertainty of each backlash: in proportion to the
+/// backlash.
+fn backlash_uncertainties(
+    arm: &Arm<'_>,
+    (track, found): (&Track, &AlongPath),
+    centre: Point2<f64>,
+) -> Vec<Vec<f64>> {
+    let Some(effect) = &found.backlash_geometry else {
         return Vec::new();
     };
     let joints = found.answers.joint_count;
-    let unsure: Vec<(usize, f64)> = (arm.model.structure.gaps())
+    let unsure: Vec<(usize, f64)> = (arm.model.structure.joints_with_backlash())
         .filter(|(_, gap)| gap.standard_uncertainty > 0.0)
         .map(|(joint, gap)| (joint, gap.standard_uncertainty / gap.gap))
         .collect();
@@ -89,9 +96,9 @@ fn gap_doubts(arm: &Arm<'_>, (track, found): (&Track, &AlongPath), centre: Point
     for index in 0..track.len() {
         arm_state.set_joints(found.answers.joints_at(index));
         let outward = outwards(track, index, centre);
-        let dragged = unloaded.dragged_at(index, joints);
+        let link_offsets = effect.link_offsets_at(index, joints);
         for (curve, (joint, relative)) in curves.iter_mut().zip(&unsure) {
-            let moved = arm_state.backlash_of(*joint, dragged, &Wrench::ZERO).linear;
+            let moved = arm_state.backlash_of(*joint, link_offsets, &Wrench::ZERO).linear;
             curve.push(moved.dot(&outward) * relative);
         }
     }
@@ -104,10 +111,10 @@ fn outwards(track: &Track, index: usize, centre: Point2<f64>) -> Vector3<f64> {
     track.placing.base_from_path.rotation * at.push(0.0).normalize()
 }
 
-/// How far (m) each independent unknown of compliances, load and tool, off by its standard uncertainty, moves the outward
-/// deviation under load, point by point: a curve an unknown. Of the first `cases` load cases the mean; unknowns that move
-/// nothing are left out, all of them where a point is not reached.
-pub fn radial_doubts(
+/// Change (m) of the outward deviation under load by one standard uncertainty of each independent input (compliances,
+/// load and tool), point by point: one curve per input. The mean of the first `cases` load cases; inputs without an
+/// effect are left out, all of them where a point is not reached.
+pub fn radial_uncertainties(
     question: &Question<'_>,
     (track, along): (&Track, &AlongPath),
     centre: Point2<f64>,
@@ -125,7 +132,7 @@ pub fn radial_doubts(
         let outward = outwards(track, index, centre);
         let of_case = |wrench| room.moves((track, along), index, (wrench, &outward));
         let moved: Result<Vec<Vec<f64>>, Unstable> = wrenches.iter().take(cases).map(of_case).collect();
-        // Where it was held the arm found its rest under the load; off by an unknown it may not.
+        // The nominal arm has an equilibrium under the load; with a changed input it may not.
         let Ok(moved) = moved else {
             return Vec::new();
         };
@@ -139,12 +146,12 @@ pub fn radial_doubts(
     curves
 }
 
-/// An arm that stands at one point after the other.
+/// An arm at one point after the other.
 struct Room<'q> {
     question: Question<'q>,
     arm_state: ArmState<'q>,
     frames: Frames,
-    /// Rows of `L`: compliances by one independent unknown each.
+    /// Rows of `L`: compliances of one independent input each.
     unknowns: Vec<Vec<f64>>,
 }
 
@@ -158,7 +165,7 @@ impl<'q> Room<'q> {
         }
     }
 
-    /// What each unknown moves the tool by along `outward`, m.
+    /// Displacement of the tool along `outward` by each input, m.
     fn moves(
         &mut self,
         (track, along): (&Track, &AlongPath),
@@ -176,11 +183,13 @@ impl<'q> Room<'q> {
         forward_into(question.arm.robot, joints, frames);
         arm_state.set_frames(joints, frames, &base_from_tool.translation.vector.into());
         let size = arm_state.screws().len();
-        // By each compliance, and last by what the model misses.
+        // By each compliance, and last by the model error.
         let mut sensitive = |wrench: &Wrench| -> Result<Vec<f64>, Unstable> {
             arm_state.elastic(wrench)?;
             let by_compliance = (0..size).map(|k| arm_state.sensitivity(k).dot(outward));
-            Ok(by_compliance.chain([arm_state.missed().dot(outward)]).collect())
+            Ok(by_compliance
+                .chain([arm_state.model_error().dot(outward)])
+                .collect())
         };
         let without = sensitive(&Wrench::ZERO)?;
         let mut by_load = sensitive(wrench)?;
@@ -194,20 +203,20 @@ impl<'q> Room<'q> {
             .map(along_row)
             .chain(by_load.last().copied())
             .collect();
-        let stands = LoadedPosture {
+        let posture = LoadedPosture {
             joints,
             frames,
             tcp: base_from_tool.translation.vector.into(),
             tool_axis: base_from_tool.rotation * Vector3::z(),
             wrench,
         };
-        arm_state.moves_of_inputs(&question.uncertainty, (&stands, outward), |by| moves.push(by))?;
+        arm_state.displacements_by_inputs(&question.uncertainty, (&posture, outward), |by| moves.push(by))?;
         Ok(moves)
     }
 }
 
-/// Compliances by independent unknowns: one each where they are independent, and the axes of their covariance where one is
-/// known.
+/// Compliances as independent inputs: one each where they are independent, and the axes of their covariance where one
+/// is known.
 fn unknowns(arm: &Arm<'_>) -> Vec<Vec<f64>> {
     let compliances = arm.compliances();
     let row = |of: &dyn Fn(usize) -> f64| -> Vec<f64> { (0..compliances.len()).map(of).collect() };

@@ -1,7 +1,7 @@
-//! The region of a plane map within a limit: how large, where, and what part fits into it.
+//! The region of a plane map within a tolerance: its size, its position, and inscribed shapes.
 //!
-//! Area and boundary follow the limit between points, linearly; cells with an unreachable corner do not count.
-//! Rectangle and circle are made of grid points within. m, m^2.
+//! Area and boundary follow the tolerance between points, linearly; cells with an unreachable corner are not included.
+//! Rectangle and circle consist of grid points within. m, m^2.
 
 use nalgebra::Point2;
 
@@ -10,7 +10,7 @@ use super::inscribed::{largest_disc, largest_rectangle};
 use super::marching_squares::within_level;
 use crate::workpiece::Grid;
 
-/// The part of a plane where the deviation is within a limit.
+/// The part of a plane where the deviation is within the tolerance.
 #[derive(Clone, Debug)]
 pub struct Region {
     /// Area, m^2.
@@ -23,7 +23,7 @@ pub struct Region {
     pub disc: Option<Disc>,
 }
 
-/// The region of `grid` where `values` (by grid index, `None` where unreachable) are at most `limit`.
+/// The region of `grid` where `values` (by grid index, `None` where unreachable) are at most `limit`, the tolerance.
 pub fn region_within(grid: &Grid, values: &[Option<f64>], limit: f64) -> Region {
     let within: Vec<bool> = values.iter().map(|v| v.is_some_and(|v| v <= limit)).collect();
     let shape = within_level(grid, values, limit);
@@ -41,7 +41,7 @@ mod tests {
     use std::f64::consts::PI;
 
     #[test]
-    fn what_fits_lies_within_the_region_and_is_never_larger() {
+    fn inscribed_shapes_are_inside_the_region_and_never_larger() {
         let grid = Grid::within([0.5, 0.4], 0.01);
         let field = |p: Point2<f64>| (p.x * 1.1 - 0.1).hypot(p.y) + 0.1 * (7.0 * p.x).sin();
         let values: Vec<_> = (0..grid.len()).map(|i| Some(field(grid.point(i)))).collect();
@@ -67,7 +67,7 @@ mod tests {
     }
 
     #[test]
-    fn a_higher_limit_never_makes_a_smaller_region_and_an_unreached_point_never_a_larger_one() {
+    fn a_larger_tolerance_never_shrinks_the_region_and_an_unreachable_point_never_enlarges_it() {
         let grid = Grid::within([0.3, 0.3], 0.05);
         let values: Vec<_> = (0..grid.len()).map(|i| Some(((i * 7919) % 101) as f64)).collect();
         let mut before = region_within(&grid, &values, -1.0);

@@ -1,15 +1,15 @@
-//! Whole turns of joints along a program: a joint that may turn past 180 deg goes on, it does not turn back.
+//! Whole turns of joints along a program: a joint that can turn past 180 deg continues, it does not turn back.
 //!
-//! A point alone is answered with each joint in the turn nearest to the middle of its range. Along a cut the joint stands
-//! one step from where it stood before, so of `q + 2 pi k` within its limits the one nearest to the position before is
-//! taken. Deviations do not change by whole turns.
+//! At a single point each joint is in the turn nearest to the middle of its range. Along a cut the joint moves by small
+//! steps: of `q + 2 pi k` within its limits, the one nearest to the previous position is used. Whole turns do not
+//! change deviations.
 
 use std::f64::consts::TAU;
 
 use crate::kernel::Answers;
 use crate::robot::Robot;
 
-/// Counts the turns of every joint on from point to point; `follows` says whether a point is cut after the one before
+/// Continues the turns of every joint from point to point; `follows` states whether a point is cut after the one before
 /// without a rapid between them.
 pub(super) fn count_on(robot: &Robot, answers: &mut Answers, follows: impl Fn(usize) -> bool) {
     let joints: Vec<usize> = (0..answers.joint_count)
@@ -41,7 +41,7 @@ pub(super) fn count_on(robot: &Robot, answers: &mut Answers, follows: impl Fn(us
     }
 }
 
-/// Whether another joint's count follows this one.
+/// Whether another joint is coupled to this one.
 fn is_coupled(robot: &Robot, joint: usize) -> bool {
     let mut couplings = robot.joints().iter().flat_map(|other| &other.coupling);
     couplings.any(|coupling| coupling.joint == joint)

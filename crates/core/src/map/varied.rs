@@ -1,23 +1,24 @@
-//! The cut at a point, made deeper, wider or faster until the tool deviates too much.
+//! The cut at a point with increasing depth, width or feed, until the deviation exceeds the tolerance.
 //!
-//! The smallest value at which the deviation first exceeds the limit counts, found by a scan from thin to thick and halving
-//! between: with a weight that pulls one way, or a wide cut that pushes back, deviation need not grow all the way. Where the
-//! greatest force is a load case it counts too, as many times the mean as in the cut drawn.
+//! The result is the smallest value at which the deviation first exceeds the tolerance, found by a scan from thin to
+//! thick and bisection. With gravity in one direction, or a wide cut that pushes back, the deviation need not be
+//! monotonic. If the greatest force is a load case, it is included with the same ratio to the mean as in the nominal
+//! cut.
 
-use crate::load::{Cut, CutHere, CutsAlong, Greatest, Rest, ForceEquilibrium, TipCompliance};
+use crate::load::{Cut, CutHere, CutsAlong, ForceEquilibrium, GreatestForce, Rest, TipCompliance};
 
-/// What a point permits.
+/// Permitted value at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Permitted {
     /// This much.
     UpTo(f64),
-    /// All that was asked for, up to this.
+    /// At least this value, the largest that was examined.
     AtLeast(f64),
-    /// Nothing: the deviation is too large however little is asked for.
+    /// None: the deviation is too large even for the smallest value.
     Nothing,
 }
 
-/// What the cut at a point may be, each with all else as drawn.
+/// Limits of the cut at a point, each with all other parameters nominal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CutLimits {
     /// Axial depth, m.
@@ -28,18 +29,18 @@ pub struct CutLimits {
     pub feed_per_tooth: Permitted,
 }
 
-/// Deepest cut that is looked at, in diameters: end mills have flutes of some three.
+/// Deepest cut that is examined, in diameters: end mills have flutes of some three.
 pub(super) const MOST_DEPTH: f64 = 3.0;
-/// Thickest feed per tooth that is looked at, in diameters: no end mill takes more.
+/// Largest feed per tooth that is examined, in diameters: no end mill takes more.
 pub(super) const MOST_FEED: f64 = 0.05;
 /// Depths, widths or feeds of a scan, each this many times the one before.
 const SCAN: usize = 14;
 const SCAN_RATIO: f64 = 1.7;
-/// Times that the stretch found is halved: to a thousandth of itself.
+/// Number of bisections: to a thousandth of the interval.
 const HALVINGS: usize = 10;
 
 impl Permitted {
-    /// As a number: what is permitted at least.
+    /// As a number: the smallest permitted value.
     pub fn value(self) -> f64 {
         match self {
             Permitted::UpTo(value) | Permitted::AtLeast(value) => value,
@@ -48,7 +49,7 @@ impl Permitted {
     }
 }
 
-/// The cut at a point, to be made deeper, wider or faster.
+/// The cut at a point with variable depth, width or feed.
 pub(super) struct Varied {
     equilibrium: ForceEquilibrium,
     /// m
@@ -57,13 +58,13 @@ pub(super) struct Varied {
     widest: f64,
     pub(super) cut: Cut,
     here: CutHere,
-    greatest: Greatest,
+    greatest: GreatestForce,
     tip: TipCompliance,
     limit: f64,
 }
 
 impl Varied {
-    /// The cut at point `index`, where the tip yields so (feed frame) and may deviate by `limit` (m); `None` in the air.
+    /// The cut at point `index`, with this tip compliance (feed frame) and the tolerance `limit` (m); `None` in air.
     pub(super) fn of(cuts: &CutsAlong, index: usize, tip: TipCompliance, limit: f64) -> Option<Varied> {
         let here = cuts.points[index];
         let (cutter, cut) = (cuts.cutters[here.cutter], here.cut?);
@@ -79,7 +80,7 @@ impl Varied {
         })
     }
 
-    /// What the limit permits of it.
+    /// Limits of the cut for this tolerance.
     pub(super) fn limits(&mut self) -> CutLimits {
         let (cut, radius) = (self.cut, self.cutter_radius);
         let (diameter, widest) = (2.0 * radius, self.widest);
@@ -96,15 +97,15 @@ impl Varied {
         }
     }
 
-    /// The value up to `most` at which the deviation first exceeds the limit.
+    /// The value up to `most` at which the deviation first exceeds the tolerance.
     fn permitted(&mut self, most: f64, cut: impl Fn(f64) -> Option<Cut>) -> Permitted {
-        let mut holds = |value: f64| {
+        let mut within = |value: f64| {
             let cut = cut(value);
             cut.is_none_or(|cut| self.deviation(&cut) <= self.limit)
         };
         let (mut low, mut high) = (0.0, most * SCAN_RATIO.powi(1 - SCAN as i32));
         loop {
-            if !holds(high) {
+            if !within(high) {
                 break;
             }
             if high >= most {
@@ -114,7 +115,7 @@ impl Varied {
         }
         for _ in 0..HALVINGS {
             let middle = 0.5 * (low + high);
-            if holds(middle) {
+            if within(middle) {
                 low = middle;
             } else {
                 high = middle;
@@ -127,7 +128,7 @@ impl Varied {
         }
     }
 
-    /// In-plane deviation under `cut` (m); infinite where the tool is drawn in or there is no such cut.
+    /// In-plane deviation under `cut` (m); infinite where the tool is pulled in or there is no such cut.
     pub(super) fn deviation(&mut self, cut: &Cut) -> f64 {
         let Some(drawn) = self.equilibrium.nominal_force(cut) else {
             return f64::INFINITY;
@@ -139,8 +140,8 @@ impl Varied {
         let [mean, greatest] = self.here.under(force);
         let in_plane = |force| self.tip.under(force).xy().norm();
         match self.greatest {
-            Greatest::LeftOut => in_plane(mean),
-            Greatest::SecondCase => in_plane(mean).max(in_plane(greatest)),
+            GreatestForce::LeftOut => in_plane(mean),
+            GreatestForce::SecondCase => in_plane(mean).max(in_plane(greatest)),
         }
     }
 }

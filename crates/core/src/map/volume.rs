@@ -1,4 +1,4 @@
-//! Deviation in space: a box of points, the tool held as for a plane.
+//! Deviation in space: a box of points, with the tool orientation of a plane.
 
 use nalgebra::{Point3, Translation3, Vector3};
 
@@ -20,8 +20,8 @@ pub struct BoxGrid {
 }
 
 impl BoxGrid {
-    /// The box of pitch `step` (m) about the origin of `base_from_centre`, along its axes, that reaches as far as it can
-    /// within `half_size` (m).
+    /// The box of pitch `step` (m) about the origin of `base_from_centre`, along its axes, with the largest size within
+    /// `half_size` (m).
     pub fn within(base_from_centre: &Isometry, half_size: [f64; 3], step: f64) -> BoxGrid {
         let steps = half_size.map(|half| (half / step + 1e-9).floor());
         let centre_from_corner = Translation3::from(Vector3::from(steps) * -step);
@@ -32,12 +32,12 @@ impl BoxGrid {
         }
     }
 
-    /// How many points.
+    /// Number of points.
     pub fn len(&self) -> usize {
         self.counts.iter().product()
     }
 
-    /// Whether it has no point at all.
+    /// Whether it has no point.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -60,36 +60,36 @@ impl BoxGrid {
 pub struct VolumeMap {
     /// The box.
     pub grid: BoxGrid,
-    /// How the plane lies at every point: orientation only.
+    /// The plane at every point: orientation only.
     pub plane: Plane,
-    /// What came out at each point, in the grid's order.
+    /// Results at each point, in the grid's order.
     pub answers: Answers,
 }
 
 impl VolumeMap {
-    /// Points against `limit` (m).
+    /// Counts the points for the tolerance `limit` (m).
     pub fn counts(&self, limit: f64) -> Counts {
         Counts::of(&self.answers, limit)
     }
 
-    /// Volume of the points within `limit` (m), m^3: each stands for one cell of the pitch.
+    /// Volume of the points within the tolerance `limit` (m), m^3: each represents one cell of the pitch.
     pub fn volume_within(&self, limit: f64) -> f64 {
         self.counts(limit).within as f64 * self.grid.step.powi(3)
     }
 }
 
-/// The map of the box `grid` with the tool held as on `plane`.
+/// The map of the box `grid` with the tool orientation of `plane`.
 ///
 /// # Errors
-/// [`Cancelled`] if the watch says so.
+/// [`Cancelled`] if the watch cancels.
 pub fn volume_map(
     question: &Question<'_>,
     plane: Plane,
     grid: BoxGrid,
     watch: Watch<'_>,
 ) -> Result<VolumeMap, Cancelled> {
-    let evaluation = plane.base_from_tool(nalgebra::Point2::origin(), 0.0);
-    let pose = |i: usize| Isometry::from_parts(grid.point(i).coords.into(), evaluation.rotation);
+    let orientation = plane.base_from_tool(nalgebra::Point2::origin(), 0.0);
+    let pose = |i: usize| Isometry::from_parts(grid.point(i).coords.into(), orientation.rotation);
     let answers = evaluate(question, grid.len(), pose, watch)?;
     Ok(VolumeMap { grid, plane, answers })
 }
@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn a_box_stands_along_the_axes_of_its_centre() {
+    fn a_box_is_placed_along_the_axes_of_its_centre() {
         let turned = Isometry::new(Vector3::new(1.0, 0.2, 0.5), Vector3::new(0.3, -0.2, 0.5));
         let (grid, straight) = (
             BoxGrid::within(&turned, [0.2, 0.1, 0.1], 0.1),
@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn every_point_of_a_box_lies_in_it_and_none_twice() {
+    fn every_point_of_a_box_is_inside_and_unique() {
         let (centre, half, step) = (Point3::new(0.9, -0.2, 0.4), [0.21, 0.1, 0.34], 0.1);
         let grid = BoxGrid::within(&Isometry::translation(centre.x, centre.y, centre.z), half, step);
         assert_eq!((grid.len(), grid.is_empty()), (5 * 3 * 7, false));

@@ -1,19 +1,22 @@
-//! Where along a path is it worst? The largest deviation, then the largest of what is not near the ones before.
+//! The worst points of a path: the largest deviation, then the largest one away from those before.
 
 use crate::kernel::Answers;
 use crate::path::Track;
 
-/// Part of the size of the path, corner to corner, that a worst point stands for.
+/// Smallest distance between worst points, as a fraction of the diagonal of the path.
 const APART: f64 = 0.1;
 
-/// Indices of up to `most` points with the largest in-plane deviations, largest first, each a tenth of the size of the path
-/// away from those before; of equal ones the first.
+/// Indices of up to `most` points with the largest in-plane deviations, largest first, each a tenth of the diagonal of
+/// the path away from those before; of equal ones the first.
 pub fn worst_points(track: &Track, answers: &Answers, most: usize) -> Vec<usize> {
     let points = &track.path.points;
     let [low, high] = track.path.corners();
     let apart = APART * (high - low).norm();
-    let mut by_size: Vec<(usize, f64)> = answers.evaluation().map(|(i, evaluation)| (i, evaluation.in_plane)).collect();
-    // Only the largest are looked at: far more than are told, far fewer than a long path has.
+    let mut by_size: Vec<(usize, f64)> = answers
+        .evaluations()
+        .map(|(i, evaluation)| (i, evaluation.in_plane))
+        .collect();
+    // Only the largest are examined: far more than are reported, far fewer than a long path has.
     let looked_at = by_size.len().min(by_size.len() / 10 + 10_000);
     if looked_at < by_size.len() {
         by_size.select_nth_unstable_by(looked_at, |a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
@@ -38,12 +41,12 @@ mod tests {
     use nalgebra::{Point2, Point3, Vector3};
 
     use super::*;
-    use crate::kernel::Held;
+    use crate::kernel::Evaluation;
     use crate::path::{Placing, Shape};
     use crate::robot::{Branch, PostureName, Unreachable};
     use crate::workpiece::Plane;
 
-    /// A line of 1 m with a point every millimetre, and the deviation of each of its points; none is not reached.
+    /// A line of 1 m with a point every millimetre, and the deviation of each of its points; all are reached.
     fn answered(in_plane: impl Fn(usize) -> Option<f64>) -> (Track, Answers) {
         let line = Shape::Polyline(vec![Point2::origin(), Point2::new(1.0, 0.0)]);
         let plane = Plane::tilted(Point3::new(1.0, 0.0, 0.8), 0.0);
@@ -53,12 +56,12 @@ mod tests {
             base_from_part: plane.base_from_part,
             spins: None,
         };
-        let evaluation = |in_plane| Held {
+        let evaluation = |in_plane| Evaluation {
             name: PostureName::Branch(Branch::ALL[0]),
             limit_margin: 1.0,
             limit_joint: 0,
             singularity: None,
-            deciding_case: 0,
+            worst_case: 0,
             in_plane,
             in_plane_uncertainty: 0.0,
             normal: 0.0,
@@ -90,9 +93,9 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_reached_is_not_the_worst_and_fewer_may_be_found_than_wanted() {
+    fn unreachable_points_are_not_the_worst_and_fewer_than_requested_may_be_found() {
         let (track, answers) = answered(|i| (450..550).contains(&i).then_some(1.0));
-        // Of equal ones the first; no other stands a tenth of the path away from it.
+        // Of equal ones the first; no other is a tenth of the path away from it.
         assert_eq!(worst_points(&track, &answers, 5), [450]);
         let (track, answers) = answered(|_| None);
         assert!(worst_points(&track, &answers, 5).is_empty());

@@ -1,7 +1,7 @@
-//! What did a measurement of the path show, unloaded or under load?
+//! Evaluation of measurements of the path, unloaded or under load.
 //!
 //! In reading order: [`ballbar`] (circular tests: the radius along a circle, both ways round),
-//! [`pose_accuracy`] (how near the arm comes to a commanded pose, and how alike), [`path_accuracy`] (the same of a path).
+//! [`pose_accuracy`] (accuracy and repeatability of poses), [`path_accuracy`] (the same of a path).
 
 pub mod ballbar;
 pub mod path_accuracy;

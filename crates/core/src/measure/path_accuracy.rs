@@ -1,10 +1,11 @@
-//! How near does the tip keep to a commanded path, and how alike from time to time? Accuracy and repeatability of paths.
+//! Accuracy and repeatability of paths.
 //!
 //! The path is commanded by points `c_i`, straight between them, with the tangent `t_i`. Each of `n` runs is a trace of
-//! measured points, sampled as it likes; at point `i` it counts where it passes the plane through `c_i` across `t_i`:
+//! measured points with any sampling; at point `i` it is evaluated where it passes the plane through `c_i` across
+//! `t_i`:
 //!
 //! ```text
-//! x_ij   run j where (x - c_i) . t_i = 0, nearest to the place that the run has come to
+//! x_ij   run j where (x - c_i) . t_i = 0, nearest to the current position of the run
 //! m_i    mean of x_ij over j
 //! AT   = max over i of |m_i - c_i|
 //! l_ij = |x_ij - m_i|
@@ -16,22 +17,22 @@
 //! | AT, RT | accuracy, repeatability of the path | m |
 //! | `n` | runs (cycles) | |
 //!
-//! The first and the last point have no plane of their own where a run begins behind it or ends before it: such points are
-//! not told. A run is followed forwards, so that a path may cross or touch itself. Turns are not looked at.
+//! The first and the last point are not evaluated where a run begins after its plane or ends before it.
+//! A run is followed forwards, so that a path may cross or touch itself. Orientation is not evaluated.
 //!
 //! Source: ISO 9283:1998, 8.2, from memory: read the standard before claiming conformity; `docs/theory/calibration.md`.
 
 use nalgebra::Vector3;
 
-/// Cycles that the standard asks for.
+/// Number of cycles required by the standard.
 pub const CYCLES: usize = 10;
 
-/// What the runs show at one commanded point.
+/// Result of the runs at one commanded point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointAccuracy {
-    /// Which point, from 0.
+    /// Index of the point, from 0.
     pub index: usize,
-    /// Where it is commanded, m.
+    /// Its commanded position, m.
     pub commanded: Vector3<f64>,
     /// Barycentre of the runs less it, m.
     pub offset: Vector3<f64>,
@@ -39,40 +40,40 @@ pub struct PointAccuracy {
     pub repeatability: Option<f64>,
 }
 
-/// What the runs of a path show.
+/// Result of the runs of a path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathAccuracy {
     /// Runs.
     pub cycles: usize,
     /// Points that all runs passed.
     pub points: Vec<PointAccuracy>,
-    /// How many that one of them did not pass.
+    /// Number of points that at least one run did not pass.
     pub not_passed: usize,
 }
 
 impl PathAccuracy {
-    /// AT, and the place of its point among those told, m; `None` without points.
+    /// AT, and the index of its point among those evaluated, m; `None` without points.
     pub fn accuracy(&self) -> Option<(usize, f64)> {
         largest(self.points.iter().map(|point| Some(point.offset.norm())))
     }
 
-    /// RT, likewise; `None` of one run.
+    /// RT, in the same form; `None` of one run.
     pub fn repeatability(&self) -> Option<(usize, f64)> {
         largest(self.points.iter().map(|point| point.repeatability))
     }
 }
 
-/// Why traces tell nothing of a path.
+/// Why traces cannot be evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PathRefusal {
-    /// A path is two points at least, no two in a row the same.
-    #[error("the commanded path has {0} different points in a row, fewer than two")]
+    /// A path needs at least two points, no two in a row equal.
+    #[error("the commanded path has {0} different points in a row: at least 2 are needed")]
     Short(usize),
-    /// No run at all.
-    #[error("there is no run")]
+    /// No run.
+    #[error("no run is given")]
     NoRun,
     /// A run of fewer than two points.
-    #[error("run number {} has {points} points, fewer than two", .run + 1)]
+    #[error("run number {} has {points} points: at least 2 are needed", .run + 1)]
     ShortRun {
         /// From 0.
         run: usize,
@@ -92,7 +93,7 @@ pub fn path_accuracy(
     commanded: &[Vector3<f64>],
     runs: &[Vec<Vector3<f64>>],
 ) -> Result<PathAccuracy, PathRefusal> {
-    // A point that is told twice in a row has no tangent.
+    // A point that is given twice in a row has no tangent.
     let is_new = |index: &usize| *index == 0 || commanded[*index] != commanded[*index - 1];
     let given: Vec<usize> = (0..commanded.len()).filter(is_new).collect();
     let path: Vec<Vector3<f64>> = given.iter().map(|index| commanded[*index]).collect();
@@ -138,7 +139,8 @@ fn of_point((index, commanded): (usize, &Vector3<f64>), here: &[Vector3<f64>]) -
     }
 }
 
-/// Unit tangents: half-way between the straight pieces before and behind a point; at a corner that turns back, that behind.
+/// Unit tangents: half-way between the straight pieces before and after a point; at a corner that turns back, that
+/// after.
 fn tangents(path: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
     let pieces: Vec<Vector3<f64>> = path
         .windows(2)
@@ -154,9 +156,9 @@ fn tangents(path: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
 
 /// Where a trace passes the plane of each point; `None` where it does not.
 ///
-/// A trace may run ahead of the first plane and beyond the last. Of its pieces that cross a plane forwards the one nearest
-/// to the point counts, as far as the trace has not yet gone `AHEAD` times the way of the path from where it passed the
-/// point before: a later lap is another pass. At first nothing was passed, and the earliest pass counts that is as near.
+/// A trace may begin before the first plane and end after the last. Of its pieces that cross a plane forwards the one
+/// nearest to the point is used, as long as the trace since the point before is no longer than `AHEAD` times the path
+/// there: a later lap is another pass. At first the earliest pass of equally near ones is used.
 fn passes(
     path: &[Vector3<f64>],
     tangents: &[Vector3<f64>],
@@ -167,7 +169,7 @@ fn passes(
         let forwards = before <= 0.0 && behind >= 0.0 && behind > before;
         forwards.then(|| trace[k] + (trace[k + 1] - trace[k]) * (before / (before - behind)))
     };
-    // The piece of the last pass, and the way of the path since.
+    // The piece of the last pass, and the length of the path since.
     let mut from: Option<usize> = None;
     let mut since = 0.0;
     let mut found = Vec::with_capacity(path.len());
@@ -202,13 +204,13 @@ fn passes(
     found
 }
 
-/// Times the way of the path that a run may be from where it passed the point before: overshoot and corners.
+/// Permitted length of a run since the point before, relative to the path: overshoot and corners.
 const AHEAD: f64 = 3.0;
 
-/// Distances that differ by less than this, relative, differ by rounding alone.
+/// Distances that differ by less than this, relative, differ only by rounding.
 const SAME: f64 = 1e-9;
 
-/// The largest, and its place, of those that are told; of equal ones the first, on every machine.
+/// The largest of those that are reported, and its index; of equal ones the first, on every machine.
 fn largest(values: impl Iterator<Item = Option<f64>>) -> Option<(usize, f64)> {
     let given = values
         .enumerate()

@@ -1,4 +1,4 @@
-//! How near does the arm come to a commanded pose, and how alike from time to time? Accuracy and repeatability of poses.
+//! Accuracy and repeatability of poses.
 //!
 //! With attained positions `x_j` of `n` cycles, their barycentre `m` and the commanded position `c`:
 //!
@@ -6,21 +6,21 @@
 //! |---|---|---|
 //! | AP, accuracy | `norm(m - c)` | m |
 //! | RP, repeatability | `mean l + 3 S_l`, `l_j = norm(x_j - m)`, `S_l` with `n - 1` | m |
-//! | AP of turn | angle from the commanded to the mean turn | rad |
-//! | RP of turn | `3 S` of the turns about each axis, from the mean turn | rad |
-//! | vAP, variation with direction | largest distance of barycentres reached from different directions | m |
+//! | AP of orientation | angle from the commanded to the mean orientation | rad |
+//! | RP of orientation | `3 S` of the rotations about each axis, from the mean orientation | rad |
+//! | vAP, variation with direction | largest distance of barycentres of different approach directions | m |
 //!
-//! Turns are told as rotation vectors about axes x, y, z of the frame in which positions are told: for the small turns
-//! meant here they are the differences of the three angles.
+//! Rotations are given as rotation vectors about axes x, y, z of the reference frame of the positions: for small
+//! rotations they are the differences of the three angles.
 //!
 //! Source: ISO 9283:1998, 7.2, from memory: read the standard before claiming conformity; `docs/theory/calibration.md`.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-/// Cycles that the standard asks for.
+/// Number of cycles required by the standard.
 pub const CYCLES: usize = 30;
 
-/// A pose that was reached: position (m) and, if it was measured, turn.
+/// An attained pose: position (m) and, if it was measured, orientation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Attained {
     /// m
@@ -29,7 +29,7 @@ pub struct Attained {
     pub turn: Option<UnitQuaternion<f64>>,
 }
 
-/// What the cycles of one pose show.
+/// Result of the cycles of one pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PoseAccuracy {
     /// `n`
@@ -40,9 +40,9 @@ pub struct PoseAccuracy {
     pub barycentre: Vector3<f64>,
     /// RP, m; `None` of one cycle.
     pub repeatability: Option<f64>,
-    /// Rotation vector from the commanded to the mean turn, rad; `None` where a turn is missing.
+    /// Rotation vector from the commanded to the mean orientation, rad; `None` where an orientation is missing.
     pub turn_offset: Option<Vector3<f64>>,
-    /// RP of the turns about x, y, z, rad; `None` of one cycle, or where a turn is missing.
+    /// RP of the rotations about x, y, z, rad; `None` of one cycle, or where an orientation is missing.
     pub turn_repeatability: Option<Vector3<f64>>,
 }
 
@@ -97,10 +97,10 @@ pub fn multi_directional_variation(barycentres: &[Vector3<f64>]) -> f64 {
     (0..barycentres.len()).flat_map(apart).fold(0.0, f64::max)
 }
 
-/// The turn in the middle of turns that are near each other: rotation vectors from it sum to zero.
+/// The mean of orientations that are near each other: rotation vectors from it sum to zero.
 fn mean_turn(turns: &[UnitQuaternion<f64>]) -> UnitQuaternion<f64> {
     let mut mean = turns[0];
-    // Each round leaves the cube of the spread.
+    // Each round leaves an error of the third power of the spread.
     for _ in 0..4 {
         let sum: Vector3<f64> = turns
             .iter()
@@ -137,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn turns_are_told_by_their_mean_and_scatter_about_each_axis() {
+    fn rotations_are_reported_by_their_mean_and_scatter_about_each_axis() {
         let turned = |x: f64| Attained {
             position: Vector3::zeros(),
             turn: Some(UnitQuaternion::from_scaled_axis(Vector3::x() * x)),

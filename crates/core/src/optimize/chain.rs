@@ -1,4 +1,4 @@
-//! The cheapest chain of postures through the columns of a path: dynamic programming, column after column.
+//! The chain of postures with the lowest cost through the columns of a path: dynamic programming, column after column.
 //!
 //! ```text
 //! m_i(s, b) = min over b' of v_{i-1}(s, b')                    the tip goes on, the tool keeps its turn
@@ -8,23 +8,22 @@
 //! | symbol | meaning |
 //! |---|---|
 //! | `s`, `b` | turn of the tool and posture: a state |
-//! | `n`, `v` | what a state costs, and the cheapest chain that ends there |
-//! | `k_i` | steps that the tool may turn by there |
+//! | `n`, `v` | cost of a state, and the lowest cost of a chain that ends there |
+//! | `k_i` | largest number of steps that the tool may turn by there |
 //! | `t` | price of a step |
 //!
-//! Where turning back has a price, both minima have that of the joints that turn back on the way besides. How they went is
-//! known of the cheapest chain to each state alone, so that a chain that was dearer until there and turns back less later is
-//! missed: with that price the chain is a good one, not surely the cheapest, unless the tool keeps its turn. Turning goes by
-//! steps there, against which joints turn back that do not once the steps are taken out.
+//! Where a reversal has a price, both minima include that of the joints that reverse. The directions of the joints are
+//! known only for the best chain to each state. A chain with a higher cost so far and fewer reversals later is
+//! therefore missed: with this price the chain is good, but not proven to be the best, unless the tool keeps its turn.
+//! The tool turns in steps; a joint may reverse there that no longer reverses once the steps are smoothed.
 //!
-//! Where the goal is the worst point, sums become maxima. A column that nothing leads to begins anew behind the cheapest
-//! chain so far, and counts as a break: the arm stops there and takes another posture. A column without any state is
-//! passed over.
+//! For the objective `worst`, sums become maxima. A column that cannot be reached restarts after the best chain so far
+//! and counts as a break: the arm stops there and changes its posture. A column without any state is skipped.
 
 use super::heading::Heading;
 use crate::kernel::SLOTS;
 
-/// How costs along a chain become one.
+/// How the costs along a chain are combined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Together {
     /// Their sum.
@@ -33,97 +32,96 @@ pub(super) enum Together {
     Worst,
 }
 
-/// What leads from one column to the next.
+/// Transitions from one column to the next.
 pub(super) trait Links {
-    /// Whether the tip can go on from posture `from` of the column before to posture `to`, the tool turned by step `turn`
-    /// at both.
+    /// Whether the tip can go from posture `from` of the previous column to posture `to`, both at tool turn `turn`.
     fn goes_on(&self, turn: usize, from: usize, to: usize) -> bool;
-    /// How the joints move there.
+    /// Directions of the joints on this transition.
     fn moves_on(&self, turn: usize, from: usize, to: usize) -> Heading;
-    /// Whether the tool can turn, in the column, from posture `from` at step `turn` to posture `to` at step `next`.
+    /// Whether the tool can turn, within the column, from posture `from` at step `turn` to posture `to` at step `next`.
     fn turns(&self, turn: usize, next: usize, from: usize, to: usize) -> bool;
-    /// How the joints move there.
+    /// Directions of the joints on this transition.
     fn moves_by_turn(&self, turn: usize, next: usize, from: usize, to: usize) -> Heading;
 }
 
-/// The turns of a lattice and how they neighbour.
+/// The turns of a lattice, and which are neighbours.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Turns {
-    /// How many.
+    /// Number of turns.
     pub count: usize,
-    /// Whether the last neighbours the first.
+    /// Whether the last turn is a neighbour of the first.
     pub around: bool,
-    /// Whether postures keep their slot from state to state; otherwise any may be that of any.
+    /// Whether a posture keeps its slot from state to state; otherwise every slot may follow every slot.
     pub kept_slots: bool,
     /// Price of a step.
     pub price: f64,
-    /// Price of a joint that turns back; nothing is looked at where it is zero.
+    /// Price of a reversal of a joint; zero: reversals are neglected.
     pub back_price: f64,
 }
 
-/// What a column begins with.
+/// How a column starts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Beginning {
-    /// It follows on the column before; the tool may turn by so many steps.
+    /// It follows the previous column; the tool may turn by this number of steps.
     Follows(usize),
-    /// A rapid leads there: any posture may follow on any.
-    Anew,
+    /// After a rapid: any posture may follow any posture.
+    Restart,
 }
 
 /// How a column was entered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Entry {
-    /// By links; see the back pointers.
+    /// By a transition; see the back pointers.
     Linked,
-    /// From this state of the last column that had one, or from nothing.
+    /// From this state of the last column that had one, or from no state.
     From(Option<u32>),
-    /// By a break: nothing led there.
+    /// By a break: no transition leads there.
     Broken(u32),
-    /// It has no state at all.
+    /// It has no state.
     Lost,
 }
 
-/// More steps than this the tool does not turn by in one column: a back pointer is a byte.
+/// Largest number of steps that the tool turns by in one column: a back pointer is one byte.
 pub(super) const MOST_STEPS: usize = 15;
 
-/// The cheapest chains so far.
+/// The best chains so far.
 pub(super) struct Chain {
     turns: Turns,
     together: Together,
-    /// Of each state of each column one more than the way back: steps turned and [`MOST_STEPS`], times [`SLOTS`], and the
-    /// slot before; zero where there is none. Empty where nobody asks for the chain.
+    /// One more than the way back, for each state of each column: steps turned and [`MOST_STEPS`], times [`SLOTS`], and
+    /// the previous slot; zero where there is none. Empty where the chain itself is not requested.
     back: Option<Vec<u8>>,
     entries: Vec<Entry>,
-    /// Costs of the chains to the states of the last column that has any.
+    /// Costs of the chains to the states of the last column with states.
     values: Vec<f64>,
     next: Vec<f64>,
     ways: Vec<u8>,
-    /// How the joints came to the states of the last column, and how often they turned back until there; empty where that
-    /// has no price.
+    /// Directions of the joints at the states of the last column, and the number of reversals so far; empty where
+    /// reversals have no price.
     came: Vec<Came>,
     next_came: Vec<Came>,
 }
 
-/// How the joints came along a chain.
+/// Directions and reversals along a chain.
 #[derive(Clone, Copy, Debug, Default)]
 struct Came {
     heading: Heading,
     backs: u32,
 }
 
-/// The cheapest chain.
+/// The best chain.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Cheapest {
-    /// Its cost, without the price of turning back.
+    /// Its cost, without the price of reversals.
     pub cost: f64,
     /// State at each column: turn times [`SLOTS`] plus slot; `None` where there is none.
     pub states: Vec<Option<usize>>,
-    /// Columns that nothing leads to.
+    /// Columns that no transition leads to.
     pub breaks: Vec<usize>,
 }
 
 impl Chain {
-    /// Before the first column. `traced`: whether the chain itself is asked for, or its cost alone.
+    /// Before the first column. `traced`: whether the chain itself is requested, or only its cost.
     pub fn new(turns: Turns, together: Together, traced: Option<usize>) -> Chain {
         let states = turns.count * SLOTS;
         let headed = if turns.back_price > 0.0 { states } else { 0 };
@@ -140,7 +138,7 @@ impl Chain {
         }
     }
 
-    /// Takes the next column: what its states cost (infinite where there is none), what it begins with, what leads there.
+    /// Adds the next column: the cost of its states (infinite where there is none), how it starts, and its transitions.
     pub fn take(&mut self, costs: &[f64], beginning: Beginning, links: &impl Links) {
         if costs.iter().all(|cost| cost.is_infinite()) {
             self.entries.push(Entry::Lost);
@@ -176,7 +174,7 @@ impl Chain {
         std::mem::swap(&mut self.came, &mut self.next_came);
     }
 
-    /// Begins anew behind a chain that cost so much and turned back so often.
+    /// Restarts after a chain of this cost with this number of reversals.
     fn begin(&mut self, costs: &[f64], before: f64, backs: u32) {
         self.ways.fill(0);
         self.next_came.fill(Came {
@@ -188,7 +186,7 @@ impl Chain {
         }
     }
 
-    /// Fills the values of the next column by what leads there.
+    /// Computes the values of the next column from its transitions.
     fn link(&mut self, costs: &[f64], steps: usize, links: &impl Links) {
         let Turns {
             count, kept_slots, ..
@@ -221,7 +219,8 @@ impl Chain {
                 }
             }
         }
-        // One step more each time, in both directions: what came by fewer steps stays where it is no dearer.
+        // One more step each time, in both directions: a state keeps its chain with fewer steps unless the other costs
+        // less.
         for _ in 0..steps {
             self.turn_by_a_step(costs, links);
         }
@@ -272,12 +271,12 @@ impl Chain {
         }
     }
 
-    /// Price of what turned back on the last step.
+    /// Price of the reversals on the last step.
     fn back_price(&self, came: Option<(Came, u32)>) -> f64 {
         came.map_or(0.0, |(_, backs)| self.turns.back_price * f64::from(backs))
     }
 
-    /// The cheapest chain through all columns; its states where they were asked for.
+    /// The best chain through all columns; its states if they are requested.
     pub fn cheapest(&self) -> Cheapest {
         let last = least(&self.values);
         let backs = |state: usize| self.came.get(state).map_or(0.0, |came| f64::from(came.backs));
@@ -300,7 +299,7 @@ impl Chain {
                 Entry::Linked => {
                     let (by, slot) = steps_and_slot(back[index * width + state]);
                     let count = self.turns.count as isize;
-                    // The tool came from `turn - by`.
+                    // The tool was at `turn - by` before.
                     let turn = (state / SLOTS) as isize - by;
                     state = turn.rem_euclid(count) as usize * SLOTS + slot;
                 }
@@ -313,7 +312,7 @@ impl Chain {
 }
 
 impl Came {
-    /// After moving on so, and how many joints turned back for it.
+    /// Directions after this transition, and the number of joints that reverse on it.
     fn then(self, moves: Heading) -> (Came, u32) {
         let backs = self.heading.turned_by(moves);
         let came = Came {
@@ -333,7 +332,7 @@ impl Together {
     }
 }
 
-/// The state with the least value, the first of equal ones; `None` where all are infinite.
+/// The state with the lowest value, the first of equal ones; `None` where all are infinite.
 fn least(values: &[f64]) -> Option<usize> {
     let mut least: Option<usize> = None;
     for (state, value) in values.iter().enumerate() {
@@ -358,13 +357,13 @@ fn neighbours(turn: usize, count: usize, around: bool) -> impl Iterator<Item = (
     below.into_iter().chain(above.map(|other| (-1, other)))
 }
 
-/// A way back in a byte.
+/// A back pointer in one byte.
 fn way(steps: isize, slot: usize) -> u8 {
     let most = MOST_STEPS as isize;
     ((steps + most) * SLOTS as isize + slot as isize + 1) as u8
 }
 
-/// Steps that the tool turned by, and the slot it came from.
+/// Steps that the tool turned by, and the previous slot.
 fn steps_and_slot(way: u8) -> (isize, usize) {
     let code = usize::from(way.max(1)) - 1;
     ((code / SLOTS) as isize - MOST_STEPS as isize, code % SLOTS)

@@ -1,4 +1,4 @@
-//! Which path must be commanded so that the tool goes where it is drawn?
+//! Compensation: the path to be commanded so that the tool follows the nominal path.
 //!
 //! ```text
 //! x_cmd = x - delta(x_cmd)          fixed point: x_0 = x, x_(n+1) = x - delta(x_n)
@@ -7,13 +7,14 @@
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | `x`, `x_cmd` | path as drawn and as commanded | m |
-//! | `delta` | predicted deviation there, under the forces of the path as drawn: the tool cuts what is drawn | m |
-//! | `rho` | contraction; below one each round brings the path nearer | - |
+//! | `x`, `x_cmd` | nominal and commanded path | m |
+//! | `delta` | predicted deviation there, under the forces of the nominal path: the tool removes the nominal material | m |
+//! | `rho` | contraction; below one every iteration reduces the error | - |
 //!
-//! The deviation changes with the posture alone, by some percent over a hand's breadth, so `rho` is about the deviation
-//! over the reach: two rounds are enough. Only the place of the tip is moved, its axis stays. Of several load cases one
-//! path can meet one alone: their mean. What the others leave is the residual, told with the rest.
+//! The deviation depends only on the posture. It changes by a few percent over 100 mm, so `rho` is about the deviation
+//! divided by the reach: two iterations are enough. Only the position of the tip is changed, not its axis. One path can
+//! compensate only one of several load cases: the mean of all is used. The remaining deviation of each load case is the
+//! residual.
 
 use nalgebra::Vector3;
 
@@ -24,52 +25,52 @@ use crate::path::Track;
 use crate::spatial::Wrench;
 use crate::watch::{Cancelled, Watch};
 
-/// How far the fixed point is followed.
+/// Settings of the fixed-point iteration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Compensation {
-    /// It rests where no point moves by more than this in a round, m.
+    /// Converged if no point moves by more than this in an iteration, m.
     pub rest: f64,
-    /// Rounds at most.
+    /// Maximum number of iterations.
     pub rounds: usize,
 }
 
-/// A path that makes up for what it will deviate by.
+/// A path that compensates the predicted deviation.
 #[derive(Clone, Debug)]
 pub struct Compensated {
-    /// The path to be commanded; forces and feed frames are those of the drawing.
+    /// The commanded path; forces and feed frames are those of the nominal path.
     pub track: Track,
-    /// What the tool deviates by from the commanded path.
+    /// Deviations of the tool from the commanded path.
     pub along: AlongPath,
-    /// What is left: deviation from the drawn path under each load case, m, base; as many a point as there are cases. Zeros
+    /// Residual: deviation from the nominal path under each load case, m, base; one value per case and point. Zeros
     /// where there is no posture.
     pub residual: Vec<Vector3<f64>>,
-    /// Rounds that were done.
+    /// Number of iterations.
     pub rounds: usize,
-    /// Largest move of the last round, m; zero of none.
+    /// Largest change in the last iteration, m; zero without iterations.
     pub last_move: f64,
-    /// The last contraction; `None` of fewer than two rounds.
+    /// Contraction of the last iteration; `None` for fewer than two iterations.
     pub contraction: Option<f64>,
-    /// Points without posture on the way, which stay where they are drawn.
+    /// Points without a posture on the way; they keep their nominal position.
     pub unmoved: usize,
 }
 
 impl Compensation {
-    /// As finely as programs are written: a tenth of a micrometre, in ten rounds at the most.
+    /// The resolution of programs: a tenth of a micrometre, in at most ten iterations.
     pub const USUAL: Compensation = Compensation {
         rest: 1e-7,
         rounds: 10,
     };
 
-    /// Nothing is made up for: the path is commanded as it is drawn.
+    /// No compensation: the nominal path is commanded.
     pub const NONE: Compensation = Compensation { rest: 0.0, rounds: 0 };
 }
 
 /// The path to be commanded for `track` under `load`, in these branches ([`along_postures`]).
 ///
-/// Of cuts the forces are those of the path as drawn: where the tool is brought back to the drawing, it meets them.
+/// The forces of cuts are those of the nominal path: with compensation, the tool removes the nominal material.
 ///
 /// # Errors
-/// [`Cancelled`] if the watch says so.
+/// [`Cancelled`] if the watch cancels.
 ///
 /// # Panics
 /// If the load does not [cover](PathLoad::covers) the points of the track.
@@ -80,7 +81,7 @@ pub fn compensated(
     requested: Compensation,
     watch: Watch<'_>,
 ) -> Result<Compensated, Cancelled> {
-    let load = nominal(load);
+    let load = nominal_load(load);
     let follow = |track: &Track| along_postures(question, (track, load.clone()), choices.to_vec(), watch);
     let path_from_base = track.placing.base_from_path.rotation.inverse();
     let mut commanded = track.clone();
@@ -88,7 +89,7 @@ pub fn compensated(
     let (mut rounds, mut last_move, mut contraction) = (0, 0.0, None);
     while rounds < requested.rounds && (rounds == 0 || last_move > requested.rest) {
         let mut moved = 0.0_f64;
-        for (index, _) in along.answers.evaluation() {
+        for (index, _) in along.answers.evaluations() {
             let delta = path_from_base * mean(&along.answers, index);
             let to = track.path.points[index].at - delta;
             let at = &mut commanded.path.points[index].at;
@@ -102,7 +103,7 @@ pub fn compensated(
     }
     Ok(Compensated {
         residual: residual(track, &commanded, &along.answers),
-        unmoved: track.len() - along.answers.evaluation().count(),
+        unmoved: track.len() - along.answers.evaluations().count(),
         track: commanded,
         along,
         rounds,
@@ -111,32 +112,32 @@ pub fn compensated(
     })
 }
 
-/// What is left where another path is commanded in place of the drawn one: along it, and the deviation from the drawn
-/// path, as [`Compensated::residual`].
+/// Residual where another path is commanded instead of the nominal one: the answers along it, and the deviation from
+/// the nominal path as in [`Compensated::residual`].
 ///
 /// # Errors
-/// [`Cancelled`] if the watch says so.
+/// [`Cancelled`] if the watch cancels.
 ///
 /// # Panics
 /// If the two differ in their number of points, or the load does not [cover](PathLoad::covers) them.
-pub fn left_by(
+pub fn residual_of(
     question: &Question<'_>,
-    (drawn, commanded): (&Track, &Track),
+    (nominal, commanded): (&Track, &Track),
     (load, choices): (&PathLoad, &[(usize, BranchChoice)]),
     watch: Watch<'_>,
 ) -> Result<(AlongPath, Vec<Vector3<f64>>), Cancelled> {
-    assert_eq!(drawn.len(), commanded.len(), "a command for each point");
-    let along = along_postures(question, (commanded, nominal(load)), choices.to_vec(), watch)?;
-    let residual = residual(drawn, commanded, &along.answers);
+    assert_eq!(nominal.len(), commanded.len(), "a command for each point");
+    let along = along_postures(question, (commanded, nominal_load(load)), choices.to_vec(), watch)?;
+    let residual = residual(nominal, commanded, &along.answers);
     Ok((along, residual))
 }
 
-/// Deviation from the drawn path, m, base: what the tool deviates by, and what the command was moved by.
-fn residual(drawn: &Track, commanded: &Track, answers: &Answers) -> Vec<Vector3<f64>> {
+/// Deviation from the nominal path, m, base: the deviation of the tool plus the offset of the command.
+fn residual(nominal: &Track, commanded: &Track, answers: &Answers) -> Vec<Vector3<f64>> {
     let mut residual = vec![Vector3::zeros(); answers.deviations.len()];
-    for (index, _) in answers.evaluation() {
-        let moved = commanded.path.points[index].at - drawn.path.points[index].at;
-        let moved = drawn.placing.base_from_path.rotation * moved;
+    for (index, _) in answers.evaluations() {
+        let moved = commanded.path.points[index].at - nominal.path.points[index].at;
+        let moved = nominal.placing.base_from_path.rotation * moved;
         let of_point = index * answers.case_count..(index + 1) * answers.case_count;
         for (left, deviation) in residual[of_point].iter_mut().zip(answers.deviations_at(index)) {
             *left = moved + deviation;
@@ -151,9 +152,9 @@ fn mean(answers: &Answers, index: usize) -> Vector3<f64> {
     deviations.iter().sum::<Vector3<f64>>() / deviations.len() as f64
 }
 
-/// The load with forces that do not give way. Of a cut the mean force alone: the greatest of a revolution is over before
-/// the arm has moved.
-fn nominal(load: &PathLoad) -> PathLoad {
+/// The load without force-deflection coupling. Of a cut only the mean force: the peak of a revolution is too short for
+/// the arm to follow.
+fn nominal_load(load: &PathLoad) -> PathLoad {
     match load {
         PathLoad::Cuts(cuts) => PathLoad::OfEach {
             cases: 1,

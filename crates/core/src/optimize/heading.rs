@@ -1,20 +1,21 @@
-//! Which way did each joint go last? A bit a joint.
+//! Last direction of motion of each joint, one bit per joint.
 
-/// Joints that last went up, and those that last went down; one that has not moved is in neither.
+/// Joints whose last motion was positive, and those whose last motion was negative; a joint that has not moved is in
+/// neither.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Heading {
     up: u32,
     down: u32,
 }
 
-/// Joints that are looked at; further ones never turn back.
+/// Number of joints that are examined; further ones are never reported as reversing.
 const MOST: usize = u32::BITS as usize;
-/// A joint that moves by less than this from one point to the next stands still, rad (m): far above rounding, far below
-/// what a joint moves between points that are worth telling apart.
+/// A joint that moves by less than this between two points is at rest, rad (m): far above rounding, far below the
+/// motion between points of a path.
 const STILL: f64 = 1e-9;
 
 impl Heading {
-    /// That of joints that move by this.
+    /// Directions of joints that move by this amount.
     pub fn of(moves: impl Iterator<Item = f64>) -> Heading {
         let mut heading = Heading::default();
         for (joint, by) in moves.take(MOST).enumerate() {
@@ -24,12 +25,12 @@ impl Heading {
         heading
     }
 
-    /// How many joints turn back when they move on so.
+    /// Number of joints that reverse on this motion.
     pub fn turned_by(self, on: Heading) -> u32 {
         ((self.up & on.down) | (self.down & on.up)).count_ones()
     }
 
-    /// The heading after moving on so: that of joints that stand still stays.
+    /// The directions after this motion; joints at rest keep theirs.
     pub fn then(self, on: Heading) -> Heading {
         Heading {
             up: (self.up & !on.down) | on.up,
@@ -43,7 +44,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_joint_turns_back_once_and_a_pause_does_not_count() {
+    fn a_reversal_is_reported_once_and_a_pause_is_not_a_reversal() {
         let moves = [
             [1.0, 0.0, 0.0],
             [1.0, -0.5, 0.0],
@@ -68,7 +69,7 @@ mod tests {
     }
 
     #[test]
-    fn joints_beyond_the_bits_are_passed_over() {
+    fn joints_beyond_the_bit_width_are_skipped() {
         let up = Heading::of(std::iter::repeat_n(1.0, 40));
         assert_eq!(up.turned_by(Heading::of(std::iter::repeat_n(-1.0, 40))), 32);
     }

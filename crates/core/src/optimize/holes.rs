@@ -1,53 +1,54 @@
-//! How should the arm hold the tool at points that no path joins? Each in the turn and the branch that is best for itself.
+//! Postures for single points (holes): each uses its best spin and branch.
 //!
-//! `d_i = min over turns and postures that stand of the deviation that counts` ([`crate::kernel::Columns`]), backlash and
-//! geometry in it; of postures that differ by rounding alone (a flipped wrist and its twin) the one farthest from its joint
-//! limits, then the least turn. The points know nothing of each other: any order gives the same.
+//! `d_i` is the minimum, over all spins and usable postures, of the selected component of the deviation
+//! ([`crate::kernel::Columns`]), with backlash and geometry. Of postures that differ by rounding only (a flipped wrist
+//! and its twin), the one farthest from its joint limits is used, then the smallest spin. The points are independent:
+//! any order gives the same result.
 //!
-//! A point where nothing stands is answered without a turn, in the best of the open branches, so that its reason and amount
-//! are told.
+//! A point without a usable posture is answered without additional spin, in the best of the open branches, so that the
+//! reason and the amount are reported.
 
 use rayon::prelude::*;
 
-use super::posture::{PostureSearch, about_z, fill, blocked_by};
-use crate::kernel::{Answers, BranchChoice, Column, Columns, Question, SLOTS, Stand, evaluate};
+use super::posture::{PostureSearch, about_z, blocked_by, fill};
+use crate::kernel::{Answers, BranchChoice, Column, Columns, PostureStatus, Question, SLOTS, evaluate};
 use crate::load::PathLoad;
 use crate::path::Track;
 use crate::robot::{Branch, BranchPattern, Robot};
 use crate::watch::{Cancelled, Watch};
 
-/// Deviations that differ by less than this part are the same.
+/// Deviations with a smaller relative difference are equal.
 const SAME: f64 = 1e-9;
 
-/// How each point is held.
+/// Posture of each point.
 #[derive(Clone, Debug)]
 pub struct HolesFound {
-    /// Turn of the tool beside the one that the placing has, rad; 0 where nothing stands.
+    /// Spin of the tool in addition to that of the placing, rad; 0 where no posture can be used.
     pub spins: Vec<f64>,
-    /// `Holds`, or what stands in the way of the most turns and branches.
-    pub stands: Vec<Stand>,
-    /// What came out, with shares and uncertainties; in-plane is across the tool, normal along it.
+    /// `Usable`, or the most frequent reason among all spins and branches.
+    pub statuses: Vec<PostureStatus>,
+    /// Results, with shares and uncertainties; in-plane is across the tool, normal along it.
     pub answers: Answers,
 }
 
-/// The best posture for each point of `track` under `load`, one by one. Of `search` goal, turn rate and turn price are not
-/// looked at, of `question` cases, normal and choice.
+/// The best posture for each point of `track` under `load`. Objective, turn rate and turn price of `search` are not
+/// used, nor cases, normal and choice of `question`.
 ///
 /// # Errors
-/// [`Cancelled`] if the watch says so.
+/// [`Cancelled`] if the watch cancels.
 ///
 /// # Panics
-/// If `load` does not [cover](PathLoad::covers) the points of the track, or there is no point or no turn.
-pub fn holes_held(
+/// If `load` does not [cover](PathLoad::covers) the points of the track, or there is no point or no spin.
+pub fn hole_postures(
     question: &Question<'_>,
     (track, load): (&Track, &PathLoad),
     search: &PostureSearch,
     watch: Watch<'_>,
 ) -> Result<HolesFound, Cancelled> {
     assert!(load.covers(track.len()), "a load for each point of the track");
-    assert!(search.spins.count > 0, "a turn at least");
+    assert!(search.spins.count > 0, "at least one spin");
     let maker = || {
-        let columns = Columns::by_themselves(question.arm, question.home, search.wrist);
+        let columns = Columns::at_single_points(question.arm, question.home, search.wrist);
         (columns, Column::default())
     };
     let each = |(columns, column): &mut (Columns<'_>, Column), index: usize| {
@@ -56,7 +57,7 @@ pub fn holes_held(
         }
         fill(columns, (track, load), (search, index), column);
         let best = best(question.arm.robot, search, column);
-        let stand = best.map_or_else(|| blocked_by(column), |_| Stand::Holds);
+        let status = best.map_or_else(|| blocked_by(column), |_| PostureStatus::Usable);
         let spin = best.map_or(0.0, |slot| search.spins.at(slot / SLOTS));
         let choice = match best.filter(|_| columns.slots_are_branches()) {
             Some(slot) => BranchChoice::Of(Branch::ALL[slot % SLOTS].into()),
@@ -76,29 +77,29 @@ pub fn holes_held(
         let pose = here.stop.base_from_tool * about_z(spin);
         let answers = evaluate(&requested, 1, |_| pose, Watch::NONE)?;
         (watch.finished)(1);
-        Ok((spin, stand, answers))
+        Ok((spin, status, answers))
     };
-    let all: Vec<(f64, Stand, Answers)> = (0..track.len())
+    let all: Vec<(f64, PostureStatus, Answers)> = (0..track.len())
         .into_par_iter()
         .map_init(maker, each)
         .collect::<Result<_, Cancelled>>()?;
-    let (mut spins, mut stands, mut answers) = (Vec::new(), Vec::new(), Vec::new());
-    for (spin, stand, answer) in all {
+    let (mut spins, mut statuses, mut answers) = (Vec::new(), Vec::new(), Vec::new());
+    for (spin, status, answer) in all {
         spins.push(spin);
-        stands.push(stand);
+        statuses.push(status);
         answers.push(answer);
     }
     Ok(HolesFound {
         spins,
-        stands,
+        statuses,
         answers: Answers::joined(answers),
     })
 }
 
-/// The slot with the least deviation, if any stands.
+/// The usable slot with the smallest deviation.
 fn best(robot: &Robot, search: &PostureSearch, column: &Column) -> Option<usize> {
-    let stands = |slot: &usize| column.stands[*slot] == Stand::Holds;
-    let all = || (0..column.stands.len()).filter(stands);
+    let usable = |slot: &usize| column.statuses[*slot] == PostureStatus::Usable;
+    let all = || (0..column.statuses.len()).filter(usable);
     let least = all().map(|slot| column.deviations[slot]).min_by(f64::total_cmp)?;
     let margin = |slot: usize| {
         let joints = column.joints_of(slot, robot.joints().len());

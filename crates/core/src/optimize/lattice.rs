@@ -1,20 +1,20 @@
-//! Points of a path by turns of the tool, thinned out: what a picture shows of a search.
+//! Thinned lattice of path points and tool turns, for pictures of a search.
 
 use super::posture::Spins;
-use crate::kernel::{SLOTS, Stand};
+use crate::kernel::{PostureStatus, SLOTS};
 
-/// Points of the path by turns of the tool: what each would deviate by, and the chain.
+/// Path points by turns of the tool: the deviations, and the chain.
 #[derive(Clone, Debug, Default)]
 pub struct Lattice {
-    /// Which points.
+    /// Indices of the points.
     pub points: Vec<usize>,
     /// Turns, rad.
     pub spins: Vec<f64>,
-    /// At each point, turn after turn: the deviation that counts, m, in the posture of the chain where it stands, else in
-    /// the best; infinite where none stands.
+    /// Selected component of the deviation, m, point after point, turn after turn: in the posture of the chain where it
+    /// can be used, otherwise in the best one; infinite where none can be used.
     pub deviations: Vec<f64>,
-    /// Whether that posture stands, and why not.
-    pub stands: Vec<Stand>,
+    /// Status of that posture.
+    pub statuses: Vec<PostureStatus>,
     /// Index of the chain's turn at each point.
     pub chain: Vec<Option<usize>>,
 }
@@ -22,14 +22,14 @@ pub struct Lattice {
 impl Lattice {
     pub(super) fn of(
         spins: &Spins,
-        kept: &[(usize, Vec<f64>, Vec<Stand>)],
+        kept: &[(usize, Vec<f64>, Vec<PostureStatus>)],
         states: &[Option<usize>],
     ) -> Lattice {
         let mut lattice = Lattice {
             spins: (0..spins.count).map(|turn| spins.at(turn)).collect(),
             ..Lattice::default()
         };
-        for (index, deviations, stands) in kept {
+        for (index, deviations, statuses) in kept {
             let state = states[*index];
             lattice.points.push(*index);
             lattice.chain.push(state.map(|state| state / SLOTS));
@@ -38,12 +38,12 @@ impl Lattice {
                 let best = slots.min_by(|a, b| {
                     deviations[*a]
                         .total_cmp(&deviations[*b])
-                        .then(stands[*a].cmp(&stands[*b]))
+                        .then(statuses[*a].cmp(&statuses[*b]))
                 });
                 let followed = state.map(|state| turn * SLOTS + state % SLOTS);
                 let shown = followed.or(best).unwrap_or(turn * SLOTS);
                 lattice.deviations.push(deviations[shown]);
-                lattice.stands.push(stands[shown]);
+                lattice.statuses.push(statuses[shown]);
             }
         }
         lattice

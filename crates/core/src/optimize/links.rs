@@ -1,10 +1,10 @@
-//! What leads from one column of postures to the next: joints that are fast enough and do not jump.
+//! Transitions between neighbouring columns of postures: joint speeds within limits and no jumps.
 
 use std::f64::consts::TAU;
 
 use super::chain::Links;
 use super::heading::Heading;
-use crate::kernel::{Column, SLOTS, Stand};
+use crate::kernel::{Column, PostureStatus, SLOTS};
 use crate::robot::{Joint, Limits, Robot};
 
 /// A joint that turns farther than this from one point to the next jumps, rad.
@@ -12,18 +12,18 @@ const FAR: f64 = 0.5;
 /// Rounding of a speed at its limit.
 const AT_SPEED: f64 = 1.0 + 1e-9;
 
-/// How fast a joint is, and how it counts.
+/// Speed limit and range of a joint.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct JointRate {
-    /// rad/s (m/s).
+    /// Largest speed, rad/s (m/s).
     most: Option<f64>,
     slides: bool,
-    /// Whether it may stand a whole turn away as well. The chain does not count turns, so of a joint that turns a little
-    /// more than once it says no.
+    /// Whether it can also be a whole turn away. The chain does not count turns; for a joint with a range slightly
+    /// above one turn this is false.
     wraps: bool,
 }
 
-/// Joints with a range of so many turns wrap.
+/// Joints with at least this range, in turns, wrap.
 const WRAPPING: f64 = 1.5;
 
 impl JointRate {
@@ -40,7 +40,7 @@ impl JointRate {
         robot.joints().iter().enumerate().map(of).collect()
     }
 
-    /// How far the joint moves from one position to the other, the shorter way round where it has both.
+    /// Motion of the joint from one position to the other, the shorter direction where both are possible.
     fn by(&self, from: f64, to: f64) -> f64 {
         let by = to - from;
         if self.wraps {
@@ -61,7 +61,7 @@ impl JointRate {
     }
 }
 
-/// What leads from one column to the next: joints that are fast enough and do not jump.
+/// Transitions between columns: joint speeds within limits and no jumps.
 pub(super) struct Between<'a> {
     pub before: &'a Column,
     pub here: &'a Column,
@@ -72,15 +72,15 @@ pub(super) struct Between<'a> {
 
 impl<'a> Between<'a> {
     fn can(&self, from: (&'a Column, usize), to: (&'a Column, usize), time: Option<f64>) -> bool {
-        let holds = |(column, slot): (&Column, usize)| column.stands[slot] == Stand::Holds;
-        holds(from)
-            && holds(to)
+        let usable = |(column, slot): (&Column, usize)| column.statuses[slot] == PostureStatus::Usable;
+        usable(from)
+            && usable(to)
             && self
                 .positions(from, to)
                 .all(|(joint, from, to)| joint.can(from, to, time))
     }
 
-    /// Which way the joints move between two states.
+    /// Directions of the joints between two states.
     fn heading(&self, from: (&'a Column, usize), to: (&'a Column, usize)) -> Heading {
         Heading::of(
             self.positions(from, to)
@@ -88,7 +88,7 @@ impl<'a> Between<'a> {
         )
     }
 
-    /// Every joint, with where it stands in the one state and in the other.
+    /// Every joint, with its positions in the two states.
     fn positions(
         &self,
         from: (&'a Column, usize),

@@ -1,15 +1,15 @@
-//! Where should the part lie, how should the arm hold the tool, what path should the program say?
+//! Optimisation: placement of the part, posture along the path, compensation of the commanded path.
 //!
 //! - [`posture`]: turn of the tool and branch along a path.
-//! - [`holes`]: the same at points that no path joins.
-//! - [`placement`]: what a place of the part is worth.
-//! - [`compensation`]: the path to be commanded so that the tool goes where it is drawn.
-//! - [`nodes`]: the same by a few targets with straight moves between them.
-//! - [`reversals`](fn@reversals): how often each joint turns back.
+//! - [`holes`]: the same at single points (holes).
+//! - [`placement`]: score of a placement of the part.
+//! - [`compensation`]: the commanded path for which the tool follows the nominal path.
+//! - [`nodes`]: the same with few targets and straight moves between them.
+//! - [`reversals`](fn@reversals): number of reversals of each joint.
 //!
-//! `chain`: the cheapest way through columns of postures; `links`: what leads from one to the next; `heading`: which way joints
-//! went there; `lattice`: what a picture shows of them; `smooth`: turns without steps; `sureness`: how sure
-//! the cost of a place is.
+//! `chain`: the chain of postures with the lowest cost; `links`: transitions between neighbouring points; `heading`:
+//! directions of the joints; `lattice`: data for pictures; `smooth`: turns without steps; `rank_by`: uncertainty of the
+//! cost of a placement.
 
 mod chain;
 pub mod compensation;
@@ -20,15 +20,17 @@ mod links;
 pub mod nodes;
 pub mod placement;
 pub mod posture;
+mod rank_by;
 mod reversals;
 mod smooth;
-mod sureness;
 
-pub use compensation::{Compensated, Compensation, compensated, left_by};
-pub use holes::{HolesFound, holes_held};
+pub use compensation::{Compensated, Compensation, compensated, residual_of};
+pub use holes::{HolesFound, hole_postures};
 pub use lattice::Lattice;
 pub use nodes::{Shares, fitted};
-pub use placement::{PlacementEvaluation, Holding, Score, Placeable, PlacementObjective, ToolTurn, on_part};
+pub use placement::{
+    Placeable, PlacementEvaluation, PlacementObjective, PostureSelection, Score, ToolTurn, on_part,
+};
 pub use posture::{Component, Objective, PostureFound, PostureSearch, Spins, postures_along};
+pub use rank_by::RankBy;
 pub use reversals::reversals;
-pub use sureness::RankBy;

@@ -1,4 +1,4 @@
-//! Which values at a few nodes bring what is interpolated between them nearest to what is wanted at many points?
+//! Least-squares values at a few nodes whose interpolation approximates given values at many points.
 //!
 //! ```text
 //! min_x  sum_i | c_i - sum_k w_ik x_k |^2        W^T W x = W^T c, by conjugate gradients with the diagonal before them
@@ -7,30 +7,30 @@
 //! | symbol | meaning |
 //! |---|---|
 //! | `x_k` | value at node k |
-//! | `c_i` | value wanted at point i |
-//! | `w_ik` | share of node k at point i: of a straight move `1 - t` and `t`, of an arc the parabola through three |
+//! | `c_i` | required value at point i |
+//! | `w_ik` | share of node k at point i: on a straight move `1 - t` and `t`, on an arc the parabola through three nodes |
 //!
-//! From any start the error shrinks by the condition of `W^T W`, which is about that of hat functions: some tens of rounds
+//! The convergence depends on the condition of `W^T W`, which is about that of hat functions: some tens of iterations
 //! for any number of nodes. Source: Hestenes, Stiefel 1952.
 
 use nalgebra::Vector3;
 
-/// The shares of nodes at one point.
+/// The shares of the nodes at one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shares {
-    /// Index of a node and its share; none is left out with `None`.
+    /// Index of a node and its share; `None`: no node.
     pub of: [Option<(usize, f64)>; 3],
 }
 
 impl Shares {
-    /// On the way between two nodes, at the part `t` of it; a node that is held where it is is `None`.
+    /// Between two nodes, at the fraction `t`; a fixed node is `None`.
     pub fn straight(from: Option<usize>, to: Option<usize>, t: f64) -> Shares {
         Shares {
             of: [from.map(|node| (node, 1.0 - t)), to.map(|node| (node, t)), None],
         }
     }
 
-    /// On the way through three nodes, the second at the part `p` of it.
+    /// Between three nodes, the second at the fraction `p`.
     pub fn bent([from, via, to]: [Option<usize>; 3], p: f64, t: f64) -> Shares {
         let share = |node: Option<usize>, share: f64| node.map(|node| (node, share));
         Shares {
@@ -47,16 +47,16 @@ impl Shares {
     }
 }
 
-/// Rounds at most.
+/// Maximum number of iterations.
 const ROUNDS: usize = 200;
-/// The normal equations hold to this part of their right side.
-const HOLDS: f64 = 1e-10;
+/// Relative residual of the normal equations at convergence.
+const CONVERGED: f64 = 1e-10;
 
-/// Values at nodes, from `start` on, nearest to `wanted` at points with these shares. A node that no point hears of keeps
-/// its start.
+/// Values at the nodes, from `start` on, with the least-squares error at points with these shares. A node without any
+/// share keeps its start value.
 ///
 /// # Panics
-/// If points and shares differ in number, or a share names no node.
+/// If points and shares differ in number, or a share has an invalid node.
 pub fn fitted(start: Vec<Vector3<f64>>, shares: &[Shares], requested: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
     assert_eq!(shares.len(), requested.len(), "a value for each point");
     let count = start.len();
@@ -85,7 +85,7 @@ pub fn fitted(start: Vec<Vector3<f64>>, shares: &[Shares], requested: &[Vector3<
         |a: &[Vector3<f64>], b: &[Vector3<f64>]| -> f64 { a.iter().zip(b).map(|(a, b)| a.dot(b)).sum() };
     let mut x = start;
     let size = back(&|index| requested[index]);
-    let enough = HOLDS * HOLDS * dot(&size, &scaled(&size));
+    let enough = CONVERGED * CONVERGED * dot(&size, &scaled(&size));
     let mut r = back(&|index| requested[index] - at(&x, &shares[index]));
     let mut z = scaled(&r);
     let mut p = z.clone();
@@ -115,7 +115,7 @@ pub fn fitted(start: Vec<Vector3<f64>>, shares: &[Shares], requested: &[Vector3<
 mod tests {
     use super::*;
 
-    /// Straight moves between `nodes`, each in so many pieces.
+    /// Straight moves between `nodes`, each in this number of pieces.
     fn polyline(nodes: usize, pieces: usize) -> Vec<Shares> {
         let ends = (0..nodes - 1).flat_map(|k| {
             (1..=pieces).map(move |i| Shares::straight(Some(k), Some(k + 1), i as f64 / pieces as f64))
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn what_nodes_can_make_they_make() {
+    fn values_that_nodes_can_represent_are_reproduced() {
         let x: Vec<Vector3<f64>> = (0..40)
             .map(|k| Vector3::new((0.7 * f64::from(k)).sin(), f64::from(k % 3), -1.0))
             .collect();
@@ -144,7 +144,7 @@ mod tests {
             .zip(&x)
             .map(|(a, b)| (a - b).norm())
             .fold(0.0, f64::max);
-        // The residual holds to 1e-10; the condition of hat functions is below ten.
+        // The residual is below 1e-10; the condition of hat functions is below ten.
         assert!(apart < 1e-8, "{apart}");
     }
 
@@ -155,7 +155,7 @@ mod tests {
             .map(|i| Vector3::new(if i <= 100 { 1.0 } else { -1.0 }, 0.0, 0.0))
             .collect();
         let found = fitted(vec![Vector3::zeros(); 3], &shares, &requested);
-        // By symmetry nothing at the corner; beside it the line nearest to a constant: 3/2 at its end.
+        // By symmetry zero at the corner; on the free side the straight line nearest to a constant: 3/2 at its end.
         assert!(
             found[1].norm() < 0.02 && (found[0].x - 1.5).abs() < 0.02,
             "{found:?}"
@@ -176,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn held_ends_stay_and_what_nobody_hears_of_keeps_its_start() {
+    fn fixed_ends_stay_and_a_node_without_shares_keeps_its_start() {
         let shares: Vec<Shares> = (0..11)
             .map(|i| Shares::straight(None, Some(0), f64::from(i) / 10.0))
             .collect();

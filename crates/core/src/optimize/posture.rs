@@ -1,23 +1,23 @@
-//! How should the arm hold the tool along a path? Turn about the tool axis and branch, point after point.
+//! Search for the postures along a path: spin of the tool and branch, point after point.
 //!
-//! At each point the tool may be turned about its own axis, and each turn is held in several postures: a lattice of
-//! path x turn x posture. Of all chains through it that keep the limits the one is taken whose deviation is least, as
-//! [`Goal`] says (`chain`).
+//! At each point the tool may be turned about its own axis, and each turn has several postures: a lattice of path x
+//! turn x posture. Of all chains that meet the limits, the one with the lowest deviation is used, as specified by
+//! [`Objective`] (`chain`).
 //!
-//! | limit | kept how |
+//! | limit | how it is met |
 //! |---|---|
-//! | joint range | a posture outside does not stand |
-//! | singularities | nor does one whose wrist is bent by less than asked, or near a stretched arm |
+//! | joint range | a posture outside is not usable |
+//! | singularities | a posture near a stretched arm, or with a wrist bend below the limit, is not usable |
 //! | joint speed at the feed | from point to point, and for the turn of the tool |
-//! | a jump | no joint turns by half a radian from one point to the next |
-//! | turn of the tool | so many radians for a metre of the path, in steps; then without them, half a step away at the most |
+//! | a jump | no joint turns by half a radian between neighbouring points |
+//! | turn of the tool | limited per metre of the path, in steps; then smoothed, at most half a step away |
 //!
-//! Where a joint turns back its backlash prints on the part. With a price on that ([`PostureSearch::back_price`]) a second
-//! chain is looked for that turns back less, and of both the one is taken whose cost in the lattice and price together are
-//! less; how often joints turn back is counted where the path is answered without the steps of the lattice.
+//! Where a joint reverses, its backlash leaves a mark on the part. With a price on reversals
+//! ([`PostureSearch::back_price`]) a second chain with fewer reversals is computed. The one with the lower sum of
+//! lattice cost and price is used. Reversals are counted after the steps of the lattice have been smoothed.
 //!
-//! Branches change between cuts alone. The chain is the best of the lattice, not of all turns between its steps; forces are
-//! those of the path as drawn. Both are looked at again when the path is answered with what was found
+//! The branch changes only between cuts. The chain is the best of the lattice, not of all turns between its steps;
+//! forces are those of the nominal path. Both are recomputed when the path is evaluated with the result
 //! ([`crate::map::along_postures`]).
 
 use std::f64::consts::TAU;
@@ -31,101 +31,102 @@ use super::links::{Between, JointRate};
 use super::reversals::reversals;
 use super::smooth::without_steps;
 use crate::frame::{Isometry, both_across};
-use crate::kernel::{BranchChoice, Column, Columns, Push, Question, SLOTS, Stand};
+use crate::kernel::{BranchChoice, Column, ColumnLoad, Columns, PostureStatus, Question, SLOTS};
 use crate::load::PathLoad;
 use crate::map::along_postures;
 use crate::path::{LoadedStop, Pace, Track};
 use crate::robot::{Branch, BranchPattern};
 use crate::watch::{Cancelled, Watch};
 
-/// Which part of the deviation counts.
+/// Component of the deviation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Component {
     /// Across the tool.
     InPlane,
-    /// Across the tool and the feed: what a wall gets.
+    /// Across the tool and the feed: relevant for a wall.
     CrossTrack,
-    /// Along the tool: what a floor gets.
+    /// Along the tool: relevant for a floor.
     Axial,
 }
 
-/// What of the deviations along the path shall be least.
+/// Objective along the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Objective {
-    /// The largest, and under that the mean.
+    /// The largest deviation, and with this the smallest mean.
     Worst,
     /// The mean over the points.
     Mean,
-    /// What is above this limit (m), on the mean.
+    /// The mean excess over this tolerance (m).
     Above(f64),
 }
 
-/// Turns of the tool about its axis, beside the one that the placing has.
+/// Spins of the tool about its axis, in addition to that of the placing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spins {
     /// The first, rad.
     pub first: f64,
-    /// From one to the next, rad; above zero.
+    /// Step, rad; above zero.
     pub step: f64,
-    /// How many, at least one.
+    /// Number of spins, at least one.
     pub count: usize,
 }
 
-/// What is searched for.
+/// Settings of the search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PostureSearch {
-    /// Turns that are tried.
+    /// Spins that are tried.
     pub spins: Spins,
-    /// Which part of the deviation counts.
+    /// Component of the deviation.
     pub component: Component,
-    /// What shall be least.
+    /// Objective.
     pub objective: Objective,
-    /// Branches that may be taken, of an arm whose branches have names.
+    /// Open branches, of an arm with branch names.
     pub branches: BranchPattern,
-    /// How much the tool may turn along the path, rad/m.
+    /// Largest turn of the tool along the path, rad/m.
     pub turn_rate: f64,
-    /// What a step of turning must gain at least, m.
+    /// Smallest improvement that justifies a step of turning, m.
     pub turn_price: f64,
-    /// What a joint that turns back weighs: the mean deviation may grow by this over the length of the path for each, m m.
+    /// Price of a reversal: the mean deviation may grow by this over the length of the path for each, m m.
     pub back_price: f64,
-    /// Least bend of the wrist, rad.
+    /// Smallest bend of the wrist, rad.
     pub wrist: f64,
 }
 
 /// Postures along a path.
 #[derive(Clone, Debug)]
 pub struct PostureFound {
-    /// Turn of the tool at each point beside what the placing has, rad; where no posture stands that of the point before.
+    /// Spin of the tool at each point in addition to that of the placing, rad; where no posture is usable, that of the
+    /// point before.
     pub spins: Vec<f64>,
-    /// The branch at each point; `None` where no posture stands, and for arms without names of branches.
+    /// The branch at each point; `None` where no posture is usable, and for arms without branch names.
     pub branches: Vec<Option<Branch>>,
-    /// Points where no posture stands, each with what stands in the way of the most.
-    pub lost: Vec<(usize, Stand)>,
-    /// Points that the arm cannot go on to without a stop.
+    /// Points without a usable posture, each with the most frequent reason.
+    pub unreachable: Vec<(usize, PostureStatus)>,
+    /// Points that the arm cannot reach without a stop.
     pub breaks: Vec<usize>,
-    /// What the chain has of the goal, m: the largest deviation, or the mean cost of its points.
+    /// Objective of the chain, m: the largest deviation, or the mean cost of its points.
     pub reached: f64,
     /// The lattice, thinned out.
     pub lattice: Lattice,
 }
 
-/// Columns worked out at once.
+/// Columns computed at once.
 const CHUNK: usize = 256;
 /// Points of the lattice that are kept.
 const KEPT: usize = 800;
-/// Part of a deviation within the limit that still counts, so that of chains within it the better is taken.
+/// Weight of deviations within the tolerance, so that of chains within it the better one is selected.
 pub(super) const WITHIN: f64 = 1e-3;
 
-/// The postures that hold the tool along `track` under `load` as `search` asks. What `question` says of cases, normal, doubt and
-/// choice is not looked at.
+/// The best postures along `track` under `load` for these settings. Cases, normal, uncertainty and choice of `question`
+/// are not used.
 ///
-/// Memory: a byte for each point x turn x posture, and a hundred times that for each of some hundred points.
+/// Memory: one byte for each point x turn x posture, and a hundred times that for each of about a hundred points.
 ///
 /// # Errors
-/// [`Cancelled`] if the watch says so.
+/// [`Cancelled`] if the watch cancels.
 ///
 /// # Panics
-/// If `load` does not [cover](PathLoad::covers) the points of the track, or there is no turn.
+/// If `load` does not [cover](PathLoad::covers) the points of the track, or there is no spin.
 pub fn postures_along(
     question: &Question<'_>,
     (track, load): (&Track, &PathLoad),
@@ -133,7 +134,7 @@ pub fn postures_along(
     watch: Watch<'_>,
 ) -> Result<PostureFound, Cancelled> {
     assert!(load.covers(track.len()), "a load for each point of the track");
-    assert!(search.spins.count > 0, "a turn at least");
+    assert!(search.spins.count > 0, "at least one spin");
     let walk = Walk {
         question,
         track,
@@ -150,14 +151,14 @@ pub fn postures_along(
     if search.back_price > 0.0 && track.path.length() > 0.0 {
         let price = search.back_price / track.path.length();
         let other = walk.reported(walk.chain((cost, price * track.len() as f64), watch)?);
-        let worth = |found: &PostureFound| -> Result<f64, Cancelled> {
+        let total = |found: &PostureFound| -> Result<f64, Cancelled> {
             let turned = (&found.turned(track), load.clone());
             let along = along_postures(question, turned, found.choices(), watch)?;
             let backs: usize = reversals(&track.path, &along.answers).iter().sum();
             Ok(found.reached + price * backs as f64)
         };
-        // Whoever stops on the way has not turned back there.
-        if (other.breaks.len(), worth(&other)?) < (found.breaks.len(), worth(&found)?) {
+        // A chain that stops on the way has no reversal there.
+        if (other.breaks.len(), total(&other)?) < (found.breaks.len(), total(&found)?) {
             found = other;
         }
     }
@@ -167,14 +168,14 @@ pub fn postures_along(
     Ok(found)
 }
 
-/// What a state costs, of its deviation.
+/// Cost of a state from its deviation.
 #[derive(Clone, Copy, Debug)]
 enum Cost {
-    /// The deviation, of which the largest counts.
+    /// The deviation; the largest is used.
     Worst,
-    /// The deviation; nothing above this stands.
+    /// The deviation; states above this are excluded.
     Within(f64),
-    /// What is above this limit.
+    /// The excess over this tolerance.
     Above(f64),
 }
 
@@ -197,7 +198,7 @@ impl Cost {
     }
 }
 
-/// One way through the path.
+/// One pass along the path.
 struct Walk<'a> {
     question: &'a Question<'a>,
     track: &'a Track,
@@ -206,19 +207,19 @@ struct Walk<'a> {
     joints: Vec<JointRate>,
 }
 
-/// What was seen on the way beside the chain.
+/// Observations in addition to the chain.
 #[derive(Default)]
 struct Seen {
-    /// Points without any posture that stands.
-    lost: Vec<(usize, Stand)>,
+    /// Points without a usable posture.
+    unreachable: Vec<(usize, PostureStatus)>,
     /// Columns of the thinned lattice, with all their slots.
-    kept: Vec<(usize, Vec<f64>, Vec<Stand>)>,
+    kept: Vec<(usize, Vec<f64>, Vec<PostureStatus>)>,
     /// Whether slots are branches.
     named: bool,
 }
 
 impl Walk<'_> {
-    /// The cheapest chain, where a joint that turns back has this price.
+    /// The best chain, with this price per reversal.
     fn chain(
         &self,
         (cost, back_price): (Cost, f64),
@@ -282,10 +283,10 @@ impl Walk<'_> {
         Ok((chain.cheapest(), seen))
     }
 
-    /// How the column of point `index` begins.
+    /// How the column of point `index` starts.
     fn beginning(&self, index: usize) -> Beginning {
         if self.track.path.begins(index) {
-            return Beginning::Anew;
+            return Beginning::Restart;
         }
         let points = &self.track.path.points;
         let per_step = self.search.turn_rate / self.search.spins.step;
@@ -293,7 +294,7 @@ impl Walk<'_> {
         Beginning::Follows((steps(index) - steps(index - 1)).clamp(0.0, MOST_STEPS as f64) as usize)
     }
 
-    /// Time from the point before to point `index`, s, where the feed is told.
+    /// Time from the point before to point `index`, s, where the feed is known.
     fn time(&self, index: usize) -> Option<f64> {
         let points = &self.track.path.points;
         let Pace::Feed(speed) = points[index].pace else {
@@ -303,7 +304,7 @@ impl Walk<'_> {
         (speed > 0.0).then(|| (points[index].along - before) / speed)
     }
 
-    /// Time that a step of turning takes at the fastest, s, where the feed is told.
+    /// Shortest time for a step of turning, s, where the feed is known.
     fn turn_time(&self, index: usize) -> Option<f64> {
         let Pace::Feed(speed) = self.track.path.points[index].pace else {
             return None;
@@ -323,21 +324,21 @@ impl Walk<'_> {
                 .filter(|_| seen.named)
                 .map(|state| Branch::ALL[state % SLOTS])
         };
-        let stand = cheapest.states.iter().flatten().count().max(1);
+        let count = cheapest.states.iter().flatten().count().max(1);
         PostureFound {
             lattice: Lattice::of(&self.search.spins, &seen.kept, &cheapest.states),
             branches: cheapest.states.iter().map(branch).collect(),
-            reached: cheapest.cost / stand as f64,
+            reached: cheapest.cost / count as f64,
             spins,
-            lost: seen.lost,
+            unreachable: seen.unreachable,
             breaks: cheapest.breaks,
         }
     }
 }
 
 impl Component {
-    /// Directions that the deviation counts along at point `index` of `track`, whose normal is this, base; of length 1, or 0
-    /// where one is enough.
+    /// Directions of the component of the deviation at point `index` of `track` with this normal, base; of length 1, or
+    /// 0 where one is enough.
     pub(super) fn along(
         self,
         (track, index): (&Track, usize),
@@ -353,7 +354,7 @@ impl Component {
 }
 
 impl PostureFound {
-    /// `track`, along which these postures were found, with the tool turned as they say beside the turn that it had.
+    /// `track` with these postures: the spins found are added to its own.
     pub fn turned(&self, track: &Track) -> Track {
         let had = |index: usize| track.spins.as_ref().map_or(0.0, |spins| spins[index]);
         let spins = self.spins.iter().enumerate();
@@ -363,14 +364,14 @@ impl PostureFound {
         }
     }
 
-    /// The branches of the path, each with the point that it begins at, for [`crate::map::along_postures`].
+    /// The branches of the path, each with its first point, for [`crate::map::along_postures`].
     pub fn choices(&self) -> Vec<(usize, BranchChoice)> {
         let mut choices: Vec<(usize, BranchChoice)> = Vec::new();
         for (index, branch) in self.branches.iter().enumerate() {
             let Some(branch) = branch else { continue };
             let choice = BranchChoice::Of((*branch).into());
             if choices.last().is_none_or(|(_, before)| *before != choice) {
-                // Points before the first posture are asked in its branch too.
+                // Points before the first posture use its branch too.
                 choices.push((if choices.is_empty() { 0 } else { index }, choice));
             }
         }
@@ -382,7 +383,7 @@ impl PostureFound {
 }
 
 impl Spins {
-    /// Turn number `index`, rad.
+    /// Spin number `index`, rad.
     pub fn at(&self, index: usize) -> f64 {
         self.first + self.step * index as f64
     }
@@ -390,25 +391,28 @@ impl Spins {
 
 impl Seen {
     fn note(&mut self, index: usize, column: &Column, keep: bool) {
-        if !column.stands.contains(&Stand::Holds) {
-            self.lost.push((index, blocked_by(column)));
+        if !column.statuses.contains(&PostureStatus::Usable) {
+            self.unreachable.push((index, blocked_by(column)));
         }
         if keep {
             self.kept
-                .push((index, column.deviations.clone(), column.stands.clone()));
+                .push((index, column.deviations.clone(), column.statuses.clone()));
         }
     }
 }
 
-/// What stands in the way of most postures of a column that none of holds; out of reach only where nothing else does.
-pub(super) fn blocked_by(column: &Column) -> Stand {
-    let count = |stand: Stand| column.stands.iter().filter(|other| **other == stand).count();
-    let most = Stand::ALL[1..4].iter().copied().max_by_key(|stand| count(*stand));
-    let most = most.filter(|stand| count(*stand) > 0);
-    most.unwrap_or(Stand::OutOfReach)
+/// The most frequent reason in a column without a usable posture; out of reach only where there is no other.
+pub(super) fn blocked_by(column: &Column) -> PostureStatus {
+    let count = |status: PostureStatus| column.statuses.iter().filter(|other| **other == status).count();
+    let most = PostureStatus::ALL[1..4]
+        .iter()
+        .copied()
+        .max_by_key(|status| count(*status));
+    let most = most.filter(|status| count(*status) > 0);
+    most.unwrap_or(PostureStatus::OutOfReach)
 }
 
-/// Fills `column` with the postures of point `index` of `track` under `load`, at every turn that `search` tries.
+/// Fills `column` with the postures of point `index` of `track` under `load`, at every spin that `search` tries.
 pub(super) fn fill(
     maker: &mut Columns<'_>,
     (track, load): (&Track, &PathLoad),
@@ -420,7 +424,7 @@ pub(super) fn fill(
         .map(|turn| stop.base_from_tool * about_z(search.spins.at(turn)))
         .collect();
     let along = search.component.along((track, index), stop.normal);
-    let push = Push { cases: &cases, along };
+    let push = ColumnLoad { cases: &cases, along };
     maker.fill(&poses, &push, column);
     if maker.slots_are_branches() && search.branches != BranchPattern::default() {
         for (slot, branch) in Branch::ALL.into_iter().enumerate() {

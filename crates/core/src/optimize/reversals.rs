@@ -1,15 +1,14 @@
-//! How often does each joint turn back along a path? Where it does, backlash prints on the part.
+//! Number of reversals of each joint along a path. A reversal leaves a backlash mark on the part.
 
 use crate::kernel::Answers;
 use crate::path::SampledPath;
 use crate::robot::STANDSTILL;
 
-/// Times that each joint turns back on the cuts of `path`; what it does in a rapid does not count, nor over points without
-/// posture.
+/// Number of reversals of each joint on the cuts of `path`; rapids and points without a posture are not included.
 pub fn reversals(path: &SampledPath, answers: &Answers) -> Vec<usize> {
     let mut component = vec![0; answers.joint_count];
     for stretch in path.stretches() {
-        // Farthest that each joint came since it turned back, and the way it goes.
+        // Farthest position of each joint since its last reversal, and its direction.
         let mut ends: Option<Vec<(f64, f64)>> = None;
         for index in stretch {
             if answers.points[index].is_err() {
@@ -50,7 +49,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wave_turns_back_at_each_crest_and_a_shiver_does_not_count() {
+    fn a_wave_reverses_at_each_crest_and_small_oscillations_are_ignored() {
         let joints: Vec<[f64; 2]> = (0..401)
             .map(|k| {
                 let t = f64::from(k) * 0.05;
@@ -62,19 +61,19 @@ mod tests {
     }
 
     #[test]
-    fn a_joint_that_waits_and_goes_on_does_not_turn_back() {
+    fn a_joint_that_waits_and_continues_has_no_reversal() {
         let at = [0.0, 0.0, 1.0, 2.0, 2.0, 3.0, 3.0, 2.0];
         let joints: Vec<[f64; 2]> = at.iter().map(|q| [*q, -q]).collect();
         assert_eq!(reversals(&path(8), &answers_at(&joints)), [1, 1]);
     }
 
     #[test]
-    fn nothing_counts_across_a_rapid_or_a_point_without_posture() {
+    fn no_reversal_is_reported_across_a_rapid_or_an_unreachable_point() {
         let joints = [[0.0, 0.0], [1.0, 0.0], [0.0, 0.0], [1.0, 0.0]];
-        let mut evaluation = answers_at(&joints);
-        assert_eq!(reversals(&path(4), &evaluation), [2, 0]);
-        evaluation.points[2] = Err(Unreachable::TooFar { by: 1.0 });
-        assert_eq!(reversals(&path(4), &evaluation), [0, 0]);
+        let mut answers = answers_at(&joints);
+        assert_eq!(reversals(&path(4), &answers), [2, 0]);
+        answers.points[2] = Err(Unreachable::TooFar { by: 1.0 });
+        assert_eq!(reversals(&path(4), &answers), [0, 0]);
         let mut two = path(2);
         two.points.extend(two.points.clone());
         assert_eq!(reversals(&two, &answers_at(&joints)), [0, 0]);

@@ -1,7 +1,7 @@
-//! Turns of the tool without the steps of the lattice that they were found on.
+//! Smooths the turns of the tool: removes the steps of the lattice of a search.
 //!
-//! Straight lines through the middles of the steps, so that no turn leaves the chain by more than half a step. Where the arm
-//! stops and takes another posture, and at rapids, a line ends and another begins.
+//! Straight lines through the middles of the steps, so that every turn is within half a step of the chain. A line ends
+//! where the arm stops and changes its posture, and at rapids.
 
 use std::f64::consts::TAU;
 
@@ -9,7 +9,7 @@ use super::posture::Spins;
 use crate::kernel::SLOTS;
 use crate::path::SampledPath;
 
-/// The turn at each point, rad, of the chain with these `states`; `breaks` as the chain has them, rising.
+/// The turn at each point, rad, of the chain with these `states`; `breaks` as in the chain, in ascending order.
 pub(super) fn without_steps(
     path: &SampledPath,
     spins: &Spins,
@@ -22,7 +22,7 @@ pub(super) fn without_steps(
         let here = state.map(|state| spins.at(state / SLOTS));
         let before = turns.last().copied();
         turns.push(match (here, before) {
-            // The shorter way round from the point before.
+            // The shorter direction from the point before.
             (Some(here), Some(before)) if !begins(index) => here + TAU * ((before - here) / TAU).round(),
             (Some(here), _) => here,
             (None, before) => before.unwrap_or(0.0),
@@ -38,11 +38,11 @@ pub(super) fn without_steps(
     smooth
 }
 
-/// Lays straight lines through the middles of the steps of `turns`, which stand at these places.
+/// Replaces the steps of `turns` (at the positions `along`) by straight lines through the middles of the steps.
 fn straighten(along: &[f64], step: f64, turns: &mut [f64]) {
     let last = turns.len() - 1;
-    // Places and turns that the lines go through: the middle of a step; a change of several at once is made between its two
-    // points, but for half a step at either end.
+    // Positions and turns on the lines: the middle of a step. A change of several steps at once takes place between its
+    // two points, except for half a step at either end.
     let mut knots: Vec<(f64, f64)> = vec![(along[0], turns[0])];
     for (index, pair) in turns.windows(2).enumerate() {
         let by = pair[1] - pair[0];
@@ -56,7 +56,7 @@ fn straighten(along: &[f64], step: f64, turns: &mut [f64]) {
         }
         for knot in [(along[index], pair[0] + half), (along[index + 1], pair[1] - half)] {
             match knots.last_mut() {
-                // Steps on either side of a point: the line goes through the middle of both, the turn of the point.
+                // Steps on both sides of a point: the line goes through the middle of both, the turn of the point.
                 Some(before) if before.0 == knot.0 && index > 0 => before.1 = 0.5 * (before.1 + knot.1),
                 _ => knots.push(knot),
             }
@@ -131,7 +131,7 @@ mod tests {
                 .collect();
             let smooth = without_steps(&path(count), &SPINS, &states(&turns), &breaks);
             for (smooth, turn) in smooth.iter().zip(&turns) {
-                // Roundings of turns of some radians.
+                // Rounding of turns of a few radians.
                 assert!(
                     (smooth - SPINS.at(*turn)).abs() < 0.5 * SPINS.step + 1e-12,
                     "{turns:?} {breaks:?}"

@@ -1,4 +1,4 @@
-//! When the tip is where: the time along a program, from the first point of its first cut.
+//! Time at each point of a program, from the first point of its first cut.
 //!
 //! `t[i] = t[i-1] + (s[i] - s[i-1]) / v[i]` along a cut; a rapid between two cuts takes its length over its speed.
 //!
@@ -6,9 +6,9 @@
 //! |---|---|---|
 //! | `t` | time at a point | s |
 //! | `s` | distance along all cuts | m |
-//! | `v` | feed that the program tells for the piece before a point | m/s |
+//! | `v` | feed of the program for the piece before a point | m/s |
 //!
-//! Not looked at: the time that a machine takes to gain and lose speed, pauses, tool changes.
+//! Not modelled: acceleration and deceleration of the machine, pauses, tool changes.
 
 use nalgebra::Vector3;
 
@@ -24,10 +24,10 @@ pub struct Clock {
     starts: Vec<usize>,
 }
 
-/// Speeds that a program does not tell, m/s.
+/// Speeds that are not given in the program, m/s.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Speeds {
-    /// Of cuts whose feed is not told.
+    /// Of cuts without a feed.
     pub feed: Option<f64>,
     /// Of rapids.
     pub rapid: Option<f64>,
@@ -36,16 +36,16 @@ pub struct Speeds {
 /// Why the time is not known.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum NoTime {
-    /// Nobody tells the feed.
-    #[error("line {line} cuts with a feed that is not told")]
+    /// No feed is given.
+    #[error("line {line}: no feed is given for this cut")]
     NoFeed {
         /// Line of the program.
         line: u32,
     },
-    /// Nobody tells how fast rapids are.
-    #[error("a rapid of {:.1} mm leads to the cut in line {line}, and its speed is not told", .length * 1e3)]
+    /// No rapid speed is given.
+    #[error("line {line}: no speed is given for the rapid of {:.1} mm before this cut", .length * 1e3)]
     NoRapid {
-        /// Line of the cut behind it.
+        /// Line of the cut after it.
         line: u32,
         /// m
         length: f64,
@@ -56,7 +56,7 @@ impl Clock {
     /// The time at the points of `path`.
     ///
     /// # Errors
-    /// [`NoTime`] at the first point where a speed is wanted that nobody tells.
+    /// [`NoTime`] at the first point where a required speed is not given.
     pub fn of(path: &SampledPath, speeds: Speeds) -> Result<Clock, NoTime> {
         let points = &path.points;
         let (mut time, mut starts) = (Vec::with_capacity(points.len()), Vec::new());
@@ -73,7 +73,7 @@ impl Clock {
             } else {
                 let given = match point.pace {
                     Pace::Feed(speed) => Some(speed),
-                    Pace::Rapid | Pace::EvaluateError => None,
+                    Pace::Rapid | Pace::Unknown => None,
                 };
                 let known = given.filter(|speed| *speed > 0.0).or(speeds.feed);
                 let speed = known.filter(|speed| *speed > 0.0);
@@ -95,11 +95,11 @@ impl Clock {
         self.time.last().copied().unwrap_or(0.0)
     }
 
-    /// A force told at each point (N) as a record with equal steps of `step` s, begun and ended with `margin` s of
-    /// nothing; no force in rapids.
+    /// Resamples a force given at each point (N) to a record with equal steps of `step` s, with `margin` s of zero
+    /// force at both ends; no force in rapids.
     ///
     /// # Errors
-    /// Fewer than two samples, or more than are kept; a force that is not finite.
+    /// Fewer than two samples, or more than the limit; a force that is not finite.
     pub fn record(
         &self,
         force: impl Fn(usize) -> Vector3<f64>,
@@ -107,7 +107,7 @@ impl Clock {
         margin: f64,
     ) -> Result<Record, RecordError> {
         let lead = (margin / step).ceil();
-        // Counted as a number first: far too many must not overflow.
+        // Computed as a float first: very large numbers must not overflow.
         let count = (self.duration() / step).ceil() + 2.0 * lead + 1.0;
         if count > MOST_SAMPLES {
             let most = MOST_SAMPLES;
@@ -136,7 +136,7 @@ impl Clock {
     }
 }
 
-/// Samples of a record that is made: those of the longest that is read.
+/// Maximum number of samples of a record: the same as for reading.
 const MOST_SAMPLES: f64 = 5e7;
 
 #[cfg(test)]
@@ -147,7 +147,7 @@ mod tests {
     use super::super::sampler::{Sampler, Sampling};
     use super::*;
 
-    /// 20 mm at 10 mm/s, a rapid of 5.0 mm, 10 mm at a feed that is not told.
+    /// 20 mm at 10 mm/s, a rapid of 5.0 mm, 10 mm without a feed.
     fn path() -> SampledPath {
         let mut sampler = Sampler::new(Sampling {
             chord_error: 1e-5,
@@ -169,7 +169,7 @@ mod tests {
             to(0.0, 0.0, Pace::Rapid),
             to(20.0, 0.0, Pace::Feed(0.01)),
             to(20.0, 5.0, Pace::Rapid),
-            to(10.0, 5.0, Pace::EvaluateError),
+            to(10.0, 5.0, Pace::Unknown),
         ] {
             sampler.points(&next, |point| path.points.push(point));
         }
@@ -185,7 +185,7 @@ mod tests {
     fn cuts_take_their_length_over_the_feed_and_rapids_theirs() {
         let path = path();
         let clock = Clock::of(&path, SPEEDS).unwrap();
-        // What leads to the first cut is before zero.
+        // Times before the first cut are negative.
         assert_eq!(clock.time()[0], 0.0);
         assert!((clock.time()[20] - 2.0).abs() < 1e-12 && path.begins(21));
         assert!((clock.time()[21] - 2.05).abs() < 1e-12);
@@ -193,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn a_speed_that_nobody_tells_is_missed_where_it_is_wanted_first() {
+    fn a_speed_that_is_not_given_is_reported_where_it_is_first_required() {
         let path = path();
         let no_rapid = Speeds {
             rapid: None,
@@ -202,11 +202,11 @@ mod tests {
         let found = Clock::of(&path, no_rapid).unwrap_err();
         assert_eq!(
             found.to_string(),
-            "a rapid of 5.0 mm leads to the cut in line 11, and its speed is not told"
+            "line 11: no speed is given for the rapid of 5.0 mm before this cut"
         );
         let found = Clock::of(&path, Speeds { feed: None, ..SPEEDS });
         assert_eq!(found.unwrap_err(), NoTime::NoFeed { line: 11 });
-        // A rapid to where the tip stands takes no time and no speed.
+        // A rapid of zero length takes no time and needs no speed.
         let path = SampledPath {
             rapids: vec![0.0; 2],
             ..path
@@ -234,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn a_record_of_too_many_or_too_few_samples_is_told_as_such() {
+    fn a_record_with_too_many_or_too_few_samples_is_refused() {
         let clock = Clock::of(&path(), SPEEDS).unwrap();
         let of_step = |step: f64| clock.record(|_| Vector3::x(), step, 0.0).unwrap_err();
         for step in [1e-12, 1e-300] {
@@ -247,7 +247,7 @@ mod tests {
         let given = of_step(1e-12).to_string();
         assert_eq!(
             given,
-            "a record of 4.1e12 instants is longer than the 5e7 that are kept: take longer steps"
+            "a record of 4.1e12 instants exceeds the maximum of 5e7: increase the time step"
         );
         assert_eq!(
             of_step(f64::INFINITY),
@@ -261,7 +261,7 @@ mod tests {
             );
         }
         let endless = clock.record(|_| Vector3::x() * f64::INFINITY, 0.1, 0.5);
-        // Half a second of nothing first.
+        // First half a second of zero force.
         assert_eq!(endless, Err(RecordError::NotFinite(5)));
     }
 }

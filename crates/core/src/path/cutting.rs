@@ -1,14 +1,13 @@
-//! What a cut pushes with along a path: the forces of [`Process`] at every point, told in the feed frame.
+//! Cutting forces along a path: the forces of [`Process`] at every point, in the feed frame.
 //!
-//! The mean over a revolution; where it is asked for also the greatest. An arm whose modes lie at some
-//! 10 Hz does not follow the teeth: the mean moves it, and what the greatest force would move it if it stood still is a
-//! bound. Feed, spindle, depths and the size of the tool are those of the program, where it tells them.
+//! The mean over a revolution and, if requested, the greatest force. An arm with modes at some 10 Hz does not follow
+//! the teeth: the mean force deflects it; the static deflection under the greatest force is an upper bound. Feed,
+//! spindle, depths and the size of the tool are those of the program, where given.
 //!
-//! What the tool meets comes from the [`stock`](super::stock), as far as the tool stands upright in it; else the
-//! engagement is the same everywhere. The greatest force is searched for once for each cut, on the level; on a ramp it is
-//! taken to be as many times the mean as there. In a stock cuts differ from point to point, and those
-//! that are alike to [`ALIKE`] of the diameter share one search. Plunges and steep dives have no force here: the bottom of
-//! the cutter is not modelled.
+//! The engagement comes from the [`stock`](super::stock) where the tool is upright; otherwise it is constant. The
+//! greatest force is searched for once per cut, on the level; on a ramp the same ratio to the mean is used. In a stock
+//! the cuts differ from point to point; cuts that are equal to [`ALIKE`] of the diameter share one search. Plunges and
+//! steep dives have no force: the bottom of the cutter is not modelled.
 
 use std::collections::BTreeMap;
 
@@ -21,17 +20,17 @@ use super::sampled::SampledPath;
 use super::sampler::PathPoint;
 use super::stock::{Stock, StockError};
 use crate::load::{
-    Advance, CutHere, CutsAlong, Cutter, CuttingError, CuttingLaw, EndMillBody, Engagement, Greatest,
+    Advance, CutHere, CutsAlong, Cutter, CuttingError, CuttingLaw, EndMillBody, Engagement, GreatestForce,
     Immersion, Process,
 };
 use crate::watch::{Cancelled, Watch};
 
-/// What cuts, and how, where the program does not tell.
+/// Tool and cut, where they are not given in the program.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cutting {
     /// The tool.
     pub cutter: Cutter,
-    /// Force of a chip.
+    /// Cutting force law.
     pub law: CuttingLaw,
     /// Axial depth, m.
     pub depth: f64,
@@ -42,7 +41,7 @@ pub struct Cutting {
     /// Speed of the spindle, rad/s; clockwise.
     pub spindle: Option<f64>,
     /// Whether the greatest force is a load case too.
-    pub greatest: Greatest,
+    pub greatest: GreatestForce,
 }
 
 /// Forces along a path.
@@ -50,74 +49,75 @@ pub struct Cutting {
 pub struct CuttingForces {
     /// The cut and its forces at every point.
     pub cuts: CutsAlong,
-    /// What is worth telling of them.
-    pub given: ForcesTold,
+    /// Summary of the forces.
+    pub summary: ForceSummary,
 }
 
-/// Forces along a path in a few numbers, of the cuts as drawn.
+/// Summary of the forces along a path, for the nominal cuts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ForcesTold {
+pub struct ForceSummary {
     /// Largest mean force along the path, N.
     pub largest_mean: f64,
     /// Greatest force of a revolution where the mean is largest, or anywhere, if it is a case; N.
     pub greatest: f64,
     /// Standard uncertainty of the largest mean force over its size, from the law.
     pub relative_uncertainty: f64,
-    /// Points without a force though something is cut: plunges, dives too steep, withdrawals, edges that pass beside it.
+    /// Points without a force although the tool cuts: plunges, dives that are too steep, withdrawals, edges that pass
+    /// next to the material.
     pub without_force: usize,
-    /// What the stock said; `None` where the engagement is the same everywhere.
-    pub met: Option<Met>,
+    /// Engagement in the stock; `None` where the engagement is constant.
+    pub stock_engagement: Option<StockEngagement>,
 }
 
-/// What a tool met in a stock.
+/// Engagement of a tool in a stock.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Met {
-    /// Points with nothing ahead.
+pub struct StockEngagement {
+    /// Points without material ahead.
     pub in_air: usize,
     /// Points with material over the whole width.
     pub slots: usize,
-    /// Points at which the tool leans: they have the engagement that is the same everywhere.
+    /// Points at which the tool is tilted: they have the constant engagement.
     pub leaning: usize,
-    /// Deepest and widest cut, m.
+    /// Largest depth, m.
     pub largest_depth: f64,
-    /// Likewise across the feed, m.
+    /// Largest width across the feed, m.
     pub largest_width: f64,
-    /// Taken away in all, m^3.
+    /// Total removed volume, m^3.
     pub removed: f64,
 }
 
 /// Why there are no forces along a path.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NoForces {
-    /// Nobody tells the feed.
-    #[error("line {line} cuts with a feed that is not told")]
+    /// No feed is given.
+    #[error("line {line}: no feed is given for this cut")]
     NoFeed {
         /// Line of the program.
         line: u32,
     },
-    /// Nobody tells the speed of the spindle.
-    #[error("line {line} cuts with a spindle speed that is not told")]
+    /// No spindle speed is given.
+    #[error("line {line}: no spindle speed is given for this cut")]
     NoSpindle {
         /// Line of the program.
         line: u32,
     },
-    /// The cut cannot be.
+    /// The cut is not possible.
     #[error("line {line}: {error}")]
     Cut {
         /// Line of the program.
         line: u32,
-        /// Why.
+        /// Reason.
         error: CuttingError,
     },
-    /// The stock cannot be cut so.
+    /// The stock cannot be cut in this way.
     #[error("line {line}: {error}")]
     Stock {
         /// Line of the program.
         line: u32,
-        /// Why.
+        /// Reason.
         error: StockError,
     },
-    /// The watch says so.
+    /// Cancelled by the watch.
     #[error("cancelled")]
     Cancelled,
 }
@@ -128,18 +128,18 @@ impl From<Cancelled> for NoForces {
     }
 }
 
-/// Cuts of a stock whose depth and edges differ by less than this part of the diameter have one greatest force over
-/// their mean: the peak of a slice that thin differs by as much.
+/// Cuts of a stock whose depth and edges differ by less than this fraction of the diameter share one ratio of the
+/// greatest force to the mean: the peak of a slice that thin differs by as much.
 pub const ALIKE: f64 = 0.02;
 
-/// Points between two looks at the watch.
+/// Points between two checks of the watch.
 const POINTS_A_LOOK: usize = 1024;
 
 impl Cutting {
     /// The forces at the points of `path`. A `stock` is cut away on the way.
     ///
     /// # Errors
-    /// [`NoForces`] at the first point where the cut is not known or cannot be, or if the watch says so.
+    /// [`NoForces`] at the first point where the cut is not known or not possible, or if the watch cancels.
     pub fn along(
         &self,
         path: &SampledPath,
@@ -157,12 +157,12 @@ impl Cutting {
                 (watch.finished)(POINTS_A_LOOK.min(path.points.len() - index));
             }
             if let Some(operation) = operation {
-                walk.hold(operation)?;
+                walk.use_tool(operation)?;
             }
             let before = (!path.begins(index)).then(|| &path.points[index - 1]);
             cuts.push(walk.cut_at(before, point)?);
         }
-        let (cutters, given) = walk.ended();
+        let (cutters, summary) = walk.ended();
         Ok(CuttingForces {
             cuts: CutsAlong {
                 cutters,
@@ -170,16 +170,16 @@ impl Cutting {
                 greatest: self.greatest,
                 points: cuts,
             },
-            given,
+            summary,
         })
     }
 
-    /// The cutter, in the size that an operation tells.
-    fn held_in(&self, operation: &Operation) -> Result<Cutter, NoForces> {
+    /// The cutter with the size given in an operation.
+    fn cutter_of(&self, operation: &Operation) -> Result<Cutter, NoForces> {
         let Some(diameter) = operation.diameter.filter(|diameter| *diameter > 0.0) else {
             return Ok(self.cutter);
         };
-        // A ball stays a ball where no corner is told.
+        // A ball stays a ball if no corner radius is given.
         let alike = self.cutter.corner_radius() / self.cutter.diameter() * diameter;
         let corner = operation.corner_radius.unwrap_or(alike).min(diameter / 2.0);
         let line = operation.line;
@@ -215,7 +215,7 @@ impl Cutting {
     }
 }
 
-/// The feed to a point, m/s: the program's, or this one where it tells none.
+/// The feed to a point, m/s: from the program, otherwise this one.
 pub(super) fn feed_at(point: &PathPoint, else_this: Option<f64>) -> Result<f64, NoForces> {
     let line = point.line;
     match point.pace {
@@ -224,7 +224,7 @@ pub(super) fn feed_at(point: &PathPoint, else_this: Option<f64>) -> Result<f64, 
     }
 }
 
-/// The speed of the spindle at a point, rad/s, whichever way it turns: the operation's, or this one where it tells none.
+/// The spindle speed at a point, rad/s, for either direction: from the operation, otherwise this one.
 pub(super) fn spindle_of(
     operation: Option<&Operation>,
     else_this: Option<f64>,
@@ -242,15 +242,15 @@ struct Walk<'a> {
     cutting: &'a Cutting,
     placing: &'a Placing,
     stock: Option<InStock<'a>>,
-    /// All that were held.
+    /// All cutters used.
     cutters: Vec<Cutter>,
-    /// Which of them is held.
-    evaluation: usize,
+    /// Index of the current cutter.
+    current: usize,
     operation: Option<&'a Operation>,
     peaks: Peaks,
-    /// What has the largest mean force.
+    /// The process with the largest mean force.
     largest: Option<Process>,
-    given: ForcesTold,
+    summary: ForceSummary,
 }
 
 impl<'a> Walk<'a> {
@@ -260,35 +260,38 @@ impl<'a> Walk<'a> {
             placing,
             stock: stock.map(|stock| InStock {
                 stock,
-                met: Met::default(),
+                engagement: StockEngagement::default(),
             }),
             cutters: vec![cutting.cutter],
-            evaluation: 0,
+            current: 0,
             operation: None,
             peaks: Peaks::default(),
             largest: None,
-            given: ForcesTold::default(),
+            summary: ForceSummary::default(),
         }
     }
 
-    /// The tool of `operation` is taken, if it is not held already.
-    fn hold(&mut self, operation: &'a Operation) -> Result<(), NoForces> {
-        if self.operation.is_some_and(|evaluation| std::ptr::eq(evaluation, operation)) {
+    /// Selects the tool of `operation`, if it is not selected already.
+    fn use_tool(&mut self, operation: &'a Operation) -> Result<(), NoForces> {
+        if self
+            .operation
+            .is_some_and(|current| std::ptr::eq(current, operation))
+        {
             return Ok(());
         }
         self.operation = Some(operation);
-        let cutter = self.cutting.held_in(operation)?;
+        let cutter = self.cutting.cutter_of(operation)?;
         let known = self.cutters.iter().position(|known| *known == cutter);
-        self.evaluation = known.unwrap_or(self.cutters.len());
+        self.current = known.unwrap_or(self.cutters.len());
         if known.is_none() {
             self.cutters.push(cutter);
         }
         Ok(())
     }
 
-    /// The cut on the way to `point` from the point `before`; from nowhere behind a rapid.
+    /// The cut on the way to `point` from the point `before`; `None` after a rapid.
     fn cut_at(&mut self, before: Option<&PathPoint>, point: &PathPoint) -> Result<CutHere, NoForces> {
-        let cutter = self.cutters[self.evaluation];
+        let cutter = self.cutters[self.current];
         let mut process = self.cutting.process(cutter, self.operation, point)?;
         let mut alike = process;
         let line = point.line;
@@ -301,7 +304,7 @@ impl<'a> Walk<'a> {
             };
             let meets = stock.meets(&pass, cutter.body());
             match meets.map_err(|error| NoForces::Stock { line, error })? {
-                Meets::AsTold => {}
+                Meets::Constant => {}
                 Meets::Nothing => return Ok(CutHere::NOTHING),
                 Meets::Strip(engagement, depth) => {
                     (process.engagement, process.depth) = (engagement, depth);
@@ -313,92 +316,93 @@ impl<'a> Walk<'a> {
         forces.map_err(|error| NoForces::Cut { line, error })
     }
 
-    /// What `process` pushes with, noted for what is told; its greatest force goes with its mean as in the cut `alike`.
+    /// Forces of `process`, added to the summary; the ratio of its greatest force to the mean is that of the cut
+    /// `alike`.
     fn forces(&mut self, [process, alike]: [&Process; 2], advance: Advance) -> Result<CutHere, CuttingError> {
         let milling = match process.milling(advance) {
             Ok(milling) => milling,
             Err(CuttingError::Plunge { .. } | CuttingError::Withdrawal) => {
-                self.given.without_force += 1;
+                self.summary.without_force += 1;
                 return Ok(CutHere::NOTHING);
             }
             Err(error) => return Err(error),
         };
         let mean = milling.mean();
         let size = mean.force.norm();
-        self.given.without_force += usize::from(size == 0.0);
+        self.summary.without_force += usize::from(size == 0.0);
         let mut greatest = Vector3::zeros();
-        if self.cutting.greatest == Greatest::SecondCase {
+        if self.cutting.greatest == GreatestForce::SecondCase {
             greatest = self.peaks.over_mean(alike)? * size;
-            self.given.greatest = self.given.greatest.max(greatest.norm());
+            self.summary.greatest = self.summary.greatest.max(greatest.norm());
         }
-        if size > self.given.largest_mean {
-            (self.given.largest_mean, self.largest) = (size, Some(*process));
-            self.given.relative_uncertainty = along(&mean.covariance, &mean.force) / size;
+        if size > self.summary.largest_mean {
+            (self.summary.largest_mean, self.largest) = (size, Some(*process));
+            self.summary.relative_uncertainty = along(&mean.covariance, &mean.force) / size;
         }
         Ok(CutHere {
-            cutter: self.evaluation,
+            cutter: self.current,
             cut: Some(*milling.cut()),
             mean: mean.force,
             greatest,
         })
     }
 
-    /// All tools that were held, and what is told.
-    fn ended(mut self) -> (Vec<Cutter>, ForcesTold) {
-        if let (Greatest::LeftOut, Some(process)) = (self.cutting.greatest, self.largest) {
-            // A cut whose mean was found has a peak.
+    /// All tools used, and the summary.
+    fn ended(mut self) -> (Vec<Cutter>, ForceSummary) {
+        if let (GreatestForce::LeftOut, Some(process)) = (self.cutting.greatest, self.largest) {
+            // A cut with a mean force has a peak.
             let over_mean = self.peaks.over_mean(&process).unwrap_or_default();
-            self.given.greatest = over_mean.norm() * self.given.largest_mean;
+            self.summary.greatest = over_mean.norm() * self.summary.largest_mean;
         }
-        self.given.met = self.stock.map(|stock| stock.met);
-        (self.cutters, self.given)
+        self.summary.stock_engagement = self.stock.map(|stock| stock.engagement);
+        (self.cutters, self.summary)
     }
 }
 
-/// What the tool meets at a point.
+/// Engagement of the tool at a point.
 enum Meets {
-    /// What the cut of the study says.
-    AsTold,
-    /// Nothing.
+    /// The constant engagement of the study.
+    Constant,
+    /// No material.
     Nothing,
-    /// A strip this deep (m).
+    /// A strip of this depth (m).
     Strip(Engagement, f64),
 }
 
-/// A stock on the way, and what was met in it.
+/// A stock during the cut, and the engagement in it.
 struct InStock<'a> {
     stock: &'a mut Stock,
-    met: Met,
+    engagement: StockEngagement,
 }
 
 impl InStock<'_> {
-    /// What the tool meets on `pass`.
+    /// Engagement of the tool on `pass`.
     fn meets(&mut self, pass: &Pass, cutter: &EndMillBody) -> Result<Meets, StockError> {
         let engagement = match self.stock.cut(pass, cutter) {
             Ok(engagement) => engagement,
             Err(StockError::Tilted { .. }) => {
-                self.met.leaning += 1;
-                return Ok(Meets::AsTold);
+                self.engagement.leaning += 1;
+                return Ok(Meets::Constant);
             }
             Err(error) => return Err(error),
         };
-        self.met.removed += engagement.volume;
-        // The force of a dive is not known, whatever it bites into.
+        self.engagement.removed += engagement.volume;
+        // The force of a dive is not known, whatever the engagement.
         if engagement.kind == EngagementKind::Plunge {
-            return Ok(Meets::AsTold);
+            return Ok(Meets::Constant);
         }
         let Some(strip) = engagement.strip else {
-            self.met.in_air += 1;
+            self.engagement.in_air += 1;
             return Ok(Meets::Nothing);
         };
-        self.met.slots += usize::from(engagement.kind == EngagementKind::Slot);
-        self.met.largest_depth = self.met.largest_depth.max(engagement.depth);
-        self.met.largest_width = self.met.largest_width.max(engagement.width);
+        self.engagement.slots += usize::from(engagement.kind == EngagementKind::Slot);
+        self.engagement.largest_depth = self.engagement.largest_depth.max(engagement.depth);
+        self.engagement.largest_width = self.engagement.largest_width.max(engagement.width);
         Ok(Meets::Strip(strip, engagement.depth))
     }
 }
 
-/// Greatest forces over the size of the mean one, on the level, of the cuts that were asked for.
+/// Ratios of the greatest to the mean force, on the level, of the cuts computed so far.
 #[derive(Default)]
 struct Peaks(BTreeMap<[u64; 7], Vector3<f64>>);
 

@@ -1,17 +1,18 @@
-//! What a drill pushes with along a path: thrust and torque wherever it goes into the part along its own axis.
+//! Drilling forces along a path: thrust and torque wherever the drill feeds into the part along its own axis.
 //!
-//! Thrust and torque are those of [`Drilling`] with the whole point in the part, from the first point of a plunge to its
-//! last: the program does not tell where the surface is, so the way to it counts as drilled. Withdrawals have no force, and
-//! a drill does not mill: points that go across its axis have none either, and are counted.
+//! Thrust and torque are those of [`Drilling`] with the whole point in the part, from the first point of a plunge to
+//! its last: the position of the surface is not given in the program, so the approach is treated as drilling.
+//! Withdrawals have no force. Milling with a drill is not modelled: points with a feed across the axis have no force
+//! and are reported by number.
 
-use super::cutting::{ForcesTold, NoForces, feed_at, spindle_of};
+use super::cutting::{ForceSummary, NoForces, feed_at, spindle_of};
 use super::placing::Placing;
 use super::sampled::SampledPath;
 use crate::load::drilling::Drilling;
 use crate::load::{Advance, Kienzle, LoadFrame, PathLoad};
 use crate::spatial::Wrench;
 
-/// What drills, and how, where the program does not tell.
+/// Drill and process, where they are not given in the program.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drill {
     /// m
@@ -27,14 +28,14 @@ pub struct Drill {
 }
 
 impl Drill {
-    /// Thrust and torque at the points of `path`, one wrench a point in the feed frame.
+    /// Thrust and torque at the points of `path`, one wrench per point in the feed frame.
     ///
     /// # Errors
-    /// [`NoForces`] at the first plunge whose feed or spindle nobody tells, or that no drill can do.
-    pub fn along(&self, path: &SampledPath, placing: &Placing) -> Result<(PathLoad, ForcesTold), NoForces> {
+    /// [`NoForces`] at the first plunge without feed or spindle speed, or with a process that is not possible.
+    pub fn along(&self, path: &SampledPath, placing: &Placing) -> Result<(PathLoad, ForceSummary), NoForces> {
         let none = Wrench::ZERO;
         let mut wrenches = Vec::with_capacity(path.points.len());
-        let mut given = ForcesTold::default();
+        let mut summary = ForceSummary::default();
         for (_, point, operation) in path.with_operations() {
             wrenches.push(match placing.advance(point) {
                 Advance::Plunge => {
@@ -47,15 +48,16 @@ impl Drill {
                     };
                     let line = point.line;
                     let force = drilling.force().map_err(|error| NoForces::Cut { line, error })?;
-                    if force.thrust > given.largest_mean {
-                        (given.largest_mean, given.greatest) = (force.thrust, force.thrust);
-                        given.relative_uncertainty = force.covariance[(0, 0)].max(0.0).sqrt() / force.thrust;
+                    if force.thrust > summary.largest_mean {
+                        (summary.largest_mean, summary.greatest) = (force.thrust, force.thrust);
+                        summary.relative_uncertainty =
+                            force.covariance[(0, 0)].max(0.0).sqrt() / force.thrust;
                     }
                     force.wrench()
                 }
                 Advance::Withdrawal => none,
                 Advance::Level | Advance::Ramp(_) => {
-                    given.without_force += 1;
+                    summary.without_force += 1;
                     none
                 }
             });
@@ -65,7 +67,7 @@ impl Drill {
             frame: LoadFrame::Feed,
             wrenches,
         };
-        Ok((load, given))
+        Ok((load, summary))
     }
 }
 
@@ -103,7 +105,7 @@ mod tests {
         drill: &Drill,
         directions: &[[f64; 3]],
         pace: Pace,
-    ) -> Result<(Vec<Wrench>, ForcesTold), NoForces> {
+    ) -> Result<(Vec<Wrench>, ForceSummary), NoForces> {
         let point = |direction: &[f64; 3]| PathPoint {
             at: Point3::origin(),
             axis: None,
@@ -124,32 +126,34 @@ mod tests {
             points,
             ..SampledPath::default()
         };
-        let (load, given) = drill.along(&path, &placing)?;
+        let (load, summary) = drill.along(&path, &placing)?;
         let PathLoad::OfEach { wrenches, .. } = load else {
             panic!("each point has its own")
         };
-        Ok((wrenches, given))
+        Ok((wrenches, summary))
     }
 
     #[test]
-    fn it_thrusts_on_its_way_in_and_nowhere_else() {
+    fn thrust_acts_only_on_the_way_in() {
         let ways = [[0.0, 0.0, -1.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]];
         // 200 mm/min at 1000 rev/min: 0.2 mm a revolution, the case of the module `drilling`.
-        let (wrenches, given) = along(&drill(), &ways, Pace::Feed(0.2 / 60.0)).unwrap();
+        let (wrenches, summary) = along(&drill(), &ways, Pace::Feed(0.2 / 60.0)).unwrap();
         let kc = 800.0 * (0.1 * 59_f64.to_radians().sin()).powf(-0.25);
         let thrust = 0.5 * kc * 10.0 * 0.2 / 2.0 * 59_f64.to_radians().sin();
         assert!((wrenches[0].force - Vector3::z() * thrust).norm() < 1e-9);
         assert!((wrenches[0].moment.z - kc * 10.0 * 10.0 * 0.2 / 8.0 * 1e-3).abs() < 1e-9);
         assert_eq!([wrenches[1], wrenches[2]], [Wrench::ZERO; 2]);
-        assert_eq!(given.without_force, 1);
-        assert!((given.relative_uncertainty - 0.1).abs() < 1e-9 && given.largest_mean == wrenches[0].force.z);
+        assert_eq!(summary.without_force, 1);
+        assert!(
+            (summary.relative_uncertainty - 0.1).abs() < 1e-9 && summary.largest_mean == wrenches[0].force.z
+        );
     }
 
     #[test]
-    fn what_nobody_tells_is_named_with_its_line() {
+    fn values_that_are_not_given_are_reported_with_their_line() {
         let in_it_goes = [[0.0, 0.0, -1.0]];
         assert_eq!(
-            along(&drill(), &in_it_goes, Pace::EvaluateError).unwrap_err(),
+            along(&drill(), &in_it_goes, Pace::Unknown).unwrap_err(),
             NoForces::NoFeed { line: 3 }
         );
         let still = Drill {

@@ -1,34 +1,34 @@
-//! What the cutter bites into: where round it the teeth meet material, how deep, how wide.
+//! Engagement of the cutter with the stock: angles, depth and width.
 //!
-//! The strip of material ahead is told as [`Engagement`] has it; its page has the angles.
+//! The strip of material ahead is given as [`Engagement`]; its documentation defines the angles.
 //!
-//! Not modelled: the bottom of the cutter on a dive (but in the volume), teeth behind the axis, runout, trochoids. What a
-//! step longer than two pitches met on its way is in its volume alone. For a spindle that turns counterclockwise left is
-//! right: up-milling is down-milling.
+//! Not modelled: the bottom of the cutter on a dive (except in the volume), teeth behind the axis, runout, trochoids.
+//! Material on the way of a step longer than two pitches is included only in its volume. For a spindle that turns
+//! counterclockwise left and right are exchanged: up-milling is down-milling.
 
 use nalgebra::{Point3, Unit, Vector3};
 
-use super::front::{Front, Heading, LEAST_HEIGHT, front};
 use super::stock::{Stock, StockError, checked_place};
+use super::strip::{Heading, LEAST_HEIGHT, StripAhead, strip_ahead};
 use crate::load::{EndMillBody, Engagement};
 
-/// A straight step of a cut: a rapid would cut as well.
+/// A straight step of a cut: a rapid would also remove material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pass {
-    /// Where the tip was before, m, frame of the path; `to` itself where a cut begins.
+    /// Position of the tip before, m, frame of the path; `to` itself where a cut begins.
     pub from: Point3<f64>,
-    /// Where it goes, m.
+    /// Position of the tip after, m.
     pub to: Point3<f64>,
-    /// Where it is going when it arrives.
+    /// Feed direction at the end.
     pub direction: Unit<Vector3<f64>>,
     /// The tool, from the tip towards the spindle.
     pub axis: Unit<Vector3<f64>>,
 }
 
-/// How the cutter meets the material.
+/// Kind of engagement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EngagementKind {
-    /// Nothing ahead.
+    /// No material ahead.
     Air,
     /// Material on one side, or a strip narrower than the cutter.
     Strip,
@@ -38,32 +38,32 @@ pub enum EngagementKind {
     Plunge,
 }
 
-/// What the cutter bites into at a point.
+/// Engagement of the cutter on one step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bite {
-    /// How it meets the material.
+pub struct PassEngagement {
+    /// Kind of engagement.
     pub kind: EngagementKind,
-    /// The strip of material ahead, of several the one that is met over the longest arc; `None` in the air and of a plunge.
+    /// The strip of material ahead, of several the one with the longest arc; `None` in air and in a plunge.
     ///
-    /// What reaches the rim of the cutter at the height of the material goes on beyond it.
+    /// A strip that reaches the rim of the cutter at the height of the material continues beyond it.
     pub strip: Option<Engagement>,
     /// Its width across the feed at the height of the material, m; of a plunge the diameter.
     pub width: f64,
-    /// Depth along the tool axis where it is largest, m; of a plunge what the step takes off where it takes most.
+    /// Largest depth along the tool axis, m; in a plunge the largest removed height.
     pub depth: f64,
-    /// Taken away by the step, m^3.
+    /// Volume removed by the step, m^3.
     pub volume: f64,
 }
 
-/// How far a tool may lean and pass for upright, rad: it lifts the rim of a cutter of 10 mm by 5 um.
+/// Largest tilt of a tool that is treated as upright, rad: it lifts the rim of a cutter of 10 mm by 5 um.
 const UPRIGHT: f64 = 1e-3;
 
 impl Stock {
-    /// What the cutter bites into on `pass`, which takes it away.
+    /// Engagement of the cutter on `pass`; removes the material.
     ///
     /// # Errors
-    /// A tool that leans from the path's z, a number that is not finite; nothing is taken away then.
-    pub fn cut(&mut self, pass: &Pass, cutter: &EndMillBody) -> Result<Bite, StockError> {
+    /// A tool that is tilted from the path's z, or a number that is not finite; no material is removed then.
+    pub fn cut(&mut self, pass: &Pass, cutter: &EndMillBody) -> Result<PassEngagement, StockError> {
         checked_place("a point of the path", &pass.from)?;
         checked_place("a point of the path", &pass.to)?;
         if !pass.direction.iter().all(|value| value.is_finite()) {
@@ -75,24 +75,28 @@ impl Stock {
             return Err(StockError::Tilted { angle_deg });
         }
         let heading = Heading::of(pass);
-        let ahead = front(self, &heading, cutter);
+        let ahead = strip_ahead(self, &heading, cutter);
         let removal = self.remove(pass.from, pass.to, cutter);
         let (kind, strip, [width, depth]) = match ahead {
             _ if heading.dives() && removal.depth > LEAST_HEIGHT => {
                 (EngagementKind::Plunge, None, [cutter.diameter(), removal.depth])
             }
             None => (EngagementKind::Air, None, [0.0; 2]),
-            Some(Front {
+            Some(StripAhead {
                 strip,
                 width,
                 depth,
                 is_slot,
             }) => {
-                let kind = if is_slot { EngagementKind::Slot } else { EngagementKind::Strip };
+                let kind = if is_slot {
+                    EngagementKind::Slot
+                } else {
+                    EngagementKind::Strip
+                };
                 (kind, Some(strip), [width, depth])
             }
         };
-        Ok(Bite {
+        Ok(PassEngagement {
             kind,
             strip,
             width,

@@ -1,11 +1,11 @@
-//! Holes: points that no path joins, each with the direction that the tool goes into the part.
+//! Holes: single points, each with the direction of the tool into the part.
 //!
-//! As points of a path each begins anew (all lie at the same distance along the cuts), and its direction goes in along
-//! the tool: what follows a path answers for holes, and nothing that it finds depends on their order.
+//! As points of a path each starts a new cut (all at the same distance along the cuts), and its direction is along the
+//! tool. Everything that applies to a path also applies to holes, and no result depends on their order.
 //!
 //! | symbol | meaning | frame |
 //! |---|---|---|
-//! | `at` | where the tip stands at the end of the hole, m | path |
+//! | `at` | position of the tip at the end of the hole, m | path |
 //! | `axis` | out of the part, from the tip towards the spindle | path |
 
 use nalgebra::{Point3, Unit, Vector3};
@@ -16,21 +16,21 @@ use super::sampled::SampledPath;
 use super::sampler::PathPoint;
 use crate::load::Advance;
 
-/// Plunges whose ends lie so near to each other across the tool are one hole, m: what reading a coordinate may leave.
+/// Plunges whose ends differ by less than this across the tool are one hole, m: the error of reading a coordinate.
 const SAME_PLACE: f64 = 1e-6;
 
 /// One hole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hole {
-    /// Where the tip stands at its end, m.
+    /// Position of the tip at its end, m.
     pub at: Point3<f64>,
     /// Out of the part.
     pub axis: Unit<Vector3<f64>>,
-    /// Line that tells it.
+    /// Line of the file.
     pub line: u32,
 }
 
-/// These holes as points, in their order; neither feed nor spindle is told.
+/// These holes as points, in their order; without feed and spindle speed.
 pub fn path_of_holes(holes: &[Hole]) -> SampledPath {
     let point = |hole: &Hole| PathPoint {
         at: hole.at,
@@ -38,7 +38,7 @@ pub fn path_of_holes(holes: &[Hole]) -> SampledPath {
         spin: None,
         direction: -hole.axis,
         along: 0.0,
-        pace: Pace::EvaluateError,
+        pace: Pace::Unknown,
         line: hole.line,
     };
     SampledPath {
@@ -48,10 +48,10 @@ pub fn path_of_holes(holes: &[Hole]) -> SampledPath {
     }
 }
 
-/// The holes that a program drills: the end of every cut that goes along the tool alone and has no cut behind it that goes
-/// across. Feed and spindle are those of the program.
+/// The holes of a drilling program: the end of every cut along the tool axis that is not followed by a cut across it.
+/// Feed and spindle are those of the program.
 ///
-/// Pecks that follow on each other at one place are one hole, as deep as the deepest.
+/// Consecutive pecks at one position are one hole, as deep as the deepest.
 pub fn drilled_holes(path: &SampledPath, placing: &Placing) -> SampledPath {
     let mut holes = SampledPath {
         moves: path.moves,
@@ -137,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn pecks_are_one_hole_and_a_plunge_that_mills_on_is_none() {
+    fn pecks_are_one_hole_and_a_plunge_followed_by_milling_is_not_a_hole() {
         let program = path(&[
             ([0.0, 0.0, 5.0], true),
             // Two pecks.
@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn a_list_of_holes_goes_in_along_each_axis_and_begins_anew_at_each() {
+    fn a_list_of_holes_goes_in_along_each_axis_and_starts_a_cut_at_each() {
         let tilted = Unit::new_normalize(Vector3::new(0.6, 0.0, 0.8));
         let holes = [Vector3::z_axis(), tilted].map(|axis| Hole {
             at: Point3::new(0.1, 0.0, 0.0),

@@ -1,17 +1,16 @@
-//! Which points does the tool pass, and in which direction?
+//! Tool paths: points, directions and cutting forces.
 //!
-//! [`program`]: what a tool path program tells, move after move. [`sampler`]: those moves as points. [`shape`]: circles and
-//! lines on a workpiece plane. [`sampled`]: the points of either. [`placing`] and [`track`]: where they lie in the cell and
-//! how the tool is turned. [`thinned`](mod@thinned): fewer points of a path. [`clock`]: when the tip is where. [`stock`], `sweep`, `front` and [`bite`]: what the cutter meets
-//! on its way; [`cutting`], [`drilled`]: what that pushes with. [`feature`]: the circle, line, plane or hole that comes
-//! out. [`holes`]: points that no path joins.
+//! [`program`]: the moves of a tool path program. [`sampler`]: those moves as points. [`shape`]: circles and lines on a
+//! workpiece plane. [`sampled`]: the points of either. [`placing`] and [`track`]: position in the cell and turn of the
+//! tool. [`thinned`](mod@thinned): fewer points of a path. [`clock`]: time at each point. [`stock`], `sweep`, `strip`
+//! and [`engagement`]: engagement of the cutter; [`cutting`], [`drilled`]: its forces. [`feature`]: errors of the
+//! circle, line, plane or hole produced. [`holes`]: single points.
 
-pub mod engagement;
 pub mod clock;
 pub mod cutting;
 pub mod drilled;
+pub mod engagement;
 pub mod feature;
-mod front;
 pub mod holes;
 pub mod placing;
 pub mod program;
@@ -19,19 +18,20 @@ pub mod sampled;
 pub mod sampler;
 pub mod shape;
 pub mod stock;
+mod strip;
 mod sweep;
 pub mod thinned;
 pub mod track;
 
-pub use crate::load::Greatest;
-pub use engagement::{Bite, EngagementKind, Pass};
+pub use crate::load::GreatestForce;
 pub use clock::{Clock, NoTime, Speeds};
-pub use cutting::{Cutting, CuttingForces, ForcesTold, Met, NoForces};
+pub use cutting::{Cutting, CuttingForces, ForceSummary, NoForces, StockEngagement};
 pub use drilled::Drill;
-pub use feature::{Became, FeatureKind, Strayed, became};
+pub use engagement::{EngagementKind, Pass, PassEngagement};
+pub use feature::{DeviatedPoint, FeatureErrors, FeatureKind, feature_errors};
 pub use holes::{Hole, drilled_holes, path_of_holes};
 pub use placing::{Placing, Spin};
-pub use program::{Arc, Course, DepthOfCut, Move, Operation, Pace, Step, ToldSpin};
+pub use program::{Arc, Course, DepthOfCut, GivenSpin, Move, Operation, Pace, Step};
 pub use sampled::{PathBuilder, SampledPath, TooManyPoints};
 pub use sampler::{PathPoint, Sampler, Sampling};
 pub use shape::Shape;

@@ -1,16 +1,16 @@
-//! Where a path lies in the cell, and how the tool is turned on it.
+//! Position of a path in the cell, and turn of the tool on it.
 //!
 //! | frame | origin and axes |
 //! |---|---|
-//! | `path` | the zero that the program counts from |
-//! | `feed` | TCP; x where the tip goes (across the tool), z from the tip towards the spindle, y to the left |
+//! | `path` | the zero of the program |
+//! | `feed` | TCP; x in the feed direction (across the tool), z from the tip towards the spindle, y to the left |
 //!
-//! The tool's z points the other way round, from the spindle to the tip. Where the tip goes along the tool alone
-//! (a plunge) x of the feed frame is x of the tool.
+//! The tool's z has the opposite direction, from the spindle to the tip. Where the tip moves along the tool axis (a
+//! plunge), x of the feed frame is x of the tool.
 
 use nalgebra::{Isometry3, Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
 
-use super::program::ToldSpin;
+use super::program::GivenSpin;
 use super::sampler::PathPoint;
 use crate::frame::{Isometry, tool_orientation};
 use crate::load::Advance;
@@ -19,12 +19,12 @@ use crate::workpiece::Plane;
 /// How the tool is turned about its own axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Spin {
-    /// By this angle (rad) from where [`tool_orientation`] has it.
+    /// By this angle (rad) from the orientation of [`tool_orientation`].
     Fixed(f64),
     /// By this angle (rad) from x of the tool along the feed.
     AlongFeed(f64),
-    /// By what the program tells at each point, and this angle (rad) more: from where [`tool_orientation`] has it, or from
-    /// the whole orientation that is told; by this angle alone where the program tells nothing.
+    /// As given in the program at each point, plus this angle (rad): from [`tool_orientation`], or from the whole
+    /// orientation if given; by this angle alone where the program gives no spin.
     Given(f64),
 }
 
@@ -33,19 +33,19 @@ pub enum Spin {
 pub struct Placing {
     /// Base to path.
     pub base_from_path: Isometry,
-    /// The tool where the program does not tell it: from the tip towards the spindle, path axes.
+    /// Tool direction where the program gives none: from the tip towards the spindle, path axes.
     pub axis: Unit<Vector3<f64>>,
-    /// Whether the tool is held along `axis` whatever the program tells.
+    /// Whether the tool keeps the direction `axis` for the whole program.
     pub keeps_axis: bool,
     /// How the tool is turned.
     pub spin: Spin,
 }
 
-/// Below this sine of the angle between feed and tool the tip plunges.
+/// Below this sine of the angle between feed and tool the move is a plunge.
 const PLUNGE: f64 = 1e-6;
 
 impl Placing {
-    /// A path drawn on `plane`: path axes are those of the part, the tool stands against the plane's normal, unspun.
+    /// A path on `plane`: path axes are those of the part, the tool is against the plane's normal, without spin.
     pub fn on_plane(plane: &Plane) -> Placing {
         Placing {
             base_from_path: plane.base_from_part,
@@ -71,8 +71,8 @@ impl Placing {
         let rotation = match self.spin {
             Spin::Fixed(angle) => tool_orientation(axis, angle),
             Spin::Given(angle) => match point.spin {
-                Some(ToldSpin::Orientation(reported)) => self.oriented(&reported, axis, angle),
-                Some(ToldSpin::Angle(reported)) => tool_orientation(axis, angle + reported),
+                Some(GivenSpin::Orientation(reported)) => self.oriented(&reported, axis, angle),
+                Some(GivenSpin::Angle(reported)) => tool_orientation(axis, angle + reported),
                 None => tool_orientation(axis, angle),
             },
             Spin::AlongFeed(angle) => {
@@ -87,8 +87,8 @@ impl Placing {
         Isometry3::from_parts(tip.coords.into(), rotation)
     }
 
-    /// The orientation `path_from_tool` in base, turned about the tool by `angle`; the shorter way over where the tool is held
-    /// along another axis than that tells.
+    /// The orientation `path_from_tool` in base, turned about the tool by `angle`; by the shortest rotation where the
+    /// tool keeps another direction than given.
     fn oriented(
         &self,
         path_from_tool: &UnitQuaternion<f64>,
@@ -96,12 +96,13 @@ impl Placing {
         angle: f64,
     ) -> UnitQuaternion<f64> {
         let reported = self.base_from_path.rotation * path_from_tool;
-        let evaluation = match self.keeps_axis {
+        let kept = match self.keeps_axis {
             false => Some(reported),
-            true => UnitQuaternion::rotation_between(&(reported * Vector3::z()), &axis).map(|over| over * reported),
+            true => UnitQuaternion::rotation_between(&(reported * Vector3::z()), &axis)
+                .map(|over| over * reported),
         };
         let about_axis = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angle);
-        evaluation.map_or_else(|| tool_orientation(axis, angle), |evaluation| evaluation * about_axis)
+        kept.map_or_else(|| tool_orientation(axis, angle), |kept| kept * about_axis)
     }
 
     /// Axes of the feed frame at `point`, in base.
@@ -113,7 +114,7 @@ impl Placing {
         Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, z.cross(&x), z]))
     }
 
-    /// How the tool advances at `point`: across its axis, on a ramp, along it.
+    /// Advance of the tool at `point`: across its axis, on a ramp, along it.
     pub fn advance(&self, point: &PathPoint) -> Advance {
         Advance::of(
             &(self.base_from_path.rotation * point.direction),
@@ -177,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn the_tool_points_against_the_axis_that_the_program_tells() {
+    fn the_tool_points_against_the_axis_given_in_the_program() {
         let tilted = Vector3::new(0.2, 0.1, 1.0);
         for spin in [Spin::Fixed(0.4), Spin::AlongFeed(-1.0)] {
             let placing = placing(spin);
@@ -208,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn the_feed_frame_is_right_handed_and_its_y_lies_to_the_left() {
+    fn the_feed_frame_is_right_handed_with_y_to_the_left() {
         let placing = placing(Spin::Fixed(0.7));
         let axes = placing.base_from_feed(&point(Vector3::x(), None));
         assert!((axes.matrix().determinant() - 1.0).abs() < 1e-14);
@@ -231,7 +232,7 @@ mod tests {
         let reported = UnitQuaternion::from_euler_angles(2.0, -0.4, 1.0);
         let axis = -(reported * Vector3::z());
         let point = PathPoint {
-            spin: Some(ToldSpin::Orientation(reported)),
+            spin: Some(GivenSpin::Orientation(reported)),
             ..point(Vector3::x(), Some(axis))
         };
         let given = placing(Spin::Given(0.0));
@@ -243,21 +244,21 @@ mod tests {
         let more = placing(Spin::Given(0.7)).base_from_tool(&point);
         let turned = pose.rotation * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), 0.7);
         assert!(apart(more.rotation, turned) < 1e-14);
-        // Held upright it comes there the shorter way: by the angle between the axes, and no farther.
+        // With a fixed direction it gets there by the shortest rotation: by the angle between the axes, and no more.
         let upright = Placing {
             keeps_axis: true,
             ..given
         };
-        let evaluation = upright.base_from_tool(&point);
-        assert!((evaluation * Vector3::z() + upright.spindle(&point).into_inner()).norm() < 1e-14);
-        let way = evaluation.rotation.angle_to(&pose.rotation);
-        assert!((way - axis.angle(&Vector3::z())).abs() < 1e-12);
+        let kept = upright.base_from_tool(&point);
+        assert!((kept * Vector3::z() + upright.spindle(&point).into_inner()).norm() < 1e-14);
+        let angle = kept.rotation.angle_to(&pose.rotation);
+        assert!((angle - axis.angle(&Vector3::z())).abs() < 1e-12);
     }
 
     #[test]
     fn a_given_spin_is_added_to_the_fixed_one() {
         let reported = PathPoint {
-            spin: Some(ToldSpin::Angle(0.3)),
+            spin: Some(GivenSpin::Angle(0.3)),
             ..point(Vector3::x(), Some(Vector3::new(0.2, 0.1, 1.0)))
         };
         let given = placing(Spin::Given(0.4)).base_from_tool(&reported);

@@ -1,14 +1,14 @@
-//! Tool path programs: what the tip of the tool is told to do, move after move.
+//! Tool path programs: the moves of the tool tip, one after the other.
 //!
-//! Readers give [`Step`]s one by one, so a program of any length can be followed without room for all of it. All in the
-//! frame of the path: the workpiece zero that the program counts from. m, rad, s.
+//! Readers return [`Step`]s one by one, so a program of any length can be processed without storing all of it. All in
+//! the frame of the path: relative to the workpiece zero of the program. m, rad, s.
 
 use nalgebra::{Point3, Unit, UnitQuaternion, Vector3};
 
-/// What a program tells next.
+/// Next item of a program.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Step {
-    /// From here on with this tool and spindle speed.
+    /// A new tool or spindle speed.
     Operation(Operation),
     /// The tip moves.
     Move(Move),
@@ -17,7 +17,7 @@ pub enum Step {
 /// A stretch of the program with one tool, one spindle speed and one depth of cut.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Operation {
-    /// What the program calls it, or its tool.
+    /// Name of the operation or its tool.
     pub name: Option<String>,
     /// Number of the tool.
     pub tool: Option<u32>,
@@ -27,7 +27,7 @@ pub struct Operation {
     pub corner_radius: Option<f64>,
     /// Speed of the spindle, rad/s; clockwise seen from the spindle is positive.
     pub spindle: Option<f64>,
-    /// How deep the cutter goes, where the program tells it.
+    /// Depths of cut, where given in the program.
     pub depths: Option<DepthOfCut>,
     /// Line of the program where it begins, from 1.
     pub line: u32,
@@ -47,28 +47,28 @@ pub struct DepthOfCut {
 pub struct Move {
     /// Where it ends, m.
     pub end: Point3<f64>,
-    /// The tool at its end, from the tip towards the spindle; `None` where the program says nothing of it.
+    /// The tool at its end, from the tip towards the spindle; `None` where not given.
     pub axis: Option<Unit<Vector3<f64>>>,
-    /// How the tool is turned about its axis at its end; `None` where the program says nothing of it.
-    pub spin: Option<ToldSpin>,
-    /// What it follows.
+    /// Turn of the tool about its axis at its end; `None` where not given.
+    pub spin: Option<GivenSpin>,
+    /// Shape of the move.
     pub course: Course,
-    /// How fast.
+    /// Speed.
     pub pace: Pace,
     /// Its line in the program, from 1.
     pub line: u32,
 }
 
-/// How a program tells the turn of the tool about its axis.
+/// Turn of the tool about its axis, as given in a program.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ToldSpin {
+pub enum GivenSpin {
     /// By this angle from spin zero, rad, by the right hand about the direction from spindle to tip.
     Angle(f64),
     /// With the whole orientation, path to tool: its z is the direction from spindle to tip.
     Orientation(UnitQuaternion<f64>),
 }
 
-/// What a move follows from the end of the one before.
+/// Shape of a move from the end of the one before.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Course {
     /// A straight line.
@@ -77,7 +77,7 @@ pub enum Course {
     Arc(Arc),
 }
 
-/// An arc about an axis; what start and end differ by along the axis makes it a helix.
+/// An arc about an axis; a difference of start and end along the axis makes it a helix.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arc {
     /// A point of the axis, m.
@@ -91,16 +91,16 @@ pub struct Arc {
 /// How fast the tip moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Pace {
-    /// As fast as it can, not cutting.
+    /// A rapid, not cutting.
     Rapid,
     /// At this speed, m/s.
     Feed(f64),
-    /// Cutting, at a speed that the program does not tell.
-    EvaluateError,
+    /// Cutting, at a speed that the program does not specify.
+    Unknown,
 }
 
 impl Pace {
-    /// Whether the tool cuts on the way.
+    /// Whether the move is a cut.
     pub fn cuts(self) -> bool {
         self != Pace::Rapid
     }

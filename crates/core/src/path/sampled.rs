@@ -1,7 +1,7 @@
-//! A path as points: what a program of moves, or a shape on a plane, becomes when it is cut up.
+//! A path as points: the sampled moves of a program, or a shape on a plane.
 //!
-//! Points of a cut follow on each other; a rapid between two cuts has no points, and the start of the cut behind it is a
-//! point of its own, at the same distance along the cuts as the last one before. m, s.
+//! Points of a cut are consecutive. A rapid between two cuts has no points; the start of the cut after it is a separate
+//! point, at the same distance along the cuts as the last one before. m, s.
 
 use std::ops::Range;
 
@@ -21,7 +21,7 @@ pub struct SampledPath {
     pub rapids: Vec<f64>,
     /// Moves, rapids included.
     pub moves: usize,
-    /// Time of all cuts whose feed is told, s.
+    /// Time of all cuts with a given feed, s.
     pub cutting_time: f64,
 }
 
@@ -31,12 +31,12 @@ impl SampledPath {
         self.points.last().map_or(0.0, |point| point.along)
     }
 
-    /// Whether point `index` is the first behind a rapid, or of all.
+    /// Whether point `index` is the first after a rapid, or of all.
     pub fn begins(&self, index: usize) -> bool {
         begins(&self.points, index)
     }
 
-    /// Points that follow on each other without a rapid between them, stretch after stretch.
+    /// Stretches of consecutive points without a rapid between them.
     pub fn stretches(&self) -> impl Iterator<Item = Range<usize>> {
         let count = self.points.len();
         let starts: Vec<usize> = (0..count).filter(|i| self.begins(*i)).collect();
@@ -44,19 +44,19 @@ impl SampledPath {
         starts.into_iter().zip(ends).map(|(start, end)| start..end)
     }
 
-    /// Every point with its index and the operation that it belongs to, if one was begun.
+    /// Every point with its index and its operation, if there is one.
     pub fn with_operations(&self) -> impl Iterator<Item = (usize, &PathPoint, Option<&Operation>)> {
         let mut next = self.operations.iter().peekable();
-        let mut evaluation = None;
+        let mut current = None;
         self.points.iter().enumerate().map(move |(index, point)| {
             while let Some((_, begun)) = next.next_if(|(first, _)| *first <= index) {
-                evaluation = Some(begun);
+                current = Some(begun);
             }
-            (index, point, evaluation)
+            (index, point, current)
         })
     }
 
-    /// The least and the greatest coordinates of its points, m; the origin twice where there is none.
+    /// The smallest and the largest coordinates of its points, m; the origin twice without points.
     pub fn corners(&self) -> [Point3<f64>; 2] {
         let first = self.points.first().map_or_else(Point3::origin, |point| point.at);
         let points = self.points.iter().map(|point| point.at);
@@ -64,21 +64,21 @@ impl SampledPath {
     }
 }
 
-/// Whether point `index` is the first behind a rapid, or of all.
+/// Whether point `index` is the first after a rapid, or of all.
 pub(super) fn begins(points: &[PathPoint], index: usize) -> bool {
-    // The start of such a cut is a point of its own: nothing was cut since the point before.
+    // The start of such a cut is a separate point: nothing was cut since the point before.
     index == 0 || points[index].along <= points[index - 1].along
 }
 
-/// A program gives more points than are wanted.
+/// A program has more points than allowed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("more than {most} points")]
 pub struct TooManyPoints {
-    /// As many as are wanted at most.
+    /// Maximum number of points.
     pub most: usize,
 }
 
-/// Cuts a program into points, step by step as its reader gives them.
+/// Samples a program step by step as its reader returns it.
 #[derive(Clone, Debug)]
 pub struct PathBuilder {
     sampler: Sampler,
@@ -87,7 +87,7 @@ pub struct PathBuilder {
     too_many: bool,
     /// Length of the rapids since the last cut, m.
     since: f64,
-    stands: Option<Point3<f64>>,
+    position: Option<Point3<f64>>,
 }
 
 impl PathBuilder {
@@ -99,16 +99,16 @@ impl PathBuilder {
             most,
             too_many: false,
             since: 0.0,
-            stands: None,
+            position: None,
         }
     }
 
-    /// How many points there are so far.
+    /// Number of points so far.
     pub fn point_count(&self) -> usize {
         self.path.points.len()
     }
 
-    /// Takes the next step of the program.
+    /// Adds the next step of the program.
     pub fn take(&mut self, step: Step) {
         let next = match step {
             Step::Operation(operation) => {
@@ -131,14 +131,14 @@ impl PathBuilder {
             path.cutting_time += (path.length() - before) / speed;
         }
         if !next.pace.cuts() {
-            self.since += self.stands.map_or(0.0, |from| (next.end - from).norm());
+            self.since += self.position.map_or(0.0, |from| (next.end - from).norm());
         } else if first < path.points.len() {
             if path.begins(first) {
                 path.rapids.push(self.since);
             }
             self.since = 0.0;
         }
-        self.stands = Some(next.end);
+        self.position = Some(next.end);
     }
 
     /// The path.
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn a_rapid_ends_a_stretch_and_counts_by_its_length() {
+    fn a_rapid_ends_a_stretch_and_its_length_is_recorded() {
         let path = built(100).unwrap();
         let stretches: Vec<_> = path.stretches().collect();
         assert_eq!(stretches, [0..11, 11..22]);
@@ -218,13 +218,13 @@ mod tests {
     }
 
     #[test]
-    fn more_points_than_are_wanted_are_refused_not_cut_off() {
+    fn more_points_than_allowed_are_refused_not_truncated() {
         assert!(built(22).is_ok());
         assert_eq!(built(21), Err(TooManyPoints { most: 21 }));
     }
 
     #[test]
-    fn a_step_that_gives_points_beyond_counting_is_refused_before_any_is_made() {
+    fn a_step_with_too_many_points_is_refused_before_any_is_computed() {
         let sampling = Sampling {
             chord_error: 1e-5,
             step: 1e-33,

@@ -1,20 +1,21 @@
-//! Moves as points: near enough to the arc, and no farther apart than a step.
+//! Samples moves: within a tolerance of the arc, and with a maximum distance between points.
 //!
-//! A chord over the angle `phi` of a circle of radius `r` leaves it by `r (1 - cos(phi / 2))`; pieces of a move are
-//! equal. The tool axis turns evenly from the one of the move before to its own; so does the spin, the shorter way round.
-//! Where whole orientations are told the tool turns evenly about one axis, `R(t) = R_0 exp(t log(R_0^-1 R_1))`, as
-//! controllers of robots do: spins alone would jump where the tool passes the direction that they have no zero in.
+//! A chord over the angle `phi` of a circle of radius `r` deviates from it by `r (1 - cos(phi / 2))`; the pieces of a
+//! move are equal. The tool axis turns evenly from that of the move before to its own; so does the spin, in the shorter
+//! direction. If whole orientations are given, the tool turns evenly about one axis, `R(t) = R_0 exp(t log(R_0^-1
+//! R_1))`, as robot controllers do: separate spins would jump where the tool passes the direction without a defined
+//! spin zero.
 
 use std::f64::consts::TAU;
 
 use nalgebra::{Point3, Rotation3, Unit, UnitQuaternion, Vector3};
 
-use super::program::{Arc, Course, Move, Pace, ToldSpin};
+use super::program::{Arc, Course, GivenSpin, Move, Pace};
 
-/// How finely moves are cut into points.
+/// Sampling of moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampling {
-    /// Farthest that a chord may leave its arc, m.
+    /// Largest distance of a chord from its arc, m.
     pub chord_error: f64,
     /// Longest distance between points of a cutting move, m.
     pub step: f64,
@@ -23,36 +24,36 @@ pub struct Sampling {
 /// A point of the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathPoint {
-    /// Where, m.
+    /// Position, m.
     pub at: Point3<f64>,
-    /// The tool, from the tip towards the spindle, if the program tells it.
+    /// The tool, from the tip towards the spindle, if given in the program.
     pub axis: Option<Unit<Vector3<f64>>>,
-    /// How the tool is turned about its axis, if the program tells it.
-    pub spin: Option<ToldSpin>,
-    /// Where the tip is going.
+    /// Turn of the tool about its axis, if given in the program.
+    pub spin: Option<GivenSpin>,
+    /// Feed direction.
     pub direction: Unit<Vector3<f64>>,
     /// Distance along all cutting moves before, m.
     pub along: f64,
-    /// How fast it came here.
+    /// Speed of the move that ends here.
     pub pace: Pace,
     /// Line of the program.
     pub line: u32,
 }
 
-/// Cuts one move after the other into points.
+/// Samples one move after the other.
 #[derive(Clone, Debug)]
 pub struct Sampler {
     sampling: Sampling,
-    stands: Option<Stands>,
+    state: Option<ToolState>,
     along: f64,
 }
 
-/// Where the moves before have left the tool.
+/// State of the tool after the moves so far.
 #[derive(Clone, Copy, Debug)]
-struct Stands {
+struct ToolState {
     at: Point3<f64>,
     axis: Option<Unit<Vector3<f64>>>,
-    spin: Option<ToldSpin>,
+    spin: Option<GivenSpin>,
     /// Whether the last move was a cut that ended here: its end is a point already.
     cutting: bool,
 }
@@ -62,47 +63,47 @@ impl Sampler {
     pub fn new(sampling: Sampling) -> Sampler {
         Sampler {
             sampling,
-            stands: None,
+            state: None,
             along: 0.0,
         }
     }
 
-    /// How many points [`Sampler::points`] would give of `next`; the largest number where they are beyond counting.
+    /// Number of points that [`Sampler::points`] would return for `next`; the largest number on overflow.
     pub fn count(&self, next: &Move) -> usize {
-        let axis = next.axis.or(self.stands.and_then(|stands| stands.axis));
-        let from = self.stands.filter(|_| next.pace.cuts());
+        let axis = next.axis.or(self.state.and_then(|state| state.axis));
+        let from = self.state.filter(|_| next.pace.cuts());
         from.map_or(0, |from| {
-            match Way::of(&from, next, axis).pieces(&self.sampling) {
+            match MovePath::of(&from, next, axis).pieces(&self.sampling) {
                 0 => 0,
                 pieces => pieces.saturating_add(usize::from(!from.cutting)),
             }
         })
     }
 
-    /// Gives `out` the points of the next move: of a cut its start, where no cut led there, and then one at the end of
-    /// each piece; of a rapid nothing. The first move of a program says where the tip stands and has no points.
+    /// Calls `out` with the points of the next move: of a cut its start, unless a cut ended there, and then one at the
+    /// end of each piece; of a rapid none. The first move of a program sets the position of the tip and has no points.
     pub fn points(&mut self, next: &Move, out: impl FnMut(PathPoint)) {
         let sampling = self.sampling;
         self.cut(next, |way| way.pieces(&sampling), out);
     }
 
-    /// As [`Sampler::points`], a cut in so many pieces: those that it had before its ends were moved by a hair.
+    /// As [`Sampler::points`], with a given number of pieces: for moves whose ends have been changed slightly.
     pub fn points_in(&mut self, next: &Move, pieces: usize, out: impl FnMut(PathPoint)) {
         self.cut(next, |_| pieces, out);
     }
 
-    fn cut(&mut self, next: &Move, pieces: impl Fn(&Way) -> usize, mut out: impl FnMut(PathPoint)) {
-        let axis = next.axis.or(self.stands.and_then(|stands| stands.axis));
-        let spin = next.spin.or(self.stands.and_then(|stands| stands.spin));
-        if let Some(from) = self.stands.filter(|_| next.pace.cuts()) {
-            let way = Way::of(&from, next, axis);
+    fn cut(&mut self, next: &Move, pieces: impl Fn(&MovePath) -> usize, mut out: impl FnMut(PathPoint)) {
+        let axis = next.axis.or(self.state.and_then(|state| state.axis));
+        let spin = next.spin.or(self.state.and_then(|state| state.spin));
+        if let Some(from) = self.state.filter(|_| next.pace.cuts()) {
+            let way = MovePath::of(&from, next, axis);
             let pieces = if way.length > 0.0 { pieces(&way) } else { 0 };
             if pieces == 0 {
-                // A move to where the tip stands: nothing is cut, and no direction is told. A tool that is turned there
-                // stands otherwise than the cut before has left it, so that the next cut has a start of its own.
-                let turned = matches!(spin, Some(ToldSpin::Orientation(_))) && spin != from.spin;
+                // A move of zero length: nothing is cut, and there is no direction. If the tool is turned there, the
+                // next cut has a separate start point.
+                let turned = matches!(spin, Some(GivenSpin::Orientation(_))) && spin != from.spin;
                 let cutting = from.cutting && !turned;
-                self.stands = Some(Stands {
+                self.state = Some(ToolState {
                     axis,
                     spin,
                     cutting,
@@ -116,8 +117,8 @@ impl Sampler {
                 out(PathPoint {
                     at: way.at(part),
                     axis: match spin {
-                        Some(ToldSpin::Orientation(turned)) => Some(spindle(&turned)),
-                        Some(ToldSpin::Angle(_)) | None => way.axis(part),
+                        Some(GivenSpin::Orientation(turned)) => Some(spindle(&turned)),
+                        Some(GivenSpin::Angle(_)) | None => way.axis(part),
                     },
                     spin,
                     direction: way.direction(part),
@@ -128,25 +129,25 @@ impl Sampler {
             }
             self.along += way.length;
         }
-        self.stands = Some(Stands {
+        self.state = Some(ToolState {
             at: next.end,
             axis,
             spin,
-            cutting: next.pace.cuts() && self.stands.is_some(),
+            cutting: next.pace.cuts() && self.state.is_some(),
         });
     }
 }
 
-/// The spin on the way from the one before to `to`, the shorter way round; as `to` all the way where both are told
-/// otherwise.
-fn spun(from: Option<ToldSpin>, to: ToldSpin, part: f64) -> ToldSpin {
+/// The spin between the one before and `to`, in the shorter direction; `to` everywhere where the two are given in
+/// different ways.
+fn spun(from: Option<GivenSpin>, to: GivenSpin, part: f64) -> GivenSpin {
     match (from, to) {
-        (Some(ToldSpin::Angle(from)), ToldSpin::Angle(to)) => {
+        (Some(GivenSpin::Angle(from)), GivenSpin::Angle(to)) => {
             let by = to - from;
-            ToldSpin::Angle(to - (by - TAU * (by / TAU).round()) * (1.0 - part))
+            GivenSpin::Angle(to - (by - TAU * (by / TAU).round()) * (1.0 - part))
         }
-        (Some(ToldSpin::Orientation(from)), ToldSpin::Orientation(to)) if part < 1.0 && from != to => {
-            ToldSpin::Orientation(from.try_slerp(&to, part, f64::MIN_POSITIVE).unwrap_or(to))
+        (Some(GivenSpin::Orientation(from)), GivenSpin::Orientation(to)) if part < 1.0 && from != to => {
+            GivenSpin::Orientation(from.try_slerp(&to, part, f64::MIN_POSITIVE).unwrap_or(to))
         }
         _ => to,
     }
@@ -157,8 +158,8 @@ fn spindle(path_from_tool: &UnitQuaternion<f64>) -> Unit<Vector3<f64>> {
     -(path_from_tool * Vector3::z_axis())
 }
 
-/// One move, laid out.
-struct Way {
+/// One move in detail.
+struct MovePath {
     from: Point3<f64>,
     end: Point3<f64>,
     length: f64,
@@ -166,25 +167,26 @@ struct Way {
     axes: Option<Axes>,
 }
 
-/// How the tool turns from one axis to the next.
+/// Rotation of the tool from one axis to the next.
 struct Axes {
     before: Unit<Vector3<f64>>,
     after: Unit<Vector3<f64>>,
-    /// About which axis and by how much, rad; `None` where both are the same or opposite.
+    /// Axis and angle, rad; `None` where both are the same or opposite.
     turn: Option<(Unit<Vector3<f64>>, f64)>,
 }
 
-/// The arc of a move, with what its ends lack to a perfect one spread along it.
+/// The arc of a move; the difference of its end is spread along it.
 struct Bend {
     arc: Arc,
     /// From the axis to the start, across the axis, m.
     arm: Vector3<f64>,
-    /// What the turned start lacks to the end: rise of a helix and rounding of the program, m.
+    /// Difference between the end of the exact arc and the end of the move: rise of a helix and rounding of the
+    /// program, m.
     rest: Vector3<f64>,
 }
 
-impl Way {
-    fn of(from: &Stands, next: &Move, axis: Option<Unit<Vector3<f64>>>) -> Way {
+impl MovePath {
+    fn of(from: &ToolState, next: &Move, axis: Option<Unit<Vector3<f64>>>) -> MovePath {
         let chord = next.end - from.at;
         let bend = match next.course {
             Course::Line => None,
@@ -206,7 +208,7 @@ impl Way {
             let turn = Rotation3::rotation_between(&before, &after).and_then(|turn| turn.axis_angle());
             Axes { before, after, turn }
         });
-        Way {
+        MovePath {
             from: from.at,
             end: next.end,
             length,
@@ -216,11 +218,11 @@ impl Way {
     }
 
     fn pieces(&self, sampling: &Sampling) -> usize {
-        // A hair of slack, so that 10 mm by 1 mm gives ten pieces and not eleven.
+        // A small tolerance, so that 10 mm by 1 mm gives ten pieces and not eleven.
         let by_step = (self.length / sampling.step - 1e-9).ceil();
         let by_chord = self.bend.as_ref().map_or(0.0, |bend| {
             let cosine = 1.0 - sampling.chord_error / bend.arm.norm();
-            // At least four chords a turn, however small the arc.
+            // At least four chords per turn, however small the arc.
             let most = (2.0 * cosine.max(-1.0).acos()).min(0.25 * TAU);
             (bend.arc.sweep / most - 1e-9).ceil()
         });
@@ -337,7 +339,7 @@ mod tests {
     }
 
     #[test]
-    fn points_beyond_counting_are_as_many_as_can_be_told() {
+    fn the_number_of_points_saturates_on_overflow() {
         let moves = [start([0.05, 0.0, 0.0]), half_turn([-0.05, 0.0, 0.01])];
         for (chord_error, step) in [(1e-6, 1e-33), (1e-33, 1.0), (1e-33, f64::MIN_POSITIVE)] {
             let mut sampler = Sampler::new(Sampling { chord_error, step });
@@ -347,7 +349,7 @@ mod tests {
     }
 
     #[test]
-    fn chords_leave_a_helix_by_no_more_than_the_chord_error() {
+    fn chords_are_within_the_chord_error_of_a_helix() {
         for chord_error in [1e-7, 1e-5, 1e-3] {
             let sampling = Sampling {
                 chord_error,
@@ -366,7 +368,7 @@ mod tests {
     }
 
     #[test]
-    fn directions_are_those_of_differences() {
+    fn directions_agree_with_finite_differences() {
         let moves = [start([0.05, 0.0, 0.0]), half_turn([-0.05, 0.0, 0.01])];
         let points = points(FINE, &moves);
         for three in points.windows(3) {
@@ -421,7 +423,7 @@ mod tests {
     }
 
     #[test]
-    fn a_move_to_where_the_tip_stands_has_no_points() {
+    fn a_move_of_zero_length_has_no_points() {
         let moves = [
             start([0.0; 3]),
             cut([0.0; 3], Course::Line),
@@ -433,9 +435,9 @@ mod tests {
     }
 
     #[test]
-    fn the_spin_turns_evenly_the_shorter_way_and_stays_where_nothing_is_told() {
+    fn the_spin_turns_evenly_in_the_shorter_direction_and_stays_where_none_is_given() {
         let spun = |deg: Option<f64>, at: Move| Move {
-            spin: deg.map(|deg| ToldSpin::Angle(deg.to_radians())),
+            spin: deg.map(|deg| GivenSpin::Angle(deg.to_radians())),
             ..at
         };
         let moves = [
@@ -450,11 +452,11 @@ mod tests {
         let given: Vec<f64> = points(sampling, &moves)
             .iter()
             .map(|point| match point.spin {
-                Some(ToldSpin::Angle(spin)) => spin.to_degrees(),
+                Some(GivenSpin::Angle(spin)) => spin.to_degrees(),
                 other => panic!("{other:?}"),
             })
             .collect();
-        // From 350 deg on to 370 deg, told as 10.
+        // From 350 deg on to 370 deg, given as 10.
         let expected = [-10.0, -5.0, 0.0, 5.0, 10.0, 10.0];
         assert_eq!(given.len(), expected.len());
         for (given, expected) in given.iter().zip(expected) {
@@ -468,13 +470,13 @@ mod tests {
     fn oriented(orientation: UnitQuaternion<f64>, at: Move) -> Move {
         Move {
             axis: Some(spindle(&orientation)),
-            spin: Some(ToldSpin::Orientation(orientation)),
+            spin: Some(GivenSpin::Orientation(orientation)),
             ..at
         }
     }
 
     #[test]
-    fn whole_orientations_turn_evenly_about_one_axis_through_the_direction_that_spins_have_no_zero_in() {
+    fn whole_orientations_turn_evenly_about_one_axis_through_the_direction_without_spin_zero() {
         // The tool swings through base y, where spin zero jumps by half a turn.
         let begin = UnitQuaternion::from_euler_angles(-1.4, 0.0, 0.3);
         let by = Vector3::new(-0.35, 0.1, 0.4);
@@ -483,25 +485,25 @@ mod tests {
             oriented(begin, start([0.0; 3])),
             oriented(end, cut([0.01, 0.0, 0.0], Course::Line)),
         ];
-        // The same orientation told twice is the same at every point, to the bit.
+        // The same orientation given twice is the same at every point, to the bit.
         let still = [moves[0], oriented(begin, cut([0.01, 0.0, 0.0], Course::Line))];
         let mut spins = points(FINE, &still).into_iter().map(|point| point.spin);
         assert!(spins.all(|spin| spin == still[0].spin));
         let points = points(FINE, &moves);
         assert_eq!(points.len(), 11);
         for (index, point) in points.iter().enumerate() {
-            let Some(ToldSpin::Orientation(found)) = point.spin else {
+            let Some(GivenSpin::Orientation(found)) = point.spin else {
                 panic!("{point:?}");
             };
             let requested = begin * UnitQuaternion::from_scaled_axis(by * (index as f64 / 10.0));
-            // The exponential is another way to the same; both lose some roundings.
+            // The exponential is another way to the same; both have some rounding.
             assert!((found.inverse() * requested).vector().norm() < 1e-14);
             assert_eq!(point.axis, Some(spindle(&found)));
         }
     }
 
     #[test]
-    fn a_tool_that_turns_where_it_stands_begins_anew_there() {
+    fn a_tool_that_turns_in_place_starts_a_new_cut_there() {
         let turned = UnitQuaternion::from_euler_angles(0.1, 0.2, 0.3);
         let moves = [
             oriented(UnitQuaternion::identity(), start([0.0; 3])),
@@ -525,11 +527,11 @@ mod tests {
             (points[10].at, points[10].along),
             (points[11].at, points[11].along)
         );
-        assert_eq!(points[11].spin, Some(ToldSpin::Orientation(turned)));
+        assert_eq!(points[11].spin, Some(GivenSpin::Orientation(turned)));
     }
 
     #[test]
-    fn a_cut_moved_by_a_hair_keeps_its_points_where_it_is_given_their_number() {
+    fn a_slightly_moved_cut_keeps_its_points_if_their_number_is_given() {
         let moves = [start([0.0; 3]), cut([0.01 + 1e-7, 0.0, 0.0], Course::Line)];
         let mut sampler = Sampler::new(FINE);
         let mut points = Vec::new();
@@ -556,7 +558,7 @@ mod tests {
                 let next = match kind {
                     0 => start(end),
                     1 => cut(end, Course::Line),
-                    // Whatever the ends are, the rest is spread along the arc.
+                    // The difference is spread along the arc, whatever the ends are.
                     _ => cut(end, Course::Arc(Arc {
                         centre: Point3::new(0.03, -0.04, 0.0),
                         axis: Vector3::z_axis(),
@@ -570,7 +572,7 @@ mod tests {
                 for point in &points {
                     let by = point.along - along;
                     prop_assert!(by >= 0.0 && by <= step * (1.0 + 1e-6), "{}", by);
-                    // A line begins where the way before has ended, and its points are as far apart as they are along it.
+                    // A line starts where the move before has ended, and its points have the distances along it.
                     if let Some(before) = at.filter(|_| kind == 1) {
                         prop_assert!(((point.at - before).norm() - by).abs() < 1e-12);
                     }
@@ -586,7 +588,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tool_that_turns_about_goes_half_of_the_way_in_the_middle_and_an_opposite_one_waits() {
+    fn a_turning_tool_is_half_way_in_the_middle_and_an_opposite_axis_waits() {
         let with = |axis: Vector3<f64>, at: Move| Move {
             axis: Some(Unit::new_normalize(axis)),
             ..at
@@ -605,7 +607,7 @@ mod tests {
         };
         let half = (a.normalize() + b.normalize()).normalize();
         assert!((middle(b) - half).norm() < 1e-12);
-        // No plane of turning is told: it stays, and ends as it is told.
+        // No rotation axis is defined: the direction stays, and ends as given.
         assert!((middle(-a) - a.normalize()).norm() < 1e-12);
     }
 }

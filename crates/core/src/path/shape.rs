@@ -47,9 +47,9 @@ impl Shape {
         }
     }
 
-    /// Points no farther apart than `step` (m) along the shape, evenly spaced on each piece, corners included; path axes are
-    /// those of the part, each piece has a line of its own, and no feed is told. A circle is not closed by a second copy of
-    /// its first point.
+    /// Points no farther apart than `step` (m) along the shape, evenly spaced on each piece, corners included; path
+    /// axes are those of the part, each piece has its own line, and no feed is given. A circle is not closed by a
+    /// second copy of its first point.
     pub fn sampled(&self, step: f64) -> SampledPath {
         let points = match self {
             Shape::Circle { centre, radius } => round(centre, *radius, step),
@@ -104,12 +104,12 @@ fn point(at: Point2<f64>, direction: Vector2<f64>, along: f64, piece: usize) -> 
         spin: None,
         direction: Unit::new_normalize(Vector3::new(direction.x, direction.y, 0.0)),
         along,
-        pace: Pace::EvaluateError,
+        pace: Pace::Unknown,
         line: piece as u32 + 1,
     }
 }
 
-/// How many pieces no longer than `step` make up `length`; at least one.
+/// Number of pieces no longer than `step` in `length`; at least one.
 fn pieces(length: f64, step: f64) -> usize {
     ((length / step - 1e-9).ceil() as usize).max(1)
 }
@@ -140,8 +140,8 @@ mod tests {
             radius: 0.1,
         };
         let square = Shape::rectangle(Point2::new(0.1, 0.2), Vector2::new(0.3, 0.1));
-        // A chord of 1 mm leaves the tangent of a circle of 100 mm by half its angle, 5e-3, and is 4e-9 m shorter than its
-        // arc; lines keep to rounding.
+        // A chord of 1 mm leaves the tangent of a circle of 100 mm by half its angle, 5e-3, and is 4e-9 m shorter than
+        // its arc; lines keep to rounding.
         for (shape, bend) in [(circle, 5.1e-3), (square, 1e-12)] {
             let points = shape.sampled(1e-3).points;
             for pair in points.windows(2).filter(|pair| pair[0].line == pair[1].line) {
@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn a_piece_of_no_length_has_no_points() {
+    fn a_piece_of_zero_length_has_no_points() {
         let [a, b] = [Point2::new(0.0, 0.0), Point2::new(0.1, 0.0)];
         let twice = Shape::Polyline(vec![a, a, b, b]);
         assert_eq!(twice.sampled(0.05).points.len(), 3);

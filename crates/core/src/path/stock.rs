@@ -1,6 +1,6 @@
-//! The stock as a height map: what is left of a box after the tool has passed.
+//! The stock as a height map: the material that is left of a box after the tool has passed.
 //!
-//! Every cell of a grid across the path's z keeps how high the material stands at its centre. A step of the tool lowers
+//! Every cell of a grid across the path's z stores the height of the material at its centre. A step of the tool lowers
 //! each cell to the lowest point of the body that passes over it:
 //!
 //! ```text
@@ -10,18 +10,19 @@
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | `H` | height of the material in a cell, counted from the bottom of the box | m |
+//! | `H` | height of the material in a cell, relative to the bottom of the box | m |
 //! | `V` | removed volume | m^3 |
 //! | `dx`, `dy` | sides of a cell: the pitch, or a little less so that whole cells fill the box | m |
 //!
-//! The bottom of a step is exact (`sweep`). What comes of the grid: an edge is where it is to half a pitch, and a volume
-//! is wrong by at most the side walls cut times half a pitch, mostly far less. Heights are kept in single precision, to
-//! 6e-8 of themselves: 0.06 um in a metre.
+//! The bottom of a step is exact (`sweep`). Errors of the grid: half a pitch for an edge; for a volume at most the area
+//! of the side walls times half a pitch, mostly far less. Heights are stored in single precision, to 6e-8 relative:
+//! 0.06 um in a metre.
 //!
-//! Only cells in reach of a step are visited, row after row: 1300 under a cutter of 10 mm in cells of 0.25 mm. Flat ones
-//! are the fastest; a ball and a bull nose take some three times as long, mostly to look ahead ([`bite`](super::bite)).
+//! Only cells in reach of a step are visited, row after row: 1300 under a cutter of 10 mm in cells of 0.25 mm. Flat
+//! cutters are the fastest; a ball and a bull nose take some three times as long, mostly to look ahead
+//! ([`engagement`](super::engagement)).
 //!
-//! Not modelled: undercuts (one height a cell), tilted tools, the arc between two points (a step is its chord), shank
+//! Not modelled: undercuts (one height per cell), tilted tools, the arc between two points (a step is its chord), shank
 //! and holder, wear and deflection of the cutter.
 //!
 //! Source: height maps of stock go back to Van Hook, Real-time shaded NC milling display, Computer Graphics 20(4),
@@ -46,41 +47,41 @@ pub struct Stock {
     heights: Vec<f32>,
 }
 
-/// What a step has taken away.
+/// Material removed by a step.
 pub(super) struct Removal {
     /// m^3
     pub(super) volume: f64,
-    /// Most that a cell was lowered, m.
+    /// Largest height removed in a cell, m.
     pub(super) depth: f64,
 }
 
-/// Why no stock can be made, or no bite found.
+/// Why no stock can be created, or no engagement found.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum StockError {
     /// A number that is not finite.
     #[error("{0} is not a finite number")]
     NotFinite(&'static str),
     /// A length beyond any workpiece.
-    #[error("{what} lies at {value:e} m: at most {most:.0e} m from zero can be computed with")]
+    #[error("{what} is at {value:e} m: coordinates must be within {most:.0e} m of zero")]
     TooFar {
-        /// What lies there.
+        /// The item.
         what: &'static str,
         /// m
         value: f64,
         /// m
         most: f64,
     },
-    /// Corners of the box in the wrong order, or no room between them.
+    /// Corners of the box in the wrong order, or no distance between them.
     #[error("the stock reaches from {low} to {high} m along {axis}: the second must be greater")]
     Box {
-        /// Along which axis of the path.
+        /// Axis of the path.
         axis: char,
         /// First corner, m.
         low: f64,
         /// Second corner, m.
         high: f64,
     },
-    /// A pitch finer than any map.
+    /// A pitch that is too fine.
     #[error("the pitch of the stock is {pitch} m: it must be at least {least:e} m")]
     Pitch {
         /// m
@@ -88,35 +89,35 @@ pub enum StockError {
         /// m
         least: f64,
     },
-    /// More cells than are kept.
-    #[error("the stock has {cells:.3e} cells: at most {most:.0e} are kept; take a coarser pitch")]
+    /// Too many cells.
+    #[error("the stock has {cells:.3e} cells: the maximum is {most:.0e}; use a coarser pitch")]
     TooManyCells {
-        /// As asked for.
+        /// Requested number.
         cells: f64,
-        /// What is kept.
+        /// Maximum.
         most: f64,
     },
-    /// The tool leans: a height map cannot tell what it cuts.
+    /// The tool is tilted: not supported by a height map.
     #[error(
-        "the tool leans {angle_deg:.2} deg from the z axis of the path: the stock is cut by upright tools alone"
+        "the tool is tilted by {angle_deg:.2} deg from the z axis of the path: a stock supports only upright tools"
     )]
     Tilted {
-        /// How far.
+        /// Angle.
         angle_deg: f64,
     },
 }
 
-/// Most cells of a stock: 400 MB of heights.
+/// Maximum number of cells of a stock: 400 MB of heights.
 const MOST_CELLS: f64 = 1e8;
 
-/// Farthest that anything may be from zero, m: a thousand kilometres, where a double is still right to 0.1 nm.
+/// Largest coordinate, m: a thousand kilometres, where a double is still accurate to 0.1 nm.
 const FARTHEST: f64 = 1e6;
 
 /// Finest pitch and thinnest box, m: a tenth of a micrometre, far below what is milled.
 const LEAST_PITCH: f64 = 1e-7;
 
-/// Steps that go less far than this part of a pitch, seen from above, go straight down or up.
-const STANDING: f64 = 1e-3;
+/// Steps with a horizontal length below this fraction of a pitch go straight down or up.
+const VERTICAL: f64 = 1e-3;
 
 impl Stock {
     /// The box between two corners (m, frame of the path), in cells of at most `pitch` (m).
@@ -141,7 +142,7 @@ impl Stock {
                 return Err(StockError::Box { axis, low, high });
             }
         }
-        // A hair of slack, so that 10 mm in cells of 0.1 mm are 100 and not 101.
+        // A small tolerance, so that 10 mm in cells of 0.1 mm are 100 and not 101.
         let along = |k: usize| (size[k] / pitch - 1e-9).ceil().max(1.0);
         let cells = along(0) * along(1);
         if cells > MOST_CELLS {
@@ -158,13 +159,13 @@ impl Stock {
         })
     }
 
-    /// Volume of what is left, m^3.
+    /// Remaining volume, m^3.
     pub fn volume(&self) -> f64 {
         let heights: f64 = self.heights.iter().map(|&height| f64::from(height)).sum();
         heights * self.sides[0] * self.sides[1]
     }
 
-    /// Path z (m) up to which material stands in the cell over `at` (m, path x and y); `None` beside the box.
+    /// Path z (m) of the top of the material in the cell over `at` (m, path x and y); `None` outside the box.
     pub fn top_at(&self, at: Point2<f64>) -> Option<f64> {
         self.cell_at(at).map(|(_, height)| self.low.z + f64::from(height))
     }
@@ -174,7 +175,7 @@ impl Stock {
         [self.low, self.high]
     }
 
-    /// The longer side of a cell, m: not above the pitch that was asked for.
+    /// The longer side of a cell, m: not above the requested pitch.
     pub fn pitch(&self) -> f64 {
         self.sides[0].max(self.sides[1])
     }
@@ -184,14 +185,14 @@ impl Stock {
         self.low.z
     }
 
-    /// The centre of the cell over `at`, and the height in it, m; `None` beside the box.
+    /// The centre of the cell over `at`, and the height in it, m; `None` outside the box.
     pub(super) fn cell_at(&self, at: Point2<f64>) -> Option<(Point2<f64>, f32)> {
         let x = (at.x - self.low.x) / self.sides[0];
         let y = (at.y - self.low.y) / self.sides[1];
         if !(x >= 0.0 && y >= 0.0) {
             return None;
         }
-        // Not more than 1e8 cells: 32 bits hold their numbers, and turn into a double faster than 64.
+        // At most 1e8 cells: 32 bits are enough for their numbers, and convert to a double faster than 64.
         let (column, row) = (x as u32, y as u32);
         let [columns, rows] = self.cells;
         if column as usize >= columns || row as usize >= rows {
@@ -231,7 +232,7 @@ impl Stock {
 
     /// Lowers every cell that the cutter passes over on a straight step.
     pub(super) fn remove(&mut self, from: Point3<f64>, to: Point3<f64>, cutter: &EndMillBody) -> Removal {
-        let sweep = Sweep::of(from, to, cutter, STANDING * self.pitch());
+        let sweep = Sweep::of(from, to, cutter, VERTICAL * self.pitch());
         let (mut volume, mut depth) = (0.0, 0.0_f32);
         let mut bottoms = Vec::new();
         let [lower, upper] = sweep.reach_along_y();
@@ -264,7 +265,7 @@ impl Stock {
     }
 }
 
-/// Checks that a place can be computed with.
+/// Checks that a coordinate is within the limit.
 pub(super) fn checked_place(what: &'static str, at: &Point3<f64>) -> Result<(), StockError> {
     for &value in at.iter() {
         if !value.is_finite() {

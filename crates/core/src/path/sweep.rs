@@ -1,4 +1,4 @@
-//! The lowest points of a cutter on a straight step: over each place, what is the lowest that passes?
+//! The lowest points of a cutter on a straight step, over each position.
 //!
 //! ```text
 //! bottom(a, b) = min over t in [0, L] of  z0 + m t + z(rho(t)),    rho(t) = sqrt((a - t)^2 + b^2) <= R
@@ -8,11 +8,11 @@
 //! |---|---|---|
 //! | `z0`, `m` | path z of the tip at the lower end, rise per distance along the step seen from above | m, - |
 //! | `L`, `t` | length of the step seen from above, distance along it from the lower end | m |
-//! | `a`, `b` | the place from the lower end, along the step and across it | m |
+//! | `a`, `b` | position relative to the lower end, along the step and across it | m |
 //! | `z(rho)`, `R`, `r` | bottom of the cutter ([`EndMillBody`]), its radius, its corner radius | m |
 //!
 //! A level step is lowest where it is nearest. A rising one is lowest where the bottom of the cutter is as steep along
-//! the step as the step, or at the end before that place:
+//! the step as the step, or at the end before that position:
 //!
 //! ```text
 //! flat    a - t = sqrt(R^2 - b^2)
@@ -20,7 +20,7 @@
 //! bull    (rho^2 - b^2) out^2 = m^2 rho^2 (r^2 - out^2),    out = rho - (R - r),    a - t = sqrt(rho^2 - b^2)
 //! ```
 //!
-//! The last is solved by Newton's method; its left side over its right side grows with `rho`, so that there is one root.
+//! The last is solved by Newton's method; its left side over its right side increases with `rho`, so there is one root.
 //!
 //! Source: plane geometry \[derived\].
 
@@ -28,7 +28,7 @@ use nalgebra::{Point3, Vector2};
 
 use crate::load::EndMillBody;
 
-/// A cutter on a straight step, seen from its lower end: places do not tell which end comes first.
+/// A cutter on a straight step, seen from its lower end: the result does not depend on the direction of travel.
 pub(super) struct Sweep {
     /// Lower end.
     foot: Point3<f64>,
@@ -45,25 +45,25 @@ pub(super) struct Sweep {
     corner_radius: f64,
 }
 
-/// Places side by side along x.
+/// Positions side by side along x.
 pub(super) struct Row<'a> {
-    /// The first place, m; its z is what heights are counted from.
+    /// The first position, m; heights are relative to its z.
     pub(super) first: Point3<f64>,
-    /// From place to place, m.
+    /// Distance between positions, m.
     pub(super) side: f64,
     /// For each the lowest point of the cutter over it, m above z and not below it; infinite where it does not pass.
     pub(super) bottoms: &'a mut [f32],
 }
 
-/// Rounds after which the lowest point of a bull nose is taken as it is: it needs 3 to 6, and 40 halves are 1e-12.
+/// Maximum number of iterations for a bull nose: it needs 3 to 6, and 40 bisections are 1e-12.
 const MOST_ROUNDS: usize = 40;
 
-/// Part of the corner radius by which the last round may have moved it: the height is level there, so that its error
-/// goes with the square of that.
+/// Convergence limit as a fraction of the corner radius: the height is level there, so that its error is proportional
+/// to the square of that.
 const SETTLED: f64 = 1e-9;
 
 impl Sweep {
-    /// Steps shorter than `standing` (m, seen from above) are taken as straight up or down.
+    /// Steps shorter than `vertical` (m, seen from above) are treated as straight up or down.
     pub(super) fn of(from: Point3<f64>, to: Point3<f64>, cutter: &EndMillBody, arm_state: f64) -> Sweep {
         let (mut foot, mut head) = if from.z < to.z { (from, to) } else { (to, from) };
         let chord = (head - foot).xy();
@@ -85,13 +85,13 @@ impl Sweep {
         }
     }
 
-    /// Between which y the cutter passes.
+    /// Range of y that the cutter passes over.
     pub(super) fn reach_along_y(&self) -> [f64; 2] {
         let (one, other) = (self.foot.y, self.head.y);
         [one.min(other) - self.radius, one.max(other) + self.radius]
     }
 
-    /// Between which x the cutter passes over the row at `y`; first above second where it does not.
+    /// Range of x that the cutter passes over in the row at `y`; first above second where it does not.
     pub(super) fn reach_along_x(&self, y: f64) -> [f64; 2] {
         let mut reach = [f64::INFINITY, f64::NEG_INFINITY];
         let mut take = |x: f64| reach = [reach[0].min(x), reach[1].max(x)];
@@ -111,9 +111,9 @@ impl Sweep {
         reach
     }
 
-    /// Fills in the lowest points over the places of a row.
+    /// Computes the lowest points over the positions of a row.
     pub(super) fn pass(&self, row: Row) {
-        // The kind of cutter is told before the row and not at each place: so the compiler takes places in pairs.
+        // The kind of cutter is tested before the row and not at each position: so the compiler can vectorise in pairs.
         let (flat, corner) = (self.flat_radius, self.corner_radius);
         let [radius_squared, corner_squared] = [self.radius, corner].map(|length| length * length);
         let half = |b_squared: f64| (radius_squared - b_squared).sqrt();
@@ -147,8 +147,8 @@ impl Sweep {
         }
     }
 
-    /// `lowest` tells from `a` and `b^2` where a step without ends is lowest, `height` from `rho^2` how high the bottom
-    /// of the cutter is.
+    /// `lowest` computes from `a` and `b^2` where a step without ends is lowest, `height` from `rho^2` the height of
+    /// the bottom of the cutter.
     #[inline]
     fn fill(&self, row: Row, lowest: impl Fn(f64, f64) -> f64, height: impl Fn(f64) -> f64) {
         let off = row.first.xy() - self.foot.xy();
@@ -161,7 +161,7 @@ impl Sweep {
             let off = a - least(greatest(a, 0.0), length);
             let is_passed = off * off + b * b <= radius_squared;
             let t = least(greatest(lowest(a, b * b), 0.0), length);
-            // The end is taken from itself: a floor cut twice is then the same to the last bit.
+            // The end itself is used: a floor cut twice is then the same to the last bit.
             let tip = if t == length {
                 self.head.z
             } else {
@@ -201,7 +201,7 @@ impl Sweep {
         if low >= high || steeper(high).0 <= 0.0 {
             return 0.0;
         }
-        // Newton from where the root is straight ahead, in halves where that leads out of the stretch.
+        // Newton from the position of the root straight ahead, bisection where that leaves the interval.
         let mut rho = (flat + corner * self.slope / (1.0 + slope_squared).sqrt()).clamp(low, high);
         for _ in 0..MOST_ROUNDS {
             let (excess, rate) = steeper(rho);
@@ -223,12 +223,12 @@ impl Sweep {
     }
 }
 
-/// The greater of two, the second where the first is no number: one operation, where `f64::max` takes three.
+/// The greater of two, the second where the first is not a number: one operation, where `f64::max` takes three.
 fn greatest(one: f64, other: f64) -> f64 {
     if one > other { one } else { other }
 }
 
-/// The lesser of two, the second where the first is no number.
+/// The lesser of two, the second where the first is not a number.
 fn least(one: f64, other: f64) -> f64 {
     if one < other { one } else { other }
 }

@@ -1,12 +1,12 @@
-//! Fewer points of a path: as many as straight moves between them need to stay within a tolerance of all.
+//! Thins a path: the points needed so that straight moves between them stay within a tolerance of all points.
 //!
-//! Between two points that are kept a robot goes straight and turns evenly, and is judged at the same part of the way:
-//! `|p_i - (p_a + t (p_b - p_a))|` and the angle between the orientations, `t` the part of the way at point `i`. Source: Ramer
-//! (1972), Douglas and Peucker (1973), on the way instead of the nearest point.
+//! Between two kept points a robot moves straight and turns evenly. Points are compared at the same fraction of the
+//! way: `|p_i - (p_a + t (p_b - p_a))|` and the angle between the orientations, `t` the fraction of the way at point
+//! `i`. Source: Ramer (1972), Douglas and Peucker (1973), by the fraction of the way instead of the nearest point.
 
 use crate::frame::Isometry;
 
-/// How far a straight move may leave the points between its ends.
+/// Tolerance of a straight move at the points between its ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Thinning {
     /// m
@@ -15,16 +15,16 @@ pub struct Thinning {
     pub turn: f64,
 }
 
-/// A move stands for no more points than this: what is looked at grows with its square at the worst.
+/// Maximum number of points of a move: in the worst case the effort grows with its square.
 const MOST_POINTS: usize = 2000;
 
-/// Indices of the poses that are kept, the first and the last among them, in order; `along` is the way to each pose, rising
-/// (m).
+/// Indices of the kept poses, with the first and the last, in order; `along` is the distance along the path of each
+/// pose, ascending (m).
 ///
 /// # Panics
 /// If the two differ in length.
 pub fn thinned(poses: &[Isometry], along: &[f64], within: Thinning) -> Vec<usize> {
-    assert_eq!(poses.len(), along.len(), "a way to each pose");
+    assert_eq!(poses.len(), along.len(), "one distance per pose");
     let mut kept = Vec::new();
     let Some(last) = poses.len().checked_sub(1) else {
         return kept;
@@ -37,7 +37,7 @@ pub fn thinned(poses: &[Isometry], along: &[f64], within: Thinning) -> Vec<usize
         stack.push((start, end));
         while let Some((from, to)) = stack.pop() {
             match farthest(poses, along, (from, to), within) {
-                // The nearer part is looked at first: what is kept comes in order.
+                // The first half is processed first: the result is in order.
                 Some(middle) => stack.extend([(middle, to), (from, middle)]),
                 None => kept.push(to),
             }
@@ -47,7 +47,7 @@ pub fn thinned(poses: &[Isometry], along: &[f64], within: Thinning) -> Vec<usize
     kept
 }
 
-/// The point between two that a move between them leaves farthest, if it leaves any by more than is allowed.
+/// The point with the largest error of a move between two points, if it exceeds the tolerance.
 fn farthest(
     poses: &[Isometry],
     along: &[f64],
@@ -65,7 +65,7 @@ fn farthest(
         let (a, b) = (&poses[from], &poses[to]);
         let place = a.translation.vector.lerp(&b.translation.vector, part);
         let leaves = (poses[index].translation.vector - place).norm() / within.place;
-        // Two orientations half a turn apart have no way between them that is the shorter.
+        // Between two orientations half a turn apart no direction is shorter.
         let turned = a.rotation.try_slerp(&b.rotation, part, 1e-9);
         let turn = turned.map_or(f64::INFINITY, |turned| poses[index].rotation.angle_to(&turned));
         let leaves = leaves.max(turn / within.turn);
@@ -89,7 +89,7 @@ mod tests {
         turn: 1e-3,
     };
 
-    /// Poses along a way, each at this distance from the one before.
+    /// Poses along a path, each at this distance from the one before.
     fn poses(
         count: usize,
         step: f64,
@@ -103,7 +103,7 @@ mod tests {
         (along.iter().map(pose).collect(), along)
     }
 
-    /// How far moves between the points kept leave the others, in parts of what is allowed.
+    /// Largest error of the moves between kept points, relative to the tolerance.
     fn left(poses: &[Isometry], along: &[f64], kept: &[usize]) -> f64 {
         let of = |pair: &[usize]| {
             let (from, to) = (pair[0], pair[1]);
@@ -121,14 +121,14 @@ mod tests {
     }
 
     #[test]
-    fn a_straight_way_with_an_even_turn_needs_its_ends() {
+    fn a_straight_path_with_an_even_turn_needs_only_its_ends() {
         let turned = |s: f64| (Vector3::new(s, -0.5 * s, 0.0), Vector3::new(0.0, s, 0.0));
         let (poses, along) = poses(1500, 1e-3, turned);
         assert_eq!(thinned(&poses, &along, WITHIN), [0, 1499]);
     }
 
     #[test]
-    fn a_circle_keeps_as_many_chords_as_its_sagitta_asks() {
+    fn a_circle_keeps_as_many_chords_as_its_sagitta_requires() {
         let radius = 0.1;
         let round = |s: f64| {
             let (sin, cos) = (s / radius).sin_cos();
@@ -147,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn a_turn_alone_keeps_points_and_a_corner_is_one() {
+    fn a_pure_turn_keeps_points_and_a_corner_is_kept() {
         let nods = |s: f64| {
             (
                 Vector3::new(s, 0.0, 0.0),
@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_kept_is_in_order_and_short_ways_are_kept_whole() {
+    fn kept_points_are_in_order_and_short_paths_are_kept_whole() {
         let spiral = |s: f64| (Vector3::new(s.cos(), s.sin(), 0.1 * s) * s, Vector3::zeros());
         let (poses, along) = poses(7000, 1e-3, spiral);
         let kept = thinned(&poses, &along, WITHIN);

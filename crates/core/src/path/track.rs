@@ -1,4 +1,4 @@
-//! A path in the cell: its points with the tool poses there, and a deviation seen from them.
+//! A path in the cell: its points with the tool poses, and deviations in the feed frame.
 
 use nalgebra::{Rotation3, Unit, UnitQuaternion, Vector3};
 
@@ -9,60 +9,60 @@ use crate::frame::Isometry;
 use crate::load::PathLoad;
 use crate::spatial::Wrench;
 
-/// A sampled path, and where it lies.
+/// A sampled path and its placing.
 #[derive(Clone, Debug)]
 pub struct Track {
     /// Its points.
     pub path: SampledPath,
-    /// Where they lie.
+    /// Placing in the cell.
     pub placing: Placing,
-    /// The part whose axes a load may be told in.
+    /// The part, whose axes a load may be given in.
     pub base_from_part: Isometry,
-    /// How far the tool is turned about its axis beside that, rad, point after point; `None` where it is not.
+    /// Additional turn of the tool about its axis, rad, point after point; `None` without.
     pub spins: Option<Vec<f64>>,
 }
 
-/// A point of a track: where the tool stands, and what its deviation is split on.
+/// A point of a track: tool pose, and normal for splitting deviations.
 #[derive(Clone, Copy, Debug)]
 pub struct Stop {
     /// The tool pose.
     pub base_from_tool: Isometry,
-    /// What counts as normal there, base: from the tip towards the spindle.
+    /// The normal, base: from the tip towards the spindle.
     pub normal: Unit<Vector3<f64>>,
 }
 
-/// A point of a track with what pushes there.
+/// A point of a track with its load.
 #[derive(Clone, Debug)]
 pub struct LoadedStop {
-    /// The tool pose, and what counts as normal.
+    /// The tool pose and the normal.
     pub stop: Stop,
     /// Wrenches on the tool at the TCP, base, one a case.
     pub cases: Vec<Wrench>,
 }
 
-/// A deviation seen from the path, m.
+/// A deviation in the feed frame, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parts {
-    /// Where the tip goes: late or early, hardly seen on the part.
+    /// Along the feed: late or early, hardly visible on the part.
     pub along: f64,
-    /// To the left of the track: what a wall gets.
+    /// To the left of the track: relevant for a wall.
     pub cross: f64,
-    /// Along the tool, away from the part: what a floor gets.
+    /// Along the tool, away from the part: relevant for a floor.
     pub axial: f64,
 }
 
 impl Track {
-    /// How many points.
+    /// Number of points.
     pub fn len(&self) -> usize {
         self.path.points.len()
     }
 
-    /// Whether there is no point.
+    /// Whether there are no points.
     pub fn is_empty(&self) -> bool {
         self.path.points.is_empty()
     }
 
-    /// The track of a shape that goes round, closed: its first point stands at its end again, `length` (m) along it.
+    /// The closed track of a closed shape: its first point is repeated at its end, at `length` (m) along it.
     pub fn closed(&self, length: f64) -> Track {
         let mut closed = self.clone();
         let first = self.path.points.first();
@@ -88,7 +88,7 @@ impl Track {
         }
     }
 
-    /// A deviation (m, base) at point `index`, seen from the path.
+    /// A deviation (m, base) at point `index`, in the feed frame.
     pub fn parts(&self, index: usize, deviation: &Vector3<f64>) -> Parts {
         let seen = self.base_from_feed(index).inverse() * deviation;
         Parts {

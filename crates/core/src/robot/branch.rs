@@ -1,4 +1,4 @@
-//! Branches: the eight postures of an arm whose postures have names, and patterns of them.
+//! Branches: the eight named postures of an arm (ABB: cfx; KUKA: S and T; FANUC: NUT/FUT; Yaskawa: form), and patterns.
 //!
 //! | word | meaning |
 //! |---|---|
@@ -6,13 +6,13 @@
 //! | elbow-up, elbow-down | elbow above or below the line shoulder - wrist, in base z |
 //! | no-flip, flip | wrist bend psi3 >= 0 or < 0, about the arm's own +y, zero with the flange along the forearm |
 //!
-//! The flip of a spherical wrist turns joint axes 4 and 6 on themselves and leaves the compliance unchanged. Of an arm
-//! with three parallel axes it is another posture with a compliance of its own.
+//! The flip of a spherical wrist turns joint axes 4 and 6 on themselves and does not change the compliance. For an arm
+//! with three parallel axes it is another posture with another compliance.
 
 use std::fmt;
 use std::str::FromStr;
 
-/// Where the wrist centre lies seen from the turned base.
+/// Side of the wrist centre in the frame turned by the first joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Shoulder {
     /// Before the first axis.
@@ -22,13 +22,13 @@ pub enum Shoulder {
 }
 
 impl Shoulder {
-    /// Front or back, from the place `x` of the wrist centre before the first axis.
+    /// Front or back, from the coordinate `x` of the wrist centre in the turned frame.
     pub(super) fn at(x: f64) -> Shoulder {
         if x >= 0.0 { Shoulder::Front } else { Shoulder::Back }
     }
 }
 
-/// On which side of the line shoulder - wrist the elbow lies.
+/// Side of the line shoulder - wrist on which the elbow is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Elbow {
     /// Above.
@@ -57,7 +57,7 @@ impl Wrist {
     }
 }
 
-/// One of the eight postures of an arm whose branches have names.
+/// One of the eight postures of an arm with named branches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Branch {
     /// Front or back.
@@ -100,26 +100,26 @@ impl fmt::Display for Branch {
     }
 }
 
-/// A branch of which some words may be left open.
+/// A branch of which some words may be open.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct BranchPattern {
-    /// Front or back, if said.
+    /// Front or back, if given.
     pub shoulder: Option<Shoulder>,
-    /// Elbow up or down, if said.
+    /// Elbow up or down, if given.
     pub elbow: Option<Elbow>,
-    /// Flip or no flip, if said.
+    /// Flip or no flip, if given.
     pub wrist: Option<Wrist>,
 }
 
 impl BranchPattern {
-    /// Front, elbow up, either wrist: how most arms stand before their work.
+    /// Front, elbow up, either wrist: the usual posture for work.
     pub const FRONT_ELBOW_UP: BranchPattern = BranchPattern {
         shoulder: Some(Shoulder::Front),
         elbow: Some(Elbow::Up),
         wrist: None,
     };
 
-    /// Whether `branch` is one of those meant.
+    /// Whether `branch` matches the pattern.
     pub fn matches(&self, branch: Branch) -> bool {
         self.shoulder.is_none_or(|s| s == branch.shoulder)
             && self.elbow.is_none_or(|e| e == branch.elbow)
@@ -167,10 +167,10 @@ impl fmt::Display for BranchPattern {
     }
 }
 
-/// A word that names no branch.
+/// A word that is not a branch.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "`{word}` names no branch: write words out of `front|back elbow-up|elbow-down flip|no-flip`, each pair at most once"
+    "`{word}` is not a branch: use words out of `front|back elbow-up|elbow-down flip|no-flip`, each pair at most once"
 )]
 pub struct UnknownBranch {
     /// The word, or the word said twice.
@@ -247,7 +247,7 @@ mod tests {
         }
     }
 
-    /// All patterns: each word said, its opposite said, or left open.
+    /// All patterns: each word given, its opposite given, or open.
     fn patterns() -> Vec<BranchPattern> {
         let mut all = Vec::new();
         for shoulder in [None, Some(Shoulder::Front), Some(Shoulder::Back)] {
@@ -282,7 +282,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pattern_of_so_many_words_means_so_many_branches() {
+    fn a_pattern_with_open_words_matches_as_many_branches() {
         for pattern in patterns() {
             let said = pattern
                 .to_string()
@@ -298,7 +298,7 @@ mod tests {
     }
 
     #[test]
-    fn own_words_stay_and_open_ones_are_taken() {
+    fn given_words_stay_and_open_ones_are_filled() {
         for own in patterns() {
             assert_eq!(own.or(BranchPattern::default()), own);
             assert_eq!(BranchPattern::default().or(own), own);
@@ -307,7 +307,7 @@ mod tests {
                 assert_eq!(both.shoulder, own.shoulder.or(other.shoulder));
                 assert_eq!(both.elbow, own.elbow.or(other.elbow));
                 assert_eq!(both.wrist, own.wrist.or(other.wrist));
-                // Whatever both mean, own means.
+                // Whatever both match, the pattern itself matches.
                 let narrower = |branch: &Branch| !both.matches(*branch) || own.matches(*branch);
                 assert!(Branch::ALL.iter().all(narrower));
             }
@@ -330,7 +330,7 @@ mod tests {
     }
 
     #[test]
-    fn zero_counts_as_front_and_as_no_flip() {
+    fn zero_is_front_and_no_flip() {
         assert_eq!(
             (Shoulder::at(0.0), Shoulder::at(-1e-300)),
             (Shoulder::Front, Shoulder::Back)
@@ -342,11 +342,11 @@ mod tests {
     }
 
     #[test]
-    fn an_unknown_word_is_told_with_those_that_there_are() {
+    fn the_message_of_an_unknown_word_lists_the_valid_ones() {
         let error = "front up".parse::<BranchPattern>().unwrap_err();
         assert_eq!(
             error.to_string(),
-            "`up` names no branch: write words out of `front|back elbow-up|elbow-down flip|no-flip`, each pair at most once"
+            "`up` is not a branch: use words out of `front|back elbow-up|elbow-down flip|no-flip`, each pair at most once"
         );
     }
 }

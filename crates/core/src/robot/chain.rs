@@ -63,7 +63,7 @@ impl Axis {
     }
 }
 
-/// How far an elementary motion goes: m for a translation, rad for a rotation.
+/// Amount of an elementary motion: m for a translation, rad for a rotation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Amount {
     /// A length or angle of the arm's geometry.
@@ -82,14 +82,14 @@ pub enum Motion {
 }
 
 impl Motion {
-    /// How far this motion goes.
+    /// Amount of this motion.
     pub fn amount(&self) -> Amount {
         match *self {
             Motion::Along(_, amount) | Motion::About(_, amount) => amount,
         }
     }
 
-    /// Moves on from the frame with these axes (columns) and this origin by `distance` (m or rad).
+    /// Moves the frame with these axes (columns) and this origin by `distance` (m or rad).
     pub(crate) fn advance(&self, distance: f64, axes: &mut Matrix3<f64>, origin: &mut Vector3<f64>) {
         match *self {
             Motion::Along(axis, _) => *origin += axes.column(axis.index()) * distance,
@@ -115,7 +115,7 @@ impl Motion {
     }
 }
 
-/// Turns the axes (columns) `A` and `B` into each other. Which ones stands in the type, so that they stay in registers.
+/// Turns the axes (columns) `A` and `B` into each other. Type parameters, so that they stay in registers.
 #[inline]
 fn turn<const A: usize, const B: usize>(axes: &mut Matrix3<f64>, angle: f64) {
     let (sin, cos) = angle.sin_cos();
@@ -124,7 +124,7 @@ fn turn<const A: usize, const B: usize>(axes: &mut Matrix3<f64>, angle: f64) {
     axes.set_column(B, &(second * cos - first * sin));
 }
 
-/// A joint in the inner form: what stands before it, and the motion it makes.
+/// A joint in the inner form: the fixed displacement before it, and its motion.
 #[derive(Clone, Copy, Debug)]
 pub struct Link {
     /// From the frame of the joint before, after its motion, to this joint at zero.
@@ -150,7 +150,7 @@ impl Fixed {
         }
     }
 
-    /// Goes on from the frame with these axes (columns) and this origin.
+    /// Applies the displacement to the frame with these axes (columns) and this origin.
     pub(super) fn advance(&self, axes: &mut Matrix3<f64>, origin: &mut Vector3<f64>) {
         *origin += *axes * self.translation;
         if let Some(rotation) = &self.rotation {
@@ -170,10 +170,10 @@ pub struct Chain {
 /// Longest constant of a chain, m (rad): a gantry is shorter, and squares of it stay far from overflow.
 pub const LONGEST: f64 = 1e3;
 
-/// Why a list of elementary motions is no robot.
+/// Why a list of elementary motions is not a valid chain.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ChainError {
-    /// Nothing moves.
+    /// No joint.
     #[error("the chain of {0} elementary motions has no joint")]
     NoJoint(usize),
     /// Joint variables must appear once each, in the order of the joints.
@@ -189,11 +189,11 @@ pub enum ChainError {
         expected: usize,
     },
     /// A length or angle that is not finite, or a length beyond [`LONGEST`].
-    #[error("motion number {} goes by {value} (m or rad), which is not a number within {LONGEST} m", motion + 1)]
+    #[error("motion number {}: {value} (m or rad) is not a number within {LONGEST} m", motion + 1)]
     Amount {
         /// Index of the motion in the chain, from 0.
         motion: usize,
-        /// As given.
+        /// The value given.
         value: f64,
     },
 }
@@ -253,7 +253,7 @@ impl Chain {
         &self.last_joint_from_flange
     }
 
-    /// Half the length (m) of all its fixed translations: what makes turns of this chain comparable with its
+    /// Half the length (m) of all its fixed translations: scales rotations of this chain to its
     /// translations. 1 m where there are none.
     pub fn length(&self) -> f64 {
         let fixed = self
@@ -265,7 +265,7 @@ impl Chain {
         if length > 1e-6 { length } else { 1.0 }
     }
 
-    /// This chain parted before its joint `count`: the motions before, and the rest as a chain of its own; `None` where
+    /// This chain split before its joint `count`: the motions before, and the rest as a separate chain; `None` where
     /// no joint is left for it.
     pub fn split(&self, count: usize) -> Option<(Vec<Motion>, Chain)> {
         let joint = |motion: &Motion| matches!(motion.amount(), Amount::Joint(joint) if joint >= count);
@@ -294,8 +294,8 @@ impl Chain {
             })
     }
 
-    /// Screw form of the FSF: the 6 x 6 matrix that takes a twist told at the flange (its origin, its axes)
-    /// to the twist of the same motion told at the base origin in base axes.
+    /// Screw form of the FSF: the 6 x 6 matrix that takes a twist at the flange (its origin, its axes)
+    /// to the twist of the same motion at the base origin in base axes.
     pub fn screw(&self, theta: &[f64]) -> Matrix6<f64> {
         adjoint(&self.base_from_flange(theta), &Point3::origin())
     }
@@ -377,7 +377,7 @@ mod tests {
     }
 
     #[test]
-    fn a_chain_parted_before_a_joint_multiplies_back_to_the_whole() {
+    fn a_chain_split_before_a_joint_multiplies_back_to_the_whole() {
         let (chain, theta) = (elbow(), [0.4, -0.7, 0.25]);
         for count in 0..3 {
             let (before, rest) = chain.split(count).unwrap();
@@ -396,8 +396,8 @@ mod tests {
     }
 
     #[test]
-    fn the_length_is_half_of_what_stands_between_the_joints() {
-        // 0.5 m before joint 1 and 0.2 m before joint 2; what turns or slides has no length.
+    fn the_length_is_half_of_the_distances_between_the_joints() {
+        // 0.5 m before joint 1 and 0.2 m before joint 2; joint motions have no length.
         assert!((elbow().length() - 0.35).abs() < 1e-15);
         let gantry = Chain::new(vec![Motion::Along(Axis::X, Amount::Joint(0))]).unwrap();
         assert_eq!(gantry.length(), 1.0);
@@ -414,7 +414,7 @@ mod tests {
         assert!(with(LONGEST).is_ok() && with(-LONGEST).is_ok());
         let error = with(LONGEST.next_up()).unwrap_err().to_string();
         assert!(
-            error.starts_with("motion number 2 goes by 1000.") && error.ends_with("within 1000 m"),
+            error.starts_with("motion number 2: 1000.") && error.ends_with("within 1000 m"),
             "{error}"
         );
     }
@@ -429,7 +429,7 @@ mod tests {
     }
 
     #[test]
-    fn moving_a_frame_on_is_multiplying_by_the_displacement() {
+    fn advancing_a_frame_is_multiplying_by_the_displacement() {
         for axis in [Axis::X, Axis::Y, Axis::Z] {
             for motion in [
                 Motion::Along(axis, Amount::Joint(0)),

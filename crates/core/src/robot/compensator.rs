@@ -1,6 +1,6 @@
-//! Masses, and the spring that carries part of them: the gravity compensator.
+//! Masses, and the gravity compensator.
 //!
-//! A compensator is a spring between a point that stands still, at distance `a` from the axis of its joint, and a point
+//! A compensator is a spring between a fixed point, at distance `a` from the axis of its joint, and a point
 //! of the arm at radius `L`:
 //!
 //! ```text
@@ -22,23 +22,23 @@ use nalgebra::Point3;
 
 use super::spring::Attachment;
 
-/// A body that gravity pulls on.
+/// A mass under gravity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mass {
-    /// What it is fixed to.
+    /// Its attachment.
     pub attachment: Attachment,
     /// kg
     pub mass: f64,
-    /// Centre of mass in the seat's frame, m.
+    /// Centre of mass in the frame of the attachment, m.
     pub centre: Point3<f64>,
 }
 
-/// A spring that holds one joint against gravity.
+/// A spring that balances one joint against gravity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Compensator {
-    /// Index of the joint, which turns.
+    /// Index of the joint, a revolute one.
     pub joint: usize,
-    /// `a`: from the axis to the point that stands still, m.
+    /// `a`: from the axis to the fixed point, m.
     pub fixed_radius: f64,
     /// `L`: from the axis to the point of the arm, m.
     pub arm_radius: f64,
@@ -57,7 +57,7 @@ impl Compensator {
         self.stiffness * (1.0 - self.free_length / s) * al * sin
     }
 
-    /// `dM/dtheta`, N m/rad: what the joint loses in stiffness.
+    /// `dM/dtheta`, N m/rad: reduces the stiffness of the joint.
     pub fn slope(&self, theta: f64) -> f64 {
         let (al, s, (sin, cos)) = self.at(theta);
         self.stiffness
@@ -94,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn torque_is_the_falling_energy_and_slope_its_derivative() {
+    fn torque_is_the_negative_energy_gradient_and_slope_its_derivative() {
         let (c, h) = (some(), 1e-5);
         for i in 0..40 {
             let theta = -2.0 + 0.1 * f64::from(i);

@@ -1,14 +1,15 @@
-//! Where an arm stands once its springs have given way: forward kinematics over drives and springs.
+//! Forward kinematics of a deflected arm: frames and screws over drives and springs.
 //!
-//! Going from base to tool, each drive turns by `theta_i + x_i`, and each spring adds the displacement `exp(u_k x_k)`
-//! at its seat. Springs of one seat act one after the other; the order matters in the second order of `x` alone.
+//! From base to tool, each drive turns by `theta_i + x_i`, and each spring adds the displacement `exp(u_k x_k)`
+//! at its attachment. Springs of one attachment act one after the other; their order has an effect of second order in
+//! `x`.
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | `theta` | chain positions of the drives | rad (m) |
-//! | `x` | how far drives, then springs, have given way | rad or m, small |
+//! | `x` | deflections of the drives, then of the springs | rad or m, small |
 //!
-//! Screws are at the tool centre point of the yielded arm, base basis.
+//! Screws are at the tool centre point of the deflected arm, base basis.
 
 use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Vector3};
 
@@ -19,17 +20,17 @@ use super::spring::{Attachment, Spring};
 use crate::frame::{Isometry, turn_between};
 use crate::spatial::Twist;
 
-/// An arm whose drives and springs have given way.
+/// An arm with deflected drives and springs.
 #[derive(Clone, Debug)]
 pub struct DeflectedArm {
     /// Screw of each drive, then of each spring, at the TCP.
     pub screws: Vec<Twist>,
-    /// Frame of each seat in base, from base to tool, by [`Attachment::rank`]; what the seat's own springs do included.
+    /// Frame of each attachment in base, from base to tool, by [`Attachment::rank`]; deflected by its own springs.
     pub attachments: Vec<IsometryMatrix3<f64>>,
 }
 
 impl DeflectedArm {
-    /// Room for `robot` with this many springs.
+    /// Working memory for `robot` with this many springs.
     pub fn for_robot(robot: &Robot, springs: usize) -> DeflectedArm {
         let joints = robot.joints().len();
         DeflectedArm {
@@ -47,7 +48,7 @@ impl DeflectedArm {
     }
 }
 
-/// The frame of `seat` in base before any spring gives way.
+/// The frame of an attachment in base without deflection.
 pub fn attachment_frame(
     attachment: Attachment,
     frames: &Frames,
@@ -61,8 +62,12 @@ pub fn attachment_frame(
     }
 }
 
-/// The screw at `tcp` (m, base) of a spring with this local direction on a seat in this frame.
-pub fn spring_screw(direction: &Twist, base_from_attachment: &IsometryMatrix3<f64>, tcp: Vector3<f64>) -> Twist {
+/// The screw at `tcp` (m, base) of a spring with this local direction on an attachment in this frame.
+pub fn spring_screw(
+    direction: &Twist,
+    base_from_attachment: &IsometryMatrix3<f64>,
+    tcp: Vector3<f64>,
+) -> Twist {
     let at_attachment = Twist {
         linear: base_from_attachment.rotation * direction.linear,
         angular: base_from_attachment.rotation * direction.angular,
@@ -70,7 +75,7 @@ pub fn spring_screw(direction: &Twist, base_from_attachment: &IsometryMatrix3<f6
     at_attachment.moved(tcp - base_from_attachment.translation.vector)
 }
 
-/// The arm at chain positions `theta` with drives and springs given way by `x`, into `out`.
+/// Writes the arm at chain positions `theta`, with drives and springs deflected by `x`, into `out`.
 ///
 /// # Panics
 /// If there are fewer `theta` than joints, or fewer `x` than joints and springs.
@@ -114,18 +119,19 @@ pub fn deflect_into(
             origin += axes * shift;
             axes *= turn;
         }
-        out.attachments[rank] = IsometryMatrix3::from_parts(origin.into(), Rotation3::from_matrix_unchecked(axes));
+        out.attachments[rank] =
+            IsometryMatrix3::from_parts(origin.into(), Rotation3::from_matrix_unchecked(axes));
     }
-    // Until here told at the base origin; the tool stands at `origin` now.
+    // Until here relative to the base origin; the tool is at `origin` now.
     for screw in &mut out.screws {
         *screw = screw.moved(origin);
     }
 }
 
-/// Below this angle (rad) the series of [`exponential`] leave out less than rounding.
+/// Below this angle (rad) the truncation error of the series of [`exponential`] is below rounding.
 const SMALL_ANGLE: f64 = 1e-2;
 
-/// The finite displacement of a constant twist: rotation, and the way of the reference point.
+/// The finite displacement of a constant twist: rotation, and displacement of the reference point.
 fn exponential(twist: &Twist) -> (Matrix3<f64>, Vector3<f64>) {
     let angle = twist.angular.norm();
     let square = angle * angle;
@@ -198,7 +204,7 @@ mod tests {
     const THETA: [f64; 3] = [0.4, -0.7, 0.25];
 
     #[test]
-    fn an_arm_that_has_not_given_way_stands_where_forward_says() {
+    fn an_arm_without_deflection_matches_forward_kinematics() {
         let (robot, springs, tool) = arm();
         let mut out = DeflectedArm::for_robot(&robot, springs.len());
         deflect_into((&robot, &springs, &tool), &THETA, &[0.0; 8], &mut out);
@@ -220,21 +226,24 @@ mod tests {
     }
 
     #[test]
-    fn screws_of_a_yielded_arm_match_finite_differences() {
+    fn screws_of_a_deflected_arm_match_finite_differences() {
         let (robot, springs, tool) = arm();
         let x: Vec<f64> = (0..8).map(|i| 0.03 * f64::from(i) - 0.1).collect();
-        let stand = |x: &[f64]| {
+        let deflected = |x: &[f64]| {
             let mut out = DeflectedArm::for_robot(&robot, springs.len());
             deflect_into((&robot, &springs, &tool), &THETA, x, &mut out);
             out
         };
-        let here = stand(&x);
+        let here = deflected(&x);
         let h = 1e-5;
         for k in 0..8 {
             let (mut less, mut more) = (x.clone(), x.clone());
             less[k] -= h;
             more[k] += h;
-            let moved = twist_between(&stand(&less).base_from_tool(), &stand(&more).base_from_tool());
+            let moved = twist_between(
+                &deflected(&less).base_from_tool(),
+                &deflected(&more).base_from_tool(),
+            );
             let difference = (moved * (0.5 / h)).to_vector() - here.screws[k].to_vector();
             // h^2, and rounding over h.
             assert!(difference.norm() < 1e-9, "{k}: {difference}");
@@ -242,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn the_series_of_small_turns_joins_the_closed_form() {
+    fn the_series_of_small_angles_joins_the_closed_form() {
         let twist = |angle: f64| Twist {
             linear: Vector3::new(0.3, -0.2, 0.9),
             angular: Vector3::new(0.6, 0.0, -0.8) * angle,
@@ -251,14 +260,14 @@ mod tests {
             exponential(&twist(0.999_999_9e-2)),
             exponential(&twist(1.000_000_1e-2)),
         );
-        // Apart by 2e-9 rad.
+        // They differ by 2e-9 rad.
         assert!((below.0 - above.0).norm() < 1e-8 && (below.1 - above.1).norm() < 1e-8);
         let orthogonal = below.0 * below.0.transpose() - Matrix3::identity();
         assert!(orthogonal.norm() < 1e-15);
     }
 
     #[test]
-    fn going_and_coming_back_along_a_twist_ends_where_it_began() {
+    fn a_twist_and_its_negative_return_to_the_start() {
         for angle in [0.0, 1e-9, 1e-4, 0.009, 0.011, 0.5, 2.5] {
             let twist = Twist {
                 linear: Vector3::new(0.3, -0.2, 0.9),
@@ -272,7 +281,7 @@ mod tests {
     }
 
     #[test]
-    fn a_twist_goes_twice_as_far_in_two_steps() {
+    fn a_twist_in_two_halves_is_the_whole_twist() {
         let twist = Twist {
             linear: Vector3::new(0.3, -0.2, 0.9),
             angular: Vector3::new(0.6, 0.1, -0.8),
@@ -283,12 +292,12 @@ mod tests {
     }
 
     #[test]
-    fn the_twist_between_two_poses_turns_as_far_as_half_a_turn() {
+    fn the_twist_between_two_poses_is_valid_up_to_half_a_turn() {
         let (robot, springs, tool) = arm();
         let mut before = DeflectedArm::for_robot(&robot, springs.len());
         deflect_into((&robot, &springs, &tool), &THETA, &[0.0; 8], &mut before);
         for angle in [0.1, 1.4, 1.7, 3.0] {
-            // Beyond a quarter turn the sine of the angle falls again.
+            // Beyond a quarter turn the sine of the angle decreases again.
             let mut x = [0.0; 8];
             x[0] = angle;
             let mut after = DeflectedArm::for_robot(&robot, springs.len());
@@ -303,7 +312,7 @@ mod tests {
     }
 
     #[test]
-    fn springs_of_one_seat_in_another_order_differ_in_the_second_order_alone() {
+    fn the_order_of_springs_of_one_attachment_has_an_effect_of_second_order() {
         let (robot, springs, tool) = arm();
         let mut swapped = springs.clone();
         swapped.swap(1, 3);

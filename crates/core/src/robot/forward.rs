@@ -5,9 +5,9 @@ use nalgebra::{IsometryMatrix3, Matrix3, Point3, Rotation3, Vector3};
 use super::chain::{Chain, Motion};
 use super::model::Robot;
 
-/// Where every joint and the flange stand. Reused between calls of [`forward_into`] without allocation.
+/// Frames of every joint and the flange. Reused between calls of [`forward_into`] without allocation.
 ///
-/// Rotations are matrices here: their columns are what screws are made of.
+/// Rotations are matrices here: screws use their columns.
 #[derive(Clone, Debug)]
 pub struct Frames {
     /// Frame of each joint after its motion, in base.
@@ -17,12 +17,12 @@ pub struct Frames {
 }
 
 impl Frames {
-    /// Room for the frames of `robot`.
+    /// Working memory for the frames of `robot`.
     pub fn for_robot(robot: &Robot) -> Frames {
         Frames::for_joints(robot.joints().len())
     }
 
-    /// Room for the frames of a chain of so many joints.
+    /// Working memory for the frames of a chain with this many joints.
     pub(super) fn for_joints(count: usize) -> Frames {
         Frames {
             base_from_joint: vec![IsometryMatrix3::identity(); count],
@@ -36,7 +36,7 @@ impl Frames {
     }
 }
 
-/// The frames of `robot` at joint positions `q` (rad, m; the controller's counting).
+/// The frames of `robot` at joint positions `q` (rad, m; controller coordinates).
 ///
 /// # Panics
 /// If `q` has fewer entries than the robot has joints.
@@ -46,13 +46,13 @@ pub fn forward(robot: &Robot, q: &[f64]) -> Frames {
     frames
 }
 
-/// [`forward`] into frames that exist already.
+/// [`forward`] into existing frames.
 pub fn forward_into(robot: &Robot, q: &[f64], frames: &mut Frames) {
     chain_forward_into(robot.chain(), |index| robot.theta(index, q), frames);
 }
 
-/// The frames of `chain`, with joint `index` at the chain position `theta(index)` (rad, m), into frames that exist
-/// already.
+/// The frames of `chain`, with joint `index` at the chain position `theta(index)` (rad, m), into existing
+/// frames.
 pub(super) fn chain_forward_into(chain: &Chain, theta: impl Fn(usize) -> f64, frames: &mut Frames) {
     let (mut axes, mut origin) = (Matrix3::identity(), Vector3::zeros());
     for (index, (link, frame)) in chain.links().iter().zip(&mut frames.base_from_joint).enumerate() {
@@ -137,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn a_joint_leaves_its_own_axis_and_all_before_it_where_they_are() {
+    fn a_joint_does_not_move_its_own_axis_nor_those_before_it() {
         let robot = arms::kr120();
         let q = arms::Stream(5).joints(&robot);
         let here = forward(&robot, &q);
@@ -154,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn frames_used_again_hold_nothing_of_before() {
+    fn reused_frames_contain_nothing_of_earlier_calls() {
         let robot = arms::irb2400();
         let mut stream = arms::Stream(9);
         let (a, b) = (stream.joints(&robot), stream.joints(&robot));

@@ -1,8 +1,8 @@
 //! Screws and Jacobian at the tool centre point.
 //!
-//! Joint `i` with unit axis `z` through `o`, TCP `p`, all in base: `s_i = [z x (p - o); z]` for a turning
-//! joint, `s_i = [z; 0]` for a sliding one. The screws belong to the chain positions `theta`; the Jacobian
-//! to the joint positions `q` that a user types: `J = S dtheta/dq`.
+//! Joint `i` with unit axis `z` through `o`, TCP `p`, all in base: `s_i = [z x (p - o); z]` for a revolute
+//! joint, `s_i = [z; 0]` for a prismatic one. The screws refer to the chain positions `theta`; the Jacobian
+//! to the joint positions `q` of the controller: `J = S dtheta/dq`.
 //!
 //! Reference point: the TCP. Basis: base. m/rad and rad/rad. Source: `docs/theory/chain.md`.
 
@@ -20,8 +20,8 @@ pub fn screws_at(robot: &Robot, frames: &Frames, tcp: &Point3<f64>) -> Vec<Twist
     screws
 }
 
-/// How far the wrist is bent at joint positions `q`: the angle between axes 4 and 6, 0 to 90 deg (rad). `None` of an arm
-/// without named branches, whose wrist is not told by two axes.
+/// Bend of the wrist at joint positions `q`: the angle between axes 4 and 6, 0 to 90 deg (rad). `None` of an arm
+/// without named branches, whose wrist is not defined by two axes.
 pub fn wrist_bend(robot: &Robot, q: &[f64]) -> Option<f64> {
     if !robot.inverse().has_branches() {
         return None;
@@ -37,7 +37,7 @@ pub fn wrist_bend(robot: &Robot, q: &[f64]) -> Option<f64> {
     Some(sine.atan2(cosine.abs()))
 }
 
-/// [`screws_at`] into screws that exist already, one a joint.
+/// [`screws_at`] into existing screws, one per joint.
 pub fn screws_into(robot: &Robot, frames: &Frames, tcp: &Point3<f64>, screws: &mut [Twist]) {
     chain_screws_into(robot.chain(), frames, tcp, screws);
 }
@@ -83,12 +83,12 @@ pub fn manipulability(jacobian: &Matrix6xX<f64>) -> f64 {
     tall.qr().r().diagonal().product().abs()
 }
 
-/// Largest over smallest singular value of the Jacobian with rotations weighed by `length` (m); `None` where the
-/// arm is singular or has fewer than six joints. Above 1e7 counts as singular.
+/// Largest over smallest singular value of the Jacobian with rotations weighted by `length` (m); `None` where the
+/// arm is singular or has fewer than six joints. Above 1e7 is singular.
 pub fn condition_number(jacobian: &Matrix6xX<f64>, length: f64) -> Option<f64> {
     let mut weighed = jacobian.clone();
     weighed.rows_mut(3, 3).scale_mut(length);
-    // Squares of the singular values: those of nalgebra's own decomposition lose digits now and then.
+    // Squares of the singular values: nalgebra's own decomposition sometimes loses digits.
     let squares = (&weighed * weighed.transpose()).symmetric_eigenvalues();
     (squares.min() > squares.max() * 36.0 * f64::EPSILON).then(|| (squares.max() / squares.min()).sqrt())
 }
@@ -97,8 +97,8 @@ pub fn condition_number(jacobian: &Matrix6xX<f64>, length: f64) -> Option<f64> {
 mod tests {
     use super::*;
     use crate::arms;
-    use crate::robot::forward::forward;
     use crate::robot::deflected_arm::twist_between;
+    use crate::robot::forward::forward;
 
     #[test]
     fn two_equal_axes_are_singular_and_six_orthogonal_screws_are_not() {
@@ -114,7 +114,7 @@ mod tests {
         assert_eq!(condition_number(&doubled, 1.0), None);
     }
 
-    /// The Jacobian of the flange by central differences in the controller's counting.
+    /// The Jacobian of the flange by central differences in controller coordinates.
     fn by_differences(robot: &Robot, q: &[f64], h: f64) -> Matrix6xX<f64> {
         let columns: Vec<nalgebra::Vector6<f64>> = (0..q.len())
             .map(|joint| {
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn columns_match_differences_also_where_joints_are_coupled_or_slide() {
+    fn columns_match_differences_also_for_coupled_and_prismatic_joints() {
         let mut stream = arms::Stream(4);
         let arms = [
             arms::r2000ic(),
@@ -160,7 +160,7 @@ mod tests {
                 let flange = frames.base_from_flange.translation.vector.into();
                 let j = jacobian(&robot, &screws_at(&robot, &frames, &flange));
                 let root = (&j * j.transpose()).determinant().abs().sqrt();
-                // The determinant has lost the square of the condition: 1e3 squared times eps.
+                // The determinant loses the square of the condition number: 1e3 squared times eps.
                 assert!((manipulability(&j) - root).abs() < 1e-8, "{root}");
                 let one_less = j.clone().remove_column(0);
                 assert!(manipulability(&one_less) >= 0.0);
@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn the_condition_does_not_change_when_the_base_is_turned_and_needs_six_joints() {
+    fn the_condition_number_does_not_depend_on_the_base_and_needs_six_joints() {
         let robot = arms::mh12();
         let q = arms::Stream(11).joints(&robot);
         let frames = forward(&robot, &q);

@@ -1,18 +1,18 @@
-//! One joint: how the controller counts it, how far and fast it goes, how much it yields.
+//! One joint: its coordinate in the controller, limits, speed and compliance.
 //!
 //! The controller's (or URDF's) position `q` and the chain's position `theta` are tied by
 //!
 //! `theta_i = sign_i (q_i + sum_j k_ij q_j) + offset_i`
 //!
-//! with `k_ij` the coupling to earlier joints (FANUC counts joint 3 from the horizontal: `k_32 = 1`).
-//! Limits and speeds are of `q`; the compliance is of the joint itself and so of `theta`.
+//! with `k_ij` the coupling to earlier joints (FANUC measures joint 3 from the horizontal: `k_32 = 1`).
+//! Limits and speeds refer to `q`; the compliance is that of the joint itself and therefore of `theta`.
 //!
 //! | symbol | unit | range |
 //! |---|---|---|
-//! | `q`, `theta`, `offset`, limits | rad (m for a sliding joint) | finite |
+//! | `q`, `theta`, `offset`, limits | rad (m for a prismatic joint) | finite |
 //! | compliance `c` and its standard uncertainty | rad/(N m) (m/N) | >= 0 |
 
-/// The range of a joint in the controller's counting, rad or m.
+/// The range of a joint in controller coordinates, rad or m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// Least position.
@@ -33,7 +33,7 @@ impl Limits {
     }
 }
 
-/// How much a joint turns for a moment about its axis; drive and control loop included.
+/// Rotation of a joint per moment about its axis; drive and control loop included.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointCompliance {
     /// `c`, rad/(N m) or m/N.
@@ -42,7 +42,7 @@ pub struct JointCompliance {
     pub standard_uncertainty: f64,
 }
 
-/// Position of another joint that adds to this one's count.
+/// An earlier joint whose position is added to this one's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coupling {
     /// Index of the other joint: an earlier one.
@@ -51,7 +51,7 @@ pub struct Coupling {
     pub factor: f64,
 }
 
-/// Which way a joint counts against the right hand about its axis in the chain.
+/// Positive direction of a joint relative to the right hand about its axis in the chain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sign {
     /// With the right hand.
@@ -70,16 +70,16 @@ impl Sign {
     }
 }
 
-/// A joint as its controller knows it.
+/// A joint in the coordinates of its controller.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Joint {
     /// The maker's name, such as `S` or `A1`.
     pub name: String,
-    /// Counting direction.
+    /// Positive direction.
     pub sign: Sign,
     /// Chain position at the controller's zero, rad or m.
     pub zero_offset: f64,
-    /// Earlier joints that add to this one's count.
+    /// Coupled earlier joints.
     pub coupling: Vec<Coupling>,
     /// Range, if known.
     pub limits: Option<Limits>,
@@ -88,7 +88,7 @@ pub struct Joint {
 }
 
 impl Joint {
-    /// A joint that counts like the chain, with no known limits or speed.
+    /// A joint with the coordinate of the chain, without known limits or speed.
     pub fn plain(name: impl Into<String>) -> Joint {
         Joint {
             name: name.into(),
@@ -132,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn a_plain_joint_counts_like_the_chain() {
+    fn a_plain_joint_has_the_coordinate_of_the_chain() {
         let plain = Joint::plain("A1");
         assert_eq!(
             (plain.name.as_str(), plain.sign.factor(), plain.zero_offset),

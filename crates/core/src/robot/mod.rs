@@ -1,17 +1,18 @@
-//! Which arm is it, and where does it stand?
+//! The robot: kinematics, structure and postures.
 //!
 //! In reading order: [`chain`] (elementary motions and their inner form), [`joint`] (limits, signs, zeros,
-//! compliance), [`spring`], [`compensator`], [`torque_curve`], [`backlash`], [`structure`] (what else yields, weighs and has play), [`model`]
-//! (the robot as one value), [`forward`] (joint positions to frames), [`jacobian`] (screws at the tool), [`deflected_arm`]
-//! (frames and screws once springs have given way), [`branch`] and [`posture`] (the ways to hold a pose), [`unreachable`](mod@unreachable) (why there may be none),
-//! [`inverse`] (tool pose to every posture), [`mod@reach`] (how far the wrist gets), [`convention`] (which sign or zero
-//! disagrees with the pendant).
+//! compliance), [`spring`], [`compensator`], [`torque_curve`], [`backlash`], [`structure`] (the parts other than
+//! drives), [`model`] (the robot as one value), [`forward`] (joint positions to frames), [`jacobian`] (screws at the
+//! tool), [`deflected_arm`] (frames and screws of the deflected arm), [`branch`] and [`posture`] (the postures of a
+//! pose), [`unreachable`](mod@unreachable) (why there may be none), [`inverse`] (tool pose to every posture),
+//! [`mod@reach`] (reach of the wrist centre), [`convention`] (which sign or zero disagrees with the pendant).
 
 pub mod backlash;
 pub mod branch;
 pub mod chain;
 pub mod compensator;
 pub mod convention;
+pub mod deflected_arm;
 pub mod forward;
 pub mod inverse;
 pub mod jacobian;
@@ -23,7 +24,6 @@ pub mod spring;
 pub mod structure;
 pub mod torque_curve;
 pub mod unreachable;
-pub mod deflected_arm;
 
 pub use backlash::{Backlash, BacklashSide, STANDSTILL};
 pub use branch::{Branch, BranchPattern, Elbow, Shoulder, Wrist};

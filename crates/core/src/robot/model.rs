@@ -1,4 +1,4 @@
-//! The robot: chain, joints, compliance, frames. Immutable and shareable once made.
+//! The robot: chain, joints, compliance, frames. Immutable and shareable.
 
 use super::branch::BranchPattern;
 use super::chain::{Amount, Chain, ChainError, Motion};
@@ -7,12 +7,12 @@ use super::joint::{Joint, JointCompliance};
 use super::structure::{Structure, StructureError};
 use crate::frame::Isometry;
 
-/// A frame that the maker or user counts positions from, beside the base.
+/// A reference frame for positions, other than the base.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedFrame {
     /// Its name, such as `controller`.
     pub name: String,
-    /// Where it lies in base.
+    /// The frame in base.
     pub base_from_frame: Isometry,
 }
 
@@ -32,14 +32,14 @@ pub struct Robot {
 /// Softest joint, rad/(N m) (m/N): a newton metre turns no machining joint by a radian.
 pub const SOFTEST: f64 = 1.0;
 
-/// Why a robot description contradicts itself. Joint positions are in rad (m for sliding joints).
+/// Why a robot description is not consistent. Joint positions are in rad (m for prismatic joints).
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RobotError {
-    /// The chain is wrong by itself.
+    /// The chain is not valid.
     #[error(transparent)]
     Chain(#[from] ChainError),
     /// Chain and joint list disagree.
-    #[error("the chain moves {in_chain} joints, but {described} are described")]
+    #[error("the chain has {in_chain} joints, but {described} are described")]
     JointCount {
         /// Joints that the chain uses.
         in_chain: usize,
@@ -51,10 +51,10 @@ pub enum RobotError {
     NotFinite {
         /// Name of the joint.
         joint: String,
-        /// Which number.
+        /// The quantity.
         what: &'static str,
     },
-    /// What yields beside the drives fits no arm, or not this one.
+    /// The structure (springs, masses, backlash, ...) is not valid for any arm, or not for this one.
     #[error(transparent)]
     Structure(#[from] StructureError),
     /// Lower limit not below the upper.
@@ -62,9 +62,9 @@ pub enum RobotError {
     LimitsReversed {
         /// Name of the joint.
         joint: String,
-        /// As given.
+        /// The value given.
         lower: f64,
-        /// As given.
+        /// The value given.
         upper: f64,
     },
     /// A compliance or its uncertainty below zero, beyond [`SOFTEST`], or not a number.
@@ -72,9 +72,9 @@ pub enum RobotError {
     Compliance {
         /// Name of the joint.
         joint: String,
-        /// Which of the two.
+        /// The quantity.
         what: &'static str,
-        /// As given.
+        /// The value given.
         value: f64,
     },
     /// A list of compliances of another length than the joints.
@@ -86,11 +86,11 @@ pub enum RobotError {
         joints: usize,
     },
     /// A joint coupled to itself or to a later joint.
-    #[error("joint {joint} is coupled to joint number {other}: only an earlier joint can add to its count")]
+    #[error("joint {joint} is coupled to joint number {other}: it can only be coupled to an earlier joint")]
     Coupling {
         /// Name of the joint.
         joint: String,
-        /// Index of the joint it names, from 0.
+        /// Index of the other joint, from 0.
         other: usize,
     },
 }
@@ -128,7 +128,7 @@ impl Robot {
         })
     }
 
-    /// This robot with these joint compliances, one a joint.
+    /// This robot with these joint compliances, one per joint.
     ///
     /// # Errors
     /// Another count than joints; a value or uncertainty that is not a number from 0 to [`SOFTEST`].
@@ -157,8 +157,8 @@ impl Robot {
         Ok(self)
     }
 
-    /// This robot with joint compliances of another origin than those of its file. Curves of its drives,
-    /// covariance and model error go: they were of the compliances that these replace. Other springs and masses stay.
+    /// This robot with joint compliances from another source than its file. Curves of its drives,
+    /// covariance and model error are removed: they belong to the replaced compliances. Other springs and masses stay.
     ///
     /// # Errors
     /// As [`Robot::with_compliance`].
@@ -170,7 +170,7 @@ impl Robot {
         Ok(robot)
     }
 
-    /// This robot with what yields and weighs beside its drives.
+    /// This robot with this structure (springs, masses, backlash, ...).
     ///
     /// # Errors
     /// See [`StructureError`].
@@ -180,7 +180,7 @@ impl Robot {
         Ok(self)
     }
 
-    /// This robot with frames that positions may be counted from.
+    /// This robot with further reference frames for positions.
     #[must_use]
     pub fn with_frames(mut self, frames: Vec<NamedFrame>) -> Robot {
         self.frames = frames;
@@ -209,27 +209,27 @@ impl Robot {
         &self.joints
     }
 
-    /// Joint compliances, one a joint, if known.
+    /// Joint compliances, one per joint, if known.
     pub fn compliance(&self) -> Option<&[JointCompliance]> {
         self.compliance.as_deref()
     }
 
-    /// What yields and weighs beside the drives; empty in the simple model.
+    /// The structure in addition to the drives; empty in the simple model.
     pub fn structure(&self) -> &Structure {
         &self.structure
     }
 
-    /// Frames that positions may be counted from, beside the base.
+    /// Reference frames for positions, other than the base.
     pub fn frames(&self) -> &[NamedFrame] {
         &self.frames
     }
 
-    /// The branch that stands for this robot where none is asked for.
+    /// The default branch.
     pub fn nominal_branch(&self) -> BranchPattern {
         self.nominal
     }
 
-    /// How its postures are found.
+    /// The method of the inverse kinematics.
     pub fn inverse(&self) -> &Inverse {
         &self.inverse
     }
@@ -245,7 +245,7 @@ impl Robot {
         self.joints.iter().map(middle).collect()
     }
 
-    /// Whether joint `index` slides instead of turning.
+    /// Whether joint `index` is prismatic.
     pub fn slides(&self, index: usize) -> bool {
         matches!(
             self.chain.links()[index].motion,
@@ -260,15 +260,15 @@ impl Robot {
         joint.sign.factor() * (q[index] + coupled) + joint.zero_offset
     }
 
-    /// Joint position `q` of joint `index` from its chain position; `q` must hold the earlier joints.
+    /// Joint position `q` of joint `index` from its chain position; `q` must contain the earlier joints.
     pub fn joint_position(&self, index: usize, theta: f64, q: &[f64]) -> f64 {
         let joint = &self.joints[index];
         let coupled: f64 = joint.coupling.iter().map(|c| c.factor * q[c.joint]).sum();
         joint.sign.factor() * (theta - joint.zero_offset) - coupled
     }
 
-    /// The joint that stands nearest to one of its limits, or farthest outside, and how much room it has: rad, m of a
-    /// sliding joint, compared as they are; negative outside. `None` where no joint has limits.
+    /// The joint nearest to one of its limits, or farthest outside, and its margin: rad, m of a
+    /// prismatic joint, compared by number; negative outside. `None` where no joint has limits.
     pub fn limit_margin(&self, q: &[f64]) -> Option<(usize, f64)> {
         let margins = self
             .joints

@@ -1,4 +1,4 @@
-//! Postures: the ways an arm can hold one tool pose, and what tells them apart.
+//! Postures: the joint configurations of one tool pose, and their names.
 
 use std::fmt;
 
@@ -6,27 +6,27 @@ use super::branch::Branch;
 use crate::frame::Isometry;
 use crate::spatial::Twist;
 
-/// One way to hold the tool at a pose.
+/// One posture of the arm at a tool pose.
 #[derive(Clone, Debug)]
 pub struct Posture {
     /// Its name.
     pub name: PostureName,
-    /// Joint positions `q`, rad (m), in the controller's counting.
+    /// Joint positions `q`, rad (m), controller coordinates.
     pub joints: Vec<f64>,
-    /// The tool it holds.
+    /// The tool, in base.
     pub base_from_tool: Isometry,
     /// Screw of every joint at the TCP, base basis, per unit of chain position.
     pub screws: Vec<Twist>,
-    /// Near which singularity it stands, if any.
+    /// The singularity that it is near, if any.
     pub singularity: Option<Singularity>,
 }
 
-/// What tells a posture from the others of its pose.
+/// The name that distinguishes a posture from the others of its pose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum PostureName {
     /// One of eight branches.
     Branch(Branch),
-    /// Of a chain whose branches have no names: the side of the middle on which each joint stands.
+    /// For a chain without named branches: the side of the middle of its range, for each joint.
     Sides(Sides),
 }
 
@@ -49,10 +49,10 @@ impl fmt::Display for PostureName {
     }
 }
 
-/// For each joint, base to flange, whether it stands at or above (`+`) or below (`-`) the middle of its range.
+/// For each joint, base to flange, whether it is at or above (`+`) or below (`-`) the middle of its range.
 ///
-/// It depends on the joint positions alone. Two postures of one pose nearly always differ in it, but need not.
-/// Joints beyond the thirty-second are left out.
+/// It depends only on the joint positions. Two postures of one pose nearly always differ in it, but need not.
+/// Joints beyond the thirty-second are ignored.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Sides {
     joints: u8,
@@ -80,7 +80,7 @@ impl fmt::Display for Sides {
     }
 }
 
-/// A place where a joint or two lose their effect: the posture is valid, its neighbours are far away in
+/// A singularity: one or two joints lose their effect. The posture is valid, its neighbours are far away in
 /// joint space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Singularity {
@@ -90,7 +90,7 @@ pub enum Singularity {
     Elbow,
     /// Axes 4 and 6 in line; parallel, of an arm with three parallel axes.
     Wrist,
-    /// Some joints do nearly the same: of a chain whose singularities have no names.
+    /// Some joints are nearly dependent: for a chain without named singularities.
     Dependent,
 }
 
@@ -112,7 +112,7 @@ impl fmt::Display for Singularity {
             Singularity::Shoulder => "shoulder: wrist centre near the first axis",
             Singularity::Elbow => "elbow: arm stretched or folded",
             Singularity::Wrist => "wrist: axes 4 and 6 nearly in line",
-            Singularity::Dependent => "dependent: some joints do nearly the same",
+            Singularity::Dependent => "dependent: some joints have nearly the same effect",
         })
     }
 }
@@ -122,7 +122,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn sides_tell_for_each_joint_whether_it_stands_above_the_middle() {
+    fn sides_state_for_each_joint_whether_it_is_above_the_middle() {
         let middles = [0.5, 0.0, -1.0, 2.0];
         assert_eq!(Sides::of(&[0.5, -0.1, 3.0, 1.9], &middles).to_string(), "+-+-");
         assert_eq!(Sides::of(&[], &[]).to_string(), "");
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn sides_of_joints_beyond_the_thirty_second_are_left_out() {
+    fn sides_of_joints_beyond_the_thirty_second_are_ignored() {
         let (mut joints, middles) = (vec![1.0; 40], vec![0.0; 40]);
         let all = Sides::of(&joints, &middles);
         assert_eq!(all.to_string(), "+".repeat(32));
@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn a_posture_is_called_by_its_branch_or_by_its_sides() {
+    fn a_posture_is_named_by_its_branch_or_by_its_sides() {
         let sides = Sides::of(&[1.0, -1.0], &[0.0, 0.0]);
         assert_eq!(PostureName::Sides(sides).to_string(), "+-");
         assert_eq!(PostureName::Sides(sides).branch(), None);
@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn every_singularity_has_a_word_that_its_sentence_begins_with() {
+    fn the_sentence_of_every_singularity_begins_with_its_word() {
         let all = [
             Singularity::Shoulder,
             Singularity::Elbow,

@@ -1,4 +1,4 @@
-//! How far an arm gets: the greatest distance of its wrist centre from its first axis.
+//! Reach of an arm: the greatest distance of its wrist centre from its first axis.
 //!
 //! `reach = hypot(a1 + l2 + l3, b)`
 //!
@@ -6,14 +6,14 @@
 //! |---|---|---|
 //! | `a1` | distance between axes 1 and 2 | m |
 //! | `l2`, `l3` | upper arm (axis 2 to 3) and forearm (axis 3 to wrist centre), seen along axis 2 | m |
-//! | `b` | how far the wrist centre stands to the side of axis 1 | m |
+//! | `b` | lateral offset of the wrist centre from axis 1 | m |
 //!
-//! Makers name most arms by it (KR 120 R2500: 2.5 m). Joint limits are not looked at: an arm whose elbow cannot
-//! stretch gets less far.
+//! Makers name most arms by it (KR 120 R2500: 2.5 m). Joint limits are neglected: an arm whose elbow cannot
+//! stretch has less reach.
 
 use super::model::Robot;
 
-/// The reach of `robot`, m; `None` where it is no ortho-parallel arm with spherical wrist.
+/// The reach of `robot`, m; `None` where it is not an ortho-parallel arm with spherical wrist.
 pub fn reach(robot: &Robot) -> Option<f64> {
     let arm = robot.ortho_parallel()?;
     Some((arm.a1.abs() + arm.links.l2 + arm.links.l3).hypot(arm.b))
@@ -50,13 +50,13 @@ mod tests {
     }
 
     #[test]
-    fn stretched_links_and_the_offset_to_the_side_add_up() {
+    fn stretched_links_and_the_lateral_offset_add_up() {
         let expected = (0.15 + 0.6 + 0.7_f64.hypot(0.05)).hypot(0.03);
         assert!((reach(&arm(0.0)).unwrap() - expected).abs() < 1e-15);
     }
 
     #[test]
-    fn no_posture_brings_the_wrist_farther() {
+    fn no_posture_exceeds_the_reach() {
         let robot = arm(0.0);
         let reach = reach(&robot).unwrap();
         let mut farthest = 0.0_f64;

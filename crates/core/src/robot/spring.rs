@@ -1,15 +1,16 @@
-//! Virtual joints: directions in which an arm yields beside its drives.
+//! Virtual joints: compliances of an arm in addition to its drives.
 //!
-//! Bearings, links, the floor under the base, holder and tool bend. Each way of bending is a **spring**: it sits at a
-//! *seat*, moves what comes after it along one local unit twist `u`, and does so by `c u (u . w)` under a wrench `w`.
-//! A whole 6 x 6 compliance at a seat is a sum of at most six such springs, `C = sum_k c_k u_k u_k^T`: its eigenvectors.
+//! Bearings, links, the floor under the base, holder and tool deflect. Each deflection mode is a **spring**: it has an
+//! *attachment*, moves everything after it along one local unit twist `u`, by `c u (u . w)` under a wrench `w`.
+//! A whole 6 x 6 compliance at an attachment is a sum of at most six such springs, `C = sum_k c_k u_k u_k^T`: its
+//! eigenvectors.
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | `u` | local twist: at the seat's origin, in its axes | m or rad per unit of the spring |
-//! | `c` | compliance of the spring | rad/(N m) for a turn, m/N for a slide |
+//! | `u` | local twist: at the origin of the attachment, in its axes | m or rad per unit of the spring |
+//! | `c` | compliance of the spring | rad/(N m) for a rotation, m/N for a translation |
 //!
-//! The seat of a joint is the frame right after the joint's motion. Source: Pashkevich, Klimchik & Chablat 2011,
+//! The attachment of a joint is the frame right after the joint's motion. Source: Pashkevich, Klimchik & Chablat 2011,
 //! "Enhanced stiffness modeling of manipulators with passive joints", Mechanism and Machine Theory 46:662-679 (virtual
 //! joint method); `docs/theory/virtual-joints.md`.
 
@@ -19,7 +20,7 @@ use super::joint::JointCompliance;
 use super::structure::StructureError;
 use crate::spatial::Twist;
 
-/// Where a spring or a mass sits.
+/// Where a spring or a mass is attached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Attachment {
     /// Under the whole arm, in the base frame.
@@ -33,7 +34,7 @@ pub enum Attachment {
 }
 
 impl Attachment {
-    /// Place in the order from base to tool of an arm with this many joints: 0 for the base.
+    /// Its position in the order from base to tool of an arm with this many joints: 0 for the base.
     pub fn rank(self, joints: usize) -> usize {
         match self {
             Attachment::Base => 0,
@@ -43,25 +44,25 @@ impl Attachment {
         }
     }
 
-    /// Seats of an arm with this many joints: two more than joints, and the base.
+    /// Number of attachments of an arm with this many joints: one per joint, and base, flange and tool.
     pub fn count(joints: usize) -> usize {
         joints + 3
     }
 }
 
-/// One direction in which an arm yields beside its drives.
+/// One compliant direction of an arm in addition to its drives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spring {
-    /// Where it sits.
+    /// Its attachment.
     pub attachment: Attachment,
-    /// How it moves what comes after it, per unit: a twist at the seat's origin in the seat's axes.
+    /// Its direction, per unit: a twist at the origin of the attachment, in its axes.
     pub direction: Twist,
-    /// How much it yields.
+    /// Its compliance.
     pub compliance: JointCompliance,
 }
 
 impl Spring {
-    /// A spring that turns about `axis` (unit vector, seat's axes); rad/(N m).
+    /// A rotational spring about `axis` (unit vector, axes of the attachment); rad/(N m).
     pub fn about(attachment: Attachment, axis: Vector3<f64>, compliance: JointCompliance) -> Spring {
         Spring {
             attachment,
@@ -70,7 +71,7 @@ impl Spring {
         }
     }
 
-    /// A spring that slides along `axis` (unit vector, seat's axes); m/N.
+    /// A translational spring along `axis` (unit vector, axes of the attachment); m/N.
     pub fn along(attachment: Attachment, axis: Vector3<f64>, compliance: JointCompliance) -> Spring {
         Spring {
             attachment,
@@ -82,9 +83,9 @@ impl Spring {
 
 /// The two springs of a round cutter that bends like a clamped bar: along x and y of the tool, `64 L^3 / (3 pi E d^4)`.
 ///
-/// `stick_out` L and `diameter` d in m, `modulus` E in Pa. Flutes weaken a cutter: d is the diameter of its core, about 0.8
-/// of the outer one. Left out: the turn of the tip, the cutter along its axis, clamping. No uncertainty.
-/// Source: bending of a cantilever by a force at its end, any textbook on strength of materials.
+/// `stick_out` L and `diameter` d in m, `modulus` E in Pa. Flutes weaken a cutter: d is the diameter of its core, about
+/// 0.8 of the outer one. Neglected: rotation of the tip, axial compliance, clamping. No uncertainty. Source: bending of
+/// a cantilever by a force at its end, any textbook on strength of materials.
 pub fn cutter_springs(stick_out: f64, diameter: f64, modulus: f64) -> [Spring; 2] {
     let value = 64.0 * stick_out.powi(3) / (3.0 * std::f64::consts::PI * modulus * diameter.powi(4));
     [Vector3::x(), Vector3::y()].map(|axis| {
@@ -96,14 +97,14 @@ pub fn cutter_springs(stick_out: f64, diameter: f64, modulus: f64) -> [Spring; 2
     })
 }
 
-/// Parts of a matrix that are smaller than its largest entry by this factor are rounding of whoever wrote it.
+/// Entries of a matrix that are smaller than its largest entry by this factor are rounding of its source.
 const ROUNDING: f64 = 1e-6;
 
-/// The springs that together yield like `compliance` at a seat: 6 x 6, at the seat's origin in its axes, translation
-/// first, m/N, 1/N, rad/(N m). At most six, without uncertainty.
+/// The springs that together have the compliance `compliance` at an attachment: 6 x 6, at its origin in its axes,
+/// translation first, m/N, 1/N, rad/(N m). At most six, without uncertainty.
 ///
 /// # Errors
-/// Numbers that are not finite, a matrix that is not symmetric, or one that yields against its load.
+/// Numbers that are not finite, a matrix that is not symmetric, or has a negative eigenvalue.
 pub fn springs_of(attachment: Attachment, compliance: &Matrix6<f64>) -> Result<Vec<Spring>, StructureError> {
     if compliance.iter().any(|value| !value.is_finite()) {
         return Err(StructureError::NotFinite("a compliance matrix"));
@@ -114,7 +115,7 @@ pub fn springs_of(attachment: Attachment, compliance: &Matrix6<f64>) -> Result<V
     }
     let eigen = (0.5 * (compliance + compliance.transpose())).symmetric_eigen();
     if eigen.eigenvalues.min() < -rounding {
-        return Err(StructureError::YieldsAgainstLoad("a compliance matrix"));
+        return Err(StructureError::NegativeEigenvalue("a compliance matrix"));
     }
     let spring = |i: usize| {
         let u = eigen.eigenvectors.column(i);
@@ -130,7 +131,7 @@ pub fn springs_of(attachment: Attachment, compliance: &Matrix6<f64>) -> Result<V
             },
         }
     };
-    // Six products of rounding each are what is left of a zero.
+    // Six products of rounding each are left of a zero.
     let zero = 6.0 * f64::EPSILON * eigen.eigenvalues.max();
     Ok((0..6)
         .filter(|i| eigen.eigenvalues[*i] > zero)
@@ -166,14 +167,14 @@ mod tests {
     }
 
     #[test]
-    fn matrices_that_no_body_has_are_refused() {
+    fn refuses_matrices_that_are_not_a_compliance() {
         let of = |i: usize, j: usize, value: f64| {
             let mut matrix = Matrix6::identity() * 1e-8;
             matrix[(i, j)] = value;
             springs_of(Attachment::Base, &matrix).unwrap_err()
         };
         assert!(matches!(of(0, 1, 1e-9), StructureError::NotSymmetric(_)));
-        assert!(matches!(of(2, 2, -1e-9), StructureError::YieldsAgainstLoad(_)));
+        assert!(matches!(of(2, 2, -1e-9), StructureError::NegativeEigenvalue(_)));
         assert!(matches!(of(3, 3, f64::NAN), StructureError::NotFinite(_)));
     }
 
@@ -191,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn seats_are_ordered_from_base_to_tool() {
+    fn attachments_are_ordered_from_base_to_tool() {
         let attachments = [
             Attachment::Base,
             Attachment::Joint(0),

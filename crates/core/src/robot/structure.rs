@@ -1,7 +1,7 @@
-//! What yields, weighs, has play and scatters in an arm beside its drives: springs, masses, compensator, torque curves,
-//! backlash, repeatability; and how much of what it does no such part explains.
+//! The structure of an arm in addition to its drives: springs, masses, compensator, torque curves,
+//! backlash, repeatability, and model error.
 //!
-//! Empty for the simple model, in which only joints yield, each about its own axis.
+//! Empty for the simple model, in which only joints deflect, each about its own axis.
 
 use nalgebra::DMatrix;
 
@@ -11,44 +11,43 @@ use super::model::{Robot, SOFTEST};
 use super::spring::{Attachment, Spring};
 use super::torque_curve::JointCurve;
 
-/// What yields, weighs and has play beside the drives.
+/// Springs, masses, backlash and other properties in addition to the drives.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Structure {
-    /// Springs, in any order; those of one seat act in the order of this list.
+    /// Springs, in any order; those of one attachment act in the order of this list.
     pub springs: Vec<Spring>,
     /// Masses.
     pub masses: Vec<Mass>,
     /// The gravity compensator, if the arm has one.
     pub compensator: Option<Compensator>,
-    /// Torque curves that stand in place of joint compliances, by joint; a list may end early.
+    /// Torque curves that replace joint compliances, by joint; the list may be shorter than the joints.
     pub curves: Vec<Option<JointCurve>>,
-    /// Covariance of the compliances of the drives, then the springs; what it does not reach is independent.
+    /// Covariance of the compliances of the drives, then the springs; compliances outside it are independent.
     pub covariance: Option<DMatrix<f64>>,
-    /// Backlash, by joint; a list may end early. It yields to nothing; it moves the tool.
+    /// Backlash, by joint; the list may be shorter than the joints. It has no compliance, but displaces the tool.
     pub backlash: Vec<Option<Backlash>>,
-    /// Standard deviation of where the tool comes to rest, along any axis, from time to time, m; zero where it is not known.
+    /// Standard deviation of the attained tool position between repetitions, along any axis, m; zero where it is not
+    /// known.
     pub repeatability: f64,
-    /// Standard uncertainty of what the model predicts under a load, as a fraction of it, beside that of its compliances: what
-    /// springs and joints do that no number of this arm describes. Zero where it is not known.
+    /// Model error: standard uncertainty of the prediction under a load, as a fraction of it, in addition to that of
+    /// the compliances. It covers effects of springs and joints that have no parameter. Zero where it is not known.
     pub model_error: f64,
 }
 
-/// Why a structure fits no arm.
+/// Why a structure is not valid.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum StructureError {
     /// A number is NaN or infinite.
-    #[error("{0} holds a number that is not finite")]
+    #[error("{0} contains a number that is not finite")]
     NotFinite(&'static str),
     /// A matrix differs from its transpose.
     #[error("{0} is not symmetric")]
     NotSymmetric(&'static str),
     /// A compliance below zero in some direction.
-    #[error("{0} has a negative eigenvalue: something would move against its load")]
-    YieldsAgainstLoad(&'static str),
-    /// A covariance that gives some sum a negative variance.
-    #[error(
-        "the covariance has a negative eigenvalue, or is of {size} compliances where there are {compliances}"
-    )]
+    #[error("{0} has a negative eigenvalue: a compliance must not be negative in any direction")]
+    NegativeEigenvalue(&'static str),
+    /// A covariance with a negative variance.
+    #[error("the covariance has a negative eigenvalue, or {size} rows for {compliances} compliances")]
     Covariance {
         /// Rows given.
         size: usize,
@@ -60,67 +59,67 @@ pub enum StructureError {
     Compliance {
         /// Index of the spring.
         spring: usize,
-        /// As given.
+        /// The value given.
         value: f64,
     },
-    /// A mass that is no mass.
+    /// A mass out of range.
     #[error("mass number {}: {value} kg is not a number from 0 to 1e6", mass + 1)]
     Mass {
         /// Index of the mass.
         mass: usize,
-        /// As given.
+        /// The value given.
         value: f64,
     },
-    /// A seat, curve or compensator at a joint that does not exist, or slides.
-    #[error("{what} names joint number {}, which does not exist or slides", joint + 1)]
+    /// An attachment, curve or compensator at a joint that does not exist, or is prismatic.
+    #[error("{what} names joint number {}, which does not exist or is prismatic", joint + 1)]
     NoSuchJoint {
-        /// Which part.
+        /// The part.
         what: &'static str,
         /// Index given.
         joint: usize,
     },
-    /// Backlash that is none.
+    /// Backlash out of range.
     #[error("backlash of joint number {}: {value} is not a number from 0 to {WIDEST} rad (m)", joint + 1)]
     Backlash {
         /// Index of the joint.
         joint: usize,
-        /// As given.
+        /// The value given.
         value: f64,
     },
-    /// A repeatability that is none.
+    /// A repeatability out of range.
     #[error("a standard deviation of {0} m is not a number from 0 to {WIDEST_SCATTER}")]
     Repeatability(f64),
-    /// A model error that is none.
+    /// A model error out of range.
     #[error("a model error of {0} is not a fraction from 0 to {WORST_MODEL}")]
     ModelError(f64),
     /// A curve of fewer than two pairs.
-    #[error("a torque curve of {0} pairs: two make a line")]
+    #[error("a torque curve of {0} pairs: at least 2 are needed")]
     ShortCurve(usize),
-    /// A curve that turns back.
-    #[error("torque curve: pair number {} does not rise: torques rise, angles do not fall", pair + 1)]
+    /// A curve that does not rise.
+    #[error("torque curve: pair number {} does not rise: torques must rise, angles must not fall", pair + 1)]
     FallingCurve {
         /// Index of the pair.
         pair: usize,
     },
-    /// A compensator without size, or whose spring can shrink to nothing.
-    #[error("the compensator needs lengths above 0, and radii that differ by a millimetre or more")]
+    /// A compensator without size, or whose spring can shrink to length zero.
+    #[error("the compensator needs lengths above 0, and radii that differ by 1 mm or more")]
     Compensator,
 }
 
-/// Radii of a compensator that differ by less let its spring shrink to nothing, m.
+/// Radii of a compensator that differ by less let its spring shrink to length zero, m.
 const LEAST_SPRING: f64 = 1e-3;
 
-/// No gap is wider, rad (m).
+/// Greatest backlash, rad (m).
 pub const WIDEST: f64 = 0.1;
 
-/// No arm scatters by more, m.
+/// Greatest standard deviation of repeatability, m.
 pub const WIDEST_SCATTER: f64 = 0.01;
 
-/// A model that misses more, as a fraction of what it predicts, predicts nothing.
+/// Greatest model error, as a fraction of the prediction: beyond it the prediction is useless.
 pub const WORST_MODEL: f64 = 10.0;
 
 impl Structure {
-    /// Nothing yields or weighs but the drives.
+    /// Only the drives deflect, and nothing has a weight.
     pub const EMPTY: Structure = Structure {
         springs: Vec::new(),
         masses: Vec::new(),
@@ -137,16 +136,16 @@ impl Structure {
         self.curves.get(index).and_then(Option::as_ref)
     }
 
-    /// Joints that have play, each with its backlash.
-    pub fn gaps(&self) -> impl Iterator<Item = (usize, &Backlash)> {
+    /// Joints that have backlash, each with it.
+    pub fn joints_with_backlash(&self) -> impl Iterator<Item = (usize, &Backlash)> {
         let gaps = self.backlash.iter().enumerate();
         gaps.filter_map(|(joint, backlash)| Some((joint, backlash.as_ref().filter(|b| b.gap > 0.0)?)))
     }
 
-    /// Whether this structure fits `robot`.
+    /// Whether this structure is valid for `robot`.
     ///
     /// # Errors
-    /// The first thing that does not.
+    /// The first error.
     pub fn check(&self, robot: &Robot) -> Result<(), StructureError> {
         let joints = robot.joints().len();
         let turns = |what, joint: usize| {
@@ -154,12 +153,12 @@ impl Structure {
             fits.then_some(())
                 .ok_or(StructureError::NoSuchJoint { what, joint })
         };
-        let seated = |what, attachment: Attachment| match attachment {
+        let attached = |what, attachment: Attachment| match attachment {
             Attachment::Joint(joint) if joint >= joints => Err(StructureError::NoSuchJoint { what, joint }),
             _ => Ok(()),
         };
         for (spring, s) in self.springs.iter().enumerate() {
-            seated("a spring", s.attachment)?;
+            attached("a spring", s.attachment)?;
             if s.direction.to_vector().iter().any(|part| !part.is_finite()) {
                 return Err(StructureError::NotFinite("a spring"));
             }
@@ -170,7 +169,7 @@ impl Structure {
             }
         }
         for (mass, m) in self.masses.iter().enumerate() {
-            seated("a mass", m.attachment)?;
+            attached("a mass", m.attachment)?;
             if !(0.0..=1e6).contains(&m.mass) {
                 let value = m.mass;
                 return Err(StructureError::Mass { mass, value });
@@ -189,7 +188,7 @@ impl Structure {
         }
         for (joint, backlash) in self.backlash.iter().enumerate() {
             let Some(backlash) = backlash else { continue };
-            seated("backlash", Attachment::Joint(joint))?;
+            attached("backlash", Attachment::Joint(joint))?;
             for value in [backlash.gap, backlash.standard_uncertainty] {
                 if !(0.0..=WIDEST).contains(&value) {
                     return Err(StructureError::Backlash { joint, value });
@@ -228,7 +227,8 @@ fn check_compensator(c: &Compensator) -> Result<(), StructureError> {
         .ok_or(StructureError::Compensator)
 }
 
-/// A covariance may miss symmetry and sign by what printing its numbers rounds away, relative to its largest entry.
+/// A covariance may deviate from symmetry and sign by the rounding of its printed numbers, relative to its largest
+/// entry.
 const PRINTED: f64 = 1e-6;
 
 fn check_covariance(covariance: &DMatrix<f64>, compliances: usize) -> Result<(), StructureError> {

@@ -1,14 +1,14 @@
-//! A joint whose stiffness depends on its torque: gears are soft while few teeth and bearings carry.
+//! A joint whose stiffness depends on its torque: gears are compliant while few teeth and bearings carry.
 //!
-//! `theta(tau)` is piecewise linear through measured pairs. Under gravity `tau_g` a joint has turned by
-//! `theta(tau_g)` already; a load turns it on by `theta(tau_g + tau) - theta(tau_g)`. Friction makes two curves out of
-//! one: the *rising* one holds where the load raises the torque, the *falling* one where it lowers it. Beyond the last
-//! pair the curve goes on with the slope of its last piece.
+//! `theta(tau)` is piecewise linear through measured pairs. Under gravity `tau_g` a joint has already turned by
+//! `theta(tau_g)`; a load turns it further by `theta(tau_g + tau) - theta(tau_g)`. With friction there are two
+//! curves: the *rising* one applies where the load raises the torque, the *falling* one where it lowers it. Beyond the
+//! last pair the curve continues with the slope of its last piece.
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | `tau` | torque about the joint's axis in the chain, right hand | N m |
-//! | `theta` | how far the joint turns under it | rad |
+//! | `theta` | rotation of the joint under it | rad |
 //!
 //! Source: piecewise-linear torsional stiffness of strain wave and cycloidal gears as their makers print it (stiffness
 //! by torque range); `docs/theory/gravity.md`.
@@ -59,7 +59,7 @@ impl TorqueCurve {
         (a1 - a0) / (t1 - t0)
     }
 
-    /// The piece that holds `torque`; the first or last beyond them.
+    /// The piece that contains `torque`; the first or last beyond them.
     fn piece(&self, torque: f64) -> [[f64; 2]; 2] {
         let after = self.points.partition_point(|[t, _]| *t <= torque);
         let end = after.clamp(1, self.points.len() - 1);
@@ -77,7 +77,7 @@ pub struct JointCurve {
 }
 
 impl JointCurve {
-    /// How far (rad) a joint that carries the torque `before` turns when `change` comes on top (N m).
+    /// Rotation (rad) of a joint that carries the torque `before` when `change` is added (N m).
     pub fn turn(&self, before: f64, change: f64) -> f64 {
         let curve = self.towards(change);
         curve.angle(before + change) - curve.angle(before)
@@ -101,7 +101,7 @@ mod tests {
     use super::*;
 
     fn knee() -> TorqueCurve {
-        // Soft (2e-6 rad/(N m)) up to 100 N m either way, stiff (5e-7) beyond.
+        // Compliant (2e-6 rad/(N m)) up to 100 N m either way, stiff (5e-7) beyond.
         TorqueCurve::new(vec![
             [-300.0, -3e-4],
             [-100.0, -2e-4],
@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn angles_between_pairs_lie_on_a_line_and_beyond_them_on_the_last_one() {
+    fn angles_are_linear_between_pairs_and_beyond_them() {
         for (torque, angle) in [
             (0.0, 0.0),
             (50.0, 1e-4),
@@ -137,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn the_sign_of_the_change_picks_the_side_of_a_hysteresis() {
+    fn the_sign_of_the_change_selects_the_side_of_a_hysteresis() {
         let joint = JointCurve {
             rising: knee(),
             falling: Some(TorqueCurve::new(vec![[-300.0, -9e-4], [300.0, 9e-4]]).unwrap()),
@@ -147,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn curves_that_no_joint_has_are_refused() {
+    fn refuses_invalid_curves() {
         let refused = |points: &[[f64; 2]]| TorqueCurve::new(points.to_vec()).unwrap_err();
         assert!(matches!(refused(&[[0.0, 0.0]]), StructureError::ShortCurve(1)));
         let falling = [[0.0, 0.0], [1.0, 1e-6], [2.0, 0.5e-6]];

@@ -1,4 +1,4 @@
-//! Why an arm cannot hold its tool at a pose, and by how much it misses.
+//! Why a tool pose has no posture, and by how much it is missed.
 
 use std::fmt;
 
@@ -20,7 +20,7 @@ pub enum Unreachable {
         /// m
         by: f64,
     },
-    /// No start of a search led to the pose, which may still be within reach; the nearest that was found misses it by
+    /// No start of a search led to the pose, which may still be within reach; the nearest posture found misses it by
     /// `by` and `turned`.
     NotFound {
         /// m
@@ -28,39 +28,39 @@ pub enum Unreachable {
         /// rad
         turned: f64,
     },
-    /// The closed form gave a posture whose forward kinematics misses the pose by `by`: a broken geometry.
+    /// The closed form gave a posture whose forward kinematics misses the pose by `by`: the geometry is inconsistent.
     Unverified {
         /// m
         by: f64,
     },
-    /// Every posture asked for leaves the range of a joint; in the least bad one, joint `joint` by `by`.
+    /// Every requested posture leaves the range of a joint; in the best one, joint `joint` by `by`.
     OutsideLimits {
         /// Index of the joint, from 0.
         joint: usize,
-        /// How far.
+        /// By how much.
         by: Overrun,
     },
-    /// The arm holds the pose, but in none of the branches asked for.
+    /// The pose has postures, but none in the requested branches.
     OtherBranch,
-    /// A posture holds the pose, but under this load case the arm finds no stable rest.
+    /// The pose has a posture, but under this load case the arm has no stable equilibrium.
     Unstable {
         /// Index of the load case, from 0.
         case: usize,
     },
 }
 
-/// How far a joint stands outside its limits.
+/// By how much a joint is outside its limits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Overrun {
-    /// A turning joint, rad.
+    /// A revolute joint, rad.
     Turned(f64),
-    /// A sliding joint, m.
+    /// A prismatic joint, m.
     Slid(f64),
 }
 
 impl Unreachable {
-    /// By how much it misses, m; `None` where no length is missed: a turning joint outside its limits, another branch,
-    /// an arm that does not come to rest.
+    /// By how much it misses, m; `None` where no length is missed: a revolute joint outside its limits, another branch,
+    /// an arm without equilibrium.
     pub fn amount(&self) -> Option<f64> {
         match *self {
             Unreachable::TooFar { by }
@@ -78,8 +78,8 @@ impl Unreachable {
         }
     }
 
-    /// Whether this misses by less than `other`. A radian outside a limit counts as much as a metre; an arm that does not
-    /// come to rest misses by most.
+    /// Whether this misses by less than `other`. A radian outside a limit equals a metre; an arm without equilibrium
+    /// misses most.
     pub(crate) fn is_nearer_than(&self, other: &Unreachable) -> bool {
         let size = |miss: &Unreachable| match *miss {
             Unreachable::OutsideLimits {
@@ -141,14 +141,14 @@ impl fmt::Display for Unreachable {
             Unreachable::Unverified { by } => {
                 write!(
                     f,
-                    "the inverse kinematics misses the pose by {:.6} mm: no posture is given",
+                    "the inverse kinematics misses the pose by {:.6} mm: no posture is reported",
                     by * 1e3
                 )
             }
             Unreachable::OutsideLimits { joint, by } => {
                 let joint = joint + 1;
                 f.write_str(
-                    "no posture inside the joint limits: the least bad one leaves the range of joint number ",
+                    "no posture is within the joint limits: the best one exceeds the range of joint number ",
                 )?;
                 match by {
                     Overrun::Turned(by) => write!(f, "{joint} by {:.1} deg", by.to_degrees()),
@@ -156,11 +156,11 @@ impl fmt::Display for Unreachable {
                 }
             }
             Unreachable::OtherBranch => {
-                f.write_str("the arm holds this pose, but in none of the branches asked for")
+                f.write_str("the pose has a posture, but none in the requested branches")
             }
             Unreachable::Unstable { case } => write!(
                 f,
-                "the arm finds no stable rest under load case {}: it buckles, or is far too soft for this load",
+                "the arm has no stable equilibrium under load case {}: it buckles, or is far too compliant",
                 case + 1
             ),
         }
@@ -175,7 +175,7 @@ mod tests {
         Unreachable::OutsideLimits { joint: 2, by }
     }
 
-    /// Each reason with its word, its amount (m) and how its sentence ends.
+    /// Each reason with its word, its amount (m) and the end of its sentence.
     fn all() -> [(Unreachable, &'static str, Option<f64>, &'static str); 9] {
         [
             (
@@ -209,7 +209,7 @@ mod tests {
                 Unreachable::Unverified { by: 2e-6 },
                 "unverified",
                 Some(2e-6),
-                "by 0.002000 mm: no posture is given",
+                "by 0.002000 mm: no posture is reported",
             ),
             (
                 outside(Overrun::Turned(1.5_f64.to_radians())),
@@ -227,13 +227,13 @@ mod tests {
                 Unreachable::OtherBranch,
                 "other_branch",
                 None,
-                "in none of the branches asked for",
+                "but none in the requested branches",
             ),
             (
                 Unreachable::Unstable { case: 1 },
                 "unstable",
                 None,
-                "under load case 2: it buckles, or is far too soft for this load",
+                "under load case 2: it buckles, or is far too compliant",
             ),
         ]
     }
@@ -247,14 +247,14 @@ mod tests {
     }
 
     #[test]
-    fn the_smaller_miss_is_nearer_and_an_arm_without_rest_the_farthest() {
+    fn the_smaller_miss_is_nearer_and_an_arm_without_equilibrium_the_farthest() {
         let (small, large) = (
             Unreachable::TooFar { by: 1e-3 },
             Unreachable::TooNear { by: 2e-3 },
         );
         assert!(small.is_nearer_than(&large) && !large.is_nearer_than(&small));
         assert!(!small.is_nearer_than(&small));
-        // A radian counts as much as a metre.
+        // A radian equals a metre.
         assert!(outside(Overrun::Turned(1.5e-3)).is_nearer_than(&large));
         assert!(small.is_nearer_than(&outside(Overrun::Turned(1.5e-3))));
         assert!(outside(Overrun::Slid(1.5e-3)).is_nearer_than(&large));

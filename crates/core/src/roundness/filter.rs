@@ -1,6 +1,6 @@
-//! The Gaussian profile filter of a closed profile: what is left of it below so many undulations per revolution (UPR).
+//! The Gaussian profile filter of a closed profile: its waves below a number of undulations per revolution (UPR).
 //!
-//! The transmission of `k` waves a turn is one half at the cut-off `f`:
+//! The transmission of `k` waves per turn is one half at the cut-off `f`:
 //!
 //! ```text
 //! G(k) = exp(-ln 2 (k / f)^2)
@@ -11,19 +11,19 @@
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | `dR` | deviation from the least-squares circle | m |
-//! | `w` | angle that a point stands for: half the way to each neighbour | rad |
-//! | `k`, `f` | waves a turn, cut-off | UPR |
+//! | `w` | angle weight of a point: half the distance to each neighbour | rad |
+//! | `k`, `f` | waves per turn, cut-off | UPR |
 //!
-//! Many points and many waves are weighed over their neighbours instead, out to where `s` is nothing:
+//! Many points and many waves are instead weighted over their neighbours, as far as `s` is significant:
 //!
 //! ```text
 //! dR_filtered(theta) = sum over points of w dR s(theta_i - theta),    s(x) = exp(-pi (x / al)^2) / al,    al = sqrt(ln 2 / pi) 2 pi / f
 //! ```
 //!
-//! That is the convolution with the Gaussian weight round the circle, exact for even angles; for uneven ones the sums are
-//! good to the square of the step. Steps may be a seventh of a wave of the cut-off at most: a wave of 3.5 times
-//! the cut-off, which still passes by 1/5000, then has two points. Source: ISO 16610-21 (weight and cut-off), ISO 12181-2
-//! (seven points a wave) \[recalled\].
+//! That is the convolution with the Gaussian weight round the circle, exact for even angles; for uneven ones the sums
+//! are accurate to the square of the step. Steps may be a seventh of a wave of the cut-off at most: a wave of 3.5 times
+//! the cut-off, which still passes by 1/5000, then has two points. Source: ISO 16610-21 (weight and cut-off), ISO
+//! 12181-2 (seven points a wave) \[recalled\].
 
 use std::f64::consts::{LN_2, PI, TAU};
 
@@ -34,27 +34,27 @@ use super::RoundnessError;
 use super::harmonics::wave_sums;
 use super::polar::Polar;
 
-/// Points that a wave of the cut-off must have.
+/// Points per wave at the cut-off.
 const POINTS_PER_WAVE: f64 = 7.0;
-/// Waves that pass by less than this are left out.
+/// Waves with less transmission are neglected.
 const LEAST_TRANSMISSION: f64 = 1e-17;
-/// Neighbours whose weight is a smaller part of the largest are left out.
+/// Neighbours whose weight is a smaller part of the largest are neglected.
 const LEAST_WEIGHT: f64 = 1e-17;
-/// Sums of so many steps are made through waves, whatever is shorter.
+/// Sums of up to this many steps are made through waves, whatever is shorter.
 const FEW_STEPS: f64 = 1e7;
 
 impl Polar {
     /// The deviations of the points after the Gaussian filter of cut-off `upr`.
     ///
     /// # Errors
-    /// A cut-off below one wave a turn; steps between points too large for it, among them the gap of an arc.
+    /// A cut-off below one wave per turn; steps between points too large for it, among them the gap of an arc.
     pub fn filtered(&self, upr: f64) -> Result<Vec<f64>, RoundnessError> {
-        // Not `<`: a cut-off that is no number is refused too.
+        // Not `<`: NaN is refused too.
         if !(upr >= 1.0 && upr.is_finite()) {
             return Err(RoundnessError::CutOff { upr });
         }
         let most = TAU / (POINTS_PER_WAVE * upr);
-        // Even steps are above a whole part of a turn by rounding.
+        // Even steps exceed a whole part of a turn by rounding.
         if self.gap.width > most * (1.0 + 1e-9) {
             return Err(RoundnessError::Sparse {
                 gap_deg: self.gap.width.to_degrees(),
@@ -65,7 +65,7 @@ impl Polar {
         }
         let passing = (upr * (-LEAST_TRANSMISSION.ln() / LN_2).sqrt()).floor();
         let waves = passing.min(self.most_waves()) as usize;
-        let weighed = self.deviations.iter().zip(self.stands_for());
+        let weighed = self.deviations.iter().zip(self.weights_by_angle());
         let weighed: Vec<f64> = weighed.map(|(by, width)| by * width).collect();
         let by_waves = self.angles.len() as f64 * waves as f64;
         if by_waves > FEW_STEPS {
@@ -78,7 +78,7 @@ impl Polar {
         Ok(self.through_waves(&weighed, (waves, upr)))
     }
 
-    /// The filter by the waves of `weighed`: deviation times the angle that a point stands for.
+    /// The filter by the waves of `weighed`: deviation times the angle weight of a point.
     fn through_waves(&self, weighed: &[f64], (waves, upr): (usize, f64)) -> Vec<f64> {
         let mut parts = wave_sums(&self.angles, weighed, waves);
         for (k, part) in parts.iter_mut().enumerate() {
@@ -97,7 +97,8 @@ impl Polar {
         self.angles.par_iter().map(at).collect()
     }
 
-    /// The filter by the weight of this width (rad), moved round the circle; `sorted` are the angles as they follow each other.
+    /// The filter by the weight function of this width (rad), moved round the circle; `sorted` are the angles in their
+    /// order.
     fn moved_round(&self, weighed: &[f64], (sorted, width): (&[f64], f64)) -> Vec<f64> {
         let (count, reach) = (sorted.len(), reach(width));
         let at = |place: usize| {
@@ -119,32 +120,32 @@ impl Polar {
         filtered
     }
 
-    /// The most waves a turn that the steps between the points can tell: less than two points a wave tell none.
+    /// The most waves per turn that the steps between the points resolve: at least two points per wave.
     pub fn most_waves(&self) -> f64 {
         ((PI / self.gap.width) * (1.0 + 1e-9)).ceil() - 1.0
     }
 
-    /// The angle that each point stands for: half the way to both neighbours; all together a turn.
-    fn stands_for(&self) -> Vec<f64> {
+    /// The angle weight of each point: half the distance to both neighbours; the sum is a turn.
+    fn weights_by_angle(&self) -> Vec<f64> {
         let count = self.order.len();
-        let mut stands_for = vec![0.0; count];
+        let mut weights_by_angle = vec![0.0; count];
         for place in 0..count {
             let (at, next) = (self.order[place], self.order[(place + 1) % count]);
             let round = if place + 1 == count { TAU } else { 0.0 };
             let half = (self.angles[next] + round - self.angles[at]) / 2.0;
-            stands_for[at] += half;
-            stands_for[next] += half;
+            weights_by_angle[at] += half;
+            weights_by_angle[next] += half;
         }
-        stands_for
+        weights_by_angle
     }
 }
 
-/// How far a weight of this width counts, rad.
+/// Range of a weight function of this width, rad.
 fn reach(width: f64) -> f64 {
     width * (-LEAST_WEIGHT.ln() / PI).sqrt()
 }
 
-/// How many pairs of neighbours are within `reach` (rad), each from both sides; without end where that is half a turn.
+/// Number of pairs of neighbours within `reach` (rad), each from both sides; infinite where that is half a turn.
 fn pairs_within(sorted: &[f64], reach: f64) -> f64 {
     let count = sorted.len();
     if reach >= 0.5 * PI {
@@ -168,7 +169,7 @@ mod tests {
     use super::super::Profile;
     use super::*;
 
-    /// `count` points with `waves` of 5 um, at even angles or drawn apart by a part of the step.
+    /// `count` points with `waves` of 5 um, at even angles or displaced by a part of the step.
     fn wavy(count: usize, waves: f64, unevenness: f64) -> Polar {
         let at = |i: usize| {
             let even = TAU * i as f64 / count as f64;
@@ -217,12 +218,12 @@ mod tests {
     fn many_points_and_waves_are_filtered_over_neighbours_as_through_waves() {
         for unevenness in [0.0, 0.5] {
             let polar = wavy(3000, 110.0, unevenness);
-            let weighed = polar.deviations.iter().zip(polar.stands_for());
+            let weighed = polar.deviations.iter().zip(polar.weights_by_angle());
             let weighed: Vec<f64> = weighed.map(|(by, width)| by * width).collect();
             let width = (LN_2 / PI).sqrt() * TAU / 100.0;
             let sorted: Vec<f64> = polar.order.iter().map(|i| polar.angles[*i]).collect();
             let near = polar.moved_round(&weighed, (&sorted, width));
-            // 7.5 waves of the cut-off: where they end nothing passes.
+            // 7.5 waves of the cut-off: beyond it the transmission is negligible.
             let through = polar.through_waves(&weighed, (751, 100.0));
             for (one, other) in near.iter().zip(&through) {
                 assert!((one - other).abs() < 1e-17, "{unevenness}: {one} {other}");
@@ -252,7 +253,7 @@ mod tests {
     }
 
     #[test]
-    fn sparse_points_arcs_and_cut_offs_without_meaning_are_refused() {
+    fn refuses_sparse_points_arcs_and_invalid_cut_offs() {
         // 72 points, every five degrees, are too few for 15 UPR.
         let refused = wavy(72, 3.0, 0.0).filtered(15.0).unwrap_err();
         assert!(

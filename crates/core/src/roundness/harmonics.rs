@@ -1,19 +1,19 @@
-//! Waves of a profile: amplitude and phase of each whole number of them a turn.
+//! Harmonics of a profile: amplitude and phase of each whole number of waves per turn.
 //!
 //! ```text
 //! dR(theta) = a_0 + sum over k = 1..N of A_k cos(k theta - phi_k)
 //! ```
 //!
-//! by least squares over the points, so that uneven angles do not make waves that are not there. The sums of products that
-//! it takes are those of `cos m theta` and `sin m theta` for `m` up to `2 N`.
+//! by least squares over the points, so that uneven angles do not add false waves. The sums of products that
+//! it uses are those of `cos m theta` and `sin m theta` for `m` up to `2 N`.
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | `A_k` | amplitude: half of crest to trough | m |
-//! | `phi_k` | phase: a crest lies at `phi_k / k` | rad |
+//! | `phi_k` | phase: a crest is at `phi_k / k` | rad |
 //!
-//! One wave a turn is a shift of the centre: nothing about the least-squares circle of even angles; of uneven ones the
-//! other waves have moved that circle, and it tells by how much.
+//! One wave per turn is a shift of the centre: zero about the least-squares circle of even angles; with uneven ones the
+//! other waves shift that circle, and this wave shows by how much.
 
 use nalgebra::{Complex, DMatrix, DVector};
 use rayon::prelude::*;
@@ -27,17 +27,17 @@ const LEAST_PART: usize = 256;
 /// One wave of a profile.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Harmonic {
-    /// Waves a turn.
+    /// Waves per turn.
     pub waves: usize,
     /// m
     pub amplitude: f64,
-    /// -pi to pi; a crest lies at this angle over the number of waves. rad
+    /// -pi to pi; a crest is at this angle over the number of waves. rad
     pub phase: f64,
 }
 
 impl Polar {
-    /// The waves 1 to `most`, or to as many as the points can tell: two points a wave at the widest step, and more points
-    /// than unknowns.
+    /// The waves 1 to `most`, or to as many as the points resolve: two points per wave at the widest step, and more
+    /// points than unknowns.
     pub fn harmonics(&self, most: usize) -> Vec<Harmonic> {
         let count = self.angles.len();
         let given = self
@@ -51,7 +51,8 @@ impl Polar {
         let ones = vec![1.0; count];
         let sums = wave_sums(&self.angles, &ones, 2 * most);
         let right = wave_sums(&self.angles, &self.deviations, most);
-        // Unknowns: the mean, then cosine and sine of each wave. Products by cos a cos b = (cos(a - b) + cos(a + b)) / 2.
+        // Unknowns: the mean, then cosine and sine of each wave. Products by cos a cos b = (cos(a - b) + cos(a + b)) /
+        // 2.
         let normal = DMatrix::from_fn(2 * most + 1, 2 * most + 1, |row, column| {
             let (j, k) = (row.div_ceil(2), column.div_ceil(2));
             let (less, more) = (sums[j.abs_diff(k)], sums[j + k]);
@@ -97,7 +98,7 @@ pub(super) fn wave_sums(angles: &[f64], values: &[f64], most: usize) -> Vec<Comp
         }
         sums
     };
-    // Parts of a size that the count of points alone decides, added in order: any number of threads gives the same.
+    // The size of parts depends only on the number of points, added in order: any number of threads gives the same.
     let part = angles.len().div_ceil(PARTS).max(LEAST_PART);
     let parts: Vec<_> = angles
         .par_chunks(part)
@@ -125,7 +126,7 @@ mod tests {
     use super::super::Profile;
     use super::*;
 
-    /// `count` points, at even angles or drawn apart by a third of the step, with waves of 9, 4 and 2 um.
+    /// `count` points, at even angles or displaced by a third of the step, with waves of 9, 4 and 2 um.
     fn wavy(count: usize, unevenness: f64) -> Polar {
         let at = |i: usize| {
             let even = TAU * i as f64 / count as f64;
@@ -139,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn waves_are_told_with_amplitude_and_phase_at_even_and_uneven_angles() {
+    fn waves_are_reported_with_amplitude_and_phase_at_even_and_uneven_angles() {
         for unevenness in [0.0, 1.0] {
             let given = wavy(90, unevenness).harmonics(15);
             assert_eq!(given.len(), 15);
@@ -160,8 +161,8 @@ mod tests {
     }
 
     #[test]
-    fn no_more_waves_are_told_than_the_points_can_tell() {
-        // 24 even points tell 11 waves: the twelfth has two points a wave and may lie between them.
+    fn no_more_waves_are_reported_than_the_points_resolve() {
+        // 24 even points resolve 11 waves: the twelfth has two points per wave, which may be at its zeros.
         assert_eq!(wavy(24, 0.0).harmonics(50).len(), 11);
         assert_eq!(wavy(25, 0.0).harmonics(50).len(), 12);
         assert_eq!(wavy(24, 0.0).harmonics(3).len(), 3);

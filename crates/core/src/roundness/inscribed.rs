@@ -1,8 +1,8 @@
-//! The maximum inscribed circle (MICI): the largest that holds no point, about a centre within the profile.
+//! The maximum inscribed circle (MICI): the largest that contains no point, about a centre within the profile.
 //!
-//! `r(c) = min |p - c|`, greatest over all centres `c` within the convex hull of the points. It has many local optima: any
-//! point of the nearest-point Voronoi diagram where three regions meet may be one, so every part of the hull is looked at
-//! or bounded. In a cell of half sides `h` about `m` no point is farther than from the farthest corner:
+//! `r(c) = min |p - c|`, greatest over all centres `c` within the convex hull of the points. It has many local optima:
+//! any point of the nearest-point Voronoi diagram where three regions meet may be one, so every part of the hull is
+//! examined or bounded. In a cell of half sides `h` about `m` no point is farther than from the farthest corner:
 //!
 //! ```text
 //! r <= min over p of | |p - m| + h |    (by components)
@@ -11,7 +11,7 @@
 //!
 //! and less than a mean of two of the latter.
 //!
-//! Three points around the centre must hold the circle; where they do not, it would leave through a gap, and is refused.
+//! The circle must touch three points around the centre; otherwise it could move out through a gap, and is refused.
 
 use nalgebra::Vector2;
 
@@ -20,16 +20,16 @@ use super::polar::widest_gap;
 use super::profile::reach;
 use super::search::{Bound, Cell, Objective, Tangent, bound_by, distance_bend, least};
 
-/// Points that leave such an angle open hold no circle: it takes more than half a turn, and within a degree of it the
-/// centre moves a hundred times as far as the points that hold it.
+/// From this open angle on there is no inscribed circle: it needs less than half a turn, and within a degree of it the
+/// centre moves a hundred times as far as the points that it touches.
 pub(super) const WIDEST_GAP_DEG: f64 = 179.0;
 /// A point touches the circle where it is no farther out than this, in radii.
 const TOUCHES: f64 = 1e-10;
-/// Sides of the hull that are looked at: the longest, for only through them could a circle leave.
+/// Sides of the hull that are examined: the longest, since only they can limit the circle.
 const MOST_SIDES: usize = 256;
 
-/// Centre of the largest inscribed circle of `points`, which lie about the origin at a distance of about one; and the least
-/// and greatest distance of the points from it: the former is its radius.
+/// Centre of the largest inscribed circle of `points`, which are about the origin at a distance of about one; and the
+/// least and greatest distance of the points from it: the former is its radius.
 pub(super) fn maximum_inscribed(points: &[Vector2<f64>]) -> Result<(Vector2<f64>, [f64; 2]), RoundnessError> {
     let mut clearance = Clearance {
         points,
@@ -51,12 +51,12 @@ pub(super) fn maximum_inscribed(points: &[Vector2<f64>]) -> Result<(Vector2<f64>
         .filter(|p| p.norm() <= inner + TOUCHES);
     let directions: Vec<f64> = touching.map(|p| p.y.atan2(p.x)).collect();
     if widest_gap(&directions).width.to_degrees() >= 180.0 {
-        return Err(RoundnessError::NotHeld);
+        return Err(RoundnessError::OneSided);
     }
     Ok((centre, [inner, outer]))
 }
 
-/// How near the nearest point is, less than nothing: what is made least is the negative of the radius.
+/// Negative distance of the nearest point: the objective is minimised.
 struct Clearance<'a> {
     points: &'a [Vector2<f64>],
     /// Working points.
@@ -115,7 +115,7 @@ impl Objective for Clearance<'_> {
     }
 }
 
-/// What a point farther away than the corners says of the radius in a cell, less than nothing.
+/// Bound of the negative radius in a cell by a point farther away than the corners.
 fn tangent(cell: &Cell, point: &Vector2<f64>) -> Tangent {
     let away = point - cell.middle;
     let distance = away.norm();
@@ -128,7 +128,8 @@ fn tangent(cell: &Cell, point: &Vector2<f64>) -> Tangent {
 
 /// The corners of the convex hull, counter-clockwise.
 ///
-/// Source: Andrew, Another efficient algorithm for convex hulls in two dimensions, Information Processing Letters 9, 1979.
+/// Source: Andrew, Another efficient algorithm for convex hulls in two dimensions, Information Processing Letters 9,
+/// 1979.
 fn hull(points: &[Vector2<f64>]) -> Vec<Vector2<f64>> {
     let mut sorted = points.to_vec();
     sorted.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));

@@ -1,4 +1,4 @@
-//! The least-squares circle (LSCI): the circle nearest to points.
+//! The least-squares circle (LSCI) of points.
 //!
 //! Least over `c` and `R`: `sum of w (|p - c| - R)^2`, by Gauss-Newton steps from the circle with the least
 //! `sum of w (|p - c|^2 - R^2)^2`, which has a closed form about the mean of the points:
@@ -12,15 +12,15 @@
 //! | `p`, `w` | a point, from the mean of all; its weight | m, - |
 //! | `c`, `R` | centre, from there, and radius | m |
 //!
-//! A part of a circle will do; the shorter it is the less its centre is known.
+//! A part of a circle is sufficient; the shorter it is, the less accurate is its centre.
 //!
 //! Source: closed circle after Kasa, A circle fitting procedure and its error analysis, IEEE Transactions on
-//! Instrumentation and Measurement 25, 1976; steps as in Gander, Golub and Strebel, Least-squares fitting of circles and
-//! ellipses, BIT 34, 1994 \[recalled\].
+//! Instrumentation and Measurement 25, 1976; steps as in Gander, Golub and Strebel, Least-squares fitting of circles
+//! and ellipses, BIT 34, 1994 \[recalled\].
 
 use nalgebra::{Matrix2, Matrix3, Point2, Vector2, Vector3};
 
-/// A circle that belongs to points, and how far they lie off it.
+/// A circle of points, and their deviation from it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReferenceCircle {
     /// Centre, m.
@@ -34,19 +34,20 @@ pub struct ReferenceCircle {
 /// Points on a line spread across it by less than this part of what they spread along it, squared.
 /// Below 1e-16 it would be rounding.
 pub(super) const ON_A_LINE: f64 = 1e-14;
-/// The steps have come to rest where they move no point's distance by more than this part of the spread.
+/// The steps have converged where they move no point's distance by more than this part of the spread.
 const SETTLED: f64 = 1e-13;
-/// Most steps: each takes off all but about the roundness over the radius, so that a circle needs four or five.
+/// Maximum number of steps: each reduces the error to about the roundness over the radius, so that a circle needs four
+/// or five.
 const MOST_ROUNDS: usize = 50;
 
-/// The least-squares circle of `points` (m); `None` below three points, where they lie on a line, and where no circle is
-/// nearest.
+/// The least-squares circle of `points` (m); `None` below three points, where they are on a line, and where no circle
+/// is nearest.
 pub fn least_squares(points: &[Point2<f64>]) -> Option<ReferenceCircle> {
     let weighed: Vec<(f64, Vector2<f64>)> = points.iter().map(|p| (1.0, p.coords)).collect();
     weighed_least_squares(&weighed)
 }
 
-/// The same of points (m) that do not weigh alike, each with its weight above 0.
+/// The same of points (m) with weights, each above 0.
 pub(crate) fn weighed_least_squares(points: &[(f64, Vector2<f64>)]) -> Option<ReferenceCircle> {
     if points.len() < 3 {
         return None;
@@ -61,7 +62,7 @@ pub(crate) fn weighed_least_squares(points: &[(f64, Vector2<f64>)]) -> Option<Re
         for (w, p) in &off {
             let away = p - centre;
             let distance = away.norm();
-            // A point on the centre is in no direction from it.
+            // A point on the centre has no direction from it.
             if distance == 0.0 {
                 continue;
             }
@@ -86,7 +87,7 @@ pub(crate) fn weighed_least_squares(points: &[(f64, Vector2<f64>)]) -> Option<Re
     None
 }
 
-/// The circle in closed form through points about their mean, of so much weight; `None` where they lie on a line.
+/// The closed-form circle through points about their mean, of this total weight; `None` where they are on a line.
 fn closed(off: &[(f64, Vector2<f64>)], all: f64) -> Option<(Vector2<f64>, f64)> {
     let spread: Matrix2<f64> = off.iter().map(|(w, p)| p * p.transpose() * *w).sum();
     let along = spread.symmetric_eigenvalues();
@@ -129,12 +130,13 @@ mod tests {
     }
 
     #[test]
-    fn lobes_of_any_number_are_told_by_twice_their_height_and_one_lobe_is_a_shift() {
+    fn the_roundness_of_lobes_is_twice_their_height_and_one_lobe_is_a_shift() {
         for lobes in 2..9 {
-            // A sum over even steps leaves no cosine behind.
+            // A sum over even steps contains no cosine.
             let whole: Vec<_> = arc([0.0, 360.0], 0.1, |phi| 8e-6 * (f64::from(lobes) * phi).cos());
             let round = least_squares(&whole[..400]).unwrap();
-            // 400 points miss the crests by at most (lobes/2 step)^2/2 of the height; the centre goes with height squared.
+            // 400 points miss the crests by at most (lobes/2 step)^2/2 of the height; the centre goes with height
+            // squared.
             let missed = 8e-6 * (f64::from(lobes) * PI / 400.0).powi(2) + 2e-9;
             assert!(
                 (round.peak_to_valley - 16e-6).abs() < missed,
@@ -144,7 +146,7 @@ mod tests {
         }
         let shifted = arc([0.0, 360.0], 0.1, |phi| 8e-6 * phi.cos());
         let round = least_squares(&shifted[..400]).unwrap();
-        // What is left is the square of the shift over the radius.
+        // The difference is the square of the shift over the radius.
         assert!(round.peak_to_valley < 8e-6 * 8e-6 / 0.1 && (round.centre.x - 0.300_008).abs() < 1e-12);
     }
 
@@ -165,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn no_circle_near_the_one_that_is_told_is_nearer_to_the_points() {
+    fn no_circle_near_the_result_is_nearer_to_the_points() {
         for sweep in [360.0, 120.0, 60.0] {
             let wavy = arc([10.0, sweep], 0.1, |phi| {
                 6e-6 * (5.0 * phi).cos() + 3e-6 * (11.0 * phi).sin()
@@ -186,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn the_same_points_elsewhere_turned_and_larger_have_the_same_roundness() {
+    fn shift_rotation_and_scale_do_not_change_the_roundness() {
         let wave = |phi: f64| 20e-6 * (3.0 * phi).cos();
         let here = least_squares(&arc([0.0, 150.0], 0.1, wave)).unwrap();
         let turned: Vec<_> = arc([0.0, 150.0], 0.1, wave)
@@ -194,13 +196,13 @@ mod tests {
             .map(|p| Point2::new(5.0 - 2.0 * p.y, 2.0 * p.x - 7.0))
             .collect();
         let there = least_squares(&turned).unwrap();
-        // Places of 7 m are rounded to 1e-15 m.
+        // Coordinates of 7 m are rounded to 1e-15 m.
         assert!((there.peak_to_valley - 2.0 * here.peak_to_valley).abs() < 1e-13);
         assert!((there.radius - 2.0 * here.radius).abs() < 1e-11);
     }
 
     #[test]
-    fn three_points_lie_on_their_circle_and_points_on_a_line_on_none() {
+    fn three_points_are_on_their_circle_and_points_on_a_line_have_none() {
         let three = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(Point2::from);
         let round = least_squares(&three).unwrap();
         assert!((round.centre - Point2::new(0.5, 0.5)).norm() < 1e-14 && round.peak_to_valley < 1e-14);
@@ -212,7 +214,7 @@ mod tests {
             assert_eq!(least_squares(&line[..2]), None);
         }
         assert_eq!(least_squares(&[Point2::new(0.1, 0.2); 9]), None);
-        // A line far away, rounded to a part of 1e-16 of its places.
+        // A line far away, rounded to a part of 1e-16 of its coordinates.
         let far: Vec<_> = (0..9)
             .map(|i| Point2::new(0.1, 0.3) * (1e3 + f64::from(i) / 7.0))
             .collect();
@@ -220,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn a_point_on_the_centre_is_a_point_and_weights_are_points_that_stand_there_again() {
+    fn a_point_on_the_centre_is_valid_and_weights_equal_repeated_points() {
         // Four of a square and its middle: the radius is their mean distance.
         let square = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]].map(Point2::from);
         let with: Vec<_> = square.into_iter().chain([Point2::origin()]).collect();

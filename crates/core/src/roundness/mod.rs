@@ -1,10 +1,10 @@
-//! How round is it: which circles belong to a profile of measured points, and how far do the points lie off them?
+//! Roundness: reference circles of a profile of measured points, and the deviations from them.
 //!
-//! [`least_squares`](mod@least_squares): the circle nearest to points. [`profile`]: points that a circle can be put to, in
-//! radii of it. `circumscribed`: the smallest circle about them. `search`: the best centre of all, with proof;
-//! [`zone`] and `inscribed` ask for it: the narrowest ring that holds the points, the largest circle between them.
-//! [`polar`]: deviations over the angle; [`outlier`]: what is not of the profile; `filter` and `harmonics`: their waves.
-//! [`plane`]: points in space, seen in their plane. `error`: what keeps any of these from being told.
+//! [`least_squares`](mod@least_squares): the circle nearest to points. [`profile`]: a valid set of points, scaled by
+//! its radius. `circumscribed`: the smallest circle about them. `search`: the global optimum of the centre, with proof;
+//! [`zone`] and `inscribed` use it: the narrowest ring that contains the points, the largest circle between them.
+//! [`polar`]: deviations over the angle; [`outlier`]: outliers of the profile; `filter` and `harmonics`: its waves.
+//! [`plane`]: points in space, projected on their plane. `error`: errors of all these.
 //!
 //! Names after ISO 12181: LSCI, MZCI, MCCI and MICI are the four reference circles, RONt the peak to valley about one.
 //! Theory: `docs/theory/roundness.md`.

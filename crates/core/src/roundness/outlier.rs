@@ -1,9 +1,9 @@
-//! What is not of the profile: dirt on a ball or a probe, a scratch, a cable that pulled. One rule for circular tests and
+//! Outliers of a profile: dirt on a ball or a probe, a scratch, a pulling cable. One rule for circular tests and
 //! for measured parts.
 //!
-//! A value is compared with what its neighbours foretell, in three ways: the middle between the medians of the five before
-//! it and the five behind, and the line through the medians of two fives on either side alone. `d` is the least of the
-//! three differences. A value is an outlier where
+//! A value is compared with the prediction by its neighbours, in three ways: the middle between the medians of the five
+//! before it and the five after it, and the line through the medians of two fives on either side. `d` is the least of
+//! the three differences. A value is an outlier where
 //!
 //! ```text
 //! |d| > max(12 * 1.4826 * median |d|, range / 20, 2 q)
@@ -11,43 +11,43 @@
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | `d` | from what neighbours foretell | m |
+//! | `d` | difference from the prediction by the neighbours | m |
 //! | range | greatest less least value | m |
-//! | `q` | least difference between two values: what the file is rounded to | m |
+//! | `q` | least difference between two values: the rounding of the file | m |
 //!
-//! Why three ways: real profiles have steps, where an axis turns back or a face begins. A value beside a step is foretold by its
-//! own side, so neither steps nor slopes are dirt; dirt is off from both sides. Why medians of five: two bad values in a row
-//! do not hide each other. Why 12: `d` is the least of three, and its tail is longer than that of noise (12 scatters were
-//! passed by none of 100 000 values of noise on an ellipse with a step). Why a twentieth: less changes no number that is
-//! told of a profile, and one as smooth as its rounding has no dirt.
+//! Why three ways: real profiles have steps, where an axis reverses or a face begins. A value next to a step is
+//! predicted by its own side, so neither steps nor slopes are outliers; dirt differs from both sides. Why medians of
+//! five: two bad values in a row do not hide each other. Why 12: `d` is the least of three, and its tail is longer than
+//! that of noise (12 scatters were exceeded by none of 100 000 values of noise on an ellipse with a step). Why a
+//! twentieth: less changes no reported quantity of a profile, and a profile as smooth as its rounding has no dirt.
 
-/// Values in a row whose median is taken.
+/// Number of values in a row whose median is used.
 const ROW: usize = 5;
-/// More than this many times the scatter is no noise.
+/// More than this multiple of the scatter is not noise.
 const FACTOR: f64 = 12.0;
-/// Less than this part of the range is of no matter.
+/// Less than this part of the range is not relevant.
 const LITTLE: f64 = 0.05;
-/// Times the rounding that rounding alone may make.
+/// Multiple of the rounding that rounding alone may make.
 const ROUNDED: f64 = 2.0;
 /// Less than this is never an outlier, m: a nanometre.
 const NOTHING: f64 = 1e-9;
 /// From median size to standard deviation, of a normal distribution.
 const NORMAL: f64 = 1.4826;
-/// Fewer do not tell what is usual.
+/// With fewer values the scatter is not known.
 const LEAST_COUNT: usize = 4 * ROW;
 
-/// What comes before the first value and behind the last.
+/// Values before the first one and after the last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ends {
-    /// Nothing.
+    /// None.
     Open,
-    /// The last and the first: values round a circle.
+    /// Closed: values round a circle.
     Closed,
 }
 
-/// How far each of these values (m), in the order in which they follow each other, is from what its neighbours foretell,
-/// where that is too much.
-pub fn strange(values: &[f64], ends: Ends) -> Vec<Option<f64>> {
+/// Difference of each of these values (m), in their order, from the prediction by its neighbours,
+/// where it is too large.
+pub fn outlying(values: &[f64], ends: Ends) -> Vec<Option<f64>> {
     let count = values.len();
     if count < LEAST_COUNT {
         return vec![None; count];
@@ -73,7 +73,7 @@ pub fn strange(values: &[f64], ends: Ends) -> Vec<Option<f64>> {
     off.iter().map(|off| (off.abs() > most).then_some(*off)).collect()
 }
 
-/// How far each value is from the nearest of what its neighbours foretell.
+/// Difference of each value from the nearest prediction by its neighbours.
 fn differences(values: &[f64]) -> Vec<f64> {
     // Medians of five in a row, by the place of the first.
     let rows: Vec<f64> = values.windows(ROW).map(|row| median(&mut row.to_vec())).collect();
@@ -84,8 +84,8 @@ fn differences(values: &[f64]) -> Vec<f64> {
         // The middle of a row is three values away, that of the next five more.
         let line = |near: Option<f64>, far: Option<f64>| Some(near? + 0.6 * (near? - far?));
         let between = before.zip(behind).map(|(before, behind)| 0.5 * (before + behind));
-        let foretold = [between, line(before, earlier), line(behind, later)];
-        let differences = foretold.into_iter().flatten().map(|given| values[at] - given);
+        let predicted = [between, line(before, earlier), line(behind, later)];
+        let differences = predicted.into_iter().flatten().map(|given| values[at] - given);
         differences
             .min_by(|a, b| a.abs().total_cmp(&b.abs()))
             .unwrap_or(0.0)
@@ -108,14 +108,14 @@ mod tests {
 
     use super::*;
 
-    /// Noise of a um, hashed, so that neighbours have nothing to do with each other.
+    /// Noise of a um, hashed, so that neighbours are independent.
     fn noise(k: usize) -> f64 {
         let hashed = (k as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
         let hashed = (hashed ^ (hashed >> 29)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         ((hashed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5) * 2e-6
     }
 
-    /// An ellipse with two steps of 40 um, and what `dirt` adds.
+    /// An ellipse with two steps of 40 um, plus `dirt`.
     fn profile(count: usize, dirt: impl Fn(usize) -> f64) -> Vec<f64> {
         let at = |k: usize| {
             let a = TAU * k as f64 / count as f64;
@@ -126,12 +126,12 @@ mod tests {
     }
 
     fn found(values: &[f64], ends: Ends) -> Vec<usize> {
-        let off = strange(values, ends);
+        let off = outlying(values, ends);
         (0..off.len()).filter(|at| off[*at].is_some()).collect()
     }
 
     #[test]
-    fn two_bad_values_are_found_and_neither_steps_nor_slopes_nor_noise_are_bad() {
+    fn two_bad_values_are_found_but_not_steps_slopes_or_noise() {
         for ends in [Ends::Open, Ends::Closed] {
             for count in [72, 360, 3600] {
                 assert!(found(&profile(count, |_| 0.0), ends).is_empty(), "{count}");
@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn a_closed_profile_may_be_cut_anywhere() {
+    fn the_start_of_a_closed_profile_has_no_effect() {
         let values = profile(360, |k| if k == 100 { -60e-6 } else { 0.0 });
         for by in [0, 98, 100, 101, 250] {
             let turned: Vec<f64> = (0..360).map(|k| values[(k + by) % 360]).collect();
@@ -152,10 +152,10 @@ mod tests {
     }
 
     #[test]
-    fn twice_the_size_is_twice_as_far_off_and_no_other_is_bad() {
+    fn scaled_dirt_has_a_scaled_difference_and_no_other_value_is_bad() {
         let values = profile(360, |k| if k == 100 { 60e-6 } else { 0.0 });
         let twice: Vec<f64> = values.iter().map(|value| 2.0 * value + 1e-3).collect();
-        let [one, other] = [&values, &twice].map(|values| strange(values, Ends::Closed));
+        let [one, other] = [&values, &twice].map(|values| outlying(values, Ends::Closed));
         for (one, other) in one.iter().zip(&other) {
             assert_eq!(one.is_some(), other.is_some());
             let apart = one.zip(*other).map_or(0.0, |(one, other)| other - 2.0 * one);
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn rounding_is_no_dirt_and_neither_is_what_is_too_small_or_too_short_to_tell() {
+    fn rounding_is_not_dirt_nor_are_small_values_or_short_profiles() {
         // All the same but for single steps of the last digit.
         let rounded: Vec<f64> = (0..360)
             .map(|k| if k % 60 == 7 { 1.001e-3 } else { 1e-3 })

@@ -1,8 +1,7 @@
-//! Points in space, seen in the plane nearest to them.
+//! Points in space, projected on their least-squares plane.
 //!
-//! The least-squares plane passes through the mean of the points; its normal `n` is the direction in which they spread
-//! least, pointing to the positive side of the base axis that it is nearest to. The axes of the plane are those that a
-//! drawing would take:
+//! The least-squares plane passes through the mean of the points; its normal `n` is the direction of their least
+//! spread, pointing to the positive side of the base axis that it is nearest to. The axes of the plane are:
 //!
 //! | `n` nearest to | x of the plane, nearest to | y of the plane, nearest to |
 //! |---|---|---|
@@ -16,7 +15,7 @@ use nalgebra::{Matrix3, Point2, Point3, Vector3};
 
 use super::least_squares::ON_A_LINE;
 
-/// A plane with axes of its own.
+/// A plane with its axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane {
     /// Mean of the points, m.
@@ -32,7 +31,7 @@ pub struct Plane {
 }
 
 impl Plane {
-    /// The least-squares plane of `points` (m); `None` below three, and where they lie on a line.
+    /// The least-squares plane of `points` (m); `None` below three, and where they are on a line.
     pub fn nearest(points: &[Point3<f64>]) -> Option<Plane> {
         let sum: Vector3<f64> = points.iter().map(|p| p.coords).sum();
         let origin = Point3::from(sum / points.len().max(1) as f64);
@@ -64,13 +63,13 @@ impl Plane {
         })
     }
 
-    /// Where `point` is seen in the plane, from its origin.
+    /// Projection of `point` on the plane, from its origin.
     pub fn seen(&self, point: &Point3<f64>) -> Point2<f64> {
         let from = point - self.origin;
         Point2::new(from.dot(&self.x), from.dot(&self.y))
     }
 
-    /// The point in space that is seen at `point`.
+    /// The point in space of the plane coordinates `point`.
     pub fn at(&self, point: &Point2<f64>) -> Point3<f64> {
         self.origin + self.x * point.x + self.y * point.y
     }
@@ -90,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn a_plane_is_found_however_it_is_turned_and_what_is_seen_in_it_is_where_it_was() {
+    fn a_plane_is_found_at_any_orientation_and_projected_points_are_recovered() {
         for turn in [[0.0, 0.0, 0.0], [0.3, -0.2, 1.1], [2.0, 0.7, -0.4]] {
             let turn = Rotation3::new(turn.into());
             let points = tilted(&turn, |_, _| 0.0);
@@ -105,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn the_axes_of_a_coordinate_plane_are_those_of_the_drawing() {
+    fn the_axes_of_a_coordinate_plane_are_the_coordinate_axes() {
         let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
         for normal in 0..3 {
             let (first, second) = (axes[(normal + 1) % 3], axes[(normal + 2) % 3]);
@@ -121,13 +120,13 @@ mod tests {
     fn a_twist_is_flatness_and_does_not_tilt_the_plane() {
         let turn = Rotation3::new(Vector3::new(0.3, 0.1, 0.0));
         let plane = Plane::nearest(&tilted(&turn, |x, y| 1e-3 * x * y)).unwrap();
-        // The corners of 0.5 by 0.4 m stand 0.2 mm up and down.
+        // The corners of 0.5 by 0.4 m are 0.2 mm up and down.
         assert!((plane.flatness - 0.4e-3).abs() < 1e-12, "{}", plane.flatness);
         assert!(plane.normal.cross(&(turn * Vector3::z())).norm() < 1e-12);
     }
 
     #[test]
-    fn points_on_a_line_in_one_place_or_too_few_have_no_plane() {
+    fn points_on_a_line_at_one_position_or_too_few_have_no_plane() {
         let line: Vec<_> = (0..9)
             .map(|i| Point3::new(f64::from(i), 2.0 * f64::from(i), 1.0))
             .collect();

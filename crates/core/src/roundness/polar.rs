@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 use nalgebra::{Point2, Vector2};
 
 use super::least_squares::ReferenceCircle;
-use super::outlier::{Ends, strange};
+use super::outlier::{Ends, outlying};
 
 /// A profile as deviations over the angle.
 #[derive(Clone, Debug)]
@@ -25,22 +25,22 @@ pub struct Polar {
     pub angles: Vec<f64>,
     /// Of each point, outward, m.
     pub deviations: Vec<f64>,
-    /// The points as they follow each other round the circle.
+    /// The points in their order round the circle.
     pub order: Vec<usize>,
-    /// The largest angle between two that follow each other.
+    /// The largest angle between two neighbours.
     pub gap: Gap,
 }
 
-/// An angle that no point lies in.
+/// An angle without points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gap {
-    /// Where it begins, counter-clockwise, rad.
+    /// Its start, counter-clockwise, rad.
     pub from: f64,
     /// rad
     pub width: f64,
 }
 
-/// Points do not neighbour each other across a gap of so much, rad.
+/// Points are not neighbours across a gap of this size, rad.
 const ENDS: f64 = 20.0 * std::f64::consts::PI / 180.0;
 impl Polar {
     pub(super) fn about(points: &[Point2<f64>], circle: &ReferenceCircle) -> Polar {
@@ -58,7 +58,7 @@ impl Polar {
         }
     }
 
-    /// Deviations (m) that are told over the angle (rad) themselves, about a centre and a radius of no matter.
+    /// Deviations (m) that are given over the angle (rad), about an arbitrary centre and radius.
     pub fn of_deviations(angles: &[f64], deviations: &[f64]) -> Polar {
         let order = in_order(angles);
         Polar {
@@ -96,10 +96,10 @@ impl Polar {
         self.angles.iter().zip(deviations).map(at).collect()
     }
 
-    /// Points that stand out of their neighbours ([`super::outlier`]), in the order of the points, each with how far (m,
-    /// outward): dirt and scratches, or a true edge.
+    /// Points that deviate from their neighbours ([`super::outlier`]), in the order of the points, each with its
+    /// deviation (m, outward): dirt and scratches, or a true edge.
     pub fn outliers(&self) -> Vec<(usize, f64)> {
-        // From behind the widest gap on.
+        // From the end of the widest gap on.
         let begin = self.order.iter().position(|i| self.angles[*i] > self.gap.from);
         let (last, first) = self.order.split_at(begin.unwrap_or(0));
         let order: Vec<usize> = first.iter().chain(last).copied().collect();
@@ -109,7 +109,7 @@ impl Polar {
         } else {
             Ends::Closed
         };
-        let off = strange(&values, ends);
+        let off = outlying(&values, ends);
         let given = order.into_iter().zip(off);
         let mut found: Vec<(usize, f64)> = given.filter_map(|(index, off)| Some((index, off?))).collect();
         found.sort_by_key(|(index, _)| *index);
@@ -117,14 +117,14 @@ impl Polar {
     }
 }
 
-/// The places of `angles` in rising order.
+/// The indices of `angles` in rising order.
 fn in_order(angles: &[f64]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..angles.len()).collect();
     order.sort_by(|a, b| angles[*a].total_cmp(&angles[*b]));
     order
 }
 
-/// The widest angle that none of `angles` (-pi to pi) lies in; a whole turn where there are none.
+/// The widest angle without any of `angles` (-pi to pi); a whole turn where there are none.
 pub(super) fn widest_gap(angles: &[f64]) -> Gap {
     widest_gap_in(angles, &in_order(angles))
 }
@@ -147,7 +147,7 @@ mod tests {
     use super::super::Profile;
     use super::*;
 
-    /// `count` even points of 50 mm with two waves of 5 um, noise of up to 0.2 um, and what `dirt` adds.
+    /// `count` even points of 50 mm with two waves of 5 um, noise of up to 0.2 um, plus `dirt`.
     fn profile(count: usize, dirt: impl Fn(usize) -> f64) -> Polar {
         let at = |i: usize| {
             let angle = TAU * i as f64 / count as f64;
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn dirt_and_a_scratch_are_told_and_waves_are_not() {
+    fn dirt_and_a_scratch_are_reported_and_waves_are_not() {
         let polar = profile(360, |i| match i {
             77 => 12e-6,
             200 | 201 => -8e-6,
@@ -195,13 +195,13 @@ mod tests {
         );
         assert!(profile(360, |_| 0.0).outliers().is_empty());
         assert!(profile(36, |_| 0.0).outliers().is_empty());
-        // The ends of an arc lie on no step.
+        // The ends of an arc are not on a step.
         let arc: Vec<_> = (0..200)
             .map(|i| (f64::from(i) / 2.0 + 30.0).to_radians())
             .map(|a| Point2::new(a.cos(), 1.001 * a.sin()) * 0.05)
             .collect();
         assert!(Profile::new(arc).unwrap().polar().outliers().is_empty());
-        // Too few to know what is usual.
+        // Too few to estimate the scatter.
         assert!(
             profile(12, |i| if i == 3 { 1e-3 } else { 0.0 })
                 .outliers()
@@ -210,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn the_largest_gap_is_found_wherever_it_lies() {
+    fn the_largest_gap_is_found_anywhere() {
         assert_eq!(widest_gap(&[]).width, TAU);
         assert_eq!(
             widest_gap(&[1.0]),

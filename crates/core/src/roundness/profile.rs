@@ -1,7 +1,7 @@
-//! Points that a circle can be put to, and the four circles that belong to them.
+//! Points of a profile, and their four reference circles.
 //!
-//! Inside, all is told from the centre of the least-squares circle in parts of its radius: rounding is then the same for
-//! a part of any size, anywhere.
+//! Internally, all coordinates are relative to the centre of the least-squares circle in units of its radius: rounding
+//! is then the same for a part of any size and position.
 
 use nalgebra::{Point2, Vector2};
 
@@ -10,7 +10,7 @@ use super::polar::Polar;
 use super::zone::Zone;
 use super::{RoundnessError, circumscribed, inscribed, zone};
 
-/// Points of a profile, at least three of them on no line.
+/// Points of a profile, at least three of them not on a line.
 #[derive(Clone, Debug)]
 pub struct Profile {
     points: Vec<Point2<f64>>,
@@ -19,7 +19,7 @@ pub struct Profile {
     scaled: Vec<Vector2<f64>>,
 }
 
-/// No part is larger, m.
+/// Largest coordinate, m.
 const FARTHEST: f64 = 1e6;
 
 impl Profile {
@@ -28,7 +28,7 @@ impl Profile {
     /// # Errors
     /// A coordinate that is not finite; no circle that is nearest to the points.
     pub fn new(points: Vec<Point2<f64>>) -> Result<Profile, RoundnessError> {
-        // Not `>`: a coordinate that is no number is refused too.
+        // Not `>`: NaN is refused too.
         let is_known = |p: &Point2<f64>| p.coords.amax() <= FARTHEST && !p.x.is_nan() && !p.y.is_nan();
         if let Some(index) = points.iter().position(|p| !is_known(p)) {
             return Err(RoundnessError::NotFinite { index });
@@ -46,7 +46,7 @@ impl Profile {
         })
     }
 
-    /// The points, as they were given, m.
+    /// The points given, m.
     pub fn points(&self) -> &[Point2<f64>] {
         &self.points
     }
@@ -56,11 +56,11 @@ impl Profile {
         self.least_squares
     }
 
-    /// The narrowest ring between two circles of one centre that holds all points (MZCI): no ring anywhere is narrower by
-    /// more than 1e-14 of the radius. Where several are as narrow, one of them.
+    /// The narrowest ring between two concentric circles that contains all points (MZCI): no ring is narrower by
+    /// more than 1e-14 of the radius. Where several are equally narrow, one of them.
     ///
     /// # Errors
-    /// An arc so short for its form error that lines do better than circles, or that no centre can be proven.
+    /// An arc so short for its form error that lines are better than circles, or that no centre can be proven.
     pub fn minimum_zone(&self) -> Result<Zone, RoundnessError> {
         let found = zone::minimum_zone(&self.scaled)?;
         Ok(Zone {
@@ -70,17 +70,17 @@ impl Profile {
         })
     }
 
-    /// The smallest circle that holds all points (MCCI).
+    /// The smallest circle that encloses all points (MCCI).
     pub fn minimum_circumscribed(&self) -> ReferenceCircle {
         let (centre, [inner, outer]) = circumscribed::minimum_circumscribed(&self.scaled);
         self.circle(centre, outer, outer - inner)
     }
 
-    /// The largest circle that holds no point, about a centre within the profile (MICI): none is larger by more than
+    /// The largest circle that contains no point, about a centre within the profile (MICI): none is larger by more than
     /// 1e-14 of the radius.
     ///
     /// # Errors
-    /// Points that leave half a turn open, so that the circle has no end, or that hold it from one side only.
+    /// Points that leave half a turn open, so that there is no such circle, or that touch it on one side only.
     pub fn maximum_inscribed(&self) -> Result<ReferenceCircle, RoundnessError> {
         let gap_deg = self.polar().gap.width.to_degrees();
         if gap_deg >= inscribed::WIDEST_GAP_DEG {

@@ -1,14 +1,15 @@
-//! The best centre of all, with proof: a quantity of the centre made least, by halving cells and bounding what is in them.
+//! Global optimum of the centre, with proof: branch and bound over cells.
 //!
-//! A cell is a rectangle of centres. Each is asked for a bound: no centre in it has less. The cell with the least bound is
-//! halved; where no bound is below the least value found, less `TOLERANCE`, that value is the least of all. What is found
-//! does not depend on a good start, and a local optimum cannot pass for the global one.
+//! A cell is a rectangle of centres. Each has a bound: no centre in it has less. The cell with the least bound is
+//! halved; where no bound is below the least value found, less `TOLERANCE`, that value is the global minimum. The
+//! result does not depend on a good start, and is never a local optimum.
 //!
-//! Bounds are taken over a few working points, which is allowed, since fewer points ask for less; values over all of them.
-//! Points that decide a value join the working points: so a profile of 10^5 points is searched at the price of some tens.
+//! Bounds are taken over a few working points, which is valid, since fewer points give lower bounds; values over all of
+//! them. Points that decide a value join the working points: a profile of 10^5 points is then searched at the cost of
+//! some tens.
 //!
-//! Source: branch and bound, as in Horst and Tuy, Global Optimization, Springer 1996; working points as in cutting planes:
-//! Kelley, The cutting-plane method for solving convex programs, J. SIAM 8, 1960 \[recalled\].
+//! Source: branch and bound, as in Horst and Tuy, Global Optimization, Springer 1996; working points as in cutting
+//! planes: Kelley, The cutting-plane method for solving convex programs, J. SIAM 8, 1960 \[recalled\].
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -17,10 +18,10 @@ use nalgebra::Vector2;
 
 use super::RoundnessError;
 
-/// What is found may be above the least of all by this, in radii of the profile: some tens of roundings.
+/// The result may exceed the minimum by this, in radii of the profile: some tens of roundings.
 const TOLERANCE: f64 = 1e-14;
-/// Most distances that are looked at, and as many times all points beside them: a profile takes some hundred thousand, and
-/// all points a hundred times.
+/// Maximum number of distances that are computed, in addition to as many times all points: a profile takes some hundred
+/// thousand, and all points a hundred times.
 const MOST_WORK: usize = 300_000_000;
 const MOST_TIMES_ALL: usize = 1000;
 
@@ -32,34 +33,35 @@ pub(super) struct Cell {
     pub half: Vector2<f64>,
 }
 
-/// What is known of a cell.
+/// Bound of a cell.
 pub(super) struct Bound {
     /// No centre in it has less.
     pub least: f64,
-    /// The value at its middle over the working points; infinite where no centre may lie there.
+    /// The value at its middle over the working points; infinite where a centre there is not valid.
     pub at_middle: f64,
-    /// How much each half side has a part in `least` being below `at_middle`.
+    /// Contribution of each half side to `least` being below `at_middle`.
     pub by_side: Vector2<f64>,
 }
 
-/// A plane that the quantity is never below in a cell: `value + slope . (c - middle)`, less its bend.
+/// A plane below the quantity in a cell: `value + slope . (c - middle)`, less its bend.
 #[derive(Clone, Copy)]
 pub(super) struct Tangent {
     /// At the middle of the cell.
     pub value: f64,
     pub slope: Vector2<f64>,
-    /// How far the quantity bends below the plane, the part of each half side.
+    /// Bend of the quantity below the plane, by half side.
     pub bend: Vector2<f64>,
 }
 
 impl Tangent {
-    /// The least that it leaves in a cell, and what each half side takes off the value at the middle.
+    /// Its least value in a cell, and the contribution of each half side to the difference from the value at the
+    /// middle.
     fn least(&self, half: &Vector2<f64>) -> (f64, Vector2<f64>) {
         let by_side = self.slope.abs().component_mul(half) + self.bend;
         (self.value - by_side.sum(), by_side)
     }
 
-    /// The mean of both by weight: the quantity is not below that either.
+    /// The weighted mean of both: it is a lower bound too.
     fn mean(&self, other: &Tangent, weight: f64) -> Tangent {
         Tangent {
             value: weight * self.value + (1.0 - weight) * other.value,
@@ -69,8 +71,8 @@ impl Tangent {
     }
 }
 
-/// The best bound by `first` alone and by its means with each of `others`: where two that face each other hold the optimum,
-/// their mean is level, and large cells are enough. What each half side takes off comes with it.
+/// The best bound by `first` alone and by its means with each of `others`: where two opposite ones determine the
+/// optimum, their mean is level, and large cells are sufficient. Returned with the contribution of each half side.
 pub(super) fn bound_by(
     first: Tangent,
     others: impl Iterator<Item = Tangent>,
@@ -87,34 +89,34 @@ pub(super) fn bound_by(
     (best, by_side)
 }
 
-/// How far the distance to a point, `away` from the middle of a cell at `distance`, is above its tangent in the cell at
-/// most, the part of each half side: the square of what passes across the line of sight, over twice the least distance.
+/// Greatest excess of the distance to a point, `away` from the middle of a cell at `distance`, over its tangent in the
+/// cell, by half side: the square of the part across the line of sight, over twice the least distance.
 pub(super) fn distance_bend(away: &Vector2<f64>, distance: f64, half: &Vector2<f64>) -> Vector2<f64> {
     let passed = Vector2::new(away.y, away.x).abs().component_mul(half) / distance;
     passed * (passed.sum() / (2.0 * (distance - half.norm())))
 }
 
-/// A quantity of the centre, to be made least.
+/// A quantity of the centre, to be minimised.
 pub(super) trait Objective {
     /// Its value over all points; those that decide it join the working points.
     fn value(&mut self, centre: &Vector2<f64>) -> f64;
-    /// What is known of a cell from the working points.
+    /// Bound of a cell from the working points.
     fn bound(&self, cell: &Cell) -> Bound;
-    /// How many points a value looks at, and how many a bound.
+    /// Number of points used by a value, and by a bound.
     fn work(&self) -> [usize; 2];
 }
 
-/// A cell that may hold better.
+/// A cell that may contain a better centre.
 struct Open {
     least: f64,
     by_side: Vector2<f64>,
     cell: Cell,
 }
 
-/// The centre in `root` where `objective` is least, to `TOLERANCE`, and its value; `start` is the first guess.
+/// The centre in `root` where `objective` is least, to `TOLERANCE`, and its value; `start` is the initial guess.
 ///
 /// # Errors
-/// Too many cells are as good as each other.
+/// Too many cells are nearly equivalent.
 pub(super) fn least(
     objective: &mut impl Objective,
     root: Cell,
@@ -160,7 +162,7 @@ pub(super) fn least(
 }
 
 impl Open {
-    /// Both halves of the cell, across the side that spoils its bound most.
+    /// Both halves of the cell, across the side that contributes most to its bound.
     fn halves(&self) -> [Cell; 2] {
         let mut half = self.cell.half;
         let side = self.by_side.imax();
@@ -174,7 +176,7 @@ impl Open {
     }
 }
 
-/// The cell with the least bound comes first out of the heap.
+/// The cell with the least bound is first out of the heap.
 impl Ord for Open {
     fn cmp(&self, other: &Open) -> Ordering {
         other.least.total_cmp(&self.least)

@@ -1,19 +1,19 @@
-//! The minimum zone (MZCI): the narrowest ring between two circles of one centre that holds all points.
+//! The minimum zone (MZCI): the narrowest ring between two concentric circles that contains all points.
 //!
-//! `w(c) = max |p - c| - min |p - c|`, least over all centres `c`. In a cell of half sides `h` about `m`, one point `f` far
-//! from `m` and one `g` near it bound it from below, with `d = |p - m|` and `u = (p - m) / d`:
+//! `w(c) = max |p - c| - min |p - c|`, least over all centres `c`. In a cell of half sides `h` about `m`, one point `f`
+//! far from `m` and one `g` near it bound it from below, with `d = |p - m|` and `u = (p - m) / d`:
 //!
 //! ```text
 //! w >= (d_f - d_g) - |u_f - u_g| . h - t^2 / (2 (d_g - |h|)),    t = |u_gy| h_x + |u_gx| h_y
 //! w >= (d_f - d_g) - 2 |f - g| / (d_f + d_g - 2 |h|) |h|
 //! ```
 //!
-//! The first is good in small cells: a distance is at least its tangent, and above it by the square of what passes across;
-//! so is a mean of two such bounds.
-//! The second is good far away, where both points are seen in nearly the same direction.
+//! The first is good in small cells: a distance is at least its tangent, and above it by the square of the part across;
+//! a mean of two such bounds is also a bound.
+//! The second is good far away, where both points have nearly the same direction.
 //!
-//! At the best centre four points touch, in general two of each circle or three of one and one of the other; nothing here
-//! needs to know which.
+//! At the best centre four points touch, in general two of each circle or three of one and one of the other; the method
+//! does not depend on which.
 
 use nalgebra::{Point2, Vector2};
 
@@ -21,7 +21,7 @@ use super::RoundnessError;
 use super::profile::reach;
 use super::search::{Bound, Cell, Objective, Tangent, bound_by, distance_bend, least};
 
-/// Two circles of one centre.
+/// Two concentric circles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Zone {
     /// Centre, m.
@@ -39,12 +39,12 @@ impl Zone {
     }
 }
 
-/// Centres are looked for so far away, in radii of the least-squares circle: beyond, circles are lines.
+/// Greatest distance of centres, in radii of the least-squares circle: beyond, circles are lines.
 const FARTHEST: f64 = 1e3;
 
-/// The narrowest zone of `points`, which lie about the origin at a distance of about one.
+/// The narrowest zone of `points`, which are about the origin at a distance of about one.
 pub(super) fn minimum_zone(points: &[Vector2<f64>]) -> Result<Zone, RoundnessError> {
-    // Sides along and across the arc, if the points are one: cells can be long where the centre is least known.
+    // Sides along and across the arc, if the points are one: cells can be long where the centre is least determined.
     let mean: Vector2<f64> = points.iter().sum();
     let along = mean.try_normalize(1e-3).unwrap_or(Vector2::x());
     let across = Vector2::new(-along.y, along.x);
@@ -104,7 +104,7 @@ impl Objective for Width<'_> {
         let size = cell.half.norm();
         let at_middle = far - near;
 
-        // Far away: by how much the difference of the distances can change at all.
+        // Far away: by the greatest possible change of the difference of the distances.
         let sum = far + near - 2.0 * size;
         let most_slope = if sum > 0.0 {
             2.0_f64.min(2.0 * (f - g).norm() / sum)
@@ -125,13 +125,13 @@ impl Objective for Width<'_> {
                 (bound.least, bound.by_side) = (least, by_side);
             }
         }
-        // No ring is narrower than nothing: without this, all centres as far from three points would be searched.
+        // The width is never negative: without this, all centres equally far from three points would be searched.
         bound.least = bound.least.max(0.0);
         bound
     }
 }
 
-/// What `f` far away and `g` near by say of the width in a cell whose middle is farther from `g` than its corners.
+/// Bound of the width by `f` far away and `g` near by in a cell whose middle is farther from `g` than its corners.
 fn tangent(cell: &Cell, f: &Vector2<f64>, g: &Vector2<f64>) -> Tangent {
     let (to_f, to_g) = (f - cell.middle, g - cell.middle);
     let (far, near) = (to_f.norm(), to_g.norm());

@@ -10,7 +10,7 @@
 //! | `s_i` | screw of joint i at the TCP, base basis | m/rad, rad/rad |
 //! | `c_i`, `u_i` | joint compliance, its standard uncertainty | rad/(N m) |
 //! | `w` | wrench on the tool at the TCP, base basis | N, N m |
-//! | `delta` | TCP twist: where the tool is minus where it was asked to be | m, rad |
+//! | `delta` | TCP twist: position of the tool minus its commanded position | m, rad |
 //!
 //! Valid for deflections small against the arm (below about 1 mm on a metre). Source: Shneor & Chapsky 2021,
 //! eq. (10), with the reference point moved to the TCP.
@@ -27,7 +27,7 @@ pub fn sensitivity(screw: &Twist, wrench: &Wrench) -> Twist {
     *screw * screw.dot(wrench)
 }
 
-/// Displacement of the tool by all joints, m: what a map needs of it.
+/// Displacement of the tool by all joints, m, as used by maps.
 pub fn displacement(screws: &[Twist], joints: &[JointCompliance], wrench: &Wrench) -> Vector3<f64> {
     screws
         .iter()
@@ -55,7 +55,7 @@ pub fn covariance(screws: &[Twist], joints: &[JointCompliance], wrench: &Wrench)
     parts.sum()
 }
 
-/// The simple model by itself: the deviation of a tool held in `posture` by joints of these compliances, as many as it has, under `wrench`.
+/// The simple model on its own: the deviation of a tool in `posture`, with joints of these compliances, under `wrench`.
 ///
 /// ```
 /// use armill_core::source::elastic::predict;
@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn shares_displacement_and_sensitivity_say_the_same() {
+    fn shares_displacement_and_sensitivity_agree() {
         let (screws, joints) = arm();
         let load = Wrench {
             force: Vector3::new(3.0, -5.0, 5.0),

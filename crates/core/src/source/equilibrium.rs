@@ -1,24 +1,24 @@
-//! Load-dependent stiffness: the load acts on the arm as it has yielded.
+//! Load-dependent stiffness: the load acts on the deflected arm.
 //!
-//! With the wrench `w` constant in base, drives and springs give way by `x` until
+//! With the wrench `w` constant in base, drives and springs deflect by `x` until
 //!
 //! ```text
 //! K x = J(x)^T w + tau_g(x) - tau_g(0)          K_C[i, j] = d(J^T w + tau_g)_i / d x_j
 //! C = J (K - K_C)^-1 J^T                        tangent at the loaded posture
 //! ```
 //!
-//! Newton's method with the exact `K_C`, in the compliance form `x = c (..)`, so that rigid joints (`c = 0`) are
-//! nothing special. For the screws `[v; o]` of `e` and `l`, the earlier and the later of i and j in the chain, the force
+//! Newton's method with the exact `K_C`, in the compliance form `x = c (..)`, so that rigid joints (`c = 0`) need no
+//! special case. For the screws `[v; o]` of `e` and `l`, the earlier and the later of i and j in the chain, the force
 //! `f` at the TCP gives `K_C[i, j] = (o_e x v_l) . f`. The moment `m` gives `(o_j x o_i) . m` where j comes before i
-//! and zero where it comes after: with moments `K_C` is not symmetric. Weight counts at its own centre, for what both
-//! carry.
+//! and zero where it comes after: with moments `K_C` is not symmetric. Each mass acts at its own centre, on the screws
+//! that both carry it.
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | `x` | how far drives, then springs, have given way | rad (m) |
-//! | `K`, `K_C` | their stiffness; what the load adds to or takes from it | N m/rad |
+//! | `x` | deflections of the drives, then of the springs | rad (m) |
+//! | `K`, `K_C` | their stiffness; the stiffness by the load | N m/rad |
 //!
-//! An equilibrium counts if the symmetric part of `K - K_C` is positive definite: then none of the parts runs away.
+//! An equilibrium is accepted if the symmetric part of `K - K_C` is positive definite: it is stable then.
 //! Source: Chen & Kao 2000, Int. J. Robotics Research 19:835-847; Alici & Shirinzadeh 2005, IEEE Trans. Robotics
 //! 21:554-564; `docs/theory/load-dependent.md`.
 
@@ -28,27 +28,27 @@ use super::gravity::{Carried, carry_into, torque};
 use super::linear_system::{is_positive_definite, solve};
 use super::stiffness_model::Arm;
 use crate::robot::Attachment;
-use crate::robot::deflected_arm::{DeflectedArm, twist_between, deflect_into};
+use crate::robot::deflected_arm::{DeflectedArm, deflect_into, twist_between};
 use crate::spatial::{Twist, Wrench};
 
-/// Why an arm does not come to rest under its load.
+/// Why an arm has no equilibrium under its load.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Unstable {
     /// The equation has no solution nearby, or none was found.
     #[error("the arm finds no equilibrium under this load")]
     NoEquilibrium,
-    /// An equilibrium that the least push leaves: the arm buckles.
+    /// An unstable equilibrium: the arm buckles.
     #[error("the arm buckles: its equilibrium under this load is not stable")]
     Buckles,
 }
 
-/// Room for finding an equilibrium, and the last one found.
+/// Working memory for the equilibrium, and the last one found.
 #[derive(Clone, Debug)]
 pub struct Equilibrium {
     rest: DeflectedArm,
-    yielded: DeflectedArm,
+    deflected: DeflectedArm,
     carried: Vec<Carried>,
-    /// Place of each drive or spring in the chain, base first.
+    /// Position of each drive or spring in the chain, base first.
     place: Vec<usize>,
     /// Attachment of each, by rank.
     rank: Vec<usize>,
@@ -60,21 +60,25 @@ pub struct Equilibrium {
     step: DMatrix<f64>,
 }
 
-/// Newton's steps at most; four are usual.
+/// Maximum number of Newton steps; four are usual.
 const MOST_STEPS: usize = 40;
-/// A drive that turns farther (rad) has left what this model is for.
+/// Beyond this deflection of a drive (rad) the model is not valid.
 const FARTHEST: f64 = 0.5;
-/// Steps this small against the longest way gone, and absolutely (rad, m), leave rounding: each step squares the error.
+/// Convergence: steps this small relative to the largest deflection, and absolutely (rad, m), leave only rounding.
 const CONVERGED: (f64, f64) = (1e-10, 1e-16);
 
 impl Equilibrium {
-    /// Room for this arm.
+    /// Working memory for this arm.
     pub fn for_arm(arm: &Arm<'_>) -> Equilibrium {
         let joints = arm.robot.joints().len();
         let springs = arm.model.structure.springs.len();
-        let rank: Vec<usize> = arm.attachments().into_iter().map(|attachment| attachment.rank(joints)).collect();
+        let rank: Vec<usize> = arm
+            .attachments()
+            .into_iter()
+            .map(|attachment| attachment.rank(joints))
+            .collect();
         let size = rank.len();
-        // A drive comes before the springs of its own seat; those come in the order of the list.
+        // A drive comes before the springs of its own attachment; those come in the order of the list.
         let mut order: Vec<usize> = (0..size).collect();
         order.sort_by_key(|k| (rank[*k], *k));
         let mut place = vec![0; size];
@@ -83,7 +87,7 @@ impl Equilibrium {
         }
         Equilibrium {
             rest: DeflectedArm::for_robot(arm.robot, springs),
-            yielded: DeflectedArm::for_robot(arm.robot, springs),
+            deflected: DeflectedArm::for_robot(arm.robot, springs),
             carried: vec![Carried::NOTHING; Attachment::count(joints)],
             place,
             rank,
@@ -96,7 +100,7 @@ impl Equilibrium {
         }
     }
 
-    /// How far drives and springs have given way, rad (m).
+    /// Deflections of drives and springs, rad (m).
     pub fn turns(&self) -> &[f64] {
         &self.x
     }
@@ -106,14 +110,14 @@ impl Equilibrium {
         &self.torques
     }
 
-    /// `K_C` where the arm stands now, N m/rad.
+    /// `K_C` at the current posture, N m/rad.
     pub fn load_stiffness(&self) -> &DMatrix<f64> {
         &self.k_c
     }
 
     /// Displacement of the tool from the arm at rest at chain positions `theta` to its equilibrium under `wrench`.
     ///
-    /// `law` gives, for each drive or spring and the torque of the load on it, how far it turns and the slope of that;
+    /// `law` gives, for each drive or spring and the torque of the load on it, its deflection and the slope of that;
     /// `before` is gravity's torque at rest.
     ///
     /// # Errors
@@ -130,7 +134,7 @@ impl Equilibrium {
         let body = (arm.robot, springs, arm.flange_from_tool);
         deflect_into(body, theta, &self.x, &mut self.rest);
         for _ in 0..MOST_STEPS {
-            self.stand(arm, (theta, before), wrench);
+            self.evaluate(arm, (theta, before), wrench);
             for (k, slope) in self.slopes.iter_mut().enumerate() {
                 let (turn, here) = law(k, self.torques[k]);
                 *slope = here;
@@ -149,36 +153,37 @@ impl Equilibrium {
                 (longest, last) = (longest.max(x.abs()), last.max(step.abs()));
             }
             if last <= CONVERGED.0 * longest + CONVERGED.1 {
-                self.stand(arm, (theta, before), wrench);
+                self.evaluate(arm, (theta, before), wrench);
                 return self.if_stable();
             }
         }
         Err(Unstable::NoEquilibrium)
     }
 
-    /// The compliance tangent to the load where the arm stands now: 6 x 6 at the yielded TCP, base, translation first.
+    /// The tangent compliance under the load at the current posture: 6 x 6 at the deflected TCP, base, translation
+    /// first.
     pub fn tangent(&mut self) -> Option<Matrix6<f64>> {
         self.fill_matrix();
         let mut rows = DMatrix::from_fn(self.x.len(), 6, |k, j| {
-            self.slopes[k] * self.yielded.screws[k].to_vector()[j]
+            self.slopes[k] * self.deflected.screws[k].to_vector()[j]
         });
         solve(&mut self.matrix, &mut rows).then(|| {
             let column = |j: usize| -> nalgebra::Vector6<f64> {
-                let screws = self.yielded.screws.iter().enumerate();
+                let screws = self.deflected.screws.iter().enumerate();
                 screws.map(|(k, screw)| screw.to_vector() * rows[(k, j)]).sum()
             };
             Matrix6::from_columns(&[0, 1, 2, 3, 4, 5].map(column))
         })
     }
 
-    /// Screws, torques and `K_C` of the arm given way by `x`.
-    fn stand(&mut self, arm: &Arm<'_>, (theta, before): (&[f64], &[f64]), wrench: &Wrench) {
+    /// Screws, torques and `K_C` of the arm deflected by `x`.
+    fn evaluate(&mut self, arm: &Arm<'_>, (theta, before): (&[f64], &[f64]), wrench: &Wrench) {
         let structure = &arm.model.structure;
         let body = (arm.robot, &structure.springs[..], arm.flange_from_tool);
-        deflect_into(body, theta, &self.x, &mut self.yielded);
+        deflect_into(body, theta, &self.x, &mut self.deflected);
         let joints = theta.len();
-        let (attachments, screws) = (&self.yielded.attachments, &self.yielded.screws);
-        let tcp = self.yielded.base_from_tool().translation.vector;
+        let (attachments, screws) = (&self.deflected.attachments, &self.deflected.screws);
+        let tcp = self.deflected.base_from_tool().translation.vector;
         let g = arm.model.gravity.as_ref().map(|gravity| gravity.acceleration);
         if g.is_some() {
             let frame = |attachment: Attachment| attachments[attachment.rank(joints)];
@@ -201,7 +206,8 @@ impl Equilibrium {
         }
         if let Some(c) = &structure.compensator {
             let (at, turned) = (theta[c.joint], theta[c.joint] + self.x[c.joint]);
-            // Where gravity counts, `before` holds the compensator at rest and the weight above has taken it off.
+            // With gravity, `before` contains the torque of the compensator at rest, and the weight above has
+            // subtracted it.
             let taken_off = if g.is_some() { 0.0 } else { c.torque(at) };
             self.torques[c.joint] += c.torque(turned) - taken_off;
             self.k_c[(c.joint, c.joint)] += c.slope(turned);
@@ -219,7 +225,7 @@ impl Equilibrium {
     }
 
     fn if_stable(&mut self) -> Result<Twist, Unstable> {
-        // K - K_C scaled by the roots of c on both sides; rows of what is rigid become those of the unit matrix.
+        // K - K_C scaled by the roots of c on both sides; rows of rigid joints become those of the unit matrix.
         for i in 0..self.x.len() {
             for j in 0..self.x.len() {
                 let unit = if i == j { 1.0 } else { 0.0 };
@@ -232,7 +238,7 @@ impl Equilibrium {
         }
         Ok(twist_between(
             &self.rest.base_from_tool(),
-            &self.yielded.base_from_tool(),
+            &self.deflected.base_from_tool(),
         ))
     }
 }

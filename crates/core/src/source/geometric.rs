@@ -1,4 +1,4 @@
-//! Geometry: the arm is not the one that its controller reckons with.
+//! Geometry: the arm differs from the model in its controller.
 //!
 //! ```text
 //! delta = T_actual(q) e - T_believed(q) e
@@ -7,10 +7,10 @@
 //! | symbol | meaning |
 //! |---|---|
 //! | `q` | joint positions that the controller commands |
-//! | `T` | base to flange of the arm as it was measured, and as the controller has it |
+//! | `T` | base to flange of the calibrated arm, and of the model in the controller |
 //! | `e` | the tool on its flange |
 //!
-//! Both arms stand on the same base and carry the same tool. Source: definition; `docs/theory/unloaded.md`.
+//! Both arms have the same base and carry the same tool. Source: definition; `docs/theory/unloaded.md`.
 
 use crate::frame::Isometry;
 use crate::robot::Robot;
@@ -18,8 +18,8 @@ use crate::robot::forward::forward;
 use crate::robot::inverse::tool_on;
 use crate::spatial::Twist;
 
-/// How far the tool of `actual` is from where a controller believes it that commands `q` to `believed`: displacement (m) of
-/// the TCP and turn (rad), base. Not checked: that both have as many joints.
+/// Deviation of the tool of `actual` from the pose that its controller, with the model `believed`, computes at `q`:
+/// displacement (m) of the TCP and rotation (rad), base. Not checked: that both have the same number of joints.
 pub fn displacement(believed: &Robot, actual: &Robot, flange_from_tool: &Isometry, q: &[f64]) -> Twist {
     let tool = |robot: &Robot| tool_on(&forward(robot, q), flange_from_tool);
     let [believed, actual] = [believed, actual].map(tool);
@@ -37,7 +37,7 @@ mod tests {
     use crate::arms;
     use crate::robot::{Amount, Motion};
 
-    /// The arm with its constant number `which` longer (m) or turned on (rad) by this.
+    /// The arm with its constant number `which` longer (m) or rotated further (rad) by this.
     fn other(which: usize, by: f64) -> Robot {
         let robot = arms::mh12();
         let mut motions = robot.chain().motions().to_vec();
@@ -52,7 +52,7 @@ mod tests {
     }
 
     #[test]
-    fn an_arm_that_is_as_believed_is_where_it_is_believed() {
+    fn an_arm_equal_to_its_model_has_no_deviation() {
         let robot = arms::mh12();
         let at = displacement(
             &robot,
@@ -64,7 +64,7 @@ mod tests {
     }
 
     #[test]
-    fn a_higher_base_lifts_the_tool_and_turns_nothing() {
+    fn a_higher_base_lifts_the_tool_without_rotation() {
         let robot = arms::mh12();
         // The first constant of the chain is the height of the base.
         let at = displacement(

@@ -1,7 +1,7 @@
-//! Gravity: what the masses do to drives and springs.
+//! Gravity: torques of the masses on drives and springs.
 //!
-//! A drive or spring carries every mass between itself and the tool. Told at the TCP, the weight of what it carries is
-//! a wrench, and its torque is the work of that wrench on its screw:
+//! A drive or spring carries every mass between itself and the tool. Expressed at the TCP, the weight that it carries
+//! is a wrench, and its torque is the work of that wrench on its screw:
 //!
 //! ```text
 //! tau_k = s_k . [ M_k g ; S_k x g ]        M_k = sum m,  S_k = sum m (r - p)  over the masses that k carries
@@ -18,10 +18,10 @@
 
 use nalgebra::{IsometryMatrix3, Vector3};
 
-use crate::robot::{Mass, Attachment};
+use crate::robot::{Attachment, Mass};
 use crate::spatial::{Twist, Wrench};
 
-/// The masses that one seat and all after it carry.
+/// The masses carried by one attachment and all after it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Carried {
     /// `M`, kg.
@@ -46,7 +46,8 @@ impl Carried {
     }
 }
 
-/// What each seat carries, by [`Attachment::rank`], into `carried`: as many as seats. `attachment_frame` gives a seat in base.
+/// Fills `carried` with the masses carried by each attachment, by [`Attachment::rank`]. `attachment_frame` gives the
+/// frame of an attachment in base.
 pub fn carry_into(
     masses: &[Mass],
     attachment_frame: impl Fn(Attachment) -> IsometryMatrix3<f64>,
@@ -80,7 +81,7 @@ mod tests {
     use nalgebra::Point3;
 
     #[test]
-    fn a_mass_on_a_lever_pulls_with_its_arm() {
+    fn the_torque_of_a_mass_is_its_weight_times_its_lever() {
         // 10 kg at 0.5 m from an axis along y: 10 x 9.81 x 0.5 N m, by the right hand about +y.
         let masses = [Mass {
             attachment: Attachment::Joint(0),
@@ -99,7 +100,7 @@ mod tests {
         assert_eq!(carried[2], Carried::NOTHING);
     }
 
-    /// Masses on every seat of an arm of two joints.
+    /// Masses on every attachment of an arm of two joints.
     fn masses() -> Vec<Mass> {
         let mass = |attachment, mass, x| Mass {
             attachment,
@@ -116,7 +117,7 @@ mod tests {
         ]
     }
 
-    /// A frame of its own for every seat.
+    /// A different frame for every attachment.
     fn frame(attachment: Attachment) -> IsometryMatrix3<f64> {
         let rank = attachment.rank(2) as f64;
         IsometryMatrix3::new(
@@ -137,7 +138,7 @@ mod tests {
             .map(|mass| ((frame(mass.attachment) * mass.centre).coords - tcp).cross(&(g * mass.mass)))
             .sum();
         assert!((weight.moment - moment).norm() < 1e-12);
-        // Tool, then flange and tool, then joint 2 and all behind it.
+        // Tool, then flange and tool, then joint 2 and all after it.
         assert_eq!(
             [4, 3, 2, 1].map(|rank: usize| carried[rank].mass),
             [1.0, 8.0, 33.0, 63.0]
@@ -156,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_carried_before_is_forgotten_and_the_order_of_masses_does_not_count() {
+    fn earlier_results_are_overwritten_and_the_order_of_masses_has_no_effect() {
         let (mut once, mut twice) = ([Carried::NOTHING; 5], [Carried::NOTHING; 5]);
         carry_into(&masses(), frame, Vector3::x(), &mut once);
         let mut reversed = masses();

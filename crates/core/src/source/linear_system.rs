@@ -93,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn zeros_on_the_diagonal_are_no_hindrance() {
+    fn zeros_on_the_diagonal_are_handled() {
         // A permutation: every pivot must be fetched from below.
         let cycle = DMatrix::from_row_slice(3, 3, &[0.0, 1.0, 0.0, 0.0, 0.0, 2.0, 4.0, 0.0, 0.0]);
         let mut x = DMatrix::from_column_slice(3, 1, &[5.0, 6.0, 8.0]);
@@ -103,7 +103,7 @@ mod tests {
 
     #[test]
     fn the_largest_pivot_is_taken() {
-        // Without it the one would be lost beside 1e20.
+        // Without it the one would be lost next to 1e20.
         let mut a = DMatrix::from_row_slice(2, 2, &[1e-20, 1.0, 1.0, 1.0]);
         let mut x = DMatrix::from_column_slice(2, 1, &[1.0, 2.0]);
         assert!(solve(&mut a, &mut x));
@@ -111,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_that_are_none_have_no_solution() {
+    fn numbers_that_are_not_finite_have_no_solution() {
         for broken in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             for at in 0..3 {
                 let mut a = some(3);
@@ -134,9 +134,9 @@ mod tests {
     }
 
     #[test]
-    fn definite_is_what_has_positive_eigenvalues_alone() {
+    fn definite_requires_only_positive_eigenvalues() {
         for least in [-1e-9, 1e-9] {
-            // Eigenvalues 1, 2 and this one, in axes that are turned.
+            // Eigenvalues 1, 2 and this one, in rotated axes.
             let turn = nalgebra::Rotation3::from_euler_angles(0.3, -1.0, 2.0);
             let diagonal = nalgebra::Matrix3::from_diagonal(&nalgebra::Vector3::new(1.0, 2.0, least));
             let turned = turn.matrix() * diagonal * turn.matrix().transpose();

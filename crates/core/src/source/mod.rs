@@ -1,14 +1,17 @@
-//! What moves the tool away from where it was asked to be?
+//! Sources of the deviation of the tool.
 //!
-//! [`elastic`]: joints give way to the load, the simple model by itself. [`stiffness_model`]: which parts beyond it are on.
-//! [`gravity`]: what masses do to drives and springs. [`equilibrium`]: where an arm comes to rest that the load changes.
-//! [`backlash`]: where links lie in the gaps of their joints. [`geometric`]: an arm that is not the one that its controller
-//! reckons with. [`repeatability`]: how it scatters from time to time.
-//! [`standing`]: one arm in one posture, and what each of these moves there; `predict.rs` adds them in a visible row.
+//! [`elastic`]: joint deflection under the load, the simple model. [`stiffness_model`]: the optional parts beyond it.
+//! [`gravity`]: torques of the masses on drives and springs. [`equilibrium`]: equilibrium of an arm that the load
+//! changes.
+//! [`backlash`]: positions of the links within their backlash. [`geometric`]: the arm differs from the model in its
+//! controller. [`repeatability`]: scatter of repeated poses.
+//! [`arm_state`]: one arm in one posture, and the effect of each source there; `predict.rs` adds them.
 //!
-//! `deviation`: what they give together. `linear_system`: small systems of equations, in room that is reused.
+//! `deviation`: the sum of all sources; `contributor`: what it is shared out to. `linear_system`: small systems of equations in reused memory.
 
+pub mod arm_state;
 pub mod backlash;
+mod contributor;
 mod deviation;
 pub mod elastic;
 pub mod equilibrium;
@@ -16,10 +19,10 @@ pub mod geometric;
 pub mod gravity;
 mod linear_system;
 pub mod repeatability;
-pub mod arm_state;
 pub mod stiffness_model;
 
+pub use arm_state::{ArmState, Links};
+pub use contributor::Contributor;
 pub use deviation::Deviation;
 pub use equilibrium::Unstable;
-pub use arm_state::{Links, ArmState};
 pub use stiffness_model::{Arm, Gravity, StiffnessModel};

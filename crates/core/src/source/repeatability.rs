@@ -1,17 +1,17 @@
-//! Repeatability: the arm comes to rest a little elsewhere each time.
+//! Repeatability: scatter of the tool between repetitions of a pose.
 //!
 //! ```text
-//! cov(delta) = sigma^2 I                                        as large along every axis
+//! cov(delta) = sigma^2 I                                        equal along every axis
 //! RP = l + 3 S_l,   l = 2 sqrt(2/pi) sigma,   S_l = sqrt(3 - 8/pi) sigma
 //! ```
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | `sigma` | standard deviation of the place of the tool along any axis | m |
+//! | `sigma` | standard deviation of the tool position along any axis | m |
 //! | `RP` | pose repeatability of a data sheet or a test | m |
-//! | `l`, `S_l` | mean distance of the places from their barycentre, and its standard deviation | m |
+//! | `l`, `S_l` | mean distance of the attained positions from their barycentre, and its standard deviation | m |
 //!
-//! Places that scatter normally, alike along all axes, lie at distances of Maxwell's distribution. Source: ISO 9283:1998,
+//! Distances of positions with an isotropic normal distribution have Maxwell's distribution. Source: ISO 9283:1998,
 //! 7.2.2 \[recalled\] for `RP`; the moments of that distribution are those of any textbook of probability.
 
 use nalgebra::Matrix3;
@@ -24,7 +24,7 @@ pub fn deviation_of(pose: f64) -> f64 {
     pose / POSE_BY_DEVIATION
 }
 
-/// The covariance (m^2) of the place of the tool.
+/// The covariance (m^2) of the tool position.
 pub fn covariance(deviation: f64) -> Matrix3<f64> {
     Matrix3::from_diagonal_element(deviation * deviation)
 }

@@ -1,42 +1,43 @@
-//! Which parts of the stiffness model are on, and the arm that they are on for.
+//! The parts of the stiffness model, and the arm to which they apply.
 //!
-//! The simple model: every joint yields about its own axis, and nothing else does. Everything beyond is a part that is
-//! there or not; without it the same numbers come out, to the last bit.
+//! The simple model: every joint deflects about its own axis, and nothing else does. Every further part is optional;
+//! without it the results are identical to the last bit.
 
 use std::sync::Arc;
 
 use nalgebra::Vector3;
 
+use super::contributor::Contributor;
 use crate::frame::Isometry;
-use crate::robot::{Joint, JointCompliance, Robot, Attachment, Structure};
+use crate::robot::{Attachment, Joint, JointCompliance, Robot, Structure};
 
 /// Standard acceleration of free fall, m/s^2: 3rd CGPM 1901, ISO 80000-3.
 pub const FREE_FALL: f64 = 9.806_65;
 
-/// Gravity, and the pose where the tool was set: what the arm sags there does not count.
+/// Gravity, and the joint positions at tool setting: deflection by gravity is relative to those.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gravity {
     /// Acceleration, m/s^2, base; points down.
     pub acceleration: Vector3<f64>,
-    /// Joint positions where the tool was set, rad (m), the controller's counting.
+    /// Joint positions at tool setting, rad (m), controller coordinates.
     pub reference: Vec<f64>,
 }
 
-/// The parts of the stiffness model beside the drive springs.
+/// The parts of the stiffness model in addition to the drive springs.
 #[derive(Clone, Debug)]
 pub struct StiffnessModel {
-    /// What yields and weighs, tool and payload included.
+    /// Springs, masses and other parts, tool and payload included.
     pub structure: Structure,
-    /// Gravity; `None` leaves it out, whatever the masses.
+    /// Gravity; `None` neglects it, whatever the masses.
     pub gravity: Option<Gravity>,
-    /// Whether the load acts on the arm as it has yielded, instead of as it stood.
+    /// Whether the load acts on the deflected arm instead of the undeflected one.
     pub load_dependent: bool,
-    /// The arm as it was measured, where its controller reckons with another.
+    /// The calibrated arm, where it differs from the model in its controller.
     pub actual: Option<Arc<Robot>>,
 }
 
 impl StiffnessModel {
-    /// Drive springs and nothing else.
+    /// Only drive springs.
     pub const DRIVES: &'static StiffnessModel = &StiffnessModel {
         structure: Structure::EMPTY,
         gravity: None,
@@ -44,7 +45,7 @@ impl StiffnessModel {
         actual: None,
     };
 
-    /// Whether drive springs alone make the deviation, each with an uncertainty of its own.
+    /// Whether only drive springs contribute to the deviation, each with an independent uncertainty.
     pub fn is_drives_alone(&self) -> bool {
         let s = &self.structure;
         let curved = s.curves.iter().any(Option::is_some);
@@ -58,41 +59,44 @@ impl StiffnessModel {
         !self.load_dependent && self.structure.curves.iter().all(Option::is_none)
     }
 
-    /// Whether something moves the tool that no load makes: backlash, or geometry.
-    pub fn moves_unloaded(&self) -> bool {
-        self.structure.gaps().next().is_some() || self.actual.is_some()
+    /// Whether the tool has deviations that do not depend on the load: backlash, or geometry.
+    pub fn has_unloaded_deviation(&self) -> bool {
+        self.structure.joints_with_backlash().next().is_some() || self.actual.is_some()
     }
 
-    /// What the deviation is shared out to: every joint, then base, flange and tool where springs sit.
-    pub fn contributors(&self, joints: usize) -> Vec<Attachment> {
+    /// The contributors to the deviation: every joint, then base, flange and tool where they have springs, then the
+    /// geometry where it is calibrated.
+    pub fn contributors(&self, joints: usize) -> Vec<Contributor> {
         let others = [Attachment::Base, Attachment::Flange, Attachment::Tool];
-        let sits = |attachment: &Attachment| self.structure.springs.iter().any(|spring| spring.attachment == *attachment);
+        let has_spring = |attachment: &Attachment| {
+            self.structure
+                .springs
+                .iter()
+                .any(|spring| spring.attachment == *attachment)
+        };
         (0..joints)
             .map(Attachment::Joint)
-            .chain(others.into_iter().filter(sits))
+            .chain(others.into_iter().filter(has_spring))
+            .map(Contributor::At)
+            .chain(self.actual.as_ref().map(|_| Contributor::Geometry))
             .collect()
     }
 
-    /// Names of [`StiffnessModel::contributors`]: joints as their maker calls them, then `base`, `flange`, `tool`.
+    /// Names of [`StiffnessModel::contributors`].
     pub fn contributor_names(&self, joints: &[Joint]) -> Vec<String> {
-        let name = |attachment: Attachment| match attachment {
-            Attachment::Joint(index) => joints[index].name.clone(),
-            Attachment::Base => "base".to_owned(),
-            Attachment::Flange => "flange".to_owned(),
-            Attachment::Tool => "tool".to_owned(),
-        };
-        self.contributors(joints.len()).into_iter().map(name).collect()
+        let all = self.contributors(joints.len()).into_iter();
+        all.map(|contributor| contributor.name(joints)).collect()
     }
 }
 
-/// An arm that holds a tool, with all that yields and weighs in it.
+/// An arm with its tool, compliances and stiffness model.
 #[derive(Clone, Copy, Debug)]
 pub struct Arm<'a> {
     /// The robot.
     pub robot: &'a Robot,
     /// Compliance of each of its joints.
     pub compliance: &'a [JointCompliance],
-    /// What else is on.
+    /// The other parts of the model.
     pub model: &'a StiffnessModel,
     /// Flange to tool centre point.
     pub flange_from_tool: &'a Isometry,
@@ -110,9 +114,14 @@ impl Arm<'_> {
         self.compliance.iter().copied().chain(springs).collect()
     }
 
-    /// Where each drive, then each spring sits.
+    /// Attachment of each drive, then of each spring.
     pub(super) fn attachments(&self) -> Vec<Attachment> {
-        let springs = self.model.structure.springs.iter().map(|spring| spring.attachment);
+        let springs = self
+            .model
+            .structure
+            .springs
+            .iter()
+            .map(|spring| spring.attachment);
         (0..self.robot.joints().len())
             .map(Attachment::Joint)
             .chain(springs)
@@ -193,9 +202,9 @@ mod tests {
     }
 
     #[test]
-    fn drives_alone_are_those_beside_which_nothing_counts() {
+    fn only_drives_is_true_where_no_other_part_has_an_effect() {
         assert!(StiffnessModel::DRIVES.is_drives_alone());
-        // Masses count under gravity alone, and gravity on masses alone.
+        // Masses act only with gravity, and gravity only on masses.
         for alone in ["masses", "gravity"] {
             assert!(with(&[alone]).is_drives_alone(), "{alone}");
         }
@@ -227,22 +236,25 @@ mod tests {
     }
 
     #[test]
-    fn shares_are_told_for_joints_and_for_where_springs_sit() {
+    fn contributors_are_joints_and_the_attachments_of_springs() {
         let joints: Vec<Joint> = ["A1", "A2"].map(Joint::plain).to_vec();
         assert_eq!(StiffnessModel::DRIVES.contributor_names(&joints), ["A1", "A2"]);
-        // Base before tool, whatever the order of the list; springs of a joint count for it.
+        // Base before tool, whatever the order of the list; springs of a joint contribute to it.
         assert_eq!(
             with(&["springs"]).contributor_names(&joints),
             ["A1", "A2", "base", "tool"]
         );
         let mut flange = StiffnessModel::DRIVES.clone();
         flange.structure.springs = vec![Spring::along(Attachment::Flange, Vector3::x(), compliance()); 2];
-        assert_eq!(flange.contributors(1), [Attachment::Joint(0), Attachment::Flange]);
+        assert_eq!(
+            flange.contributors(1),
+            [Attachment::Joint(0), Attachment::Flange].map(Contributor::At)
+        );
         assert_eq!(flange.contributor_names(&joints[..1]), ["A1", "flange"]);
     }
 
     #[test]
-    fn compliances_and_seats_of_an_arm_are_those_of_drives_then_of_springs() {
+    fn compliances_and_attachments_of_an_arm_are_those_of_drives_then_of_springs() {
         let (robot, model, tool) = (&arms::ALL[0], with(&["springs"]), arms::bent_tool());
         let arm = Arm {
             robot,
@@ -255,7 +267,12 @@ mod tests {
         assert_eq!(compliances[6..], [compliance(); 3]);
         assert_eq!(
             arm.attachments()[5..],
-            [Attachment::Joint(5), Attachment::Tool, Attachment::Base, Attachment::Joint(1)]
+            [
+                Attachment::Joint(5),
+                Attachment::Tool,
+                Attachment::Base,
+                Attachment::Joint(1)
+            ]
         );
     }
 }

@@ -1,4 +1,4 @@
-//! Circles that a ball-bar goes round before an MH12, and a question about its way there.
+//! Ball-bar circles in front of an MH12, and the question that follows them.
 
 use armill_core::frame::Isometry;
 use armill_core::kernel::{BranchChoice, Question};
@@ -16,7 +16,7 @@ pub fn tool() -> Isometry {
     Isometry::translation(0.03, -0.02, 0.15)
 }
 
-/// A question to the arm with these drives, in any branch.
+/// A question for the arm with these drives, in any branch.
 pub fn question<'a>(
     robot: &'a Robot,
     (compliance, model): (&'a [JointCompliance], &'a StiffnessModel),
@@ -43,7 +43,7 @@ pub fn circle(centre: [f64; 3], tilt_deg: f64) -> Circle {
     }
 }
 
-/// Three circles off the middle of the MH12, in planes of different tilt: they tell all its joints apart.
+/// Three circles away from the middle of the MH12, in planes of different tilt: they make all its joints identifiable.
 pub fn three() -> [Circle; 3] {
     [
         circle([0.85, 0.25, 0.45], 90.0),

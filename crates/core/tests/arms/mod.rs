@@ -7,12 +7,12 @@ pub mod other;
 use std::sync::LazyLock;
 
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
-use armill_core::kernel::{Answers, Held};
+use armill_core::kernel::{Answers, Evaluation};
 use armill_core::nalgebra::Vector3;
 use armill_core::predict::{Deviation, predict};
 use armill_core::robot::joint::Sign;
 use armill_core::robot::{Amount, Axis, Branch, Joint, JointCompliance, Limits, Motion, PostureName, Robot};
-use armill_core::source::{Arm, Links, ArmState, Unstable};
+use armill_core::source::{Arm, ArmState, Links, Unstable};
 use armill_core::spatial::Wrench;
 
 use Amount::{Constant, Joint as Var};
@@ -41,7 +41,7 @@ impl Stream {
         radius * (std::f64::consts::TAU * self.next()).cos()
     }
 
-    /// Joint positions inside the limits.
+    /// Joint positions within the limits.
     pub fn joints(&mut self, robot: &Robot) -> Vec<f64> {
         self.joints_beyond(robot, 0.0)
     }
@@ -55,7 +55,7 @@ impl Stream {
         robot.joints().iter().map(within).collect()
     }
 
-    /// A vector of this length at the most in each direction.
+    /// A vector of at most this length in each direction.
     pub fn vector(&mut self, most: f64) -> Vector3<f64> {
         Vector3::from_fn(|_, _| self.between(-most, most))
     }
@@ -70,7 +70,7 @@ pub fn positions(robot: &Robot, unit: &[f64; 6]) -> Vec<f64> {
     robot.joints().iter().zip(unit).map(at).collect()
 }
 
-/// A joint counted against the right hand, with limits in degrees.
+/// A joint with positive direction against the right hand, with limits in degrees.
 fn joint(name: &str, sign: Sign, limits_deg: [f64; 2]) -> Joint {
     let [lower, upper] = limits_deg.map(f64::to_radians);
     Joint {
@@ -122,7 +122,7 @@ pub fn mh12() -> Robot {
         .unwrap()
 }
 
-/// KUKA KR120 R2500 pro, whose first axis counts downwards: ros-industrial/kuka_experimental, Apache-2.0.
+/// KUKA KR120 R2500 pro, with downward positive direction of axis 1: ros-industrial/kuka_experimental, Apache-2.0.
 pub fn kr120() -> Robot {
     use Sign::{Negative, Positive};
     let motions = vec![
@@ -185,7 +185,7 @@ pub fn tx2_90() -> Robot {
         .unwrap()
 }
 
-/// FANUC R-2000iC, whose joint 3 counts from the horizontal: Liu et al. 2026, MIT.
+/// FANUC R-2000iC, with joint 3 measured from the horizontal: Liu et al. 2026, MIT.
 pub fn r2000ic() -> Robot {
     use Sign::{Negative, Positive};
     let quarter = std::f64::consts::FRAC_PI_2;
@@ -265,7 +265,7 @@ pub fn irb2400() -> Robot {
         .unwrap()
 }
 
-/// Made up to be awkward: hung from a tilted beam, lateral offset, mixed senses, zeros anywhere, geared wrist.
+/// A made-up difficult case: hung from a tilted beam, lateral offset, mixed senses, arbitrary zeros, coupled wrist.
 pub fn hung() -> Robot {
     use Sign::{Negative, Positive};
     let motions = vec![
@@ -316,26 +316,26 @@ pub fn all() -> [Robot; 6] {
 pub static ALL: LazyLock<[Robot; 6]> =
     LazyLock::new(|| [mh12(), kr120(), tx2_90(), r2000ic(), irb2400(), hung()]);
 
-/// The deviation of the tool held by `arm` at joint positions `q` under `wrench`.
+/// The deviation of the tool of `arm` at joint positions `q` under `wrench`.
 pub fn predicted(arm: &Arm<'_>, q: &[f64], wrench: &Wrench) -> Result<Deviation, Unstable> {
     let mut arm_state = ArmState::new(*arm);
     arm_state.set_joints(q);
     predict(&mut arm_state, wrench, &mut Links::Neglected)
 }
 
-/// A tool that is bent and turned against the flange.
+/// A tool that is bent and rotated relative to the flange.
 pub fn bent_tool() -> Isometry {
     from_xyz_and_fixed_angles(Vector3::new(0.03, -0.02, 0.21), Vector3::new(0.2, -0.5, 0.9))
 }
 
-/// Answers of an arm of two joints that stands so, point after point, and deviates nowhere.
+/// Answers of an arm of two joints at these positions, point after point, without deviation.
 pub fn answers_at(joints: &[[f64; 2]]) -> Answers {
-    let evaluation = Held {
+    let evaluation = Evaluation {
         name: PostureName::Branch(Branch::ALL[0]),
         limit_margin: 1.0,
         limit_joint: 0,
         singularity: None,
-        deciding_case: 0,
+        worst_case: 0,
         in_plane: 0.0,
         in_plane_uncertainty: 0.0,
         normal: 0.0,

@@ -1,4 +1,4 @@
-//! Arms of other kinds than ortho-parallel, and near to it, typed from their sources.
+//! Arms of other kinds than ortho-parallel, and close to it, typed from their sources.
 
 use armill_core::robot::{Amount, Axis, Joint, Limits, Motion, Robot};
 
@@ -159,7 +159,7 @@ pub fn on_rail(robot: &Robot) -> Robot {
     compliant(Robot::new(format!("{}-on-rail", robot.name()), motions, joints).unwrap())
 }
 
-/// Made up so that nothing is parallel, perpendicular or meets: no closed form, nor one next to it.
+/// Made up, without parallel, perpendicular or intersecting axes: no closed form, not even approximately.
 pub fn oblique() -> Robot {
     let rows = [
         [0.4, 0.15, 1.2],
@@ -172,7 +172,7 @@ pub fn oblique() -> Robot {
     of_rows("made-up/oblique", &rows, &[180.0; 6])
 }
 
-/// Unimation Puma 560, whose wrist stands beside axis 1, with axis 3 turned by 0.05 rad: without it the arm is
+/// Unimation Puma 560, whose wrist has an offset from axis 1, with axis 3 turned by 0.05 rad: without it the arm is
 /// ortho-parallel. B. Armstrong, O. Khatib, J. Burdick 1986, rows after P. Corke.
 pub const PUMA_LIKE: [DhRow; 6] = [
     [0.0, 0.0, QUARTER],
@@ -213,7 +213,7 @@ pub const SPHERICAL_SHOULDER: [DhRow; 6] = [
     [0.12, 0.0, 0.0],
 ];
 
-/// The arm of these rows, whose joints turn all the way round.
+/// The arm of these rows, whose joints have a range of a whole turn.
 pub fn free(name: &str, rows: &[DhRow; 6]) -> Robot {
     of_rows(name, rows, &[180.0; 6])
 }

@@ -1,5 +1,5 @@
-//! Joints of arms on circles: where they turn back, and the gaps that were put in. The arm itself is the witness: forward and
-//! inverse kinematics with links set behind their motors, and the deviation along a path.
+//! Reversals of joints of arms on circles, and the backlash that was put in. Reference: forward and inverse kinematics
+//! with link offsets, and the deviation along a path.
 
 use std::f64::consts::TAU;
 
@@ -8,7 +8,8 @@ use armill_core::kernel::{Question, evaluate};
 use armill_core::load::{LoadCases, LoadFrame, PathLoad};
 use armill_core::map::{along_path, radial_deviations};
 use armill_core::measure::ballbar::joints::{
-    Asked, Circle, Domain, Followed, Gaps, Normal, Observed, PlanAsked, follow, gaps, propose,
+    BacklashFit, BacklashOptions, Circle, CirclePlanOptions, Domain, Followed, Normal, Observed,
+    fit_backlash, follow, propose,
 };
 use armill_core::measure::ballbar::{CircularTest, Direction, Run};
 use armill_core::nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
@@ -56,13 +57,13 @@ fn measured(of: &Followed, gaps: &[f64], (noise, runs, seed): (f64, usize, u64))
     CircularTest::new(of.radius, all).unwrap()
 }
 
-fn found(circles: &[Followed], tests: &[CircularTest], requested: &Asked) -> Gaps {
+fn found(circles: &[Followed], tests: &[CircularTest], requested: &BacklashOptions) -> BacklashFit {
     let observed: Vec<Observed<'_>> = circles
         .iter()
         .zip(tests)
         .map(|(followed, test)| Observed { followed, test })
         .collect();
-    gaps(&observed, requested).unwrap().unwrap()
+    fit_backlash(&observed, requested).unwrap().unwrap()
 }
 
 /// The tool pose at an angle of the circle.
@@ -76,7 +77,7 @@ fn pose(circle: &Circle, a: f64) -> Isometry {
     Isometry::from_parts((circle.placing.base_from_path * at).coords.into(), still.rotation)
 }
 
-/// Joint positions at one angle of the circle, by themselves.
+/// Joint positions at one angle of the circle, computed separately.
 fn joints_at(question: &Question<'_>, circle: &Circle, a: f64) -> Vec<f64> {
     let cases = [Wrench::ZERO];
     let requested = Question {
@@ -100,7 +101,8 @@ fn joints_turn_back_where_inverse_kinematics_says() {
                 .map(|by| joints_at(&question, &circle, reversal.angle + by)[reversal.joint]);
             let speed = (at[2] - at[0]) / (2.0 * step);
             let bend = (at[2] - 2.0 * at[1] + at[0]) / (step * step);
-            // Where the speed is zero, to what differences tell: a third derivative of some units times the step squared.
+            // Where the speed is zero, accurate to finite differences: a third derivative of some units times the step
+            // squared.
             assert!((speed / bend).abs() < 1e-5, "{reversal:?}: {speed} {bend}");
         }
     }
@@ -165,7 +167,7 @@ fn the_effect_is_the_deviation_that_a_path_has() {
 }
 
 #[test]
-fn links_half_a_gap_behind_stand_where_forward_kinematics_says() {
+fn links_half_a_backlash_behind_agree_with_forward_kinematics() {
     let (robot, tool) = (arms::mh12(), tool());
     let circle = three()[0];
     let of = followed(&robot, &circle);
@@ -203,7 +205,7 @@ fn gaps_come_back_from_three_circles() {
     let robot = arms::mh12();
     let circles = three().map(|circle| followed(&robot, &circle));
     let tests = [0, 1, 2].map(|k| measured(&circles[k], &GAPS, (0.0, 1, 1)));
-    let all = found(&circles, &tests, &Asked::of_all(6));
+    let all = found(&circles, &tests, &BacklashOptions::of_all(6));
     assert!(all.together.is_empty() && all.unseen.is_empty(), "{all:?}");
     assert!(
         all.inflation.iter().all(|(_, inflation)| *inflation < 5.0),
@@ -212,43 +214,49 @@ fn gaps_come_back_from_three_circles() {
     for (joint, gap) in GAPS.iter().enumerate() {
         // Second order of the radius, 1e-4 of 100 um, through singular values of a tenth.
         let given = all.of(joint).unwrap();
-        assert!((given.gap - gap).abs() < 2e-3 * gap, "{joint}: {given:?} for {gap}");
+        assert!(
+            (given.gap - gap).abs() < 2e-3 * gap,
+            "{joint}: {given:?} for {gap}"
+        );
     }
     // A larger gap of one joint is found at that joint.
     let mut more = GAPS;
     more[3] = 0.0;
     let tests = [0, 1, 2].map(|k| measured(&circles[k], &more, (0.0, 1, 1)));
-    let all = found(&circles, &tests, &Asked::of_all(6));
+    let all = found(&circles, &tests, &BacklashOptions::of_all(6));
     assert!(all.of(3).unwrap().gap.abs() < 1e-6, "{all:?}");
 }
 
 #[test]
-fn twice_the_uncertainty_holds_the_gap_with_told_noise_and_with_found() {
+fn twice_the_uncertainty_contains_the_backlash_with_given_noise_and_with_estimated_noise() {
     let robot = arms::mh12();
     let circles = three().map(|circle| followed(&robot, &circle));
     for (noise, runs) in [(Some(2e-6), 1), (None, 1), (None, 2)] {
-        let (mut evaluation, mut all) = (0, 0);
+        let (mut contained, mut all) = (0, 0);
         for seed in 0..30 {
             let tests = [0, 1, 2].map(|k| measured(&circles[k], &GAPS, (2e-6, runs, 100 * seed + k as u64)));
-            let requested = Asked {
+            let requested = BacklashOptions {
                 noise,
-                ..Asked::of_all(6)
+                ..BacklashOptions::of_all(6)
             };
             let given = found(&circles, &tests, &requested);
-            assert_eq!(given.given.len(), 6);
-            for gap in &given.given {
+            assert_eq!(given.estimates.len(), 6);
+            for gap in &given.estimates {
                 all += 1;
-                evaluation += usize::from((gap.gap - GAPS[gap.joint]).abs() < 2.0 * gap.u);
+                contained += usize::from((gap.gap - GAPS[gap.joint]).abs() < 2.0 * gap.u);
                 assert!((given.covariance[(gap.joint, gap.joint)].sqrt() / gap.u - 1.0).abs() < 1e-12);
             }
         }
         // 95 %, of 180: between 90 and 100 by chance alone; those from residuals are a little wide.
-        assert!(evaluation * 100 >= all * 90, "{noise:?} {runs}: {evaluation} of {all}");
+        assert!(
+            contained * 100 >= all * 90,
+            "{noise:?} {runs}: {contained} of {all}"
+        );
     }
 }
 
 #[test]
-fn on_the_circle_of_the_paper_three_joints_turn_back_together_and_are_not_told_apart() {
+fn on_the_circle_of_the_paper_three_joints_reverse_together_and_are_not_identifiable() {
     let robot = arms::mh12();
     let tool = Isometry::identity();
     let paper = circle([1.0, 0.0, 0.8], 0.0);
@@ -267,10 +275,10 @@ fn on_the_circle_of_the_paper_three_joints_turn_back_together_and_are_not_told_a
     let one = found(
         std::slice::from_ref(&of),
         std::slice::from_ref(&test),
-        &Asked::of_all(6),
+        &BacklashOptions::of_all(6),
     );
     assert!(!one.together.is_empty(), "{one:?}");
-    // With circles of a plan beside it all of them are.
+    // With planned circles in addition all of them are.
     let domain = Domain {
         middle: Point3::new(0.9, 0.0, 0.7),
         half: Vector3::new(0.15, 0.3, 0.2),
@@ -281,7 +289,7 @@ fn on_the_circle_of_the_paper_three_joints_turn_back_together_and_are_not_told_a
     let plan = propose(
         &requested,
         (&domain.candidates(), std::slice::from_ref(&of)),
-        &PlanAsked {
+        &CirclePlanOptions {
             count: 3,
             joints: (0..6).collect(),
             most_lobes: 6,
@@ -308,15 +316,15 @@ fn on_the_circle_of_the_paper_three_joints_turn_back_together_and_are_not_told_a
         tests.push(measured(&whole, &GAPS, (1e-6, 2, 7)));
         circles.push(whole);
     }
-    let four = found(&circles, &tests, &Asked::of_all(6));
+    let four = found(&circles, &tests, &BacklashOptions::of_all(6));
     let last = &plan.circles[2].known;
     assert_eq!(four.unseen, last.unseen);
     assert!(four.together.is_empty() && last.together.is_empty(), "{four:?}");
-    assert!(four.given.len() >= 5, "{four:?}");
-    for gap in &four.given {
+    assert!(four.estimates.len() >= 5, "{four:?}");
+    for gap in &four.estimates {
         assert!((gap.gap - GAPS[gap.joint]).abs() < 4.0 * gap.u, "{gap:?}");
         // What the plan expected of one run each way at this noise; two runs and a circle more are surer.
-        let expected = last.given.iter().find(|one| one.joint == gap.joint).unwrap();
+        let expected = last.estimates.iter().find(|one| one.joint == gap.joint).unwrap();
         assert!(
             gap.u < 1.5 * expected.u && gap.u > 0.3 * expected.u,
             "{gap:?} {expected:?}"
@@ -334,7 +342,7 @@ fn an_arm_turned_about_its_base_has_the_same_gaps() {
         after.placing.base_from_path = turn * before.placing.base_from_path;
         let tool = tool();
         let requested = question(&robot, StiffnessModel::DRIVES, &tool);
-        // The tool turns with the cell, about its own axis where the plane lies.
+        // The tool turns with the cell, about its own axis if the plane is horizontal.
         let of = follow(&requested, (&before, 720), Watch::NONE).unwrap();
         let [given, turned] = [turn * pose(&before, 0.0), pose(&after, 0.0)];
         let spin = (turned.rotation.inverse() * given.rotation).scaled_axis().z;
@@ -392,9 +400,9 @@ fn an_arm_twice_as_large_shows_the_same_gaps_twice_as_large() {
         assert!((2.0 * small - large).abs() < 1e-11, "{small} {large}");
     }
     let [small, large] = [&one, &two].map(|of| {
-        let requested = Asked {
+        let requested = BacklashOptions {
             joints: vec![0, 3],
-            ..Asked::of_all(6)
+            ..BacklashOptions::of_all(6)
         };
         let gaps = [GAPS[0], 0.0, 0.0, GAPS[3], 0.0, 0.0];
         found(
@@ -403,13 +411,13 @@ fn an_arm_twice_as_large_shows_the_same_gaps_twice_as_large() {
             &requested,
         )
     });
-    for (small, large) in small.given.iter().zip(&large.given) {
+    for (small, large) in small.estimates.iter().zip(&large.estimates) {
         assert!((small.gap - large.gap).abs() < 1e-9, "{small:?} {large:?}");
     }
 }
 
 #[test]
-fn a_torque_that_holds_a_flank_leaves_no_step() {
+fn a_torque_that_determines_the_side_of_the_backlash_leaves_no_step() {
     let (robot, tool) = (arms::mh12(), tool());
     let mut model = with_gaps(&GAPS);
     model.structure.backlash[1].as_mut().unwrap().side = BacklashSide::Torque;
@@ -437,7 +445,7 @@ fn a_torque_that_holds_a_flank_leaves_no_step() {
 }
 
 #[test]
-fn where_the_arm_does_not_get_is_told() {
+fn unreachable_circles_are_reported() {
     let (robot, tool) = (arms::mh12(), tool());
     let far = circle([2.5, 0.0, 0.8], 0.0);
     let error = follow(
@@ -453,7 +461,7 @@ fn where_the_arm_does_not_get_is_told() {
 }
 
 #[test]
-fn a_joint_that_stands_still_to_rounding_drags_its_link_nowhere() {
+fn a_joint_at_rest_to_rounding_does_not_move_its_link() {
     // The tool straight down: R stays where it is.
     let (robot, tool) = (arms::mh12(), tool());
     let flat = circle([0.85, 0.25, 0.45], 90.0);

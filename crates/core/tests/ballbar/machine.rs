@@ -1,4 +1,4 @@
-//! A machine with two axes that goes round a circle: where it is, not what the theory makes of it.
+//! A simulated machine with two axes that moves on a circle: positions, independent of the evaluation.
 
 use std::f64::consts::TAU;
 
@@ -51,9 +51,9 @@ impl Random {
 }
 
 impl Machine {
-    /// Where the tool is when the drives are told to be at `angle` of the circle.
+    /// Position of the tool when the drives are commanded to `angle` of the circle.
     fn place(&self, angle: f64, sign: f64) -> [f64; 2] {
-        // Each drive is where it was told to be some time before.
+        // Each drive is at the position commanded some time before.
         let given = [0, 1].map(|axis| {
             let late = angle - sign * SPEED / RADIUS * self.late[axis];
             RADIUS * if axis == 0 { late.cos() } else { late.sin() }
@@ -77,7 +77,7 @@ impl Machine {
         let sign = direction.sign();
         let [grown, east, north] = [0, 1, 2].map(|_| self.drift * random.normal());
         let sample = |k: usize| {
-            // Half a step beside the reversals: there a sample is on neither side.
+            // Half a step from the reversals: there a sample is on neither side.
             let angle = start_deg.to_radians() + sign * TAU * (k as f64 + 0.5) / count as f64;
             let [x, y] = self.place(angle, sign);
             let place = [x + self.offset[0] + east, y + self.offset[1] + north];

@@ -1,5 +1,6 @@
-//! Circular tests of made-up machines: `machine` makes the runs from the geometry of its errors, not from the terms of the fit.
-//! `joints`: gaps of the joints of an arm. `parts`: the errors come back, within their uncertainties. `shown`: the quantities by hand, and what may not change them.
+//! Circular tests of simulated machines: `machine` computes the runs from the geometry of its errors, not from the
+//! terms of the fit. `joints`: backlash of the joints of an arm. `parts`: the errors are recovered within their
+//! uncertainties. `shown`: the quantities by hand, and invariances.
 
 // A panic is how a test says that its claim is false; helper functions too.
 #![allow(clippy::unwrap_used, clippy::panic)]

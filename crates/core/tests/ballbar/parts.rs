@@ -1,16 +1,16 @@
-//! Errors that a made-up machine has come back out of its circular test.
+//! Errors of a simulated machine are recovered from its circular test.
 
 use std::f64::consts::TAU;
 
 use armill_core::measure::ballbar::parts::{
-    Asked, Axis, Part, Parts, Reversal, Step, Term, Wave, of_axes, parts, periods, strongest_period,
+    Axis, Part, Parts, PartsOptions, Reversal, Step, Term, Wave, of_axes, parts, periods, strongest_period,
 };
 use armill_core::measure::ballbar::{CircularTest, Direction, Run};
 
 use crate::machine::{Machine, RADIUS, Random};
 
-fn requested(most_lobes: usize, period: Option<f64>) -> Asked {
-    Asked {
+fn requested(most_lobes: usize, period: Option<f64>) -> PartsOptions {
+    PartsOptions {
         reversals: of_axes(["X", "Y"]),
         most_lobes,
         period,
@@ -34,7 +34,7 @@ const ALL: Machine = Machine {
     drift: 0.0,
 };
 
-/// What the terms of the machine are worth, m.
+/// True values of the machine errors, m.
 fn truth(machine: &Machine) -> Vec<(Term, f64)> {
     let [a, b] = machine.scale;
     let mut all = vec![
@@ -58,7 +58,7 @@ fn truth(machine: &Machine) -> Vec<(Term, f64)> {
 }
 
 #[test]
-fn every_error_of_a_machine_comes_back_without_noise() {
+fn every_error_of_a_machine_is_recovered_without_noise() {
     let found = parts(&ALL.test([1, 1], 1440, 1), &requested(3, Some(0.01))).unwrap();
     // What is left are products of the errors: 150e-6 of 18e-6, squares over the radius.
     for (term, value) in truth(&ALL) {
@@ -74,7 +74,7 @@ fn every_error_of_a_machine_comes_back_without_noise() {
 }
 
 #[test]
-fn intervals_hold_the_truth_nineteen_times_of_twenty() {
+fn intervals_contain_the_true_value_in_95_percent() {
     for (runs, drift, [least, most]) in [
         ([1, 1], 0.0, [0.90, 0.99]),
         ([2, 2], 0.0, [0.90, 0.99]),
@@ -94,22 +94,22 @@ fn intervals_hold_the_truth_nineteen_times_of_twenty() {
             ..machine
         };
         let truth = parts(&still.test([1, 1], 360, 0), &requested(3, None)).unwrap();
-        let (mut evaluation, mut all) = (0, 0);
+        let (mut contained, mut all) = (0, 0);
         for seed in 0..60 {
             let found = parts(&machine.test(runs, 360, seed), &requested(3, None)).unwrap();
             for Part { term, value, .. } in &truth.parts {
                 let Part { value: given, u, .. } = part(&found, *term);
-                evaluation += usize::from((given - value).abs() <= 2.0 * u);
+                contained += usize::from((given - value).abs() <= 2.0 * u);
                 all += 1;
             }
         }
-        let share = evaluation as f64 / all as f64;
+        let share = contained as f64 / all as f64;
         assert!((least..=most).contains(&share), "{runs:?} {drift}: {share}");
     }
 }
 
 #[test]
-fn runs_that_drift_make_what_drifts_less_sure() {
+fn drift_between_runs_increases_the_uncertainty_of_what_drifts() {
     let steady = Machine { noise: 0.5e-6, ..ALL };
     let drifting = Machine {
         drift: 5e-6,
@@ -128,7 +128,7 @@ fn runs_that_drift_make_what_drifts_less_sure() {
 }
 
 #[test]
-fn one_direction_alone_says_what_it_cannot_tell_apart() {
+fn a_single_direction_reports_what_is_not_identifiable() {
     let found = parts(&ALL.test([1, 0], 720, 2), &requested(3, Some(0.01))).unwrap();
     let sets = [
         [Term::Radius, Term::DirectionRadius],
@@ -138,7 +138,7 @@ fn one_direction_alone_says_what_it_cannot_tell_apart() {
         assert!(found.together.contains(&set.to_vec()), "{:?}", found.together);
         assert!(found.of(set[0]).is_some() && found.of(set[1]).is_none());
     }
-    // Clockwise, the servo mismatch of +2 um is 2 um of squareness: the value that is told is the sum.
+    // Clockwise, the servo mismatch of +2 um is 2 um of squareness: the reported value is the sum.
     let sum = RADIUS * 150e-6 / 2.0 + 0.1 * 40e-6 / 2.0;
     assert!((part(&found, Term::Squareness).value - sum).abs() < 0.06e-6);
     // A step is a step, whichever way.
@@ -146,7 +146,7 @@ fn one_direction_alone_says_what_it_cannot_tell_apart() {
 }
 
 #[test]
-fn an_arc_tells_what_it_can_with_less_sureness() {
+fn an_arc_reports_what_it_can_with_larger_uncertainty() {
     let machine = Machine {
         noise: 0.5e-6,
         cyclic: [[0.0, 0.01]; 2],
@@ -171,7 +171,7 @@ fn an_arc_tells_what_it_can_with_less_sureness() {
 }
 
 #[test]
-fn scales_of_an_arc_are_as_sure_as_they_scatter() {
+fn scales_of_an_arc_scatter_by_their_uncertainty() {
     let machine = Machine {
         noise: 1e-6,
         cyclic: [[0.0, 0.01]; 2],
@@ -208,7 +208,7 @@ fn scales_of_an_arc_are_as_sure_as_they_scatter() {
 }
 
 #[test]
-fn a_step_at_the_end_of_an_arc_is_not_told() {
+fn a_step_at_the_end_of_an_arc_is_not_reported() {
     let machine = Machine {
         noise: 0.3e-6,
         cyclic: [[0.0, 0.01]; 2],
@@ -240,7 +240,7 @@ fn a_step_at_the_end_of_an_arc_is_not_told() {
 }
 
 #[test]
-fn sums_stand_for_none_of_their_parts() {
+fn a_sum_is_not_reported_as_one_of_its_parts() {
     let one_way = parts(&ALL.test([1, 0], 720, 2), &requested(3, Some(0.01))).unwrap();
     for term in [Term::Radius, Term::Squareness] {
         assert!(
@@ -287,7 +287,7 @@ fn the_period_of_a_cyclic_error_is_found_and_noise_has_none() {
 
 /// Like the joint of a robot: one gap that shows at 40 and 250 degrees, outwards and inwards by different parts.
 #[test]
-fn a_gap_at_told_angles_comes_back() {
+fn a_backlash_at_given_angles_is_recovered() {
     let steps = vec![
         Step {
             angle: 40_f64.to_radians(),
@@ -315,7 +315,7 @@ fn a_gap_at_told_angles_comes_back() {
     let test = CircularTest::new(RADIUS, Direction::BOTH.map(&mut run).to_vec()).unwrap();
     let mut reversals = of_axes(["X", "Y"]);
     reversals.push(reversal);
-    let requested = Asked {
+    let requested = PartsOptions {
         reversals,
         most_lobes: 2,
         period: None,
@@ -327,7 +327,7 @@ fn a_gap_at_told_angles_comes_back() {
 }
 
 #[test]
-fn a_reversal_told_twice_is_named_as_one() {
+fn a_reversal_given_twice_is_reported_as_one() {
     let mut requested = requested(2, None);
     requested.reversals.push(requested.reversals[1].clone());
     let found = parts(&ALL.test([1, 1], 720, 6), &requested).unwrap();

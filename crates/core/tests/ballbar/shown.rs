@@ -41,16 +41,16 @@ fn the_circular_deviation_of_an_ellipse_is_the_difference_of_its_half_axes() {
 }
 
 #[test]
-fn a_circle_beside_the_centre_is_round_and_its_radial_deviation_is_the_offset() {
+fn a_circle_off_the_centre_is_round_and_its_radial_deviation_is_the_offset() {
     let e = 50e-6;
     // r^2 - 2 r e cos a + e^2 = R^2
-    let beside = |a: f64| e * a.cos() + (RADIUS.powi(2) - (e * a.sin()).powi(2)).sqrt();
-    let beside = test(vec![circle(Direction::Anticlockwise, beside)]);
-    let (g, [least, greatest]) = shown(&beside);
+    let eccentric = |a: f64| e * a.cos() + (RADIUS.powi(2) - (e * a.sin()).powi(2)).sqrt();
+    let eccentric = test(vec![circle(Direction::Anticlockwise, eccentric)]);
+    let (g, [least, greatest]) = shown(&eccentric);
     assert!(g < 1e-12, "{g}");
     assert!((least + e).abs() < 1e-12 && (greatest - e).abs() < 1e-12);
-    let centre = least_squares_centre(&beside).unwrap();
-    let (g, [least, greatest]) = shown(&seen_from(&beside, centre.offset).unwrap());
+    let centre = least_squares_centre(&eccentric).unwrap();
+    let (g, [least, greatest]) = shown(&seen_from(&eccentric, centre.offset).unwrap());
     assert!(g < 1e-12 && least.abs() < 1e-12 && greatest.abs() < 1e-12);
 }
 

@@ -1,9 +1,9 @@
-//! The arm as it is and as its controller has it; where it cuts, and where the ball-bar stands.
+//! The true arm and the model in its controller, with the positions of the cuts and of the ball-bar.
 
 use std::sync::Arc;
 
 use armill_core::calibrate::{
-    Asked, Calibrated, MeasuredPose, Place, Question as CalibrationQuestion, Unknown, fit,
+    Calibrated, MeasuredPose, ParameterLocation, ParameterSet, Question as CalibrationQuestion, Unknown, fit,
 };
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::{UnitQuaternion, Vector3};
@@ -17,16 +17,16 @@ use crate::arms::{self, Stream};
 
 /// Points of the ring.
 const POINTS: f64 = 360.0;
-/// Poses that the tracker sees.
+/// Poses measured by the tracker.
 pub const POSES: usize = 60;
 
-/// What is true in one experiment.
+/// The true values of one experiment.
 pub struct Truth {
-    /// As the controller has it.
+    /// The model in the controller.
     pub believed: Robot,
-    /// As it is.
+    /// The true arm.
     pub actual: Robot,
-    /// Of the geometry: each small motion that poses can tell apart, by its name.
+    /// Of the geometry: each identifiable small motion, by its name.
     pub geometry: Vec<(String, f64)>,
     /// rad/(N m)
     pub compliance: Vec<f64>,
@@ -54,13 +54,13 @@ impl Truth {
         }
     }
 
-    /// How the true arm moves its tool.
+    /// The stiffness model of the true arm.
     pub fn model(&self) -> StiffnessModel {
         model(&self.gaps, &[0.0; 6], self.actual.clone())
     }
 }
 
-/// An arm with this geometry and these gaps, beside its drives.
+/// An arm with this geometry and this backlash, in addition to its drives.
 pub fn model(gaps: &[f64], u: &[f64], actual: Robot) -> StiffnessModel {
     let mut model = StiffnessModel::DRIVES.clone();
     let with = |(gap, u): (&f64, &f64)| {
@@ -75,7 +75,7 @@ pub fn model(gaps: &[f64], u: &[f64], actual: Robot) -> StiffnessModel {
     model
 }
 
-/// Drives that yield so, known so well.
+/// Drives with these compliances and standard uncertainties.
 pub fn drives(values: &[f64], u: &[f64]) -> Vec<JointCompliance> {
     let drive = |(value, u): (&f64, &f64)| JointCompliance {
         value: *value,
@@ -84,7 +84,7 @@ pub fn drives(values: &[f64], u: &[f64]) -> Vec<JointCompliance> {
     values.iter().zip(u).map(drive).collect()
 }
 
-/// The ring that is milled.
+/// The milled ring.
 pub fn ring() -> Track {
     let circle = circle([0.9, 0.1, 0.5], 90.0);
     let shape = Shape::Circle {
@@ -99,7 +99,7 @@ pub fn ring() -> Track {
     }
 }
 
-/// Where the tracker and its reflector are.
+/// Positions of the tracker and its reflector.
 pub fn frames() -> [Isometry; 2] {
     [
         Isometry::new(Vector3::new(2.0, -3.0, 0.4), Vector3::new(0.3, -1.2, 2.0)),
@@ -107,7 +107,7 @@ pub fn frames() -> [Isometry; 2] {
     ]
 }
 
-/// What a tracker sees of `robot` in random poses, with noise of this standard deviation in each direction.
+/// Poses of `robot` measured by a tracker at random, with noise of this standard deviation in each direction.
 pub fn tracked(robot: &Robot, noise: f64, random: &mut Stream) -> Vec<MeasuredPose> {
     let [tracker_from_base, flange_from_point] = frames();
     (0..POSES)
@@ -130,7 +130,7 @@ pub fn tracked(robot: &Robot, noise: f64, random: &mut Stream) -> Vec<MeasuredPo
 /// The geometry of `robot` from these poses.
 pub fn calibrated(robot: &Robot, poses: &[MeasuredPose]) -> Calibrated {
     let question = CalibrationQuestion {
-        requested: Asked::Geometry,
+        requested: ParameterSet::Geometry,
         flange_from_point: frames()[1],
         turn_length: 0.3,
         prior: None,
@@ -138,24 +138,24 @@ pub fn calibrated(robot: &Robot, poses: &[MeasuredPose]) -> Calibrated {
     fit(robot, poses, &question).unwrap()
 }
 
-/// Small motions of the chain that poses of this arm tell apart.
-fn told_apart(believed: &Robot) -> Vec<Unknown> {
+/// Small motions of the chain that are identifiable from poses of this arm.
+fn identifiable(believed: &Robot) -> Vec<Unknown> {
     let poses = tracked(believed, 0.0, &mut Stream(1));
     let estimates = calibrated(believed, &poses).estimates;
     let unknowns = estimates.into_iter().map(|estimate| estimate.unknown);
     unknowns
-        .filter(|unknown| matches!(unknown.place, Place::After(_)))
+        .filter(|unknown| matches!(unknown.place, ParameterLocation::After(_)))
         .collect()
 }
 
-/// What an unknown is called here.
+/// Name of an unknown in these results.
 pub fn name_of(unknown: &Unknown) -> String {
     format!("geometry {:?} {}", unknown.place, unknown.component)
 }
 
-/// The arm with an error in each small motion that poses tell apart, up to 0.3 mm and 0.5 mrad.
+/// The arm with an error in each identifiable small motion, up to 0.3 mm and 0.5 mrad.
 fn bent(believed: &Robot, random: &mut Stream) -> (Robot, Vec<(String, f64)>) {
-    let unknowns = told_apart(believed);
+    let unknowns = identifiable(believed);
     let errors: Vec<f64> = unknowns
         .iter()
         .map(|unknown| if unknown.turns() { 5e-4 } else { 3e-4 } * random.between(-1.0, 1.0))
@@ -169,7 +169,7 @@ fn bent(believed: &Robot, random: &mut Stream) -> (Robot, Vec<(String, f64)>) {
         let mut here: Vec<(&Unknown, &f64)> = unknowns
             .iter()
             .zip(&errors)
-            .filter(|(unknown, _)| unknown.place == Place::After(joint))
+            .filter(|(unknown, _)| unknown.place == ParameterLocation::After(joint))
             .collect();
         here.sort_by_key(|(unknown, _)| unknown.component);
         motions.extend(here.into_iter().map(|(unknown, error)| {

@@ -1,4 +1,4 @@
-//! One experiment: instruments look at the true arm with noise, and what is found from them.
+//! One experiment: noisy measurements of the true arm, and the estimates from them.
 
 use std::f64::consts::TAU;
 
@@ -10,7 +10,9 @@ use armill_core::identify::{LoadTest, Loss, Measured, Method, Points, Prior, Rea
 use armill_core::kernel::Question;
 use armill_core::load::{LoadCases, LoadFrame, PathLoad};
 use armill_core::map::{along_path, radial_deviations};
-use armill_core::measure::ballbar::joints::{Asked, Circle, Followed, Observed, follow, gaps};
+use armill_core::measure::ballbar::joints::{
+    BacklashOptions, Circle, Followed, Observed, fit_backlash, follow,
+};
 use armill_core::measure::ballbar::{CircularTest, Direction, Run};
 use armill_core::nalgebra::{Point2, Vector3};
 use armill_core::robot::{Axis, Robot};
@@ -35,12 +37,12 @@ mod noise {
     pub const PROBE: f64 = 2e-6;
 }
 
-/// Pulls.
+/// Number of loads.
 const TESTS: usize = 20;
 /// Samples of the dynamometer.
 const SAMPLES: usize = 400;
 
-/// A number that was found, beside what it truly is.
+/// An estimate and the true value.
 #[derive(Clone, Debug)]
 pub struct Estimate {
     pub name: String,
@@ -49,14 +51,14 @@ pub struct Estimate {
     pub u: f64,
 }
 
-/// What one experiment tells.
+/// Result of one experiment.
 pub struct Found {
     pub estimates: Vec<Estimate>,
     /// Root mean square of the ring's radial deviation about its circle, m.
     pub ring_rms: f64,
     /// Share of it that is predicted.
     pub explained: f64,
-    /// The same with what the controller and the data sheet say in place of what was measured.
+    /// The same with the values of the controller and the data sheet instead of the measured ones.
     pub explained_untaught: f64,
 }
 
@@ -71,7 +73,7 @@ pub fn experiment(truth: &Truth, seed: u64) -> Found {
             .estimates
             .iter()
             .find(|one| name_of(&one.unknown) == *name);
-        let found = found.unwrap_or_else(|| panic!("seed {seed}: {name} was not told apart"));
+        let found = found.unwrap_or_else(|| panic!("seed {seed}: {name} is not identifiable"));
         estimates.push(Estimate {
             name: name.clone(),
             truth: *true_value,
@@ -102,7 +104,7 @@ pub fn experiment(truth: &Truth, seed: u64) -> Found {
         truth.force.as_slice(),
     ));
 
-    // The ring as it was cut, probed; and as it is predicted from all of this.
+    // The measured ring, and its prediction from all estimates.
     let zeros = [0.0; 6];
     let true_drives = drives(&truth.compliance, &zeros);
     let tool = tool();
@@ -133,7 +135,7 @@ pub fn experiment(truth: &Truth, seed: u64) -> Found {
         radius: true,
     };
     let [probed, predicted, untaught] =
-        [probed, predicted, untaught].map(|curve| Datum::taken_off(&turn, &curve, datum).1);
+        [probed, predicted, untaught].map(|curve| Datum::remove(&turn, &curve, datum).1);
     let explained = |curve: &[f64]| agreement(&turn, curve, &probed).unwrap().explained;
     Found {
         estimates,
@@ -181,7 +183,7 @@ fn compliances(truth: &Truth, as_measured: &Robot, random: &mut Stream) -> (Vec<
     each.map(|one| (one.value, one.standard_uncertainty)).unzip()
 }
 
-/// Gaps from circular tests, rad, and their standard uncertainties.
+/// Backlash from circular tests, rad, and the standard uncertainties.
 fn play(truth: &Truth, as_measured: &Robot, random: &mut Stream) -> (Vec<f64>, Vec<f64>) {
     let tool = tool();
     let sheet = truth.believed.compliance().unwrap();
@@ -217,11 +219,13 @@ fn play(truth: &Truth, as_measured: &Robot, random: &mut Stream) -> (Vec<f64>, V
         .zip(&tests)
         .map(|(followed, test)| Observed { followed, test })
         .collect();
-    let found = gaps(&observed, &Asked::of_all(6)).unwrap().unwrap();
+    let found = fit_backlash(&observed, &BacklashOptions::of_all(6))
+        .unwrap()
+        .unwrap();
     let gap = |joint| {
         found
             .of(joint)
-            .unwrap_or_else(|| panic!("joint {joint} was not told apart"))
+            .unwrap_or_else(|| panic!("joint {joint} is not identifiable"))
     };
     (0..6).map(|joint| (gap(joint).gap, gap(joint).u)).unzip()
 }

@@ -1,13 +1,13 @@
-//! A whole experiment on an arm whose errors are known: what is found covers the truth as often as it says.
+//! A whole experiment on an arm with known errors: the stated intervals cover the truth at the stated rate.
 //!
-//! The arm is longer and bent here and there, its joints yield and have play. A tracker looks at poses, weights pull at it, a
-//! ball-bar goes round three circles that tell its joints apart, it mills a ring under forces that a dynamometer sees, and a
-//! measuring machine probes the ring. Geometry, compliances, gaps and forces are found by the same functions that users call,
-//! each step with what the steps before found, and the ring is predicted from all of them.
+//! The arm has geometric errors, joint compliance and backlash. A tracker measures poses, weights load the tool, a
+//! ball-bar follows three circles that make all joints identifiable, it mills a ring under forces measured by a
+//! dynamometer, and a measuring machine probes the ring. Geometry, compliances, backlash and forces are estimated by
+//! the public functions, each step with the results of the steps before, and the ring is predicted from all of them.
 //!
 //! `cell`: the arm, its ring and its circles; `found`: one experiment, from noise to estimates.
 
-// A panic is how a test says that its claim is false; helper functions too.
+// A panic is how a test fails; in helper functions too.
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 #[path = "../arms/mod.rs"]
@@ -23,7 +23,7 @@ use rayon::prelude::*;
 
 const SEEDS: u64 = 100;
 
-/// How often an estimate was within 1.96 standard uncertainties of the truth.
+/// Number of estimates within 1.96 standard uncertainties of the truth.
 #[derive(Clone, Copy, Default)]
 struct Covered {
     inside: u32,
@@ -53,7 +53,7 @@ fn stated_intervals_of_a_whole_experiment_cover_the_truth() {
         pooled.take(estimate);
         each.entry(estimate.name.clone()).or_default().take(estimate);
     }
-    // All are found in every experiment: six compliances, six gaps, three forces, the geometry.
+    // All are found in every experiment: six compliances, six values of backlash, three forces, the geometry.
     assert!(each.len() > 30, "{}", each.len());
     for (name, covered) in &each {
         println!("{name}: {:.2}", covered.share());
@@ -65,15 +65,15 @@ fn stated_intervals_of_a_whole_experiment_cover_the_truth() {
         assert!(covered.share() >= 0.85, "{name}: {}", covered.share());
     }
     assert!((0.90..=0.99).contains(&pooled.share()), "{}", pooled.share());
-    // The ring is what was predicted, but for the noise of the probe and what estimates are off; believed geometry and the
-    // compliances of the data sheet explain less.
+    // The ring matches its prediction except for the noise of the probe and the errors of the estimates; nominal
+    // geometry and the compliances of the data sheet explain less.
     for found in &experiments {
         let [ring, explained, untaught] = [found.ring_rms, found.explained, found.explained_untaught];
         println!(
             "ring {:.1} um: {explained:.4}, untaught {untaught:.4}",
             ring * 1e6
         );
-        assert!(ring > 1e-5, "a ring worth predicting: {ring}");
+        assert!(ring > 1e-5, "the ring has too small an error: {ring}");
         assert!(
             explained > 0.98 && 1.0 - untaught > 3.0 * (1.0 - explained),
             "{explained} {untaught}"

@@ -1,16 +1,16 @@
-//! Springs from load tests: known ones are found again, with honest uncertainty; real tests are predicted as well as
-//! told.
+//! Identification from load tests: known springs are recovered, with correct uncertainty; real tests are predicted as
+//! documented.
 //!
-//! `found_again`: without noise; `uncertainty`: with it; `doubtful_tests`: tests that are wild or tell too little;
-//! `planned`: which tests to do; `real_tests`: those of a FANUC.
+//! `exact_readings`: without noise; `uncertainty`: with it; `insufficient_tests`: outlying or insufficient tests;
+//! `planned`: design of tests; `real_tests`: those of a FANUC.
 
-// A panic is how a test says that its claim is false; helper functions too.
+// A panic is how a test fails; in helper functions too.
 #![allow(missing_docs, clippy::unwrap_used, clippy::print_stdout)]
 
 #[path = "../arms/mod.rs"]
 mod arms;
-mod doubtful_tests;
-mod found_again;
+mod exact_readings;
+mod insufficient_tests;
 mod planned;
 mod real_tests;
 mod uncertainty;
@@ -44,7 +44,7 @@ impl Random {
     }
 }
 
-/// Least squares without anything known beforehand.
+/// Least squares without prior knowledge.
 fn plain() -> Method {
     Method {
         prior: Prior::None,
@@ -54,7 +54,7 @@ fn plain() -> Method {
     }
 }
 
-/// Robust weights, and what is known of any arm.
+/// Robust weights and the typical prior.
 fn usual() -> Method {
     Method {
         prior: Prior::Typical,
@@ -64,7 +64,7 @@ fn usual() -> Method {
     }
 }
 
-/// Tests of `robot` in random postures with pulls of up to 500 N and no reading yet.
+/// Tests of `robot` in random postures with loads of up to 500 N, without readings.
 fn loads(robot: &Robot, count: usize, random: &mut Random) -> Vec<LoadTest> {
     let test = |_| LoadTest {
         joints: robot
@@ -89,7 +89,7 @@ fn loads(robot: &Robot, count: usize, random: &mut Random) -> Vec<LoadTest> {
     (0..count).map(test).collect()
 }
 
-/// Readings that springs of these sizes give, with normal noise, m.
+/// Readings with springs of these sizes, with normal noise, m.
 fn measure(
     robot: &Robot,
     unknowns: &[Unknown],

@@ -1,4 +1,4 @@
-//! A plan of load tests tells more than tests by chance.
+//! A plan of load tests gives less uncertainty than random tests.
 
 use armill_core::identify::effect::{Effects, State};
 use armill_core::identify::unknown::{bending, drives};
@@ -9,7 +9,7 @@ use armill_core::spatial::Wrench;
 use crate::{Random, arms, loads};
 
 #[test]
-fn a_plan_knows_more_than_chance_and_stays_inside_the_limits() {
+fn a_plan_has_less_uncertainty_than_random_tests_and_stays_within_the_limits() {
     let robot = arms::mh12();
     let unknowns = [drives(&robot), bending(&robot)].concat();
     let requested = PlanQuestion {

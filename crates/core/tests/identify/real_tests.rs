@@ -1,4 +1,4 @@
-//! 43 real load tests of a FANUC R-2000iC, where `ARMILL_SAMPLES` leads to them.
+//! 43 real load tests of a FANUC R-2000iC, if `ARMILL_SAMPLES` names their folder.
 
 use armill_core::identify::effect::Effects;
 use armill_core::identify::unknown::{base, bending, drives, lost_motion};
@@ -7,13 +7,13 @@ use armill_core::identify::{
 };
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::chain::Axis;
-use armill_core::robot::{Robot, Attachment};
+use armill_core::robot::{Attachment, Robot};
 use armill_core::spatial::Wrench;
 
 use crate::{AXES, arms, plain, usual};
 
-/// Liu et al. 2026 by modified DH rows; each joint stands after its row's two displacements along and about x and its
-/// length along z, so that seats are the origins of the DH frames.
+/// Liu et al. 2026 by modified DH rows; each joint is after its row's two displacements along and about x and its
+/// length along z, so that attachments are the origins of the DH frames.
 fn r2000ic() -> Robot {
     let described = arms::r2000ic();
     let mut motions = described.chain().motions().to_vec();
@@ -136,7 +136,7 @@ fn a_weak_prior_and_robust_weights_predict_real_tests_better() {
         })
         .collect();
     let with_gaps = [springs.clone(), lost_motion(&robot, &torques)].concat();
-    // What plain least squares reach on the same tests, best of all its models: 10.5 %, 0.225 mm.
+    // Plain least squares on the same tests, best of all its models: 10.5 %, 0.225 mm.
     let rows = [
         ("known points", &springs, Points::Known, [0.307, 16.5]),
         ("common point", &springs, Points::Common(0.2), [0.208, 9.65]),
@@ -156,7 +156,7 @@ fn a_weak_prior_and_robust_weights_predict_real_tests_better() {
             rms < most[0] && relative < most[1],
             "{name}: {rms} mm, {relative} %"
         );
-        // No spring is rigid, none softer than a drive of a small arm.
+        // No spring is rigid, none more compliant than a drive of a small arm.
         let springs = found.estimates.iter().take(springs.len());
         assert!(
             springs.clone().all(|e| e.value > 1e-8 && e.value < 1e-4),

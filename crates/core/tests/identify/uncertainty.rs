@@ -1,4 +1,4 @@
-//! Stated uncertainties cover the truth as often as they say.
+//! Stated uncertainties cover the truth at the stated rate.
 
 use armill_core::identify::effect::State;
 use armill_core::identify::identify;
@@ -7,7 +7,7 @@ use armill_core::identify::unknown::{base, bending, drives};
 use crate::{Random, arms, loads, measure, some_sizes, usual};
 
 #[test]
-fn stated_uncertainties_cover_the_truth_as_often_as_they_say() {
+fn stated_uncertainties_cover_the_truth_at_the_stated_rate() {
     let robot = arms::kr120();
     let unknowns = drives(&robot);
     let truth = vec![6e-7, 5e-7, 9e-7, 2e-6, 3e-6, 5e-6];
@@ -29,7 +29,7 @@ fn stated_uncertainties_cover_the_truth_as_often_as_they_say() {
             inside += usize::from((estimate.value - truth).abs() < 2.0 * estimate.standard_uncertainty);
         }
     }
-    // Two standard uncertainties of a normal error hold 95.4 %. With three readings a test robust weights of normal
+    // Two standard uncertainties of a normal error cover 95.4 %. With three readings a test robust weights of normal
     // noise are 0.85 in the mean and enlarge the uncertainty by 1.08, which is more than they cost: 97 %. 1200 draws
     // scatter by 0.6 %, and do not depend on the machine.
     let share = f64::from(inside as u32) / f64::from(all);
@@ -62,6 +62,6 @@ fn uncertainties_of_all_springs_cover_the_truth() {
         }
     }
     let share = f64::from(inside as u32) / f64::from(all);
-    // The truths here lie nearer to the middle of the prior than it claims: more are covered than 95 %.
+    // The true values are nearer to the middle of the prior than it states: more are covered than 95 %.
     assert!(share > 0.93, "{share}");
 }

@@ -1,4 +1,4 @@
-//! Names of branches: each once, true of where the parts of the arm are, and kept by a calibrated arm.
+//! Names of branches: unique, correct for the positions of the links, and kept by a calibrated arm.
 
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::Vector3;
@@ -8,7 +8,7 @@ use crate::arms::{self, Stream, other};
 use crate::{apart, at, flange_of_rows};
 
 #[test]
-fn all_eight_branches_of_a_ur_have_names_and_hold_the_pose_by_its_dh_matrices() {
+fn all_eight_branches_of_a_ur_have_names_and_reach_the_pose_by_its_dh_matrices() {
     let tool = Isometry::identity();
     for (robot, rows) in [(other::ur10(), other::UR10), (other::ur10e(), other::UR10E)] {
         let (mut stream, mut eights) = (Stream(3), 0);
@@ -37,13 +37,13 @@ fn all_eight_branches_of_a_ur_have_names_and_hold_the_pose_by_its_dh_matrices() 
                 );
             }
         }
-        // Poses near the end of the reach have four: seen from one shoulder or with one flip the hand is too far.
+        // Poses near the end of the reach have four: from one shoulder or with one flip the hand is too far.
         assert!(eights > 1000, "{}: {eights} of 2000", robot.name());
     }
 }
 
 #[test]
-fn words_of_a_ur_say_where_its_parts_are() {
+fn branch_names_of_a_ur_match_the_positions_of_its_links() {
     // The wrist centre is where axes 5 and 6 meet; the elbow is axis 3; axis 4 is the end of the forearm.
     let (robot, tool) = (other::ur10(), Isometry::identity());
     let mut stream = Stream(8);

@@ -1,4 +1,4 @@
-//! Each kind of inverse behind the kernel: the same numbers as `predict`, the best branch, no jumps along a path.
+//! Each kind of inverse in the kernel: the same results as `predict`, the best branch, no jumps along a path.
 
 use armill_core::frame::Isometry;
 use armill_core::kernel::{Answers, BranchChoice, Question, evaluate, evaluate_in_order};
@@ -13,10 +13,10 @@ use armill_core::watch::Watch;
 
 use crate::arms::{self, other};
 
-/// Asks `robot` along a wave of tool poses, half a millimetre to one apart.
+/// Evaluates `robot` along a wave of tool poses, half a millimetre to one apart.
 fn along<T>(robot: &Robot, choice: BranchChoice, then: impl FnOnce(&Question<'_>, &[Isometry]) -> T) -> T {
     let tool = arms::bent_tool();
-    // In the middle of the reach of each, away from singularities; 2 m is the middle of the rail.
+    // In the middle of each reach, away from singularities; 2 m is the middle of the rail.
     let q: &[f64] = match robot.name() {
         name if name.contains("rail") => &[2.0, 0.2, 0.3, -0.4, 0.5, 0.7, 0.3],
         name if name.contains("mh12") => &[0.2, 0.3, -0.4, 0.5, 0.7, 0.3],
@@ -50,7 +50,7 @@ fn along<T>(robot: &Robot, choice: BranchChoice, then: impl FnOnce(&Question<'_>
     then(&question, &poses)
 }
 
-/// Arms of different inverses: closed form, polished, on a rail, searched, with a joint that stands.
+/// Arms of different inverses: closed form, polished, on a rail, searched, with a fixed joint.
 fn kinds() -> [Robot; 5] {
     [
         other::ur10(),
@@ -84,7 +84,7 @@ fn the_kernel_agrees_with_predict_for_every_kind_and_any_number_of_threads() {
                 assert_eq!(answers.joints, again.joints);
                 assert_eq!(answers.deviations, again.deviations);
                 let mut checked = 0;
-                for (i, evaluation) in answers.evaluation() {
+                for (i, evaluation) in answers.evaluations() {
                     let posture = posture_at(&robot, answers.joints_at(i), question.arm.flange_from_tool);
                     let away = posture.base_from_tool.translation.vector - poses[i].translation.vector;
                     assert!(away.norm() < 1e-9, "{}", robot.name());
@@ -94,7 +94,7 @@ fn the_kernel_agrees_with_predict_for_every_kind_and_any_number_of_threads() {
                     for (case, wrench) in question.cases.iter().enumerate() {
                         let witness = predict(&posture, question.arm.compliance, wrench).twist.linear;
                         let away = answers.deviations_at(i)[case] - witness;
-                        // The pose is held to 1e-9 m and rad: so are the screws, relative to a metre.
+                        // The pose is accurate to 1e-9 m and rad, and so are the screws, relative to a metre.
                         assert!(away.norm() < 1e-8 * witness.norm());
                     }
                     checked += 1;
@@ -136,7 +136,7 @@ fn along_a_path_no_joint_jumps() {
     for robot in kinds() {
         along(&robot, choices()[0], |question, poses| {
             let answers = evaluate_in_order(question, poses.len(), |i| poses[i], Watch::NONE).unwrap();
-            assert!(answers.evaluation().count() == poses.len(), "{}", robot.name());
+            assert!(answers.evaluations().count() == poses.len(), "{}", robot.name());
             for i in 1..poses.len() {
                 let (a, b) = (answers.joints_at(i - 1), answers.joints_at(i));
                 let step = a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
@@ -152,12 +152,12 @@ fn a_map_of_an_iiwa_is_continuous() {
     for choice in choices() {
         along(&other::iiwa14(), choice, |question, poses| {
             let answers = evaluate(question, poses.len(), |i| poses[i], Watch::NONE).unwrap();
-            assert_eq!(answers.evaluation().count(), poses.len());
+            assert_eq!(answers.evaluations().count(), poses.len());
             assert!((0..poses.len()).all(|i| answers.joints_at(i)[2] == 0.0));
-            let evaluation: Vec<_> = answers.evaluation().collect();
+            let evaluation: Vec<_> = answers.evaluations().collect();
             for ((_, a), (i, b)) in evaluation.iter().zip(&evaluation[1..]) {
-                // Half a millimetre to one apart, of a reach of 0.8 m: some parts in a thousand. The best posture of
-                // all may come to a limit: the deviation then steps up.
+                // Half a millimetre to one apart, of a reach of 0.8 m: some parts in a thousand. The best posture
+                // may come to a limit: the deviation then has a step.
                 let step = (a.in_plane - b.in_plane).abs() / a.in_plane;
                 assert!(step < 0.01 || choice == BranchChoice::Best, "{i}: {step}");
             }

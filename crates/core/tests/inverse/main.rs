@@ -1,21 +1,21 @@
-//! Every kind of inverse against forward kinematics, on the arms of the field.
+//! Every kind of inverse compared with forward kinematics, on common arms.
 //!
-//! `there_and_back`: joints, pose, joints; `spherical_wrist`, `search`: the kinds without named branches; `branches`:
-//! what the names say; `joints_to_spare`: rails and seven axes; `out_of_reach`: no posture, or too many; `kernel`: the
-//! same inverses behind maps and paths.
+//! `round_trips`: joints, pose, joints; `spherical_wrist`, `search`: the kinds without named branches; `branches`:
+//! meaning of the names; `redundant_joints`: rails and seven axes; `out_of_reach`: no posture, or infinitely many;
+//! `kernel`: the same inverses in maps and paths.
 
-// A panic is how a test says that its claim is false; helper functions too.
+// A panic is how a test fails; in helper functions too.
 #![allow(clippy::unwrap_used)]
 
 #[path = "../arms/mod.rs"]
 mod arms;
 mod branches;
-mod joints_to_spare;
 mod kernel;
 mod out_of_reach;
+mod redundant_joints;
+mod round_trips;
 mod search;
 mod spherical_wrist;
-mod there_and_back;
 
 use std::f64::consts::TAU;
 
@@ -27,12 +27,12 @@ use armill_core::robot::inverse::{ToolAt, posture_at, postures};
 use arms::Stream;
 use arms::other::DhRow;
 
-/// The tool on its flange, with no posture to be near and no home.
+/// The tool on its flange, without previous joint positions and home.
 fn at(tool: &Isometry) -> ToolAt<'_> {
     ToolAt::on(tool)
 }
 
-/// Largest difference of two joint positions, whole turns aside, rad (m).
+/// Largest difference of two joint positions, modulo whole turns, rad (m).
 fn apart(robot: &Robot, a: &[f64], b: &[f64]) -> f64 {
     let of = |i: usize| {
         let away = a[i] - b[i];
@@ -45,7 +45,7 @@ fn apart(robot: &Robot, a: &[f64], b: &[f64]) -> f64 {
     (0..a.len()).map(of).fold(0.0, f64::max)
 }
 
-/// The flange of the standard Denavit-Hartenberg rows, by matrices of its own.
+/// The flange of the standard Denavit-Hartenberg rows, by independent matrices.
 fn flange_of_rows(rows: &[DhRow], q: &[f64]) -> Matrix4<f64> {
     rows.iter()
         .zip(q)
@@ -73,22 +73,22 @@ fn flange_of_rows(rows: &[DhRow], q: &[f64]) -> Matrix4<f64> {
         })
 }
 
-/// What came of the poses of random joint positions.
+/// Result of the round trips from random joint positions.
 #[derive(Debug, Default)]
 struct Trips {
     /// Poses, without those near a singularity.
     poses: usize,
     /// Of them, those with any posture.
-    evaluation: usize,
-    /// Of them, those with the joint positions that made them among their postures.
+    reached: usize,
+    /// Of them, those with the original joint positions among their postures.
     returned: usize,
-    /// Postures in all.
+    /// Number of postures.
     postures: usize,
 }
 
-/// Random poses there and back, each posture checked by the product of elementary motions. A rail, or a joint to spare,
-/// stands where it did.
-// What a reader of the output wants to know.
+/// Random round trips, each posture checked by the product of elementary motions. A rail or a redundant joint keeps its
+/// position.
+// For the output of the test.
 #[allow(clippy::print_stdout)]
 fn round_trips(robot: &Robot, count: usize) -> Trips {
     let tool = arms::bent_tool();
@@ -103,15 +103,15 @@ fn round_trips(robot: &Robot, count: usize) -> Trips {
         let home = (robot.joints().len() > 6).then_some(&q[..]);
         let found = postures(robot, &made.base_from_tool, ToolAt { home, ..at(&tool) }).unwrap_or_default();
         trips.poses += 1;
-        trips.evaluation += usize::from(!found.is_empty());
+        trips.reached += usize::from(!found.is_empty());
         trips.postures += found.len();
-        // A pose is known to 1e-12; near the end of a branch joints are known to the root of it.
+        // A pose is accurate to 1e-12; near the end of a branch joints are accurate to its root.
         trips.returned += usize::from(found.iter().any(|p| apart(robot, &p.joints, &q) < 1e-6));
         for posture in &found {
             let theta: Vec<f64> = (0..q.len()).map(|i| robot.theta(i, &posture.joints)).collect();
             let reached = robot.chain().base_from_flange(&theta) * tool;
             let away = reached.translation.vector - made.base_from_tool.translation.vector;
-            // The angle between two quaternions is known to the root of rounding.
+            // The angle between two quaternions is accurate to the root of rounding.
             let turned = reached.rotation.angle_to(&made.base_from_tool.rotation);
             assert!(away.norm() < 1e-9 && turned < 3e-8, "{}", robot.name());
         }

@@ -1,4 +1,4 @@
-//! Poses that no posture holds, and singular ones, which endlessly many hold.
+//! Poses without a posture, and singular ones with infinitely many.
 
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::Vector3;
@@ -10,7 +10,7 @@ use crate::arms::other::{self, DhRow};
 use crate::{apart, at};
 
 #[test]
-fn beyond_every_reach_there_is_a_reason_with_an_amount() {
+fn a_pose_out_of_reach_has_a_reason_with_an_amount() {
     let far = Isometry::translation(9.0, 0.0, 0.5);
     let tool = Isometry::identity();
     let miss = |robot: &Robot| postures(robot, &far, at(&tool)).unwrap_err();
@@ -33,9 +33,9 @@ fn beyond_every_reach_there_is_a_reason_with_an_amount() {
         assert!(by > 6.0 && by < 9.0 && turned.is_finite(), "{miss:?}");
         assert!(miss.to_string().contains("does not prove"));
     }
-    // Axis 4 of a UR stands 163.941 mm beside the plane of the arm: no wrist centre comes nearer to axis 1.
-    let beside = flange_at_wrist_centre(&other::UR10, [0.05, 0.0, 0.6]);
-    let miss = postures(&other::ur10(), &beside, at(&tool)).unwrap_err();
+    // Axis 4 of a UR has an offset of 163.941 mm from the plane of the arm: no wrist centre comes nearer to axis 1.
+    let near_axis = flange_at_wrist_centre(&other::UR10, [0.05, 0.0, 0.6]);
+    let miss = postures(&other::ur10(), &near_axis, at(&tool)).unwrap_err();
     assert!(
         matches!(miss, Unreachable::InsideLateralOffset { by } if (by - 0.113_941).abs() < 1e-9),
         "{miss:?}"
@@ -85,7 +85,7 @@ fn singular_poses_have_finite_postures_with_a_flag() {
 }
 
 #[test]
-fn where_a_ur_leaves_joint_6_free_it_stays_as_it_was() {
+fn where_a_ur_leaves_joint_6_free_it_is_not_moved() {
     let (robot, tool) = (other::ur10(), Isometry::identity());
     let q = [0.3, -1.2, 1.4, 0.2, 0.0, 0.7];
     let pose = posture_at(&robot, &q, &tool).base_from_tool;

@@ -1,4 +1,4 @@
-//! Arms whose last or first three axes meet: every posture, against matrices and against the closed form with names.
+//! Arms whose last or first three axes meet: every posture, compared with matrices and with the named closed form.
 
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::{Matrix4, UnitQuaternion, Vector3};
@@ -9,7 +9,7 @@ use crate::arms::other::{self, DhRow};
 use crate::arms::{self, Stream};
 use crate::{apart, at, flange_of_rows, round_trips};
 
-/// Arms whose last or first three axes meet, and no closed form with names holds.
+/// Arms whose last or first three axes meet, without a named closed form.
 fn with_spherical_wrist() -> [(Robot, [DhRow; 6]); 4] {
     [
         ("made-up/puma-like", other::PUMA_LIKE),
@@ -21,7 +21,7 @@ fn with_spherical_wrist() -> [(Robot, [DhRow; 6]); 4] {
 }
 
 #[test]
-fn spherical_wrists_give_back_the_joints_that_made_the_pose() {
+fn spherical_wrists_return_the_original_joint_positions() {
     for (robot, _) in with_spherical_wrist() {
         assert_eq!(robot.inverse().word(), "closed_form", "{}", robot.name());
         let trips = round_trips(&robot, 10_000);
@@ -30,7 +30,7 @@ fn spherical_wrists_give_back_the_joints_that_made_the_pose() {
 }
 
 #[test]
-fn postures_of_spherical_wrists_are_distinct_and_hold_the_pose_by_its_dh_matrices() {
+fn postures_of_spherical_wrists_are_distinct_and_reach_the_pose_by_its_dh_matrices() {
     let tool = Isometry::identity();
     for (robot, rows) in with_spherical_wrist() {
         let (mut stream, mut most) = (Stream(4), 0);
@@ -39,7 +39,7 @@ fn postures_of_spherical_wrists_are_distinct_and_hold_the_pose_by_its_dh_matrice
             let pose = isometry(&target);
             let found = postures(&robot, &pose, at(&tool)).unwrap();
             for (i, posture) in found.iter().enumerate() {
-                // The pose is read off the matrix to rounding, and held to 1e-9.
+                // The pose is read off the matrix to rounding, and verified to 1e-9.
                 assert!((flange_of_rows(&rows, &posture.joints) - target).norm() < 2e-9);
                 assert!(
                     found[..i]
@@ -64,7 +64,7 @@ fn isometry(matrix: &Matrix4<f64>) -> Isometry {
 }
 
 #[test]
-fn the_spherical_wrist_of_an_ortho_parallel_arm_gives_the_postures_of_its_own_closed_form() {
+fn the_spherical_wrist_of_an_ortho_parallel_arm_has_the_postures_of_its_closed_form() {
     for robot in [arms::mh12(), arms::kr120(), other::kr210_l150()] {
         let wrist = SphericalWrist::recognise(robot.chain()).unwrap();
         let tool = Isometry::identity();
@@ -72,7 +72,7 @@ fn the_spherical_wrist_of_an_ortho_parallel_arm_gives_the_postures_of_its_own_cl
         for _ in 0..10_000 {
             let pose = posture_at(&robot, &stream.joints(&robot), &tool).base_from_tool;
             let named = postures(&robot, &pose, at(&tool)).unwrap();
-            // Beside a singularity two postures may be nearer than what tells them apart.
+            // Near a singularity two postures may be nearer than the tolerance for distinct ones.
             if named.iter().any(|posture| posture.singularity.is_some()) {
                 continue;
             }
@@ -80,7 +80,7 @@ fn the_spherical_wrist_of_an_ortho_parallel_arm_gives_the_postures_of_its_own_cl
             assert_eq!(general.len(), named.len(), "{}", robot.name());
             for posture in &named {
                 let theta: Vec<f64> = (0..6).map(|i| robot.theta(i, &posture.joints)).collect();
-                // A degree from a singularity 1e-10 of the pose is 1e-8 of a joint at most.
+                // A degree from a singularity 1e-10 of the pose is at most 1e-8 of a joint.
                 let nearest = general.iter().map(|other| apart(&robot, other, &theta));
                 assert!(nearest.fold(f64::INFINITY, f64::min) < 1e-8, "{}", robot.name());
             }
@@ -91,7 +91,7 @@ fn the_spherical_wrist_of_an_ortho_parallel_arm_gives_the_postures_of_its_own_cl
 }
 
 #[test]
-fn calibrated_spherical_wrists_give_back_the_joints_that_made_the_pose() {
+fn calibrated_spherical_wrists_return_the_original_joint_positions() {
     for (ideal, _) in with_spherical_wrist() {
         let robot = other::calibrated(&ideal, 5e-4);
         assert_eq!(robot.inverse().word(), "polished", "{}", robot.name());

@@ -8,7 +8,7 @@ use armill_core::robot::{Branch, Posture, Robot};
 use armill_core::source::elastic::predict;
 use armill_core::workpiece::Split;
 
-use crate::{NEAR_SINGULAR, arms, analysis, batch, cases, poses_of, some};
+use crate::{NEAR_SINGULAR, analysis, arms, batch, cases, poses_of, some};
 
 /// Largest difference of envelopes from `predict`, against the whole deviation, away from singularities; every
 /// difference near them is below `near`.
@@ -53,7 +53,7 @@ fn worst_difference<T: Precision>(
                 assert!(away < allowed, "{}: {away:e} at {posture:?}", robot.name());
             } else {
                 worst = worst.max(away);
-                let decided = splits[ours.deciding_case(i)].in_plane;
+                let decided = splits[ours.worst_case(i)].in_plane;
                 assert!((decided - largest).abs() < 1e-3 * full, "another case decides");
             }
         }
@@ -72,7 +72,8 @@ fn envelopes_agree_with_predict_on_a_million_poses_of_six_arms() {
         // Near a singularity the posture itself is only known to eps over the square of the sine.
         let worst = worst_difference::<f64>(&robot, &regular, Backend::fastest(), Some(1e-6));
         assert!(worst < 1e-12, "{}: {worst:e}", robot.name());
-        // Between 1 and 6 deg from the wrist singularity, and the arm nearly stretched, a rounded pose is worth more.
+        // Between 1 and 6 deg from the wrist singularity, and with the arm nearly stretched, rounding of the pose has
+        // more effect.
         let worst = worst_difference::<f64>(&robot, &bent_little, Backend::fastest(), Some(1e-6));
         assert!(worst < 4e-12, "{}: {worst:e}", robot.name());
     }

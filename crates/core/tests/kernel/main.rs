@@ -24,10 +24,10 @@ use armill_core::spatial::Wrench;
 
 use arms::Stream;
 
-/// How far (rad) outside their limits joints may stand: 20 deg.
+/// How far (rad) outside their limits joints may be: 20 deg.
 const BEYOND: f64 = 0.35;
 
-/// Three cases, one with a moment; five where many are asked.
+/// Three cases, one with a moment; five where many are needed.
 fn cases(count: usize) -> Vec<Wrench> {
     let mut all = vec![
         Wrench::from_force(Vector3::new(3.0, -5.0, 5.0)),
@@ -43,8 +43,13 @@ fn cases(count: usize) -> Vec<Wrench> {
     all
 }
 
-/// Asks `question` with a bent tool and an oblique plane.
-fn analysis<T>(robot: &Robot, cases: &[Wrench], choice: BranchChoice, then: impl FnOnce(&Question<'_>) -> T) -> T {
+/// Answers `question` with a bent tool and an oblique plane.
+fn analysis<T>(
+    robot: &Robot,
+    cases: &[Wrench],
+    choice: BranchChoice,
+    then: impl FnOnce(&Question<'_>) -> T,
+) -> T {
     let tool = arms::bent_tool();
     then(&Question {
         arm: Arm {
@@ -98,7 +103,7 @@ impl<T: Precision> Soa<T> {
     }
 }
 
-/// Where these postures hold the tool.
+/// Tool poses of these postures.
 fn poses_of<T: Precision>(postures: &[Posture]) -> Soa<T> {
     Soa::of(postures.iter().map(|posture| &posture.base_from_tool))
 }

@@ -1,4 +1,4 @@
-//! Lanes against themselves: other back ends, other counts of points, poses told in another way.
+//! Lanes against themselves: other back ends, other numbers of points, poses given in another way.
 
 use std::fmt::Debug;
 
@@ -9,9 +9,9 @@ use armill_core::nalgebra::Point3;
 use armill_core::robot::Branch;
 use armill_core::workpiece::Plane;
 
-use crate::{Soa, arms, analysis, batch, cases, poses_of, some};
+use crate::{Soa, analysis, arms, batch, cases, poses_of, some};
 
-/// All that a batch can tell of these poses, as numbers.
+/// All results of a batch for these poses, as numbers.
 fn everything<T: Precision>(
     question: &Question<'_>,
     soa: &Soa<T>,
@@ -26,7 +26,7 @@ fn everything<T: Precision>(
     for one in &envelopes {
         all.extend(one.in_plane().iter().map(|x| x.to_f64()));
         all.extend((0..count).map(|i| f64::from(one.flags(i))));
-        all.extend((0..count).map(|i| one.deciding_case(i) as f64));
+        all.extend((0..count).map(|i| one.worst_case(i) as f64));
     }
     let mut out = Arrays::default();
     batch.compliances(&cut.poses(), Branch::ALL[2], &mut out);
@@ -45,7 +45,7 @@ fn bits(values: &[f64]) -> Vec<u64> {
     values.iter().map(|x| x.to_bits()).collect()
 }
 
-/// All that lanes can tell, on every back end of this machine: two sets of bits, with and without fused products.
+/// All results of the lanes, on every back end of this machine: two sets of bits, with and without fused products.
 fn same_bits_wherever_product_and_sum_are_fused<T: Precision + Debug>() {
     for robot in arms::all() {
         let soa = poses_of::<T>(&some(&robot, 1_000));

@@ -26,7 +26,10 @@ fn whole_answers_agree_with_predict_and_add_up() {
                 let pose = |i: usize| found[i].base_from_tool;
                 let answers = evaluate(question, found.len(), pose, Watch::NONE).unwrap();
                 let mut checked = 0;
-                for (i, evaluation) in answers.evaluation().filter(|(_, evaluation)| evaluation.singularity.is_none()) {
+                for (i, evaluation) in answers
+                    .evaluations()
+                    .filter(|(_, evaluation)| evaluation.singularity.is_none())
+                {
                     let posture = posture_at(&robot, answers.joints_at(i), question.arm.flange_from_tool);
                     assert_eq!(posture.name, evaluation.name);
                     let moved = posture.base_from_tool.translation.vector
@@ -43,12 +46,15 @@ fn whole_answers_agree_with_predict_and_add_up() {
                         if split.normal.abs() > normal.abs() {
                             normal = split.normal;
                         }
-                        if case == evaluation.deciding_case {
+                        if case == evaluation.worst_case {
                             assert!((split.in_plane - evaluation.in_plane).abs() < 1e-12 * evaluation.full);
                             let along = witness.twist.linear - question.normal.into_inner() * split.normal;
                             let along = along.normalize();
                             let variance = (along.transpose() * witness.covariance * along).x;
-                            assert!((variance.sqrt() - evaluation.in_plane_uncertainty).abs() < 1e-10 * evaluation.full);
+                            assert!(
+                                (variance.sqrt() - evaluation.in_plane_uncertainty).abs()
+                                    < 1e-10 * evaluation.full
+                            );
                         }
                     }
                     assert!((full - evaluation.full).abs() < 1e-12 * full);
@@ -56,7 +62,9 @@ fn whole_answers_agree_with_predict_and_add_up() {
                     let sum: f64 = answers.shares_at(i).iter().sum();
                     assert!((sum - evaluation.in_plane).abs() < 1e-12 * evaluation.full);
                     let (joint, margin) = robot.limit_margin(&posture.joints).unwrap();
-                    assert!((margin - evaluation.limit_margin).abs() < 1e-12 && joint == evaluation.limit_joint);
+                    assert!(
+                        (margin - evaluation.limit_margin).abs() < 1e-12 && joint == evaluation.limit_joint
+                    );
                     checked += 1;
                 }
                 assert!(checked > 300, "{}: {checked}", robot.name());
@@ -119,7 +127,7 @@ fn any_chain_at_known_joint_positions_agrees_with_predict() {
         7
     ];
     let (tool, cases) = (arms::bent_tool(), cases(5));
-    let evaluation = Arm {
+    let arm = Arm {
         robot: &robot,
         compliance: &compliance,
         model: StiffnessModel::DRIVES,
@@ -130,13 +138,13 @@ fn any_chain_at_known_joint_positions_agrees_with_predict() {
     let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     let given = || {
         let mut out = vec![0.0; 1000 * 15];
-        let tell = |arm_state: &mut ArmState<'_>, out: &mut [f64]| {
+        let write = |arm_state: &mut ArmState<'_>, out: &mut [f64]| {
             for (wrench, out) in cases.iter().zip(out.chunks_mut(3)) {
                 out.copy_from_slice(arm_state.elastic(wrench)?.linear.as_slice());
             }
             Ok(())
         };
-        evaluate_at_joints(&evaluation, &q, (&mut out, 15), tell, Watch::NONE).unwrap();
+        evaluate_at_joints(&arm, &q, (&mut out, 15), write, Watch::NONE).unwrap();
         out
     };
     let out = one_thread.install(given);

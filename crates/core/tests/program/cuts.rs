@@ -1,4 +1,4 @@
-//! Forces of the cut: what a program permits, and the cut of a tool that strayed.
+//! Cutting forces: process limits of a program, and the force-deflection equilibrium.
 
 use std::f64::consts::TAU;
 
@@ -8,7 +8,7 @@ use armill_core::load::{
 };
 use armill_core::map::{CutLimits, Permitted, ProgramLimits, program_limits};
 use armill_core::nalgebra::{Vector2, Vector3};
-use armill_core::path::{Cutting, Greatest, Track};
+use armill_core::path::{Cutting, GreatestForce, Track};
 use armill_core::robot::BranchPattern;
 use armill_core::source::StiffnessModel;
 use armill_core::spatial::Wrench;
@@ -26,7 +26,7 @@ fn cutting() -> Cutting {
         immersion: Immersion::Down(3e-3),
         feed: None,
         spindle: Some(SPINDLE),
-        greatest: Greatest::SecondCase,
+        greatest: GreatestForce::SecondCase,
     }
 }
 
@@ -58,7 +58,7 @@ fn permits(
         let Permitted::UpTo(value) = value(&point.cut.unwrap()) else {
             continue;
         };
-        // As wide as the tool a cut has no free edge any more that straying would move: the deviation jumps there.
+        // A cut as wide as the tool has no free edge that a deflection could move: the deviation jumps there.
         if value > 0.98 * cutting().cutter.diameter() {
             continue;
         }
@@ -72,11 +72,11 @@ fn permits(
 }
 
 #[test]
-fn at_the_depth_width_or_feed_that_is_permitted_the_tool_deviates_by_the_limit() {
+fn at_the_permitted_depth_width_or_feed_the_tool_deviates_by_the_tolerance() {
     let robot = arms::mh12();
     let choice = BranchChoice::Of(BranchPattern::FRONT_ELBOW_UP);
     let mean_alone = Cutting {
-        greatest: Greatest::LeftOut,
+        greatest: GreatestForce::LeftOut,
         ..cutting()
     };
     let load = cut_along(&mean_alone, &track());
@@ -107,12 +107,12 @@ fn at_the_depth_width_or_feed_that_is_permitted_the_tool_deviates_by_the_limit()
         limit,
         |cut| cut.feed_per_tooth,
         |thick| Cutting {
-            // The program tells the feed: the same chip at another speed of the spindle.
+            // The feed is given in the program: the same chip at another spindle speed.
             spindle: Some(feed_speed * TAU / (2.0 * thick)),
             ..mean_alone
         },
     );
-    // Where depth and feed as drawn meet, the sheet has the largest deviation of the path.
+    // At the nominal depth and feed the sheet has the largest deviation of the path.
     let sheet = found.depth_by_feed.unwrap();
     let nearest = |all: &[f64], value: f64| {
         let off = |i: &usize| (all[*i] - value).abs();
@@ -129,7 +129,7 @@ fn at_the_depth_width_or_feed_that_is_permitted_the_tool_deviates_by_the_limit()
 }
 
 #[test]
-fn a_force_that_is_permitted_deviates_by_the_limit() {
+fn at_the_permitted_force_the_tool_deviates_by_the_tolerance() {
     let robot = arms::mh12();
     let choice = BranchChoice::Of(BranchPattern::FRONT_ELBOW_UP);
     let unit = |force: Vector3<f64>| {
@@ -167,7 +167,7 @@ fn a_force_that_is_permitted_deviates_by_the_limit() {
 }
 
 #[test]
-fn where_a_tool_cuts_the_force_is_that_of_the_cut_of_the_tool_that_strayed() {
+fn where_a_tool_cuts_the_force_is_that_of_the_deflected_cut() {
     let robot = arms::mh12();
     let cutting = cutting();
     let track = track();
@@ -177,21 +177,21 @@ fn where_a_tool_cuts_the_force_is_that_of_the_cut_of_the_tool_that_strayed() {
     };
     let choice = BranchChoice::Of(BranchPattern::FRONT_ELBOW_UP);
     let found = followed(&robot, StiffnessModel::DRIVES, choice, load);
-    let rested = found.rested.unwrap();
-    assert_eq!((rested.unsettled, rested.first_unsettled), (0, None));
+    let equilibrium = found.equilibrium.unwrap();
+    assert_eq!((equilibrium.unsettled, equilibrium.first_unsettled), (0, None));
     let PathLoad::Cuts(at_rest) = &found.load else {
         panic!("cuts stay cuts")
     };
     let mut gave_way = 0.0_f64;
-    for (i, _) in found.answers.evaluation() {
+    for (i, _) in found.answers.evaluations() {
         let (here, before) = (&at_rest.points[i], &drawn.points[i]);
         let parts = track.parts(i, &found.answers.deviations_at(i)[0]);
-        let strayed = Vector2::new(parts.cross, parts.axial);
+        let deflection = Vector2::new(parts.cross, parts.axial);
         let Some(cut) = before.cut else {
             assert_eq!(here.mean, Vector3::zeros());
             continue;
         };
-        let met = cut.deflected(strayed, 5e-3).map(|cut| {
+        let met = cut.deflected(deflection, 5e-3).map(|cut| {
             let milling = Milling::new(cutting.cutter, cutting.law, cut);
             milling.unwrap().mean().force
         });
@@ -204,7 +204,7 @@ fn where_a_tool_cuts_the_force_is_that_of_the_cut_of_the_tool_that_strayed() {
     assert!(gave_way > 0.02, "the arm is soft enough to see it: {gave_way}");
     let worst = found.answers.worst().unwrap().1.in_plane;
     assert!(
-        (rested.largest_if_drawn / worst - 1.0).abs() > 5e-3,
-        "{rested:?} {worst}"
+        (equilibrium.largest_nominal / worst - 1.0).abs() > 5e-3,
+        "{equilibrium:?} {worst}"
     );
 }

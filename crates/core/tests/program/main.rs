@@ -1,7 +1,7 @@
 //! Deviation along a tool path program against the plain model, one point at a time.
 //!
-//! `plain_model`: every point against it; `path_answers`: one branch, parts, wrenches of each point; `cuts`: forces of
-//! the cut and what a program permits.
+//! `plain_model`: every point against it; `path_answers`: one branch, parts, wrenches of each point; `cuts`: cutting
+//! forces and process limits.
 
 // A panic is how a test says that its claim is false; helper functions too.
 #![allow(clippy::unwrap_used)]
@@ -79,7 +79,7 @@ fn track() -> Track {
     }
 }
 
-/// Two cases, the first with a moment, told in this frame.
+/// Two cases, the first with a moment, in this frame.
 fn cases(frame: LoadFrame) -> PathLoad {
     let wrench = |f: [f64; 3], m: [f64; 3]| Wrench {
         force: f.into(),
@@ -94,7 +94,7 @@ fn cases(frame: LoadFrame) -> PathLoad {
     })
 }
 
-/// What is asked of an arm along a path: cases and normal come with the path.
+/// The question along a path: cases and normal come with the path.
 fn question<'a>(
     robot: &'a Robot,
     model: &'a StiffnessModel,

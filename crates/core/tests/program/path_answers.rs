@@ -1,4 +1,4 @@
-//! A path that is followed: one branch, parts that add up, wrenches of each point, joints that go on.
+//! A path that is followed: one branch, parts that add up, wrenches of each point, continuous joints.
 
 use std::f64::consts::TAU;
 
@@ -18,7 +18,11 @@ fn the_arm_keeps_one_branch_and_the_best_one_deviates_least() {
     let robot = arms::mh12();
     let largest = |choice| {
         let found = followed(&robot, StiffnessModel::DRIVES, choice, cases(LoadFrame::Feed));
-        let mut names: Vec<_> = found.answers.evaluation().map(|(_, evaluation)| evaluation.name).collect();
+        let mut names: Vec<_> = found
+            .answers
+            .evaluations()
+            .map(|(_, evaluation)| evaluation.name)
+            .collect();
         names.dedup();
         assert_eq!(names.len(), 1);
         found.answers.worst().unwrap().1.in_plane
@@ -40,8 +44,8 @@ fn parts_seen_from_the_path_add_up_to_the_whole() {
         cases(LoadFrame::Feed),
     );
     let track = track();
-    for (i, evaluation) in found.answers.evaluation() {
-        let deviation = found.answers.deviations_at(i)[evaluation.deciding_case];
+    for (i, evaluation) in found.answers.evaluations() {
+        let deviation = found.answers.deviations_at(i)[evaluation.worst_case];
         let (parts, whole) = (track.parts(i, &deviation), deviation.norm());
         assert!((parts.along.hypot(parts.cross).hypot(parts.axial) - whole).abs() < 1e-12 * whole);
         assert!((parts.along.hypot(parts.cross) - evaluation.in_plane).abs() < 1e-10 * whole);
@@ -49,7 +53,7 @@ fn parts_seen_from_the_path_add_up_to_the_whole() {
 }
 
 #[test]
-fn wrenches_of_each_point_may_be_told_in_any_frame() {
+fn wrenches_of_each_point_may_be_given_in_any_frame() {
     let robot = arms::mh12();
     let choice = BranchChoice::Of(BranchPattern::FRONT_ELBOW_UP);
     for frame in [LoadFrame::Base, LoadFrame::Part, LoadFrame::Feed] {
@@ -78,7 +82,7 @@ fn wrenches_of_each_point_may_be_told_in_any_frame() {
 }
 
 #[test]
-fn each_point_may_have_a_wrench_of_its_own() {
+fn each_point_may_have_a_separate_wrench() {
     let robot = arms::mh12();
     let choice = BranchChoice::Of(BranchPattern::FRONT_ELBOW_UP);
     let count = track().path.points.len();
@@ -120,7 +124,7 @@ fn joints_go_on_past_half_a_turn_as_far_as_their_limits_let_them() {
             .unwrap()
             .answers;
         let (mut range, mut steps) = ((f64::MAX, f64::MIN), 0);
-        for (i, evaluation) in found.evaluation() {
+        for (i, evaluation) in found.evaluations() {
             let last = found.joints_at(i)[5];
             range = (range.0.min(last), range.1.max(last));
             let (joint, margin) = robot.limit_margin(found.joints_at(i)).unwrap();

@@ -1,17 +1,17 @@
-//! Springs beside the drives: compliances, shares and covariance against the simple model and its matrices.
+//! Springs in addition to the drives: compliances, shares and covariance against the simple model and its matrices.
 
 use armill_core::compliance::compliance_at_tool;
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::{DMatrix, IsometryMatrix3, Matrix6, Point3, UnitQuaternion};
 use armill_core::robot::inverse::posture_at;
 use armill_core::robot::spring::springs_of;
-use armill_core::robot::{JointCompliance, Mass, Attachment, Spring, Structure};
+use armill_core::robot::{Attachment, JointCompliance, Mass, Spring, Structure};
 use armill_core::source::elastic::predict;
 use armill_core::source::{Arm, ArmState, StiffnessModel};
 use armill_core::spatial::adjoint;
 use proptest::prelude::*;
 
-use crate::{arm, arms, fanuc_masses, evaluation, springs, weighing, wrench};
+use crate::{arm, arms, fanuc_masses, full_arm, springs, weighing, wrench};
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
@@ -30,7 +30,7 @@ proptest! {
             ..Structure::EMPTY
         };
         for model in [StiffnessModel::DRIVES.clone(), weighing(structure)] {
-            let full = arms::predicted(&evaluation(robot, &model, &tool), &q, &w).unwrap();
+            let full = arms::predicted(&full_arm(robot, &model, &tool), &q, &w).unwrap();
             prop_assert_eq!(full.twist.linear, simple.twist.linear);
             prop_assert_eq!(full.twist.angular, simple.twist.angular);
             for (a, b) in full.shares.iter().zip(&simple.shares) {
@@ -64,7 +64,7 @@ proptest! {
         for (attachment, base_from_attachment) in attachments {
             let structure = Structure { springs: springs_of(attachment, &local).unwrap(), ..Structure::EMPTY };
             let model = StiffnessModel { structure, ..StiffnessModel::DRIVES.clone() };
-            let arm = evaluation(robot, &model, &tool);
+            let arm = full_arm(robot, &model, &tool);
             let mut arm_state = ArmState::new(arm);
             arm_state.set_joints(&q);
             let ad = adjoint(&base_from_attachment, &tcp);
@@ -84,7 +84,7 @@ proptest! {
         let (q, tool) = (arms::positions(robot, &unit), arms::bent_tool());
         let structure = Structure { springs: springs(), masses: fanuc_masses(), ..Structure::EMPTY };
         let model = weighing(structure);
-        let full = arms::predicted(&evaluation(robot, &model, &tool), &q, &w).unwrap();
+        let full = arms::predicted(&full_arm(robot, &model, &tool), &q, &w).unwrap();
         prop_assert_eq!(full.shares.len(), 9);
         let sum: armill_core::spatial::Twist = full.shares.iter().copied().sum();
         let longest = full.shares.iter().map(|s| s.linear.norm()).fold(0.0, f64::max);
@@ -102,7 +102,7 @@ proptest! {
         let s = &root * root.transpose() * 1e-14;
         let structure = Structure { springs: springs(), covariance: Some(s.clone()), ..Structure::EMPTY };
         let model = StiffnessModel { structure, ..StiffnessModel::DRIVES.clone() };
-        let arm = evaluation(robot, &model, &tool);
+        let arm = full_arm(robot, &model, &tool);
         let found = arms::predicted(&arm, &q, &w).unwrap().covariance;
         // Witness: columns by changing one compliance at a time, the last four springs independent.
         let mut columns = DMatrix::zeros(3, 12);

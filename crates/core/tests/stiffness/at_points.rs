@@ -1,4 +1,4 @@
-//! The full model at many points: maps and known joints say what `predict` says.
+//! The full model at many points: maps and known joints agree with `predict`.
 
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
 use armill_core::kernel::{BranchChoice, Question, evaluate, evaluate_at_joints};
@@ -6,14 +6,14 @@ use armill_core::load::InputUncertainty;
 use armill_core::nalgebra::{DMatrix, Unit, Vector3};
 use armill_core::predict::predict;
 use armill_core::robot::Structure;
-use armill_core::source::{Arm, Links, ArmState, StiffnessModel};
+use armill_core::source::{Arm, ArmState, Links, StiffnessModel};
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
 
-use crate::{arms, fanuc_masses, evaluation, springs, weighing};
+use crate::{arms, fanuc_masses, full_arm, springs, weighing};
 
 #[test]
-fn maps_and_known_joints_say_what_predict_says_on_any_number_of_threads() {
+fn maps_and_known_joints_agree_with_predict_on_any_number_of_threads() {
     let (robot, tool) = (arms::mh12(), arms::bent_tool());
     let mut structure = Structure {
         springs: springs(),
@@ -31,7 +31,7 @@ fn maps_and_known_joints_say_what_predict_says_on_any_number_of_threads() {
         },
         Wrench::from_force(Vector3::new(3.0, -5.0, 1.0)),
     ];
-    let arm = evaluation(&robot, &model, &tool);
+    let arm = full_arm(&robot, &model, &tool);
     for choice in [
         BranchChoice::Best,
         BranchChoice::Of("front elbow-up".parse().unwrap()),
@@ -58,8 +58,8 @@ fn maps_and_known_joints_say_what_predict_says_on_any_number_of_threads() {
         let again = one.install(|| evaluate(&question, 100, pose, Watch::NONE).unwrap());
         assert_eq!(all.deviations, again.deviations);
         assert_eq!(all.shares, again.shares);
-        assert!(all.evaluation().count() > 50);
-        for (i, point) in all.evaluation() {
+        assert!(all.evaluations().count() > 50);
+        for (i, point) in all.evaluations() {
             let q = all.joints_at(i);
             for (deviation, wrench) in all.deviations_at(i).iter().zip(&cases) {
                 let witness = arms::predicted(&arm, q, wrench).unwrap().twist.linear;
@@ -75,14 +75,14 @@ fn maps_and_known_joints_say_what_predict_says_on_any_number_of_threads() {
             );
             assert!(point.in_plane_uncertainty > 0.0);
         }
-        let evaluation = Arm {
+        let arm = Arm {
             robot: &robot,
             compliance: robot.compliance().unwrap(),
             model: &model,
             flange_from_tool: &tool,
         };
         let mut known = vec![0.0; 9 * 100];
-        let tell = |arm_state: &mut ArmState<'_>, out: &mut [f64]| {
+        let write = |arm_state: &mut ArmState<'_>, out: &mut [f64]| {
             for (wrench, out) in cases.iter().zip(out.chunks_mut(3)) {
                 out.copy_from_slice(
                     predict(arm_state, wrench, &mut Links::Neglected)?
@@ -93,8 +93,8 @@ fn maps_and_known_joints_say_what_predict_says_on_any_number_of_threads() {
             }
             Ok(())
         };
-        evaluate_at_joints(&evaluation, &all.joints, (&mut known, 9), tell, Watch::NONE).unwrap();
-        for (i, _) in all.evaluation() {
+        evaluate_at_joints(&arm, &all.joints, (&mut known, 9), write, Watch::NONE).unwrap();
+        for (i, _) in all.evaluations() {
             for (known, deviation) in known[9 * i..].chunks(3).zip(all.deviations_at(i)) {
                 assert!((Vector3::from_column_slice(known) - deviation).norm() < 1e-13);
             }
@@ -103,7 +103,7 @@ fn maps_and_known_joints_say_what_predict_says_on_any_number_of_threads() {
 }
 
 #[test]
-fn a_load_that_no_arm_stands_is_a_state_of_its_points() {
+fn a_load_without_equilibrium_is_a_state_of_its_points() {
     let (robot, tool) = (arms::mh12(), Isometry::identity());
     let model = StiffnessModel {
         load_dependent: true,

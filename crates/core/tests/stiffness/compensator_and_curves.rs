@@ -1,4 +1,4 @@
-//! Joints that are no plain spring: a compensator beside the drive, a torque curve in its place.
+//! Joints other than linear springs: a compensator in addition to the drive, or a torque curve instead of it.
 
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::Vector3;
@@ -8,7 +8,7 @@ use armill_core::source::elastic::predict;
 use armill_core::source::{ArmState, StiffnessModel, Unstable};
 use armill_core::spatial::Wrench;
 
-use crate::{arms, fanuc_masses, evaluation, weighing};
+use crate::{arms, fanuc_masses, full_arm, weighing};
 
 #[test]
 fn a_compensator_takes_its_slope_from_the_joint_and_its_torque_from_gravity() {
@@ -31,7 +31,7 @@ fn a_compensator_takes_its_slope_from_the_joint_and_its_torque_from_gravity() {
     };
     let q = [0.1, 0.4, -0.3, 0.4, 0.5, -0.6];
     let push = Wrench::from_force(Vector3::new(100.0, 50.0, -300.0));
-    let found = arms::predicted(&evaluation(&robot, &model, &tool), &q, &push)
+    let found = arms::predicted(&full_arm(&robot, &model, &tool), &q, &push)
         .unwrap()
         .twist
         .linear;
@@ -53,22 +53,22 @@ fn a_compensator_takes_its_slope_from_the_joint_and_its_torque_from_gravity() {
         ..model.clone()
     };
     let small = Wrench::from_force(push.force * 1e-3);
-    let loaded = arms::predicted(&evaluation(&robot, &soft, &tool), &q, &small)
+    let loaded = arms::predicted(&full_arm(&robot, &soft, &tool), &q, &small)
         .unwrap()
         .twist
         .linear;
     assert!((loaded - witness * 1e-3).norm() < 1e-5 * witness.norm() * 1e-3);
-    // Under gravity its torque stands beside that of the masses.
+    // Under gravity its torque is added to that of the masses.
     let mut weighed = weighing(model.structure.clone());
     weighed.gravity.as_mut().unwrap().reference = q.to_vec();
-    let mut arm_state = ArmState::new(evaluation(&robot, &weighed, &tool));
+    let mut arm_state = ArmState::new(full_arm(&robot, &weighed, &tool));
     arm_state.set_joints(&q);
     let torque = -(e(h) - e(-h)) / (2.0 * h);
     assert!((arm_state.gravity_torques()[1] - torque).abs() < 1e-2, "{torque}");
     // A compensator stiffer than its joint lets the arm fall: an outcome, not a number.
     let mut strong = weighed.clone();
     strong.structure.compensator.as_mut().unwrap().stiffness = 1e12;
-    let fallen = arms::predicted(&evaluation(&robot, &strong, &tool), &q, &push);
+    let fallen = arms::predicted(&full_arm(&robot, &strong, &tool), &q, &push);
     assert_eq!(fallen.unwrap_err(), Unstable::Buckles);
 }
 
@@ -97,7 +97,7 @@ fn a_straight_torque_curve_is_a_compliance_and_a_bent_one_depends_on_gravity() {
         });
         model.gravity.as_mut().unwrap().reference = q.to_vec();
         model.load_dependent = load_dependent;
-        arms::predicted(&evaluation(&robot, &model, &tool), &q, &push)
+        arms::predicted(&full_arm(&robot, &model, &tool), &q, &push)
             .unwrap()
             .twist
             .linear
@@ -120,7 +120,7 @@ fn a_straight_torque_curve_is_a_compliance_and_a_bent_one_depends_on_gravity() {
             .twist
             .linear
     };
-    // Without gravity it is soft up to the knee, and stands on it if the load goes beyond.
+    // Without gravity it is soft up to the knee, and stiff beyond it under a larger load.
     let screw = posture_at(&robot, &q, &tool).screws[1];
     let soft = rigid + screw.linear * (screw.dot(&push).clamp(-500.0, 500.0) * c);
     assert!((freely - soft).norm() < 1e-12 * simple.norm(), "{freely} {soft}");

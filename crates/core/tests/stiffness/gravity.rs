@@ -1,16 +1,16 @@
-//! Torques of gravity against potential energy, and what the arm sags by them.
+//! Torques of gravity against potential energy, and the sag of the arm.
 
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::{Isometry3, Point3, Vector3};
-use armill_core::robot::inverse::posture_at;
 use armill_core::robot::deflected_arm::{DeflectedArm, deflect_into};
-use armill_core::robot::{Mass, Attachment, Structure};
+use armill_core::robot::inverse::posture_at;
+use armill_core::robot::{Attachment, Mass, Structure};
 use armill_core::source::ArmState;
 use armill_core::source::stiffness_model::FREE_FALL;
 use armill_core::spatial::Wrench;
 use proptest::prelude::*;
 
-use crate::{DOWN, FANUC, FANUC_D, arm, arms, fanuc_masses, evaluation, springs, weighing};
+use crate::{DOWN, FANUC, FANUC_D, arm, arms, fanuc_masses, full_arm, springs, weighing};
 
 /// Potential energy of the FANUC's masses in gravity, J, from its modified DH rows alone.
 fn fanuc_energy(m: &[f64]) -> f64 {
@@ -44,7 +44,7 @@ proptest! {
         let robot = arms::r2000ic();
         let (q, tool) = (arms::positions(&robot, &unit), Isometry::identity());
         let model = weighing(Structure { masses: fanuc_masses(), ..Structure::EMPTY });
-        let mut arm_state = ArmState::new(evaluation(&robot, &model, &tool));
+        let mut arm_state = ArmState::new(full_arm(&robot, &model, &tool));
         arm_state.set_joints(&q);
         let theta: Vec<f64> = (0..6).map(|i| robot.theta(i, &q)).collect();
         let h = 1e-5;
@@ -60,14 +60,15 @@ proptest! {
     fn gravity_torques_on_springs_are_work_against_displacements(
         ((which, unit), seed) in (arm(), -1.0..1.0_f64),
     ) {
-        // Move each spring by a small amount, weigh again: -dE/dx, E from the seats of the yielded arm.
+        // Move each spring by a small amount, compute the energy again: -dE/dx, E from the attachments of the deflected
+        // arm.
         let robot = &arms::ALL[which];
         let (q, tool) = (arms::positions(robot, &unit), arms::bent_tool());
         let mut masses = fanuc_masses();
         masses.push(Mass { attachment: Attachment::Flange, mass: 60.0, centre: Point3::new(0.1, seed, 0.2) });
         masses.push(Mass { attachment: Attachment::Tool, mass: 5.0, centre: Point3::new(0.0, 0.0, -0.1) });
         let model = weighing(Structure { springs: springs(), masses: masses.clone(), ..Structure::EMPTY });
-        let mut arm_state = ArmState::new(evaluation(robot, &model, &tool));
+        let mut arm_state = ArmState::new(full_arm(robot, &model, &tool));
         arm_state.set_joints(&q);
         let theta: Vec<f64> = (0..6).map(|i| robot.theta(i, &q)).collect();
         let energy = |x: &[f64]| {
@@ -87,7 +88,7 @@ proptest! {
 }
 
 #[test]
-fn gravity_does_not_count_where_the_tool_was_set_and_differs_elsewhere() {
+fn gravity_is_not_included_where_the_tool_was_set_and_differs_elsewhere() {
     let (robot, tool) = (arms::r2000ic(), Isometry::translation(0.1, 0.0, 0.3));
     let mut model = weighing(Structure {
         masses: fanuc_masses(),
@@ -96,7 +97,7 @@ fn gravity_does_not_count_where_the_tool_was_set_and_differs_elsewhere() {
     let reference = vec![0.1, 0.2, -0.3, 0.4, 0.5, -0.6];
     model.gravity.as_mut().unwrap().reference.clone_from(&reference);
     let none = Wrench::ZERO;
-    let arm = evaluation(&robot, &model, &tool);
+    let arm = full_arm(&robot, &model, &tool);
     let there = arms::predicted(&arm, &reference, &none).unwrap();
     assert_eq!(there.twist.linear, Vector3::zeros());
     assert_eq!(there.covariance.amax(), 0.0);
@@ -122,7 +123,7 @@ fn gravity_does_not_count_where_the_tool_was_set_and_differs_elsewhere() {
     assert!((elsewhere - witness).norm() < 1e-10);
     // The same arm hung from the ceiling sags the other way.
     model.gravity.as_mut().unwrap().acceleration = -DOWN;
-    let hung = arms::predicted(&evaluation(&robot, &model, &tool), &q, &none)
+    let hung = arms::predicted(&full_arm(&robot, &model, &tool), &q, &none)
         .unwrap()
         .twist
         .linear;

@@ -1,8 +1,8 @@
-//! The full stiffness model against independent witnesses: closed forms, energies, finite differences, the simple
+//! The full stiffness model against independent references: closed forms, energies, finite differences, the simple
 //! model.
 //!
-//! `added_springs`: those beside the drives; `gravity`: masses; `compensator_and_curves`: joints that are no plain
-//! spring; `under_load`: the equilibrium of the arm as it yields; `at_points`: the same model behind the kernel.
+//! `added_springs`: springs in addition to the drives; `gravity`: masses; `compensator_and_curves`: joints other than
+//! linear springs; `under_load`: the equilibrium of the deflected arm; `at_points`: the same model in the kernel.
 
 // A panic is how a test says that its claim is false; helper functions too.
 #![allow(clippy::unwrap_used)]
@@ -17,7 +17,7 @@ mod under_load;
 
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::{Point3, Vector3};
-use armill_core::robot::{JointCompliance, Mass, Robot, Attachment, Spring, Structure};
+use armill_core::robot::{Attachment, JointCompliance, Mass, Robot, Spring, Structure};
 use armill_core::source::stiffness_model::FREE_FALL;
 use armill_core::source::{Arm, Gravity, StiffnessModel};
 use armill_core::spatial::Wrench;
@@ -34,7 +34,7 @@ fn spring(value: f64) -> JointCompliance {
     }
 }
 
-/// Springs at every kind of seat, none in a special direction.
+/// Springs at every kind of attachment, none in a special direction.
 fn springs() -> Vec<Spring> {
     vec![
         Spring::about(Attachment::Joint(1), Vector3::x(), spring(2.4e-7)),
@@ -55,10 +55,10 @@ const FANUC: [(f64, [f64; 3]); 6] = [
     (17.698, [0.0, 0.0543, -0.0277]),
     (41.450, [0.0005, -0.0336, 0.2654]),
 ];
-/// `d` of the rows: a link's frame stands behind it, a seat before it.
+/// `d` of the rows: a link's frame is behind it, an attachment before it.
 const FANUC_D: [f64; 6] = [0.670, 0.0, 0.0, 1.280, 0.0, 0.215];
 
-/// Its masses at the seats of its joints.
+/// Its masses at the attachments of its joints.
 fn fanuc_masses() -> Vec<Mass> {
     let mass = |(joint, ((mass, [x, y, z]), d)): (usize, (&(f64, [f64; 3]), f64))| Mass {
         attachment: Attachment::Joint(joint),
@@ -77,12 +77,12 @@ fn weighing(structure: Structure) -> StiffnessModel {
             reference: vec![0.0; 6],
         }),
         load_dependent: false,
-        actual: None,
+        ..StiffnessModel::DRIVES.clone()
     }
 }
 
 /// The arm with the compliances of its file, this model and this tool.
-fn evaluation<'a>(robot: &'a Robot, model: &'a StiffnessModel, tool: &'a Isometry) -> Arm<'a> {
+fn full_arm<'a>(robot: &'a Robot, model: &'a StiffnessModel, tool: &'a Isometry) -> Arm<'a> {
     Arm {
         robot,
         compliance: robot.compliance().unwrap(),

@@ -1,4 +1,4 @@
-//! The arm in balance under its load: where it stands, how stiff it is there, when it buckles.
+//! The arm in equilibrium under its load: position, stiffness, buckling.
 
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::Vector3;
@@ -9,7 +9,7 @@ use armill_core::source::{ArmState, StiffnessModel, Unstable};
 use armill_core::spatial::Wrench;
 use proptest::prelude::*;
 
-use crate::{arm, arms, fanuc_masses, evaluation, spring, springs, weighing, wrench};
+use crate::{arm, arms, fanuc_masses, full_arm, spring, springs, weighing, wrench};
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
@@ -20,10 +20,10 @@ proptest! {
         let (q, tool) = (arms::positions(robot, &unit), arms::bent_tool());
         let mut model = weighing(Structure { springs: springs(), masses: fanuc_masses(), ..Structure::EMPTY });
         model.load_dependent = true;
-        let arm = evaluation(robot, &model, &tool);
+        let arm = full_arm(robot, &model, &tool);
         let theta: Vec<f64> = (0..6).map(|i| robot.theta(i, &q)).collect();
         let mut equilibrium = Equilibrium::for_arm(&arm);
-        // A body that does not yield stays at x = 0; torques there are what the load puts on it.
+        // A body without deflection stays at x = 0; torques there are those of the load.
         let torques = |equilibrium: &mut Equilibrium, at: &[f64]| {
             let fixed: Vec<f64> = at.to_vec();
             equilibrium.find(&arm, (&theta, &[0.0; 12]), &w, move |k, _| (fixed[k], 0.0)).unwrap();
@@ -47,19 +47,19 @@ proptest! {
     }
 
     #[test]
-    fn an_arm_under_load_stands_where_its_springs_balance(((which, unit), w) in (arm(), wrench())) {
+    fn an_arm_under_load_is_at_the_equilibrium_of_its_springs(((which, unit), w) in (arm(), wrench())) {
         let robot = &arms::ALL[which];
         let (q, tool) = (arms::positions(robot, &unit), arms::bent_tool());
         let structure = Structure { springs: springs(), ..Structure::EMPTY };
         let model = StiffnessModel { structure, load_dependent: true, ..StiffnessModel::DRIVES.clone() };
         let simple = StiffnessModel { load_dependent: false, ..model.clone() };
-        let arm = evaluation(robot, &model, &tool);
+        let arm = full_arm(robot, &model, &tool);
         let theta: Vec<f64> = (0..6).map(|i| robot.theta(i, &q)).collect();
         let c = arm.compliances();
         let mut equilibrium = Equilibrium::for_arm(&arm);
         let law = |k: usize, torque: f64| (c[k].value * torque, c[k].value);
         let found = equilibrium.find(&arm, (&theta, &[0.0; 12]), &w, law);
-        // MH12 under 500 N at full stretch may be too soft; no number is told then.
+        // MH12 under 500 N at full stretch may be too soft; no value is reported then.
         prop_assume!(found.is_ok());
         let delta = found.unwrap();
         let mut there = DeflectedArm::for_robot(robot, 6);
@@ -69,7 +69,7 @@ proptest! {
             prop_assert!(balance.abs() < 1e-12, "{k}: {balance} rad");
         }
         // To first order it is the simple model: the rest is of the order of the turns themselves.
-        let plain = arms::predicted(&evaluation(robot, &simple, &tool), &q, &w).unwrap().twist.linear;
+        let plain = arms::predicted(&full_arm(robot, &simple, &tool), &q, &w).unwrap().twist.linear;
         let largest = equilibrium.turns().iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         let reach = 4.0;
         prop_assert!((delta.linear - plain).norm() < 40.0 * largest * largest * reach);
@@ -81,7 +81,7 @@ proptest! {
         let (q, tool) = (arms::positions(robot, &unit), arms::bent_tool());
         let structure = Structure { springs: springs(), ..Structure::EMPTY };
         let model = StiffnessModel { structure, load_dependent: true, ..StiffnessModel::DRIVES.clone() };
-        let mut arm_state = ArmState::new(evaluation(robot, &model, &tool));
+        let mut arm_state = ArmState::new(full_arm(robot, &model, &tool));
         arm_state.set_joints(&q);
         let w = Wrench { force: w.force * 0.2, moment: w.moment * 0.2 };
         prop_assume!(arm_state.elastic(&w).is_ok());
@@ -116,7 +116,7 @@ fn a_pressed_column_buckles_at_stiffness_over_length() {
         load_dependent: true,
         ..StiffnessModel::DRIVES.clone()
     };
-    let arm = evaluation(&robot, &model, &tool);
+    let arm = full_arm(&robot, &model, &tool);
     let press = |down: f64, side: f64| {
         let wrench = Wrench::from_force(Vector3::new(side, 0.0, -down));
         arms::predicted(&arm, &[0.0], &wrench).map(|d| d.twist)

@@ -1,8 +1,9 @@
 //! Compares a document's tree with the shape it should have and collects every difference.
 //!
-//! Value by value from the root: a value of the wrong kind is reported and not looked into; of a table, its fields, then
-//! what is unknown, then what is missing. Where a value may have several shapes, the problems of that one are reported
-//! which has the fewest. Numbers that are not finite are reported wherever they stand, also where anything goes.
+//! Value by value from the root: a value of the wrong kind is reported and not looked into; of a table, its fields,
+//! then what is unknown, then what is missing. Where a value may have several shapes, the problems of that one are
+//! reported which has the fewest. Numbers that are not finite are reported everywhere, also where any value is
+//! accepted.
 //!
 //! | part of the tree | what is compared |
 //! |---|---|
@@ -11,7 +12,7 @@
 //! | list | the count of its entries, then every entry |
 //! | table | known fields, unknown ones, missing ones; a tagged one by the variant that its tag names |
 //!
-//! Every message is `path: what stands there, what must`, with the unit that the field's name ends with; so a number in
+//! Every message is `path: the value, the requirement`, with the unit that the field's name ends with; so a number in
 //! a list has the unit of the list.
 
 use std::ops::Range;
@@ -20,7 +21,7 @@ use serde_json::Value as Json;
 
 use super::path::joined;
 use super::problem::Problem;
-use super::shape::{Limits, ListShape, Others, Shape, Shapes, TableShape};
+use super::shape::{ExtraFields, Limits, ListShape, Shape, Shapes, TableShape};
 use super::source::Source;
 use super::tree::{Node, Table, Value};
 use super::unit;
@@ -37,7 +38,7 @@ const MOST_FIELDS_IN_HINT: usize = 12;
 
 /// Everything in which the tree differs from the shape, and every number that is not finite; at most 1000.
 ///
-/// In the order of the walk, not of the text: whoever makes `Problems` of them sorts them.
+/// In the order of the walk, not of the text: the caller that makes `Problems` of them sorts them.
 pub(super) fn all_problems(source: &Source, root: &Node, shapes: &Shapes) -> Vec<Problem> {
     let mut checker = Checker {
         source,
@@ -48,7 +49,7 @@ pub(super) fn all_problems(source: &Source, root: &Node, shapes: &Shapes) -> Vec
     checker.value(
         root,
         &shapes.root,
-        &Place {
+        &ValuePosition {
             path: "",
             field: "",
             level: 0,
@@ -67,9 +68,9 @@ struct Checker<'a> {
     problems: Vec<Problem>,
 }
 
-/// Where the check stands: the path in the document, the field it is in, and how many shapes enclose it.
-struct Place<'a> {
-    /// As problems tell it: `analysis[2].x_mm[0]`, empty at the root.
+/// The current position: the path in the document, the field it is in, and how many shapes enclose it.
+struct ValuePosition<'a> {
+    /// As messages show it: `analysis[2].x_mm[0]`, empty at the root.
     path: &'a str,
     /// The name that carries the unit: `x_mm` for the path `analysis[2].x_mm[0]`.
     field: &'a str,
@@ -77,7 +78,7 @@ struct Place<'a> {
     level: usize,
 }
 
-impl Place<'_> {
+impl ValuePosition<'_> {
     /// The unit of the value, as people read it.
     fn unit(&self) -> Option<String> {
         unit::of_value(self.field, self.path)
@@ -94,8 +95,8 @@ impl Checker<'_> {
 
     /// No number may be nan or infinite, anywhere.
     ///
-    /// A walk of its own, before any shape is looked at: where anything goes, or a value is of the wrong kind and not
-    /// looked into, nobody else would see it.
+    /// A separate walk, before any shape is considered: where any value is accepted, or a value is of the wrong kind
+    /// and its entries are not checked, such a number would not be found otherwise.
     fn finite(&mut self, value: &Node, path: &str) {
         match &value.value {
             Value::Real(real) if !real.is_finite() => {
@@ -119,9 +120,9 @@ impl Checker<'_> {
 
     /// Compares a value with its shape, down to its last entry.
     ///
-    /// `Shape::Any` fits everything. The order of the arms matters: a choice and alternatives judge values of any kind,
+    /// `Shape::Any` fits everything. The order of the arms matters: a choice and alternatives check values of any kind,
     /// the other shapes only those of their own, and what is left is of the wrong kind.
-    fn value(&mut self, value: &Node, shape: &Shape, place: &Place<'_>) {
+    fn value(&mut self, value: &Node, shape: &Shape, place: &ValuePosition<'_>) {
         if place.level > MOST_LEVELS || self.problems.len() >= MOST_PROBLEMS {
             return;
         }
@@ -155,8 +156,8 @@ impl Checker<'_> {
         }
     }
 
-    /// A value of another kind than wanted: what was expected, what was found, and the slip that is behind it.
-    fn wrong_type(&mut self, value: &Node, shape: &Shape, place: &Place<'_>) {
+    /// A value of another kind than required: what was expected, what was found, and the likely mistake.
+    fn wrong_type(&mut self, value: &Node, shape: &Shape, place: &ValuePosition<'_>) {
         let expected = in_words(self.shapes, shape, place.unit().as_deref());
         let message = format!(
             "`{}`: expected {expected}, found {}",
@@ -179,7 +180,7 @@ impl Checker<'_> {
     }
 
     /// A number outside its range, as it is written in the file, with the limit and the unit of its field.
-    fn limits(&mut self, value: &Node, limits: &Limits, place: &Place<'_>, number: f64) {
+    fn limits(&mut self, value: &Node, limits: &Limits, place: &ValuePosition<'_>, number: f64) {
         let limit = match limits {
             Limits {
                 at_least: Some(limit),
@@ -204,7 +205,7 @@ impl Checker<'_> {
     }
 
     /// A value that is none of those allowed, with the most similar of them.
-    fn choice(&mut self, value: &Node, choices: &[Json], place: &Place<'_>) {
+    fn choice(&mut self, value: &Node, choices: &[Json], place: &ValuePosition<'_>) {
         let given = &value.value;
         if choices.iter().any(|choice| same(choice, given)) {
             return;
@@ -217,7 +218,9 @@ impl Checker<'_> {
         );
         let names: Vec<&str> = choices.iter().filter_map(Json::as_str).collect();
         let suggestion = match given {
-            Value::Text(text) => unit::suggestion(text, &names),
+            Value::Text(text) => {
+                unit::renamed(text, names.iter().copied()).or_else(|| unit::suggestion(text, &names))
+            }
             _ => None,
         };
         self.report(
@@ -229,7 +232,7 @@ impl Checker<'_> {
 
     /// A list with too few or too many entries is reported once; those that it has are compared all the same. Entries
     /// beyond the shapes of the first have the common one.
-    fn list(&mut self, value: &Node, list: &ListShape, entries: &[Node], place: &Place<'_>) {
+    fn list(&mut self, value: &Node, list: &ListShape, entries: &[Node], place: &ValuePosition<'_>) {
         let count = entries.len() as u64;
         if count < list.fewest || list.most.is_some_and(|most| count > most) {
             let expected = in_words(
@@ -247,7 +250,7 @@ impl Checker<'_> {
             self.value(
                 entry,
                 shape,
-                &Place {
+                &ValuePosition {
                     path: &path,
                     field: place.field,
                     level: place.level + 1,
@@ -260,7 +263,7 @@ impl Checker<'_> {
     ///
     /// An unknown field goes with the most similar known one that is absent, unit included: `step` for `step_mm`.
     /// Missing fields are reported at the header, with the first line of what the field means.
-    fn table(&mut self, span: Range<usize>, table: &Table, shape: &TableShape, place: &Place<'_>) {
+    fn table(&mut self, span: Range<usize>, table: &Table, shape: &TableShape, place: &ValuePosition<'_>) {
         let absent: Vec<&str> = shape
             .fields
             .keys()
@@ -270,17 +273,18 @@ impl Checker<'_> {
         let mut misspelled = Vec::new();
         for (key, entry) in table {
             let path = joined(place.path, key);
-            let inner = Place {
+            let inner = ValuePosition {
                 path: &path,
                 field: key,
                 level: place.level + 1,
             };
             match (shape.fields.get(key), &shape.others) {
                 (Some(field), _) => self.value(&entry.node, &field.shape, &inner),
-                (None, Others::Each(each)) => self.value(&entry.node, each, &inner),
-                (None, Others::Any) => {}
-                (None, Others::Refused) => {
-                    let suggestion = unit::suggestion(key, &absent);
+                (None, ExtraFields::Each(each)) => self.value(&entry.node, each, &inner),
+                (None, ExtraFields::Any) => {}
+                (None, ExtraFields::Refused) => {
+                    let suggestion = unit::renamed(key, shape.fields.keys().map(String::as_str))
+                        .or_else(|| unit::suggestion(key, &absent));
                     misspelled.extend(suggestion.as_ref().map(|(meant, _)| *meant));
                     let hint = suggestion
                         .map(|(_, advice)| advice)
@@ -289,7 +293,7 @@ impl Checker<'_> {
                 }
             }
         }
-        // A field whose misspelling was reported is not told again as missing.
+        // A field whose misspelling was reported is not reported again as missing.
         for name in absent
             .iter()
             .filter(|name| shape.required.contains(**name) && !misspelled.contains(name))
@@ -306,13 +310,14 @@ impl Checker<'_> {
         }
     }
 
-    /// A table whose field `tag` says which of the variants it is; without a known tag its other fields are not judged.
+    /// A table whose field `tag` says which of the variants it is; without a known tag its other fields are not
+    /// checked.
     fn tagged(
         &mut self,
         span: Range<usize>,
         table: &Table,
         (tag, variants): (&str, &[(String, TableShape)]),
-        place: &Place<'_>,
+        place: &ValuePosition<'_>,
     ) {
         let names: Vec<Json> = variants.iter().map(|(name, _)| name.as_str().into()).collect();
         let path = joined(place.path, tag);
@@ -336,7 +341,7 @@ impl Checker<'_> {
                         self.choice(
                             given,
                             &names,
-                            &Place {
+                            &ValuePosition {
                                 path: &path,
                                 field: tag,
                                 level: place.level,
@@ -352,7 +357,7 @@ impl Checker<'_> {
     ///
     /// Only alternatives of the value's kind are tried; where there is none, all are named as what was expected. Of
     /// those with equally many problems the first counts.
-    fn one_of(&mut self, value: &Node, alternatives: &[Shape], place: &Place<'_>) {
+    fn one_of(&mut self, value: &Node, alternatives: &[Shape], place: &ValuePosition<'_>) {
         let mut closest: Option<Vec<Problem>> = None;
         let fitting = alternatives
             .iter()
@@ -367,7 +372,7 @@ impl Checker<'_> {
             trial.value(
                 value,
                 shape,
-                &Place {
+                &ValuePosition {
                     level: place.level + 1,
                     ..*place
                 },

@@ -24,14 +24,14 @@ pub struct Change {
     pub value: serde_json::Value,
 }
 
-/// The text with these changes, one after the other; tables and lists that are not there are made, lists and tables on a
-/// line that are empty then taken away.
+/// The text with these changes, one after the other. Missing tables and lists are created; empty lists and tables on
+/// one line are removed afterwards.
 ///
-/// Not checked: whether it is still what anybody wants; reading it tells that.
+/// Whether the result is valid is not checked here; reading it reports that.
 ///
 /// # Errors
-/// A text that is not TOML, or would not be any more; every change that cannot be made: an entry of a list that is not there, a key inside what is
-/// no table, a value that TOML cannot hold.
+/// A text that is not TOML, or would no longer be; every change that cannot be made: a missing entry of a list, a key
+/// inside a value that is not a table, a value that TOML cannot represent.
 pub fn changed(name: &str, text: &str, changes: &[Change]) -> Result<String, Problems> {
     let checked = Document::parse(name, text)?;
     let mut document: DocumentMut = text.parse().map_err(|error: toml_edit::TomlError| {
@@ -58,7 +58,7 @@ pub fn changed(name: &str, text: &str, changes: &[Change]) -> Result<String, Pro
     }
     Problems::from(refused).into_result()?;
     let new = document.to_string();
-    // A path as deep as nobody has tables makes a text that nobody reads.
+    // A path that is deeper than the parser allows makes a text that cannot be read.
     Document::parse(name, &new)?;
     Ok(new)
 }
@@ -67,13 +67,13 @@ pub fn changed(name: &str, text: &str, changes: &[Change]) -> Result<String, Pro
 fn toml_value(value: &serde_json::Value) -> Result<Value, String> {
     use serde_json::Value as Json;
     Ok(match value {
-        Json::Null => return Err("TOML knows no null inside a value".to_owned()),
+        Json::Null => return Err("TOML has no null inside a value".to_owned()),
         Json::Bool(flag) => Value::from(*flag),
         Json::Number(number) => match number.as_i64() {
             Some(whole) => Value::from(whole),
             None => {
                 let real = number.as_f64().filter(|real| real.is_finite());
-                Value::from(real.ok_or_else(|| format!("{number} is no number that can be held"))?)
+                Value::from(real.ok_or_else(|| format!("{number} cannot be represented in TOML"))?)
             }
         },
         Json::String(text) => Value::from(text.as_str()),
@@ -102,7 +102,9 @@ fn set(here: &mut Item, steps: &[Step], value: Value) -> Result<(), String> {
         Step::Key(key) => {
             // Below the root a table gets its header, inside of others it is on a line of theirs.
             let at_root = here.as_table().is_some_and(|table| table.position().is_none());
-            let table = here.as_table_like_mut().ok_or("it stands in what is no table")?;
+            let table = here
+                .as_table_like_mut()
+                .ok_or("it is inside a value that is not a table")?;
             table.entry(key).or_insert_with(|| match rest {
                 [] => Item::Value(Value::from(false)),
                 [Step::Entry(_)] if at_root && value.is_inline_table() => {
@@ -117,7 +119,7 @@ fn set(here: &mut Item, steps: &[Step], value: Value) -> Result<(), String> {
     set(next, rest, value)
 }
 
-/// Puts `value` in the place of this one; what stands around that stays.
+/// Replaces this value by `value`; the text around it stays.
 fn replace(here: &mut Item, mut value: Value) -> Result<(), String> {
     match here {
         Item::Value(old) => {
@@ -130,13 +132,15 @@ fn replace(here: &mut Item, mut value: Value) -> Result<(), String> {
     Ok(())
 }
 
-/// Takes the value at these steps away, and a list or a table on a line that is then empty; what is not there is gone
-/// already.
+/// Removes the value at these steps, and a list or a table on a line that is then empty; a missing value is not an
+/// error.
 fn remove(here: &mut Item, steps: &[Step]) -> Result<(), String> {
     match steps {
         [] => Err("it is the whole file".to_owned()),
         [Step::Key(key)] => {
-            let table = here.as_table_like_mut().ok_or("it stands in what is no table")?;
+            let table = here
+                .as_table_like_mut()
+                .ok_or("it is inside a value that is not a table")?;
             table.remove(key);
             Ok(())
         }
@@ -191,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_there_is_made_where_it_belongs() {
+    fn missing_values_are_created_at_their_place() {
         let finer = with("analysis[0].plane.step_mm", json!(2)).unwrap();
         assert!(
             finer.contains("kind = \"map\"\nplane = { step_mm = 2 }\n"),
@@ -210,19 +214,22 @@ mod tests {
     }
 
     #[test]
-    fn null_takes_a_value_away_and_the_empty_table_around_it() {
+    fn null_removes_a_value_and_the_empty_table_around_it() {
         let upright = with("analysis[1].plane.tilt_deg", Json::Null).unwrap();
         assert_eq!(upright, STUDY.replace("plane = { tilt_deg = 90 }\n", ""));
         assert_eq!(with("analysis[0].load.cases_n", Json::Null).unwrap(), STUDY);
     }
 
     #[test]
-    fn a_new_entry_stands_behind_the_last_and_takes_no_comment_of_others() {
+    fn a_new_entry_is_added_after_the_last_and_takes_no_comment_of_others() {
         let new = with("analysis[2]", json!({"kind": "map", "name": ""})).unwrap();
-        assert_eq!(new, format!("{STUDY}\n[[analysis]]\nkind = \"map\"\nname = \"\"\n"));
+        assert_eq!(
+            new,
+            format!("{STUDY}\n[[analysis]]\nkind = \"map\"\nname = \"\"\n")
+        );
         let first = with("ballbar[0]", json!({"files": []})).unwrap();
         assert_eq!(first, format!("{STUDY}\n[[ballbar]]\nfiles = []\n"));
-        // Remarks below the last ask stay with it, what is about the next table or the file stays there.
+        // Comments below the last analysis stay with it; comments on the next table or the file stay there.
         let text = "[[analysis]]\nkind = \"map\"\n[analysis.plane] # its own\nstep_mm = 5\n# a remark on it\n\n# the place\n[place]\nx_mm = [1, 2]\n# the end\n";
         let more = to(text, "analysis[1]", json!({"kind": "path"}));
         assert_eq!(
@@ -241,8 +248,8 @@ mod tests {
     }
 
     #[test]
-    fn an_entry_goes_with_its_comments_and_leaves_the_others() {
-        let text = "tolerance_um = 1\n\n# ---- asks ----\n\n# the first\n[[analysis]] # here\nkind = \"map\"\n[analysis.plane]\nstep_mm = 5\n\n# the rim\n[[analysis]]\nkind = \"path\" # round\n# a remark on the rim\n\n# where it may lie\n[place]\nx_mm = [1, 2]\n";
+    fn an_entry_is_removed_with_its_comments_only() {
+        let text = "tolerance_um = 1\n\n# ---- analyses ----\n\n# the first\n[[analysis]] # here\nkind = \"map\"\n[analysis.plane]\nstep_mm = 5\n\n# the rim\n[[analysis]]\nkind = \"path\" # round\n# a remark on the rim\n\n# where it may be\n[place]\nx_mm = [1, 2]\n";
         let without_first = to(text, "analysis[0]", Json::Null);
         assert_eq!(
             without_first,
@@ -252,11 +259,11 @@ mod tests {
             )
         );
         let without_rim = to(text, "analysis[1]", Json::Null);
-        assert!(without_rim.contains("step_mm = 5\n# a remark on the rim\n\n# where it may lie\n[place]"));
+        assert!(without_rim.contains("step_mm = 5\n# a remark on the rim\n\n# where it may be\n[place]"));
         assert!(!without_rim.contains("round") && !without_rim.contains("# the rim"));
         let none = to(&without_rim, "analysis[0]", Json::Null);
         assert!(
-            none.starts_with("tolerance_um = 1\n\n# ---- asks ----\n") && !none.contains("ask]"),
+            none.starts_with("tolerance_um = 1\n\n# ---- analyses ----\n") && !none.contains("analysis]"),
             "{none}"
         );
         // Nothing is there, so nothing goes.
@@ -264,7 +271,7 @@ mod tests {
     }
 
     #[test]
-    fn entries_of_lists_inside_of_tables_come_and_go_with_their_lines() {
+    fn entries_of_lists_inside_of_tables_are_added_and_removed_with_their_lines() {
         let text = "[[analysis]]\nprogram = { file = \"a.ngc\", feature = [\n  { name = \"bore\" }, # the bore\n  # the rim, too\n  { name = \"rim\" } # last\n] }\n";
         let longer = to(text, "analysis[0].program.feature[2]", json!({"name": "slot"}));
         assert_eq!(
@@ -315,7 +322,7 @@ mod tests {
     }
 
     #[test]
-    fn a_path_deeper_than_tables_go_is_refused() {
+    fn a_path_deeper_than_tables_may_be_is_refused() {
         for path in ["a.".repeat(90) + "a", "analysis[0".to_owned() + &"[".repeat(90)] {
             assert!(with(&path, json!("x")).is_err(), "{path}");
         }
@@ -323,7 +330,7 @@ mod tests {
     }
 
     #[test]
-    fn all_that_cannot_be_changed_is_reported_with_its_place() {
+    fn refused_changes_are_reported_with_their_place() {
         let change = |path: &str, value: Json| Change {
             path: path.to_owned(),
             value,
@@ -345,8 +352,8 @@ mod tests {
 
     proptest! {
         #[test]
-        fn no_change_panics_and_what_comes_out_is_toml(
-            path in "[a-z_.\\[\\]\"0-9]{0,12}|(plane|ask\\[[0-3]\\])(\\.[a-z]{1,4}){0,3}(\\[[01]\\])?",
+        fn no_change_panics_and_the_result_is_toml(
+            path in "[a-z_.\\[\\]\"0-9]{0,12}|(plane|analysis\\[[0-3]\\])(\\.[a-z]{1,4}){0,3}(\\[[01]\\])?",
             number in proptest::num::f64::ANY,
         ) {
             for value in [json!(number), json!({"a": [number, "x"]}), Json::Null] {

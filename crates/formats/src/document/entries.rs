@@ -1,10 +1,11 @@
-//! Entries of lists in a TOML text that is edited: a new one behind the last, one taken away, and the comments around them.
+//! Entries of lists in a TOML text that is edited: a new one behind the last, one taken away, and the comments around
+//! them.
 //!
 //! | comment | goes with |
 //! |---|---|
 //! | on the lines right above an entry | that entry |
 //! | behind an entry, and on the lines right below it that a blank line follows | that entry |
-//! | any other, as one with a blank line below it | nobody: it stays where it is |
+//! | any other, as one with a blank line below it | no entry: it stays where it is |
 
 use toml_edit::{Array, DocumentMut, Item, Table, Value};
 
@@ -25,24 +26,24 @@ pub(super) fn append(list: &mut Item, entry: Value) -> Result<(), String> {
         (Item::ArrayOfTables(tables), Value::InlineTable(fields)) => tables.push(fields.into_table()),
         (Item::ArrayOfTables(_), _) => return Err("its entries are tables".to_owned()),
         (Item::Value(Value::Array(entries)), entry) => push(entries, entry),
-        _ => return Err("it is no list".to_owned()),
+        _ => return Err("it is not a list".to_owned()),
     }
     Ok(())
 }
 
-/// Takes this entry out of its list; one that is not there is gone already.
+/// Removes this entry from its list; a missing one is not an error.
 pub(super) fn take(list: &mut Item, index: usize) -> Result<(), String> {
     match list {
         Item::ArrayOfTables(tables) if index < tables.len() => drop(tables.remove(index)),
         Item::Value(Value::Array(entries)) if index < entries.len() => pull(entries, index),
         Item::ArrayOfTables(_) | Item::Value(Value::Array(_)) => (),
-        _ => return Err("it is no list".to_owned()),
+        _ => return Err("it is not a list".to_owned()),
     }
     Ok(())
 }
 
-/// Gives a table that was made without a place in the text one behind its like, and leaves the comments before it to whom
-/// they are about.
+/// Moves a table that was created without a position in the text behind the tables of the same list, and leaves
+/// comments with the table that they describe.
 pub(super) fn settle(document: &mut DocumentMut) {
     let (mut before, mut is_new) = (0, false);
     headers(document.as_table_mut(), &mut |table| match table.position() {
@@ -72,14 +73,14 @@ pub(super) fn settle(document: &mut DocumentMut) {
     });
 }
 
-/// Comments above a table that are not about it, and where in the text it stands.
-pub(super) struct Others {
+/// Comments above a table that do not describe it, and their position in the text.
+pub(super) struct UnrelatedComments {
     position: isize,
     comments: String,
 }
 
 /// Those of the entry at these steps, where it has a header.
-pub(super) fn others(root: &Item, steps: &[Step]) -> Option<Others> {
+pub(super) fn others(root: &Item, steps: &[Step]) -> Option<UnrelatedComments> {
     let entry = steps.iter().try_fold(root, |here, step| match step {
         Step::Key(key) => here.get(key.as_str()),
         Step::Entry(index) => here.get(*index),
@@ -95,21 +96,21 @@ pub(super) fn others(root: &Item, steps: &[Step]) -> Option<Others> {
         at += line.len();
     }
     let comments = above[..blank].to_owned();
-    Some(Others {
+    Some(UnrelatedComments {
         position: table.position()?,
         comments,
     })
     .filter(|others| !others.comments.trim().is_empty())
 }
 
-/// Puts them back above what now stands there.
-pub(super) fn put_back(document: &mut DocumentMut, others: &Others) {
+/// Inserts them again above what is now at their position.
+pub(super) fn put_back(document: &mut DocumentMut, others: &UnrelatedComments) {
     change_above(document, others.position, |above, _| {
         format!("{}{above}", others.comments)
     });
 }
 
-/// Bytes of the lines that are about what stands above them: up to the first blank line, or to the end of the text.
+/// Bytes of the lines that describe what is above them: up to the first blank line, or to the end of the text.
 fn own_lines(text: &str, ends: bool) -> usize {
     let mut own = 0;
     for line in text.split_inclusive('\n') {
@@ -122,8 +123,8 @@ fn own_lines(text: &str, ends: bool) -> usize {
     if ends { own } else { 0 }
 }
 
-/// Changes what stands above the first header at this position or behind it; without one, at the end of the text, which
-/// `change` is reported.
+/// Changes the text above the first header at this position or behind it; without one, the end of the text. `change`
+/// receives whether it is the end.
 fn change_above(document: &mut DocumentMut, from: isize, mut change: impl FnMut(&str, bool) -> String) {
     let mut next: Option<isize> = None;
     headers(document.as_table_mut(), &mut |table| {
@@ -193,7 +194,7 @@ fn push(entries: &mut Array, mut entry: Value) {
     entries.push_formatted(entry);
 }
 
-/// Takes an entry out of a list: what stood behind the entry before it, on its line, stays there.
+/// Removes an entry from a list: text behind the entry before it, on its line, stays there.
 fn pull(entries: &mut Array, index: usize) {
     let is_last = index + 1 == entries.len();
     let before = entries.get(index).map_or_else(String::new, above);

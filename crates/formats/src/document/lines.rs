@@ -1,6 +1,6 @@
-//! A text that is read line by line, never held as a whole: tool paths and force records may be of any length.
+//! A text that is read line by line, never as a whole: tool paths and force records may be of any length.
 //!
-//! UTF-8 with or without byte order mark, any line ends; a line that is no UTF-8 is taken as Latin-1, which only
+//! UTF-8 with or without byte order mark, any line ends; a line that is not UTF-8 is read as Latin-1, which only
 //! comments and names can contain. Zero bytes at the end of a line are dropped.
 //!
 //! | byte | taken as |
@@ -181,14 +181,14 @@ impl<R: BufRead> Lines<R> {
             Ok(None) => return Ok(None),
             Err(error) => {
                 let message = format!("cannot be read further: {error}");
-                return Err(self.nothing_to_show(self.raw.number + 1, message, "copy the file anew"));
+                return Err(self.nothing_to_show(self.raw.number + 1, message, "copy the file again"));
             }
         };
         let number = self.raw.number;
         let bytes = self.bytes.as_slice();
         if bytes.len() > LONGEST_LINE {
             let message = format!("line {number} is longer than {LONGEST_LINE} bytes");
-            return Err(self.nothing_to_show(number, message, "a text of lines is wanted here"));
+            return Err(self.nothing_to_show(number, message, "a text file with lines is required"));
         }
         if number == 1 && (bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff])) {
             let hint = "this file is UTF-16: save it as UTF-8";
@@ -207,8 +207,8 @@ impl<R: BufRead> Lines<R> {
         // 0x1a ends a text in DOS.
         let strange = |c: char| c.is_ascii_control() && !matches!(c, '\t' | '\x0c' | '\x1a');
         if let Some((at, c)) = line.text.char_indices().find(|(_, c)| strange(*c)) {
-            let message = format!("not a text: it holds the byte 0x{:02x}", u32::from(c));
-            let hint = "a text is wanted here: this is a file of another kind";
+            let message = format!("not a text: it contains the byte 0x{:02x}", u32::from(c));
+            let hint = "a text file is required: this is a file of another kind";
             return Err(line.problem(&self.name, at..at + 1, message, hint).into());
         }
         Ok(Some(line))
@@ -261,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn a_problem_stands_at_line_column_and_byte() {
+    fn a_problem_has_line_column_and_byte() {
         let all = lines("\u{e4}\r\n\u{e4}bc".as_bytes()).unwrap();
         let problem = all[1].problem("a.txt", 2..3, "no", "yes");
         assert_eq!((problem.line(), problem.column()), (2, 2));
@@ -270,9 +270,9 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_text_is_refused_with_its_place() {
+    fn refuses_bytes_that_are_not_text_with_their_place() {
         let refused = |bytes: &[u8]| lines(bytes).unwrap_err().to_string();
-        assert!(refused(b"a\nb\x01\n").contains("a.txt:2:2: not a text: it holds the byte 0x01"));
+        assert!(refused(b"a\nb\x01\n").contains("a.txt:2:2: not a text: it contains the byte 0x01"));
         assert!(refused(b"\xff\xfea\0").contains("UTF-16"));
         let long = vec![b'x'; LONGEST_LINE + 1];
         assert!(refused(&long).contains("a.txt:1:1: line 1 is longer than 65536 bytes"));

@@ -1,16 +1,16 @@
 //! Shapes put together: alternatives into a choice, and the fields of flattened tables into one table.
 //!
-//! schemars writes an enum as alternatives (`oneOf`, `anyOf`) and serde's `flatten` as fields beside a reference.
+//! schemars writes an enum as alternatives (`oneOf`, `anyOf`) and serde's `flatten` as fields next to a reference.
 //! Problems are reported better of simpler shapes: of names `one of "a", "b"`, of a tagged table the fields of its one
 //! variant, so both are brought together here, where a schema is read, and not where a document is checked.
 
 use std::collections::BTreeSet;
 
-use super::shape::{Others, Shape, TableShape};
+use super::shape::{ExtraFields, Shape, TableShape};
 
 /// The simplest shape for a choice: one shape, a list of names, a tagged table, or the alternatives as they are.
 ///
-/// Names of all alternatives become one list, which stands first; alternatives within alternatives become their own.
+/// Names of all alternatives become one list, which is first; nested alternatives are flattened.
 /// Tables become tagged only where nothing but tables is offered. No shape at all is [`Shape::Any`].
 pub(super) fn one_of(shapes: Vec<Shape>) -> Shape {
     let mut choices = Vec::new();
@@ -37,8 +37,8 @@ pub(super) fn one_of(shapes: Vec<Shape>) -> Shape {
 
 /// The tagged table that tables make which all require one field with a text of their own.
 ///
-/// `None` where one is not a table, or no field that the first requires tells all of them apart. The texts must differ
-/// from table to table: else the tag would not say which one is meant.
+/// `None` where one is not a table, or no field that the first requires distinguishes all of them. The texts must
+/// differ from table to table: else the tag would not say which one is meant.
 fn tagged(shapes: &[Shape]) -> Option<Shape> {
     let tables: Vec<&TableShape> = shapes
         .iter()
@@ -65,7 +65,7 @@ fn tagged(shapes: &[Shape]) -> Option<Shape> {
     })
 }
 
-/// A table with the fields of another shape besides its own; `None` where that shape is not a table.
+/// A table with the fields of another shape in addition to its own; `None` where that shape is not a table.
 ///
 /// Of a tagged table every variant gets them.
 pub(super) fn merged(table: &TableShape, shape: &Shape) -> Option<Shape> {
@@ -88,10 +88,10 @@ fn union(table: &TableShape, other: &TableShape) -> TableShape {
     let mut union = table.clone();
     union.fields.extend(other.fields.clone());
     union.required.extend(other.required.iter().cloned());
-    if let Others::Any = union.others {
+    if let ExtraFields::Any = union.others {
         // Only the table that says so itself refuses: the other one speaks for its own fields.
-        if let Others::Each(shape) = &other.others {
-            union.others = Others::Each(shape.clone());
+        if let ExtraFields::Each(shape) = &other.others {
+            union.others = ExtraFields::Each(shape.clone());
         }
     }
     union

@@ -1,13 +1,14 @@
 //! A TOML document that is checked completely: every problem is reported, all at once, at its place.
 //!
 //! Reading has three steps. [`Document::parse`] finds what is not TOML. [`Document::read`] compares the tree with the
-//! JSON schema of the wanted type, then lets serde build the value. What no schema can say (a step larger than its
-//! plane) the caller checks, and tells through [`Document::problem`], which finds the place of a value by its path.
+//! JSON schema of the target type, then lets serde build the value. What no schema can say (a step larger than its
+//! plane) the caller checks, and reports through [`Document::problem`], which finds the place of a value by its path.
 //!
 //! In reading order: `source` (the text), `problem` (what is reported of it), `tree` (its values, each with its place),
 //! `path` (finds a value), `limits` (refuses what would nest too deep); `shape` and `merge` (what a schema wants),
-//! `check` (compares tree and shape), `unit` and `words` (units of names, and how both are said); [`edit`] (changes values of
-//! a text and leaves the rest) with `entries` (of lists: new ones, and such as go); `lines` (text that is no TOML, line by line).
+//! `check` (compares tree and shape), `unit` and `words` (units of names, and how both are said); [`edit`] (changes
+//! values of a text and leaves the rest) with `entries` (list entries: added and removed); `lines` (text that is not
+//! TOML, line by line).
 //!
 //! ```
 //! use armill_formats::document::Document;
@@ -91,7 +92,7 @@ impl Document {
         Self::parse(name, Self::text_of(name, bytes)?)
     }
 
-    /// The text of a file as it was read from disk, of whatever format.
+    /// The text of a file as it was read from disk, in any format.
     ///
     /// # Errors
     /// Bytes that are not UTF-8, at their place.
@@ -130,7 +131,7 @@ impl Document {
             .problem(self.span(path), message, hint.map(str::to_owned))
     }
 
-    /// Where the value that `path` names stands, in bytes of the text; of its nearest parent if there is none.
+    /// The position of the value that `path` names, in bytes of the text; of its nearest parent if there is none.
     fn span(&self, path: &str) -> Range<usize> {
         path::nearest_span(&self.root, path)
     }
@@ -155,7 +156,7 @@ impl Document {
         tree::json(&self.root)
     }
 
-    /// Where the value that `path` names stands, in bytes of the text; `None` where there is none.
+    /// The position of the value that `path` names, in bytes of the text; `None` where there is none.
     pub fn place(&self, path: &str) -> Option<Range<usize>> {
         path::found(&self.root, path).map(|node| node.span.clone())
     }

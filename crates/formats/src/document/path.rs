@@ -7,7 +7,7 @@
 //! ```
 //!
 //! The reverse of [`joined`], and lenient: a path comes from our own code, never from a user, and one that finds
-//! nothing costs no more than a problem told at a parent.
+//! nothing costs no more than a problem reported at a parent.
 
 use std::ops::Range;
 
@@ -89,7 +89,7 @@ pub(super) fn steps(path: &str) -> Vec<Step> {
             steps.push(Step::Key(key));
             rest = after;
         } else {
-            // At least one character is taken, so that even a stray `[` is passed.
+            // At least one character is consumed, so that even an unmatched `[` is passed.
             let end = rest
                 .char_indices()
                 .skip(1)

@@ -75,14 +75,14 @@ impl Problem {
         }
     }
 
-    /// A problem told of one line alone, unchanged in its file: on that line, so many bytes on.
+    /// A problem found in one separate line, moved to its position in the file: on line `line`, after `bytes_before`.
     pub(crate) fn in_file(mut self, line: usize, bytes_before: usize) -> Self {
         self.line = line;
         self.span = self.span.start + bytes_before..self.span.end + bytes_before;
         self
     }
 
-    /// What may be said where the file may not be quoted and has so many problems, of which this is the first.
+    /// The message for a file that may not be quoted and has `count` problems, of which this is the first.
     fn unquoted(self, count: usize) -> Problem {
         let message = match count {
             1 => "the file is not valid here".to_owned(),
@@ -198,8 +198,8 @@ impl Problems {
         if self.0.is_empty() { Ok(()) } else { Err(self) }
     }
 
-    /// The same problems; of each file that may not be quoted one problem alone, which says how many there are and where the
-    /// first one is, and nothing of the content of the file.
+    /// The same problems; of each file that may not be quoted one problem alone, which says how many there are and
+    /// where the first one is, and nothing of the content of the file.
     #[must_use]
     pub fn quoting_only(self, may_be_quoted: impl Fn(&str) -> bool) -> Problems {
         let mut kept: Vec<Problem> = Vec::new();
@@ -289,5 +289,9 @@ impl IntoIterator for Problems {
 }
 /// A file that cannot be read, from its beginning or from somewhere on.
 pub(crate) fn unreadable(path: &str, error: &std::io::Error) -> Problem {
-    Problem::of_file(path, format!("cannot read it: {error}"), "is the disk there?")
+    Problem::of_file(
+        path,
+        format!("cannot read it: {error}"),
+        "check that the disk is connected",
+    )
 }

@@ -3,14 +3,14 @@
 //! | serde | schema | shape |
 //! |---|---|---|
 //! | struct | `type: object`, `properties`, `required` | [`Shape::Table`] |
-//! | `deny_unknown_fields` | `additionalProperties` (flattened: `unevaluatedProperties`) false | [`Others::Refused`] |
-//! | map | `additionalProperties` or `patternProperties`: a schema | [`Others::Each`] |
+//! | `deny_unknown_fields` | `additionalProperties` (flattened: `unevaluatedProperties`) false | [`ExtraFields::Refused`] |
+//! | map | `additionalProperties` or `patternProperties`: a schema | [`ExtraFields::Each`] |
 //! | `Vec`, array, tuple | `type: array`, `items`, `prefixItems`, `minItems`, `maxItems` | [`Shape::List`] |
 //! | `Option` | `type: [..., null]`, or `anyOf` with null | that of its content, not required |
 //! | enum of names | `enum`, or `oneOf` of `const` | [`Shape::Choice`] |
 //! | enum with a tag | `oneOf`: tables with the tag as `const` | [`Shape::Tagged`] |
 //! | untagged enum | `anyOf` | [`Shape::OneOf`] |
-//! | `flatten` | `$ref`, `oneOf` or `allOf` beside `properties` | the fields of all, merged (`merge`) |
+//! | `flatten` | `$ref`, `oneOf` or `allOf` next to `properties` | the fields of all, merged (`merge`) |
 //! | a type used twice | `$ref` into `$defs` | [`Shape::Named`] |
 //!
 //! A part of a schema that is not understood becomes [`Shape::Any`]: it refuses nothing, and serde has the last word.
@@ -83,7 +83,7 @@ pub(super) struct ListShape {
 pub(super) struct TableShape {
     pub(super) fields: BTreeMap<String, Field>,
     pub(super) required: BTreeSet<String>,
-    pub(super) others: Others,
+    pub(super) others: ExtraFields,
 }
 
 /// A known field.
@@ -94,9 +94,9 @@ pub(super) struct Field {
     pub(super) meaning: Option<String>,
 }
 
-/// What fields beside the known ones may be.
+/// Which fields are allowed in addition to the known ones.
 #[derive(Debug, Clone, Default)]
-pub(super) enum Others {
+pub(super) enum ExtraFields {
     #[default]
     Any,
     /// There may be none.
@@ -148,9 +148,9 @@ impl Shapes {
 }
 
 impl Shape {
-    /// Whether this shape is of the same kind as a value, so that its problems are worth telling.
+    /// Whether this shape is of the same kind as a value, so that its problems are useful.
     ///
-    /// `Any`, `Named` and `OneOf` hold whatever there is. Of names and numbers to choose from the kind counts, not the
+    /// `Any`, `Named` and `OneOf` accept any kind. For choices of names and numbers the kind is compared, not the
     /// value: a misspelled name is a better match than a table.
     pub(super) fn fits_kind_of(&self, value: &tree::Value) -> bool {
         match self {
@@ -179,7 +179,7 @@ impl Reader<'_> {
     /// The shape of any schema, which `merges` others enclose.
     ///
     /// Tried in this order: values that are listed; a reference or alternatives without fields of its own; a plain
-    /// type; and whatever has fields of its own beside others, which is `flatten`.
+    /// type; and a schema with own fields in addition to others, which is `flatten`.
     fn shape(&self, schema: &Value, merges: usize) -> Shape {
         let Some(object) = schema.as_object().filter(|_| merges < MOST_MERGES) else {
             return Shape::Any;
@@ -279,7 +279,7 @@ impl Reader<'_> {
             .and_then(Value::as_array)
             .into_iter()
             .flatten();
-        // Maps with keys that are not text: their one pattern holds the shape of all values.
+        // Maps with keys that are not text: their one pattern contains the shape of all values.
         let pattern = object
             .get("patternProperties")
             .and_then(Value::as_object)
@@ -288,9 +288,9 @@ impl Reader<'_> {
             .or_else(|| object.get("additionalProperties"))
             .or_else(|| object.get("unevaluatedProperties"))
         {
-            Some(Value::Bool(false)) => Others::Refused,
-            Some(schema @ Value::Object(_)) => Others::Each(Box::new(self.shape(schema, merges + 1))),
-            _ => Others::Any,
+            Some(Value::Bool(false)) => ExtraFields::Refused,
+            Some(schema @ Value::Object(_)) => ExtraFields::Each(Box::new(self.shape(schema, merges + 1))),
+            _ => ExtraFields::Any,
         };
         TableShape {
             fields: fields.collect(),
@@ -300,7 +300,7 @@ impl Reader<'_> {
     }
 }
 
-/// The type of a schema, leaving out null: TOML has none, a field that is not wanted is not written.
+/// The type of a schema, leaving out null: TOML has none, an optional field is simply not written.
 ///
 /// `None` where there are several; a schema with fields and no type is an object.
 fn kind(object: &Map<String, Value>) -> Option<&str> {

@@ -11,7 +11,7 @@ use super::problem::{Excerpt, Problem};
 /// A line longer than this is not shown: its problem is reported by line and column alone.
 const LONGEST_EXCERPT_BYTES: usize = 8192;
 
-/// A text and the path it was read from: the place where a [`Problem`] stands.
+/// A text and the path it was read from: what a [`Problem`] refers to.
 ///
 /// Made for every text format, not for TOML alone. Offsets are bytes of [`Source::text`].
 #[derive(Debug, Clone)]
@@ -91,7 +91,7 @@ impl Source {
     }
 }
 
-/// The first byte that is no UTF-8, shown in the text as far as it can be read.
+/// The first byte that is not UTF-8, shown in the text as far as it can be read.
 pub(super) fn not_utf8(name: &str, bytes: &[u8], error: &Utf8Error) -> Problem {
     let source = Source::new(name, &String::from_utf8_lossy(bytes));
     // Everything before the first bad byte is the same in both texts, but for the byte order mark that Source drops.

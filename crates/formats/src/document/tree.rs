@@ -36,7 +36,7 @@ pub(super) enum Value {
 /// Fields by their keys, in the order of the alphabet.
 pub(super) type Table = BTreeMap<String, Entry>;
 
-/// A field of a table: where its key stands, and its value.
+/// A field of a table: the position of its key, and its value.
 #[derive(Debug, Clone)]
 pub(super) struct Entry {
     pub(super) key_span: Range<usize>,
@@ -117,7 +117,7 @@ fn fields(table: DeTable<'_>) -> Table {
 }
 
 /// A value of the parser with its place. The parser has checked that a number is one, so that what does not parse here
-/// is merely too large to be held.
+/// is merely too large to be represented.
 fn node(spanned: Spanned<DeValue<'_>>) -> Node {
     let span = spanned.span();
     let value = match spanned.into_inner() {

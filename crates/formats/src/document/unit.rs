@@ -113,11 +113,31 @@ pub(super) fn of_value(field: &str, path: &str) -> Option<String> {
     })
 }
 
+/// Fields and choices of earlier versions, and their present names.
+const RENAMED: &[(&str, &str)] = &[
+    ("ask", "analysis"),
+    ("backlash_flank", "backlash_side"),
+    ("limit_um", "tolerance_um"),
+    ("actual_robot", "calibrated_robot"),
+    ("counts", "component"),
+    ("goal", "objective"),
+    ("sure", "rank_by"),
+    ("above-limit", "above-tolerance"),
+    ("within-limit", "within-tolerance"),
+];
+
+/// The present name of a field or choice that was renamed, and the advice; `None` if the table has no such name.
+pub(super) fn renamed<'a>(old: &str, mut known: impl Iterator<Item = &'a str>) -> Option<(&'a str, String)> {
+    let (_, new) = RENAMED.iter().find(|(former, _)| *former == old)?;
+    let name = known.find(|name| name == new)?;
+    Some((name, format!("`{old}` was renamed: write `{name}`")))
+}
+
 /// What to write instead of an unknown field, if one of the known ones comes close: its name and the advice.
 ///
-/// First the same quantity, given without its unit (`step` for `step_mm`) or in another (`step_m`); then a slip of the
-/// keyboard (`stepp_mm`): one change for every three letters of the known name, and one at least. Capitals do not
-/// count, and a hyphen is as good as `_`.
+/// First the same quantity, given without its unit (`step` for `step_mm`) or in another (`step_m`); then a typing
+/// error (`stepp_mm`): one change for every three letters of the known name, and one at least. Capitals are ignored,
+/// and a hyphen equals `_`.
 pub(crate) fn suggestion<'a>(unknown: &str, known: &[&'a str]) -> Option<(&'a str, String)> {
     let plain = |name: &str| name.to_lowercase().replace('-', "_");
     let requested = plain(unknown);
@@ -206,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn a_slip_of_the_pen_is_recognised_and_a_different_word_is_not() {
+    fn a_typing_error_is_recognised_and_a_different_word_is_not() {
         assert_eq!(
             suggestion("toleranec", &["tool", "tolerance"]).unwrap().0,
             "tolerance"

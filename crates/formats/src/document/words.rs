@@ -12,7 +12,7 @@ const LONGEST_SHOWN: usize = 40;
 
 /// A shape with its article: `a number in mm`, `one of "map", "path"`.
 ///
-/// The unit is said of numbers and lists of them, never of texts or tables.
+/// The unit is added to numbers and lists of them, never to texts or tables.
 pub(super) fn in_words(shapes: &Shapes, shape: &Shape, unit: Option<&str>) -> String {
     match shapes.resolved(shape) {
         Shape::Any | Shape::Named(_) => "a value".to_owned(),
@@ -116,7 +116,7 @@ pub(super) fn shortened(text: &str) -> String {
     }
 }
 
-/// `3 mm`, or `3` where there is no unit.
+/// `3 mm`, or `3` without a unit.
 pub(super) fn with_unit(number: &str, unit: Option<&str>) -> String {
     match unit {
         Some(unit) => format!("{} {unit}", shortened(number)),

@@ -107,7 +107,7 @@ pub enum FileError {
     Other {
         /// The path as it was given.
         path: PathBuf,
-        /// What the operating system said.
+        /// The message of the operating system.
         source: io::Error,
     },
 }

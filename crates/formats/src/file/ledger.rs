@@ -4,8 +4,8 @@
 //! SHA-256 in hexadecimal <tab> command <tab> name
 //! ```
 //!
-//! A line is added before its file takes its name, so that a run that is killed leaves no file that its next run does not
-//! know. A name may have several lines until the list is rewritten: the file is ours if it agrees with one of them.
+//! A line is added before its file takes its name, so that a run that is killed leaves no file that its next run does
+//! not know. A name may have several lines until the list is rewritten: the file is ours if it agrees with one of them.
 //! Lines of another form are passed over.
 
 use std::collections::BTreeMap;
@@ -24,7 +24,7 @@ const LIST: &str = ".armill-files";
 
 /// What a file was when armill made it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Made {
+pub(super) struct FileRecord {
     /// SHA-256 of its bytes, hexadecimal.
     pub sum: String,
     /// The command that made it.
@@ -35,7 +35,7 @@ pub(super) struct Made {
 #[derive(Debug)]
 pub(super) struct Ledger {
     file: PathBuf,
-    made: BTreeMap<String, Vec<Made>>,
+    made: BTreeMap<String, Vec<FileRecord>>,
 }
 
 impl Ledger {
@@ -45,7 +45,7 @@ impl Ledger {
         let regular = file.symlink_metadata().is_ok_and(|found| found.is_file());
         let bytes = regular.then(|| File::open(&file).and_then(input::bytes_of).ok());
         let text = String::from_utf8_lossy(&bytes.flatten().unwrap_or_default()).into_owned();
-        let mut made: BTreeMap<String, Vec<Made>> = BTreeMap::new();
+        let mut made: BTreeMap<String, Vec<FileRecord>> = BTreeMap::new();
         for (name, one) in text.lines().filter_map(line) {
             made.entry(name).or_default().push(one);
         }
@@ -62,7 +62,7 @@ impl Ledger {
 
     /// Names of the files that `by` made, whether they were changed since or not.
     pub(super) fn made_by(&self, by: &str) -> Vec<String> {
-        let of_command = |made: &[Made]| made.iter().any(|one| one.by == by);
+        let of_command = |made: &[FileRecord]| made.iter().any(|one| one.by == by);
         let found = self.made.iter().filter(|(_, made)| of_command(made));
         found.map(|(name, _)| name.clone()).collect()
     }
@@ -71,7 +71,7 @@ impl Ledger {
     ///
     /// # Errors
     /// The list cannot be written.
-    pub(super) fn add(&mut self, name: &str, one: Made) -> Result<(), FileError> {
+    pub(super) fn add(&mut self, name: &str, one: FileRecord) -> Result<(), FileError> {
         if !fits_a_line(name) {
             return Ok(());
         }
@@ -112,10 +112,10 @@ impl Ledger {
 }
 
 /// Name and origin of a line; `None` of a line of another form.
-fn line(text: &str) -> Option<(String, Made)> {
+fn line(text: &str) -> Option<(String, FileRecord)> {
     let mut parts = text.splitn(3, '\t');
     let (sum, by, name) = (parts.next()?, parts.next()?, parts.next()?);
-    let made = Made {
+    let made = FileRecord {
         sum: sum.to_owned(),
         by: by.to_owned(),
     };
@@ -155,8 +155,8 @@ mod tests {
 
     use super::*;
 
-    fn made(text: &str, by: &str) -> Made {
-        Made {
+    fn made(text: &str, by: &str) -> FileRecord {
+        FileRecord {
             sum: sum_of(text.as_bytes()),
             by: by.to_owned(),
         }
@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn a_list_names_files_of_its_own_folder_alone_and_bears_any_bytes() {
+    fn a_list_names_only_files_of_its_folder_and_accepts_any_bytes() {
         let folder = tempfile::tempdir().unwrap();
         let text = "x\trun\tplate.csv\nx\trun\t../study.toml\nx\trun\t/etc/passwd\nx\trun\t..\n\nplate.csv\nx\trun\tsub/x\nx\trun\tcut";
         fs::write(folder.path().join(LIST), [text.as_bytes(), b"\xff\n"].concat()).unwrap();

@@ -8,13 +8,13 @@ use tempfile::NamedTempFile;
 
 use super::error::{FileError, file_in_the_way};
 
-/// Writes a file whole, in place of what may have been there, which keeps its permissions. Whether it may be replaced is
-/// the question of [`super::Writer`].
+/// Writes a file whole, in place of what may have been there, which keeps its permissions. Whether it may be replaced
+/// is the question of [`super::Writer`].
 ///
 /// A link is refused. Devices and pipes (`/dev/stdout`) are written directly.
 ///
 /// # Errors
-/// What stood in the way; then the old content is untouched and no temporary file remains.
+/// The operation that failed; then the old content is untouched and no temporary file remains.
 pub fn write_atomically(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), FileError> {
     let path = path.as_ref();
     PartFile::write(path, bytes)?.take_name()?;
@@ -22,7 +22,7 @@ pub fn write_atomically(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), File
     Ok(())
 }
 
-/// A file that is written and does not have its name yet. Dropped before, it is gone.
+/// A file that is written and does not have its name yet. It is removed if dropped before.
 #[derive(Debug)]
 pub struct PartFile {
     /// As it was given, for errors.
@@ -34,16 +34,16 @@ pub struct PartFile {
 }
 
 impl PartFile {
-    /// Writes `bytes` beside `path`; see [`write_atomically`].
+    /// Writes `bytes` to `path`; see [`write_atomically`].
     ///
     /// # Errors
-    /// What stood in the way; then no temporary file remains.
+    /// The operation that failed; then no temporary file remains.
     pub fn write(path: impl AsRef<Path>, bytes: &[u8]) -> Result<PartFile, FileError> {
         let path = path.as_ref();
         let part = named_error(
             path,
             bytes.len(),
-            write_in_folder_of(path, &mut |out| out.write_all(bytes)),
+            write_temporary(path, &mut |out| out.write_all(bytes)),
         )?;
         Ok(PartFile {
             path: path.to_owned(),
@@ -55,7 +55,7 @@ impl PartFile {
     /// Forces the bytes to the disk and gives them their name. The name itself is safe after [`sync_folder`].
     ///
     /// # Errors
-    /// What stood in the way; then the old content is untouched and no temporary file remains.
+    /// The operation that failed; then the old content is untouched and no temporary file remains.
     pub fn take_name(self) -> Result<(), FileError> {
         let Some((part, target)) = self.part else {
             return Ok(());
@@ -69,7 +69,7 @@ impl PartFile {
     }
 }
 
-/// Forces the names in a folder to the disk; not every file system can be requested that.
+/// Forces the names in a folder to the disk; not every file system supports that.
 pub fn sync_folder(folder: &Path) {
     #[cfg(unix)]
     let _ = File::open(folder).and_then(|folder| folder.sync_all());
@@ -95,7 +95,7 @@ pub fn new_part(folder: &Path) -> io::Result<NamedTempFile> {
     Ok(part)
 }
 
-/// Removes the temporary files in `folder` that nobody writes any more, as a killed run leaves them.
+/// Removes the temporary files in `folder` that no process writes any more, as a killed run leaves them.
 ///
 /// What cannot be looked at, locked or removed stays: it does no harm.
 pub fn remove_abandoned(folder: &Path) {
@@ -117,7 +117,7 @@ pub fn remove_abandoned(folder: &Path) {
 /// Creates a folder and those above it; success if it is there already.
 ///
 /// # Errors
-/// What stood in the way, such as a file of that name.
+/// A name that is not free, such as a file of that name.
 pub fn create_folder(path: impl AsRef<Path>) -> Result<(), FileError> {
     let path = path.as_ref();
     fs::create_dir_all(path).map_err(|source| match file_in_the_way(path) {
@@ -133,7 +133,7 @@ pub fn create_folder(path: impl AsRef<Path>) -> Result<(), FileError> {
 const PART_PREFIX: &str = ".armill-";
 const PART_SUFFIX: &str = ".part";
 
-/// Either a situation that was recognised, or what the operating system said.
+/// Either a situation that was recognised, or the message of the operating system.
 enum Failure {
     Named(FileError),
     System(io::Error),
@@ -154,7 +154,7 @@ fn named_error<T>(path: &Path, bytes: usize, result: Result<T, Failure>) -> Resu
 }
 
 /// The temporary file and the name that it is to take; none where a device was written.
-fn write_in_folder_of(
+fn write_temporary(
     path: &Path,
     write: &mut dyn FnMut(&mut File) -> io::Result<()>,
 ) -> Result<Option<(NamedTempFile, PathBuf)>, Failure> {
@@ -232,7 +232,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("result.csv");
         write_atomically(&path, b"old").unwrap();
-        let failure = write_in_folder_of(&path, &mut |out| {
+        let failure = write_temporary(&path, &mut |out| {
             out.write_all(b"half of the n")?;
             Err(io::ErrorKind::StorageFull.into())
         });
@@ -242,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn a_part_takes_its_name_when_it_is_reported_to() {
+    fn a_part_takes_its_name_on_request() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("result.csv");
         drop(PartFile::write(&path, b"given up").unwrap());
@@ -254,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_killed_run_left_is_removed_and_what_somebody_writes_stays() {
+    fn temporary_files_of_a_killed_run_are_removed_and_those_in_use_stay() {
         let folder = tempfile::tempdir().unwrap();
         for name in [".armill-a1B2c3.part", ".armill-files", "a.part", "map.csv"] {
             fs::write(folder.path().join(name), "half").unwrap();

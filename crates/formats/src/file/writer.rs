@@ -6,7 +6,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use super::error::FileError;
-use super::ledger::{Ledger, Made, sum_of};
+use super::ledger::{FileRecord, Ledger, sum_of};
 use super::lock::Lock;
 use super::part::{PartFile, create_folder, folder_of, remove_abandoned, sync_folder, write_atomically};
 use crate::input::{Identity, Inputs};
@@ -47,7 +47,7 @@ impl Writer {
     /// Writes one file. A device or pipe is written directly.
     ///
     /// # Errors
-    /// A file that may not be replaced; what stood in the way. Then the old content is untouched.
+    /// A file that may not be replaced; the operation that failed. Then the old content is untouched.
     pub fn write(&self, path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), FileError> {
         let path = path.as_ref();
         let folder = folder_of(path);
@@ -56,7 +56,8 @@ impl Writer {
         let (true, true, Some(name)) = (is_file, folder.is_dir(), name) else {
             return write_atomically(path, bytes);
         };
-        // Where no lock or list can be made, as in a folder of all users, the file itself may be possible: it is not listed.
+        // Where no lock or list can be made, as in a folder of all users, the file itself may be possible: it is not
+        // listed.
         let lock = match Lock::of(&folder, self.by, PATIENCE) {
             Err(refused @ FileError::InUse { .. }) => return Err(refused),
             lock => lock.ok(),
@@ -117,8 +118,8 @@ impl Writer {
         })
     }
 
-    /// [`Writer::folder`] for the folder `name` of the study folder `root`, where the user did not choose one: a study from
-    /// elsewhere must not choose where on this machine its results go.
+    /// [`Writer::folder`] for the folder `name` of the study folder `root`, where the user did not choose one: a study
+    /// from elsewhere must not choose where on this machine its results go.
     ///
     /// # Errors
     /// As of [`Writer::folder`]; a link that leads out of `root`, or nowhere.
@@ -160,8 +161,8 @@ impl Writer {
         }
     }
 
-    fn made(&self, bytes: &[u8]) -> Made {
-        Made {
+    fn made(&self, bytes: &[u8]) -> FileRecord {
+        FileRecord {
             sum: sum_of(bytes),
             by: self.by.to_owned(),
         }

@@ -1,4 +1,4 @@
-//! The material file unchanged: its tables and keys.
+//! The material file as written: its tables and keys.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -81,7 +81,7 @@ pub(super) struct KienzleTable {
     /// Material group of VDI 3323.
     #[schemars(range(min = 1, max = 41))]
     pub group: Option<u8>,
-    /// Strength, hardness or treatment that they hold for.
+    /// Strength, hardness or treatment that they are valid for.
     pub condition: Option<String>,
     /// Specific cutting force of a chip 1 mm thick.
     #[schemars(range(min = 1.0, max = 1e5))]

@@ -1,6 +1,6 @@
 //! armill's own material file, format 1: TOML, cutting forces of a material with a source for every number.
 //!
-//! A material has sets of mechanistic coefficients (N/mm2, N/mm), each as somebody identified it with some tool, and
+//! A material has sets of mechanistic coefficients (N/mm2, N/mm), each identified by one source with one tool, and
 //! sets of Kienzle values. A set may lack a coefficient; no force is computed from it then. Where several sets of one
 //! material are whole, their mean represents the material and their scatter for its uncertainty.
 //!
@@ -16,7 +16,7 @@
 
 mod file;
 
-use armill_core::load::Together;
+use armill_core::load::SetStatistics;
 use armill_core::nalgebra::{Vector2, Vector6};
 
 use self::file::{KienzleTable, MaterialFile, MechanisticTable};
@@ -61,7 +61,7 @@ pub struct MechanisticSet {
 pub struct KienzleSet {
     /// Group of VDI 3323, if the source goes by them.
     pub group: Option<u8>,
-    /// Strength, hardness or treatment that they hold for.
+    /// Strength, hardness or treatment that they are valid for.
     pub condition: Option<String>,
     /// Cutting force over the section of a chip 1 mm thick, Pa.
     pub specific_force: f64,
@@ -75,18 +75,18 @@ impl Material {
     /// The whole sets of mechanistic coefficients together: Ktc, Krc, Kac (Pa), Kte, Kre, Kae (N/m).
     ///
     /// `None` where no set is whole.
-    pub fn mechanistic(&self) -> Option<Together<6>> {
+    pub fn mechanistic(&self) -> Option<SetStatistics<6>> {
         let whole = self.mechanistic.iter().filter_map(MechanisticSet::whole);
-        Together::of(&whole.collect::<Vec<_>>())
+        SetStatistics::of(&whole.collect::<Vec<_>>())
     }
 
     /// The sets of Kienzle values together: `kc1` (Pa) and `mc`.
     ///
     /// `None` where there is none. Sets of different groups and conditions are put together all the same.
-    pub fn kienzle(&self) -> Option<Together<2>> {
+    pub fn kienzle(&self) -> Option<SetStatistics<2>> {
         let sets = self.kienzle.iter();
         let values = sets.map(|set| Vector2::new(set.specific_force, set.exponent));
-        Together::of(&values.collect::<Vec<_>>())
+        SetStatistics::of(&values.collect::<Vec<_>>())
     }
 
     /// Sources of the sets that [`Material::mechanistic`] is made of.
@@ -148,7 +148,7 @@ fn problems(document: &Document, file: &MaterialFile) -> Vec<Problem> {
     }
     for (index, table) in file.mechanistic.iter().enumerate() {
         if table.coefficients().iter().all(Option::is_none) {
-            let hint = "give ktc_n_per_mm2 and its like, or take the table out";
+            let hint = "give ktc_n_per_mm2 and its like, or remove the table";
             let path = format!("mechanistic[{index}]");
             problems.push(document.problem(&path, "the set has no coefficient", Some(hint)));
         }

@@ -54,7 +54,7 @@ fn coefficients_arrive_in_si() {
 }
 
 #[test]
-fn whole_sets_stand_together_and_others_take_no_part() {
+fn whole_sets_are_accepted_and_incomplete_ones_are_refused() {
     let together = read("cheese.toml", SMALL).unwrap().mechanistic().unwrap();
     assert_eq!(together.sets, 2);
     assert_eq!(
@@ -135,7 +135,7 @@ fn a_material_without_a_force_is_refused() {
 }
 
 #[test]
-fn what_is_not_toml_is_reported_with_its_line() {
+fn invalid_toml_is_reported_with_its_line() {
     let problems = read("air.toml", "format = 1\nname = air\n")
         .unwrap_err()
         .to_string();

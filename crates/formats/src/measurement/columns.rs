@@ -1,4 +1,4 @@
-//! Which column holds which channel, in which unit; and the samples of its rows.
+//! Channel and unit of each column, and the samples of the rows.
 //!
 //! | quantity | names, in any case | units, with their factor to SI |
 //! |---|---|---|
@@ -6,41 +6,41 @@
 //! | force | `fx`, `fy`, `fz` | N 1, kN 1e3, mN 1e-3 |
 //! | moment | `mx`, `my`, `mz` | N m 1, kN m 1e3, N cm 1e-2, N mm 1e-3 |
 //!
-//! Brackets, points, blanks and `_` in a unit do not count: `[N.m]`, `N m` and `n_m` are one. Newtons may be written
-//! small, but for `mN`.
+//! Brackets, dots, blanks and `_` in a unit are ignored: `[N.m]`, `N m` and `n_m` are the same. Newtons may be written
+//! in lower case, except for `mN`.
 
 use armill_core::load::{ActsOn, Record, RecordError};
 use armill_core::nalgebra::Vector3;
 
 use crate::table::sheet::{Cell, number};
 
-/// No measured number is larger, in its own unit.
+/// Maximum absolute value of a measured number, in its own unit.
 const LARGEST: f64 = 1e12;
-/// No record has more samples: some minutes of all channels at 100 kHz.
+/// Maximum number of samples: some minutes of all channels at 100 kHz.
 const MOST_SAMPLES: usize = 50_000_000;
 
 /// What a channel measures; numbers are axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Quantity {
-    /// When.
+    /// Time.
     Time,
-    /// Axis of the sensor: 0, 1, 2 for x, y, z.
+    /// Force along an axis of the sensor: 0, 1, 2 for x, y, z.
     Force(usize),
-    /// About this axis of the sensor.
+    /// Moment about this axis of the sensor.
     Moment(usize),
 }
 
 /// A channel and the factor from its unit to SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Column {
-    /// What it measures.
+    /// Measured quantity.
     pub quantity: Quantity,
-    /// What one of its unit is in s, N or N m.
+    /// Value of one unit in s, N or N m.
     pub factor: f64,
 }
 
 impl Quantity {
-    /// Units that are understood, for people.
+    /// Known units, for messages.
     pub fn units(self) -> &'static str {
         match self {
             Quantity::Time => "s, ms or us",
@@ -49,7 +49,7 @@ impl Quantity {
         }
     }
 
-    /// The factor to SI of a unit as it is written, in brackets or not; `None` if it is none of this quantity.
+    /// The factor to SI of a unit, with or without brackets; `None` if it is not a unit of this quantity.
     pub fn factor(self, unit: &str) -> Option<f64> {
         let plain: String = unit
             .chars()
@@ -69,7 +69,7 @@ impl Quantity {
         }
     }
 
-    /// The quantity of a plain name such as `Fx`, in any case.
+    /// The quantity of a plain name such as `Fx`; not case-sensitive.
     pub fn of_name(name: &str) -> Option<Quantity> {
         let name = name.to_lowercase();
         if ["time", "zeit", "t"].contains(&name.as_str()) {
@@ -85,9 +85,9 @@ impl Quantity {
     }
 }
 
-/// What is missing among the columns, and what to do; nothing if a record can be made of them.
+/// Missing columns and a hint; `None` if the columns make a record.
 ///
-/// Three forces must be there, of moments three or none. Whether anything tells the time the readers look after.
+/// All three forces are required, and either no moment or all three. The readers check the time.
 pub(super) fn missing(columns: &[Option<Column>]) -> Option<(String, &'static str)> {
     let has = |quantity: Quantity| columns.iter().flatten().any(|column| column.quantity == quantity);
     let absent = |of: fn(usize) -> Quantity, letter: char| -> Vec<String> {
@@ -100,31 +100,31 @@ pub(super) fn missing(columns: &[Option<Column>]) -> Option<(String, &'static st
     if !forces.is_empty() {
         return Some((
             forces.join(", "),
-            "a record has all three forces; one that was not measured may be a column of zeros",
+            "a record needs all three forces; use a column of zeros for one that was not measured",
         ));
     }
     let moments = absent(Quantity::Moment, 'M');
     (!moments.is_empty() && moments.len() < 3)
-        .then(|| (moments.join(", "), "a record has all three moments, or none"))
+        .then(|| (moments.join(", "), "a record needs all three moments or none"))
 }
 
-/// A column that cannot be taken: its place, and what to say.
+/// A column that cannot be used, with its position and a message.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Unfit {
-    /// From 0.
+    /// Index, from 0.
     pub index: usize,
-    /// What is wrong.
+    /// Problem.
     pub message: String,
-    /// What to do.
+    /// Hint.
     pub hint: String,
 }
 
-/// The columns of a line of names with a line of units below it; `quantity` tells what the name at an index means.
+/// The columns of a line of names with a line of units below it. `quantity` gives the quantity of the name at an index.
 ///
-/// As many as there are names; `None` where a name means nothing, whatever its unit.
+/// One entry per name; `None` where a name is unknown, with any unit.
 ///
 /// # Errors
-/// Every name whose unit is missing or none of its quantity.
+/// Every name whose unit is missing or is not a unit of its quantity.
 pub(super) fn of_names_and_units(
     names: &[Cell<'_>],
     units: &[Cell<'_>],
@@ -146,15 +146,15 @@ pub(super) fn of_names_and_units(
         let understood = quantity.units();
         let (message, hint) = match unit.is_empty() || number(unit, ';').is_some() {
             true => (
-                format!("nothing tells the unit of `{}`", name.text),
+                format!("no unit is given for `{}`", name.text),
                 format!(
                     "name the columns with their units, such as `time_s,fx_n,fy_n,fz_n`, or put a row of units below: \
                      {understood}"
                 ),
             ),
             false => (
-                format!("`{unit}` is no unit of `{}`", name.text),
-                format!("understood are {understood}; volts need the range of the amplifier"),
+                format!("`{unit}` is not a unit of `{}`", name.text),
+                format!("known units are {understood}; volts require the range of the amplifier"),
             ),
         };
         unfit.push(Unfit { index, message, hint });
@@ -165,7 +165,7 @@ pub(super) fn of_names_and_units(
     }
 }
 
-/// The first column that tells what one before it tells.
+/// The first column with the same quantity as an earlier one.
 pub(super) fn doubled(columns: &[Option<Column>]) -> Option<usize> {
     let quantity = |index: usize| columns[index].map(|column| column.quantity);
     (0..columns.len()).find(|index| {
@@ -173,31 +173,31 @@ pub(super) fn doubled(columns: &[Option<Column>]) -> Option<usize> {
     })
 }
 
-/// The number in a cell, if it is one that was measured.
+/// The number in a cell, if it is a valid measured value.
 ///
-/// `None` for what is no number and for one beyond 1e12, in whatever unit; `separator` tells whether a comma can be a
-/// decimal mark.
+/// `None` for text that is not a number and for numbers beyond 1e12 in any unit. `separator` decides whether a comma
+/// can be a decimal mark.
 pub(super) fn measured(text: &str, separator: char) -> Option<f64> {
     number(text, separator).filter(|number| number.abs() <= LARGEST)
 }
 
-/// Rows, as far as they were read, in SI.
+/// Rows as far as they have been read, in SI units.
 #[derive(Clone, Debug)]
 pub(super) struct Samples {
-    /// Of the rows that are pushed.
+    /// Columns of the rows.
     columns: Vec<Option<Column>>,
-    /// Time between rows, s, where no column tells it.
+    /// Time between rows, s, if no column gives the time.
     step: Option<f64>,
-    /// s, rising.
+    /// s, increasing.
     time: Vec<f64>,
     /// N, axes of the sensor.
     force: Vec<Vector3<f64>>,
-    /// N m about the sensor's origin; `None` where no column tells any.
+    /// N m about the sensor's origin; `None` if there are no moments.
     moment: Option<Vec<Vector3<f64>>>,
 }
 
 impl Samples {
-    /// No row yet; `step` (s) where there is no column of time.
+    /// No rows yet. `step` (s) is used if there is no column of time.
     pub fn new(columns: Vec<Option<Column>>, step: Option<f64>) -> Samples {
         let moments = columns
             .iter()
@@ -212,22 +212,22 @@ impl Samples {
         }
     }
 
-    /// How many columns a row has, those without meaning included.
+    /// Number of columns in a row, unknown ones included.
     pub fn width(&self) -> usize {
         self.columns.len()
     }
 
-    /// How many rows there are.
+    /// Number of rows.
     pub fn count(&self) -> usize {
         self.time.len()
     }
 
-    /// Takes a row: the number of each column that means something, in order.
+    /// Adds a row: the number of each known column, in order.
     ///
-    /// A row that is refused is not kept; the next is compared with the one before it.
+    /// A refused row is not stored; the next row is compared with the one before it.
     ///
     /// # Errors
-    /// What is wrong with it, and what to do.
+    /// Problem and hint.
     pub fn push(&mut self, numbers: &[f64]) -> Result<(), (String, &'static str)> {
         let mut time = self.step.map(|step| step * self.time.len() as f64);
         let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
@@ -239,20 +239,17 @@ impl Samples {
                 Quantity::Moment(axis) => moment[axis] = value,
             }
         }
-        // The readers see to it that there is a column of time or a step.
+        // The readers ensure that there is a column of time or a step.
         let time = time.unwrap_or(0.0);
         if let Some(before) = self.time.last().filter(|before| **before >= time) {
-            let message = format!("time does not go on: {time} s after {before} s");
+            let message = format!("time does not increase: {time} s after {before} s");
             return Err((
                 message,
-                "each row is later than the one before; are digits of the time missing?",
+                "each row must be later than the one before; check whether digits of the time are missing",
             ));
         }
         if self.time.len() == MOST_SAMPLES {
-            return Err((
-                format!("more than {MOST_SAMPLES} samples"),
-                "cut the record into pieces",
-            ));
+            return Err((format!("more than {MOST_SAMPLES} samples"), "split the record"));
         }
         self.time.push(time);
         self.force.push(force);
@@ -265,7 +262,7 @@ impl Samples {
     /// The record of these rows.
     ///
     /// # Errors
-    /// What the core refuses of a record.
+    /// Records that the core refuses.
     pub fn record(self, acts_on: ActsOn) -> Result<Record, RecordError> {
         Record::new(self.time, self.force, self.moment, acts_on)
     }
@@ -276,12 +273,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn units_are_read_in_brackets_and_by_their_case() {
+    fn units_are_read_with_brackets_and_are_case_sensitive() {
         let force = Quantity::Force(0);
         assert_eq!(force.factor("[kN]"), Some(1e3));
         assert_eq!(force.factor("mN"), Some(1e-3));
         assert_eq!(force.factor("MN"), None, "mega or milli?");
-        assert_eq!(force.factor("mn"), None, "likewise");
+        assert_eq!(force.factor("mn"), None, "mega or milli?");
         assert_eq!(force.factor("V"), None);
         assert_eq!(Quantity::Moment(1).factor("N.m"), Some(1.0));
         assert_eq!(Quantity::Moment(1).factor("N"), None);
@@ -289,7 +286,7 @@ mod tests {
     }
 
     #[test]
-    fn names_are_those_of_channels_and_nothing_longer() {
+    fn names_must_match_a_channel_exactly() {
         assert_eq!(Quantity::of_name("FY"), Some(Quantity::Force(1)));
         assert_eq!(Quantity::of_name("mz"), Some(Quantity::Moment(2)));
         assert_eq!(Quantity::of_name("Zeit"), Some(Quantity::Time));
@@ -299,7 +296,7 @@ mod tests {
     }
 
     #[test]
-    fn what_nobody_measured_is_no_number() {
+    fn refuses_text_that_is_not_a_measured_number() {
         assert_eq!(measured("-0,5", ';'), Some(-0.5));
         assert_eq!(measured("-0.5", ';'), Some(-0.5));
         for text in ["1.234,5", "nan", "inf", "1e300", "", "1 N"] {

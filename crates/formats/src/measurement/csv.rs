@@ -1,16 +1,16 @@
-//! A force record as a table: one row an instant, the unit of each column in its name or in a row below the names.
+//! A force record as a table: one row per instant. The unit is in the column name or in a row below the names.
 //!
 //! | column | meaning | unit |
 //! |---|---|---|
-//! | `time_s` | the instant; left out where a sampling rate is told | `_s`, `_ms`, `_us` |
+//! | `time_s` | time; omit it if a sampling rate is given | `_s`, `_ms`, `_us` |
 //! | `fx_n`, `fy_n`, `fz_n` | force, axes of the sensor | `_n`, `_kn`, `_mN` |
-//! | `mx_n_m`, ... | moment about its origin; all three or none | `_n_m`, `_n_mm`, `_n_cm`, `_kn_m` |
+//! | `mx_n_m`, ... | moment about the sensor's origin; all three or none | `_n_m`, `_n_mm`, `_n_cm`, `_kn_m` |
 //!
-//! With units in a row of their own the names are `Time`, `Fx`, ... and the row holds `s`, `N`, ... Columns with other
-//! names are passed over and listed. Cells are separated by `;`, tab or `,`; with the first two a decimal comma is read
-//! too. Lines that begin with `#` and empty ones are passed over.
+//! If the units have their own row, the names are `Time`, `Fx`, ... and that row contains `s`, `N`, ... Columns with
+//! other names are ignored and listed. Cells are separated by `;`, tab or `,`. With `;` or tab, decimal commas are read
+//! too. Lines that begin with `#` and empty lines are ignored.
 //!
-//! A file without names is read with names that are told, in the order of its columns: its first line is a row.
+//! A file without a header is read with given names in the order of its columns: its first line is a row of numbers.
 //!
 //! ```text
 //! time_s,fx_n,fy_n,fz_n             Time;Fx;Fy;Fz
@@ -23,17 +23,17 @@ use std::io::BufRead;
 use armill_core::load::ActsOn;
 
 use super::columns::{Column, Quantity, Samples, doubled, measured, missing, of_names_and_units};
-use super::format::{Format, ForceRecords, ForceReadOptions};
+use super::format::{ForceReadOptions, ForceRecords, Format};
 use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
 use crate::table::sheet::{Cell, cells, is_blank_row, separator_of};
 
-/// Reads the record in `reader`; `path` is what problems show, `acts_on` what the forces act on. `wanted.channels` is
-/// no part of a table.
+/// Reads the record in `reader`. `path` is the file name shown in problems, `acts_on` the body that the forces act on.
+/// `requested.channels` is not used for tables.
 ///
 /// # Errors
-/// Every problem of the file, at most 200: missing and double columns, units that are missing or unknown, cells that
-/// are no numbers, rows of another length, time that does not go on.
+/// All problems of the file, at most 200: missing and duplicate columns, units that are missing or unknown, cells that
+/// are not numbers, rows of another length, time that does not increase.
 pub fn read(
     path: &str,
     reader: impl BufRead,
@@ -42,7 +42,7 @@ pub fn read(
 ) -> Result<ForceRecords, Problems> {
     let mut lines = Lines::new(path, reader);
     let Some(first) = lines.next_row()? else {
-        return Err(Problem::of_file(path, "no record in this file", HEADER_HINT).into());
+        return Err(Problem::of_file(path, "the file has no record", HEADER_HINT).into());
     };
     let mut table = Table {
         path,
@@ -51,11 +51,11 @@ pub fn read(
         names: Vec::new(),
         columns: Vec::new(),
     };
-    // With names that are told, the first line is a row of numbers.
+    // With given names, the first line is a row of numbers.
     let mut waiting = None;
     match &requested.columns {
         Some(names) => {
-            table.take_told(names, &first)?;
+            table.take_given(names, &first)?;
             waiting = Some(first.clone());
         }
         None => table.take_header(&first, &mut lines)?,
@@ -80,7 +80,7 @@ pub fn read(
             problems.extend(wrong.into_iter().flatten());
         }
     }
-    // Where rows are wrong, they are what is told.
+    // Problems of rows take precedence.
     Problems::from(problems).into_result()?;
     let record = samples
         .record(acts_on)
@@ -96,42 +96,42 @@ pub fn read(
     })
 }
 
-/// What the columns of a file are.
+/// Meaning of the columns of a file.
 struct Table<'a> {
-    /// What problems show.
+    /// File name shown in problems.
     path: &'a str,
-    /// What the user tells.
+    /// Options of the user.
     requested: &'a ForceReadOptions,
-    /// As the first line has it.
+    /// Separator in the first line.
     separator: char,
-    /// As they stand in the file, or as they were told.
+    /// Names in the file, or given as an option.
     names: Vec<String>,
-    /// What each means; `None` is passed over.
+    /// Meaning of each; `None` is ignored.
     columns: Vec<Option<Column>>,
 }
 
 impl Table<'_> {
-    /// Names that the user tells, for the cells of this row.
+    /// Uses the names given by the user for the cells of this row.
     ///
     /// # Errors
-    /// Another count than that of the cells. A name that means nothing is passed over, units and all.
-    fn take_told(&mut self, names: &[String], first: &Line) -> Result<(), Problems> {
+    /// A number of names that differs from the number of cells. Unknown names are ignored, with any unit.
+    fn take_given(&mut self, names: &[String], first: &Line) -> Result<(), Problems> {
         let width = cells(&first.text, self.separator).len();
         if names.len() != width {
-            let message = format!("{} columns were told, but this row has {width}", names.len());
-            return Err(self.at(first, message, "tell one name for each column"));
+            let message = format!("{} columns were specified, but this row has {width}", names.len());
+            return Err(self.at(first, message, "give one name per column"));
         }
         self.names = names.to_vec();
         self.columns = names.iter().map(|name| named(name)).collect();
         Ok(())
     }
 
-    /// Names with their units, or names and the line of units below.
+    /// Reads names with units, or names and the line of units below.
     ///
-    /// If one name ends in its unit, all are taken so; the line below is read only where none does.
+    /// If one name ends in its unit, all must. The line below is read only if none does.
     ///
     /// # Errors
-    /// Names of which none is a channel; units that are missing or unknown; a file that ends here.
+    /// No channel among the names; units that are missing or unknown; a file that ends here.
     fn take_header(&mut self, first: &Line, lines: &mut Lines<impl BufRead>) -> Result<(), Problems> {
         let heads = cells(&first.text, self.separator);
         self.names = heads.iter().map(|cell| cell.text.to_string()).collect();
@@ -144,7 +144,7 @@ impl Table<'_> {
             return Err(self.at(first, message, HEADER_HINT));
         }
         let Some(below) = lines.next_row()? else {
-            return Err(Problem::of_file(self.path, "no record in this file", HEADER_HINT).into());
+            return Err(Problem::of_file(self.path, "the file has no record", HEADER_HINT).into());
         };
         let units = cells(&below.text, self.separator);
         let columns = of_names_and_units(&heads, &units, |_, name| Quantity::of_name(name));
@@ -161,14 +161,14 @@ impl Table<'_> {
         Ok(())
     }
 
-    /// Whether a record can be made of these columns.
+    /// Checks that these columns make a record.
     ///
     /// # Errors
-    /// Double or missing columns; no time and no rate, or both; a rate that is not above 0.
+    /// Duplicate or missing columns; neither time nor rate, or both; a rate that is not above 0.
     fn check(&self, first: &Line) -> Result<(), Problems> {
         if let Some(index) = doubled(&self.columns) {
-            let message = format!("`{}` tells what a column before it tells", self.names[index]);
-            return Err(self.at(first, message, "keep one of the two"));
+            let message = format!("`{}` repeats an earlier column", self.names[index]);
+            return Err(self.at(first, message, "remove one of the two columns"));
         }
         if let Some((missing, hint)) = missing(&self.columns) {
             return Err(self.at(first, format!("missing columns: {missing}"), hint));
@@ -177,33 +177,38 @@ impl Table<'_> {
         let timed = columns.clone().any(|column| column.quantity == Quantity::Time);
         match (timed, self.requested.rate_hz) {
             (false, None) => {
-                let hint = "add `time_s`, or tell the sampling rate (option `rate_hz`)";
-                Err(self.at(first, "no column tells the time".to_owned(), hint))
+                let hint = "add `time_s`, or give the sampling rate (option `rate_hz`)";
+                Err(self.at(first, "no column gives the time".to_owned(), hint))
             }
             (true, Some(rate)) => {
-                let message = format!("a sampling rate of {rate} Hz was told, but a column tells the time");
-                Err(self.at(first, message, "leave the rate out"))
+                let message =
+                    format!("a sampling rate of {rate} Hz was specified, but a column gives the time");
+                Err(self.at(first, message, "leave out the rate"))
             }
             (false, Some(rate)) if !(rate > 0.0 && rate.is_finite()) => Err(self.at(
                 first,
                 format!("a sampling rate of {rate} Hz is not above 0"),
-                "tell it in samples a second",
+                "give it in samples per second",
             )),
             _ => Ok(()),
         }
     }
 
-    /// Takes a row as a sample.
+    /// Adds a row as a sample.
     ///
     /// # Errors
-    /// Another count of cells than the header's, a cell that is no number, a time that does not go on.
+    /// A number of cells that differs from the header, a cell that is not a number, a time that does not increase.
     fn row(&self, line: &Line, samples: &mut Samples) -> Result<(), Problems> {
         let found = cells(&line.text, self.separator);
         if found.len() != samples.width() {
-            let message = format!("{} cells in a table of {} columns", found.len(), samples.width());
+            let message = format!(
+                "{} cells, but the table has {} columns",
+                found.len(),
+                samples.width()
+            );
             let hint = match self.separator {
-                ',' => "decimal commas need `;` or a tab between cells",
-                _ => "every row has a cell for each column",
+                ',' => "separate cells with `;` or a tab to use decimal commas",
+                _ => "every row needs one cell per column",
             };
             return Err(self.at(line, message, hint));
         }
@@ -219,7 +224,7 @@ impl Table<'_> {
     /// A problem of a cell.
     fn no_number(&self, line: &Line, cell: &Cell<'_>) -> Problems {
         let message = format!("`{}` is not a number", cell.text);
-        let hint = "units stand in the column's name or in the row below the names";
+        let hint = "give the unit in the column name or in the row below the names";
         line.problem(self.path, cell.span.clone(), message, hint).into()
     }
 
@@ -229,13 +234,14 @@ impl Table<'_> {
     }
 }
 
-/// How a table begins.
-const HEADER_HINT: &str = "the first line names the columns with their units, such as `time_s,fx_n,fy_n,fz_n`; for a file \
-                           without header tell its columns (option `columns`)";
+/// Form of the header.
+const HEADER_HINT: &str = "the first line names the columns with their units, such as `time_s,fx_n,fy_n,fz_n`; for a \
+    file \
+                           without header give the names of its columns (option `columns`)";
 
 /// The channel of a name that ends in its unit.
 ///
-/// Name and unit part at the first `_`: `mx_n_m` is `mx` in `n_m`.
+/// Name and unit are separated at the first `_`: `mx_n_m` is `mx` in `n_m`.
 fn named(name: &str) -> Option<Column> {
     let (plain, unit) = name.trim().split_once('_')?;
     let quantity = Quantity::of_name(plain)?;
@@ -288,7 +294,7 @@ mod tests {
     }
 
     #[test]
-    fn columns_without_meaning_are_listed_and_moments_read() {
+    fn unknown_columns_are_listed_and_moments_are_read() {
         let found = measured(
             "time_s,fx_n,fy_n,fz_n,ae_v,mx_n_mm,my_n_m,mz_n_cm\n0,1,2,3,9,1000,2,300\n1,1,2,3,9,4,5,6\n",
         );
@@ -297,7 +303,7 @@ mod tests {
     }
 
     #[test]
-    fn files_without_header_or_time_are_read_as_told() {
+    fn files_without_header_or_time_are_read_with_the_given_columns_and_rate() {
         let text = "1,2,3,0.5\n4,5,6,0.7\n7,8,9,0.9\n";
         let found = read_as(text, Some(50_000.0), Some("fx_n,fy_n,fz_n,vx_g")).unwrap();
         assert_eq!(found.records[0].force()[2], Vector3::new(7.0, 8.0, 9.0));
@@ -305,42 +311,48 @@ mod tests {
         let given = read_as(text, Some(50_000.0), Some("fx_n,fy_n,fz_n"))
             .unwrap_err()
             .to_string();
-        assert!(given.contains("3 columns were told, but this row has 4"), "{given}");
+        assert!(
+            given.contains("3 columns were specified, but this row has 4"),
+            "{given}"
+        );
         let given = read_as("fx_n,fy_n,fz_n\n1,2,3\n4,5,6\n", Some(0.0), None)
             .unwrap_err()
             .to_string();
-        assert!(given.contains("a sampling rate of 0 Hz is not above 0"), "{given}");
+        assert!(
+            given.contains("a sampling rate of 0 Hz is not above 0"),
+            "{given}"
+        );
     }
 
     #[test]
-    fn what_is_wrong_is_told_with_its_place() {
+    fn problems_are_reported_with_their_positions() {
         for (text, part) in [
-            ("", "no record in this file"),
+            ("", "the file has no record"),
             ("a,b\n1,2\n", "no column of this table is a force"),
             ("time_s,fx_n,fz_n\n0,1,2\n", "missing columns: `Fy`"),
             (
                 "time_s,fx_n,fy_n,fz_n,mx_n_m\n0,1,2,3,4\n",
                 "missing columns: `My`, `Mz`",
             ),
-            ("fx_n,fy_n,fz_n\n1,2,3\n", "no column tells the time"),
+            ("fx_n,fy_n,fz_n\n1,2,3\n", "no column gives the time"),
             (
                 "time_s,fx_n,fy_n,fz_n,Fx_kN\n0,1,2,3,4\n",
-                "`Fx_kN` tells what a column before it tells",
+                "`Fx_kN` repeats an earlier column",
             ),
+            ("Time,Fx,Fy,Fz\n0,1,2,3\n", "2:1: no unit is given for `Time`"),
             (
-                "Time,Fx,Fy,Fz\n0,1,2,3\n",
-                "2:1: nothing tells the unit of `Time`",
+                "Time,Fx,Fy,Fz\ns,V,N,N\n0,1,2,3\n",
+                "2:3: `V` is not a unit of `Fx`",
             ),
-            ("Time,Fx,Fy,Fz\ns,V,N,N\n0,1,2,3\n", "2:3: `V` is no unit of `Fx`"),
-            ("Time,Fx,Fy,Fz\ns,MN,N,N\n0,1,2,3\n", "`MN` is no unit of `Fx`"),
+            ("Time,Fx,Fy,Fz\ns,MN,N,N\n0,1,2,3\n", "`MN` is not a unit of `Fx`"),
             ("time_s,fx_n,fy_n,fz_n\n0,1,2,x\n", "2:7: `x` is not a number"),
             (
                 "time_s,fx_n,fy_n,fz_n\n0,1,2,3\n0,1,2,3\n",
-                "3:1: time does not go on: 0 s after 0 s",
+                "3:1: time does not increase: 0 s after 0 s",
             ),
             (
                 "time_s,fx_n,fy_n,fz_n\n0,0,1,0,2,0,3,0\n",
-                "decimal commas need `;`",
+                "separate cells with `;`",
             ),
             ("time_s,fx_n,fy_n,fz_n\n0,1,2,3\n", "a record of 1 instants"),
             (
@@ -355,6 +367,6 @@ mod tests {
         let given = read_as("time_s,fx_n,fy_n,fz_n\n0,1,2,3\n", Some(10.0), None)
             .unwrap_err()
             .to_string();
-        assert!(given.contains("leave the rate out"), "{given}");
+        assert!(given.contains("leave out the rate"), "{given}");
     }
 }

@@ -9,12 +9,12 @@
 //! | `Samples per channel:,N` | how many samples each cycle must have |
 //! | `Time,Fx,Fy,Fz,...` | the channels: the first is the time |
 //! | `s,N,N,N,...` | the unit of each |
-//! | begins with a number | a sample; every other line behind samples ends their cycle |
+//! | begins with a number | a sample; any other line after samples ends their cycle |
 //!
-//! The separator is tab, `;` or `,`. With `,` the decimal mark may be a comma too: `0,000010,-0,0435965` for two
-//! channels. Such a row is put together again only if every row has exactly two pieces a channel, each first one whole
-//! and each second one digits: then every number has its comma, and nothing can be meant otherwise. A row with another
-//! count holds a number without fraction, nobody can say which, and the file is refused.
+//! The separator is tab, `;` or `,`. With `,` the decimal mark may also be a comma: `0,000010,-0,0435965` for two
+//! channels. Such a row is accepted only if every row has exactly two pieces per channel, the first a whole number and
+//! the second only digits. Then every number has its decimal comma and the row has one meaning. A row with another
+//! number of pieces contains a number without a fraction. It is not known which one, so the file is refused.
 //!
 //! ```text
 //! Samples per channel:,3
@@ -30,27 +30,27 @@ use std::io::BufRead;
 use armill_core::load::{ActsOn, Record};
 
 use super::columns::{Column, Quantity, Samples, doubled, measured, missing, of_names_and_units};
-use super::format::{Format, ForceRecords, ForceReadOptions};
+use super::format::{ForceReadOptions, ForceRecords, Format};
 use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
 use crate::table::sheet::{Cell, cells, separator_of};
 
-/// No header is longer, in lines.
+/// Maximum number of header lines.
 const MOST_HEADER_LINES: usize = 200;
-/// No export has more cycles.
+/// Maximum number of cycles.
 const MOST_CYCLES: usize = 10_000;
-/// No export has more channels.
+/// Maximum number of channels.
 const MOST_CHANNELS: usize = 1000;
 
-/// Reads the export in `reader`; `path` is what problems show, `acts_on` what the forces act on. `wanted.rate_hz` and
-/// `wanted.columns` are no part of an export.
+/// Reads the export in `reader`. `path` is the file name shown in problems, `acts_on` the body that the forces act on.
+/// `requested.rate_hz` and `requested.columns` are not used for exports.
 ///
-/// One record a cycle, in their order; all have the same channels in the same units.
+/// One record per cycle, in order. All have the same channels in the same units.
 ///
 /// # Errors
-/// Every problem of the file, at most 200: no line of channels, channels that are missing, names of them that are not
-/// three or six, units that are missing or unknown, rows that can be read in two ways or none, cycles of another length
-/// than the header tells.
+/// All problems of the file, at most 200: no line of channels, missing channels, a number of channel names other than
+/// three or six, units that are missing or unknown, rows that can be read in two ways or none, cycles whose length
+/// differs from the header.
 pub fn read(
     path: &str,
     reader: impl BufRead,
@@ -59,15 +59,19 @@ pub fn read(
 ) -> Result<ForceRecords, Problems> {
     let channels = Channels::reported(requested.channels.as_deref()).ok_or_else(|| {
         let names = requested.channels.as_ref().map_or(0, Vec::len);
-        let message = format!("{names} names of channels were told");
-        Problem::of_file(path, message, "three forces, or three forces and three moments")
+        let message = format!("{names} names of channels were given");
+        Problem::of_file(
+            path,
+            message,
+            "give three forces, or three forces and three moments",
+        )
     })?;
     let mut lines = Lines::new(path, reader);
     let mut export = Reader {
         path,
         acts_on,
         channels,
-        wanted_samples: None,
+        expected_samples: None,
         header_lines: 0,
         table: None,
         cycle: None,
@@ -83,7 +87,7 @@ pub fn read(
             Err(wrong) => Err(wrong),
         };
         if let Err(wrong) = taken {
-            // Nothing can be told of what follows.
+            // The following lines cannot be evaluated.
             export.problems.extend(wrong);
             break;
         }
@@ -91,16 +95,16 @@ pub fn read(
     export.finish()
 }
 
-/// What the three forces are called in a file, and the three moments, which it need not have.
+/// Names of the three forces in a file, and of the three moments, which may be missing.
 struct Channels {
     /// x, y, z of the sensor.
     force: [String; 3],
-    /// The same; a file may lack them.
+    /// The same axes; may be missing in the file.
     moment: [String; 3],
 }
 
 impl Channels {
-    /// Those of these names, the usual ones where none are told; `None` if they are not three or six.
+    /// The channels with these names; the usual names if none are given; `None` if there are not three or six.
     fn reported(names: Option<&[String]>) -> Option<Channels> {
         let usual = |letter: &str| ["x", "y", "z"].map(|axis| format!("{letter}{axis}"));
         let Some(names) = names else {
@@ -118,7 +122,7 @@ impl Channels {
         Some(Channels { force, moment })
     }
 
-    /// What a channel of this name measures, capitals aside; the time is known by its place, not its name.
+    /// The quantity of a channel with this name, not case-sensitive. Time is identified by its position, not its name.
     fn quantity(&self, name: &str) -> Option<Quantity> {
         let of = |names: &[String; 3]| names.iter().position(|known| known.eq_ignore_ascii_case(name));
         of(&self.force)
@@ -127,7 +131,7 @@ impl Channels {
     }
 }
 
-/// What commas are between which cells stand.
+/// Use of commas in the cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Marks {
     /// Decimal points.
@@ -136,13 +140,13 @@ enum Marks {
     Commas,
 }
 
-/// The lines of channels and units, understood.
+/// The lines of channels and units after reading.
 struct Table {
-    /// As the line of channels has it.
+    /// Separator in the line of channels.
     separator: char,
-    /// Where commas separate: whether they are decimal marks too, as the first row shows.
+    /// If commas separate cells: whether they are decimal marks too, from the first row.
     marks: Option<Marks>,
-    /// As many as there are channels; `None` is passed over.
+    /// One entry per channel; `None` is ignored.
     columns: Vec<Option<Column>>,
     /// Whether rows end in a separator.
     open_end: bool,
@@ -150,42 +154,42 @@ struct Table {
 
 /// Samples since the last header.
 struct Cycle {
-    /// Those that could be read.
+    /// Samples that could be read.
     samples: Samples,
-    /// The last of them, for problems of the cycle as a whole.
+    /// The last of their lines, for problems of the whole cycle.
     last: Line,
-    /// Problems of the file before them.
+    /// Number of problems of the file before them.
     problems: usize,
 }
 
-/// An export as far as it was read.
+/// An export as far as it has been read.
 struct Reader<'a> {
     path: &'a str,
     acts_on: ActsOn,
-    /// What forces and moments are called.
+    /// Names of forces and moments.
     channels: Channels,
-    /// Samples of each cycle, as the header tells.
-    wanted_samples: Option<usize>,
+    /// Number of samples per cycle, from the header.
+    expected_samples: Option<usize>,
     /// Lines since the last samples.
     header_lines: usize,
-    /// Once the channels are known.
+    /// Known after the line of channels.
     table: Option<Table>,
-    /// Samples that no other line has ended yet.
+    /// Samples of the current cycle.
     cycle: Option<Cycle>,
-    /// Cycles that ended.
+    /// Number of completed cycles.
     cycles: usize,
-    /// One a cycle that has no problem.
+    /// One per cycle without problems.
     records: Vec<Record>,
-    /// Names of channels that were passed over.
+    /// Names of ignored channels.
     unused: Vec<String>,
     problems: Vec<Problem>,
 }
 
 impl Reader<'_> {
-    /// Takes the next line, and the line of units behind one of channels.
+    /// Reads the next line; after a line of channels, also the line of units.
     ///
     /// # Errors
-    /// What leaves nothing to be told of the lines behind; other problems are kept.
+    /// Problems after which the following lines cannot be evaluated; other problems are collected.
     fn take(&mut self, line: Line, lines: &mut Lines<impl BufRead>) -> Result<(), Problems> {
         if let Some(mut table) = self.table.take_if(|_| begins_with_number(&line.text)) {
             self.sample(line, &mut table);
@@ -196,12 +200,12 @@ impl Reader<'_> {
         self.header_lines += 1;
         if self.header_lines > MOST_HEADER_LINES {
             let message = format!("no line of channels in {MOST_HEADER_LINES} lines");
-            let hint = "it begins with `Time` or `Zeit`; other tables are read as CSV";
+            let hint = "this line begins with `Time` or `Zeit`; other tables are read as CSV";
             return Err(self.at(&line, message, hint));
         }
         if is_channels(&line.text) {
             let made = self.table_of(&line, lines)?;
-            // A comma that was a decimal mark stays one.
+            // A decimal comma remains a decimal comma.
             let marks = self.table.as_ref().and_then(|before| before.marks);
             if self
                 .table
@@ -209,7 +213,7 @@ impl Reader<'_> {
                 .is_some_and(|before| before.columns != made.columns)
             {
                 let hint = "all cycles of an export have the same channels in the same units";
-                let message = "other channels than those of the cycle before".to_owned();
+                let message = "the channels differ from those of the previous cycle".to_owned();
                 return Err(self.at(&line, message, hint));
             }
             self.table = Some(Table { marks, ..made });
@@ -219,9 +223,9 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// A line `key:,value`, with whatever separator.
+    /// A line `key:,value` with any separator.
     ///
-    /// Only the count of samples is taken; what is no whole number counts as not told.
+    /// Only the number of samples is used. A value that is not a whole number is ignored.
     fn header(&mut self, line: &str) {
         let (key, value) = line.split_once([':', '\t', ';', ',']).unwrap_or((line, ""));
         let no_part = |c: char| c.is_whitespace() || matches!(c, ',' | ';' | '"');
@@ -230,14 +234,14 @@ impl Reader<'_> {
             .to_lowercase()
             .starts_with("samples per channel")
         {
-            self.wanted_samples = value.trim_matches(no_part).parse().ok();
+            self.expected_samples = value.trim_matches(no_part).parse().ok();
         }
     }
 
     /// The line of channels, and the line of units below it.
     ///
     /// # Errors
-    /// A file that ends here, a line of units that is none, units that are missing or unknown, and what `check`
+    /// A file that ends here, an invalid line of units, units that are missing or unknown, and what `check`
     /// refuses.
     fn table_of(&mut self, line: &Line, lines: &mut Lines<impl BufRead>) -> Result<Table, Problems> {
         let separator = separator_of(&line.text);
@@ -248,10 +252,10 @@ impl Reader<'_> {
         }
         if names.len() > MOST_CHANNELS {
             let message = format!("more than {MOST_CHANNELS} channels");
-            return Err(self.at(line, message, "this is no line of channels"));
+            return Err(self.at(line, message, "this is not a line of channels"));
         }
         let Some(below) = lines.next_row()? else {
-            let message = "the file ends behind its channels".to_owned();
+            let message = "the file ends after the line of channels".to_owned();
             return Err(self.at(line, message, "export it again"));
         };
         let mut units = cells(&below.text, separator);
@@ -259,8 +263,8 @@ impl Reader<'_> {
             units.pop();
         }
         if units.len() != names.len() || begins_with_number(&below.text) {
-            let message = format!("a line of {} units is requested below the channels", names.len());
-            let hint = "export with units: nothing else tells whether these are N or kN";
+            let message = format!("a line of {} units is required below the channels", names.len());
+            let hint = "export with units: otherwise it is not known whether forces are in N or kN";
             return Err(self.at(&below, message, hint));
         }
         let columns = of_names_and_units(&names, &units, |index, name| match index {
@@ -268,11 +272,11 @@ impl Reader<'_> {
             _ => self.channels.quantity(name),
         });
         let columns = columns.map_err(|unfit| -> Problems {
-            let told = unfit.into_iter().map(|unfit| {
+            let problems = unfit.into_iter().map(|unfit| {
                 let span = units[unfit.index].span.clone();
                 below.problem(self.path, span, unfit.message, &unfit.hint)
             });
-            told.collect()
+            problems.collect()
         })?;
         self.check(line, &names, &columns)?;
         let unused = names.iter().zip(&columns).filter(|(_, column)| column.is_none());
@@ -285,19 +289,19 @@ impl Reader<'_> {
         })
     }
 
-    /// Whether a record can be made of these channels.
+    /// Checks that these channels make a record.
     ///
     /// # Errors
-    /// Two channels of one quantity, forces that are missing, some of the moments without the others.
+    /// Two channels of one quantity, missing forces, incomplete moments.
     fn check(&self, line: &Line, names: &[Cell<'_>], columns: &[Option<Column>]) -> Result<(), Problems> {
         if let Some(index) = doubled(columns) {
             let message = format!("two channels are called `{}`", names[index].text);
-            return Err(self.at(line, message, "keep one of the two"));
+            return Err(self.at(line, message, "remove one of the two channels"));
         }
         if let Some((missing, _)) = missing(columns) {
             let found: Vec<&str> = names.iter().map(|name| name.text.as_ref()).collect();
             let hint = format!(
-                "this file has {}; tell what the forces are called in it",
+                "this file has {}; give the names of the force channels",
                 found.join(", ")
             );
             return Err(self.at(line, format!("missing channels: {missing}"), &hint));
@@ -305,7 +309,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Takes a row as a sample of the cycle; what is wrong with it is kept.
+    /// Adds a row as a sample of the cycle; problems are collected.
     fn sample(&mut self, line: Line, table: &mut Table) {
         let mut cycle = self.cycle.take().unwrap_or_else(|| Cycle {
             samples: Samples::new(table.columns.clone(), None),
@@ -321,11 +325,11 @@ impl Reader<'_> {
         self.cycle = Some(Cycle { last: line, ..cycle });
     }
 
-    /// The numbers of a row: one for each column that means something.
+    /// The numbers of a row: one for each known column.
     ///
     /// # Errors
-    /// Another count of cells than of channels, commas that can be read in two ways or other than in the rows before, a
-    /// cell that is no number.
+    /// A number of cells that differs from the number of channels, commas that can be read in two ways or differently
+    /// from the rows before, a cell that is not a number.
     fn numbers(&self, line: &Line, table: &mut Table) -> Result<Vec<f64>, Problems> {
         let mut cells = cells(&line.text, table.separator);
         if table.open_end && cells.last().is_some_and(|cell| cell.text.is_empty()) {
@@ -343,7 +347,7 @@ impl Reader<'_> {
             }
             table.marks = seen;
         } else if cells.len() != width {
-            let message = format!("{} cells below {width} channels", cells.len());
+            let message = format!("{} cells, but there are {width} channels", cells.len());
             return Err(self.at(line, message, CUT_SHORT));
         }
         let meant = table
@@ -365,7 +369,7 @@ impl Reader<'_> {
             .collect()
     }
 
-    /// Makes a record of the samples since the last header; of a cycle with problems nothing else is told.
+    /// Makes a record of the samples since the last header. A cycle with problems gets no further messages.
     fn end_cycle(&mut self) {
         let Some(cycle) = self.cycle.take() else { return };
         self.header_lines = 0;
@@ -382,15 +386,18 @@ impl Reader<'_> {
     /// The record of a cycle.
     ///
     /// # Errors
-    /// Too many cycles, another count of samples than the header tells, times that do not go in equal steps.
+    /// Too many cycles, a number of samples that differs from the header, times that are not equally spaced.
     fn record(&self, Cycle { samples, last, .. }: Cycle) -> Result<Record, Problems> {
         if self.cycles > MOST_CYCLES {
             let message = format!("more than {MOST_CYCLES} cycles");
-            return Err(self.at(&last, message, "cut the record into pieces"));
+            return Err(self.at(&last, message, "split the record"));
         }
-        if let Some(wanted) = self.wanted_samples.filter(|wanted| *wanted != samples.count()) {
+        if let Some(expected) = self
+            .expected_samples
+            .filter(|expected| *expected != samples.count())
+        {
             let message = format!(
-                "cycle {} ends after {} samples, but its header tells {requested}",
+                "cycle {} ends after {} samples, but its header specifies {expected}",
                 self.cycles,
                 samples.count()
             );
@@ -399,21 +406,21 @@ impl Reader<'_> {
         let record = samples
             .record(self.acts_on)
             .map_err(|error| self.at(&last, error.to_string(), "export it again"))?;
-        // A sampled record goes in equal steps: if it does not, its times were not read as they were meant.
+        // A sampled record is equally spaced. If it is not, its times were misread.
         record
             .step()
             .map_err(|error| self.at(&last, error.to_string(), "export with more digits of time"))?;
         Ok(record)
     }
 
-    /// What the file held, or everything that is wrong with it.
+    /// The content of the file, or all its problems.
     fn finish(mut self) -> Result<ForceRecords, Problems> {
         self.end_cycle();
         if self.records.is_empty() && self.problems.is_empty() {
             let hint = "a DynoWare export has a line of channels (`Time`, `Fx`, ...), one of units, and samples; other \
                         tables are read as CSV";
             self.problems
-                .push(Problem::of_file(self.path, "no samples in this file", hint));
+                .push(Problem::of_file(self.path, "the file has no samples", hint));
         }
         Problems::from(self.problems).into_result()?;
         Ok(ForceRecords {
@@ -423,12 +430,12 @@ impl Reader<'_> {
         })
     }
 
-    /// A row whose commas cannot be told apart.
+    /// A row whose commas are ambiguous.
     fn ambiguous(&self, line: &Line, count: usize, width: usize) -> Problems {
         let message = format!(
             "{count} pieces between commas are neither {width} numbers with points nor {width} numbers with commas"
         );
-        let hint = "commas separate cells and mark decimals at once, and which is which cannot be reported: export with tab or \
+        let hint = "commas both separate cells and mark decimals, and they cannot be distinguished: export with tab or \
                     semicolon between cells";
         self.at(line, message, hint)
     }
@@ -439,10 +446,10 @@ impl Reader<'_> {
     }
 }
 
-/// What is most often behind a row that does not fit.
+/// Hint for a row of the wrong length.
 const CUT_SHORT: &str = "is the file cut short? export it again";
 
-/// Whether a line is a sample: a digit or point, behind a sign or quote if there is one.
+/// Whether a line is a sample: it begins with a digit or point, possibly after a sign or quote.
 fn begins_with_number(line: &str) -> bool {
     let line = line.trim_start().trim_start_matches('"');
     let line = line.strip_prefix(['-', '+']).unwrap_or(line);
@@ -453,11 +460,11 @@ fn begins_with_number(line: &str) -> bool {
 pub(super) fn is_channels(line: &str) -> bool {
     let first = line.split(['\t', ';', ',']).next().unwrap_or_default();
     let first = first.trim().trim_matches('"').to_lowercase();
-    // `Time:,12:00` is the hour of the measurement.
+    // `Time:,12:00` is the time of day of the measurement.
     first == "time" || first == "zeit"
 }
 
-/// Whether the pieces are halves of numbers: whole, digits, whole, digits.
+/// Whether the pieces are halves of numbers: whole part, digits, whole part, digits.
 ///
 /// The whole part may have a sign, the digits an exponent.
 fn all_halves(pieces: &[Cell<'_>]) -> bool {

@@ -1,7 +1,7 @@
-//! A force record in either format: which of both a file is in is seen in its first lines.
+//! A force record in either format. The format is recognised from the first lines.
 //!
-//! An export of DynoWare has a line that begins with the plain word `Time` or `Zeit`, behind its header; the names of a
-//! CSV end in their units. Whoever tells columns or a sampling rate means a CSV, whoever tells names of channels an
+//! A DynoWare export has a line that begins with the plain word `Time` or `Zeit`, after its header. The names of a CSV
+//! end in their units. If columns or a sampling rate are given, the file is a CSV; if channel names are given, it is an
 //! export.
 
 use std::io::{BufRead, Cursor, Read};
@@ -11,7 +11,7 @@ use armill_core::load::{ActsOn, Record};
 use super::{csv, dynoware};
 use crate::document::{Problems, unreadable};
 
-/// A kind of file of forces.
+/// Format of a force file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// A text export of DynoWare.
@@ -21,7 +21,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// Its name, for people.
+    /// Its name, for messages.
     pub fn name(self) -> &'static str {
         match self {
             Format::DynoWare => "DynoWare",
@@ -30,33 +30,33 @@ impl Format {
     }
 }
 
-/// What a file does not tell, or what its channels are called.
+/// Values that the file does not contain, and the names of its channels.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ForceReadOptions {
-    /// Samples a second, of a CSV without column of time.
+    /// Samples per second, for a CSV without a time column.
     pub rate_hz: Option<f64>,
-    /// The columns in order, of a CSV without header; other names than those of [`csv`] are passed over.
+    /// The columns in order, for a CSV without a header. Names other than those of [`csv`] are ignored.
     pub columns: Option<Vec<String>>,
-    /// What the channels of an export are called: three forces, then three moments if there are any; `Fx` to `Mz` where
-    /// nothing is told.
+    /// Names of the channels of an export: three forces, then three moments if there are any. The default is `Fx` to
+    /// `Mz`.
     pub channels: Option<Vec<String>>,
 }
 
-/// What a file held.
+/// Content of a force file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ForceRecords {
     /// Its format.
     pub format: Format,
-    /// The records, in order: one, or the cycles of an export; axes of the sensor.
+    /// The records in order: one, or one per cycle of an export; axes of the sensor.
     pub records: Vec<Record>,
-    /// Columns that were passed over.
+    /// Ignored columns.
     pub unused: Vec<String>,
 }
 
-/// So much of a file is looked at for its format, in bytes.
+/// Number of bytes that are read to recognise the format.
 const HEAD_BYTES: u64 = 1 << 16;
 
-/// Reads the record in `reader`; `path` is what problems show, `acts_on` what the forces act on.
+/// Reads the record in `reader`. `path` is the file name shown in problems, `acts_on` the body that the forces act on.
 ///
 /// # Errors
 /// The problems of the file, those of [`dynoware::read`] or [`csv::read`].
@@ -84,7 +84,7 @@ pub fn read(
     }
 }
 
-/// Whether one of these lines is that of an export's channels; any line ends.
+/// Whether one of these lines names the channels of an export; with any line ending.
 fn has_line_of_channels(head: &[u8]) -> bool {
     let text = String::from_utf8_lossy(head);
     text.split(['\n', '\r']).any(dynoware::is_channels)
@@ -104,21 +104,21 @@ mod tests {
     const CSV: &str = "time_s,fx_n,fy_kn,fz_n\n0,1,2,3\n0.1,4,5,6\n";
 
     #[test]
-    fn the_same_numbers_come_out_of_either_format() {
+    fn both_formats_give_the_same_numbers() {
         let [export, csv] = [EXPORT, CSV].map(|text| known(text, &ForceReadOptions::default()).unwrap());
         assert_eq!((export.format, csv.format), (Format::DynoWare, Format::Csv));
         let returns = EXPORT.replace('\n', "\r");
         assert_eq!(
             known(&returns, &ForceReadOptions::default()).unwrap(),
             export,
-            "line ends are no part of it"
+            "line endings do not matter"
         );
         assert_eq!(export.records, csv.records);
         assert_eq!(csv.records[0].force()[0].y, 2000.0);
     }
 
     #[test]
-    fn what_is_told_decides_on_the_format() {
+    fn given_options_select_the_format() {
         let by_hand = ForceReadOptions {
             rate_hz: Some(10.0),
             columns: Some(["fx_n", "fy_kn", "fz_n"].map(str::to_owned).to_vec()),
@@ -135,7 +135,10 @@ mod tests {
         };
         let renamed = EXPORT.replace("Fx", "Kraft A");
         let found = known(&renamed, &channels(&["Kraft A", "Fy", "Fz"])).unwrap();
-        assert_eq!(found.records, known(EXPORT, &ForceReadOptions::default()).unwrap().records);
+        assert_eq!(
+            found.records,
+            known(EXPORT, &ForceReadOptions::default()).unwrap().records
+        );
         let given = known(&renamed, &ForceReadOptions::default()).unwrap_err();
         assert!(given.contains("missing channels: `Fx`"), "{given}");
         let given = known(EXPORT, &channels(&["Fx", "Fy"])).unwrap_err();
@@ -143,23 +146,26 @@ mod tests {
     }
 
     #[test]
-    fn a_remark_does_not_end_a_record() {
+    fn a_comment_line_does_not_end_a_record() {
         let remarked = EXPORT.replace("0.1", "# pause\n0.1");
         let found = known(&remarked, &ForceReadOptions::default()).unwrap();
-        assert_eq!(found.records, known(EXPORT, &ForceReadOptions::default()).unwrap().records);
+        assert_eq!(
+            found.records,
+            known(EXPORT, &ForceReadOptions::default()).unwrap().records
+        );
     }
 
     #[test]
-    fn commas_between_and_inside_numbers_are_left_to_the_reader_of_exports() {
+    fn commas_between_and_inside_numbers_are_read_as_an_export() {
         let trap = "Time,Fx,Fy,Fz\ns,N,N,N\n0,0,1,5,2,25,3,5\n0,1,1,5,2,25,3,5\n";
         let found = known(trap, &ForceReadOptions::default()).unwrap();
         assert_eq!(found.records[0].force()[0].x, 1.5);
         let given = known(&trap.replace("0,1,1,5", "0,1,1"), &ForceReadOptions::default()).unwrap_err();
-        assert!(given.contains("which is which cannot be told"), "{given}");
+        assert!(given.contains("they cannot be distinguished"), "{given}");
     }
 
     #[test]
-    fn what_is_neither_is_told_as_a_table_without_forces() {
+    fn text_in_neither_format_is_reported_as_a_table_without_forces() {
         for text in ["", "\n\n", "a,b\n1,2\n"] {
             assert!(
                 known(text, &ForceReadOptions::default())

@@ -1,21 +1,21 @@
-//! Load tests from a table: one row a test, the unit of each column in its name.
+//! Load tests from a table: one row per test. The name of each column states its unit.
 //!
 //! | column | meaning | unit |
 //! |---|---|---|
-//! | `A1_deg` ... or `q1_deg` ... | joint positions in the controller's counting | `_deg`, `_rad`; `_mm`, `_m` where a joint slides |
+//! | `A1_deg` ... or `q1_deg` ... | joint positions as the controller reports them | `_deg`, `_rad`; `_mm`, `_m` for prismatic joints |
 //! | `fx_n`, `fy_n`, `fz_n` | force on the tool, base axes, loaded minus unloaded; a missing column is 0 | `_n`, `_kn` |
 //! | `mx_n_m`, ... | moment about the force point | `_n_m` |
 //! | `dx_mm`, `dy_mm`, `dz_mm` | displacement in base axes; an empty cell was not measured | `_um`, `_mm`, `_m` |
 //! | `d_u_mm` | standard uncertainty of the displacements | `_um`, `_mm`, `_m` |
-//! | `joint`, `turn_urad` | turn of one link against the one before, about the joint's axis in the controller's sign | `_urad`, `_mrad`, `_rad`, `_deg` |
-//! | `turn_u_urad` | standard uncertainty of the turn | as the turn |
-//! | `force_x_mm`, ... | force point in the flange frame, where it differs from the tool point | `_mm`, `_m` |
-//! | `gauge_x_mm`, ... | measured point in the flange frame, likewise | `_mm`, `_m` |
-//! | `weight` | how many ordinary tests this one counts for | |
-//! | `test`, `note`, `expected_...` | for people | |
+//! | `joint`, `turn_urad` | rotation of one link relative to the previous one, about the joint's axis with the controller's sign | `_urad`, `_mrad`, `_rad`, `_deg` |
+//! | `turn_u_urad` | standard uncertainty of the rotation | as for the rotation |
+//! | `force_x_mm`, ... | force point in the flange frame, if it is not the tool point | `_mm`, `_m` |
+//! | `gauge_x_mm`, ... | measured point in the flange frame, if it is not the tool point | `_mm`, `_m` |
+//! | `weight` | number of ordinary tests that this test is equivalent to | |
+//! | `test`, `note`, `expected_...` | labels; not evaluated | |
 //!
-//! Cells are separated by `;`, tab or `,`; with the first two a decimal comma is read too. Lines that begin with `#`
-//! and empty ones are passed over, and so are rows without any reading.
+//! Cells are separated by `;`, tab or `,`. With `;` or tab, decimal commas are read too. Lines that begin with `#`,
+//! empty lines and rows without a reading are ignored.
 //!
 //! ```text
 //! test;A1_deg;A2_deg;...;fx_n;fz_n;dx_mm;dy_mm;dz_mm;d_u_mm
@@ -39,48 +39,48 @@ use crate::document::lines::Line;
 use crate::document::{Problem, Problems};
 use crate::table::sheet::{Cell, number};
 
-/// Load tests as a file tells them.
+/// Load tests of a file.
 #[derive(Clone, Debug)]
 pub struct LoadTests {
     /// In the order of the file.
     pub tests: Vec<LoadTest>,
-    /// What each is called: its `test` cell, or its line.
+    /// Name of each test: its `test` cell, or its line.
     pub names: Vec<String>,
-    /// Rows that hold no reading.
+    /// Number of rows without a reading.
     pub empty_rows: usize,
-    /// Whether every reading states its standard uncertainty.
+    /// Whether every reading has a standard uncertainty.
     pub uncertainties_stated: bool,
 }
 
-/// Standard uncertainty of a displacement (m) and of a turn (rad) where none is stated: only their ratio counts.
+/// Standard uncertainty of a displacement (m) and of a rotation (rad) if none is given. Only their ratio matters.
 const UNSTATED: [f64; 2] = [1e-5, 1e-5];
-/// Further outside the limits than this (rad, m) a posture is not one of this robot.
+/// A joint position further outside the limits than this (rad, m) is not a posture of this robot.
 const OUTSIDE: f64 = 0.0175;
-/// An angle beyond this in radians is one in degrees.
+/// An angle above this value in radians is in degrees.
 const TURNS: f64 = 4.0 * std::f64::consts::PI;
-/// All angles below this many degrees were radians: tests so near together tell nothing anyway.
+/// If all angles are below this many degrees, they were radians: tests so close together would give no information.
 const RADIANS: f64 = 2.0 * std::f64::consts::PI;
-/// More columns than this are another table: every quantity in every unit comes to fewer.
+/// Maximum number of columns: more than every quantity in every unit.
 const MOST_COLUMNS: usize = 200;
-/// More problems than this are not told: one mistake is in every row.
+/// Maximum number of reported problems: a systematic mistake is in every row.
 const MOST_PROBLEMS: usize = 1000;
-/// No length, angle or force of a test is larger, in the units of the file.
+/// Maximum length, angle or force of a test, in the units of the file.
 const LARGEST: f64 = 1e9;
 
-/// No standard uncertainty is outside of this, m or rad: finer than any gauge, coarser than any test.
+/// Range of standard uncertainties, m or rad: finer than any gauge to coarser than any test.
 const UNCERTAINTIES: RangeInclusive<f64> = 1e-12..=1.0;
-/// No test counts for less or more ordinary ones.
+/// Range of weights.
 const WEIGHTS: RangeInclusive<f64> = 1e-6..=1e6;
 
-/// The load tests of `robot` in this text; `path` is what problems show, `tool_point` (m, flange frame) where force and
-/// displacement are unless a row says otherwise.
+/// Reads the load tests of `robot`. `path` is the file name shown in problems, `tool_point` (m, flange frame) the point
+/// of force and displacement unless a row gives another.
 ///
-/// A row without reading is counted and gives no test; a row with a problem gives none either, and the others are still
-/// looked at. Joint positions are in SI, in the controller's counting; wrenches act at the force point, base axes.
+/// A row without a reading is counted and gives no test. A row with a problem gives none either; the other rows are
+/// still checked. Joint positions are in SI units as the controller reports them. Wrenches act at the force point, base axes.
 ///
 /// # Errors
-/// Every problem of the file: missing, unknown and double columns, cells that are no numbers, joint positions that
-/// this robot cannot have, units that cannot be, no test at all.
+/// All problems of the file: missing, unknown and duplicate columns, cells that are not numbers, joint positions that
+/// are not valid for this robot, implausible units, no test.
 pub fn read(
     path: &str,
     text: impl BufRead,
@@ -88,8 +88,8 @@ pub fn read(
     tool_point: Vector3<f64>,
 ) -> Result<LoadTests, Problems> {
     let Some(sheet) = Sheet::read(path, text)? else {
-        let hint = "the first line names the columns; `armill identify --plan 20 --robot ...` makes a table to fill in";
-        return Err(Problem::of_file(path, "no table in this file", hint).into());
+        let hint = "the first line names the columns; `armill identify --plan 20 --robot ...` writes a table to fill in";
+        return Err(Problem::of_file(path, "the file has no table", hint).into());
     };
     let mut reader = Reader {
         sheet: &sheet,
@@ -99,7 +99,7 @@ pub fn read(
     };
     if let Some(cell) = sheet.heads().get(MOST_COLUMNS) {
         let message = format!("the table has more than {MOST_COLUMNS} columns");
-        let hint = "one row a test, one column a quantity";
+        let hint = "use one row per test and one column per quantity";
         return Err(sheet.problem(&sheet.header, cell, message, hint).into());
     }
     let columns = Columns::of(&sheet, robot, &mut reader.problems);
@@ -117,8 +117,8 @@ pub fn read(
     }
     reader.angles(&columns);
     if found.tests.is_empty() && reader.problems.is_empty() {
-        let message = format!("none of the {} rows holds a reading", sheet.rows.len());
-        let hint = "fill in what was measured: dx_mm, dy_mm, dz_mm; one of them is enough";
+        let message = format!("none of the {} rows has a reading", sheet.rows.len());
+        let hint = "fill in the measured values: dx_mm, dy_mm, dz_mm; one of them is enough";
         reader
             .problems
             .push(sheet.problem_of_line(&sheet.header, message, hint));
@@ -127,15 +127,15 @@ pub fn read(
     Ok(found)
 }
 
-/// Reads rows, and keeps what is wrong with them.
+/// Reads rows and collects their problems.
 struct Reader<'a> {
     /// The table.
     sheet: &'a Sheet,
-    /// The arm that was tested: its joints name columns, its limits judge postures.
+    /// The tested robot: its joints name columns, its limits check postures.
     robot: &'a Robot,
-    /// Where force and gauge are where no column tells it; flange frame, m.
+    /// Force point and gauge point if no column gives them; flange frame, m.
     tool_point: Vector3<f64>,
-    /// Those found so far.
+    /// Problems found so far.
     problems: Vec<Problem>,
 }
 
@@ -145,53 +145,53 @@ struct Place<'a> {
     cell: &'a Cell<'a>,
 }
 
-/// What the cells of one row say, in SI.
+/// Values of one row, in SI units.
 struct Row {
-    /// rad or m, controller's counting.
+    /// rad or m, as the controller reports them.
     joints: Vec<f64>,
     /// N, base axes.
     force: Vector3<f64>,
     /// N m about the force point, base axes.
     moment: Vector3<f64>,
-    /// m, flange frame; so is the next.
+    /// m, flange frame; the same for the next field.
     force_point: Vector3<f64>,
     gauge_point: Vector3<f64>,
     /// m, base axes; `None`: not measured.
     displacement: [Option<f64>; 3],
     /// Its standard uncertainty, m, for all three axes.
     displacement_u: Option<f64>,
-    /// The joint that turned.
+    /// The joint that rotated.
     joint: Option<usize>,
-    /// How far, rad, in the controller's sign.
+    /// Rotation, rad, with the controller's sign.
     turn: Option<f64>,
     /// Its standard uncertainty, rad.
     turn_u: Option<f64>,
-    /// How many ordinary tests it counts for.
+    /// Number of ordinary tests that it is equivalent to.
     weight: f64,
-    /// What people call it.
+    /// Name of the test.
     name: Option<String>,
 }
 
 impl Reader<'_> {
-    /// Keeps a problem of a cell.
-    fn tell(&mut self, cell: &Place<'_>, message: String, hint: &str) {
+    /// Adds a problem of a cell.
+    fn report(&mut self, cell: &Place<'_>, message: String, hint: &str) {
         self.problems
             .push(self.sheet.problem(cell.line, cell.cell, message, hint));
     }
 
-    /// Takes a row as a test, if it holds a reading and nothing is wrong with it.
+    /// Adds a row as a test if it has a reading and no problem.
     fn row(&mut self, line: &Line, columns: &Columns, found: &mut LoadTests) {
         let cells = self.sheet.cells(line);
         if cells.len() != columns.columns.len() {
             let message = format!(
-                "{} cells in a table of {} columns",
+                "{} cells, but the table has {} columns",
                 cells.len(),
                 columns.columns.len()
             );
             let hint = if self.sheet.separator == ',' {
-                "decimal commas need `;` between cells; an empty cell is nothing between two separators"
+                "separate cells with `;` to use decimal commas; an empty cell is written as two separators in a row"
             } else {
-                "an empty cell is nothing between two separators"
+                "an empty cell is written as two separators in a row"
             };
             self.problems
                 .push(self.sheet.problem_of_line(line, message, hint));
@@ -220,9 +220,9 @@ impl Reader<'_> {
                 line,
                 cell: &cells[0],
             };
-            self.tell(
+            self.report(
                 &cell,
-                "a turn and the joint that turned belong together".to_owned(),
+                "a rotation and its joint must be given together".to_owned(),
                 "fill in both `joint` and `turn_...`, or neither",
             );
         }
@@ -250,7 +250,7 @@ impl Reader<'_> {
         });
     }
 
-    /// Puts what a cell says into the row; what is wrong with it is kept.
+    /// Stores the value of a cell in the row; problems are collected.
     fn cell(&mut self, cell: &Place<'_>, column: Option<&Column>, row: &mut Row) {
         let Some(column) = column else { return };
         let text = &cell.cell.text;
@@ -262,8 +262,8 @@ impl Reader<'_> {
                 row.joint = self.robot.joints().iter().position(named);
                 if row.joint.is_none() && !text.is_empty() {
                     let names: Vec<&str> = self.robot.joints().iter().map(|j| j.name.as_str()).collect();
-                    let hint = format!("one of {}", names.join(", "));
-                    self.tell(cell, format!("`{text}` is no joint of this robot"), &hint);
+                    let hint = format!("use one of {}", names.join(", "));
+                    self.report(cell, format!("`{text}` is not a joint of this robot"), &hint);
                 }
             }
             _ => {
@@ -292,14 +292,14 @@ impl Reader<'_> {
         }
     }
 
-    /// The number in a cell, in the unit of its column; `None` where it is empty or none.
+    /// The number in a cell, in the unit of its column; `None` if the cell is empty or not a number.
     fn number(&mut self, cell: &Place<'_>, column: &Column) -> Option<f64> {
         let text = &cell.cell.text;
         if text.is_empty() {
             if let Column::Joint(joint, _) = column {
                 let name = &self.robot.joints()[*joint].name;
                 let message = format!("no position of joint {name}");
-                self.tell(cell, message, "every test needs the whole posture");
+                self.report(cell, message, "every test needs the positions of all joints");
             }
             return None;
         }
@@ -307,19 +307,19 @@ impl Reader<'_> {
             Some(value) if value.abs() <= LARGEST => Some(value),
             Some(_) => {
                 let message = format!("`{text}` is not a number from -1e9 to 1e9");
-                self.tell(cell, message, "leave the cell empty if it was not measured");
+                self.report(cell, message, "leave the cell empty if it was not measured");
                 None
             }
             None => {
                 let message = format!("`{text}` is not a number");
-                let hint = "units stand in the column's name; leave the cell empty if it was not measured";
-                self.tell(cell, message, hint);
+                let hint = "give the unit in the column name; leave the cell empty if it was not measured";
+                self.report(cell, message, hint);
                 None
             }
         }
     }
 
-    /// A value in SI, if it is within these limits; else that is told.
+    /// A value in SI units if it is within this range; otherwise a problem is reported.
     fn within(&mut self, cell: &Place<'_>, value: f64, limits: RangeInclusive<f64>) -> Option<f64> {
         if limits.contains(&value) {
             return Some(value);
@@ -333,20 +333,20 @@ impl Reader<'_> {
             true => {
                 let (least, most) = limits.into_inner();
                 let message = format!("`{text}` is {value:e} in SI units, not from {least:e} to {most:e}");
-                (message, "is the unit in the column's name the right one?")
+                (message, "check the unit in the column name")
             }
         };
-        self.tell(cell, message, hint);
+        self.report(cell, message, hint);
         None
     }
 
-    /// Keeps a problem if a joint position lies outside the limits of its joint by more than [`OUTSIDE`]: about 1 deg,
-    /// or 17.5 mm. `value` is as the file has it, `scale` its factor to SI.
+    /// Reports a joint position that is outside the limits of its joint by more than [`OUTSIDE`]: about 1 deg,
+    /// or 17.5 mm. `value` is the value in the file, `scale` its factor to SI.
     fn within_limits(&mut self, cell: &Place<'_>, joint: usize, [value, scale]: [f64; 2]) {
         let position = value * scale;
         let described = &self.robot.joints()[joint];
         let Some(limits) = described.limits else { return };
-        // An angle of many turns is told once a column, as degrees read as radians.
+        // An angle of many turns is reported once per column, as degrees read as radians.
         if limits.margin(position) >= -OUTSIDE
             || (!self.robot.slides(joint) && scale == 1.0 && value.abs() > TURNS)
         {
@@ -364,18 +364,18 @@ impl Reader<'_> {
             limits.lower * scale,
             limits.upper * scale
         );
-        self.tell(
+        self.report(
             cell,
             message,
-            "the robot file may count this joint from another zero or the other way round; `armill pose ROBOT \
+            "the robot file may use another zero or sign for this joint; `armill pose ROBOT \
              --joints-deg ...` shows where it puts the tool",
         );
     }
 
-    /// Degrees under a name in radians, and the other way round.
+    /// Detects degrees in a column of radians, and the reverse.
     ///
-    /// More than two turns in a column of radians are degrees; if no column of degrees goes beyond 6.28 in any row,
-    /// they are radians. Columns of zeros alone are neither.
+    /// More than two turns in a column of radians are degrees. If no column of degrees exceeds 6.28 in any row,
+    /// the values are radians. Columns with only zeros are neither.
     fn angles(&mut self, columns: &Columns) {
         let sheet = self.sheet;
         let heads = sheet.heads();
@@ -395,8 +395,8 @@ impl Reader<'_> {
             let head = &heads[index];
             if *scale == 1.0 && largest > TURNS {
                 let name = head.text.trim_end_matches("_rad");
-                let message = format!("`{}` holds {largest} rad, more than two turns", head.text);
-                let hint = format!("these are degrees? call the column `{name}_deg`");
+                let message = format!("`{}` contains {largest} rad, more than two turns", head.text);
+                let hint = format!("if the values are degrees, name the column `{name}_deg`");
                 self.problems
                     .push(sheet.problem(&sheet.header, head, message, &hint));
             }
@@ -405,18 +405,18 @@ impl Reader<'_> {
             }
         }
         if let Some(largest) = largest_deg.filter(|largest| *largest < RADIANS && *largest > 0.0) {
-            let message = format!("no joint is further than {largest} deg from its zero in any test");
-            let hint = "these are radians? name the columns `..._rad`";
+            let message = format!("no joint exceeds {largest} deg in any test");
+            let hint = "if the values are radians, name the columns `..._rad`";
             self.problems
                 .push(sheet.problem_of_line(&sheet.header, message, hint));
         }
     }
 }
 
-/// The readings of a row, and whether each states its uncertainty.
+/// The readings of a row, and whether each has an uncertainty.
 ///
-/// Displacements first, x, y, z, then the turn, which is counted with the chain: the sign of its joint is taken off. A
-/// test of weight w has standard uncertainties smaller by the root of w.
+/// Displacements come first (x, y, z), then the rotation. It has the sign of the kinematic chain: the sign of its joint
+/// is removed. For a test of weight w the standard uncertainties are divided by the square root of w.
 fn readings(row: &Row, robot: &Robot) -> (Vec<Reading>, bool) {
     let mut readings = Vec::new();
     let mut stated = true;

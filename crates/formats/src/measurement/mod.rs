@@ -1,18 +1,18 @@
-//! What was measured? Records of force over time in, tables of load tests, points of round profiles, circular tests.
+//! Measurements: records of force over time, load tests, measured poses, round profiles, circular tests, tip traces.
 //!
-//! - [`format`](mod@format): a force record in either format, whichever the file is.
+//! - [`format`](mod@format): a force record in either format.
 //! - [`dynoware`]: text exports of Kistler's DynoWare.
 //! - [`csv`]: any other table with a column for each channel.
-//! - [`load_tests`]: loads on a standing robot, and how far it gave way.
-//! - [`profile`]: points of a profile that was to be round.
-//! - [`ballbar`]: radii along a circle, and what a ball-bar's own program made of them.
-//! - [`poses`]: joint positions and where a laser tracker saw the arm.
-//! - [`trace`]: where the tip went along a path, run after run.
+//! - [`load_tests`]: loads on a robot at rest, and its displacements.
+//! - [`profile`]: points of a nominally round profile.
+//! - [`ballbar`]: radii along a circle, and results of a ball-bar's own software.
+//! - [`poses`]: joint positions, and the poses that a laser tracker measured.
+//! - [`trace`]: points of the tip along a path, for one or several runs.
 //!
 //! Force records are [`Record`](armill_core::load::Record)s in the axes of the sensor. Whether the force acts on the
-//! tool or on the part, and how the sensor stands, no file tells: the caller says it.
+//! tool or on the part, and how the sensor is oriented, is not in any file: the caller gives it.
 //!
-//! `columns`: what a column holds, in which unit; samples as they come.
+//! `columns`: quantity and unit of each column; samples.
 
 pub mod ballbar;
 mod columns;

@@ -1,13 +1,13 @@
-//! Where did the tip go? Measured points of one or several runs along a path, and the points that were commanded.
+//! Tip traces: measured points of one or several runs along a path, and the commanded points.
 //!
 //! | column | meaning | units |
 //! |---|---|---|
-//! | `x_mm`, `y_mm`, `z_mm` | a point, any axes | `_mm`, `_um`, `_m`, `_in` |
+//! | `x_mm`, `y_mm`, `z_mm` | a point, in any axes | `_mm`, `_um`, `_m`, `_in` |
 //! | `run` | name of the run, any text; without it the file is one run | |
 //!
-//! One row a point, in the order of time. Names and units in any case; other columns are passed over and listed. Cells are
-//! separated by `;`, tab or `,`; with the first two a decimal comma is read too. Lines that begin with `#` and empty ones are
-//! passed over. All lengths come out in m.
+//! One row per point, in order of time. Names and units are not case-sensitive. Other columns are ignored and listed.
+//! Cells are separated by `;`, tab or `,`. With `;` or tab, decimal commas are read too. Lines that begin with `#` and
+//! empty lines are ignored. All lengths are returned in m.
 //!
 //! ```text
 //! run,x_mm,y_mm,z_mm              x_mm;y_mm;z_mm
@@ -23,49 +23,49 @@ use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
 use crate::table::sheet::{cells, is_blank_row, is_remark, number, separator_of};
 
-/// No tracker measures farther, m.
+/// Maximum length that a tracker measures, m.
 const FARTHEST: f64 = 1e4;
-/// No file has more points.
+/// Maximum number of points.
 const MOST_POINTS: usize = 5_000_000;
-const HINT: &str = "one row a point, `x_mm,y_mm,z_mm`, and `run` where a file holds several";
+const HINT: &str = "use one row per point, `x_mm,y_mm,z_mm`, and `run` if the file has several runs";
 
-/// Points of one run, in their order.
+/// Points of one run, in order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Trace {
-    /// Its name; empty where the file names none.
+    /// Its name; empty if the file has no names.
     pub run: String,
     /// m
     pub points: Vec<Vector3<f64>>,
-    /// Line of each, from 1.
+    /// Line of each point, from 1.
     pub lines: Vec<usize>,
 }
 
-/// What a file held.
+/// Content of a file of traces.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Traces {
-    /// In the order in which the file begins them; each has a point at least.
+    /// In the order in which they begin in the file; each has at least one point.
     pub runs: Vec<Trace>,
-    /// Columns that were passed over.
+    /// Ignored columns.
     pub unused: Vec<String>,
 }
 
-/// What a column holds.
+/// Meaning of a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Column {
-    /// Along x, y, z: 0, 1, 2; and the factor of its unit to m.
+    /// Coordinate x, y, z: 0, 1, 2; and the factor of its unit to m.
     Along(usize, f64),
     Run,
 }
 
-/// Reads the points in `reader`; `path` is what problems show.
+/// Reads the points in `reader`. `path` is the file name shown in problems.
 ///
 /// # Errors
-/// Every problem of the file, at most 200: columns that are missing or double, units that are missing or unknown, cells
-/// that are no numbers, rows of another length, places that no tracker measures.
+/// All problems of the file, at most 200: missing or duplicate columns, units that are missing or unknown, cells
+/// that are not numbers, rows of another length, positions out of range.
 pub fn read(path: &str, reader: impl BufRead) -> Result<Traces, Problems> {
     let mut lines = Lines::new(path, reader);
     let Some(first) = next(&mut lines)? else {
-        return Err(Problem::of_file(path, "no points in this file", HINT).into());
+        return Err(Problem::of_file(path, "the file has no points", HINT).into());
     };
     let mut found = Traces::default();
     let table = Table::of(path, &first, &mut found.unused)?;
@@ -80,7 +80,12 @@ pub fn read(path: &str, reader: impl BufRead) -> Result<Traces, Problems> {
             Ok(Some(line)) if is_blank_row(&line.text, table.separator) => {}
             Ok(Some(line)) if count == MOST_POINTS => {
                 let message = format!("more than {MOST_POINTS} points");
-                problems.push(line.problem(path, 0..line.text.len(), message, "every tenth or so will do"));
+                problems.push(line.problem(
+                    path,
+                    0..line.text.len(),
+                    message,
+                    "keep every tenth point, for example",
+                ));
                 break;
             }
             Ok(Some(line)) => match table.row(&line) {
@@ -94,14 +99,14 @@ pub fn read(path: &str, reader: impl BufRead) -> Result<Traces, Problems> {
     }
     Problems::from(problems).into_result()?;
     match found.runs.is_empty() {
-        true => Err(Problem::of_file(path, "no points in this file", HINT).into()),
+        true => Err(Problem::of_file(path, "the file has no points", HINT).into()),
         false => Ok(found),
     }
 }
 
 impl Traces {
     fn take(&mut self, run: String, point: Vector3<f64>, line: usize) {
-        // Runs mostly follow each other.
+        // Points of one run usually follow each other.
         let place = self.runs.iter().rposition(|trace| trace.run == run);
         let place = place.unwrap_or_else(|| {
             self.runs.push(Trace {
@@ -115,7 +120,7 @@ impl Traces {
     }
 }
 
-/// The next line that is neither empty nor a remark.
+/// The next line that is neither empty nor a comment.
 fn next(lines: &mut Lines<impl BufRead>) -> Result<Option<Line>, Problems> {
     loop {
         match lines.next()? {
@@ -125,17 +130,17 @@ fn next(lines: &mut Lines<impl BufRead>) -> Result<Option<Line>, Problems> {
     }
 }
 
-/// The column of a name; `None` for one that means nothing here.
+/// The column of a name; `None` for an unknown name.
 fn named(name: &str) -> Result<Option<Column>, (String, String)> {
     let lower = name.trim().to_lowercase();
     let axis = |letter: &str| ["x", "y", "z"].iter().position(|own| *own == letter);
     if lower == "run" {
         return Ok(Some(Column::Run));
     }
-    let units = "understood are mm, um, m or in";
+    let units = "known units are mm, um, m or in";
     if axis(&lower).is_some() {
         return Err((
-            format!("nothing tells the unit of `{name}`"),
+            format!("no unit is given for `{name}`"),
             format!("end the name with its unit: {units}"),
         ));
     }
@@ -147,20 +152,20 @@ fn named(name: &str) -> Result<Option<Column>, (String, String)> {
     };
     match unit.parse::<LengthUnit>() {
         Ok(unit) => Ok(Some(Column::Along(axis, unit.factor()))),
-        Err(_) => Err((format!("`{unit}` is no unit of `{plain}`"), units.to_owned())),
+        Err(_) => Err((format!("`{unit}` is not a unit of `{plain}`"), units.to_owned())),
     }
 }
 
-/// What the columns of a file are.
+/// Meaning of the columns of a file.
 struct Table<'a> {
     path: &'a str,
     separator: char,
-    /// `None` is passed over.
+    /// `None` is ignored.
     columns: Vec<Option<Column>>,
 }
 
 impl<'a> Table<'a> {
-    /// From the line of names; those that mean nothing go to `unused`.
+    /// From the header line; unknown names are added to `unused`.
     fn of(path: &'a str, line: &Line, unused: &mut Vec<String>) -> Result<Table<'a>, Problems> {
         let separator = separator_of(&line.text);
         let (mut columns, mut problems) = (Vec::new(), Vec::new());
@@ -175,15 +180,20 @@ impl<'a> Table<'a> {
                 _ => false,
             };
             if columns.iter().any(same) {
-                let message = format!("`{}` tells what a column before it tells", cell.text);
-                problems.push(line.problem(path, cell.span.clone(), message, "keep one of the two"));
+                let message = format!("`{}` repeats an earlier column", cell.text);
+                problems.push(line.problem(
+                    path,
+                    cell.span.clone(),
+                    message,
+                    "remove one of the two columns",
+                ));
             }
             if column.is_none() {
                 unused.push(cell.text.to_string());
             }
             columns.push(column);
         }
-        // What is wrong with a name is missing, too.
+        // A name with a problem is also missing.
         Problems::from(problems).into_result()?;
         let has = |axis: usize| {
             let mut known = columns.iter().flatten();
@@ -209,13 +219,13 @@ impl<'a> Table<'a> {
         let found = cells(&line.text, self.separator);
         if found.len() != self.columns.len() {
             let message = format!(
-                "{} cells in a table of {} columns",
+                "{} cells, but the table has {} columns",
                 found.len(),
                 self.columns.len()
             );
             let hint = match self.separator {
-                ',' => "decimal commas need `;` or a tab between cells",
-                _ => "every row has a cell for each column",
+                ',' => "separate cells with `;` or a tab to use decimal commas",
+                _ => "every row needs one cell per column",
             };
             return Err(line.problem(self.path, 0..line.text.len(), message, hint).into());
         }
@@ -233,11 +243,11 @@ impl<'a> Table<'a> {
             match number(&cell.text, self.separator).filter(|number| number.is_finite()) {
                 None => problems.push(problem(
                     format!("`{}` is not a number", cell.text),
-                    "units stand in the column's name; leave out rows that were not measured",
+                    "give the unit in the column name; remove rows that were not measured",
                 )),
                 Some(number) if (number * factor).abs() > FARTHEST => problems.push(problem(
-                    format!("a length of {} m is beyond {FARTHEST} m", number * factor),
-                    "is the unit in the column's name the one meant?",
+                    format!("a length of {} m exceeds {FARTHEST} m", number * factor),
+                    "check the unit in the column name",
                 )),
                 Some(number) => point[axis] = number * factor,
             }
@@ -256,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn runs_come_apart_in_the_order_of_the_file_whatever_their_units() {
+    fn runs_are_separated_in_the_order_of_the_file_with_any_units() {
         let text = "# tracker\nRun;X_um;y_m;z_in;time\n1;1000;0,5;1;7\n2;2000;0;0;7\n\n1;3000;0;0;8\n";
         let found = read("trace.csv", text.as_bytes()).unwrap();
         assert_eq!(found.unused, ["time"]);
@@ -272,25 +282,25 @@ mod tests {
     }
 
     #[test]
-    fn all_problems_are_told_at_their_places() {
+    fn all_problems_are_reported_with_their_positions() {
         let text = "x_mm,y_mm,z_mm\n1,a,3\n1,2\n1e9,2,inf\n";
         let problems = refused(text);
         for said in [
             "trace.csv:2:3",
             "`a` is not a number",
             "trace.csv:3:1",
-            "2 cells in a table of 3",
+            "2 cells, but the table has 3 columns",
             "trace.csv:4:1",
-            "beyond 10000 m",
+            "exceeds 10000 m",
             "trace.csv:4:7",
         ] {
             assert!(problems.contains(said), "{said}: {problems}");
         }
         assert!(refused("x_mm,y_mm\n1,2\n").contains("columns are missing: `z_mm`"));
-        assert!(refused("x,y_mm,z_mm\n1,2,3\n").contains("nothing tells the unit of `x`"));
-        assert!(refused("x_mm,y_ft,z_mm\n1,2,3\n").contains("`ft` is no unit of `y`"));
-        assert!(refused("x_mm,x_um,y_mm,z_mm\n1,2,3,4\n").contains("tells what a column before it tells"));
-        assert!(refused("").contains("no points in this file"));
-        assert!(refused("x_mm,y_mm,z_mm\n").contains("no points in this file"));
+        assert!(refused("x,y_mm,z_mm\n1,2,3\n").contains("no unit is given for `x`"));
+        assert!(refused("x_mm,y_ft,z_mm\n1,2,3\n").contains("`ft` is not a unit of `y`"));
+        assert!(refused("x_mm,x_um,y_mm,z_mm\n1,2,3,4\n").contains("repeats an earlier column"));
+        assert!(refused("").contains("the file has no points"));
+        assert!(refused("x_mm,y_mm,z_mm\n").contains("the file has no points"));
     }
 }

@@ -1,6 +1,6 @@
 //! A robot with what the core does not need to know: where its numbers come from.
 //!
-//! Each format gives one: our own robot file fills all of it, a foreign one has one source for everything and tells in
+//! Each format gives one: our own robot file fills all of it, a foreign one has one source for everything and states in
 //! `remarks` what it assumed.
 
 use armill_core::robot::Robot;
@@ -31,7 +31,7 @@ pub struct RobotDescription {
 /// Name of an elementary motion in its source, such as `lz`.
 pub type Symbol = Option<String>;
 
-/// What a robot file says of a joint beside its numbers.
+/// What a robot file says of a joint apart from its numbers.
 #[derive(Clone, Debug, Default)]
 pub struct JointNote {
     /// Key of the source of sign, limits and speed.
@@ -44,7 +44,7 @@ pub struct JointNote {
     pub other_limits: Vec<OtherLimits>,
 }
 
-/// Limits that another source gives for a joint; told to the user, never enforced.
+/// Limits that another source gives for a joint; reported, never enforced.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OtherLimits {
     /// Lower and upper limit, deg.

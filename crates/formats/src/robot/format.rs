@@ -1,9 +1,9 @@
-//! Which format is a robot file in, and what does it say?
+//! Detects the format of a robot file and reads it.
 //!
 //! | ending | format |
 //! |---|---|
 //! | `.toml` | our own robot file |
-//! | `.urdf` | URDF, or xacro if it holds xacro elements |
+//! | `.urdf` | URDF, or xacro if it contains xacro elements |
 //! | `.xacro` | xacro |
 //! | `.xml` | URDF or xacro, by its content |
 //! | `.yaml`, `.yml` | OPW parameters |
@@ -38,12 +38,12 @@ pub enum Format {
     Chain,
 }
 
-/// Endings, what their files hold (for people, where the ending does not say it), and the format of a text that ends
-/// so.
-type Known = (&'static [&'static str], &'static str, fn(&str) -> Option<Format>);
+/// Endings, what their files contain (for people, where the ending does not say it), and the format of a text with
+/// such an ending.
+type FormatRow = (&'static [&'static str], &'static str, fn(&str) -> Option<Format>);
 
-/// Every ending, in the order people are reported them; the header explains those that several formats share.
-const KNOWN: [Known; 8] = [
+/// Every ending, in the order of messages; the header explains those that several formats share.
+const KNOWN: [FormatRow; 8] = [
     (&["toml"], "", |_| Some(Format::Armill)),
     (&["urdf"], "", |text| {
         Some(if text.contains("<xacro:") {
@@ -70,7 +70,7 @@ const KNOWN: [Known; 8] = [
     }),
 ];
 
-/// The endings that are understood, for people: `.toml, .urdf, ..., .dh or .csv (Denavit-Hartenberg), ...`.
+/// The supported endings, for people: `.toml, .urdf, ..., .dh or .csv (Denavit-Hartenberg), ...`.
 pub fn endings() -> String {
     let known = KNOWN.map(|(endings, what, _)| format!(".{}{what}", endings.join(" or .")));
     known.join(", ")
@@ -99,7 +99,7 @@ impl Format {
         }
     }
 
-    /// Whether a path ends like a robot file, whatever it holds.
+    /// Whether a path ends like a robot file, regardless of its content.
     pub fn has_ending(path: &Path) -> bool {
         known(path).is_some()
     }
@@ -128,7 +128,7 @@ impl FromStr for Format {
 }
 
 /// The row of [`KNOWN`] for a path; capitals in its ending do not count.
-fn known(path: &Path) -> Option<&'static Known> {
+fn known(path: &Path) -> Option<&'static FormatRow> {
     let ending = ending(path)?;
     KNOWN
         .iter()
@@ -140,10 +140,10 @@ fn ending(path: &Path) -> Option<String> {
     Some(path.extension()?.to_str()?.to_lowercase())
 }
 
-/// What a user may say of a robot file beside its path.
+/// What a user may specify of a robot file in addition to its path.
 #[derive(Clone, Debug, Default)]
-pub struct Wanted {
-    /// Its format; by ending and content if not said.
+pub struct RobotReadOptions {
+    /// Its format; by ending and content if not given.
     pub format: Option<Format>,
     /// The link of a URDF or xacro that is the flange.
     pub tip: Option<String>,
@@ -151,11 +151,16 @@ pub struct Wanted {
 
 /// The robot of a file that was read from `path`; `id` is the robot's name in results.
 ///
-/// A format that is said goes before ending and content. Only xacro reads other files: those that it includes.
+/// A given format takes precedence over ending and content. Only xacro reads other files: those that it includes.
 ///
 /// # Errors
 /// Bytes that are no text, an empty file, an unknown format, and the problems of the format.
-pub fn read(path: &Path, id: &str, bytes: &[u8], requested: &Wanted) -> Result<RobotDescription, Problems> {
+pub fn read(
+    path: &Path,
+    id: &str,
+    bytes: &[u8],
+    requested: &RobotReadOptions,
+) -> Result<RobotDescription, Problems> {
     let shown = path.display().to_string();
     let text = text_of(&shown, bytes)?;
     let whole = |message: String, hint: &str| {
@@ -163,13 +168,13 @@ pub fn read(path: &Path, id: &str, bytes: &[u8], requested: &Wanted) -> Result<R
     };
     let Some(format) = requested.format.or_else(|| Format::of(path, &text)) else {
         let message = match ending(path).as_deref() {
-            Some("xml") => "this XML is no robot: it has no <robot> element".to_owned(),
-            Some(ending) => format!("`.{ending}` is the ending of no robot file"),
+            Some("xml") => "this XML is not a robot: it has no <robot> element".to_owned(),
+            Some(ending) => format!("`.{ending}` is not an ending of robot files"),
             None => "a robot file without ending".to_owned(),
         };
         return Err(whole(
             message,
-            &format!("understood are {}; or say which with --format", endings()),
+            &format!("supported are {}; or give the format with --format", endings()),
         ));
     };
     if requested.tip.is_some() && !matches!(format, Format::Urdf | Format::Xacro) {
@@ -215,7 +220,7 @@ fn text_of(shown: &str, bytes: &[u8]) -> Result<String, Problems> {
         )))
     };
     if source.text().trim().is_empty() {
-        return refused(0, "the file is empty".to_owned(), "a robot file is wanted here");
+        return refused(0, "the file is empty".to_owned(), "a robot file is required");
     }
     let strange = |c: char| c.is_ascii_control() && !matches!(c, '\t' | '\n' | '\r' | '\x0c');
     if let Some((at, c)) = source.text().char_indices().find(|(_, c)| strange(*c)) {
@@ -225,7 +230,7 @@ fn text_of(shown: &str, bytes: &[u8]) -> Result<String, Problems> {
         };
         return refused(
             at,
-            format!("not a text: it holds the byte 0x{:02x}", u32::from(c)),
+            format!("not a text: it contains the byte 0x{:02x}", u32::from(c)),
             hint,
         );
     }

@@ -2,7 +2,7 @@
 //!
 //! | format | module |
 //! |---|---|
-//! | our own robot file, which alone knows compliances; written as well | [`armill`] |
+//! | our own robot file, the only one with compliances; written as well | [`armill`] |
 //! | URDF, and xacro, which becomes URDF | [`urdf`], `xacro` |
 //! | OPW parameters | [`opw`] |
 //! | Denavit-Hartenberg table | [`dh`] |
@@ -10,7 +10,7 @@
 //!
 //! Each gives a [`RobotDescription`]: the robot of the core, with the source of its numbers and what was assumed. Each
 //! has a `read`, or a `read_to_tip` where there are links to choose from, and tests with broken input.
-//! [`format`](mod@format) tells which of them a file is, and reads it.
+//! [`format`](mod@format) detects which of them a file is, and reads it.
 //!
 //! [`spring_tables`]: tables of springs and masses, which studies have as well. [`pendant`]: what a pendant
 //! shows.

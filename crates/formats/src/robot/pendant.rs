@@ -43,7 +43,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_reading_that_is_none_is_reported_with_its_words() {
+    fn an_invalid_reading_is_reported_with_its_words() {
         let given = |text: &str| reading(text, Convention::Kuka).unwrap_err().to_string();
         assert!(given("0,0,0").contains("no `=`"));
         assert!(given("0,zero=1,2,3,4,5,6").contains("`zero`"));

@@ -1,21 +1,22 @@
-//! Tables that robot files and studies share: springs and masses, told in their own units, checked, turned into SI.
+//! Tables that robot files and studies share: springs and masses, given in their own units, checked, converted to SI.
 //!
-//! | table | says | in the core |
+//! | table | content | in the core |
 //! |---|---|---|
-//! | `[[spring]]` with `about` | rad/(N m) about an axis of the seat | one spring |
-//! | `[[spring]]` with `along` | um/N along an axis of the seat | one spring, m/N |
-//! | `[[spring]]` with `compliance_matrix` | 6 x 6, SI, in the axes of the seat | up to six springs |
-//! | `[[mass]]` | kg, centre of mass in mm in the frame of the seat | one mass, m |
+//! | `[[spring]]` with `about` | rad/(N m) about an axis of the attachment | one spring |
+//! | `[[spring]]` with `along` | um/N along an axis of the attachment | one spring, m/N |
+//! | `[[spring]]` with `compliance_matrix` | 6 x 6, SI, in the axes of the attachment | up to six springs |
+//! | `[[mass]]` | kg, centre of mass in mm in the frame of the attachment | one mass, m |
 //!
-//! A seat is `base`, a joint's name, `flange` or `tool`. A joint of one of these names hides that part of the arm.
+//! An attachment is `base`, a joint's name, `flange` or `tool`. A joint of one of these names hides that part of the
+//! arm.
 
 use armill_core::nalgebra::{Matrix6, Point3, Vector3};
 use armill_core::robot::spring::springs_of;
-use armill_core::robot::{Axis, JointCompliance, Mass, Attachment, Spring};
+use armill_core::robot::{Attachment, Axis, JointCompliance, Mass, Spring};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// A coordinate axis of a seat.
+/// A coordinate axis of an attachment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum AxisName {
@@ -38,21 +39,21 @@ impl AxisName {
     }
 }
 
-/// How a spring kind.
+/// The direction of a spring.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SpringKind {
-    /// The drive of a turning joint.
+    /// The drive of a revolute joint.
     Drive,
-    /// The drive of a sliding joint.
+    /// The drive of a prismatic joint.
     PrismaticDrive,
-    /// About this axis of the seat.
+    /// About this axis of the attachment.
     About(Axis),
-    /// Along this axis of the seat.
+    /// Along this axis of the attachment.
     Along(Axis),
 }
 
 impl SpringKind {
-    /// What yields at the seat `at`, as covariances name it: `A2`, `A2 about x`.
+    /// The name in covariances of a spring at the attachment `at`: `A2`, `A2 about x`.
     pub fn name_at(self, at: &str) -> String {
         match self {
             SpringKind::Drive | SpringKind::PrismaticDrive => at.to_owned(),
@@ -62,15 +63,15 @@ impl SpringKind {
     }
 }
 
-/// One direction in which an arm yields beside its drives, or a whole 6 x 6 compliance at one place.
+/// One direction in which an arm deflects in addition to its drives, or a whole 6 x 6 compliance at one attachment.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpringTable {
-    /// Where it sits: `base`, a joint's name (frame right after its motion), `flange` or `tool`.
+    /// Attachment: `base`, a joint's name (frame right after its motion), `flange` or `tool`.
     pub at: String,
-    /// It turns about this axis of the seat.
+    /// It turns about this axis of the attachment.
     pub about: Option<AxisName>,
-    /// It slides along this axis of the seat.
+    /// It slides along this axis of the attachment.
     pub along: Option<AxisName>,
     /// Compliance about the axis.
     #[schemars(range(min = 0.0, max = 1.0))]
@@ -84,33 +85,33 @@ pub struct SpringTable {
     /// Standard uncertainty of the compliance along the axis.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub compliance_u_um_per_n: Option<f64>,
-    /// 6 x 6 in place of an axis: translation first, in the seat's axes, m/N, 1/N, rad/(N m).
+    /// 6 x 6 in place of an axis: translation first, in the axes of the attachment, m/N, 1/N, rad/(N m).
     // unit: SI matrix
     #[schemars(inner(inner(range(min = -1.0, max = 1.0))))]
     pub compliance_matrix: Option<[[f64; 6]; 6]>,
-    /// Where it comes from: the key of a source, in a study in words.
+    /// Source: the key of a source, in a study in words.
     pub source: String,
 }
 
-/// A body that gravity pulls on.
+/// A body with mass.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MassTable {
-    /// What it is fixed to: `base`, a joint's name (the link after it), `flange` or `tool`.
+    /// Attachment: `base`, a joint's name (the link after it), `flange` or `tool`.
     pub at: String,
     /// Mass.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub mass_kg: f64,
-    /// Centre of mass in the frame of the seat.
+    /// Centre of mass in the frame of the attachment.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub centre_mm: [f64; 3],
-    /// Where it comes from: the key of a source, in a study in words.
+    /// Source: the key of a source, in a study in words.
     pub source: String,
 }
 
 /// What is wrong with a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Fault {
+pub struct SpringTableError {
     /// Key inside the table; `None` for the table itself.
     pub key: Option<&'static str>,
     /// What is wrong.
@@ -119,14 +120,14 @@ pub struct Fault {
     pub hint: String,
 }
 
-impl Fault {
+impl SpringTableError {
     /// What is wrong at `key`, or with the table as a whole.
     fn new(
         key: impl Into<Option<&'static str>>,
         message: impl Into<String>,
         hint: impl Into<String>,
-    ) -> Fault {
-        Fault {
+    ) -> SpringTableError {
+        SpringTableError {
             key: key.into(),
             message: message.into(),
             hint: hint.into(),
@@ -142,13 +143,13 @@ impl Fault {
     }
 }
 
-/// The seat that `at` names on an arm with these joints.
+/// The attachment that `at` names on an arm with these joints.
 ///
 /// `joints` are the names of the arm's joints, base to flange; capitals count.
 ///
 /// # Errors
 /// A name that is none of them.
-pub fn attachment(at: &str, joints: &[&str]) -> Result<Attachment, Fault> {
+pub fn attachment(at: &str, joints: &[&str]) -> Result<Attachment, SpringTableError> {
     if let Some(joint) = joints.iter().position(|name| *name == at) {
         return Ok(Attachment::Joint(joint));
     }
@@ -158,7 +159,11 @@ pub fn attachment(at: &str, joints: &[&str]) -> Result<Attachment, Fault> {
         "tool" => Ok(Attachment::Tool),
         _ => {
             let hint = format!("`base`, `flange`, `tool`, or a joint: {}", joints.join(", "));
-            Err(Fault::new("at", format!("`{at}` is no part of the arm"), hint))
+            Err(SpringTableError::new(
+                "at",
+                format!("`{at}` is not a part of the arm"),
+                hint,
+            ))
         }
     }
 }
@@ -176,17 +181,17 @@ impl SpringTable {
 
     /// The springs of the core: one, or up to six for a matrix.
     ///
-    /// `joints` are the names of the arm's joints. A standard uncertainty that is not told is zero.
+    /// `joints` are the names of the arm's joints. A standard uncertainty that is not given is zero.
     ///
     /// # Errors
     /// The first thing that is wrong.
-    pub fn springs(&self, joints: &[&str]) -> Result<Vec<Spring>, Fault> {
+    pub fn springs(&self, joints: &[&str]) -> Result<Vec<Spring>, SpringTableError> {
         let attachment = attachment(&self.at, joints)?;
         let turning = self.compliance_rad_per_n_m.is_some() || self.compliance_u_rad_per_n_m.is_some();
         let sliding = self.compliance_um_per_n.is_some() || self.compliance_u_um_per_n.is_some();
         if let Some(matrix) = &self.compliance_matrix {
             if self.about.is_some() || self.along.is_some() || turning || sliding {
-                return Err(Fault::new(
+                return Err(SpringTableError::new(
                     "compliance_matrix",
                     "a spring has either an axis or a whole matrix",
                     "write two [[spring]] tables",
@@ -195,7 +200,7 @@ impl SpringTable {
             let matrix = Matrix6::from_fn(|i, j| matrix[i][j]);
             return springs_of(attachment, &matrix).map_err(|refused| {
                 let hint = "6 rows of 6 numbers, symmetric, such as diag(m/N, m/N, m/N, rad/(N m), ...)";
-                Fault::new("compliance_matrix", refused.to_string(), hint)
+                SpringTableError::new("compliance_matrix", refused.to_string(), hint)
             });
         }
         let (axis, value, u) = match (self.about, self.along) {
@@ -207,14 +212,14 @@ impl SpringTable {
                 (axis, si(self.compliance_um_per_n), si(self.compliance_u_um_per_n))
             }
             (Some(_), None) | (None, Some(_)) => {
-                return Err(Fault::new(
+                return Err(SpringTableError::new(
                     None,
                     "the unit of the compliance does not fit the axis",
                     "`about` takes `compliance_rad_per_n_m`, `along` takes `compliance_um_per_n`",
                 ));
             }
             _ => {
-                return Err(Fault::new(
+                return Err(SpringTableError::new(
                     None,
                     "a spring turns `about` an axis or slides `along` one",
                     "write about = \"x\", along = \"x\", or compliance_matrix = [...]",
@@ -222,7 +227,7 @@ impl SpringTable {
             }
         };
         let Some(value) = value else {
-            return Err(Fault::new(
+            return Err(SpringTableError::new(
                 None,
                 "the spring has no compliance",
                 "write compliance_rad_per_n_m or compliance_um_per_n",
@@ -247,8 +252,8 @@ impl MassTable {
     /// `joints` are the names of the arm's joints.
     ///
     /// # Errors
-    /// A seat that the arm does not have.
-    pub fn mass(&self, joints: &[&str]) -> Result<Mass, Fault> {
+    /// An attachment that the arm does not have.
+    pub fn mass(&self, joints: &[&str]) -> Result<Mass, SpringTableError> {
         Ok(Mass {
             attachment: attachment(&self.at, joints)?,
             mass: self.mass_kg,

@@ -1,13 +1,13 @@
-//! Arcs told as a row of moves, each to one point: straight to the first, then through the second to the third.
+//! Arcs given as a row of moves to one point each: straight to the first point, then through the second to the third.
 //!
-//! A fourth point in a row is not certain: controllers differ in which three make the next arc.
+//! A fourth point in a row is ambiguous: controllers differ in which three points form the next arc.
 
 use std::ops::Range;
 
-/// The points of a row as they come.
+/// The points of a row in order.
 #[derive(Debug)]
 pub(super) struct ArcRow<P> {
-    /// Where the row began; nothing outside of one.
+    /// First point of the row; `None` outside a row.
     begin: Option<Range<usize>>,
     via: Option<P>,
     state: State,
@@ -15,39 +15,39 @@ pub(super) struct ArcRow<P> {
 
 #[derive(Debug, PartialEq)]
 enum State {
-    /// Points are missing.
+    /// More points are needed.
     Open,
-    /// An arc is done, and another may begin at its end.
+    /// An arc is complete; another may begin at its end.
     Between,
-    /// An arc is done.
+    /// An arc is complete.
     Closed,
 }
 
-/// What one more point of a row means.
+/// Meaning of the next point of a row.
 #[derive(Debug, PartialEq)]
 pub(super) enum Next<P> {
-    /// The first: the tip goes straight there.
+    /// The first: the tip moves straight to it.
     Straight(P),
-    /// The second: nothing moves yet.
+    /// The second: no move yet.
     Waits,
     /// The third: an arc.
     Arc {
-        /// Through this.
+        /// Via point.
         via: P,
-        /// To this.
+        /// End point.
         end: P,
     },
     /// A fourth.
     Uncertain,
 }
 
-/// Whether the arc that ends at a point is told to end there, so that the next one begins.
+/// Whether the program marks the end of an arc, so that the next arc begins there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ArcEnd {
-    /// It is told.
-    Told,
-    /// It is not.
-    EvaluateError,
+    /// Marked.
+    Marked,
+    /// Not marked.
+    Unmarked,
 }
 
 impl<P> Default for ArcRow<P> {
@@ -61,7 +61,7 @@ impl<P> Default for ArcRow<P> {
 }
 
 impl<P> ArcRow<P> {
-    /// One more point, told at these bytes.
+    /// Adds a point, given at these bytes.
     pub fn next(&mut self, point: P, end: ArcEnd, span: Range<usize>) -> Next<P> {
         if self.begin.is_none() {
             self.begin = Some(span);
@@ -70,8 +70,8 @@ impl<P> ArcRow<P> {
         match (self.via.take(), &self.state) {
             (Some(via), _) => {
                 self.state = match end {
-                    ArcEnd::Told => State::Between,
-                    ArcEnd::EvaluateError => State::Closed,
+                    ArcEnd::Marked => State::Between,
+                    ArcEnd::Unmarked => State::Closed,
                 };
                 self.begin = Some(span);
                 Next::Arc { via, end: point }
@@ -84,7 +84,7 @@ impl<P> ArcRow<P> {
         }
     }
 
-    /// The row is over: where it stands, if points are missing.
+    /// Ends the row. Returns its position if points are missing.
     pub fn end(&mut self) -> Option<Range<usize>> {
         let row = std::mem::take(self);
         row.begin
@@ -97,25 +97,25 @@ mod tests {
     use super::*;
 
     #[test]
-    fn three_points_make_an_arc_and_two_more_another_where_the_first_is_told_to_end() {
+    fn three_points_make_an_arc_and_two_more_make_another_if_its_end_is_marked() {
         let mut row = ArcRow::default();
         let mut next = |point: u32, end| row.next(point, end, 0..1);
-        assert_eq!(next(1, ArcEnd::EvaluateError), Next::Straight(1));
-        assert_eq!(next(2, ArcEnd::EvaluateError), Next::Waits);
-        assert_eq!(next(3, ArcEnd::Told), Next::Arc { via: 2, end: 3 });
-        assert_eq!(next(4, ArcEnd::EvaluateError), Next::Waits);
-        assert_eq!(next(5, ArcEnd::EvaluateError), Next::Arc { via: 4, end: 5 });
-        assert_eq!(next(6, ArcEnd::EvaluateError), Next::Uncertain);
+        assert_eq!(next(1, ArcEnd::Unmarked), Next::Straight(1));
+        assert_eq!(next(2, ArcEnd::Unmarked), Next::Waits);
+        assert_eq!(next(3, ArcEnd::Marked), Next::Arc { via: 2, end: 3 });
+        assert_eq!(next(4, ArcEnd::Unmarked), Next::Waits);
+        assert_eq!(next(5, ArcEnd::Unmarked), Next::Arc { via: 4, end: 5 });
+        assert_eq!(next(6, ArcEnd::Unmarked), Next::Uncertain);
         assert_eq!(row.end(), None);
         assert_eq!(row.end(), None);
     }
 
     #[test]
-    fn a_row_without_three_points_is_told() {
+    fn reports_a_row_with_fewer_than_three_points() {
         for points in [1, 2] {
             let mut row = ArcRow::default();
             for point in 0..points {
-                row.next(point, ArcEnd::EvaluateError, 7..9);
+                row.next(point, ArcEnd::Unmarked, 7..9);
             }
             assert_eq!(row.end(), Some(7..9));
         }

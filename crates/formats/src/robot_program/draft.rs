@@ -1,18 +1,18 @@
-//! What is to be written: points with poses, postures and speeds, and what the controller is told of frame and tool.
+//! Programs to write: points with poses, postures and speeds, and the definitions of frame and tool.
 
 use std::ops::RangeInclusive;
 
 use armill_core::frame::Isometry;
 use armill_core::robot::Branch;
 
-/// A program to be written. Lengths m, angles rad, speeds m/s.
+/// A program to write. Lengths m, angles rad, speeds m/s.
 #[derive(Clone, Debug)]
 pub struct Draft {
-    /// What it is called: a letter, then letters, digits and underscores.
+    /// Program name: a letter, then letters, digits and underscores.
     pub name: String,
-    /// What its head tells a reader: who made it from what.
+    /// Remarks for its header: origin of the program.
     pub remarks: Vec<String>,
-    /// Where the controller counts from to the user frame that targets count in.
+    /// Controller's reference frame to the user frame of the targets.
     pub base_from_frame: Isometry,
     /// Number of that frame on the controller.
     pub frame_number: u32,
@@ -20,34 +20,34 @@ pub struct Draft {
     pub flange_from_tool: Isometry,
     /// Number of the tool on the controller.
     pub tool_number: u32,
-    /// Where it goes, in order: the first by joints.
+    /// Points in order; the move to the first is a joint move.
     pub points: Vec<DraftPoint>,
 }
 
-/// A target to be written.
+/// A target to write.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DraftPoint {
     /// Frame to tool.
     pub frame_from_tool: Isometry,
-    /// The joints there, rad (m of a sliding one), as the controller counts them.
+    /// Joint positions, rad (m for prismatic joints), as the controller reports them.
     pub joints: Vec<f64>,
-    /// The posture, of an arm whose postures have names.
+    /// Posture, for an arm with named postures.
     pub branch: Option<Branch>,
-    /// Speed of the tip along a straight line, m/s; `None` where the joints go as they like.
+    /// Tip speed along a straight line, m/s; `None` for a joint move.
     pub speed: Option<f64>,
-    /// How near the tip must come before it goes on, m; zero stops there.
+    /// Distance from the point at which the next move may begin, m; zero is an exact stop.
     pub blend: f64,
 }
 
-/// What a language holds.
+/// Ranges of a language.
 pub(super) struct Bounds {
-    /// Its name for people.
+    /// Name of the language, for messages.
     pub language: &'static str,
     /// Longest name of a program, characters.
     pub longest_name: usize,
-    /// What names are made of, for people.
+    /// Rule for names, for messages.
     pub names: &'static str,
-    /// Joints, those of rails and tables included.
+    /// Number of joints, external axes included.
     pub joints: RangeInclusive<usize>,
     /// Numbers of user frames.
     pub frames: RangeInclusive<u32>,
@@ -55,14 +55,14 @@ pub(super) struct Bounds {
     pub tools: RangeInclusive<u32>,
 }
 
-/// No controller writes a larger place, m, or joint position, rad.
+/// Largest position, m, or joint position, rad, in a program.
 const LARGEST: f64 = 1e4;
-/// A speed below this is none in the digits that controllers write, m/s.
+/// Minimum speed that can be written with the decimals of controllers, m/s.
 const SLOWEST: f64 = 1e-5;
 
 impl Draft {
-    /// Whether it can be written within these bounds: its name, its numbers, the counts of its joints, and that every
-    /// value is finite and none too large.
+    /// Checks that the program can be written within these ranges: its name, its numbers, the number of joints, and
+    /// that every value is finite and in range.
     pub(super) fn check(&self, bounds: &Bounds) -> Result<(), DraftError> {
         let letters = |c: char| c.is_ascii_alphanumeric() || c == '_';
         let begins = self.name.starts_with(|c: char| c.is_ascii_alphabetic());
@@ -103,7 +103,7 @@ impl Draft {
             let place = point.frame_from_tool.translation.vector;
             let values = place
                 .iter()
-                .map(|value| ("the place", *value))
+                .map(|value| ("the position", *value))
                 .chain(
                     point
                         .frame_from_tool
@@ -135,7 +135,7 @@ impl Draft {
 }
 
 impl Draft {
-    /// Whether its name is none of these words, which differ by more than capitals.
+    /// Refuses names that are reserved words; not case-sensitive.
     pub(super) fn avoid(&self, bounds: &Bounds, words: &[&str]) -> Result<(), DraftError> {
         let is_word = words.iter().any(|word| word.eq_ignore_ascii_case(&self.name));
         let refused = || DraftError::Name {
@@ -146,7 +146,7 @@ impl Draft {
         if is_word { Err(refused()) } else { Ok(()) }
     }
 
-    /// The remarks line by line: what ends a line in one of them must not begin a statement.
+    /// The remarks, line by line: a line break inside a remark must not begin a statement.
     pub(super) fn remark_lines(&self) -> impl Iterator<Item = &str> {
         self.remarks
             .iter()
@@ -154,7 +154,7 @@ impl Draft {
             .filter(|line| !line.is_empty())
     }
 
-    /// How near the tip must come to this point, m: at the last it stops.
+    /// Blend distance of this point, m; the last point is an exact stop.
     pub(super) fn blend(&self, point: &DraftPoint) -> f64 {
         match self.points.last().is_some_and(|last| std::ptr::eq(last, point)) {
             true => 0.0,
@@ -162,7 +162,7 @@ impl Draft {
         }
     }
 
-    /// The points in parts of so many; one part is the program itself.
+    /// The points in parts of at most this number; a single part is the program itself.
     pub(super) fn parts(&self, most: usize) -> impl Iterator<Item = (String, &[DraftPoint])> {
         let is_split = self.points.len() > most;
         self.points.chunks(most).enumerate().map(move |(index, points)| {
@@ -175,51 +175,51 @@ impl Draft {
     }
 }
 
-/// These characters as ISO-8859-1, with `?` for what it lacks.
+/// These characters as ISO-8859-1; `?` for other characters.
 pub(super) fn latin1(text: &str) -> Vec<u8> {
     text.chars()
         .map(|c| u8::try_from(u32::from(c)).unwrap_or(b'?'))
         .collect()
 }
 
-/// The files of a program as they are written.
+/// The written files of a program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Written {
-    /// Names, in the folder of the program, and bytes.
+    /// File names in the program's folder, and contents.
     pub files: Vec<(String, Vec<u8>)>,
-    /// What a user must know before running it, each a sentence.
+    /// Warnings to read before running it, one sentence each.
     pub notes: Vec<String>,
 }
 
-/// What a language cannot hold.
+/// Why a draft cannot be written in a language.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DraftError {
-    /// The name is none there.
-    #[error("`{name}` is no name in {language}: {rule}")]
+    /// The name is not valid in the language.
+    #[error("`{name}` is not a valid name in {language}: {rule}")]
     Name {
-        /// As it was given.
+        /// The given name.
         name: String,
         /// The language.
         language: &'static str,
-        /// What names are made of there.
+        /// Rule for names.
         rule: &'static str,
     },
-    /// Nothing to write.
-    #[error("a program without points is none")]
+    /// There are no points.
+    #[error("the program has no points")]
     Empty,
-    /// Another number of joints than the language writes.
-    #[error("{found} joints, where {language} is written for {least} to {most}")]
+    /// The number of joints is outside the range of the language.
+    #[error("{found} joints, but {language} programs can have {least} to {most}")]
     Joints {
-        /// How many there are.
+        /// Number of joints.
         found: usize,
         /// The language.
         language: &'static str,
-        /// How many at least.
+        /// Minimum number.
         least: usize,
-        /// How many at most.
+        /// Maximum number.
         most: usize,
     },
-    /// A number of frame or tool that controllers do not have.
+    /// The number of a frame or tool is outside the range of the controller.
     #[error("{what} {number} is outside {least} to {most} of {language}")]
     Number {
         /// Frame or tool.
@@ -228,17 +228,17 @@ pub enum DraftError {
         number: u32,
         /// The language.
         language: &'static str,
-        /// The least.
+        /// Minimum number.
         least: u32,
-        /// The greatest.
+        /// Maximum number.
         most: u32,
     },
-    /// A number that is not finite, or larger than controllers write.
+    /// A number that is not finite or exceeds the range of controllers.
     #[error("point {index}: {what} is {value}, which cannot be written")]
     NotWritable {
-        /// Which point, from 1.
+        /// Number of the point, from 1.
         index: usize,
-        /// Which number.
+        /// Quantity.
         what: &'static str,
         /// Its value.
         value: f64,

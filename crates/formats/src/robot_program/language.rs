@@ -1,9 +1,9 @@
-//! Which language a program is written in: known by what its lines begin with, by its name second.
+//! The language of a program: recognised from its lines, otherwise from its file name.
 
 use armill_core::frame::Isometry;
 
 use super::program::RobotProgram;
-use super::spelling::Anew;
+use super::spelling::Respelling;
 use super::text::ProgramText;
 use super::{inform, krl, rapid, tp, urscript, val3};
 use crate::document::{Problem, Problems};
@@ -25,7 +25,7 @@ pub enum Language {
     Val3,
 }
 
-/// So many lines of a file are looked at.
+/// Number of lines that are searched.
 const MOST_LINES: usize = 2000;
 
 impl Language {
@@ -51,7 +51,7 @@ impl Language {
         }
     }
 
-    /// Its name for people, with the maker.
+    /// Its name with the manufacturer, for messages.
     pub fn title(self) -> &'static str {
         match self {
             Language::Krl => "KUKA KRL",
@@ -63,7 +63,7 @@ impl Language {
         }
     }
 
-    /// What the names of its files end with, the main file's first; lower case.
+    /// Endings of its file names, the main file's first; lower case.
     pub fn endings(self) -> &'static [&'static str] {
         match self {
             Language::Krl => &["src", "dat"],
@@ -75,7 +75,7 @@ impl Language {
         }
     }
 
-    /// What only its lines begin with; upper case.
+    /// Line beginnings of this language only; upper case.
     fn beginnings(self) -> &'static [&'static str] {
         match self {
             Language::Krl => &[
@@ -103,7 +103,7 @@ impl Language {
         }
     }
 
-    /// The language that a line belongs to, if it belongs to one alone.
+    /// The language of a line, if it belongs to only one.
     pub fn of_line(line: &str) -> Option<Language> {
         let begin: String = line
             .trim_start()
@@ -116,17 +116,17 @@ impl Language {
             .find(|language| language.beginnings().iter().any(|known| begin.starts_with(known)))
     }
 
-    /// The language whose files end with this; lower case.
+    /// The language of this file ending; lower case.
     pub fn of_ending(ending: &str) -> Option<Language> {
         Language::ALL
             .into_iter()
             .find(|language| language.endings().contains(&ending))
     }
 
-    /// The language of these files, by their first's lines, or its ending.
+    /// The language of these files, from the lines of the first file or its ending.
     ///
     /// # Errors
-    /// Where neither tells.
+    /// Neither content nor name identifies the language.
     pub fn of(texts: &[ProgramText]) -> Result<Language, Problems> {
         let of_lines = texts
             .iter()
@@ -140,21 +140,22 @@ impl Language {
             let ending = texts.first().and_then(ending)?;
             Language::of_ending(&ending)
         };
-        // The moves of VAL3 are spelled as those of URScript; the endings of its files are its own.
+        // VAL3 and URScript have the same names of moves; the file endings of VAL3 are unique.
         let val3 = of_name().filter(|language| *language == Language::Val3);
         val3.or(of_lines).or_else(of_name).ok_or_else(|| {
             let name = texts.first().map_or("", ProgramText::name);
-            let message = "neither content nor name tells what robot program this is";
+            let message = "neither content nor file name identifies the language of this robot program";
             Problems::from(Problem::of_file(
                 name,
                 message,
-                "understood are KUKA KRL (.src, .dat), ABB RAPID (.mod), Yaskawa INFORM (.jbi), FANUC TP (.ls), URScript (.script) and \
+                "supported: KUKA KRL (.src, .dat), ABB RAPID (.mod), Yaskawa INFORM (.jbi), FANUC TP (.ls), URScript \
+                 (.script) and \
                  Staubli VAL3 (.pjx, .dtx, .pgx)",
             ))
         })
     }
 
-    /// Reads the program that these files make, which is of this language.
+    /// Reads the program in these files, which is in this language.
     ///
     /// # Errors
     /// Every problem of the files.
@@ -169,9 +170,9 @@ impl Language {
         }
     }
 
-    /// Spells a pose (frame to tool) in place of `before`, which spells another target of the same program: what is said
-    /// there beside stays, and its orientation where the place alone is new.
-    pub(super) fn spell(self, pose: (&Isometry, Anew), before: &str, out: &mut String) {
+    /// Writes a pose (frame to tool) in place of `before`, which is another target of the same program. Other parts of
+    /// the target are kept, and also its orientation if only the position is new.
+    pub(super) fn spell(self, pose: (&Isometry, Respelling), before: &str, out: &mut String) {
         match self {
             Language::Krl => krl::spell(pose, before, out),
             Language::Rapid => rapid::spell(pose, before, out),

@@ -1,6 +1,6 @@
-//! What does the robot's own controller say? Programs of robots, in and out.
+//! Robot programs: reading and writing.
 //!
-//! | module | language | in | out |
+//! | module | language | read | write |
 //! |---|---|---|---|
 //! | [`krl`] | KUKA KRL, `.src` with its `.dat` | yes | yes |
 //! | [`rapid`] | ABB RAPID, `.mod`, `.prg` | yes | yes |
@@ -9,14 +9,15 @@
 //! | [`urscript`] | URScript, `.script` | yes | yes |
 //! | [`val3`] | Staubli VAL3, a folder of `.pjx`, `.dtx`, `.pgx` | yes | yes |
 //!
-//! Each has the same shape: `read` gives a [`RobotProgram`], `write` takes a [`Draft`], `spell` writes a pose as the
-//! language writes a target. A program that was read can be written again with other poses: all else stays byte for byte
+//! All modules have the same structure: `read` returns a [`RobotProgram`], `write` writes a [`Draft`], `spell` writes a
+//! pose as a target of the language. A program can be rewritten with other poses; everything else is kept byte for byte
 //! ([`RobotProgram::with_poses`]).
 //!
-//! In reading order: [`Language`]; `program` what is read; `text` files as bytes and as characters; `rewrite` the same
-//! program with other poses; `followed` a program as the moves of a path; `draft` what is written; `posture`, `number` how controllers tell postures and numbers;
-//! `told` what is told beside moves; `tokens` what the texts of three languages are made of; `spelling` lines, numbers as
-//! they stand, and others in their places; `arc_row` arcs that are told point by point.
+//! In reading order: [`Language`]; `program` the data of a program; `text` files as bytes and as characters; `rewrite`
+//! the same program with other poses; `followed` a program as the moves of a path; `draft` programs to write;
+//! `posture`, `number` postures and numbers of controllers;
+//! `messages` problems and notes; `tokens` tokens of three languages; `spelling` lines, numbers
+//! and their replacement; `arc_row` arcs given point by point.
 
 pub mod inform;
 pub mod krl;
@@ -29,6 +30,7 @@ mod arc_row;
 mod draft;
 mod followed;
 mod language;
+mod messages;
 mod number;
 mod posture;
 mod program;
@@ -36,7 +38,6 @@ mod rewrite;
 mod spelling;
 mod text;
 mod tokens;
-mod given;
 #[cfg(test)]
 mod trials;
 
@@ -49,18 +50,18 @@ pub use text::ProgramText;
 
 use crate::document::Problems;
 
-/// Reads the program that these files make, its main file first.
+/// Reads the program in these files, the main file first.
 ///
 /// # Errors
-/// A language that nobody here reads; every problem of the files.
+/// An unsupported language; all problems of the files.
 pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
     Language::of(&texts)?.read(texts)
 }
 
-/// Writes `draft` as a program of this language.
+/// Writes `draft` as a program in this language.
 ///
 /// # Errors
-/// What the language or its controllers cannot hold.
+/// Values outside the ranges of the language or its controllers.
 pub fn write(language: Language, draft: &Draft) -> Result<Written, DraftError> {
     match language {
         Language::Krl => krl::write(draft),

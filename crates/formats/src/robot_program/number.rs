@@ -1,8 +1,8 @@
-//! Numbers as controllers read them: so many decimals, a point, and no minus before zero.
+//! Numbers in robot programs: a fixed number of decimals, a point, and no minus sign before zero.
 
 use std::fmt::Write;
 
-/// Writes `value` with so many decimals.
+/// Writes `value` with this number of decimals.
 pub(super) fn write_fixed(out: &mut String, value: f64, decimals: usize) {
     let start = out.len();
     // Writing to a string cannot fail.
@@ -13,7 +13,7 @@ pub(super) fn write_fixed(out: &mut String, value: f64, decimals: usize) {
     }
 }
 
-/// `value` with so many decimals.
+/// `value` with this number of decimals.
 pub(super) fn fixed(value: f64, decimals: usize) -> String {
     let mut out = String::new();
     write_fixed(&mut out, value, decimals);
@@ -25,7 +25,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn zero_has_no_minus_and_nothing_else_loses_its_own() {
+    fn zero_has_no_minus_sign_and_other_values_keep_theirs() {
         assert_eq!(fixed(-0.0, 3), "0.000");
         assert_eq!(fixed(-0.000_4, 3), "0.000");
         assert_eq!(fixed(-0.000_6, 3), "-0.001");

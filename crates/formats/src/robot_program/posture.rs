@@ -1,18 +1,18 @@
-//! How controllers tell one posture from another: rear, lower arm, flip.
+//! Postures in robot programs: rear, lower arm, flip.
 //!
-//! | word | of ours ([`Branch`]) |
+//! | word | [`Branch`] |
 //! |---|---|
 //! | rear | shoulder back |
 //! | lower | elbow bent the other way: down in front, up behind |
 //! | flip | wrist bend below zero |
 //!
-//! Controllers see the bending of the elbow from the side of the arm, so behind axis 1 it is upside down, where ours is up
-//! or down in base z. Source: the posts of the six samples, whose postures are all in front; behind, `[recalled]` from the
-//! makers' figures.
+//! Controllers define the elbow bend as seen from the side of the arm, so it is upside down behind axis 1. armill
+//! defines it as up or down in base z. Source: the posts of the six samples, whose postures are all in front; behind,
+//! `[recalled]` from the makers' figures.
 
 use armill_core::robot::{Branch, BranchPattern, Elbow, Shoulder, Wrist};
 
-/// A posture in the words of controllers; `None` where nothing is said.
+/// A posture in the terms of controllers; `None` if it is not given.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Configuration {
     /// The wrist centre is behind axis 1.
@@ -24,7 +24,7 @@ pub(super) struct Configuration {
 }
 
 impl Configuration {
-    /// Of one of our branches.
+    /// The configuration of a branch.
     pub fn of(branch: Branch) -> Configuration {
         let rear = branch.shoulder == Shoulder::Back;
         Configuration {
@@ -34,7 +34,7 @@ impl Configuration {
         }
     }
 
-    /// As our branches are told; of the elbow nothing where the shoulder is not known.
+    /// As a branch pattern; without the elbow if the shoulder is not known.
     pub fn pattern(self) -> BranchPattern {
         let elbow = self.rear.zip(self.lower);
         BranchPattern {
@@ -54,7 +54,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_branch_comes_back_from_the_words_of_controllers() {
+    fn every_branch_survives_conversion_to_a_configuration() {
         for branch in Branch::ALL {
             assert_eq!(Configuration::of(branch).pattern(), BranchPattern::from(branch));
         }

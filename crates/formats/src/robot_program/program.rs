@@ -1,4 +1,4 @@
-//! A program as it was read: its moves with their targets, and where each target is spelled in the text.
+//! A program after reading: its moves with their targets, and the position of each target in the text.
 
 use std::ops::Range;
 
@@ -11,13 +11,13 @@ use super::text::ProgramText;
 /// A program of a robot. Lengths m, angles rad, speeds m/s.
 #[derive(Clone, Debug)]
 pub struct RobotProgram {
-    /// Which language it is written in.
+    /// Language.
     pub language: Language,
-    /// What it calls itself.
+    /// Name in the program.
     pub name: String,
-    /// Its moves in the order in which they are run, branches and loops left aside: as they stand in the text.
+    /// Its moves in the order of the text; control flow is not evaluated.
     pub moves: Vec<RobotMove>,
-    /// What was passed over or taken for granted, each a sentence with its line.
+    /// Notes on ignored statements and assumptions, one sentence each, with line.
     pub notes: Vec<String>,
     /// The files, the main one first.
     pub texts: Vec<ProgramText>,
@@ -26,90 +26,90 @@ pub struct RobotProgram {
 /// A move to a target.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotMove {
-    /// How it goes there.
+    /// Kind of motion.
     pub motion: Motion,
-    /// Where to.
+    /// End of the move.
     pub target: Target,
-    /// What its poses count in.
+    /// Reference frame of its poses.
     pub frame: Frame,
     /// The tool at its flange: flange to TCP.
     pub tool: Frame,
-    /// How fast.
+    /// Speed.
     pub speed: Speed,
-    /// Line where it stands, from 1: of the main file, or of the called one that holds it.
+    /// Line number, from 1, in the main file or in the called file that contains it.
     pub line: u32,
 }
 
-/// How a move goes to its target.
+/// Kind of motion.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Motion {
-    /// Each joint on its own: where the tip goes on the way is not told.
+    /// Joint move: the path of the tip is not specified.
     Joint,
-    /// The tip goes straight.
+    /// The tip moves on a straight line.
     Linear,
-    /// The tip goes on a circle through this place.
+    /// The tip moves on an arc through a via point.
     Circular {
-        /// On the way.
+        /// Via point.
         via: Target,
     },
 }
 
-/// Where a move ends.
+/// End of a move.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Target {
-    /// The tool stands so.
+    /// Pose of the tool.
     Pose {
         /// Frame to tool.
         pose: Isometry,
-        /// What is said of the posture.
+        /// Posture, as far as it is given.
         branch: BranchPattern,
-        /// Which of the joints' turns, as the language numbers them; empty where it says nothing.
+        /// Turns of the joints as the language numbers them; empty if not given.
         turns: Vec<i32>,
-        /// Where it is spelled.
+        /// Its position in the text.
         spelled: Spelled,
     },
-    /// The joints stand so, rad (m of a sliding one), as the controller counts them.
+    /// Joint positions, rad (m for prismatic joints), as the controller reports them.
     Joints(Vec<f64>),
-    /// The program does not tell it: a register of the controller, or pulses of its motors.
+    /// Not in the program: a register of the controller, or pulses of its motors.
     Elsewhere {
-        /// What the program calls it.
+        /// Name in the program.
         name: String,
     },
 }
 
-/// The bytes of a text that spell a target, as its language's `spell` writes it.
+/// The bytes of a target in a text, as its language's `spell` writes it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Spelled {
-    /// Which of the program's texts.
+    /// Index of the text.
     pub text: usize,
-    /// Which of its bytes, as characters are held in [`ProgramText::text`].
+    /// Byte range in [`ProgramText::text`].
     pub bytes: Range<usize>,
 }
 
 /// A frame or a tool.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Frame {
-    /// The program tells it: robot base to frame, flange to TCP.
-    Told(Isometry),
-    /// It stands on the controller under this number.
+    /// Given by the program: robot base to frame, flange to TCP.
+    Given(Isometry),
+    /// Stored on the controller under this number.
     Numbered(u32),
-    /// Nothing is said of it.
-    EvaluateError,
+    /// Not known.
+    Unknown,
 }
 
-/// How fast a move is.
+/// Speed of a move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Speed {
     /// Of the tip, m/s.
     Tip(f64),
-    /// Of the joints, as a part of their greatest; or another that says nothing of the tip.
+    /// Given for the joints or otherwise, without the tip speed.
     Joints,
-    /// It is not told in the program.
-    EvaluateError,
+    /// Not given in the program.
+    Unknown,
 }
 
 impl Target {
-    /// Its pose, if it is told as one.
+    /// Its pose, if it is given as one.
     pub fn pose(&self) -> Option<&Isometry> {
         match self {
             Target::Pose { pose, .. } => Some(pose),

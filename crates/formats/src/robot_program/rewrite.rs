@@ -1,92 +1,92 @@
-//! The same program with other poses: what spells a target is spelled anew, all else stays byte for byte.
+//! The same program with other poses: targets are rewritten, everything else is kept byte for byte.
 //!
-//! A target that stands in the text once and is gone to by several moves can be moved to one place only: where they ask
-//! for different ones, that is an error, not a compromise. So is a target that counts from another one that moves, by a
-//! component left out, as a frame, or as a step from there: [`RobotProgram::check_rewritten`] reads the new files and
-//! compares every move.
+//! A target that occurs once in the text and is the end of several moves can only be moved to one position. Different
+//! positions for it are an error. The same applies to a target that depends on a moved one through a missing component,
+//! a frame or an offset: [`RobotProgram::check_rewritten`] reads the new files and compares every move.
 
 use armill_core::frame::Isometry;
 
 use super::program::{Frame, Motion, RobotProgram, Spelled, Target};
-use super::spelling::Anew;
+use super::spelling::Respelling;
 use super::text::ProgramText;
 
-/// Where a move shall go instead: frame to tool, in the frame that its targets count in.
+/// New end of a move: frame to tool, in the frame of its target.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moved {
-    /// Which move.
+    /// Index of the move.
     pub index: usize,
     /// Its target.
     pub target: Isometry,
-    /// On the way of a circular move.
+    /// Via point of a circular move.
     pub via: Option<Isometry>,
 }
 
-/// Why a program cannot be written with these poses.
+/// Why a program cannot be rewritten with these poses.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RewriteError {
-    /// The target of the move is told in joints.
-    #[error("line {line}: the target is told in joints, which is left as it is")]
+    /// The target of the move is given in joints.
+    #[error("line {line}: the target is given in joints and cannot be moved")]
     Joints {
         /// Line of the move.
         line: u32,
     },
-    /// The target of the move stands on the controller.
-    #[error("line {line}: the program does not tell where `{name}` is, so that it cannot be moved")]
+    /// The target of the move is stored on the controller.
+    #[error("line {line}: the program does not give the position of `{name}`, therefore it cannot be moved")]
     Elsewhere {
         /// Line of the move.
         line: u32,
-        /// What the program calls the target.
+        /// Name of the target in the program.
         name: String,
     },
-    /// Two moves go to one target and shall go to different places.
+    /// Two moves end at the same target, but with different new positions.
     #[error(
-        "the moves of lines {lines:?} go to one target, which would have to lie at places {apart_um:.1} um apart; give each \
-         move a target of its own"
+        "the moves of lines {lines:?} end at the same target, but need positions {apart_um:.1} um apart; give each \
+         move its own target"
     )]
     Shared {
         /// Lines of the two moves.
         lines: [u32; 2],
-        /// How far apart, um.
+        /// Distance, um.
         apart_um: f64,
     },
-    /// Read again, the move does not go where it should.
+    /// After rewriting, the move does not end at its new position.
     #[error(
-        "line {line}: the move would go {apart_um:.1} um beside its place, for its target counts from one that was moved; give it a \
-         target of its own"
+        "line {line}: the move would end {apart_um:.1} um from its position, because its target depends on one that \
+         was moved; give it \
+         its own target"
     )]
     Leans {
         /// Line of the move.
         line: u32,
-        /// How far, um.
+        /// Distance, um.
         apart_um: f64,
     },
-    /// The new files do not read as a program with the same moves.
-    #[error("the program that was written has other moves than the one that was read")]
+    /// The new files do not give a program with the same moves.
+    #[error("the rewritten program has other moves than the original one")]
     Unlike,
 }
 
-/// What was written lies so near to what was asked for, m: half the third decimal of mm in every direction; and, as the
-/// largest entry of a rotation matrix, half the third decimal of deg, of three angles.
+/// Tolerance of a rewritten position, m: half of the third decimal of mm in every direction; and, as the
+/// largest entry of a rotation matrix, half of the third decimal of deg in three angles.
 const WRITTEN: [f64; 2] = [1e-6, 3e-5];
 
-/// Two places nearer to each other than this are one: half the last digit that controllers keep, m.
+/// Positions closer than this are the same: half of the last digit of controllers, m.
 const SAME_PLACE: f64 = 0.5e-6;
 
 impl RobotProgram {
-    /// The files with the targets of these moves spelled anew; an orientation that stays is left as it is spelled.
+    /// The files with rewritten targets of these moves. An unchanged orientation is not rewritten.
     ///
     /// # Errors
     /// See [`RewriteError`].
     pub fn with_poses(&self, moved: &[Moved]) -> Result<Vec<(String, Vec<u8>)>, RewriteError> {
-        let mut edits: Vec<(&Spelled, (Isometry, Anew), u32)> = Vec::with_capacity(moved.len());
+        let mut edits: Vec<(&Spelled, (Isometry, Respelling), u32)> = Vec::with_capacity(moved.len());
         for one in moved {
             let of = &self.moves[one.index];
             if let (Motion::Circular { via }, Some(pose)) = (&of.motion, one.via) {
-                edits.push((spelled(via, of.line)?, (pose, anew(via, &pose)), of.line));
+                edits.push((spelled(via, of.line)?, (pose, respelling_of(via, &pose)), of.line));
             }
-            let anew = anew(&of.target, &one.target);
-            edits.push((spelled(&of.target, of.line)?, (one.target, anew), of.line));
+            let respelling = respelling_of(&of.target, &one.target);
+            edits.push((spelled(&of.target, of.line)?, (one.target, respelling), of.line));
         }
         edits.sort_by_key(|(spelled, _, _)| (spelled.text, spelled.bytes.start));
         for pair in edits.windows(2) {
@@ -105,10 +105,14 @@ impl RobotProgram {
         let files = self.texts.iter().enumerate().map(|(index, file)| {
             let mut text = String::with_capacity(file.text().len());
             let mut done = 0;
-            for (spelled, (pose, anew), _) in edits.iter().filter(|(spelled, ..)| spelled.text == index) {
+            for (spelled, (pose, respelling), _) in edits.iter().filter(|(spelled, ..)| spelled.text == index)
+            {
                 text.push_str(&file.text()[done..spelled.bytes.start]);
-                self.language
-                    .spell((pose, *anew), &file.text()[spelled.bytes.clone()], &mut text);
+                self.language.spell(
+                    (pose, *respelling),
+                    &file.text()[spelled.bytes.clone()],
+                    &mut text,
+                );
                 done = spelled.bytes.end;
             }
             text.push_str(&file.text()[done..]);
@@ -119,8 +123,8 @@ impl RobotProgram {
 }
 
 impl RobotProgram {
-    /// That the files of [`RobotProgram::with_poses`] go where they should: those moves to the new poses, all others to the
-    /// same as before, in the same frames, as far as the digits written tell.
+    /// Checks that the moves in the files of [`RobotProgram::with_poses`] end at the new poses, and all other moves at
+    /// the same poses as before, in the same frames, within the written decimals.
     ///
     /// # Errors
     /// [`RewriteError::Leans`] and [`RewriteError::Unlike`].
@@ -148,7 +152,11 @@ impl RobotProgram {
                     requested.map(|one| one.target),
                     of.target.pose().copied(),
                 ),
-                (via(&found.motion), requested.and_then(|one| one.via), via(&of.motion)),
+                (
+                    via(&found.motion),
+                    requested.and_then(|one| one.via),
+                    via(&of.motion),
+                ),
             ];
             for (found_end, requested, before) in ends {
                 let (Some(end), Some(expected)) = (found_end, requested.or(before)) else {
@@ -161,23 +169,23 @@ impl RobotProgram {
     }
 }
 
-/// Orientations that differ by less are one: sine of half the angle.
+/// Orientations that differ by less are the same: sine of half the angle.
 const SAME_TURN: f64 = 1e-12;
 
-/// What of this target is new.
-fn anew(target: &Target, moved: &Isometry) -> Anew {
+/// The new part of this target.
+fn respelling_of(target: &Target, moved: &Isometry) -> Respelling {
     let turned = |pose: &Isometry| (pose.rotation.inverse() * moved.rotation).vector().norm();
     match target.pose() {
-        Some(pose) if turned(pose) < SAME_TURN => Anew::Place,
-        _ => Anew::Pose,
+        Some(pose) if turned(pose) < SAME_TURN => Respelling::Place,
+        _ => Respelling::Pose,
     }
 }
 
-/// In the base where the frame is told, else in the frame.
+/// In the base if the frame is given, otherwise in the frame.
 fn in_base(frame: &Frame, pose: Isometry) -> Isometry {
     match frame {
-        Frame::Told(frame) => frame * pose,
-        Frame::Numbered(_) | Frame::EvaluateError => pose,
+        Frame::Given(frame) => frame * pose,
+        Frame::Numbered(_) | Frame::Unknown => pose,
     }
 }
 
@@ -185,7 +193,7 @@ fn compare(found: Isometry, expected: Isometry, line: u32) -> Result<(), Rewrite
     let matrix = |pose: &Isometry| *pose.rotation.to_rotation_matrix().matrix();
     let apart = (found.translation.vector - expected.translation.vector).norm();
     let turned = (matrix(&found) - matrix(&expected)).amax();
-    // Of places far out the last digits of the number itself.
+    // Rounding of large coordinates.
     let rounding = expected.translation.vector.norm() * 1e-12;
     match apart < WRITTEN[0] + rounding && turned < WRITTEN[1] {
         true => Ok(()),

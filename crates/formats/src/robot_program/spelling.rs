@@ -1,17 +1,17 @@
-//! Lines and numbers as they stand in a text, and other numbers in their places.
+//! Lines and numbers of a text, and the replacement of numbers.
 
 use std::ops::Range;
 
 use super::number::fixed;
 
-/// A line of a text, without its end.
+/// A line of a text, without its line ending.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Line<'a> {
     /// From 1.
     pub number: u32,
-    /// Where it begins in the text.
+    /// Its offset in the text.
     pub start: usize,
-    /// What stands on it.
+    /// Its content.
     pub text: &'a str,
 }
 
@@ -21,12 +21,12 @@ impl<'a> Line<'a> {
         self.start..self.start + self.text.len()
     }
 
-    /// Where a part of it stands in the text.
+    /// The bytes of a part of it in the text.
     pub fn span_of(&self, part: &Part) -> Range<usize> {
         self.start + part.at..self.start + part.at + part.text.len()
     }
 
-    /// All of it, without blanks around.
+    /// The whole line, without surrounding blanks.
     pub fn trimmed(&self) -> Part<'a> {
         Part {
             at: 0,
@@ -36,7 +36,7 @@ impl<'a> Line<'a> {
     }
 }
 
-/// A piece of a line, and where it begins there.
+/// A part of a line, and its offset there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Part<'a> {
     pub at: usize,
@@ -44,12 +44,12 @@ pub(super) struct Part<'a> {
 }
 
 impl<'a> Part<'a> {
-    /// Its bytes in the line, or in whatever it is a piece of.
+    /// Its bytes in the line or in the text that it is a part of.
     pub fn range(&self) -> Range<usize> {
         self.at..self.at + self.text.len()
     }
 
-    /// Without blanks around.
+    /// Without surrounding blanks.
     pub fn trimmed(self) -> Part<'a> {
         let text = self.text.trim_start();
         Part {
@@ -58,7 +58,7 @@ impl<'a> Part<'a> {
         }
     }
 
-    /// From so many bytes on; nothing of it if there are fewer.
+    /// From this byte on; empty if there are fewer bytes.
     pub fn from(self, bytes: usize) -> Part<'a> {
         Part {
             at: self.at + bytes.min(self.text.len()),
@@ -66,13 +66,13 @@ impl<'a> Part<'a> {
         }
     }
 
-    /// Its words, between blanks.
+    /// Its words, separated by blanks.
     pub fn words(self) -> impl Iterator<Item = Part<'a>> {
         self.split(char::is_whitespace)
             .filter(|part| !part.text.is_empty())
     }
 
-    /// Its pieces between separators, with their blanks.
+    /// Its pieces between separators, blanks included.
     pub fn split(self, separator: impl Fn(char) -> bool) -> impl Iterator<Item = Part<'a>> {
         let mut rest = Some(self);
         std::iter::from_fn(move || {
@@ -106,7 +106,7 @@ pub(super) fn lines(text: &str) -> impl Iterator<Item = Line<'_>> {
     })
 }
 
-/// The number that a text is: digits with a point, an exponent too; neither `inf` nor `nan`.
+/// The number in a text: digits with a point, with or without an exponent; neither `inf` nor `nan`.
 pub(super) fn number(text: &str) -> Option<f64> {
     let text = text.trim();
     let plain = text
@@ -117,10 +117,10 @@ pub(super) fn number(text: &str) -> Option<f64> {
         .filter(|value| plain && value.is_finite())
 }
 
-/// No more decimals than these are kept: behind them is nothing that a controller knows.
+/// Maximum number of decimals: further ones exceed the resolution of controllers.
 const MOST_DECIMALS: usize = 9;
 
-/// How many decimals a number is written with.
+/// Number of decimals of a number.
 pub(super) fn decimals(text: &str) -> usize {
     let behind = text.split_once('.').map_or("", |(_, behind)| behind);
     behind
@@ -130,24 +130,24 @@ pub(super) fn decimals(text: &str) -> usize {
         .min(MOST_DECIMALS)
 }
 
-/// What of a target is spelled anew.
+/// The part of a target that is rewritten.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Anew {
-    /// Place and orientation.
+pub(super) enum Respelling {
+    /// Position and orientation.
     Pose,
-    /// The place alone: the orientation stays as it is spelled, where it is.
+    /// Only the position: the orientation is kept as written.
     Place,
 }
 
-impl Anew {
-    /// Whether this number of a pose is: x, y, z, then those of the orientation.
-    pub fn holds(self, index: usize) -> bool {
-        self == Anew::Pose || index < 3
+impl Respelling {
+    /// Whether this number of a pose is rewritten: x, y, z, then those of the orientation.
+    pub fn includes(self, index: usize) -> bool {
+        self == Respelling::Pose || index < 3
     }
 }
 
-/// `before` with other numbers in the places of its own, in the order of the text: each with as many decimals as it had,
-/// or as many as are asked for if that is more, and as wide as it was with the blanks before it.
+/// `before` with its numbers replaced, in the order of the text. Each keeps its number of decimals,
+/// or gets the required number if that is larger, and its width including the blanks before it.
 pub(super) fn respelled(before: &str, numbers: &[(Range<usize>, f64, usize)], out: &mut String) {
     let mut done = 0;
     for (place, value, least_decimals) in numbers {
@@ -157,7 +157,7 @@ pub(super) fn respelled(before: &str, numbers: &[(Range<usize>, f64, usize)], ou
         let new = fixed(*value, decimals(old).max(*least_decimals));
         let blanks = between.len() - between.trim_end_matches(' ').len();
         let longer = new.len().saturating_sub(old.len());
-        // One blank stays where there was one.
+        // One blank is kept if there was one.
         let fewer = longer.min(blanks.saturating_sub(1));
         out.push_str(&between[..between.len() - fewer]);
         if blanks > 0 {
@@ -169,7 +169,7 @@ pub(super) fn respelled(before: &str, numbers: &[(Range<usize>, f64, usize)], ou
     out.push_str(before.get(done..).unwrap_or_default());
 }
 
-/// The words of a text in ASCII, other characters as question marks, in pieces of so many characters: for remarks.
+/// A text as ASCII, with other characters as question marks, in pieces of at most this length: for remarks.
 pub(super) fn in_pieces(text: &str, longest: usize) -> Vec<String> {
     let plain: String = text
         .split_whitespace()
@@ -187,7 +187,7 @@ pub(super) fn in_pieces(text: &str, longest: usize) -> Vec<String> {
     while !rest.is_empty() {
         let most = longest.max(1).min(rest.len());
         let end = match rest.as_bytes().get(most) {
-            // Between words, if there is a place.
+            // Between words, if possible.
             Some(next) if *next != b' ' => rest[..most].rfind(' ').unwrap_or(most),
             _ => most,
         };
@@ -202,7 +202,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lines_end_as_they_like_and_parts_know_their_places() {
+    fn all_line_endings_are_read_and_parts_have_their_offsets() {
         let text = "MOVL C1\r\n\n V=2 \n";
         let found: Vec<(u32, usize, &str)> = lines(text)
             .map(|line| (line.number, line.start, line.text))
@@ -221,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_number_is_none() {
+    fn refuses_text_that_is_not_a_number() {
         for (text, value) in [
             ("-.858", Some(-0.858)),
             (" 5. ", Some(5.0)),
@@ -235,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_keep_their_places_their_width_and_their_decimals() {
+    fn replaced_numbers_keep_their_positions_widths_and_decimals() {
         let mut out = String::new();
         respelled("X =   200.000  mm", &[(6..13, -1234.5, 3)], &mut out);
         respelled("|X =     .5", &[(9..11, -1.25, 0)], &mut out);
@@ -248,7 +248,7 @@ mod tests {
     }
 
     #[test]
-    fn remarks_are_cut_and_have_no_other_letters() {
+    fn remarks_are_split_and_reduced_to_ascii() {
         assert_eq!(
             in_pieces("gr\u{fc}n  und\tblau gelb", 8),
             ["gr?n und", "blau", "gelb"]

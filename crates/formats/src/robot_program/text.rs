@@ -1,18 +1,18 @@
-//! A file of a program: bytes as a controller keeps them, characters to read.
+//! A file of a program: its bytes and its characters.
 //!
-//! UTF-8 with or without byte order mark; a file that is no UTF-8 is taken as Latin-1, character for byte: comments in
-//! other alphabets look odd but come out as they went in.
+//! UTF-8 with or without byte order mark. A file that is not UTF-8 is read as Latin-1, one character per byte: comments
+//! in other encodings look wrong but are written back unchanged.
 
 use crate::document::Source;
 
-/// A file of a program. Bytes out are bytes in, but for what was rewritten.
+/// A file of a program. Its bytes are written back unchanged, except for rewritten parts.
 #[derive(Clone, Debug)]
 pub struct ProgramText {
     source: Source,
     encoding: Encoding,
 }
 
-/// How characters are bytes.
+/// Encoding of the characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Encoding {
     Utf8,
@@ -24,7 +24,7 @@ enum Encoding {
 const MARK: &[u8] = b"\xEF\xBB\xBF";
 
 impl ProgramText {
-    /// The file `name` of these bytes.
+    /// The file `name` with these bytes.
     pub fn new(name: &str, bytes: &[u8]) -> ProgramText {
         let (encoding, rest) = match bytes.strip_prefix(MARK) {
             Some(rest) => (Encoding::Utf8WithMark, rest),
@@ -45,7 +45,7 @@ impl ProgramText {
         }
     }
 
-    /// Its name, as it was given.
+    /// Its name as given.
     pub fn name(&self) -> &str {
         self.source.name()
     }
@@ -55,7 +55,7 @@ impl ProgramText {
         self.source.text()
     }
 
-    /// Its characters with their places: where problems stand.
+    /// Its characters with their positions, for problems.
     pub fn source(&self) -> &Source {
         &self.source
     }
@@ -65,7 +65,7 @@ impl ProgramText {
         match self.encoding {
             Encoding::Utf8 => text.as_bytes().to_vec(),
             Encoding::Utf8WithMark => [MARK, text.as_bytes()].concat(),
-            // What came in as one byte is one character below 256; what is written beside is ASCII.
+            // A character that was read as one byte is below 256; everything added is ASCII.
             Encoding::Latin1 => text
                 .chars()
                 .map(|c| u8::try_from(u32::from(c)).unwrap_or(b'?'))
@@ -79,7 +79,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn bytes_out_are_bytes_in() {
+    fn bytes_are_written_back_unchanged() {
         let shift_jis = b"'\x83\x65\x83\x58\x83\x67\r\nMOVL C00001\r\n";
         for bytes in [
             &b"LIN {X 1}\r\n"[..],

@@ -1,11 +1,11 @@
-//! A text as words, numbers, texts and marks, each with its place: what KRL, URScript and RAPID have in common.
+//! A text as words, numbers, texts and marks with their positions: used for KRL, URScript and RAPID.
 //!
-//! A sign is a mark of its own. What begins like a number and is none (`1.2.3`, `12mm`, beyond [`LARGEST`]) is told as
-//! such: only who needs a number there knows whether it matters. Linear in the length of the text.
+//! A sign is a separate mark. Text that begins like a number and is not one (`1.2.3`, `12mm`, beyond [`LARGEST`]) gets
+//! its own kind: the parser decides whether it needs a number there. The time is linear in the length of the text.
 
 use std::ops::Range;
 
-/// A piece of a text.
+/// A token.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Token {
     pub kind: Kind,
@@ -15,16 +15,16 @@ pub(super) struct Token {
     pub line: u32,
 }
 
-/// What a piece is.
+/// Kind of token.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Kind {
     /// Letters, digits, underscores, `$`.
     Word,
     /// A number without sign.
     Number(f64),
-    /// What begins with a digit and is no number.
+    /// Begins with a digit and is not a number.
     NoNumber,
-    /// A text with its quotes.
+    /// A quoted text, quotes included.
     Text,
     /// Any other character.
     Mark(char),
@@ -32,15 +32,15 @@ pub(super) enum Kind {
     Line,
 }
 
-/// How a language writes remarks and texts.
+/// Syntax of remarks and quoted texts.
 pub(super) struct Syntax {
-    /// What goes from here to the end of the line is for people.
+    /// Beginning of a remark, which ends with the line.
     pub remark: char,
-    /// What encloses texts; none goes over the end of its line.
+    /// Quotes; a text ends on its line.
     pub quotes: &'static [char],
 }
 
-/// No controller holds a larger number: 9E9 is ABB's word for an axis that is not there.
+/// Largest number: 9E9 is ABB's value for an absent axis.
 const LARGEST: f64 = 1e10;
 
 impl Token {
@@ -101,7 +101,7 @@ fn is_digit(text: &str, at: usize) -> bool {
     text.as_bytes().get(at).is_some_and(u8::is_ascii_digit)
 }
 
-/// What stands at the beginning of `rest`, which begins like a number.
+/// The token at the beginning of `rest`, which begins like a number.
 fn number(rest: &str) -> (Kind, usize) {
     let bytes = rest.as_bytes();
     let mut end = 0;
@@ -120,12 +120,12 @@ fn number(rest: &str) -> (Kind, usize) {
     }
 }
 
-/// A way through tokens.
+/// Position in a list of tokens.
 #[derive(Clone)]
 pub(super) struct Cursor<'a> {
     pub text: &'a str,
     pub tokens: &'a [Token],
-    /// Where its last token ends.
+    /// End of its last token.
     pub end: usize,
     passed: usize,
 }
@@ -151,7 +151,7 @@ impl<'a> Cursor<'a> {
         Some(token)
     }
 
-    /// Goes past this mark, if it stands here.
+    /// Moves past this mark, if it is next.
     pub fn pass(&mut self, mark: char) -> bool {
         let here = self.peek().is_some_and(|token| token.is(mark));
         if here {
@@ -160,20 +160,20 @@ impl<'a> Cursor<'a> {
         here
     }
 
-    /// The word that stands here, in capitals.
+    /// The next word, in capitals, without moving.
     pub fn peek_word(&self) -> Option<String> {
         let token = self.peek().filter(|token| token.kind == Kind::Word)?;
         Some(self.text[token.span()].to_ascii_uppercase())
     }
 
-    /// Goes past the word that stands here, if one does.
+    /// Moves past the next token if it is a word, and returns it.
     pub fn word(&mut self) -> Option<String> {
         let word = self.peek_word()?;
         self.next();
         Some(word)
     }
 
-    /// Goes past a number with its signs, if one stands here.
+    /// Moves past the next number with its signs, if there is one.
     pub fn number(&mut self) -> Option<f64> {
         let mut ahead = self.clone();
         let mut sign = 1.0;
@@ -190,18 +190,18 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Where the token that it passed last ends; of none, where its first begins.
+    /// End of the last passed token; before the first one its beginning.
     pub fn before(&self) -> usize {
         self.passed
     }
 
-    /// Where it stands: the next token, or the end of the last.
+    /// Bytes of the next token, or the end of the last one.
     pub fn place(&self) -> Range<usize> {
         self.peek().map_or(self.end..self.end, |token| token.span())
     }
 }
 
-/// How many decimals a number is written with, within these bounds.
+/// Number of decimals of a number, within this range.
 pub(super) fn decimals(number: &str, least: usize, most: usize) -> usize {
     let written = number.split_once('.').map_or(0, |(_, behind)| {
         behind.bytes().take_while(u8::is_ascii_digit).count()
@@ -226,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_falls_into_words_numbers_texts_and_marks() {
+    fn a_line_is_split_into_words_numbers_texts_and_marks() {
         let found = kinds("$VEL.CP=-.2E-1 ; a;b\nP[1]'B0;1'");
         assert_eq!(
             found,
@@ -248,7 +248,7 @@ mod tests {
     }
 
     #[test]
-    fn what_begins_like_a_number_and_is_none_is_told_whole() {
+    fn text_that_begins_like_a_number_and_is_not_one_is_a_single_token() {
         for text in ["1.2.3", "12mm", "1e400", "0x1F", "1E", "9e10"] {
             assert_eq!(kinds(text), [(Kind::NoNumber, text)]);
         }
@@ -257,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn a_text_without_end_ends_with_its_line() {
+    fn an_unclosed_text_ends_with_its_line() {
         assert_eq!(
             kinds("\"a\nb"),
             [(Kind::Text, "\"a"), (Kind::Line, "\n"), (Kind::Word, "b")]
@@ -266,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn decimals_are_those_written_within_bounds() {
+    fn decimals_are_those_written_within_the_range() {
         for (number, requested) in [
             ("1", 3),
             ("1.25", 3),

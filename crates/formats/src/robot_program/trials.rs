@@ -1,4 +1,4 @@
-//! What the tests of every language share: random drafts, and what must hold of a program that is written again.
+//! Shared by the tests of all languages: random drafts, and properties of rewritten programs.
 
 use std::f64::consts::PI;
 
@@ -9,7 +9,8 @@ use proptest::prelude::*;
 
 use super::*;
 
-/// A pose within a few metres, turned in any way; the middle angle is at times a right one, where the others share a turn.
+/// A pose within a few metres with any orientation. The middle angle is sometimes a right angle, where the others are
+/// degenerate.
 pub(super) fn poses() -> impl Strategy<Value = Isometry> {
     let angle = prop_oneof![
         -PI..PI,
@@ -63,7 +64,7 @@ pub(super) fn drafts() -> impl Strategy<Value = Draft> {
         )
 }
 
-/// How far two poses are apart: m, and rad.
+/// Distance and angle between two poses: m and rad.
 pub(super) fn apart(one: &Isometry, other: &Isometry) -> [f64; 2] {
     let turn = one.rotation.to_rotation_matrix().inverse() * other.rotation.to_rotation_matrix();
     let sine = Vector3::new(
@@ -80,15 +81,15 @@ pub(super) fn apart(one: &Isometry, other: &Isometry) -> [f64; 2] {
     ]
 }
 
-/// Rounded to 0.001 mm along each axis, m.
+/// Rounding to 0.001 mm along each axis, m.
 pub(super) const MICROMETRE: f64 = 0.5e-6 * 1.733;
 
-/// Rounded to so many decimals of a degree in each of three angles, rad; and some roundings of sines.
+/// Rounding to this number of decimals of a degree in each of three angles, rad, plus rounding of sines.
 pub(super) fn angle_of_decimals(decimals: i32) -> f64 {
     (1.5 * 10_f64.powi(-decimals)).to_radians() + 1e-12
 }
 
-/// What stands in the texts around the targets.
+/// The text around the targets.
 fn around(program: &RobotProgram) -> Vec<String> {
     let mut spelled: Vec<&Spelled> = program
         .moves
@@ -123,8 +124,8 @@ fn around(program: &RobotProgram) -> Vec<String> {
         .collect()
 }
 
-/// The program with every target that is told as a pose turned and moved by `by` on its right, read again: nothing but
-/// the targets has changed, and they are where they shall be but for `[m, rad]`.
+/// The program with every pose target multiplied by `by` from the right, read again. Only the targets have changed, and
+/// they are at the new poses within `[m, rad]`.
 pub(super) fn moved_alone(program: &RobotProgram, by: &Isometry, within: [f64; 2]) -> RobotProgram {
     let moved: Vec<Moved> = program
         .moves
@@ -174,7 +175,7 @@ pub(super) fn moved_alone(program: &RobotProgram, by: &Isometry, within: [f64; 2
     again
 }
 
-/// The sentences of everything that is wrong in these files.
+/// The messages of all problems in these files.
 pub(super) fn problems(files: &[(&str, &str)]) -> Vec<String> {
     let texts = files
         .iter()
@@ -184,16 +185,16 @@ pub(super) fn problems(files: &[(&str, &str)]) -> Vec<String> {
     problems.as_slice().iter().map(ToString::to_string).collect()
 }
 
-/// Where to cut a text, how much of it, and what to put there.
+/// Cut position in a text, length of the cut, and inserted text.
 pub(super) type Cuts = Vec<(prop::sample::Index, usize, String)>;
 
-/// Cuts into files, with letters that mean something to these languages.
+/// Cuts in files, with characters that are significant in these languages.
 pub(super) fn cuts() -> impl Strategy<Value = Cuts> {
     let letters = "[\\[\\]{}()<>=.,:;\"'*/#\\-+0-9A-Zxyz \n\t\u{e4}\u{1f600}]{0,5}";
     prop::collection::vec((any::<prop::sample::Index>(), 0_usize..12, letters), 1..6)
 }
 
-/// Files that were cut into make no reader panic; what is read all the same is read again as it was.
+/// Checks that no reader panics on cut files. Files that can still be read are read back unchanged.
 pub(super) fn survives(files: &[(&str, &str)], cuts: &Cuts) {
     let mut files: Vec<(String, String)> = files
         .iter()
@@ -217,7 +218,7 @@ pub(super) fn survives(files: &[(&str, &str)], cuts: &Cuts) {
         .map(|(name, text)| ProgramText::new(name, text.as_bytes()))
         .collect();
     if let Ok(program) = read(texts) {
-        // Numbers of any size may have come about: up to 1e9 mm, of which a double holds 1e-4 mm, and as many degrees.
+        // Numbers of any size may occur: up to 1e9 mm, where a double resolves 1e-4 mm, and as many degrees.
         moved_alone(&program, &Isometry::identity(), [1e-5, 1e-5]);
     }
 }

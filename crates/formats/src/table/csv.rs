@@ -8,10 +8,11 @@
 //! | category | its label |
 //! | text that begins with `=`, `+`, `-`, `@`, a tab or a line end | in quotes, behind an apostrophe: `"'=1+1"` |
 //!
-//! A spreadsheet would run the last as a formula, whoever named a robot or joint so. Our readers take the apostrophe off
-//! again.
+//! A spreadsheet would run the last as a formula, for example the name of a robot or joint. Our readers take the
+//! apostrophe off again.
 //!
-//! Source: RFC 4180; OWASP, CSV injection. Lines end with CR LF. Units are in the header; descriptions have no place here.
+//! Source: RFC 4180; OWASP, CSV injection. Lines end with CR LF. Units are in the header; descriptions have no place
+//! here.
 
 use std::io::Write;
 
@@ -78,7 +79,7 @@ pub fn text_cell(cell: &str) -> String {
     String::from_utf8(out).expect("quotes and apostrophes are added to text")
 }
 
-/// Whether a spreadsheet would run the text; one with apostrophes before it counts too, so that it reads back equal.
+/// Whether a spreadsheet would run the text; also one with apostrophes before it, so that it reads back equal.
 pub(super) fn is_formula(text: &str) -> bool {
     text.trim_start_matches('\'')
         .starts_with(['=', '+', '-', '@', '\t', '\r', '\n'])
@@ -222,7 +223,7 @@ mod tests {
     }
 
     #[test]
-    fn text_that_a_spreadsheet_would_run_is_behind_an_apostrophe_and_our_reader_takes_it_off() {
+    fn formulas_are_written_behind_an_apostrophe_and_read_back_without_it() {
         for (text, expected) in [
             ("=cmd|' /C calc'!A0", "\"'=cmd|' /C calc'!A0\""),
             ("+1", "\"'+1\""),

@@ -207,7 +207,7 @@ impl Table {
 }
 
 impl Column {
-    /// Whether every value may are in the table of this name.
+    /// Whether every value may be in the table of this name.
     ///
     /// # Errors
     /// The first number that is not finite, or the first category without a label.

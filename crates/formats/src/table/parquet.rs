@@ -35,7 +35,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Column, ColumnData, Table, TableError};
 
-/// Rows that a reader must hold at once: a few megabytes for a wide table.
+/// Rows that a reader must keep in memory at once: a few megabytes for a wide table.
 const ROW_GROUP_ROWS: usize = 65_536;
 
 /// Metadata: the name of the table.
@@ -46,7 +46,7 @@ const COLUMNS_KEY: &str = "columns";
 /// Facts about a whole file, such as the version that made it and the hash of its study.
 pub type Metadata = BTreeMap<String, String>;
 
-/// What a file says of a column beside its values.
+/// What a file says of a column apart from its values.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 struct Facts {
     name: String,
@@ -65,12 +65,12 @@ pub enum ParquetError {
     #[error("not a readable Parquet file: {0}")]
     Format(#[from] ::parquet::errors::ParquetError),
     /// The bytes are damaged in a way that the `parquet` crate does not survive.
-    #[error("the Parquet file is damaged: write it anew")]
+    #[error("the Parquet file is damaged: write it again")]
     Damaged,
     /// What the file says of its columns is not what [`write()`] says.
-    #[error("the metadata `columns` of the Parquet file is no list of columns: {0}")]
+    #[error("the metadata `columns` of the Parquet file is not a list of columns: {0}")]
     Facts(#[from] serde_json::Error),
-    /// A column has a type, or missing values, that no [`ColumnData`] holds.
+    /// A column has a type, or missing values, that no [`ColumnData`] can represent.
     #[error(
         "Parquet column `{column}` is {found}: expected DOUBLE, or INT64, BOOLEAN or text without missing values"
     )]
@@ -104,7 +104,7 @@ pub enum ParquetError {
 /// The table as the bytes of a Parquet file.
 ///
 /// Columns of a row group are encoded in parallel and put together in their order, so that the bytes do not depend on
-/// the number of threads. Numbers lose what lies below their last decimal that means something.
+/// the number of threads. Numbers lose the digits below their last significant decimal.
 ///
 /// # Errors
 /// [`ParquetError::ReservedKey`] for metadata called `table` or `columns`; the `parquet` crate refuses nothing that a
@@ -163,7 +163,8 @@ fn chunk(
     Ok((sink.into_inner()?, closed))
 }
 
-/// Gives the writer of a column the values of these rows; missing ones are reported by a level of 0 in place of a value.
+/// Gives the writer of a column the values of these rows; missing ones are reported by a level of 0 in place of a
+/// value.
 fn write_values(
     writer: &mut ColumnWriter<'_>,
     column: &Column,
@@ -216,7 +217,7 @@ fn bytes_of(text: &str) -> ByteArray {
     ByteArray::from(Bytes::copy_from_slice(text.as_bytes()))
 }
 
-/// How many rows are looked at to tell whether a dictionary of numbers is worth it, and how many may differ.
+/// How many rows are examined to decide whether a dictionary of numbers saves space, and how many may differ.
 const LOOKED_AT: usize = 512;
 /// So many different numbers, or fewer, are written by a dictionary.
 const FEW: usize = 128;
@@ -280,9 +281,9 @@ fn field(column: &Column) -> Result<TypePtr, ParquetError> {
 /// above the last decimal.
 ///
 /// A number is off by half a step at most. Kept whole are numbers of columns that do not say their decimals, or say 12
-/// or more, and numbers so large that hardly a digit of theirs lies below the step.
+/// or more, and numbers so large that hardly any of their digits is below the step.
 fn kept(decimals: Option<u8>) -> impl Fn(f64) -> f64 {
-    // Adding a number whose last bit is worth the step rounds to it; taking it off again is exact.
+    // Adding a number whose last bit equals the step rounds to it; subtracting it again is exact.
     let large = decimals.filter(|decimals| *decimals < 12).map(|decimals| {
         let step = 2_f64.powi(-(f64::from(decimals) * std::f64::consts::LOG2_10).ceil() as i32);
         1.5 * step / f64::EPSILON
@@ -299,7 +300,7 @@ fn kept(decimals: Option<u8>) -> impl Fn(f64) -> f64 {
 /// Bytes that are not Parquet, columns of other types than [`write()`] makes, and what [`Table::new`] refuses.
 ///
 /// Not checked: damage that leaves a readable file; Parquet as written here has no checksums. A panic inside the
-/// `parquet` crate is caught and told as [`ParquetError::Damaged`], but the panic hook of the program hears of it.
+/// `parquet` crate is caught and reported as [`ParquetError::Damaged`], but the panic hook of the program is called.
 pub fn read(bytes: &[u8]) -> Result<(Table, Metadata), ParquetError> {
     // The parquet crate (60.1) panics on some damaged pages. Nothing outlives the closure, so nothing is left half
     // done.

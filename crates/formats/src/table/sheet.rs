@@ -1,6 +1,6 @@
-//! Lines of a table that somebody wrote, as cells that know their place: what all readers of tables share.
+//! Lines of a table written by a person, as cells that know their place: shared by all readers of tables.
 //!
-//! Cells are separated by `;`, tab or `,`: the first of these that the line of names holds. Where it is not `,`,
+//! Cells are separated by `;`, tab or `,`: the first of these that the line of names contains. Where it is not `,`,
 //! numbers may have a decimal comma. Lines that begin with `#` and empty ones are remarks.
 
 use std::borrow::Cow;
@@ -36,9 +36,9 @@ pub(crate) fn is_blank_row(line: &str, separator: char) -> bool {
     line.chars().all(|c| c == separator || c.is_whitespace())
 }
 
-/// The number that a cell holds, if it is one, infinite ones included; with a decimal comma where none separates cells.
+/// The number in a cell, if it is one, infinite ones included; with a decimal comma where none separates cells.
 ///
-/// `1.234,5` is none: it could be a thousand or a slip.
+/// `1.234,5` is none: it could be a thousand or a typing error.
 pub(crate) fn number(text: &str, separator: char) -> Option<f64> {
     match separator != ',' && text.contains(',') {
         true => text.replace(',', ".").parse().ok(),
@@ -98,7 +98,7 @@ mod tests {
     }
 
     #[test]
-    fn the_separator_is_the_first_that_the_names_hold() {
+    fn the_separator_is_the_first_that_the_names_contain() {
         for (line, separator) in [
             ("a,b", ','),
             ("a,b;c", ';'),
@@ -118,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn an_open_quote_holds_the_rest_of_its_line() {
+    fn an_open_quote_contains_the_rest_of_its_line() {
         assert_eq!(texts("a,\"b,c", ','), ["a", "b,c"]);
     }
 

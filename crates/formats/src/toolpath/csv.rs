@@ -11,16 +11,16 @@
 //! | `axial_depth`, `radial_depth` | how deep the cutter is; both or none | `_mm`, `_m`, `_in` |
 //! | `op`, `note` | name of the operation; for people | |
 //!
-//! A new operation begins where its name, the spindle or a depth changes. The columns stand in
+//! A new operation begins if its name, the spindle or a depth changes. The columns are listed in
 //! `docs/guide/tool-path-words.md`; `tests/toolpath/words.rs` tries each. The first row says where the tip
-//! stands. Cells are separated by `;`, tab or `,`; with the first two a decimal comma is read too. Lines that begin
-//! with `#` and empty ones are passed over.
+//! Cells are separated by `;`, tab or `,`. With `;` or tab, decimal commas are read too. Lines that begin
+//! with `#` and empty ones are ignored.
 
 use std::f64::consts::TAU;
 use std::io::BufRead;
 
 use armill_core::nalgebra::{Point3, Unit, Vector3};
-use armill_core::path::{Course, DepthOfCut, Move, Operation, Pace, Step, ToldSpin};
+use armill_core::path::{Course, DepthOfCut, GivenSpin, Move, Operation, Pace, Step};
 
 use super::Summary;
 use super::direction::{LARGEST, direction};
@@ -33,7 +33,7 @@ use crate::table::sheet::{self, Cell, cells, is_blank_row, is_remark, separator_
 /// No table has more columns than this.
 const MOST_COLUMNS: usize = 100;
 
-/// What a column tells; numbers are the axis, then the factor to SI.
+/// Meaning of a column; numbers are the axis, then the factor to SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Column {
     /// Coordinate of the tip, to m.
@@ -90,7 +90,7 @@ fn known() -> Vec<(String, Column)> {
 }
 
 impl Column {
-    /// Whether both tell the same, whatever their units.
+    /// Whether both have the same quantity, in any unit.
     fn same(self, other: Column) -> bool {
         match (self, other) {
             (Column::Point(a, _), Column::Point(b, _)) => a == b,
@@ -106,7 +106,7 @@ impl Column {
 
 /// Reads the path in `reader`, and gives `out` its steps one by one; `path` is what problems show.
 ///
-/// With problems the steps given so far are worth nothing.
+/// If there are problems, the steps given so far are not valid.
 ///
 /// # Errors
 /// Every problem of the file, at most 200: unknown, double and missing columns, names without unit, cells that are no
@@ -157,13 +157,13 @@ pub fn read(path: &str, reader: impl BufRead, out: &mut dyn FnMut(Step)) -> Resu
     }
     if problems.is_empty() && summary.moves == 0 {
         let hint = "the first line names the columns, such as `x_mm,y_mm,z_mm`; each line below is a point";
-        problems.push(Problem::of_file(path, "no point in this file", hint));
+        problems.push(Problem::of_file(path, "the file has no point", hint));
     }
     Problems::from(problems).into_result()?;
     Ok(summary)
 }
 
-/// The header, and what the rows so far have told.
+/// The header, and the data of the previous rows.
 struct Table {
     /// As the line of names has it.
     separator: char,
@@ -202,19 +202,19 @@ impl Table {
         let heads = cells(&line.text, separator);
         for cell in heads.iter().take(MOST_COLUMNS) {
             let name = cell.text.to_lowercase();
-            let mut tell = |message: String, hint: &str| {
+            let mut report = |message: String, hint: &str| {
                 problems.push(line.problem(path, cell.span.clone(), message, hint));
             };
             let Some((_, column)) = known.iter().find(|(known, _)| *known == name) else {
                 let (message, hint) = unknown(&cell.text, &name, &names);
-                tell(message, &hint);
+                report(message, &hint);
                 continue;
             };
             if let Some(first) = table.columns.iter().position(|before| before.same(*column)) {
                 let given = table.header.get(first).map_or("", String::as_str);
-                tell(
-                    format!("`{}` tells what `{given}` tells", cell.text),
-                    "keep one of the two",
+                report(
+                    format!("`{}` repeats `{given}`", cell.text),
+                    "remove one of the two columns",
                 );
             }
             table.columns.push(*column);
@@ -229,7 +229,7 @@ impl Table {
         (table, problems)
     }
 
-    /// What no column tells though others call for it, and what to do.
+    /// Missing columns that others require, and hints.
     fn missing(&self) -> Vec<(String, &'static str)> {
         let has = |requested: &dyn Fn(Column) -> bool| self.columns.iter().any(|column| requested(*column));
         let absent = |names: [&str; 3], of: &dyn Fn(Column) -> Option<usize>| -> Vec<String> {
@@ -244,7 +244,7 @@ impl Table {
         if !point.is_empty() {
             missing.push((
                 point.join(", "),
-                "every point has three coordinates, each with its unit in its name",
+                "every point needs three coordinates, each with its unit in the column name",
             ));
         }
         let axis = absent(["i", "j", "k"], &|column| match column {
@@ -252,7 +252,7 @@ impl Table {
             _ => None,
         });
         if !axis.is_empty() && axis.len() < 3 {
-            missing.push((axis.join(", "), "the direction of the tool has three numbers"));
+            missing.push((axis.join(", "), "the tool direction needs three numbers"));
         }
         let axial = has(&|column| matches!(column, Column::AxialDepth(_)));
         if axial != has(&|column| matches!(column, Column::RadialDepth(_))) {
@@ -261,7 +261,7 @@ impl Table {
             } else {
                 "`axial_depth_mm`"
             };
-            missing.push((name.to_owned(), "both depths together say how deep the cutter is"));
+            missing.push((name.to_owned(), "the engagement of the cutter needs both depths"));
         }
         missing
     }
@@ -271,15 +271,15 @@ impl Table {
         let found = cells(&line.text, self.separator);
         if found.len() != self.columns.len() {
             let message = format!(
-                "{} cells in a table of {} columns",
+                "{} cells, but the table has {} columns",
                 found.len(),
                 self.columns.len()
             );
             let hint = match self.separator {
                 ',' => {
-                    "decimal commas need `;` between cells; an empty cell is nothing between two separators"
+                    "separate cells with `;` to use decimal commas; an empty cell is written as two separators in a row"
                 }
-                _ => "an empty cell is nothing between two separators",
+                _ => "an empty cell is written as two separators in a row",
             };
             return Err(vec![line.problem(path, 0..line.text.len(), message, hint)]);
         }
@@ -299,7 +299,7 @@ impl Table {
     /// Gives the move of a row, and before it the operation that it begins.
     ///
     /// A row without a name keeps that of the one before; an empty spindle or depth is not known, and so another
-    /// operation than one that was told.
+    /// operation than one with a given value.
     fn give(&mut self, line: &Line, row: Row, point: Point, out: &mut dyn FnMut(Step)) {
         let Point { end, axis, depths } = point;
         let number = u32::try_from(line.number).unwrap_or(u32::MAX);
@@ -324,12 +324,12 @@ impl Table {
         out(Step::Move(Move {
             end,
             axis,
-            spin: row.spin.map(ToldSpin::Angle),
+            spin: row.spin.map(GivenSpin::Angle),
             course: Course::Line,
             pace: match (row.rapid, row.feed) {
                 (true, _) => Pace::Rapid,
                 (false, Some(speed)) => Pace::Feed(speed),
-                (false, None) => Pace::EvaluateError,
+                (false, None) => Pace::Unknown,
             },
             line: number,
         }));
@@ -359,7 +359,7 @@ impl Row {
                     _ => {
                         return Err((
                             format!("`{}` is neither yes nor no", cell.text),
-                            "1 for a rapid move, 0 for a cut",
+                            "write 1 for a rapid move, 0 for a cut",
                         ));
                     }
                 };
@@ -388,10 +388,10 @@ impl Row {
             [None, None, None] => None,
             [Some(i), Some(j), Some(k)] => {
                 let axis = direction([i, j, k]).map_err(|length| {
-                    let message = format!("the direction of the tool has a length of {length:.4}, not 1");
+                    let message = format!("the tool direction has a length of {length:.4}, not 1");
                     (
                         message,
-                        "i, j, k is a direction of length 1, from the tip towards the spindle",
+                        "i, j, k must be a direction of length 1, from the tip towards the spindle",
                     )
                 })?;
                 Some(axis)
@@ -431,7 +431,7 @@ fn number(cell: &Cell<'_>, separator: char) -> Result<f64, Wrong> {
         )),
         None => Err((
             format!("`{}` is not a number", cell.text),
-            "units stand in the column's name",
+            "give the unit in the column name",
         )),
     }
 }
@@ -457,7 +457,7 @@ fn zero_or_more(cell: &Cell<'_>, separator: char) -> Result<f64, Wrong> {
 fn unknown(shown: &str, name: &str, names: &[&str]) -> (String, String) {
     if name.parse::<f64>().is_ok() {
         let hint = "the first line names the columns, such as `x_mm,y_mm,z_mm,i,j,k,feed_mm_per_min`";
-        return (format!("`{shown}` is no name of a column"), hint.to_owned());
+        return (format!("`{shown}` is not a column name"), hint.to_owned());
     }
     let unit = match name {
         "x" | "y" | "z" => Some(("lengths", format!("`{name}_mm`, `{name}_m` or `{name}_in`"))),
@@ -479,7 +479,7 @@ fn unknown(shown: &str, name: &str, names: &[&str]) -> (String, String) {
     let hint = suggestion(name, names).map_or_else(
         || {
             format!(
-                "remove it, or call it `note`; understood are {}",
+                "remove it, or name it `note`; known columns: {}",
                 names.join(", ")
             )
         },

@@ -1,15 +1,15 @@
-//! Which way does the tool go? Tool path programs in.
+//! Tool paths: readers of tool path programs.
 //!
 //! - [`format`](mod@format): a program in any format: which one it is in, and its steps.
 //! - [`apt`]: cutter locations of CAM systems: APT-CL, CLDATA, CLSF.
 //! - [`gcode`]: programs of machine tools: RS-274, as LinuxCNC reads it.
 //! - [`csv`]: a table of points, for those without CAM.
-//! - [`notes`]: what a reader passed over or took for granted.
+//! - [`notes`]: ignored words and assumptions.
 //!
 //! Each reader gives [`Step`](armill_core::path::Step)s one by one, as long as the program is, and a [`Summary`].
 //!
-//! `length_unit`: millimetres or inches; `direction`: tool axes of length 1; `summary`: what all readers tell at the
-//! end.
+//! `length_unit`: millimetres or inches; `direction`: tool axes of length 1; `summary`: common results of all readers
+//! at the end.
 
 pub mod apt;
 pub mod csv;

@@ -1,6 +1,6 @@
-//! What a reader passed over or took for granted: how often, and where first.
+//! Ignored words and assumptions: number of occurrences, and the first line.
 //!
-//! A program of any length may skip the same word a million times: one line of notes says so. Kinds are told in their
+//! A program of any length may skip the same word many times: one note reports it. Kinds are listed in their
 //! own order (`Ord`), not in that of the program, so that the same program gives the same notes.
 
 use std::collections::BTreeMap;

@@ -1,18 +1,18 @@
-//! What a program holds, counted while its steps are given.
+//! Summary of a program, counted while its steps are given.
 
 use armill_core::path::{Course, Move, Step};
 
 use super::format::Format;
 use crate::robot_program::{Followed, RobotProgram};
 
-/// What a program held.
+/// Content of a program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Summary {
     /// The format it is in.
     pub format: Format,
     /// Operations given.
     pub operations: u64,
-    /// Moves given, those of cycles and holes included; the first says where the tip stands.
+    /// Moves given, those of cycles and holes included; the first gives the start position of the tip.
     pub moves: u64,
     /// Moves behind the first that cut.
     pub cuts: u64,
@@ -47,7 +47,7 @@ impl Summary {
 
     /// Counts a step.
     ///
-    /// An arc counts as an arc and as a move; the first move is no cut, however fast it says that it goes.
+    /// An arc counts as an arc and as a move; the first move is not a cut, at any speed.
     pub(super) fn count(&mut self, step: &Step) {
         match step {
             Step::Operation(_) => self.operations += 1,

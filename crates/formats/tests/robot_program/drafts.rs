@@ -46,7 +46,7 @@ fn points() -> impl Strategy<Value = DraftPoint> {
         })
 }
 
-/// Drafts within what every language holds; no word of any begins with Q.
+/// Drafts within the ranges of all languages; no reserved word begins with Q.
 pub fn drafts() -> impl Strategy<Value = Draft> {
     (
         "Q[A-Z0-9_]{0,6}",
@@ -96,20 +96,20 @@ pub fn read_back(written: &Written) -> RobotProgram {
     read(texts.collect()).unwrap()
 }
 
-/// What a language says of a point.
+/// Content of a point in a language.
 #[derive(Clone, Copy)]
 pub struct Says {
-    /// Frame and tool are told by numbers alone: in programs of some makers they cannot be set.
+    /// Whether frame and tool are only numbers: in some languages they cannot be set.
     pub frames: fn(u32) -> Option<Frame>,
     /// The postures of joint moves to poses.
     pub branches: bool,
-    /// The speed of the tip of joint moves, where one is told.
+    /// The tip speed of joint moves, if it is given.
     pub joint_speed: Speed,
     /// The turns of these joints, rad.
     pub turns: fn(&[f64]) -> Vec<i32>,
 }
 
-/// That a draft written in this language reads as it was meant: frame, tool, joints of the first point, poses, postures
+/// Checks that a draft in this language is read back correctly: frame, tool, joints of the first point, poses, postures
 /// of joint moves, speeds, within the decimals that are written.
 pub fn reads_back(language: Language, draft: &Draft, says: &Says) {
     let written = write(language, draft).unwrap();
@@ -125,7 +125,7 @@ pub fn reads_back(language: Language, draft: &Draft, says: &Says) {
         for (found, pose, number) in [tool].into_iter().chain(frame) {
             match (found, (says.frames)(number)) {
                 (found, Some(expected)) => assert_eq!(found, expected),
-                (Frame::Told(found), None) => near(&found, pose),
+                (Frame::Given(found), None) => near(&found, pose),
                 (found, None) => panic!("{found:?}"),
             }
         }

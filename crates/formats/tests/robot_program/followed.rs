@@ -1,9 +1,9 @@
-//! Programs as moves of a path: one list of poses from every language, frames and tools that are told, given and missing,
-//! arcs, places that only the controller knows.
+//! Programs as moves of a path: the same poses from every language, frames and tools that are given or missing,
+//! arcs, positions that only the controller knows.
 
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
 use armill_core::nalgebra::{Point3, UnitQuaternion, Vector3};
-use armill_core::path::{Course, Pace, ToldSpin};
+use armill_core::path::{Course, GivenSpin, Pace};
 use armill_core::robot::{Branch, BranchPattern, Robot};
 use armill_formats::robot::opw;
 use armill_formats::robot_program::{Cell, FollowError, Followed, FollowedMove, RobotProgram, follow};
@@ -24,7 +24,7 @@ opw_kinematics_joint_offsets: [0.0, 0.0, deg(-90.0), 0.0, 0.0, 0.0]
 opw_kinematics_joint_sign_corrections: [1, 1, 1, 1, 1, 1]
 ";
 
-/// An arm whose lengths do not matter, where a test tells no joints.
+/// An arm for tests without joint positions.
 fn arm() -> Robot {
     opw::read("arm.yaml", "arm", IRB_6700).unwrap().robot
 }
@@ -40,7 +40,7 @@ fn cell(flange_from_tool: Isometry) -> Cell {
 
 /// Base to tool at the end of a move.
 fn base_from_tool(followed: &Followed, at: &FollowedMove) -> Isometry {
-    let Some(ToldSpin::Orientation(turned)) = at.next.spin else {
+    let Some(GivenSpin::Orientation(turned)) = at.next.spin else {
         panic!("{at:?}");
     };
     assert_eq!(at.next.axis, Some(-(turned * Vector3::z_axis())));
@@ -51,7 +51,7 @@ fn krl(lines: &str) -> RobotProgram {
     crate::program(&[("a.src", &format!("DEF A()\n{lines}\nEND\n"))]).unwrap()
 }
 
-/// What keeps these lines of KRL from being followed.
+/// Why these lines of KRL cannot be followed.
 fn lacks(lines: &str, cell: &Cell) -> Vec<FollowError> {
     follow(&krl(lines), &arm(), cell).expect_err(lines)
 }
@@ -85,14 +85,14 @@ fn one_list_of_poses_is_one_path_from_every_language() {
             followed
                 .notes
                 .iter()
-                .any(|note| note.contains("is a place that the program does not tell")),
+                .any(|note| note.contains("is a position that the program does not give")),
             is_pulses
         );
     }
 }
 
 #[test]
-fn joints_of_rapid_stand_where_its_poses_do() {
+fn joints_and_poses_of_a_program_give_the_same_positions() {
     let Some(program) = same_poses::sample("ABB_RAPID_IRC5.mod") else {
         return;
     };
@@ -102,9 +102,9 @@ fn joints_of_rapid_stand_where_its_poses_do() {
     );
     let followed = follow(&program, &arm(), &cell(tool)).unwrap();
     let pose = |index: usize| base_from_tool(&followed, &followed.moves[index]);
-    // MoveAbsJ, then MoveL to a place beside it: x and z are the same there, and the orientation is that of MoveL's further
-    // on. Of the joints six decimals of a degree are told, of places three of a millimetre: 3 m of arm make 5e-8 m of the
-    // former.
+    // MoveAbsJ, then MoveL to a position with the same x and z; the orientation is that of a later MoveL.
+    // Joints have six decimals of a degree, positions three of a millimetre: 3 m of arm give 5e-8 m for the
+    // joints.
     let (joints, first, later) = (pose(1), pose(2), pose(5));
     for axis in [0, 2] {
         let apart = joints.translation.vector[axis] - first.translation.vector[axis];
@@ -113,7 +113,7 @@ fn joints_of_rapid_stand_where_its_poses_do() {
     let turned = joints.rotation.to_rotation_matrix().matrix() - later.rotation.to_rotation_matrix().matrix();
     // Found 1.3e-7, some times what eight decimals of a quaternion and six of a degree leave.
     assert!(turned.amax() < 5e-7, "{turned}");
-    // MoveAbsJ at 2000 mm/s moves the joints; the arc has its end where it is told.
+    // MoveAbsJ at 2000 mm/s moves the joints; the arc ends at its programmed point.
     assert_eq!(followed.moves[1].next.pace, Pace::Rapid);
     assert_eq!(followed.moves[2].next.pace, Pace::Feed(0.1));
     let Course::Arc(arc) = followed.moves[3].next.course else {
@@ -126,12 +126,12 @@ fn joints_of_rapid_stand_where_its_poses_do() {
         followed.moves[3].next.end,
     ];
     assert!(ends.iter().all(|end| (on(*end) - on(ends[0])).abs() < 1e-9));
-    // The joints that stand before it tell the posture: axis 5 below zero.
+    // The preceding joints give the posture: axis 5 below zero.
     assert_eq!(followed.posture, Some((BranchPattern::from(Branch::ALL[1]), 31)));
 }
 
 #[test]
-fn a_frame_that_is_told_holds_and_one_by_number_is_the_cells() {
+fn a_given_frame_is_used_and_a_numbered_one_is_that_of_the_cell() {
     let plain = cell(Isometry::identity());
     let moves = "LIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nLIN {X 5,Y 2,Z 3,A 0,B 0,C 0}";
     let frame = kuka([100.0, 20.0, 3.0, 30.0, 0.0, 0.0]);
@@ -157,7 +157,7 @@ fn a_frame_that_is_told_holds_and_one_by_number_is_the_cells() {
         lacks(&numbered, &plain),
         [FollowError::Numbered { line: 3, number: 3 }]
     );
-    assert_eq!(lacks(moves, &plain), [FollowError::EvaluateError { line: 2 }]);
+    assert_eq!(lacks(moves, &plain), [FollowError::UnknownFrame { line: 2 }]);
     let given = Cell {
         controller_from_frame: Some(frame),
         ..raised
@@ -168,7 +168,10 @@ fn a_frame_that_is_told_holds_and_one_by_number_is_the_cells() {
     let two = format!("{numbered}\n$BASE=BASE_DATA[4]\nLIN {{X 5,Y 2,Z 3,A 0,B 0,C 0}}");
     assert_eq!(lacks(&two, &given), [FollowError::Several { lines: [3, 6] }]);
     let of_program = format!("$BASE={{X 100,Y 20,Z 3,A 30,B 0,C 0}}\n{moves}");
-    assert_eq!(lacks(&of_program, &given), [FollowError::Told { line: 3 }]);
+    assert_eq!(
+        lacks(&of_program, &given),
+        [FollowError::FrameGivenTwice { line: 3 }]
+    );
     assert_eq!(
         lacks(&two, &plain),
         [
@@ -179,7 +182,7 @@ fn a_frame_that_is_told_holds_and_one_by_number_is_the_cells() {
 }
 
 #[test]
-fn a_frame_that_is_replaced_takes_along_what_lies_beside_it() {
+fn replacing_a_frame_also_moves_the_frames_relative_to_it() {
     let instead = kuka([900.0, 0.0, 300.0, 45.0, 10.0, 0.0]);
     let replaced = Cell {
         base_from_path: Some(instead),
@@ -190,8 +193,8 @@ fn a_frame_that_is_replaced_takes_along_what_lies_beside_it() {
     let found = follow(&krl(two), &arm(), &replaced).unwrap();
     assert_eq!(found.base_from_path, instead);
     let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), -30_f64.to_radians());
-    let beside = found.moves[1].next.end - found.moves[0].next.end;
-    assert!((beside - turn * Vector3::new(0.01, 0.0, 0.0)).norm() < 1e-15);
+    let offset = found.moves[1].next.end - found.moves[0].next.end;
+    assert!((offset - turn * Vector3::new(0.01, 0.0, 0.0)).norm() < 1e-15);
     // Home in the robot's own base, cuts in a frame by number: what is cut is what is placed.
     let home = "$BASE=$NULLFRAME\nPTP {X 1000,Y 0,Z 1000,A 0,B 90,C 0}\n$BASE=BASE_DATA[2]\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}";
     let found = follow(&krl(home), &arm(), &replaced).unwrap();
@@ -203,7 +206,7 @@ fn a_frame_that_is_replaced_takes_along_what_lies_beside_it() {
 }
 
 #[test]
-fn a_tool_with_the_same_tip_may_have_other_axes_and_one_with_another_is_told() {
+fn a_tool_with_the_same_tip_may_have_other_axes_and_another_tip_is_reported() {
     let cell = cell(kuka([0.0, 0.0, 150.0, 0.0, 0.0, 0.0]));
     // KUKA's tools often have x along the cutter.
     let lines = |x: &str| {
@@ -220,14 +223,14 @@ fn a_tool_with_the_same_tip_may_have_other_axes_and_one_with_another_is_told() {
         found
             .notes
             .iter()
-            .any(|note| note.contains("turned by 90.00 deg")),
+            .any(|note| note.contains("rotated by 90.00 deg")),
         "{:?}",
         found.notes
     );
     let [
         FollowError::Tip {
             line,
-            told_mm,
+            tip_mm,
             apart_mm,
             tool_mm_deg,
         },
@@ -236,11 +239,11 @@ fn a_tool_with_the_same_tip_may_have_other_axes_and_one_with_another_is_told() {
         panic!("one error");
     };
     assert_eq!(
-        (*line, told_mm.as_str(), tool_mm_deg.as_str()),
+        (*line, tip_mm.as_str(), tool_mm_deg.as_str()),
         (4, "0.5, 0, 150", "[0.5, 0, 150, 0, -90, 0]")
     );
     assert!((apart_mm - 0.5).abs() < 1e-9);
-    // Where only the end counts, the flange stands as it is told, whatever hangs on it.
+    // If only the end matters, the flange is at its programmed pose with any tool.
     let rapid = format!(
         "$BASE=$NULLFRAME\n$TOOL=$NULLFRAME\nPTP {{X 800,Y 0,Z 500,A 0,B 90,C 0}}\n{}",
         lines("0")
@@ -288,17 +291,17 @@ fn arcs_pass_their_via_points_and_flat_ones_are_straight() {
     assert_eq!(found.moves[2].next.course, Course::Line);
     let reported = found.notes.join("\n");
     assert!(
-        reported.contains("line 4: an arc tells an orientation on its way"),
-        "{given}"
+        reported.contains("line 4: an arc gives an orientation at its via point"),
+        "{reported}"
     );
     assert!(
         reported.contains("line 5: an arc has its three points on one line"),
-        "{given}"
+        "{reported}"
     );
 }
 
 #[test]
-fn what_goes_to_or_comes_from_an_unknown_place_is_left_out_and_said() {
+fn moves_to_or_from_an_unknown_position_are_left_out_and_reported() {
     let listing = "/PROG A\n/MN\n1:L P[1] 100mm/sec FINE ;\n2:L P[2] 50mm/sec FINE ;\n3:L PR[1] 50mm/sec FINE ;\n4:L P[1] 50mm/sec FINE ;\n\
         5:L P[2] 50mm/sec FINE ;\n/POS\n";
     let position = |number: usize, x: usize| {
@@ -322,24 +325,24 @@ fn what_goes_to_or_comes_from_an_unknown_place_is_left_out_and_said() {
     assert_eq!(cuts, [(0, false), (1, true), (3, false), (4, true)]);
     let reported = found.notes.join("\n");
     assert!(
-        reported.contains("line 3: the first move begins at a place that the program does not tell")
-            && reported.contains("(2 times, here first)"),
-        "{given}"
+        reported.contains("line 3: the first move begins at a position that the program does not give")
+            && reported.contains("(2 times, first here)"),
+        "{reported}"
     );
     assert!(
-        reported.contains("line 5: `PR[1]` is a place that the program does not tell"),
-        "{given}"
+        reported.contains("line 5: `PR[1]` is a position that the program does not give"),
+        "{reported}"
     );
 }
 
 #[test]
-fn joints_of_another_arm_are_told() {
+fn reports_joints_of_another_arm() {
     let lines = "$BASE=$NULLFRAME\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}";
     let mut program = krl(lines);
     program.moves[0].target = armill_formats::robot_program::Target::Joints(vec![0.0; 7]);
     let reported = follow(&program, &arm(), &cell(Isometry::identity())).unwrap_err();
     assert_eq!(
         reported[0].to_string(),
-        "line 3: 7 joint positions, where robot `arm` has 6 joints"
+        "line 3: 7 joint positions, but robot `arm` has 6 joints"
     );
 }

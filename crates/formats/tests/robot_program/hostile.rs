@@ -1,4 +1,4 @@
-//! Programs broken in every way that one wrong character can break them, and such as are made to take long.
+//! Programs with one wrong character, and programs that could take long to read.
 
 use armill_core::frame::Isometry;
 use armill_formats::robot_program::{
@@ -54,7 +54,7 @@ const PROGRAMS: &[(Read, &str, &str)] = &[
 ];
 
 /// That what is read is made of numbers, and reads again when written with the poses that it has.
-fn judge(read: Read, text: &str) {
+fn check(read: Read, text: &str) {
     let Ok(program) = read(vec![ProgramText::new("a", text.as_bytes())]) else {
         return;
     };
@@ -71,7 +71,7 @@ fn judge(read: Read, text: &str) {
             assert!(joints.iter().all(|value| value.is_finite()), "{text}");
         }
     }
-    // Two moves to one target with components left out go to different places: that is told, and no more.
+    // Two moves to one target with missing components go to different places: only that is reported.
     if let Ok(files) = program.with_poses(&all_moved(&program, |pose| *pose)) {
         let texts = files.iter().map(|(name, bytes)| ProgramText::new(name, bytes));
         let again = read(texts.collect()).unwrap_or_else(|problems| panic!("{problems}\n{text}"));
@@ -104,12 +104,12 @@ fn every_language_reads_its_own_program_here() {
 fn no_wrong_character_makes_any_language_panic() {
     for (read, _, text) in PROGRAMS {
         for (at, c) in text.char_indices() {
-            judge(*read, &text[..at]);
+            check(*read, &text[..at]);
             for with in [
                 "", "{", "}", "[", "(", ")", "]", ",", ":", "=", "\"", "\n", "-", "9", "x", "\\", ";",
                 "\u{fc}",
             ] {
-                judge(
+                check(
                     *read,
                     &format!("{}{with}{}", &text[..at], &text[at + c.len_utf8()..]),
                 );
@@ -136,13 +136,13 @@ proptest! {
                 let at = all.char_indices().nth(to % (all.chars().count() + 1)).map_or(all.len(), |(at, _)| at);
                 all.insert_str(at, &format!("{piece}{marks}"));
             }
-            judge(*read, &all);
+            check(*read, &all);
         }
     }
 }
 
 #[test]
-fn what_nests_or_repeats_without_end_is_read_soon() {
+fn deep_nesting_and_long_repetition_are_read_quickly() {
     let many = 50_000;
     for (read, ..) in PROGRAMS {
         for piece in [
@@ -171,10 +171,10 @@ fn what_nests_or_repeats_without_end_is_read_soon() {
             "Offs(p,1",
             "1+",
         ] {
-            judge(*read, &piece.repeat(many));
-            judge(*read, &format!("MODULE a\nDEF A()\nmovel({}", piece.repeat(many)));
-            judge(*read, &format!("LIN {}", piece.repeat(many)));
-            judge(*read, &format!("CONST robtarget p:={}", piece.repeat(many)));
+            check(*read, &piece.repeat(many));
+            check(*read, &format!("MODULE a\nDEF A()\nmovel({}", piece.repeat(many)));
+            check(*read, &format!("LIN {}", piece.repeat(many)));
+            check(*read, &format!("CONST robtarget p:={}", piece.repeat(many)));
         }
     }
 }

@@ -30,7 +30,8 @@ fn program(files: &[(&str, &str)]) -> Result<RobotProgram, Problems> {
 /// The problems of these files, each `line:column: message`.
 fn problems(files: &[(&str, &str)]) -> Vec<String> {
     let given = program(files).expect_err("it is refused");
-    given.as_slice()
+    given
+        .as_slice()
         .iter()
         .map(|problem| format!("{}:{}: {}", problem.line(), problem.column(), problem.message()))
         .collect()

@@ -50,7 +50,7 @@ fn the_yaskawa_job_has_the_poses_of_the_others_in_the_base() {
         same(pose, &(kuka(FRAME) * in_frame(at)));
     }
     for one in &program.moves[1..] {
-        assert_eq!(one.frame, Frame::Told(Isometry::identity()));
+        assert_eq!(one.frame, Frame::Given(Isometry::identity()));
         assert_eq!((one.tool, one.speed), (Frame::Numbered(9), Speed::Tip(0.1)));
         let Target::Pose { branch, turns, .. } = &one.target else {
             panic!("{one:?}")
@@ -81,7 +81,7 @@ fn the_fanuc_listing_has_the_poses_of_the_others_in_the_frame() {
         same(pose, &in_frame(at));
     }
     for one in &program.moves {
-        let (Frame::Told(frame), Frame::Told(tool)) = (one.frame, one.tool) else {
+        let (Frame::Given(frame), Frame::Given(tool)) = (one.frame, one.tool) else {
             panic!("{one:?}")
         };
         same(&frame, &kuka(FRAME));
@@ -116,7 +116,7 @@ fn the_staubli_program_without_its_data_names_what_is_missing() {
     let missing = |line, what: &str| {
         (
             line,
-            format!("`{what}` is not told: no data (.dtx) are among these files"),
+            format!("`{what}` is not defined: there are no data (.dtx) among these files"),
         )
     };
     let points = [4, 5, 9, 10, 11, 15, 16, 17];

@@ -82,7 +82,7 @@ fn the_sample_has_its_joints_poses_arcs_frames_and_postures() {
         ("front elbow-up flip", &[0, 0, -1][..])
     );
     assert_eq!((&first.motion, first.speed), (&Motion::Linear, Speed::Tip(0.1)));
-    let (Frame::Told(frame), Frame::Told(tool)) = (first.frame, first.tool) else {
+    let (Frame::Given(frame), Frame::Given(tool)) = (first.frame, first.tool) else {
         panic!()
     };
     same(&frame, &Isometry::identity());
@@ -118,7 +118,7 @@ fn the_sample_has_its_joints_poses_arcs_frames_and_postures() {
 }
 
 #[test]
-fn names_stand_for_targets_tools_work_objects_and_speeds() {
+fn names_are_resolved_to_targets_tools_work_objects_and_speeds() {
     let program = program(&[("main.mod", MAIN)]).unwrap();
     assert_eq!(program.name, "main");
     let [home, first, offset, turned, grid, arc] = program.moves.as_slice() else {
@@ -143,7 +143,7 @@ fn names_stand_for_targets_tools_work_objects_and_speeds() {
     );
     assert_eq!(first.motion, Motion::Joint);
     let none = [1.0, 0.0, 0.0, 0.0];
-    let (Frame::Told(frame), Frame::Told(tool)) = (first.frame, first.tool) else {
+    let (Frame::Given(frame), Frame::Given(tool)) = (first.frame, first.tool) else {
         panic!()
     };
     // uframe, then oframe: half a turn about z.
@@ -162,8 +162,8 @@ fn names_stand_for_targets_tools_work_objects_and_speeds() {
         panic!()
     };
     same(via.pose().unwrap(), &abb([1.0, 2.0, 3.0], none));
-    assert_eq!(arc.tool, Frame::Told(Isometry::identity()));
-    for part in ["line 13: `IF`: what it governs", "`Zange` is called"] {
+    assert_eq!(arc.tool, Frame::Given(Isometry::identity()));
+    for part in ["line 13: `IF`: its body is read once", "`Zange` is called"] {
         assert!(
             program.notes.iter().any(|note| note.contains(part)),
             "{:?}",
@@ -173,7 +173,7 @@ fn names_stand_for_targets_tools_work_objects_and_speeds() {
 }
 
 #[test]
-fn places_beside_others_are_written_whole_with_the_posture_of_the_other() {
+fn targets_with_offsets_are_written_in_full_with_the_posture_of_their_base() {
     let program = program(&[("main.mod", MAIN)]).unwrap();
     let (files, _) = rewritten(&program, |pose| *pose);
     let text = String::from_utf8(files[0].1.clone()).unwrap();
@@ -198,7 +198,7 @@ fn places_beside_others_are_written_whole_with_the_posture_of_the_other() {
 }
 
 #[test]
-fn parts_may_be_assigned_and_are_then_written_where_they_are_used() {
+fn assigned_parts_are_written_where_they_are_used() {
     let lines = format!(
         "VAR robtarget p1:={P};\nPROC a()\np1.trans.z:=30;\nMoveL p1,{REST};\np1:=[[7,8,9],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n\
          MoveL p1,{REST};\np1:=Offs(p1,1,0,0);\nENDPROC"
@@ -214,7 +214,7 @@ fn parts_may_be_assigned_and_are_then_written_where_they_are_used() {
 }
 
 #[test]
-fn modules_declare_for_each_other_and_each_for_itself_first() {
+fn modules_share_names_and_prefer_their_own() {
     let one = "MODULE A\nLOCAL CONST robtarget p1:=[[1,0,0],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nPROC a()\nMoveL p1,v100,fine,tool0;\nMoveL p2,v100,fine,tool0;\nb;\nENDPROC\nENDMODULE\n";
     let two = "MODULE B\nLOCAL CONST robtarget p1:=[[2,0,0],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nCONST robtarget p2:=[[3,0,0],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nPROC b()\nMoveL p1,v100,fine,tool0;\nENDPROC\nENDMODULE\n";
     let program = program(&[("a.mod", one), ("b.mod", two)]).unwrap();
@@ -234,31 +234,31 @@ fn modules_declare_for_each_other_and_each_for_itself_first() {
 }
 
 #[test]
-fn tools_and_work_objects_that_nobody_declares_are_not_told() {
+fn undeclared_tools_and_work_objects_are_unknown() {
     let program = of(&format!(
         "PROC a()\nMoveL {P},v100,fine,tGrip\\WObj:=wFixture;\nENDPROC"
     ));
     assert_eq!(
         (program.moves[0].frame, program.moves[0].tool),
-        (Frame::EvaluateError, Frame::EvaluateError)
+        (Frame::Unknown, Frame::Unknown)
     );
     assert!(
         program
             .notes
             .iter()
-            .any(|note| note.contains("`tGrip` is not told by numbers"))
+            .any(|note| note.contains("`tGrip` is not given as numbers"))
     );
 }
 
 #[test]
-fn every_problem_is_told_with_its_place_and_a_hint() {
+fn every_problem_is_reported_with_its_position_and_a_hint() {
     let still = "PERS tooldata t:=[FALSE,[[0,0,0],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];";
-    let held = "PERS wobjdata w:=[TRUE,TRUE,\"\",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];";
+    let on_flange = "PERS wobjdata w:=[TRUE,TRUE,\"\",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];";
     for (data, line, part) in [
         (
             "",
             "MoveL p10,v100,fine,tool0;".to_owned(),
-            "4:7: `p10` is not told: no module given declares it",
+            "4:7: `p10` is not defined: no given module declares it",
         ),
         (
             "",
@@ -273,7 +273,7 @@ fn every_problem_is_told_with_its_place_and_a_hint() {
         (
             "",
             "MoveL [[1,2],[1,0,0,0],[0,0,0,0],[9E9]],v100,fine,tool0;".to_owned(),
-            "is computed while the program runs, or is no such target",
+            "is computed while the program runs, or is not a valid target",
         ),
         (
             "",
@@ -290,47 +290,43 @@ fn every_problem_is_told_with_its_place_and_a_hint() {
         (
             "",
             format!("MoveL {P}],{REST};"),
-            "a closing bracket too many in this MoveL",
+            "one closing bracket too many in this MoveL",
         ),
         ("", format!("MoveL {P},v100,fine;"), "3 arguments of `MoveL`"),
         (
             "",
             format!("MoveL {P}\\:=3,{REST};"),
-            "the name of an argument is missing behind this",
+            "the name of an argument is missing after this",
         ),
         ("", format!("MoveL p{{1,{REST};"), "`}` is missing here"),
         ("", format!("MoveC {P},{P},v100,fine;"), "4 arguments of `MoveC`"),
         (
             "",
             format!("MoveAbsJ {P},{REST};"),
-            "is computed while the program runs, or is no such target",
+            "is computed while the program runs, or is not a valid target",
         ),
-        (
-            "",
-            format!("MoveX {P},{REST};"),
-            "`MoveX` is a move that is not understood",
-        ),
+        ("", format!("MoveX {P},{REST};"), "`MoveX` is an unsupported move"),
         (
             "",
             "SearchL\\Stop,di1,sp,p10,v100,tool0;".to_owned(),
-            "`SearchL` is a move that is not understood",
+            "`SearchL` is an unsupported move",
         ),
         (
             "",
             format!("PDispOn {P},tool0;"),
-            "`PDISPON` displaces every target",
+            "`PDISPON` displaces all targets",
         ),
         (
             still,
             format!("MoveL {P},v100,fine,t;"),
-            "the tool stands still here",
+            "the tool is stationary here",
         ),
         (
-            held,
+            on_flange,
             format!("MoveL {P},v100,fine,tool0\\WObj:=w;"),
-            "the tool stands still here",
+            "the tool is stationary here",
         ),
-        ("", "WaitTime 1;".to_owned(), "no move stands in this program"),
+        ("", "WaitTime 1;".to_owned(), "the program contains no moves"),
     ] {
         wrong(&format!("{data}\nPROC a()\n{line}\nENDPROC"), part);
     }
@@ -359,13 +355,13 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn what_is_written_reads_as_it_was_meant(draft in drafts()) {
+    fn a_written_draft_is_read_back(draft in drafts()) {
         reads_back(Language::Rapid, &draft, &SAYS);
     }
 }
 
 #[test]
-fn a_program_is_written_so() {
+fn a_program_has_the_expected_text() {
     let written = write(Language::Rapid, &long(3)).unwrap();
     let (name, bytes) = &written.files[0];
     assert_eq!((written.files.len(), name.as_str()), (1, "PLATE.mod"));
@@ -384,7 +380,7 @@ fn a_program_is_written_so() {
 }
 
 #[test]
-fn a_long_program_is_written_in_parts_that_a_main_one_calls() {
+fn a_long_program_is_written_in_parts_called_by_a_main_program() {
     let written = write(Language::Rapid, &long(20_001)).unwrap();
     let names: Vec<&str> = written.files.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(
@@ -400,11 +396,11 @@ fn a_long_program_is_written_in_parts_that_a_main_one_calls() {
 }
 
 #[test]
-fn words_of_the_language_are_no_names() {
+fn refuses_reserved_words_as_names() {
     let draft = Draft {
         name: "Proc".to_owned(),
         ..long(1)
     };
     let given = write(Language::Rapid, &draft).unwrap_err().to_string();
-    assert!(given.contains("no word of the language"), "{given}");
+    assert!(given.contains("not a reserved word"), "{given}");
 }

@@ -70,7 +70,7 @@ pub fn keeps_the_rest(program: &RobotProgram, by: impl Fn(&Isometry) -> Isometry
     files
 }
 
-/// That the program, written with its poses moved by `by`, reads to those poses, with all that it said beside them.
+/// Checks that the program, written with its poses multiplied by `by`, is read back with these poses and otherwise unchanged.
 /// Gives the files, and what they read to.
 pub fn rewritten(
     program: &RobotProgram,
@@ -107,21 +107,21 @@ pub fn near(found: &Isometry, expected: &Isometry) {
     let turned = (matrix(found) - matrix(expected)).amax();
     assert!(
         apart < 0.51e-6 && turned < 3.0 * 0.51e-3_f64.to_radians(),
-        "{apart} {turned}: {found} {requested}"
+        "{apart} {turned}: {found} {expected}"
     );
 }
 
 #[test]
-fn a_target_that_counts_from_one_that_was_moved_is_told() {
+fn reports_a_target_that_depends_on_a_moved_one() {
     let krl = "DEF A()\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nLIN {X 5}\nEND\n";
     let step = "DEF A()\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nLIN_REL {X 5}\nEND\n";
-    let beside = "MODULE M\nCONST robtarget p:=[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nPROC a()\n\
+    let offset = "MODULE M\nCONST robtarget p:=[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nPROC a()\n\
         MoveL p,v5,fine,tool0;\nMoveL Offs(p,1,0,0),v5,fine,tool0;\nENDPROC\nENDMODULE\n";
     let frame = "f = p[1,2,3,0,0,0]\nmovel(f)\nmovel(pose_trans(f, p[0,0,0,0,0,0]))\n";
     for (name, text, line) in [
         ("a.src", krl, 3),
         ("a.src", step, 3),
-        ("a.mod", beside, 5),
+        ("a.mod", offset, 5),
         ("a.script", frame, 3),
     ] {
         let program = crate::program(&[(name, text)]).unwrap();
@@ -137,7 +137,7 @@ fn a_target_that_counts_from_one_that_was_moved_is_told() {
         moved.truncate(1);
         let files = program.with_poses(&moved).unwrap();
         let given = program.check_rewritten(&moved, &files).unwrap_err().to_string();
-        let expected = format!("line {line}: the move would go 10000.0 um beside its place");
+        let expected = format!("line {line}: the move would end 10000.0 um from its position");
         assert!(given.starts_with(&expected), "{given}");
     }
 }

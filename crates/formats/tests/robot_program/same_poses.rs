@@ -1,4 +1,4 @@
-//! One list of poses, as the programs of `programs/same-poses-six-languages` of the samples tell it.
+//! One list of poses, as given by the programs of `programs/same-poses-six-languages` of the samples.
 //!
 //! Source: those programs, written by the public RoboDK posts; the numbers are KUKA_KRC4.src's, three decimals of mm.
 
@@ -40,7 +40,7 @@ pub fn kuka(numbers: [f64; 6]) -> Isometry {
     Convention::Kuka.pose(&numbers).unwrap()
 }
 
-/// Where a file of the list lies, if there are samples.
+/// Path of a file of the list, if there are samples.
 pub fn path(file: &str) -> Option<PathBuf> {
     samples("programs/same-poses-six-languages").map(|folder| folder.join(file))
 }
@@ -54,7 +54,7 @@ pub fn sample(file: &str) -> Option<RobotProgram> {
 /// That two poses are one, within what the files print.
 pub fn same(one: &Isometry, other: &Isometry) {
     let apart = (one.translation.vector - other.translation.vector).amax();
-    // The angle from the matrices: the arc cosine of `angle_to` tells nothing below 1e-8.
+    // The angle from the matrices: the arc cosine of `angle_to` is not accurate below 1e-8.
     let matrix = |pose: &Isometry| *pose.rotation.to_rotation_matrix().matrix();
     let turned = (matrix(one) - matrix(other)).amax();
     assert!(apart < PLACE && turned < ANGLE, "{one} {other}");
@@ -78,13 +78,13 @@ pub fn eight_moves(moves: &[RobotMove]) {
     for (found, place) in moves.iter().zip(PLACES) {
         let [[x, y, z], [a, b, c]] = [place, TURN];
         let expected = kuka(FRAME) * kuka([x, y, z, a, b, c]);
-        let Frame::Told(base_from_frame) = found.frame else {
-            panic!("the frame is not told: {found:?}");
+        let Frame::Given(base_from_frame) = found.frame else {
+            panic!("the frame is not given: {found:?}");
         };
         same(&(base_from_frame * found.target.pose().unwrap()), &expected);
         assert_eq!(found.motion, Motion::Linear);
-        let Frame::Told(tool) = found.tool else {
-            panic!("the tool is not told: {found:?}");
+        let Frame::Given(tool) = found.tool else {
+            panic!("the tool is not given: {found:?}");
         };
         same(&tool, &kuka(TOOL));
     }

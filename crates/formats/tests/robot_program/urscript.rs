@@ -69,7 +69,7 @@ fn an_exported_program_has_its_waypoints_planes_and_speeds() {
         (&linear.motion, linear.speed),
         (&Motion::Linear, Speed::Tip(0.25))
     );
-    let Frame::Told(plane) = linear.frame else {
+    let Frame::Given(plane) = linear.frame else {
         panic!()
     };
     same(
@@ -82,7 +82,7 @@ fn an_exported_program_has_its_waypoints_planes_and_speeds() {
     );
     assert_eq!(
         (linear.tool, linear.line),
-        (Frame::Told(ur([0.0, 0.0, 0.1, 0.0, 0.0, 0.0])), 11)
+        (Frame::Given(ur([0.0, 0.0, 0.1, 0.0, 0.0, 0.0])), 11)
     );
     let Motion::Circular { via } = &arc.motion else {
         panic!()
@@ -90,7 +90,7 @@ fn an_exported_program_has_its_waypoints_planes_and_speeds() {
     same(via.pose().unwrap(), &ur([0.1, 0.2, 0.3, 0.0, 3.1, 0.0]));
     same(process.target.pose().unwrap(), &waypoint);
     assert_eq!(process.speed, Speed::Tip(0.05));
-    for part in ["line 7: `while`: what it governs", "`Greifer_zu` is called"] {
+    for part in ["line 7: `while`: its body is read once", "`Greifer_zu` is called"] {
         assert!(
             program.notes.iter().any(|note| note.contains(part)),
             "{:?}",
@@ -100,7 +100,7 @@ fn an_exported_program_has_its_waypoints_planes_and_speeds() {
 }
 
 #[test]
-fn rewriting_changes_the_bytes_of_targets_alone() {
+fn rewriting_changes_only_the_bytes_of_targets() {
     let program = of(EXPORTED);
     let by = ur([0.0123, -0.5, 0.001, 0.1, 0.2, 0.3]);
     let files = keeps_the_rest(&program, |pose| by * pose);
@@ -135,25 +135,25 @@ fn numbers_may_be_computed_from_numbers() {
 }
 
 #[test]
-fn a_time_or_an_unknown_speed_says_nothing_of_the_tip() {
+fn a_duration_or_unknown_speed_gives_no_tip_speed() {
     let speed = |arguments: &str| of(&format!("movel(p[0,0,0,0,0,0]{arguments})")).moves[0].speed;
     assert_eq!(speed(", 1.2, 0.3"), Speed::Tip(0.3));
     assert_eq!(speed(", v=0.3"), Speed::Tip(0.3));
     assert_eq!(speed(", 1.2, 0.3, 5"), Speed::Joints);
     assert_eq!(speed(", v=0.3, t=2"), Speed::Joints);
-    assert_eq!(speed(", 1.2, v_cut"), Speed::EvaluateError);
-    assert_eq!(speed(""), Speed::EvaluateError);
+    assert_eq!(speed(", 1.2, v_cut"), Speed::Unknown);
+    assert_eq!(speed(""), Speed::Unknown);
 }
 
 #[test]
-fn every_problem_is_told_with_its_place_and_a_hint() {
+fn every_problem_is_reported_with_its_position_and_a_hint() {
     for (lines, part) in [
         ("movel(p[1.2.3,0,0,0,0,0])", "1:9: `1.2.3` is not a number"),
-        ("movel(p[0,0,0])", "1:7: 3 numbers of a pose, which has 6"),
+        ("movel(p[0,0,0])", "1:7: 3 numbers in a pose, but 6 are required"),
         ("movel(p[2e9,0,0,0,0,0])", "is beyond 1e9"),
         (
             "movel(p_1, a=1)",
-            "1:7: `p_1` is not told: no line before gives it a value",
+            "1:7: `p_1` is not defined: no line before gives it a value",
         ),
         (
             "p_1 = get_actual_tcp_pose()\nmovel(p_1)",
@@ -167,22 +167,19 @@ fn every_problem_is_told_with_its_place_and_a_hint() {
             "def cut(p_c):\nmovel(p_c)\nend",
             "`p_c` is computed while the program runs",
         ),
-        ("movej([0,0,0])", "3 joints of a target, which has 6"),
-        ("movej(5)", "`5` is a number, where a target is wanted"),
-        ("movej()", "`movej` without its target"),
-        ("movec(p[0,0,0,0,0,0])", "`movec` without its target"),
+        ("movej([0,0,0])", "3 joints in a target, but 6 are required"),
+        ("movej(5)", "`5` is a number, but a target is required"),
+        ("movej()", "`movej` has no target"),
+        ("movec(p[0,0,0,0,0,0])", "`movec` has no target"),
         (
             "movec(p[0,0,0,0,0,0], pose_trans(p[1,0,0,0,0,0], p[0,0,0,0,0,0]))",
-            "the two places of this circle count in different frames",
+            "the two positions of this circle are relative to different frames",
         ),
-        (
-            "servoj([0,0,0,0,0,0])",
-            "`servoj` moves the robot in a way that is not understood",
-        ),
-        ("movex(p[0,0,0,0,0,0])", "`movex` moves the robot"),
+        ("servoj([0,0,0,0,0,0])", "`servoj` is an unsupported move"),
+        ("movex(p[0,0,0,0,0,0])", "`movex` is an unsupported move"),
         ("movel(p[0,0,0,0,0,0)", "1:20: `]` is missing here"),
         ("movel(p[0,0,0,0,0,0]", "1:21: `)` is missing here"),
-        ("sleep(1)", "no move stands in this program"),
+        ("sleep(1)", "the program contains no moves"),
     ] {
         wrong(lines, part);
     }
@@ -201,18 +198,18 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn what_is_written_reads_as_it_was_meant(draft in drafts()) {
+    fn a_written_draft_is_read_back(draft in drafts()) {
         reads_back(Language::UrScript, &draft, &SAYS);
     }
 }
 
 #[test]
-fn a_program_is_written_so() {
+fn a_program_has_the_expected_text() {
     let written = write(Language::UrScript, &long(4)).unwrap();
     let (name, bytes) = &written.files[0];
     assert_eq!((written.files.len(), name.as_str()), (1, "PLATE.script"));
-    // Points lie 0.1 mm apart: the blend of 0.5 mm becomes 0.045 mm; the last point is stopped at.
-    let expected = "def PLATE():\n  # made by armill\n  # LIN {X 0}\n  # frame 1 and tool 2 as this program was made with them\n  \
+    // Points are 0.1 mm apart: the blend of 0.5 mm becomes 0.045 mm; the last point is an exact stop.
+    let expected = "def PLATE():\n  # made by armill\n  # LIN {X 0}\n  # frame 1 and tool 2 for which this program was made\n  \
         armill_frame = p[0.001000, 0.002000, 0.003000, 0.000000, 0.000000, 0.000000]\n  \
         set_tcp(p[0.000000, 0.000000, 0.100000, 0.000000, 0.000000, 0.000000])\n  \
         movej([-0.806066, -0.118249, -0.358652, 1.245934, 0.865461, -5.280450], a=1.4, v=0.5)\n  \
@@ -224,11 +221,11 @@ fn a_program_is_written_so() {
 }
 
 #[test]
-fn words_of_the_language_are_no_names() {
+fn refuses_reserved_words_as_names() {
     let draft = Draft {
         name: "While".to_owned(),
         ..long(1)
     };
     let given = write(Language::UrScript, &draft).unwrap_err().to_string();
-    assert!(given.contains("no word of the language"), "{given}");
+    assert!(given.contains("not a reserved word"), "{given}");
 }

@@ -1,11 +1,11 @@
-//! Robot files with random slips: whatever is written, a robot comes out or what is wrong is said, and nothing panics.
+//! Robot files with random errors: a robot or a problem is returned, and nothing panics.
 
 use std::path::Path;
 
 use armill_core::frame::Isometry;
 use armill_core::robot::inverse::posture_at;
 use armill_formats::robot::armill;
-use armill_formats::robot::format::{self, Wanted};
+use armill_formats::robot::format::{self, RobotReadOptions};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
@@ -111,7 +111,7 @@ fn config(cases: u32, seed: u64) -> ProptestConfig {
 /// Reads; a refusal says something, a robot can be posed, written and read again.
 fn outcome(path: &str, bytes: &[u8]) -> Result<(), TestCaseError> {
     let shown = String::from_utf8_lossy(bytes);
-    match format::read(Path::new(path), "arm", bytes, &Wanted::default()) {
+    match format::read(Path::new(path), "arm", bytes, &RobotReadOptions::default()) {
         Err(problems) => {
             prop_assert!(!problems.as_slice().is_empty(), "{}", shown);
             prop_assert!(
@@ -143,7 +143,12 @@ fn outcome(path: &str, bytes: &[u8]) -> Result<(), TestCaseError> {
 #[test]
 fn the_files_that_are_mutated_are_good() {
     for (path, text) in FILES {
-        let found = format::read(Path::new(path), "arm", text.as_bytes(), &Wanted::default());
+        let found = format::read(
+            Path::new(path),
+            "arm",
+            text.as_bytes(),
+            &RobotReadOptions::default(),
+        );
         assert!(found.is_ok(), "{}", found.unwrap_err());
         outcome(path, text.as_bytes()).unwrap();
     }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use armill_core::frame::Isometry;
 use armill_core::robot::Robot;
 use armill_core::robot::inverse::posture_at;
-use armill_formats::robot::format::{self, Format, Wanted};
+use armill_formats::robot::format::{self, Format, RobotReadOptions};
 use armill_formats::robot::{RobotDescription, armill, xacro};
 use nalgebra::Matrix4;
 
@@ -23,8 +23,8 @@ use Outcome::{Arm, Refused};
 
 /// Every file below `robots` of the samples.
 const FILES: &[(&str, Outcome)] = &[
-    ("abb/common_colours.xacro", Refused("makes no robot")),
-    ("abb/common_materials.xacro", Refused("makes no robot")),
+    ("abb/common_colours.xacro", Refused("defines no robot")),
+    ("abb/common_materials.xacro", Refused("defines no robot")),
     ("abb/irb2400.urdf", Arm),
     ("abb/irb2400_macro.xacro", Arm),
     ("abb/irb4400l_30_243_macro.xacro", Arm),
@@ -49,9 +49,9 @@ const FILES: &[(&str, Outcome)] = &[
     ("fanuc/opw_parameters_m20ib25.yaml", Arm),
     ("fanuc/opw_parameters_m6ib.yaml", Arm),
     ("kuka/LICENSE", Refused("without ending")),
-    ("kuka/common_colours.xacro", Refused("makes no robot")),
-    ("kuka/common_constants.xacro", Refused("makes no robot")),
-    ("kuka/common_materials.xacro", Refused("makes no robot")),
+    ("kuka/common_colours.xacro", Refused("defines no robot")),
+    ("kuka/common_constants.xacro", Refused("defines no robot")),
+    ("kuka/common_materials.xacro", Refused("defines no robot")),
     ("kuka/kr120r2500pro.urdf", Arm),
     ("kuka/kr120r2500pro_macro.xacro", Arm),
     ("kuka/kr150_2_macro.xacro", Arm),
@@ -68,12 +68,12 @@ const FILES: &[(&str, Outcome)] = &[
     ("kuka/opw_parameters_kr10r1420.yaml", Arm),
     ("kuka/opw_parameters_kr150r3100_2.yaml", Arm),
     ("kuka/opw_parameters_kr6r900_2.yaml", Arm),
-    ("motoman/common_colors.xacro", Refused("makes no robot")),
-    ("motoman/common_materials.xacro", Refused("makes no robot")),
+    ("motoman/common_colors.xacro", Refused("defines no robot")),
+    ("motoman/common_materials.xacro", Refused("defines no robot")),
     ("motoman/es165.xacro", Refused("load_yaml")),
     (
         "motoman/es165_macro.xacro",
-        Refused("wants values for joint_velocities_file"),
+        Refused("requires values for joint_velocities_file"),
     ),
     ("motoman/gp180_120_macro.xacro", Arm),
     ("motoman/gp25_macro.xacro", Arm),
@@ -92,8 +92,8 @@ const FILES: &[(&str, Outcome)] = &[
     ("motoman/opw_parameters_mh12.yaml", Arm),
     ("motoman/package.xml", Refused("no <robot> element")),
     ("staubli/LICENSE", Refused("without ending")),
-    ("staubli/common_colours.xacro", Refused("makes no robot")),
-    ("staubli/common_materials.xacro", Refused("makes no robot")),
+    ("staubli/common_colours.xacro", Refused("defines no robot")),
+    ("staubli/common_materials.xacro", Refused("defines no robot")),
     ("staubli/opw_parameters_tx2_90.yaml", Arm),
     ("staubli/opw_parameters_tx2_90l.yaml", Arm),
     ("staubli/rx160.urdf", Arm),
@@ -105,7 +105,7 @@ const FILES: &[(&str, Outcome)] = &[
     ("staubli/tx90_macro.xacro", Arm),
 ];
 
-/// OPW parameters beside the xacro of the same arm, and the turn about the flange's z from the first to the second, deg.
+/// OPW parameters and the xacro of the same arm, and the rotation about the flange's z from the first to the second, deg.
 const SAME_ARM: &[(&str, &str, f64)] = &[
     (
         "motoman/opw_parameters_mh12.yaml",
@@ -150,7 +150,7 @@ const SAME_ARM: &[(&str, &str, f64)] = &[
     ),
 ];
 
-/// URDFs that ROS expanded, beside the xacro of the same arm, and the turn of `tool0` about its y from the first to the
+/// URDFs that ROS expanded, the xacro of the same arm, and the rotation of `tool0` about its y from the first to the
 /// second, deg: the URDF of the KR 210 is of an earlier time, before `tool0` was turned out of the flange.
 const EXPANDED_BY_ROS: &[(&str, &str, f64)] = &[
     ("abb/irb2400.urdf", "abb/irb2400_macro.xacro", 0.0),
@@ -170,7 +170,8 @@ fn robots() -> Option<PathBuf> {
 
 fn read(path: &Path) -> Result<RobotDescription, String> {
     let bytes = std::fs::read(path).unwrap_or_else(|error| panic!("sample {}: {error}", path.display()));
-    format::read(path, "sample", &bytes, &Wanted::default()).map_err(|problems| problems.to_string())
+    format::read(path, "sample", &bytes, &RobotReadOptions::default())
+        .map_err(|problems| problems.to_string())
 }
 
 fn sample(robots: &Path, file: &str) -> Robot {

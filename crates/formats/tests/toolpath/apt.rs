@@ -7,7 +7,7 @@ use armill_core::nalgebra::{Point3, Rotation3, Vector3};
 use armill_core::path::{Course, Move, Pace, Step};
 use armill_formats::robot_program::Language;
 use armill_formats::toolpath::Summary;
-use armill_formats::toolpath::apt::{self, Wanted};
+use armill_formats::toolpath::apt::{self, AptReadOptions};
 use armill_formats::toolpath::format::Format;
 
 use crate::samples_folder::{files_below, samples};
@@ -31,7 +31,7 @@ fn parts() -> Vec<Part> {
         let bytes = std::fs::read(&file).expect("it can be read");
         let name = file.display().to_string();
         let mut steps = Vec::new();
-        let summary = apt::read(&name, bytes.as_slice(), &Wanted::default(), &mut |step| {
+        let summary = apt::read(&name, bytes.as_slice(), &AptReadOptions::default(), &mut |step| {
             steps.push(step);
         })
         .unwrap_or_else(|problems| panic!("{problems}"));
@@ -77,7 +77,7 @@ fn every_sample_is_read_and_nothing_in_it_is_unknown() {
     for part in &parts {
         let mut notes = part.summary.notes.iter();
         assert!(
-            notes.all(|note| note.contains(" was passed over ")),
+            notes.all(|note| note.contains(" was ignored ")),
             "{}: {:?}",
             part.name,
             part.summary.notes
@@ -94,7 +94,7 @@ fn points_arcs_and_ignored_words_are_as_many_as_their_lines() {
         let summary = &part.summary;
         assert_eq!(summary.arcs, part.count("CIRCLE/"), "{}", part.name);
         for note in &summary.notes {
-            let (word, noted) = note.split_once(" was passed over ").expect("no other notes");
+            let (word, noted) = note.split_once(" was ignored ").expect("no other notes");
             // CYCLE/INIT and CYCLE/CLEAR open a cycle, the others are the cycle.
             let begins: &[&str] = if word == "CYCLE" {
                 &["CYCLE/INIT", "CYCLE/CLEAR"]
@@ -143,7 +143,7 @@ fn points_arcs_and_ignored_words_are_as_many_as_their_lines() {
 }
 
 #[test]
-fn the_moves_outside_cycles_are_the_points_as_they_stand() {
+fn moves_outside_cycles_end_at_the_points_of_the_file() {
     for part in parts() {
         let mut rapids = 0;
         for next in part.moves() {
@@ -226,7 +226,7 @@ fn holes_are_as_many_as_the_points_within_cycles() {
                 _ => {}
             }
         }
-        // The moves of a hole stand on one line, and nothing else gives several.
+        // The moves of a hole have one line, and nothing else gives several moves.
         let moves = part.moves();
         let mut lines: Vec<u32> = moves
             .windows(2)
@@ -251,7 +251,7 @@ fn feeds_are_those_of_the_lines_above() {
                     "FEDRAT/"
                 })
             });
-            let (_, given) = above.expect("a feed is told above");
+            let (_, given) = above.expect("a feed is given above");
             let given: f64 = given
                 .split(',')
                 .next()
@@ -298,14 +298,14 @@ fn the_format_of_every_tool_path_and_robot_program_is_known() {
     ] {
         assert_eq!(known(name), Ok(Format::Robot(language)), "{name}");
     }
-    // Moves of a VAL3 program alone look like those of URScript: its name tells.
+    // Moves of a VAL3 program look like those of URScript: its file name decides.
     let name = "Staubli_VAL3_simplified.pgx";
     let text = std::fs::read_to_string(folder.join(name)).expect("the sample is there");
     assert_eq!(
         Format::of(Path::new(name), &text),
         Ok(Format::Robot(Language::Val3))
     );
-    // A language that nobody here reads.
+    // An unsupported language.
     let given = known("Comau_C5G.pdl").expect_err("Comau").to_string();
-    assert!(given.contains("a program of a robot"), "{given}");
+    assert!(given.contains("a robot program"), "{given}");
 }

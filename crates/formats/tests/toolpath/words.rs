@@ -1,11 +1,11 @@
 //! The guide's page of words, tried: what it calls followed or passed over is read, what it calls refused is refused where
-//! it stands, and no code that is known is missing.
+//! at its line, and no known code is missing.
 
 use std::path::Path;
 
 use armill_core::path::Step;
 use armill_formats::document::Problems;
-use armill_formats::toolpath::gcode::{self, Rotaries, ToolTable, Wanted};
+use armill_formats::toolpath::gcode::{self, GcodeReadOptions, Rotaries, ToolTable};
 use armill_formats::toolpath::{LengthUnit, Summary, apt, csv};
 
 /// A row of a table: its words, and which of them are ends of a range with the one before.
@@ -46,10 +46,10 @@ fn rows(section: &str, part: Option<&str>) -> Vec<Row> {
 }
 
 fn gcode(program: &str) -> Result<Summary, Problems> {
-    let expected = Wanted {
+    let expected = GcodeReadOptions {
         rotaries: Some(Rotaries::table_ac()),
         tools: Some(ToolTable::read("tools", "T1 P1 D2 Z50\n", LengthUnit::Millimetre).expect("a table")),
-        ..Wanted::default()
+        ..GcodeReadOptions::default()
     };
     gcode::read("p.ngc", program.as_bytes(), &expected, &mut |_| ())
 }
@@ -69,7 +69,7 @@ fn followed_words_of_gcode_are_read() {
 }
 
 #[test]
-fn refused_words_of_gcode_are_refused_where_they_stand() {
+fn refused_words_of_gcode_are_refused_at_their_lines() {
     for word in rows("G-code", Some("Refused"))
         .into_iter()
         .flat_map(|row| row.words)
@@ -106,7 +106,7 @@ fn codes(letter: char) -> Vec<u32> {
 }
 
 #[test]
-fn every_code_that_is_known_stands_on_the_page() {
+fn every_known_code_is_on_the_page() {
     for letter in ['G', 'M'] {
         let given = codes(letter);
         let step = if letter == 'G' { 1 } else { 10 };
@@ -126,11 +126,13 @@ fn every_code_that_is_known_stands_on_the_page() {
 
 fn apt(program: &str) -> Result<(Summary, Vec<Step>), Problems> {
     let mut steps = Vec::new();
-    let expected = apt::Wanted {
+    let expected = apt::AptReadOptions {
         dialect: Some(apt::Dialect::SolidWorks),
-        ..apt::Wanted::default()
+        ..apt::AptReadOptions::default()
     };
-    let summary = apt::read("p.cls", program.as_bytes(), &expected, &mut |step| steps.push(step))?;
+    let summary = apt::read("p.cls", program.as_bytes(), &expected, &mut |step| {
+        steps.push(step)
+    })?;
     Ok((summary, steps))
 }
 
@@ -140,7 +142,7 @@ const BEFORE_APT: &str = "UNITS/MM\nSPINDL/3000.,RPM,CLW\nFEDRAT/100.,MMPM\nGOTO
 fn followed_words_of_apt_are_read_and_none_is_unknown() {
     for row in rows("APT-CL, CLDATA, CLSF", Some("Followed")) {
         let program = row.words.join("\n");
-        // The first MSYS of a file stands before its points.
+        // The first MSYS of a file precedes its points.
         let before = match program.contains("MSYS") {
             true => "UNITS/MM\nFEDRAT/100.,MMPM\n",
             false => BEFORE_APT,
@@ -156,7 +158,7 @@ fn followed_words_of_apt_are_read_and_none_is_unknown() {
 }
 
 #[test]
-fn words_of_apt_that_are_passed_over_are_counted() {
+fn ignored_words_of_apt_are_counted() {
     for word in rows("APT-CL, CLDATA, CLSF", Some("Passed over"))
         .into_iter()
         .flat_map(|row| row.words)
@@ -165,14 +167,14 @@ fn words_of_apt_that_are_passed_over_are_counted() {
         let passed_over = summary
             .notes
             .iter()
-            .filter(|note| note.contains("was passed over once"));
+            .filter(|note| note.contains("was ignored once"));
         assert_eq!(passed_over.count(), 1, "{word}: {:?}", summary.notes);
         assert_eq!(steps.len(), 2, "{word} moves something");
     }
 }
 
 #[test]
-fn refused_words_of_apt_are_refused_where_they_stand() {
+fn refused_words_of_apt_are_refused_at_their_lines() {
     for word in rows("APT-CL, CLDATA, CLSF", Some("Refused"))
         .into_iter()
         .flat_map(|row| row.words)
@@ -227,7 +229,7 @@ fn columns_of_a_path_are_read_and_none_is_missing() {
     }
     let unknown = csv::read("p.csv", "x_mm,qqqqqqqq\n".as_bytes(), &mut |_| ()).expect_err("no column");
     let unknown = unknown.to_string();
-    let (_, known) = unknown.split_once("understood are ").expect("a list of names");
+    let (_, known) = unknown.split_once("known columns: ").expect("a list of names");
     for name in known.lines().next().unwrap_or_default().split(", ") {
         let listed = given.iter().any(|column| plain(column) == plain(name.trim()));
         assert!(listed, "`{name}` is not on the page");

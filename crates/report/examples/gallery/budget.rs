@@ -19,7 +19,7 @@ fn budget() -> BudgetBars {
         scatter_um,
     };
     BudgetBars {
-        title: "Groove: what its error is made of".to_owned(),
+        title: "Groove: error budget".to_owned(),
         subtitle: "circle of 100 mm; from the least-squares centre and radius of each".to_owned(),
         quantity: "largest radial deviation (µm)".to_owned(),
         bars: vec![
@@ -54,11 +54,11 @@ fn errors() -> ErrorDistribution {
     };
     ErrorDistribution {
         title: "Arm: errors of position".to_owned(),
-        subtitle: "90 poses found from, 30 held out".to_owned(),
-        quantity: "distance of measured from predicted (mm)".to_owned(),
+        subtitle: "90 poses for identification, 30 for validation".to_owned(),
+        quantity: "position error (mm)".to_owned(),
         sets: vec![
             set("found from", 90, [0.9, 0.15]),
-            set("held out", 30, [0.95, 0.22]),
+            set("validation", 30, [0.95, 0.22]),
         ],
     }
 }
@@ -71,7 +71,7 @@ fn waves() -> WaveBars {
         phase_difference_deg: Some(phase_difference_deg),
     };
     WaveBars {
-        title: "Groove: wave by wave".to_owned(),
+        title: "Groove: undulations".to_owned(),
         subtitle: "91.0 % explained".to_owned(),
         names: ["part".to_owned(), "predicted".to_owned()],
         waves: vec![

@@ -5,7 +5,8 @@ use armill_report::{
     PointState, RectangleMm, RegionMap,
 };
 
-/// A field that looks like an arm's: soft far out and high up, out of reach beyond a sphere, a joint limit low on one side.
+/// A field that looks like an arm's: soft far out and high up, out of reach beyond a sphere, a joint limit low on one
+/// side.
 fn grid(n: usize, distance_mm: f64) -> Grid {
     let lattice = |from: f64, to: f64| -> Vec<f64> {
         (0..n)
@@ -101,7 +102,7 @@ pub fn pictures() -> Vec<(&'static str, String)> {
     };
     let region = RegionMap {
         title: "Permissible region on the plate at x = 900 mm".into(),
-        subtitle: "Made-up field; rectangle and circle lie inside the region".into(),
+        subtitle: "Synthetic field; rectangle and circle are inside the region".into(),
         grid: grid(41, 900.0),
         spread_um: vec![4.0; 41 * 41],
         axes: axes(),

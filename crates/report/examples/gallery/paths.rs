@@ -150,7 +150,7 @@ fn cell_map() -> CellMap {
         } else if along > 620.0 && turn < -90.0 {
             Cell::OutOfReach
         } else {
-            Cell::Holds(60.0 + 25.0 * wave + 20.0 * (turn.to_radians() - 0.004 * along).cos())
+            Cell::Deviation(60.0 + 25.0 * wave + 20.0 * (turn.to_radians() - 0.004 * along).cos())
         }
     };
     CellMap {
@@ -162,7 +162,7 @@ fn cell_map() -> CellMap {
             .flat_map(|along| turns_deg.iter().map(move |turn| cell(*along, *turn)))
             .collect(),
         chosen: along_mm.iter().map(|along| -100.0 - 0.2 * along).collect(),
-        chosen_word: "turn chosen".to_owned(),
+        chosen_word: "chosen turn".to_owned(),
         period: Some(360.0),
         labels: AxisLabels {
             horizontal: "along the path (mm)".to_owned(),
@@ -247,7 +247,7 @@ fn force_plot() -> ForcePlot {
     };
     ForcePlot {
         title: "Force on the tool while a groove is milled".into(),
-        subtitle: "groove.txt, 50000 Hz; drift taken off; low-pass 50 Hz".into(),
+        subtitle: "groove.txt, 50000 Hz; drift removed; low-pass 50 Hz".into(),
         traces: vec![
             component("Fx (N)", 0),
             component("Fy (N)", 1),
@@ -380,7 +380,7 @@ fn shares() -> ShareBars {
         bar("lower right corner, elbow down", [8.0, -6.5, 5.2, 1.1, 2.4, 0.2]),
     ];
     ShareBars {
-        title: "Which joint is to blame?".into(),
+        title: "Contributions of the joints".into(),
         subtitle: "Share of each joint in the in-plane deviation, feed +y, 120 N".into(),
         quantity: "share of in-plane deviation (µm)".into(),
         parts: ["S", "L", "U", "R", "B", "T"].map(String::from).into(),
@@ -414,7 +414,7 @@ fn comparison() -> Comparison {
         result: result.into(),
     };
     Comparison {
-        title: "Rim of a housing: which cell holds the tolerance".into(),
+        title: "Rim of a housing: which cell meets the tolerance".into(),
         subtitle: "mean, 95 % and largest deviation; best first".into(),
         quantity: "in-plane deviation (µm)".into(),
         result: "within".into(),

@@ -1,7 +1,7 @@
 //! From a posture to solids: rounded links, cylinders for joints, a foot, a flange and a tool.
 //!
-//! Sizes follow from the length of the arm, not from a data sheet: this is a schematic. A joint that turns about its own link is drawn
-//! as a collar on that link, since its origin may be anywhere along the axis.
+//! Sizes follow from the length of the arm, not from a data sheet: this is a schematic. A joint that turns about its
+//! own link is drawn as a collar on that link, since its origin may be anywhere along the axis.
 //!
 //! ```text
 //!   joint (cylinder about its axis)
@@ -38,13 +38,13 @@ pub(crate) enum Part {
 /// A solid of the arm.
 #[derive(Clone, Debug)]
 pub(crate) enum Solid {
-    /// A link with round ends, which joints hide: two spheres and what lies between them.
+    /// A link with round ends, which joints hide: two spheres and the body between them.
     Capsule {
         ends: [Vec3; 2],
         radii: [f64; 2],
         part: Part,
     },
-    /// A cylinder about `axis`, a vector of length one; its ends lie `half_length` to both sides of `centre`.
+    /// A cylinder about `axis`, a vector of length one; its ends are `half_length` to both sides of `centre`.
     Cylinder {
         centre: Vec3,
         axis: Vec3,
@@ -106,7 +106,7 @@ struct Skeleton<'a> {
     /// Length of the arm, at least 1 mm, and what is too short to be drawn.
     size_mm: f64,
     near_mm: f64,
-    /// The line of each link: straight, or round the corner where the next joint stands off the axis.
+    /// The line of each link: straight, or with a corner where the next joint is off the axis.
     routes: Vec<Vec<Vec3>>,
     /// From the foot to the first joint.
     from_base: Vec3,
@@ -148,16 +148,16 @@ impl<'a> Skeleton<'a> {
         self.posture.joints.len().max(1) as f64
     }
 
-    /// Whether the first joint stands where the foot does.
-    fn stands_on_foot(&self) -> bool {
+    /// Whether the first joint is above the foot.
+    fn is_on_foot(&self) -> bool {
         length(self.from_base) <= self.near_mm
     }
 
-    /// What carries a first joint that stands off the foot; `None` where it does not.
+    /// The solid that carries a first joint that is off the foot; `None` where it is on the foot.
     fn column(&self) -> Option<Solid> {
         let axis = unit(self.from_base);
         let half_length = length(self.from_base) / 2.0;
-        (!self.stands_on_foot()).then(|| Solid::Cylinder {
+        (!self.is_on_foot()).then(|| Solid::Cylinder {
             centre: along(self.posture.base_mm, axis, half_length),
             axis,
             radius: 1.1 * self.radius_mm(0.0),
@@ -197,7 +197,7 @@ impl<'a> Skeleton<'a> {
             for (m, w) in line.windows(2).enumerate() {
                 let share = |m: usize| k as f64 + m as f64 / (line.len() - 1) as f64;
                 let radii = [self.radius_mm(share(m)), self.radius_mm(share(m + 1))];
-                let start = if k == 0 && m == 0 && self.stands_on_foot() {
+                let start = if k == 0 && m == 0 && self.is_on_foot() {
                     along(w[0], unit(between(w[0], w[1])), 2.0 * FOOT * self.size_mm)
                 } else {
                     w[0]
@@ -242,8 +242,8 @@ struct Collar {
     half_length: f64,
 }
 
-/// The collar of joint `k`, if its axis lies along the link before it or after it, within 25 degrees; the
-/// better fit of the two. It stands half-way along the link before, or at 0.45 of the link after.
+/// The collar of joint `k`, if its axis is along the link before it or after it, within 25 degrees; the
+/// better fit of the two. It is half-way along the link before, or at 0.45 of the link after.
 fn collar_of(routes: &[Vec<Vec3>], k: usize, axis: Vec3, half_length: f64) -> Option<Collar> {
     let before = (0..k)
         .rev()

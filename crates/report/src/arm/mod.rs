@@ -1,10 +1,10 @@
-//! How the arm stands: a schematic drawing from joint origins and axes, seen from a chosen side.
+//! The posture of the arm: a schematic drawing from joint origins and axes, seen from a chosen side.
 //!
 //! `view`: from which side; `body`: the posture as solids; `shapes`: solids on paper; `scene`: the whole drawing.
 //!
 //! | what | drawn as |
 //! |---|---|
-//! | posture | solids in full colour, a name in a badge beside each joint |
+//! | posture | solids in full colour, a name in a badge next to each joint |
 //! | ghosts | the same, faint, without foot and names |
 //! | plate, path | a translucent quadrilateral, a red line on white |
 //! | floor | a grid of nice steps with the arm's shadow; a line where it is seen from the side |
@@ -27,7 +27,7 @@ use scene::{Scene, draw_scene, wanted_height_px};
 /// One joint of a posture, in the base frame, at the position that it has in this posture.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ArmJoint {
-    /// Its name, written beside it: `S`; empty for none.
+    /// Its name, written next to it: `S`; empty for none.
     pub name: String,
     /// A point on its axis, in mm; links are drawn from origin to origin.
     pub origin_mm: [f64; 3],
@@ -38,7 +38,7 @@ pub struct ArmJoint {
 /// The arm in one posture, in the base frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ArmPosture {
-    /// Where the foot stands, in mm. The foot is drawn about the axis of the first joint.
+    /// The position of the foot, in mm. The foot is drawn about the axis of the first joint.
     pub base_mm: [f64; 3],
     /// The joints from base to flange.
     pub joints: Vec<ArmJoint>,
@@ -92,7 +92,7 @@ impl ArmDrawing {
             return heading.notice("There is nothing to draw: the arm has no joints.");
         }
         if !is_finite(&self.posture) {
-            return heading.notice("The arm cannot be drawn: a joint stands nowhere.");
+            return heading.notice("The arm cannot be drawn: the position of a joint is not finite.");
         }
         let scene = Scene::of(self);
         let panel_px = match views {

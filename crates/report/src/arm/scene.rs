@@ -1,12 +1,13 @@
-//! The whole drawing: floor with shadow, ghosts, plate, path and arm painted from back to front, then names and directions.
+//! The whole drawing: floor with shadow, ghosts, plate, path and arm painted from back to front, then names and
+//! directions.
 //!
 //! Painter's order: floor, shadow, ghosts, then solids, plate and path sorted by their depth, names and base
-//! directions last. What lies nearer hides what lies behind it; solids that pass through each other are not
+//! directions last. Nearer solids hide those behind them; solids that pass through each other are not
 //! cut, which a schematic bears. Points of the scene are in the base frame in mm, points of the drawing in px
 //! with y downwards.
 
 use super::body::{Body, JointSpot, Part, Solid, arm_length};
-use super::shapes::{Place, corners, draw_solid, hull, paint_depth};
+use super::shapes::{ParallelProjection, corners, draw_solid, hull, paint_depth};
 use super::view::{Projection, Vec3, View};
 use super::{ArmDrawing, ArmPosture, is_finite};
 use crate::arrow::draw_arrow;
@@ -33,7 +34,7 @@ pub(crate) struct Scene {
 }
 
 impl Scene {
-    /// What a drawing asks for. Its posture has a joint, and its numbers are finite.
+    /// The input of a drawing. Its posture has a joint, and its numbers are finite.
     pub(crate) fn of(drawing: &ArmDrawing) -> Self {
         let ghosts: Vec<&ArmPosture> = drawing
             .ghosts
@@ -114,14 +115,14 @@ const AXIS_COLOURS: [&str; 3] = ["#c8102e", "#2e8b57", "#1f5fa8"];
 /// Strip below it for the base directions.
 const DIRECTIONS_PX: f64 = 46.0;
 
-/// A projection placed on the picture: a scale, and where the base origin stands.
+/// A projection placed on the picture: a scale, and the position of the base origin.
 struct Placed {
     projection: Projection,
     px_per_mm: f64,
     origin_px: Point,
 }
 
-impl Place for Placed {
+impl ParallelProjection for Placed {
     fn at(&self, p: Vec3) -> Point {
         let flat = self.projection.flat(p);
         [
@@ -300,7 +301,7 @@ fn draw_floor(svg: &mut Svg, scene: &Scene, view: View, place: &Placed) {
     });
 }
 
-/// Names in white badges beside their joints, clear of each other and, where there is room, of the arm.
+/// Names in white badges next to their joints, clear of each other and, where there is room, of the arm.
 fn draw_names(svg: &mut Svg, scene: &Scene, place: &Placed, area: Rect) {
     let mut taken: Vec<Rect> = Vec::new();
     let arm: Vec<Point> = scene

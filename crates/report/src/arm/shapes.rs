@@ -13,7 +13,7 @@ use super::view::{Vec3, along, cross, unit};
 use crate::svg::{Point, Style, Svg};
 
 /// Where a point of the base frame is on the picture: a parallel projection with one scale.
-pub(crate) trait Place {
+pub(crate) trait ParallelProjection {
     /// Pixels, y downwards.
     fn at(&self, p: Vec3) -> Point;
     /// The scale of a length across the line of sight.
@@ -39,7 +39,7 @@ fn colours(part: Part) -> [&'static str; 4] {
 }
 
 /// How far back a solid is painted, mm, nearer to the viewer is more: a link before both of its joints.
-pub(crate) fn paint_depth(solid: &Solid, place: &impl Place) -> f64 {
+pub(crate) fn paint_depth(solid: &Solid, place: &impl ParallelProjection) -> f64 {
     match solid {
         Solid::Capsule { ends, .. } => place.depth(ends[0]).min(place.depth(ends[1])),
         Solid::Cylinder {
@@ -60,7 +60,7 @@ pub(crate) fn paint_depth(solid: &Solid, place: &impl Place) -> f64 {
 }
 
 /// Draws one solid over what is there.
-pub(crate) fn draw_solid(svg: &mut Svg, solid: &Solid, place: &impl Place) {
+pub(crate) fn draw_solid(svg: &mut Svg, solid: &Solid, place: &impl ParallelProjection) {
     match solid {
         Solid::Capsule { ends, radii, part } => draw_capsule(
             svg,
@@ -89,7 +89,7 @@ pub(crate) fn draw_solid(svg: &mut Svg, solid: &Solid, place: &impl Place) {
 }
 
 /// All corners of a solid, for fitting the picture.
-pub(crate) fn corners(solid: &Solid, place: &impl Place) -> Vec<Point> {
+pub(crate) fn corners(solid: &Solid, place: &impl ParallelProjection) -> Vec<Point> {
     match solid {
         Solid::Capsule { ends, radii, .. } => ends
             .iter()
@@ -221,7 +221,7 @@ fn circle(c: Point, r: f64) -> Vec<Point> {
 }
 
 /// A disc at right angles to `axis`, which has length one, as it is seen.
-fn disc(centre: Vec3, axis: Vec3, radius: f64, place: &impl Place) -> Vec<Point> {
+fn disc(centre: Vec3, axis: Vec3, radius: f64, place: &impl ParallelProjection) -> Vec<Point> {
     let helper = if axis[2].abs() < 0.9 {
         [0.0, 0.0, 1.0]
     } else {

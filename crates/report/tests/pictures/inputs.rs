@@ -115,7 +115,7 @@ pub fn bars(shares_um: Vec<f64>) -> ShareBars {
     }
 }
 
-/// A cell of this size beside one that is sound.
+/// A cell of this size next to a valid one.
 pub fn comparison(um: Option<f64>) -> Comparison {
     let cell = |um: Option<f64>| ComparedCell {
         label: NASTY.repeat(9),
@@ -136,7 +136,7 @@ pub fn comparison(um: Option<f64>) -> Comparison {
     }
 }
 
-/// A hole of this size beside one that is sound and one that is nowhere.
+/// A hole of this size next to a valid one and one without a position.
 pub fn hole_map(um: Option<f64>) -> HoleMap {
     let hole = |at_mm: [f64; 2], um: Option<f64>| HoleMark {
         at_mm,

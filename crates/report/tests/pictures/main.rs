@@ -16,7 +16,7 @@ fn every_picture_is_well_formed_and_can_be_drawn() {
 }
 
 #[test]
-fn no_picture_contains_raw_text_or_a_number_that_is_none() {
+fn no_picture_contains_raw_text_or_an_invalid_number() {
     for svg in everything() {
         assert!(!svg.contains(NASTY) && !svg.contains("a <&"), "raw text");
         assert!(
@@ -45,7 +45,7 @@ fn pictures_on_one_page_do_not_share_identifiers() {
 }
 
 #[test]
-fn the_out_of_reach_hatch_stands_where_and_only_where_points_are_out_of_reach() {
+fn the_out_of_reach_hatch_is_exactly_where_points_are_out_of_reach() {
     let hole = grid(5, 4, |y, z| {
         if y > 40.0 && z > 90.0 {
             PointState::Unreachable
@@ -71,8 +71,8 @@ fn points_outside_the_joint_limits_have_their_own_hatch() {
     assert!(!map(grid(5, 4, slope)).to_svg().contains("outside-joint-limits"));
 }
 
-/// Points of the line drawn in the limit's colour, inside the map.
-fn limit_line(svg: &str) -> Vec<[f64; 2]> {
+/// Points of the line drawn in the tolerance's colour, inside the map.
+fn tolerance_line(svg: &str) -> Vec<[f64; 2]> {
     let line = svg
         .lines()
         .find(|l| l.contains("#c8102e") && l.contains("stroke-width=\"2.4\""))
@@ -93,7 +93,7 @@ fn limit_line(svg: &str) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// Where the frame of a map stands: the first rectangle without a fill.
+/// The frame of a map: the first rectangle without a fill.
 fn frame(svg: &str) -> [f64; 4] {
     let line = svg
         .lines()
@@ -110,8 +110,9 @@ fn frame(svg: &str) -> [f64; 4] {
 }
 
 #[test]
-fn the_limit_line_passes_between_the_right_grid_points() {
-    // Values 20, 35, 50+, ... along the row: with the limit 42 the line lies between the second and third of five columns.
+fn the_tolerance_line_passes_between_the_right_grid_points() {
+    // Values 20, 35, 50+, ... along the row: with the tolerance 42 the line is between the second and third of five
+    // columns.
     let svg = DeviationMap {
         tolerance_um: Some(42.0),
         overlays: vec![],
@@ -119,7 +120,7 @@ fn the_limit_line_passes_between_the_right_grid_points() {
     }
     .to_svg();
     let [x, _, width, _] = frame(&svg);
-    let line = limit_line(&svg);
+    let line = tolerance_line(&svg);
     assert!(line.len() >= 2);
     // 20 + 0.3 * 50 i = 42 at i = 1.4667 of 4 steps; a monotone cubic through a straight row is straight.
     let expected = x + width * (22.0 / 15.0) / 4.0;
@@ -131,19 +132,19 @@ fn the_limit_line_passes_between_the_right_grid_points() {
 }
 
 #[test]
-fn a_limit_that_no_point_exceeds_is_named_but_not_drawn() {
+fn a_tolerance_that_no_point_exceeds_is_named_but_not_drawn() {
     let svg = DeviationMap {
         tolerance_um: Some(500.0),
         ..map(grid(5, 4, slope))
     }
     .to_svg();
-    assert!(svg.contains("limit 500 µm (kept everywhere)"));
+    assert!(svg.contains("tolerance 500 µm (met everywhere)"));
     let svg = DeviationMap {
         tolerance_um: Some(5.0),
         ..map(grid(5, 4, slope))
     }
     .to_svg();
-    assert!(svg.contains("limit 5 µm (exceeded everywhere)"));
+    assert!(svg.contains("tolerance 5 µm (exceeded everywhere)"));
 }
 
 #[test]
@@ -167,14 +168,14 @@ fn sizes_of_the_inscribed_shapes_are_written() {
 }
 
 #[test]
-fn what_is_doubtful_is_painted_and_named_only_where_values_are_uncertain() {
-    let sure = region(grid(5, 4, slope)).to_svg();
-    let doubtful = RegionMap {
+fn the_undecided_zone_is_painted_and_named_only_where_values_are_uncertain() {
+    let certain = region(grid(5, 4, slope)).to_svg();
+    let uncertain = RegionMap {
         spread_um: vec![5.0; 20],
         ..region(grid(5, 4, slope))
     }
     .to_svg();
-    assert!(!sure.contains("uncertainty") && doubtful.contains("within the uncertainty (95 %)"));
+    assert!(!certain.contains("uncertainty") && uncertain.contains("within the uncertainty (95 %)"));
     for spread_um in [vec![0.0; 20], vec![f64::NAN; 20], vec![5.0; 3]] {
         let of = |spread_um| {
             RegionMap {
@@ -183,7 +184,7 @@ fn what_is_doubtful_is_painted_and_named_only_where_values_are_uncertain() {
             }
             .to_svg()
         };
-        assert_eq!(of(spread_um), sure);
+        assert_eq!(of(spread_um), certain);
     }
 }
 

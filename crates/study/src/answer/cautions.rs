@@ -1,40 +1,40 @@
 //! Warnings of holes and paths: out of reach, outside joint limits, jumps of the arm, points without force.
 //!
-//! Each is a sentence that begins with the name of the path; none stops the answer.
+//! Each is a sentence that begins with the name of the path; they do not stop the evaluation.
 
 use super::holes::HolesAnswer;
 use super::path::PathAnswer;
 
-/// Stretches without posture that are told.
-const MOST_LOST: usize = 5;
+/// Stretches without posture that are reported at most.
+const MOST_STRETCHES: usize = 5;
 
-/// Holes that no posture holds, with the reason of the first, and holes that only a posture holds that a search refuses.
+/// Holes out of reach, with the reason of the first, and holes reached only in a posture that the search rejects.
 pub(super) fn of_holes(holes: &HolesAnswer) -> Vec<String> {
     let (name, count) = (&holes.name, holes.holes);
-    let lost = holes.each.iter().find(|hole| hole.reason.is_some());
-    let lost = lost.map(|first| {
+    let unreachable = holes.each.iter().find(|hole| hole.reason.is_some());
+    let unreachable = unreachable.map(|first| {
         let reason = first.reason.as_deref().unwrap_or_default();
         format!(
             "{name}: {} of {count} holes cannot be drilled, hole {} first: {reason}.",
             holes.unreachable, first.hole
         )
     });
-    let mut strained = holes
+    let mut rejected = holes
         .each
         .iter()
         .filter_map(|hole| Some((hole.hole, hole.blocked_by?)));
-    let strained = strained.next().map(|(first, why)| {
+    let rejected = rejected.next().map(|(first, why)| {
         format!(
-            "{name}: for {} of {count} holes every turn and branch is refused, hole {first} first ({}): they are told as they can \
-             be held, and count as lost.",
-            1 + strained.count(),
+            "{name}: for {} of {count} holes every turn and branch is rejected, hole {first} first ({}): they are evaluated in a \
+             rejected posture and included in the holes that cannot be drilled.",
+            1 + rejected.count(),
             why.replace('_', " ")
         )
     });
-    lost.into_iter().chain(strained).collect()
+    unreachable.into_iter().chain(rejected).collect()
 }
 
-/// What a user should know before trusting the result of a path.
+/// Warnings of a path that a user should know before relying on it.
 ///
 /// In this order: points out of reach with what may be the reason, points outside joint limits, jumps, points whose
 /// deviation is zero only because no force is known there.
@@ -43,17 +43,17 @@ pub(super) fn of_path(path: &PathAnswer) -> Vec<String> {
     let mut warnings = Vec::new();
     if path.unreachable > 0 {
         let hint = match path.program {
-            Some(_) => "does the program lie where it should (part_from_path_mm_deg)?",
-            None => "are its coordinates in mm, and does the plane lie where it should?",
+            Some(_) => "check the placement of the program (part_from_path_mm_deg)",
+            None => "check that its coordinates are in mm, and the placement of the plane",
         };
         warnings.push(format!(
-            "{name}: {} of {} points are out of reach; {hint}",
+            "{name}: {} of {} points are out of reach; {hint}.",
             path.unreachable, path.points
         ));
     }
     if path.outside_joint_limits > 0 {
         warnings.push(format!(
-            "{name}: {} of {} points stand outside joint limits in the branch {}.",
+            "{name}: {} of {} points are outside joint limits in the branch {}.",
             path.outside_joint_limits,
             path.points,
             path.followed_branch.as_ref().unwrap_or(&path.branch)
@@ -66,18 +66,18 @@ pub(super) fn of_path(path: &PathAnswer) -> Vec<String> {
         ));
     }
     if let Some(search) = &path.search {
-        warnings.extend(search.lost.iter().take(MOST_LOST).map(|lost| {
+        warnings.extend(search.unreachable_stretches.iter().take(MOST_STRETCHES).map(|stretch| {
             format!(
-                "{name}: no turn of the tool and branch stands at {} points from line {} to {} ({}).",
-                lost.points,
-                lost.first_line,
-                lost.last_line,
-                lost.reason.replace('_', " ")
+                "{name}: no spin of the tool and branch is usable at {} points from line {} to {} ({}).",
+                stretch.points,
+                stretch.first_line,
+                stretch.last_line,
+                stretch.reason.replace('_', " ")
             )
         }));
         if let Some(first) = search.breaks.first() {
             warnings.push(format!(
-                "{name}: the arm has to stop and take another posture {} times, first in line {first}: no turn of the tool leads on within the joints' speed.",
+                "{name}: the arm has to stop and change its posture {} times, first in line {first}: no spin of the tool continues within the speed of the joints.",
                 search.breaks.len()
             ));
         }
@@ -85,7 +85,7 @@ pub(super) fn of_path(path: &PathAnswer) -> Vec<String> {
     let without_force = path.cut.as_ref().map_or(0, |cut| cut.points_without_force);
     if without_force > 0 {
         warnings.push(format!(
-            "{name}: {without_force} of {} points have no force known (a cutter that plunges or dives steeply cuts with its bottom, a drill that goes sideways does not drill): their deviation is told as zero.",
+            "{name}: the deviation is reported as zero at {without_force} of {} points without a known force (a cutter that plunges or ramps steeply cuts with its bottom, a drill that moves sideways does not drill).",
             path.points
         ));
     }

@@ -1,15 +1,15 @@
-//! Holes in the answer: how far each comes out from where it is drawn, in which posture, worst first.
+//! Holes in the answer: the deviation of each from its nominal position, its posture, worst first.
 //!
 //! | axis of a hole | direction |
 //! |---|---|
-//! | depth | out of the part: the tool stands off, the hole is too shallow; negative too deep |
-//! | x | x of the part, laid into the plane of the hole (y of the part where the hole goes along x) |
+//! | depth | out of the part: positive is too shallow; negative too deep |
+//! | x | x of the part, projected into the plane of the hole (y of the part if the hole is along x) |
 //! | y | to the left of x, seen from outside |
 //!
 //! A deviation is that of the load case with the largest deviation across the hole.
 
-use armill_core::frame::{Isometry, some_across};
-use armill_core::kernel::{Held, Stand};
+use armill_core::frame::{Isometry, any_perpendicular};
+use armill_core::kernel::{Evaluation, PostureStatus};
 use armill_core::map::Counts;
 use armill_core::nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use armill_core::optimize::HolesFound;
@@ -30,18 +30,18 @@ use crate::number::without_rounding;
 pub struct HolesAnswer {
     /// Its name.
     pub name: String,
-    /// Branches that were open: words, or `best`.
+    /// Permitted branches: words, or `best`.
     pub branch: String,
     /// How many holes.
     pub holes: usize,
     /// Holes without posture inside joint limits.
     pub unreachable: usize,
-    /// Holes by reason; they add up to all.
+    /// Holes by reason; their sum is the total.
     pub counts: CountsAnswer,
-    /// Holes that no turn and branch holds clear of singularities and inside joint limits; they are told in a posture that
-    /// is refused.
+    /// Holes without a usable spin and branch, clear of singularities and inside joint limits; they are evaluated in a
+    /// rejected posture.
     pub refused: usize,
-    /// Holes within the limit in a posture that is not refused, over all holes.
+    /// Holes within the tolerance in a usable posture, over all holes.
     pub fraction_within: f64,
     /// Mean deviation across the hole, of those that are reached.
     pub mean_in_plane_um: Option<f64>,
@@ -49,25 +49,25 @@ pub struct HolesAnswer {
     pub max_in_plane_um: Option<f64>,
     /// Largest deviation along the hole, by size, of all cases.
     pub max_depth_um: Option<f64>,
-    /// Turns that were tried at each hole.
+    /// Spins that were tried at each hole.
     pub turns: usize,
-    /// What all holes share.
+    /// The common setting of all holes.
     pub setting: SettingAnswer,
-    /// File of the holes; none where the study lists them.
+    /// File of the holes; none if the study lists them.
     pub file: Option<String>,
-    /// Material that is drilled, where thrust and torque were computed from it.
+    /// Material that is drilled, if thrust and torque were computed from it.
     pub material: Option<String>,
-    /// Largest thrust, likewise.
+    /// Largest thrust, if computed.
     pub largest_thrust_n: Option<f64>,
-    /// Where the deviation is largest, and whose share that is; at most five.
+    /// The holes with the largest deviation, with contributions; at most five.
     pub worst_holes: Vec<WorstHole>,
     /// Every hole: first those that are not reached, then the largest deviation first.
     pub each: Vec<HoleAnswer>,
-    /// What was passed over, or taken for granted.
+    /// What was skipped or assumed.
     pub notes: Vec<String>,
 }
 
-/// A hole where the deviation is large.
+/// A hole with a large deviation.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct WorstHole {
     /// Its number, from 1.
@@ -83,20 +83,20 @@ pub struct HoleAnswer {
     pub hole: usize,
     /// Line of its file, or its number in the list.
     pub line: u32,
-    /// Where the tip stands at its end, in the frame that positions count from.
+    /// Position of the tip at its end, in the reference frame.
     pub xyz_mm: [f64; 3],
     /// Out of the part, base axes.
     pub normal_axis: [f64; 3],
     /// `within`, `above_tolerance`, or why there is no posture.
     pub state: &'static str,
-    /// Why no posture stands, in words; none where one does.
+    /// Why there is no posture, in words; none if there is one.
     pub reason: Option<String>,
-    /// What is against the posture that is told where no turn and branch stands: `singular`, `outside_joint_limits`; none
-    /// where one does.
+    /// Why the reported posture is rejected, if no spin and branch is usable: `singular`, `outside_joint_limits`; none
+    /// otherwise.
     pub blocked_by: Option<&'static str>,
     /// Branch of the posture.
     pub branch: Option<String>,
-    /// Turn of the tool about its axis, beside the one that it has unturned.
+    /// Spin of the tool about its axis, relative to its nominal one.
     pub turn_deg: Option<f64>,
     /// Deviation along x of the hole.
     pub x_um: Option<f64>,
@@ -108,9 +108,9 @@ pub struct HoleAnswer {
     pub in_plane_um: Option<f64>,
     /// Its standard uncertainty.
     pub in_plane_u_um: Option<f64>,
-    /// Joint positions (mm for sliding joints).
+    /// Joint positions (mm for prismatic joints).
     pub joints_deg: Vec<f64>,
-    /// Least distance of a joint to its limit (mm for a sliding joint).
+    /// Least distance of a joint to its limit (mm for a prismatic joint).
     pub limit_margin_deg: Option<f64>,
     /// Which joint that is.
     pub limit_joint: Option<String>,
@@ -120,15 +120,15 @@ pub struct HoleAnswer {
     pub singularity: Option<String>,
 }
 
-/// Holes told as worst.
+/// Number of worst holes that are reported.
 const WORST: usize = 5;
 
-/// What became of the holes that the ask called `name` asks for.
+/// The result of the holes of the analysis called `name`.
 pub(super) fn answer(study: &Study, name: &str, analysis: &HolesAnalysis, found: &HolesFound) -> HolesAnswer {
     let (path, answers) = (&analysis.path, &found.answers);
     let setting = &path.setting;
-    let counts = Counts::of(answers, setting.limit);
-    let evaluation: Vec<(usize, &Held)> = answers.evaluation().collect();
+    let counts = Counts::of(answers, setting.tolerance);
+    let evaluation: Vec<(usize, &Evaluation)> = answers.evaluations().collect();
     let count = answers.points.len();
     let mut order: Vec<usize> = (0..count).collect();
     let key = |index: usize| {
@@ -140,20 +140,24 @@ pub(super) fn answer(study: &Study, name: &str, analysis: &HolesAnalysis, found:
     let worst = order.iter().filter(|index| answers.points[**index].is_ok());
     let is_refused = |index: usize| {
         found
-            .stands
+            .statuses
             .get(index)
-            .is_some_and(|stand| *stand != Stand::Holds)
+            .is_some_and(|status| *status != PostureStatus::Usable)
     };
     let good = evaluation
         .iter()
-        .filter(|(index, evaluation)| evaluation.in_plane <= setting.limit && !is_refused(*index))
+        .filter(|(index, evaluation)| evaluation.in_plane <= setting.tolerance && !is_refused(*index))
         .count();
     let source = match &path.source {
         PathSource::Program { file, .. } => Some(file.clone()),
         PathSource::Holes { file } => file.clone(),
         PathSource::Shape(_) => None,
     };
-    let mean = evaluation.iter().map(|(_, evaluation)| evaluation.in_plane).sum::<f64>() / evaluation.len().max(1) as f64;
+    let mean = evaluation
+        .iter()
+        .map(|(_, evaluation)| evaluation.in_plane)
+        .sum::<f64>()
+        / evaluation.len().max(1) as f64;
     HolesAnswer {
         name: name.to_owned(),
         branch: analysis.branch(),
@@ -172,7 +176,11 @@ pub(super) fn answer(study: &Study, name: &str, analysis: &HolesAnalysis, found:
         setting: SettingAnswer::of(study, setting),
         file: source,
         material: path.drill.as_ref().map(|drill| drill.material.name.clone()),
-        largest_thrust_n: path.drill.as_ref().and(path.forces).map(|given| given.largest_mean),
+        largest_thrust_n: path
+            .drill
+            .as_ref()
+            .and(path.forces)
+            .map(|given| given.largest_mean),
         worst_holes: worst
             .take(WORST)
             .filter_map(|index| worst_hole(study, analysis, found, *index))
@@ -189,24 +197,28 @@ pub(super) fn answer(study: &Study, name: &str, analysis: &HolesAnalysis, found:
 pub(crate) fn base_from_hole(analysis: &HolesAnalysis, index: usize) -> Rotation3<f64> {
     let z = analysis.path.track.stop(index).normal.into_inner();
     let part = &analysis.path.track.base_from_part;
-    let across = |axis: Vector3<f64>| laid_across(part * axis, &z);
+    let across = |axis: Vector3<f64>| projected_across(part * axis, &z);
     let x = across(Vector3::x())
         .or_else(|| across(Vector3::y()))
-        .unwrap_or_else(|| some_across(&z));
+        .unwrap_or_else(|| any_perpendicular(&z));
     Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, z.cross(&x), z]))
 }
 
 /// Below this sine of the angle between an axis of the part and the hole the axis has no direction across it.
 const ALONG: f64 = 1e-3;
 
-/// The part of an axis across `z`, of length 1; `None` where it goes along.
-fn laid_across(axis: Vector3<f64>, z: &Vector3<f64>) -> Option<Vector3<f64>> {
+/// The projection of an axis across `z`, of length 1; `None` if it is parallel to `z`.
+fn projected_across(axis: Vector3<f64>, z: &Vector3<f64>) -> Option<Vector3<f64>> {
     (axis - z * axis.dot(z)).try_normalize(ALONG)
 }
 
-/// The deviation of the deciding case at hole `index` in its axes, m.
-pub(crate) fn error(analysis: &HolesAnalysis, found: &HolesFound, (index, evaluation): (usize, &Held)) -> Vector3<f64> {
-    let deviation = found.answers.deviations_at(index)[evaluation.deciding_case];
+/// The deviation of the worst case at hole `index` in its axes, m.
+pub(crate) fn error(
+    analysis: &HolesAnalysis,
+    found: &HolesFound,
+    (index, evaluation): (usize, &Evaluation),
+) -> Vector3<f64> {
+    let deviation = found.answers.deviations_at(index)[evaluation.worst_case];
     base_from_hole(analysis, index).inverse() * deviation
 }
 
@@ -217,7 +229,7 @@ fn hole(study: &Study, (analysis, found): (&HolesAnalysis, &HolesFound), index: 
     let point = &answers.points[index];
     let evaluation = point.as_ref().ok();
     let error = evaluation.map(|evaluation| error(analysis, found, (index, evaluation)) * 1e6);
-    let tip = setting.counted(&stop.base_from_tool.translation.vector.into());
+    let tip = setting.in_reference(&stop.base_from_tool.translation.vector.into());
     let scale = |joint: usize| {
         if robot.slides(joint) {
             1e3
@@ -232,21 +244,21 @@ fn hole(study: &Study, (analysis, found): (&HolesAnalysis, &HolesFound), index: 
         xyz_mm: tip.coords.map(|c| without_rounding(c * 1e3)).into(),
         normal_axis: stop.normal.into_inner().map(without_rounding).into(),
         state: match point {
-            Ok(evaluation) if evaluation.in_plane <= setting.limit => "within",
+            Ok(evaluation) if evaluation.in_plane <= setting.tolerance => "within",
             Ok(_) => "above_tolerance",
             Err(miss) => miss.word(),
         },
         reason: point.as_ref().err().map(|miss| {
-            let most = match found.stands[index] {
-                Stand::OutOfReach | Stand::Holds => String::new(),
-                other => format!("; with other turns mostly {}", other.word().replace('_', " ")),
+            let most = match found.statuses[index] {
+                PostureStatus::OutOfReach | PostureStatus::Usable => String::new(),
+                other => format!("; with other spins mostly {}", other.word().replace('_', " ")),
             };
             format!("{miss}{most}")
         }),
         blocked_by: evaluation
-            .and(found.stands.get(index))
-            .filter(|stand| **stand != Stand::Holds)
-            .map(|stand| stand.word()),
+            .and(found.statuses.get(index))
+            .filter(|status| **status != PostureStatus::Usable)
+            .map(|status| status.word()),
         branch: evaluation.map(|evaluation| evaluation.name.to_string()),
         turn_deg: evaluation.map(|_| without_rounding(found.spins[index].to_degrees())),
         x_um: error.map(|error| error.x),
@@ -264,13 +276,22 @@ fn hole(study: &Study, (analysis, found): (&HolesAnalysis, &HolesFound), index: 
         limit_joint: evaluation
             .filter(|evaluation| evaluation.limit_margin.is_finite())
             .map(|evaluation| robot.joints()[evaluation.limit_joint].name.clone()),
-        wrist_bend_deg: evaluation.and_then(|_| wrist_bend(robot, joints)).map(f64::to_degrees),
-        singularity: evaluation.and_then(|evaluation| evaluation.singularity).map(|s| s.to_string()),
+        wrist_bend_deg: evaluation
+            .and_then(|_| wrist_bend(robot, joints))
+            .map(f64::to_degrees),
+        singularity: evaluation
+            .and_then(|evaluation| evaluation.singularity)
+            .map(|s| s.to_string()),
     }
 }
 
 /// A hole with shares, on a plane across it.
-fn worst_hole(study: &Study, analysis: &HolesAnalysis, found: &HolesFound, index: usize) -> Option<WorstHole> {
+fn worst_hole(
+    study: &Study,
+    analysis: &HolesAnalysis,
+    found: &HolesFound,
+    index: usize,
+) -> Option<WorstHole> {
     let evaluation = found.answers.points[index].as_ref().ok()?;
     let path = &analysis.path;
     let here = path.track.loaded_stop(index, &path.load);
@@ -294,7 +315,7 @@ fn worst_hole(study: &Study, analysis: &HolesAnalysis, found: &HolesFound, index
     })
 }
 
-/// What was passed over in the program, and what is not in the drill.
+/// What was skipped in the program, and what the drill lacks.
 fn notes(analysis: &HolesAnalysis) -> Vec<String> {
     let mut notes = match &analysis.path.source {
         PathSource::Program { summary, .. } => summary.notes.clone(),

@@ -1,7 +1,7 @@
-//! A map in the answer: what of a plane holds the limit, how sure that is, and every point.
+//! A map in the answer: the part of a plane within the tolerance, its uncertainty, and every point.
 //!
 //! In-plane coordinates are y' and z', mm from the centre of the plane: `y' = -x`, `z' = y` of the part frame. On a
-//! plane that is told by its tilt y' runs along base y.
+//! plane that is given by its tilt, y' is along base y.
 
 use armill_core::map::{COVERAGE, Certainty, Counts, PlaneMap, Region, probability_within};
 use armill_core::nalgebra::Point2;
@@ -15,12 +15,12 @@ use crate::number::without_rounding;
 /// A map of one plane.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct MapAnswer {
-    /// Its name: of the ask, with the label of the section.
+    /// Its name: of the analysis, with the label of the section.
     pub name: String,
-    /// Posture asked for: words of a branch, or `best`.
+    /// Requested posture: words of a branch, or `best`.
     pub branch: String,
-    /// Points within the limit over all points. A named branch is judged whether its joints stand inside their
-    /// limits or not; `best` only takes postures inside.
+    /// Points within the tolerance over all points. A named branch is evaluated whether its joints are inside their
+    /// limits or not; `best` only uses postures inside.
     pub fraction_within: f64,
     /// The same, of points inside the joint limits only.
     pub fraction_within_and_inside_joint_limits: f64,
@@ -28,9 +28,9 @@ pub struct MapAnswer {
     pub max_in_plane_um: Option<f64>,
     /// Least in-plane deviation of all reached points.
     pub min_in_plane_um: Option<f64>,
-    /// Points by reason; they add up to all points.
+    /// Points by reason; their sum is the total.
     pub counts: CountsAnswer,
-    /// Points with a posture that stands outside joint limits.
+    /// Points with a posture outside joint limits.
     pub outside_joint_limits: usize,
     /// Points with a posture near a singularity.
     pub near_singularity: usize,
@@ -38,22 +38,22 @@ pub struct MapAnswer {
     pub worst: Option<PointAnswer>,
     /// The point with the least in-plane deviation.
     pub best: Option<PointAnswer>,
-    /// The region within the limit, inside the joint limits.
+    /// The region within the tolerance, inside the joint limits.
     pub region: RegionAnswer,
-    /// How sure that is: points outside joint limits count as not held.
+    /// Uncertainty of the region: points outside joint limits are treated as out of tolerance.
     pub certainty: CertaintyAnswer,
-    /// What all points share.
+    /// The common setting of all points.
     pub setting: SettingAnswer,
     /// The points.
     pub grid: GridAnswer,
 }
 
-/// Points by reason; they add up to all points.
+/// Points by reason; their sum is the total.
 #[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
 pub struct CountsAnswer {
-    /// In-plane deviation within the limit.
+    /// In-plane deviation within the tolerance.
     pub within: usize,
-    /// In-plane deviation over the limit.
+    /// In-plane deviation above the tolerance.
     pub above_tolerance: usize,
     /// No posture reaches.
     pub out_of_reach: usize,
@@ -63,7 +63,7 @@ pub struct CountsAnswer {
     pub not_found: usize,
     /// The inverse kinematics failed its own check.
     pub unverified: usize,
-    /// A posture holds the point, but the arm finds no stable rest under the load.
+    /// A posture reaches the point, but the arm has no stable equilibrium under the load.
     pub unstable: usize,
 }
 
@@ -82,10 +82,10 @@ impl CountsAnswer {
     }
 }
 
-/// The region within the limit. In-plane coordinates y', z' from the plane's centre.
+/// The region within the tolerance. In-plane coordinates y', z' from the plane's centre.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct RegionAnswer {
-    /// Area, following the limit between points.
+    /// Area, with the tolerance interpolated between points.
     pub area_mm2: f64,
     /// Its boundary: polylines, closed ones repeat their first point.
     pub boundary_mm: Vec<Vec<[f64; 2]>>,
@@ -97,22 +97,22 @@ pub struct RegionAnswer {
     pub circle_radius_mm: Option<f64>,
 }
 
-/// How sure the region is, from the standard uncertainties of the points.
+/// Uncertainty of the region, from the standard uncertainties of the points.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct CertaintyAnswer {
-    /// Multiple of the standard uncertainty that counts as sure.
+    /// Coverage factor of the bounds: multiple of the standard uncertainty.
     pub coverage_factor: f64,
-    /// Points that hold the limit with so much to spare, over all points.
+    /// Points within the tolerance with the expanded uncertainty added, over all points.
     pub fraction_robustly_within: f64,
-    /// Points that would hold it with so much taken away, over all points.
+    /// Points within the tolerance with the expanded uncertainty subtracted, over all points.
     pub fraction_possibly_within: f64,
-    /// Mean probability of all points to be within.
+    /// Mean probability of all points to be within the tolerance.
     pub fraction_expected_within: f64,
-    /// Area that surely holds the limit.
+    /// Area within the tolerance with the expanded uncertainty added.
     pub area_robust_mm2: f64,
     /// Its boundary.
     pub boundary_robust_mm: Vec<Vec<[f64; 2]>>,
-    /// Area that possibly holds it.
+    /// Area within the tolerance with the expanded uncertainty subtracted.
     pub area_possibly_mm2: f64,
     /// Its boundary.
     pub boundary_possibly_mm: Vec<Vec<[f64; 2]>>,
@@ -131,29 +131,30 @@ pub struct GridAnswer {
     pub in_plane_um: Vec<Option<f64>>,
     /// Its standard uncertainty.
     pub in_plane_u_um: Vec<Option<f64>>,
-    /// Probability that it is within the limit.
+    /// Probability that it is within the tolerance.
     pub probability_within: Vec<Option<f64>>,
     /// Deviation along the outward normal.
     pub normal_um: Vec<Option<f64>>,
     /// Length of the deviation.
     pub full_um: Vec<Option<f64>>,
-    /// Why there is no posture, or that it stands outside joint limits, by point; points not named are fine.
-    pub remarks: Vec<Remark>,
+    /// Points without a posture, outside joint limits or near a singularity, with the reason; points not named are
+    /// fine.
+    pub flags: Vec<PointFlag>,
 }
 
-/// Something about some points.
+/// A flag of some points.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct Remark {
+pub struct PointFlag {
     /// One word.
     pub reason: String,
-    /// Indices of the points it holds for.
+    /// Indices of the flagged points.
     pub points: Vec<usize>,
 }
 
-/// What became of one plane; `name` is that of the ask, with the label of a section.
+/// The result of one plane; `name` is that of the analysis, with the label of a section.
 pub(super) fn answer(study: &Study, name: &str, setting: &Setting, map: &PlaneMap) -> MapAnswer {
-    let counts = Counts::of(&map.answers, setting.limit);
-    // The TCP is the point of the plane, however the tool is turned.
+    let counts = Counts::of(&map.answers, setting.tolerance);
+    // The TCP is the point of the plane, at any orientation of the tool.
     let at = |index: usize| {
         map.plane
             .base_from_tool(map.grid.point(index), 0.0)
@@ -161,7 +162,8 @@ pub(super) fn answer(study: &Study, name: &str, setting: &Setting, map: &PlaneMa
             .vector
             .into()
     };
-    let point = |(index, evaluation)| PointAnswer::of(study, setting, &map.answers, (index, evaluation, at(index)));
+    let point =
+        |(index, evaluation)| PointAnswer::of(study, setting, &map.answers, (index, evaluation, at(index)));
     let (worst, best) = (map.answers.worst().map(point), map.answers.best().map(point));
     MapAnswer {
         name: name.to_owned(),
@@ -175,10 +177,10 @@ pub(super) fn answer(study: &Study, name: &str, setting: &Setting, map: &PlaneMa
         near_singularity: counts.near_singularity,
         worst,
         best,
-        region: region_answer(&map.region(setting.limit)),
-        certainty: certainty_answer(&map.certainty(setting.limit)),
+        region: region_answer(&map.region(setting.tolerance)),
+        certainty: certainty_answer(&map.certainty(setting.tolerance)),
         setting: SettingAnswer::of(study, setting),
-        grid: grid_answer(map, setting.limit),
+        grid: grid_answer(map, setting.tolerance),
     }
 }
 
@@ -193,15 +195,15 @@ fn region_answer(region: &Region) -> RegionAnswer {
     }
 }
 
-/// The region with [`COVERAGE`] standard uncertainties to spare, and with as many taken away.
+/// The region with [`COVERAGE`] standard uncertainties added to the deviations, and with as many subtracted.
 fn certainty_answer(certainty: &Certainty) -> CertaintyAnswer {
     CertaintyAnswer {
         coverage_factor: COVERAGE,
-        fraction_robustly_within: certainty.fraction_surely,
+        fraction_robustly_within: certainty.fraction_robust,
         fraction_possibly_within: certainty.fraction_possibly,
         fraction_expected_within: certainty.expected_fraction,
-        area_robust_mm2: certainty.surely.area * 1e6,
-        boundary_robust_mm: boundary(&certainty.surely),
+        area_robust_mm2: certainty.robust.area * 1e6,
+        boundary_robust_mm: boundary(&certainty.robust),
         area_possibly_mm2: certainty.possibly.area * 1e6,
         boundary_possibly_mm: boundary(&certainty.possibly),
     }
@@ -219,14 +221,19 @@ fn in_plane(at: &Point2<f64>) -> [f64; 2] {
 }
 
 /// Every point, row by row; deviations rounded to 1e-4 um, probabilities to as many decimals.
-fn grid_answer(map: &PlaneMap, limit: f64) -> GridAnswer {
+fn grid_answer(map: &PlaneMap, tolerance: f64) -> GridAnswer {
     let grid = &map.grid;
     let four_decimals = |value: f64| (value * 1e4).round() / 1e4;
-    let of = |get: &dyn Fn(&armill_core::kernel::Held) -> f64| -> Vec<Option<f64>> {
+    let of = |get: &dyn Fn(&armill_core::kernel::Evaluation) -> f64| -> Vec<Option<f64>> {
         map.answers
             .points
             .iter()
-            .map(|point| point.as_ref().ok().map(|evaluation| four_decimals(get(evaluation))))
+            .map(|point| {
+                point
+                    .as_ref()
+                    .ok()
+                    .map(|evaluation| four_decimals(get(evaluation)))
+            })
             .collect()
     };
     GridAnswer {
@@ -239,20 +246,20 @@ fn grid_answer(map: &PlaneMap, limit: f64) -> GridAnswer {
             .collect(),
         in_plane_um: of(&|evaluation| evaluation.in_plane * 1e6),
         in_plane_u_um: of(&|evaluation| evaluation.in_plane_uncertainty * 1e6),
-        probability_within: of(&|evaluation| probability_within(evaluation, limit)),
+        probability_within: of(&|evaluation| probability_within(evaluation, tolerance)),
         normal_um: of(&|evaluation| evaluation.normal * 1e6),
         full_um: of(&|evaluation| evaluation.full * 1e6),
-        remarks: remarks(map),
+        flags: flags(map),
     }
 }
 
-/// Points that are not simply fine, by reason, in the order in which reasons first turn up. A point may have two:
+/// Points that are not simply fine, by reason, in the order in which reasons first occur. A point may have two:
 /// outside joint limits and near a singularity.
-fn remarks(map: &PlaneMap) -> Vec<Remark> {
-    let mut remarks: Vec<Remark> = Vec::new();
-    let mut add = |reason: &str, index: usize| match remarks.iter_mut().find(|r| r.reason == reason) {
+fn flags(map: &PlaneMap) -> Vec<PointFlag> {
+    let mut flags: Vec<PointFlag> = Vec::new();
+    let mut add = |reason: &str, index: usize| match flags.iter_mut().find(|r| r.reason == reason) {
         Some(remark) => remark.points.push(index),
-        None => remarks.push(Remark {
+        None => flags.push(PointFlag {
             reason: reason.to_owned(),
             points: vec![index],
         }),
@@ -270,5 +277,5 @@ fn remarks(map: &PlaneMap) -> Vec<Remark> {
             Err(miss) => add(miss.word(), index),
         }
     }
-    remarks
+    flags
 }

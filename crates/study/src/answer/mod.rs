@@ -1,23 +1,25 @@
-//! The answer to a study as one JSON value: the same bytes whatever the surface.
+//! The answer to a study as one JSON value: the same bytes in the command line, Python and the page.
 //!
 //! `maps[]` with `name, branch, fraction_within, max_in_plane_um, counts` and `paths[]` with `name, branch,
 //! max_in_plane_um, roundness_um` are a public contract.
 //!
-//! Every key tells its unit, and `_u_` in it a standard uncertainty. Positions count from the frame `setting.base`,
-//! deviations are in base axes or in the parts that their keys name. What was not found or not asked is `null`.
+//! Every key names its unit, and `_u_` in it a standard uncertainty. Positions are relative to the frame
+//! `setting.base`, deviations are in base axes or in the components that their keys name. Values that are not available
+//! are `null`.
 //!
 //! ```text
-//! robot         joints with what they yield
+//! robot         joints with their compliance
 //! maps[]        setting, counts, region, certainty, worst and best point, grid of all points
 //! paths[]       setting, worst_points, features, cut or measured, limits, program, joint ranges
 //! volumes[]     setting, counts, worst and best point
 //! holes[]       setting, counts, worst_holes, each hole
-//! measured      what was measured on a circle: contributions, sums, part, waves
-//! statements[]  what others state, with a reading for each map or path it may speak of
-//! warnings[]    what to know before trusting it; sources[]: where its numbers come from
+//! measured      measurements of a circle: contributions, sums, part, waves
+//! statements[]  published statements, with a reading for each map or path they may refer to
+//! warnings[]    what to know before relying on it; sources[]: where its numbers come from
 //! ```
 //!
-//! A file for each part: `map`, `volume`, `path`, `holes`, `point`; `statement`, `cautions` and `sentence` say what they mean.
+//! A file for each part: `map`, `volume`, `path`, `holes`, `point`; `statement`, `cautions` and `sentence` interpret
+//! them.
 
 mod cautions;
 pub(crate) mod holes;
@@ -36,7 +38,7 @@ pub use path::{
 };
 pub(crate) use point::GEOMETRY;
 pub use point::{PointAnswer, SettingAnswer};
-pub(crate) use sentence::{culprit, micrometres};
+pub(crate) use sentence::{largest_contributor, micrometres};
 pub use statement::{Reading, StatementAnswer};
 pub use volume::VolumeAnswer;
 
@@ -53,14 +55,14 @@ use crate::file::path::{Cut, PathAnalysis};
 use crate::file::resolve::{Setting, Study, Subject};
 use crate::joint_unit::JointUnit;
 use crate::model_words::left_out;
-use crate::run::{Done, Found, Section};
+use crate::run::{AnalysisData, AnalysisResult, Section};
 
 /// The whole answer.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct StudyAnswer {
     /// Version of this format.
     pub format: u32,
-    /// Version of armill that gave it.
+    /// Version of armill that produced it.
     pub armill: &'static str,
     /// Title of the study.
     pub title: String,
@@ -68,7 +70,7 @@ pub struct StudyAnswer {
     pub question: Option<String>,
     /// The answer in one sentence.
     pub answer: String,
-    /// The robot and what its joints yield.
+    /// The robot and the compliance of its joints.
     pub robot: RobotAnswer,
     /// Every plane, sections included.
     pub maps: Vec<MapAnswer>,
@@ -78,17 +80,17 @@ pub struct StudyAnswer {
     pub volumes: Vec<VolumeAnswer>,
     /// Every set of holes.
     pub holes: Vec<HolesAnswer>,
-    /// What others state, beside what was found here.
+    /// Published statements, compared with these results.
     pub statements: Vec<StatementAnswer>,
-    /// What was measured on a circle, beside its prediction; none where nothing was.
+    /// The measurement of a circle, compared with its prediction; none without a measurement.
     pub measured: Option<BudgetAnswer>,
-    /// What a user should know before trusting it.
+    /// What a user should know before relying on it.
     pub warnings: Vec<String>,
-    /// Where the numbers come from.
+    /// Sources of the numbers.
     pub sources: Vec<Source>,
 }
 
-/// The robot and what its joints yield.
+/// The robot and the compliance of its joints.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct RobotAnswer {
     /// Name in the library, or of the file.
@@ -101,70 +103,74 @@ pub struct RobotAnswer {
     pub joints: Vec<JointAnswer>,
 }
 
-/// What a joint yields.
+/// The compliance of a joint.
 ///
-/// Of the two pairs of compliance and uncertainty the one of its kind has numbers, the other is `null`; both are where
-/// nothing is known.
+/// Of the two pairs of compliance and uncertainty, the one of the joint's kind has numbers, the other is `null`; both
+/// are `null` if nothing is known.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct JointAnswer {
     /// Its name.
     pub name: String,
-    /// Compliance of a joint that turns.
+    /// Compliance of a revolute joint.
     pub compliance_rad_per_n_m: Option<f64>,
     /// Its standard uncertainty.
     pub compliance_u_rad_per_n_m: Option<f64>,
-    /// Compliance of a joint that slides.
+    /// Compliance of a prismatic joint.
     pub compliance_um_per_n: Option<f64>,
     /// Its standard uncertainty.
     pub compliance_u_um_per_n: Option<f64>,
-    /// Where the compliance comes from.
+    /// Source of the compliance.
     pub compliance_source: String,
 }
 
-/// The answer to one ask.
-enum Told {
+/// The answer to one analysis.
+enum AnswerKind {
     Maps(Vec<MapAnswer>),
     Path(Box<PathAnswer>),
     Volume(Box<VolumeAnswer>),
     Holes(Box<HolesAnswer>),
 }
 
-/// The answer to `study` from what was done.
+/// The answer to `study` from its results.
 ///
-/// `done` is what `run` gave for this study, in the order of its asks; the answer has that order whatever the threads.
-pub fn answer(study: &Study, done: &[Done<'_>]) -> StudyAnswer {
-    let given = |done: &Done<'_>| match &done.found {
-        Found::Map(sheet, map) => Told::Maps(vec![map::answer(study, done.name, &sheet.setting, map)]),
-        Found::Sections(sections) => {
+/// `done` is the result of `run` for this study, in the order of its analyses; the answer has that order on any number
+/// of threads.
+pub fn answer(study: &Study, done: &[AnalysisResult<'_>]) -> StudyAnswer {
+    let given = |done: &AnalysisResult<'_>| match &done.found {
+        AnalysisData::Map(sheet, map) => {
+            AnswerKind::Maps(vec![map::answer(study, done.name, &sheet.setting, map)])
+        }
+        AnalysisData::Sections(sections) => {
             let section = |section: &Section<'_>| {
                 let name = format!("{}: {}", done.name, section.label);
                 map::answer(study, &name, &section.sheet.setting, &section.map)
             };
-            Told::Maps(sections.par_iter().map(section).collect())
+            AnswerKind::Maps(sections.par_iter().map(section).collect())
         }
-        Found::Volume(setting, volume) => {
-            Told::Volume(Box::new(volume::answer(study, done.name, setting, volume)))
+        AnalysisData::Volume(setting, volume) => {
+            AnswerKind::Volume(Box::new(volume::answer(study, done.name, setting, volume)))
         }
-        Found::Path(analysis, found) => Told::Path(Box::new(path::answer(study, done.name, analysis, found))),
-        Found::Holes(analysis, found) => Told::Holes(Box::new(holes::answer(study, done.name, analysis, found))),
+        AnalysisData::Path(analysis, found) => {
+            AnswerKind::Path(Box::new(path::answer(study, done.name, analysis, found)))
+        }
+        AnalysisData::Holes(analysis, found) => {
+            AnswerKind::Holes(Box::new(holes::answer(study, done.name, analysis, found)))
+        }
     };
-    let all: Vec<Told> = done.par_iter().map(given).collect();
+    let all: Vec<AnswerKind> = done.par_iter().map(given).collect();
     let (mut maps, mut paths, mut volumes) = (Vec::new(), Vec::new(), Vec::new());
     let mut holes = Vec::new();
     for given in all {
         match given {
-            Told::Maps(given) => maps.extend(given),
-            Told::Path(given) => paths.push(*given),
-            Told::Volume(given) => volumes.push(*given),
-            Told::Holes(given) => holes.push(*given),
+            AnswerKind::Maps(given) => maps.extend(given),
+            AnswerKind::Path(given) => paths.push(*given),
+            AnswerKind::Volume(given) => volumes.push(*given),
+            AnswerKind::Holes(given) => holes.push(*given),
         }
     }
-    let (measured, unmeasured) = match budget::beside(study, done) {
+    let (measured, unmeasured) = match budget::of_results(study, done) {
         Some(Ok((_, given))) => (Some(given), None),
-        Some(Err(reason)) => (
-            None,
-            Some(format!("What was measured is not compared: {reason}.")),
-        ),
+        Some(Err(reason)) => (None, Some(format!("The measurement is not compared: {reason}."))),
         None => (None, None),
     };
     let mut warnings = warnings(study, (&maps, &paths), (&volumes, &holes));
@@ -189,7 +195,7 @@ pub fn answer(study: &Study, done: &[Done<'_>]) -> StudyAnswer {
     }
 }
 
-/// The robot as the study has it: with the compliances of the study and their source, where it brings some.
+/// The robot of the study: with the compliances of the study and their source, if it gives some.
 fn robot_answer(study: &Study) -> RobotAnswer {
     let robot = &study.robot.robot;
     let own = study.own_compliance.as_ref().map(|own| own.source.clone());
@@ -225,14 +231,14 @@ fn robot_answer(study: &Study) -> RobotAnswer {
 /// Sources of the coefficients that the forces of a cut are computed with; each key is the material's, behind
 /// `material:`.
 pub(crate) fn sources_of_cut(cut: &Cut) -> Vec<Source> {
-    told_by(match cut.cutting.law {
+    material_sources(match cut.cutting.law {
         CuttingLaw::Mechanistic(_) => cut.material.mechanistic_sources(),
         CuttingLaw::Kienzle(_) => cut.material.kienzle_sources(),
     })
 }
 
 /// These sources of a material, their keys kept apart from those of the robot.
-fn told_by(sources: Vec<&Source>) -> Vec<Source> {
+fn material_sources(sources: Vec<&Source>) -> Vec<Source> {
     let of_material = |source: &Source| Source {
         key: format!("material:{}", source.key),
         ..source.clone()
@@ -240,7 +246,7 @@ fn told_by(sources: Vec<&Source>) -> Vec<Source> {
     sources.into_iter().map(of_material).collect()
 }
 
-/// Where the numbers of the study come from: the robot and what the study brings for it, then loads and tools, then
+/// Sources of the numbers of the study: of the robot and its compliances, then of loads and tools, then
 /// materials of cuts and drills, each of these once.
 fn sources(study: &Study) -> Vec<Source> {
     let own = |key: &str, place: &str| Source {
@@ -265,17 +271,20 @@ fn sources(study: &Study) -> Vec<Source> {
             }
         }
     }
-    let cuts = study.analyses.iter().filter_map(|analysis| match &analysis.subject {
-        Subject::Path(path) => Some(&**path),
-        Subject::Holes(holes) => Some(&holes.path),
-        _ => None,
-    });
+    let cuts = study
+        .analyses
+        .iter()
+        .filter_map(|analysis| match &analysis.subject {
+            Subject::Path(path) => Some(&**path),
+            Subject::Holes(holes) => Some(&holes.path),
+            _ => None,
+        });
     let of_path = |path: &PathAnalysis| {
         let cut = path.cut.as_ref().map(sources_of_cut);
         let drill = || {
             path.drill
                 .as_ref()
-                .map(|drill| told_by(drill.material.kienzle_sources()))
+                .map(|drill| material_sources(drill.material.kienzle_sources()))
         };
         cut.or_else(drill).unwrap_or_default()
     };
@@ -287,9 +296,9 @@ fn sources(study: &Study) -> Vec<Source> {
     sources
 }
 
-/// What a user should know before trusting the answer, from the robot to its points: assumed compliances, limits that
-/// sources disagree about, what is out of reach or outside joint limits, a record whose begin is unsure, masses without
-/// gravity, the note of the robot file.
+/// What a user should know before relying on the answer, from the robot to its points: assumed compliances, limits that
+/// sources disagree about, what is out of reach or outside joint limits, a record with an uncertain start, masses
+/// without gravity, the note of the robot file.
 fn warnings(
     study: &Study,
     (maps, paths): (&[MapAnswer], &[PathAnswer]),
@@ -307,26 +316,26 @@ fn warnings(
             let name = &study.robot.robot.joints()[i].name;
             let note = note.as_ref().map_or(String::new(), |note| format!(" ({note})"));
             warnings.push(format!(
-                "Limits of joint {name}: another source ({source}) says {lower} to {upper} deg{note}."
+                "Limits of joint {name}: another source ({source}) gives {lower} to {upper} deg{note}."
             ));
         }
     }
     for map in maps {
         if map.counts.within + map.counts.above_tolerance == 0 {
             warnings.push(format!(
-                "{}: no point of the plane has a posture; are its coordinates in mm, and counted from {}?",
+                "{}: no point on the plane has a posture; check that its coordinates are in mm and relative to {}.",
                 map.name, map.setting.base
             ));
         } else if map.outside_joint_limits > 0 {
             warnings.push(format!(
-                "{}: {} of {} points stand outside joint limits in the branch {}; the fraction counts them, the region and what fits do not.",
+                "{}: {} of {} points are outside joint limits in the branch {}; the fraction includes them, the region does not.",
                 map.name, map.outside_joint_limits, map.grid.points, map.branch
             ));
         }
     }
     for volume in volumes.iter().filter(|volume| volume.worst.is_none()) {
         warnings.push(format!(
-            "{}: no point of the box has a posture; are its coordinates in mm, and counted from {}?",
+            "{}: no point of the box has a posture; check that its coordinates are in mm and relative to {}.",
             volume.name, volume.setting.base
         ));
     }
@@ -334,25 +343,25 @@ fn warnings(
     warnings.extend(holes.iter().flat_map(cautions::of_holes));
     for analysis in &study.analyses {
         if let Subject::Path(path) = &analysis.subject {
-            let unsure = path.measured.as_ref().and_then(|measured| measured.warning());
-            warnings.extend(unsure.map(|warning| format!("{}: {warning}.", analysis.name)));
+            let uncertain = path.measured.as_ref().and_then(|measured| measured.warning());
+            warnings.extend(uncertain.map(|warning| format!("{}: {warning}.", analysis.name)));
         }
     }
     warnings.extend(study.settings().find_map(|setting| left_out(&setting.model)));
-    let beside_paths = study
+    let off_paths = study
         .analyses
         .iter()
         .any(|analysis| !matches!(analysis.subject, Subject::Path(_)));
-    let has_play = |setting: &Setting| {
+    let has_backlash = |setting: &Setting| {
         setting
             .model
             .structure
-            .gaps()
+            .joints_with_backlash()
             .any(|(_, gap)| gap.side == BacklashSide::Motion)
     };
-    if beside_paths && study.settings().any(has_play) {
+    if off_paths && study.settings().any(has_backlash) {
         warnings.push(
-            "Beside paths nobody knows on which side of their gaps links lie: maps, sections, volumes and holes tell where backlash moves the tool farthest."
+            "Outside tool paths the side of the backlash is unknown: maps, sections, volumes and holes report the worst case."
                 .to_owned(),
         );
     }
@@ -361,10 +370,10 @@ fn warnings(
 }
 
 impl StudyAnswer {
-    /// Whether every point of every map, path, box and set of holes holds the limit.
+    /// Whether every point of every map, path, box and set of holes is within the tolerance.
     ///
-    /// A point that is not reached, or only outside joint limits, does not hold it.
-    pub fn holds_everywhere(&self) -> bool {
+    /// A point that is not reached, or only outside joint limits, is not.
+    pub fn meets_tolerance(&self) -> bool {
         let maps = self
             .maps
             .iter()

@@ -1,15 +1,15 @@
-//! One point of an answer, and the setting that all points of an ask share.
+//! One point of an answer, and the setting that all points of an analysis share.
 //!
 //! | part of the deviation | meaning |
 //! |---|---|
-//! | in-plane | across the normal of the plane: largest length of all load cases, what the limit is held against |
+//! | in-plane | across the normal of the plane: largest length of all load cases, compared with the tolerance |
 //! | normal | along the outward normal, with its sign, of the case where it is largest by size |
 //! | full | largest length of all cases |
 //!
 //! Along a path the normal is the axis of the tool.
 
 use armill_core::compliance::{by_force, permissible_force, permissible_force_in_worst_direction};
-use armill_core::kernel::{Answers, Held};
+use armill_core::kernel::{Answers, Evaluation};
 use armill_core::load::LoadFrame;
 use armill_core::nalgebra::{Point3, Unit};
 use armill_core::workpiece::Plane;
@@ -20,47 +20,47 @@ use crate::file::resolve::{Setting, Study};
 use crate::model_words::parts;
 use crate::number::without_rounding;
 
-/// What all points of an ask share. Positions count from the frame `base`.
+/// The common setting of all points of an analysis. Positions are relative to the frame `base`.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct SettingAnswer {
-    /// Frame that positions count from.
+    /// Reference frame of positions.
     pub base: String,
     /// Centre of the plane.
     pub centre_mm: [f64; 3],
-    /// Tilt of the plane from the vertical; none where the plane was given by a frame.
+    /// Tilt of the plane from the vertical; none if the plane was given by a rotation.
     pub tilt_deg: Option<f64>,
     /// Outward normal of the plane, in base axes.
     pub normal_axis: [f64; 3],
     /// Distance of the TCP from the flange.
     pub tool_length_mm: f64,
-    /// Axes that forces and moments are told in: `base_link`, or `feed` where they turn with it.
+    /// Axes of forces and moments: `base_link`, or `feed` if they turn with it.
     pub load_frame: &'static str,
-    /// Forces on the tool, one a case; none where they come with the path.
+    /// Forces on the tool, one a case; none if they come with the path.
     pub cases_n: Vec<[f64; 3]>,
     /// Moments on the tool at the TCP, one a case.
     pub moments_n_m: Vec<[f64; 3]>,
-    /// Where the load comes from, in the user's words.
+    /// Source of the load, in the user's words.
     pub load_source: Option<String>,
     /// Standard uncertainty of the size of the load.
     pub load_u_percent: f64,
-    /// Standard uncertainties of the force along three directions: vectors so long, base axes.
+    /// Standard uncertainties of the force along three directions: vectors of that length, base axes.
     pub load_u_n: [[f64; 3]; 3],
-    /// Standard uncertainty of the place of the TCP along the tool axis.
+    /// Standard uncertainty of the position of the TCP along the tool axis.
     pub tool_length_u_mm: f64,
-    /// Standard deviation of where the tool comes to rest from time to time, along any axis; zero where it is not known.
+    /// Standard deviation of the repeated position of the tool, along any axis; zero if it is not known.
     pub scatter_um: f64,
-    /// Standard uncertainty of what the model predicts, beside that of its compliances; zero where it is not known.
+    /// Standard uncertainty of the model, in addition to that of its compliances; zero if it is not known.
     pub model_error_percent: f64,
     /// The tolerance.
     pub tolerance_um: f64,
-    /// Parts of the stiffness model that were on.
+    /// Active parts of the stiffness model.
     pub model: Vec<String>,
-    /// Whom shares are told for: the joints, then base, flange and tool where springs sit.
+    /// The contributors of `share_um`: the joints, then base, flange and tool if springs are attached there.
     pub contributors: Vec<String>,
 }
 
 impl SettingAnswer {
-    /// The setting told in the frame that the study counts from; a load that turns with the feed in axes of the feed.
+    /// The setting in the reference frame of the study; a load that turns with the feed in axes of the feed.
     pub(super) fn of(study: &Study, setting: &Setting) -> SettingAnswer {
         let robot = &study.robot.robot;
         let turns = setting.load.frame == LoadFrame::Feed;
@@ -69,7 +69,7 @@ impl SettingAnswer {
         } else {
             &setting.cases
         };
-        let centre = setting.counted(&setting.plane.base_from_part.translation.vector.into());
+        let centre = setting.in_reference(&setting.plane.base_from_part.translation.vector.into());
         SettingAnswer {
             base: setting.base_name.clone(),
             centre_mm: clean(centre.coords.map(|c| c * 1e3).into()),
@@ -85,33 +85,33 @@ impl SettingAnswer {
             tool_length_u_mm: without_rounding(setting.uncertainty.tool_length * 1e3),
             scatter_um: setting.model.structure.repeatability * 1e6,
             model_error_percent: without_rounding(setting.model.structure.model_error * 100.0),
-            tolerance_um: without_rounding(setting.limit * 1e6),
+            tolerance_um: without_rounding(setting.tolerance * 1e6),
             model: parts(robot, &setting.model),
             contributors: setting.model.contributor_names(robot.joints()),
         }
     }
 }
 
-/// What moves the tool where its arm is not the one that its controller reckons with.
+/// The contributor for the difference between the calibrated arm and the nominal model of its controller.
 pub(crate) const GEOMETRY: &str = "geometry";
 
-/// A point where the arm holds the tool.
+/// A reached point.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PointAnswer {
-    /// TCP in the frame that positions count from.
+    /// TCP in the reference frame.
     pub xyz_mm: [f64; 3],
     /// In-plane coordinates y', z' from the plane's centre.
     pub in_plane_mm: [f64; 2],
-    /// Name of the posture: words of a branch, or the sides on which its joints stand.
+    /// Name of the posture: words of a branch, or the side of the middle of each joint.
     pub branch: String,
     /// Joint positions.
     pub joints_deg: Vec<f64>,
-    /// Whether every joint stands inside its limits.
+    /// Whether every joint is inside its limits.
     pub within_limits: bool,
     /// Near which singularity, if any.
     pub singularity: Option<String>,
-    /// Load case that decides, from 1.
-    pub deciding_case: usize,
+    /// Worst load case, from 1.
+    pub worst_case: usize,
     /// Largest in-plane deviation of all cases.
     pub in_plane_um: f64,
     /// Its standard uncertainty, from compliances, load, tool length, repeatability and model error.
@@ -120,19 +120,19 @@ pub struct PointAnswer {
     pub normal_um: f64,
     /// Largest length of the deviation of all cases.
     pub full_um: f64,
-    /// Share of each of `contributors` in the in-plane deviation; they add up to it (load-dependent: nearly; the
-    /// geometry of an `calibrated_robot` is in none).
+    /// Share of each of `contributors` in the in-plane deviation; their sum is the deviation (load-dependent: nearly;
+    /// the geometry of a `calibrated_robot` is in none).
     pub joint_share_um: Vec<f64>,
-    /// Force that keeps the limit in the direction of the deciding case; none where that case has no force or
-    /// moves nothing in the plane.
+    /// Force that meets the tolerance in the direction of the worst case; none if that case has no force or
+    /// no in-plane deviation.
     pub permissible_along_load_n: Option<f64>,
-    /// Force that keeps the limit whatever its direction.
+    /// Force that meets the tolerance in any direction.
     pub permissible_any_direction_n: Option<f64>,
 }
 
 impl PointAnswer {
-    /// Who of `contributors` has the largest share, by size, or `geometry`, which makes what is in nobody's; and the part of the
-    /// in-plane deviation that it makes, where there is any. A share may work against the others.
+    /// The contributor with the largest share, by size, or `geometry`, which is the remainder; and its part of the
+    /// in-plane deviation, if there is any. A share may be opposite to the others.
     pub(crate) fn mostly_by<'a>(&self, contributors: &'a [String]) -> Option<(&'a str, Option<f64>)> {
         let shares = contributors
             .iter()
@@ -157,13 +157,13 @@ impl PointAnswer {
         ]
     }
 
-    /// The point `at`: index among `answers`, what was held there, TCP (m, base). Permitted forces follow from the
+    /// The point `at`: index among `answers`, its evaluation, TCP (m, base). Permitted forces follow from the
     /// compliance of the unloaded arm there.
     pub(super) fn of(
         study: &Study,
         setting: &Setting,
         answers: &Answers,
-        at: (usize, &Held, Point3<f64>),
+        at: (usize, &Evaluation, Point3<f64>),
     ) -> PointAnswer {
         let (index, evaluation, tcp) = at;
         let robot = &study.robot.robot;
@@ -171,11 +171,11 @@ impl PointAnswer {
         let compliance = by_force(&setting.compliance_at(robot, answers.joints_at(index)));
         let normal = setting.plane.normal();
         // A case that is a moment alone has no direction.
-        let along = Unit::try_new(setting.cases[evaluation.deciding_case].force, 1e-12)
-            .map(|f| permissible_force(&compliance, normal, f, setting.limit));
-        let any = permissible_force_in_worst_direction(&compliance, normal, setting.limit).0;
+        let along = Unit::try_new(setting.cases[evaluation.worst_case].force, 1e-12)
+            .map(|f| permissible_force(&compliance, normal, f, setting.tolerance));
+        let any = permissible_force_in_worst_direction(&compliance, normal, setting.tolerance).0;
         PointAnswer {
-            xyz_mm: clean(setting.counted(&tcp).coords.map(|c| c * 1e3).into()),
+            xyz_mm: clean(setting.in_reference(&tcp).coords.map(|c| c * 1e3).into()),
             in_plane_mm: PointAnswer::in_plane_mm(&setting.plane, &tcp),
             branch: evaluation.name.to_string(),
             joints_deg: answers
@@ -186,7 +186,7 @@ impl PointAnswer {
                 .collect(),
             within_limits: evaluation.within_limits(),
             singularity: evaluation.singularity.map(|s| s.to_string()),
-            deciding_case: evaluation.deciding_case + 1,
+            worst_case: evaluation.worst_case + 1,
             in_plane_um: evaluation.in_plane * 1e6,
             in_plane_u_um: evaluation.in_plane_uncertainty * 1e6,
             normal_um: evaluation.normal * 1e6,
@@ -198,7 +198,7 @@ impl PointAnswer {
     }
 }
 
-/// Three numbers as they were meant, without what changes of frame leave behind.
+/// Three numbers without the rounding of frame changes.
 fn clean(values: [f64; 3]) -> [f64; 3] {
     values.map(without_rounding)
 }

@@ -1,11 +1,11 @@
-//! The answer in one sentence, with the numbers that carry it.
+//! The answer in one sentence, with its main numbers.
 //!
 //! ```text
-//! NAME, branch BRANCH: 63.2 % of the plane holds 60 µm; the in-plane deviation goes from 21 µm to 84 ± 9 µm
-//! at (900, -200, 800) mm, mostly by joint A2 (41 %).
+//! NAME, branch BRANCH: 63.2 % of the plane is within 60 µm; the in-plane deviation ranges from 21 to 84 µm (u = 9 µm)
+//! and is largest at (900, -200, 800) mm; largest contribution: joint A2 (41 %).
 //! ```
 //!
-//! After ± stands the standard uncertainty. Where nothing is reached the sentence says that instead.
+//! `u` is the standard uncertainty. If no point is reached, the sentence states that instead.
 
 use super::holes::HolesAnswer;
 use super::map::MapAnswer;
@@ -14,19 +14,22 @@ use super::point::PointAnswer;
 use super::volume::VolumeAnswer;
 use crate::file::resolve::{Study, Subject};
 
-/// The answer to the first thing that was asked.
+/// The sentence of the first analysis.
 pub(super) fn answer(
     study: &Study,
     (maps, paths): (&[MapAnswer], &[PathAnswer]),
     (volumes, holes): (&[VolumeAnswer], &[HolesAnswer]),
 ) -> String {
-    let first = study.analyses.first().and_then(|analysis| match analysis.subject {
-        Subject::Map(_) | Subject::Sections(_) => maps.first().map(|map| of_map(study, map)),
-        Subject::Volume(..) => volumes.first().map(|volume| of_volume(study, volume)),
-        Subject::Path(_) => paths.first().map(|path| of_path(study, path)),
-        Subject::Holes(_) => holes.first().map(|holes| of_holes(study, holes)),
-    });
-    let sentence = first.unwrap_or_else(|| "Nothing was asked.".to_owned());
+    let first = study
+        .analyses
+        .first()
+        .and_then(|analysis| match analysis.subject {
+            Subject::Map(_) | Subject::Sections(_) => maps.first().map(|map| of_map(study, map)),
+            Subject::Volume(..) => volumes.first().map(|volume| of_volume(study, volume)),
+            Subject::Path(_) => paths.first().map(|path| of_path(study, path)),
+            Subject::Holes(_) => holes.first().map(|holes| of_holes(study, holes)),
+        });
+    let sentence = first.unwrap_or_else(|| "The study has no analysis.".to_owned());
     if study.compliance_is_assumed() {
         sentence + " The joint compliances are assumed, not measured."
     } else {
@@ -43,7 +46,7 @@ fn of_volume(study: &Study, volume: &VolumeAnswer) -> String {
         );
     };
     format!(
-        "{}, branch {}: {:.1} % of the box holds {} µm; the in-plane deviation goes up to {} ± {} µm at ({:.0}, {:.0}, {:.0}) mm, mostly by {}.",
+        "{}, branch {}: {:.1} % of the box is within {} µm; the in-plane deviation is at most {} µm (u = {} µm), at ({:.0}, {:.0}, {:.0}) mm; largest contribution: {}.",
         volume.name,
         volume.branch,
         volume.fraction_within * 100.0,
@@ -53,11 +56,11 @@ fn of_volume(study: &Study, volume: &VolumeAnswer) -> String {
         worst.xyz_mm[0],
         worst.xyz_mm[1],
         worst.xyz_mm[2],
-        culprit(study, worst, &volume.setting.contributors),
+        largest_contributor(study, worst, &volume.setting.contributors),
     )
 }
 
-/// Fraction of a plane, least and largest deviation, and how many points stand outside joint limits.
+/// Fraction of a plane, least and largest deviation, and how many points are outside joint limits.
 fn of_map(study: &Study, map: &MapAnswer) -> String {
     let (Some(worst), Some(best)) = (&map.worst, &map.best) else {
         return format!(
@@ -67,12 +70,15 @@ fn of_map(study: &Study, map: &MapAnswer) -> String {
     };
     let evaluation = match map.fraction_within {
         0.0 => format!(
-            "no point of the plane holds {} µm",
+            "no point on the plane is within {} µm",
             micrometres(map.setting.tolerance_um)
         ),
-        1.0 => format!("the whole plane holds {} µm", micrometres(map.setting.tolerance_um)),
+        1.0 => format!(
+            "the whole plane is within {} µm",
+            micrometres(map.setting.tolerance_um)
+        ),
         fraction => format!(
-            "{:.1} % of the plane holds {} µm",
+            "{:.1} % of the plane is within {} µm",
             fraction * 100.0,
             micrometres(map.setting.tolerance_um)
         ),
@@ -80,13 +86,13 @@ fn of_map(study: &Study, map: &MapAnswer) -> String {
     let limits = match map.outside_joint_limits {
         0 => String::new(),
         n => format!(
-            " ({:.1} % inside joint limits: {n} of {} points stand outside)",
+            " ({:.1} % inside joint limits: {n} of {} points are outside)",
             map.fraction_within_and_inside_joint_limits * 100.0,
             map.grid.points
         ),
     };
     format!(
-        "{}, branch {}: {evaluation}{limits}; the in-plane deviation goes from {} µm to {} ± {} µm at ({:.0}, {:.0}, {:.0}) mm, mostly by {}.",
+        "{}, branch {}: {evaluation}{limits}; the in-plane deviation ranges from {} to {} µm (u = {} µm) and is largest at ({:.0}, {:.0}, {:.0}) mm; largest contribution: {}.",
         map.name,
         map.branch,
         micrometres(best.in_plane_um),
@@ -95,11 +101,11 @@ fn of_map(study: &Study, map: &MapAnswer) -> String {
         worst.xyz_mm[0],
         worst.xyz_mm[1],
         worst.xyz_mm[2],
-        culprit(study, worst, &map.setting.contributors),
+        largest_contributor(study, worst, &map.setting.contributors),
     )
 }
 
-/// Largest deviation along a path with its line, roundness of a circle, and the fraction that holds.
+/// Largest deviation along a path with its line, roundness of a circle, and the fraction within the tolerance.
 fn of_path(study: &Study, path: &PathAnswer) -> String {
     let Some(worst) = &path.worst else {
         return format!(
@@ -116,21 +122,21 @@ fn of_path(study: &Study, path: &PathAnswer) -> String {
         }
     };
     let roundness = path.roundness_um.map_or(String::new(), |r| {
-        format!(" and makes {circle} {} µm out of round", micrometres(r))
+        format!("; the roundness deviation of {circle} is {} µm", micrometres(r))
     });
     format!(
-        "{}, branch {}: the tool deviates up to {} ± {} µm {where_to}{line}{roundness}, mostly by {}; {:.1} % of the path holds {} µm.",
+        "{}, branch {}: the tool deviates by up to {} µm (u = {} µm) {where_to}{line}{roundness}; largest contribution: {}; {:.1} % of the path is within {} µm.",
         path.name,
         path.followed_branch.as_ref().unwrap_or(&path.branch),
         micrometres(worst.in_plane_um),
         micrometres(worst.in_plane_u_um),
-        culprit(study, worst, &path.setting.contributors),
+        largest_contributor(study, worst, &path.setting.contributors),
         path.fraction_within * 100.0,
         micrometres(path.setting.tolerance_um),
     )
 }
 
-/// How many holes hold, the largest deviation with its hole, and what is out of reach.
+/// How many holes are within the tolerance, the largest deviation with its hole, and what is out of reach.
 fn of_holes(study: &Study, holes: &HolesAnswer) -> String {
     let Some(worst) = holes.worst_holes.first() else {
         return format!(
@@ -144,7 +150,7 @@ fn of_holes(study: &Study, holes: &HolesAnswer) -> String {
     };
     let good = (holes.fraction_within * holes.holes as f64).round();
     format!(
-        "{}: {} of {} holes hold {} µm, each in its best posture; hole {} comes out {} ± {} µm beside its place, mostly by {}; holes are up to {} µm too deep or too shallow{lost}.",
+        "{}: {} of {} holes are within {} µm, each in its best posture; hole {} deviates by {} µm (u = {} µm) from its position; largest contribution: {}; holes are up to {} µm too deep or too shallow{lost}.",
         holes.name,
         good,
         holes.holes,
@@ -152,13 +158,13 @@ fn of_holes(study: &Study, holes: &HolesAnswer) -> String {
         worst.hole,
         micrometres(worst.point.in_plane_um),
         micrometres(worst.point.in_plane_u_um),
-        culprit(study, &worst.point, &holes.setting.contributors),
+        largest_contributor(study, &worst.point, &holes.setting.contributors),
         micrometres(holes.max_depth_um.unwrap_or(0.0)),
     )
 }
 
-/// What has the largest share, and how large.
-pub(crate) fn culprit(study: &Study, point: &PointAnswer, contributors: &[String]) -> String {
+/// The largest contributor and its share.
+pub(crate) fn largest_contributor(study: &Study, point: &PointAnswer, contributors: &[String]) -> String {
     point
         .mostly_by(contributors)
         .map_or_else(String::new, |(name, part)| {
@@ -171,7 +177,7 @@ pub(crate) fn culprit(study: &Study, point: &PointAnswer, contributors: &[String
         })
 }
 
-/// A deviation with the digits that mean something.
+/// A deviation with its significant digits.
 pub(crate) fn micrometres(um: f64) -> String {
     if um == um.round() && um < 1e6 {
         format!("{um:.0}")

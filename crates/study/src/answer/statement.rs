@@ -1,6 +1,6 @@
-//! What others state, beside what was found here: consistent or not, never confirmed.
+//! Published statements, compared with these results: consistent or not, never confirmed.
 //!
-//! A reading is consistent where its largest in-plane deviation is at most the stated bound. A source may leave tool,
+//! A reading is consistent if its largest in-plane deviation is at most the stated bound. A source may leave tool,
 //! plane or branch open: then several readings can be.
 
 use schemars::JsonSchema;
@@ -15,11 +15,11 @@ use crate::file::resolve::Study;
 pub struct StatementAnswer {
     /// The statement in words.
     pub text: String,
-    /// Where it stands.
+    /// Where it was published.
     pub source: String,
     /// The stated bound of the in-plane deviation.
     pub at_most_um: f64,
-    /// What was found under each reading.
+    /// The result of each reading.
     pub readings: Vec<Reading>,
 }
 
@@ -28,11 +28,11 @@ pub struct StatementAnswer {
 pub struct Reading {
     /// Name of the map or path.
     pub name: String,
-    /// Posture asked for.
+    /// Requested posture.
     pub branch: String,
-    /// Least and largest in-plane deviation; none where nothing was reached.
+    /// Least and largest in-plane deviation; none if nothing was reached.
     pub in_plane_um: Option<[f64; 2]>,
-    /// Whether every point stands inside joint limits.
+    /// Whether every point is inside joint limits.
     pub inside_joint_limits: bool,
     /// Whether the largest is within the stated bound.
     pub consistent: bool,

@@ -1,7 +1,7 @@
-//! A volume in the answer: what of a box holds the limit.
+//! A volume in the answer: the part of a box within the tolerance.
 //!
-//! Its points are counted, not listed: the tables have them all. The tool points as on the plane of the setting, whose
-//! normal tells in-plane from normal deviation.
+//! Its points are counted, not listed: the tables contain them all. The tool is oriented as on the plane of the
+//! setting, whose normal defines in-plane and normal deviation.
 
 use armill_core::map::VolumeMap;
 use schemars::JsonSchema;
@@ -11,38 +11,38 @@ use super::map::CountsAnswer;
 use super::point::{PointAnswer, SettingAnswer};
 use crate::file::resolve::{Setting, Study};
 
-/// A box of points, the tool held as on the plane.
+/// A box of points, the tool oriented as on the plane.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct VolumeAnswer {
     /// Its name.
     pub name: String,
-    /// Posture asked for: words of a branch, or `best`.
+    /// Requested posture: words of a branch, or `best`.
     pub branch: String,
-    /// Points within the limit over all points.
+    /// Points within the tolerance over all points.
     pub fraction_within: f64,
     /// The same, of points inside the joint limits only.
     pub fraction_within_and_inside_joint_limits: f64,
-    /// Volume of the points within, each standing for one cell.
+    /// Volume of the points within, each representing one cell.
     pub volume_within_mm3: f64,
-    /// Points by reason; they add up to all points.
+    /// Points by reason; their sum is the total.
     pub counts: CountsAnswer,
-    /// Points along x, y, z of the frame that positions count from.
+    /// Points along x, y, z of the reference frame.
     pub point_counts: [usize; 3],
     /// Pitch.
     pub step_mm: f64,
-    /// The corner with the least coordinates, in the frame that positions count from.
+    /// The corner with the least coordinates, in the reference frame.
     pub origin_mm: [f64; 3],
     /// The point with the least in-plane deviation.
     pub best: Option<PointAnswer>,
     /// The point with the largest in-plane deviation.
     pub worst: Option<PointAnswer>,
-    /// What all points share.
+    /// The common setting of all points.
     pub setting: SettingAnswer,
 }
 
-/// What became of the box that the ask called `name` asks for.
+/// The result of the box of the analysis called `name`.
 pub(super) fn answer(study: &Study, name: &str, setting: &Setting, volume: &VolumeMap) -> VolumeAnswer {
-    let counts = volume.counts(setting.limit);
+    let counts = volume.counts(setting.tolerance);
     let point = |(index, evaluation)| {
         PointAnswer::of(
             study,
@@ -56,12 +56,12 @@ pub(super) fn answer(study: &Study, name: &str, setting: &Setting, volume: &Volu
         branch: setting.branch(),
         fraction_within: counts.fraction_within(),
         fraction_within_and_inside_joint_limits: counts.fraction_within_and_inside_joint_limits(),
-        volume_within_mm3: volume.volume_within(setting.limit) * 1e9,
+        volume_within_mm3: volume.volume_within(setting.tolerance) * 1e9,
         counts: CountsAnswer::of(&counts),
         point_counts: volume.grid.counts,
         step_mm: volume.grid.step * 1e3,
         origin_mm: setting
-            .counted(&volume.grid.corner())
+            .in_reference(&volume.grid.corner())
             .coords
             .map(|c| crate::number::without_rounding(c * 1e3))
             .into(),

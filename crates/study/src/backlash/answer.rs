@@ -1,35 +1,35 @@
 //! Backlash of the joints in numbers with their units.
 //!
-//! Angles count from +y' of the plane towards z'; steps are outwards positive, whichever way round.
+//! Angles are from +y' of the plane towards z'; steps are positive outwards, in both directions.
 
 use armill_core::measure::ballbar::Direction;
-use armill_core::measure::ballbar::joints::{Followed, Gap, JointReversal};
+use armill_core::measure::ballbar::joints::{EstimatedBacklash, Followed, JointReversal};
 use armill_core::robot::Robot;
 use serde::Serialize;
 
 use super::circles::CircleAnalysis;
-use super::estimate::Estimated;
+use super::estimate::BacklashEstimate;
 use crate::file::circles::MeasuredCircle;
 use crate::file::resolve::Study;
 
-/// How much play each joint has.
+/// Backlash of each joint.
 #[derive(Clone, Debug, Serialize)]
 pub struct BacklashAnswer {
     /// Name of the robot.
     pub robot: String,
-    /// Every circle that was measured, with what turns back on it.
+    /// All measured circles, with the joints that reverse on them.
     pub circles: Vec<CircleAnswer>,
     /// Every joint.
     pub joints: Vec<JointAnswer>,
-    /// Sets of joints of which these circles tell a sum rather than each.
+    /// Sets of joints for which these circles only determine a sum.
     pub not_identifiable: Vec<Vec<String>>,
-    /// Correlation of the gaps that are told, in the order of `joints`.
+    /// Correlation of the identified backlashes, in the order of `joints`.
     pub correlation_ratio: Vec<Vec<f64>>,
     /// Samples of all circles.
     pub samples: usize,
-    /// Root mean square of what place, size and lobes of the circles leave.
+    /// Root mean square residual of centre, radius and lobes of the circles.
     pub rms_before_um: f64,
-    /// And of what the gaps leave of that.
+    /// The same with backlash fitted too.
     pub rms_after_um: f64,
     /// What a user must know, each a sentence.
     pub warnings: Vec<String>,
@@ -46,20 +46,20 @@ pub struct CircleAnswer {
     pub radius_mm: f64,
     /// Its centre, base.
     pub centre_mm: [f64; 3],
-    /// Where joints turn back, by joint, then by angle.
+    /// Reversals, by joint, then by angle.
     pub reversals: Vec<ReversalAnswer>,
 }
 
-/// A joint turns back.
+/// A reversal of a joint.
 #[derive(Clone, Debug, Serialize)]
 pub struct ReversalAnswer {
     /// Which joint.
     pub joint: String,
-    /// Where, both ways round.
+    /// Its angle, in both directions.
     pub at_deg: f64,
-    /// How far the radius steps outwards there by the gap that was found; none of a joint that was not told.
+    /// Outward step of the radius there by the estimated backlash; none for a joint that was not identified.
     pub step_um: Option<f64>,
-    /// Where its link has crossed that gap clockwise; none where it turns back before.
+    /// Angle at which the link has crossed the backlash clockwise; none if the joint reverses before.
     pub crossed_cw_deg: Option<f64>,
     /// Anticlockwise.
     pub crossed_ccw_deg: Option<f64>,
@@ -70,41 +70,42 @@ pub struct ReversalAnswer {
 pub struct JointAnswer {
     /// Its name.
     pub joint: String,
-    /// `told`, `not told apart` or `does not show`.
+    /// `identified`, `not separable` or `no effect`.
     pub state: &'static str,
-    /// The gap of a joint that turns.
+    /// The backlash of a revolute joint.
     pub backlash_deg: Option<f64>,
     /// Its standard uncertainty.
     pub backlash_u_deg: Option<f64>,
-    /// The gap of a joint that slides.
+    /// The backlash of a prismatic joint.
     pub backlash_mm: Option<f64>,
     /// Its standard uncertainty.
     pub backlash_u_mm: Option<f64>,
-    /// Variance over what it would be if no other joint were looked for; none where it is not seen.
+    /// Variance relative to that if no other joint were estimated; none if the joint has no effect.
     pub inflation_ratio: Option<f64>,
-    /// The gap that the robot file has, of a joint that turns.
+    /// The backlash in the robot file, of a revolute joint.
     pub robot_file_deg: Option<f64>,
-    /// Of a joint that slides.
+    /// For a prismatic joint.
     pub robot_file_mm: Option<f64>,
 }
 
-/// A gap below zero by more than this many standard uncertainties is none.
+/// A backlash below zero by more than this many standard uncertainties is not plausible.
 const BELOW_ZERO: f64 = 2.0;
 
-/// What was found in `study`.
-pub(super) fn answer(study: &Study, found: &Estimated<'_>) -> BacklashAnswer {
+/// The estimate for `study`.
+pub(super) fn answer(study: &Study, found: &BacklashEstimate<'_>) -> BacklashAnswer {
     let (robot, gaps) = (&study.robot.robot, &found.gaps);
     let name = |joint: usize| robot.joints()[joint].name.clone();
     let names = |set: &Vec<usize>| set.iter().map(|joint| name(*joint)).collect();
-    let given = gaps.given.len();
-    let correlation = |i: usize, k: usize| gaps.covariance[(i, k)] / (gaps.given[i].u * gaps.given[k].u);
+    let given = gaps.estimates.len();
+    let correlation =
+        |i: usize, k: usize| gaps.covariance[(i, k)] / (gaps.estimates[i].u * gaps.estimates[k].u);
     let mut warnings: Vec<String> = (found.circles.iter())
         .flat_map(|(measured, ..)| measured.notes.clone())
         .collect();
     for (measured, ..) in &found.circles {
         if !measured.test.is_bidirectional() {
             warnings.push(format!(
-                "{}: one way round alone: gaps are told from what is smooth by their steps only",
+                "{}: only one direction: backlash is separated from smooth deviations only by its steps",
                 measured.analysis
             ));
         }
@@ -113,19 +114,19 @@ pub(super) fn answer(study: &Study, found: &Estimated<'_>) -> BacklashAnswer {
         let names: Vec<String> = set.iter().map(|joint| name(*joint)).collect();
         let alone = if names.len() == 1 { " from the others" } else { "" };
         warnings.push(format!(
-            "not told apart by these circles: {}{alone}; `--circles` looks for circles that do",
+            "not separable by these circles: {}{alone}; `--circles` searches for circles that separate them",
             names.join(", ")
         ));
     }
     for joint in &gaps.unseen {
         warnings.push(format!(
-            "{} does not move the radius on these circles",
+            "{} has no effect on the radius on these circles",
             name(*joint)
         ));
     }
-    for gap in gaps.given.iter().filter(|gap| gap.gap < -BELOW_ZERO * gap.u) {
+    for gap in gaps.estimates.iter().filter(|gap| gap.gap < -BELOW_ZERO * gap.u) {
         warnings.push(format!(
-            "{}: the gap is below zero: its link is ahead of its motor, or the angles of the files are not those of the circle",
+            "{}: the backlash is below zero: check the angles of the files (zero_deg, mirrored), or the link is ahead of its motor",
             name(gap.joint)
         ));
     }
@@ -154,7 +155,7 @@ pub(super) fn answer(study: &Study, found: &Estimated<'_>) -> BacklashAnswer {
 fn of_circle(
     robot: &Robot,
     (measured, circle, followed): (&MeasuredCircle, &CircleAnalysis<'_>, &Followed),
-    given: impl Fn(usize) -> Option<Gap>,
+    given: impl Fn(usize) -> Option<EstimatedBacklash>,
 ) -> CircleAnswer {
     let centre = circle.centre();
     CircleAnswer {
@@ -171,7 +172,7 @@ fn of_circle(
 fn of_reversal(
     robot: &Robot,
     (at, followed): (&JointReversal, &Followed),
-    gap: Option<Gap>,
+    gap: Option<EstimatedBacklash>,
 ) -> ReversalAnswer {
     let crossed = |way| gap.and_then(|gap| followed.crossed(at, gap.gap, way));
     ReversalAnswer {
@@ -183,17 +184,17 @@ fn of_reversal(
     }
 }
 
-fn of_joint(study: &Study, found: &Estimated<'_>, joint: usize) -> JointAnswer {
+fn of_joint(study: &Study, found: &BacklashEstimate<'_>, joint: usize) -> JointAnswer {
     let (robot, gaps) = (&study.robot.robot, &found.gaps);
     let slides = robot.slides(joint);
     let given = gaps.of(joint);
     let deg = |value: f64| (!slides).then(|| value.to_degrees());
     let mm = |value: f64| slides.then_some(value * 1e3);
-    // All circles are of one robot, so the structure of any tells its file.
+    // All circles are of one robot; any of them determines the structure.
     let of_file = found.circles.first().and_then(|(_, circle, _)| {
         let structure = &circle.path.setting.model.structure;
         structure
-            .gaps()
+            .joints_with_backlash()
             .find(|(of, _)| *of == joint)
             .map(|(_, gap)| gap.gap)
     });
@@ -201,9 +202,9 @@ fn of_joint(study: &Study, found: &Estimated<'_>, joint: usize) -> JointAnswer {
     JointAnswer {
         joint: robot.joints()[joint].name.clone(),
         state: match given {
-            Some(_) => "told",
-            None if gaps.unseen.contains(&joint) => "does not show",
-            None => "not told apart",
+            Some(_) => "identified",
+            None if gaps.unseen.contains(&joint) => "no effect",
+            None => "not separable",
         },
         backlash_deg: given.and_then(|gap| deg(gap.gap)),
         backlash_u_deg: given.and_then(|gap| deg(gap.u)),

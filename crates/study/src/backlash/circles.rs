@@ -1,4 +1,4 @@
-//! The circles of a study, and the arm that follows them without load.
+//! The circles of a study, and the joint motion along them without load.
 
 use armill_core::kernel::Question;
 use armill_core::measure::ballbar::joints::circle::STATIONS;
@@ -31,7 +31,7 @@ impl CircleAnalysis<'_> {
     }
 }
 
-/// The circles called so, in this order; all where none is named.
+/// The circles with these names, in this order; all if none is named.
 ///
 /// # Errors
 /// No circle, or none of that name; one whose posture is searched for.
@@ -53,7 +53,7 @@ pub fn circles<'a>(study: &'a Study, names: &[String]) -> Result<Vec<CircleAnaly
             _ => None,
         })
         .collect();
-    let hint = "an ask of kind = \"path\" with circle = { radius_mm = 100 }";
+    let hint = "an analysis of kind = \"path\" with circle = { radius_mm = 100 }";
     if all.is_empty() {
         return Err(StudyError::value("the study has no circle", hint));
     }
@@ -69,14 +69,17 @@ pub fn circles<'a>(study: &'a Study, names: &[String]) -> Result<Vec<CircleAnaly
     };
     match found.iter().find(|circle| circle.path.setting.search.is_some()) {
         Some(circle) => Err(StudyError::value(
-            format!("{}: a bar goes round with the tool held still", circle.name),
-            "take posture.search out of this ask",
+            format!(
+                "{}: a ball-bar test needs a constant spin of the tool",
+                circle.name
+            ),
+            "remove posture.search from this analysis",
         )),
         None => Ok(found),
     }
 }
 
-/// A circle beside the arm that follows it.
+/// A circle and the joint motion along it.
 pub(super) fn followed(
     study: &Study,
     circle: &CircleAnalysis<'_>,
@@ -99,7 +102,7 @@ pub(super) fn followed(
     })
 }
 
-/// What the core is asked on this circle.
+/// The question to the core for this circle.
 pub(super) fn question<'a>(runner: &'a Runner<'a>, circle: &CircleAnalysis<'a>) -> Question<'a> {
     runner.question(&circle.path.setting)
 }

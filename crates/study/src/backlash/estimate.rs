@@ -1,6 +1,6 @@
-//! The gaps of the joints from what was measured on circles of the study.
+//! The backlash of the joints from measurements on circles of the study.
 
-use armill_core::measure::ballbar::joints::{Asked, Followed, Gaps, Observed, gaps};
+use armill_core::measure::ballbar::joints::{BacklashFit, BacklashOptions, Followed, Observed, fit_backlash};
 use armill_core::watch::Watch;
 
 use super::answer::{BacklashAnswer, answer};
@@ -9,22 +9,22 @@ use crate::error::StudyError;
 use crate::file::circles::MeasuredCircle;
 use crate::file::resolve::Study;
 
-/// How it is asked.
+/// Options of the estimate.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Wanted {
+pub struct EstimateOptions {
     /// Lobes of a circle that are no backlash.
     pub most_lobes: usize,
-    /// Standard deviation of a sample, m; from the residuals where it is not known.
+    /// Standard deviation of a sample, m; from the residuals if not given.
     pub noise: Option<f64>,
 }
 
 /// What circles show. SI.
 #[derive(Clone, Debug)]
-pub struct Estimated<'a> {
-    /// Each circle that was measured, with the arm along it.
+pub struct BacklashEstimate<'a> {
+    /// Each measured circle, with the joint motion along it.
     pub circles: Vec<(&'a MeasuredCircle, CircleAnalysis<'a>, Followed)>,
-    /// What they tell together.
-    pub gaps: Gaps,
+    /// The joint estimate from all of them.
+    pub gaps: BacklashFit,
 }
 
 /// The points that the progress of [`estimate`] ends at.
@@ -41,22 +41,22 @@ fn measured(study: &Study) -> Result<Vec<(&MeasuredCircle, CircleAnalysis<'_>)>,
     if study.circles.is_empty() {
         return Err(StudyError::value(
             "the study names no circular test",
-            "[[ballbar]] with ask = \"xy\" and files = [\"xy.csv\"]; or --circles N, or --simulate FOLDER",
+            "[[ballbar]] with analysis = \"xy\" and files = [\"xy.csv\"]; or --circles N, or --simulate FOLDER",
         ));
     }
     let names: Vec<String> = study.circles.iter().map(|of| of.analysis.clone()).collect();
     Ok(study.circles.iter().zip(circles(study, &names)?).collect())
 }
 
-/// The gaps of all joints, from all circles that were measured.
+/// The backlash of all joints, from all measured circles.
 ///
 /// # Errors
-/// A study in which no circle was measured; a circle that the arm does not follow; too few samples.
+/// A study without measured circles; a circle that the robot cannot follow; too few samples.
 pub fn estimate<'a>(
     study: &'a Study,
-    expected: &Wanted,
+    expected: &EstimateOptions,
     watch: Watch<'_>,
-) -> Result<(Estimated<'a>, BacklashAnswer), StudyError> {
+) -> Result<(BacklashEstimate<'a>, BacklashAnswer), StudyError> {
     let circles = (measured(study)?.into_iter())
         .map(|(measured, circle)| Ok((measured, circle, followed(study, &circle, watch)?)))
         .collect::<Result<Vec<_>, StudyError>>()?;
@@ -66,15 +66,15 @@ pub fn estimate<'a>(
             test: &measured.test,
         })
         .collect();
-    let requested = Asked {
+    let requested = BacklashOptions {
         most_lobes: expected.most_lobes,
         noise: expected.noise,
-        ..Asked::of_all(study.robot.robot.joints().len())
+        ..BacklashOptions::of_all(study.robot.robot.joints().len())
     };
-    let found = gaps(&observed, &requested).map_err(|error| {
+    let found = fit_backlash(&observed, &requested).map_err(|error| {
         StudyError::value(
             error.to_string(),
-            "is the arm of the study the one that was measured, and the unit of the radii right?",
+            "check that the robot of the study is the measured one, and the unit of the radii",
         )
     })?;
     let gaps = found.ok_or_else(|| {
@@ -83,7 +83,7 @@ pub fn estimate<'a>(
             "runs of a sample a degree or more, or fewer --lobes",
         )
     })?;
-    let estimated = Estimated { circles, gaps };
+    let estimated = BacklashEstimate { circles, gaps };
     let given = answer(study, &estimated);
     Ok((estimated, given))
 }

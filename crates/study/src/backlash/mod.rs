@@ -1,13 +1,15 @@
-//! How much play has each joint? From circular tests on circles of a study; which circles to drive; and the test that a
-//! robot file would show.
+//! Backlash of the joints from circular tests on circles of a study; plans of circles; and simulated tests of a
+//! robot file.
 //!
 //! ```text
-//! study with [[ballbar]] -> follow each circle -> estimate: Estimated (SI) -> BacklashAnswer, tables, pictures
+//! study with [[ballbar]] -> follow each circle -> estimate: BacklashEstimate (SI) -> BacklashAnswer, tables, pictures
 //! ```
 //!
-//! [`circles`](mod@circles): the circles of a study, and the arm that follows them. [`estimate`](mod@estimate): gaps from what was measured.
-//! [`answer`](mod@answer): that, in numbers with their units. [`plan`](mod@plan): circles to drive. [`simulate`](mod@simulate): files of a
-//! ball-bar, made up from the robot file, with `noise`. [`output`]: tables and pictures.
+//! [`circles`](mod@circles): the circles of a study, and the joint motion along them. [`estimate`](mod@estimate):
+//! backlash
+//! from the measurements.
+//! [`answer`](mod@answer): its values with units. [`plan`](mod@plan): circles to measure. [`simulate`](mod@simulate):
+//! ball-bar files simulated from the robot file, with `noise`. [`output`]: tables and pictures.
 
 pub mod answer;
 pub mod circles;
@@ -18,6 +20,6 @@ pub mod plan;
 pub mod simulate;
 
 pub use answer::BacklashAnswer;
-pub use estimate::{Estimated, Wanted, estimate};
-pub use plan::{PlanAnswer, PlanWanted, plan};
-pub use simulate::{Simulated, SimulationWanted, simulate};
+pub use estimate::{BacklashEstimate, EstimateOptions, estimate};
+pub use plan::{PlanAnswer, PlanOptions, plan};
+pub use simulate::{SimulatedFile, SimulationOptions, simulate};

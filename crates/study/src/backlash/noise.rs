@@ -1,4 +1,5 @@
-//! Seeded noise that is the same on every machine but for the last bit: splitmix64, and two even numbers into a normal one.
+//! Seeded noise that is the same on every machine but for the last bit: splitmix64, and two even numbers into a
+//! normal one.
 //!
 //! Source: Steele, Lea, Flood 2014, Fast splittable pseudorandom number generators; Box and Muller 1958 \[recalled\].
 

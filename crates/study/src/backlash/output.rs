@@ -1,9 +1,9 @@
 //! Tables and pictures of the backlash of joints.
 //!
 //! ```text
-//! result.json     the answer
-//! reversals.csv   ask, joint, at_deg, step_um, crossed_cw_deg, crossed_ccw_deg
-//! ASK.svg         the runs of a circle, what the gaps make of them, and rays where joints turn back; .png too
+//! result.json     the result
+//! reversals.csv   analysis, joint, at_deg, step_um, crossed_cw_deg, crossed_ccw_deg
+//! NAME.svg        the runs of a circle, the fit with backlash, and rays at reversals; .png too
 //! ```
 
 use armill_core::measure::ballbar::joints::Followed;
@@ -14,7 +14,7 @@ use armill_formats::table::{Column, ColumnData, Table, csv};
 use armill_report::{BallbarPlot, BallbarTrace, Growth, RayMark, Sense};
 
 use super::answer::{BacklashAnswer, CircleAnswer, ReversalAnswer};
-use super::estimate::Estimated;
+use super::estimate::BacklashEstimate;
 use crate::StudyError;
 use crate::file::circles::MeasuredCircle;
 use crate::output::{Picture, RESULT, picture_files, replace, save_pictures, slug};
@@ -22,11 +22,15 @@ use crate::output::{Picture, RESULT, picture_files, replace, save_pictures, slug
 /// The table.
 const TABLE: &str = "reversals.csv";
 
-/// Writes the answer, its table and pictures into the folder `out`.
+/// Writes the result, its table and pictures into the folder `out`.
 ///
 /// # Errors
 /// The folder or a file cannot be written.
-pub fn write(given: &BacklashAnswer, found: &Estimated<'_>, out: &ResultFolder) -> Result<(), StudyError> {
+pub fn write(
+    given: &BacklashAnswer,
+    found: &BacklashEstimate<'_>,
+    out: &ResultFolder,
+) -> Result<(), StudyError> {
     let pictures: Vec<Picture> = (found.circles.iter().zip(&given.circles))
         .map(|((measured, _, followed), circle)| picture(measured, followed, (circle, found)))
         .collect();
@@ -60,26 +64,28 @@ fn table(given: &BacklashAnswer) -> Result<Table, StudyError> {
     };
     let columns = vec![
         text("analysis", "the circle", &|(circle, _)| circle.analysis.clone()),
-        text("joint", "which joint turns back", &|(_, at)| at.joint.clone()),
+        text("joint", "the joint that reverses", &|(_, at)| at.joint.clone()),
         number("at_deg", "where, from +y' towards z'", &|at| Some(at.at_deg)),
         number("step_um", "step of the radius outwards", &|at| at.step_um),
-        number("crossed_cw_deg", "where the gap is crossed clockwise", &|at| {
-            at.crossed_cw_deg
-        }),
+        number(
+            "crossed_cw_deg",
+            "angle at which the backlash is crossed clockwise",
+            &|at| at.crossed_cw_deg,
+        ),
         number(
             "crossed_ccw_deg",
-            "where the gap is crossed anticlockwise",
+            "angle at which the backlash is crossed anticlockwise",
             &|at| at.crossed_ccw_deg,
         ),
     ];
     Ok(Table::new("reversals", columns)?)
 }
 
-/// The runs of one circle about their centre, the smooth part and the steps as they were found, and where joints turn back.
+/// The runs of one circle about their centre, the fitted smooth part and steps, and the reversals of joints.
 fn picture(
     measured: &MeasuredCircle,
     followed: &Followed,
-    (circle, found): (&CircleAnswer, &Estimated<'_>),
+    (circle, found): (&CircleAnswer, &BacklashEstimate<'_>),
 ) -> Picture {
     let offset = least_squares_centre(&measured.test).map(|centre| centre.offset);
     let about = |a: f64| offset.map_or(0.0, |e| e.x * a.cos() + e.y * a.sin());
@@ -91,21 +97,21 @@ fn picture(
             })
         })
         .collect();
-    // What both ways have in common is measured; what they differ by is that of the gaps.
+    // The part common to both directions is measured; their difference is that of the backlash.
     let common = Common::of(measured, followed, &found.gaps.fitted);
     for direction in Direction::BOTH {
         if !measured.test.of(direction).any(|_| true) {
             continue;
         }
         let angles: Vec<f64> = (0..=STATIONS).map(|k| station(k % STATIONS)).collect();
-        let made = gaps_alone(followed, &found.gaps.fitted, direction, &angles);
+        let effect = backlash_effect(followed, &found.gaps.fitted, direction, &angles);
         traces.push(BallbarTrace {
-            name: format!("{} by the gaps", direction.name()),
+            name: format!("{} with fitted backlash", direction.name()),
             sense: sense(direction),
             angle_deg: (0..=STATIONS).map(|k| station(k).to_degrees()).collect(),
             radial_um: angles
                 .iter()
-                .zip(made)
+                .zip(effect)
                 .enumerate()
                 .map(|(k, (a, dr))| (common.0[k % STATIONS] + dr - about(*a)) * 1e6)
                 .collect(),
@@ -113,7 +119,7 @@ fn picture(
         });
     }
     let picture = BallbarPlot {
-        title: format!("Where joints turn back: {}", circle.analysis),
+        title: format!("Reversals of the joints: {}", circle.analysis),
         subtitle: format!("radius {} mm", crate::number::decimals(circle.radius_mm, 3)),
         horizontal: "y'".to_owned(),
         vertical: "z'".to_owned(),
@@ -129,7 +135,7 @@ fn picture(
     Picture {
         name: slug(&circle.analysis),
         caption: format!(
-            "{}: the runs, magnified; what the gaps make of them on what both ways have in common; rays where joints turn back.",
+            "{}: the runs, magnified; the part common to both directions with the fitted backlash; rays at reversals of joints.",
             circle.analysis
         ),
         svg: picture.to_svg(),
@@ -155,8 +161,8 @@ fn trace(name: String, direction: Direction, radius: impl Fn(f64) -> f64) -> Bal
     }
 }
 
-/// What the gaps of all joints make of the radius, m.
-fn gaps_alone(followed: &Followed, gaps: &[f64], direction: Direction, angles: &[f64]) -> Vec<f64> {
+/// Effect of the backlash of all joints on the radius, m.
+fn backlash_effect(followed: &Followed, gaps: &[f64], direction: Direction, angles: &[f64]) -> Vec<f64> {
     let mut sum = vec![0.0; angles.len()];
     for (joint, gap) in gaps.iter().enumerate() {
         let effect = followed.effect((joint, *gap), direction, angles);
@@ -165,7 +171,7 @@ fn gaps_alone(followed: &Followed, gaps: &[f64], direction: Direction, angles: &
     sum
 }
 
-/// What all runs have in common without what the gaps make, at every station, m.
+/// The part common to all runs without the effect of backlash, at every station, m.
 struct Common(Vec<f64>);
 
 impl Common {
@@ -175,9 +181,9 @@ impl Common {
         let runs: Vec<&Run> = measured.test.runs().iter().collect();
         for run in &runs {
             let profile = Profile::of(run);
-            let made = gaps_alone(followed, gaps, run.direction(), &angles);
+            let effect = backlash_effect(followed, gaps, run.direction(), &angles);
             for (k, sum) in sum.iter_mut().enumerate() {
-                let left = profile.at(angles[k]).map_or(f64::NAN, |dr| dr - made[k]);
+                let left = profile.at(angles[k]).map_or(f64::NAN, |dr| dr - effect[k]);
                 *sum += left / runs.len() as f64;
             }
         }

@@ -1,8 +1,8 @@
-//! Circles to drive, so that the gaps of all joints are told apart.
+//! Plans of circles by which the backlash of all joints can be separated.
 
 use armill_core::measure::ballbar::joints::fit::INFLATION;
-use armill_core::measure::ballbar::joints::plan::Known;
-use armill_core::measure::ballbar::joints::{Domain, Followed, Normal, PlanAsked, Proposed, propose};
+use armill_core::measure::ballbar::joints::plan::ExpectedUncertainty;
+use armill_core::measure::ballbar::joints::{CirclePlanOptions, Domain, Followed, Normal, Proposed, propose};
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::Robot;
 use armill_core::watch::Watch;
@@ -14,29 +14,29 @@ use crate::file::resolve::Study;
 use crate::number::decimals;
 use crate::run::runner;
 
-/// How it is asked.
+/// Options of a plan.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PlanWanted {
-    /// Circles of the study that are driven anyway, the first with the middle of the box; all where none is named.
+pub struct PlanOptions {
+    /// Circles of the study that are measured in any case, the first at the centre of the box; all if none is named.
     pub analyses: Vec<String>,
-    /// How many circles more.
+    /// Number of additional circles.
     pub count: usize,
-    /// Half of the box of centres, m.
+    /// Half the size of the box of centres, m.
     pub half: [f64; 3],
-    /// m; that of the first circle, and one and a half of it, where none is named.
+    /// m; that of the first circle and 1.5 times it, if empty.
     pub radii: Vec<f64>,
-    /// Lobes of a circle that are no backlash.
+    /// Lobes of a circle that are not caused by backlash.
     pub most_lobes: usize,
     /// Standard deviation of a sample, m.
     pub noise: f64,
 }
 
-/// Circles to drive.
+/// Circles to measure.
 #[derive(Clone, Debug, Serialize)]
 pub struct PlanAnswer {
     /// Name of the robot.
     pub robot: String,
-    /// Where centres were looked for: two corners, base.
+    /// Box in which centres were searched: two corners, base.
     pub box_mm: [[f64; 3]; 2],
     /// Centres along each side.
     pub along: usize,
@@ -44,17 +44,17 @@ pub struct PlanAnswer {
     pub planes: Vec<&'static str>,
     /// Radii.
     pub radii_mm: Vec<f64>,
-    /// Circles that were looked at.
+    /// Number of circles searched.
     pub candidates: usize,
-    /// Of these the ones that the arm follows within its limits, in the branch of the study.
+    /// Number of these that the robot can follow within its joint limits, in the branch of the study.
     pub followed: usize,
-    /// Noise of a sample that uncertainties are told for.
+    /// Noise of a sample for the expected uncertainties.
     pub noise_um: f64,
     /// Circles of the study.
     pub begun: Vec<String>,
-    /// What these tell.
-    pub known: KnownAnswer,
-    /// Circles to drive beside them, the one that tells most first.
+    /// What these determine.
+    pub known: IdentifiabilityAnswer,
+    /// Additional circles, the most informative first.
     pub circles: Vec<ProposedAnswer>,
 }
 
@@ -65,14 +65,14 @@ pub struct ProposedAnswer {
     pub plane: &'static str,
     /// Base.
     pub centre_mm: [f64; 3],
-    /// Turns of the part frame about the fixed axes x, y, z, as `plane.rotation_deg` of a study.
+    /// Rotations of the part frame about the fixed axes x, y, z, as `plane.rotation_deg` of a study.
     pub rotation_deg: [f64; 3],
     /// Its radius.
     pub radius_mm: f64,
-    /// Joints that turn back on it, each with how often.
+    /// Joints that reverse on it, each with the number of reversals.
     pub reversals: Vec<TurnsAnswer>,
     /// What is known with it and all before.
-    pub known: KnownAnswer,
+    pub known: IdentifiabilityAnswer,
 }
 
 /// A joint on a circle.
@@ -80,20 +80,20 @@ pub struct ProposedAnswer {
 pub struct TurnsAnswer {
     /// Which.
     pub joint: String,
-    /// How often it turns back.
+    /// Number of its reversals.
     pub times: usize,
 }
 
-/// What circles tell.
+/// What circles determine.
 #[derive(Clone, Debug, Serialize)]
-pub struct KnownAnswer {
-    /// Joints that are told apart, with the standard uncertainty to expect.
+pub struct IdentifiabilityAnswer {
+    /// Joints that are identified, with the expected standard uncertainty.
     pub joints: Vec<ExpectedAnswer>,
-    /// Sets of joints of which a sum is told.
+    /// Sets of joints of which only a sum is determined.
     pub not_identifiable: Vec<Vec<String>>,
     /// Joints that do not move the radius.
     pub unseen: Vec<String>,
-    /// Greatest variance over what it would be if no other joint were looked for; none where a sum alone is seen.
+    /// Greatest variance relative to that if no other joint were estimated; none if only a sum is determined.
     pub inflation_ratio: Option<f64>,
 }
 
@@ -102,9 +102,9 @@ pub struct KnownAnswer {
 pub struct ExpectedAnswer {
     /// Which.
     pub joint: String,
-    /// Standard uncertainty of the gap of a joint that turns.
+    /// Standard uncertainty of the backlash of a revolute joint.
     pub backlash_u_deg: Option<f64>,
-    /// Of a joint that slides.
+    /// For a prismatic joint.
     pub backlash_u_mm: Option<f64>,
 }
 
@@ -113,11 +113,11 @@ const ALONG: usize = 3;
 /// A second radius, of the first.
 const WIDER: f64 = 1.5;
 
-/// The circles of which the joints are told apart.
+/// The circles that separate the joints.
 ///
 /// # Errors
-/// No circle in the study to begin with; one that the arm does not follow.
-pub fn plan(study: &Study, expected: &PlanWanted, watch: Watch<'_>) -> Result<PlanAnswer, StudyError> {
+/// No circle in the study; one that the robot cannot follow.
+pub fn plan(study: &Study, expected: &PlanOptions, watch: Watch<'_>) -> Result<PlanAnswer, StudyError> {
     let begun = circles(study, &expected.analyses)?;
     let along = (begun.iter())
         .map(|circle| followed(study, circle, Watch::NONE))
@@ -135,7 +135,7 @@ pub fn plan(study: &Study, expected: &PlanWanted, watch: Watch<'_>) -> Result<Pl
     };
     let runner = runner(study, watch)?;
     let robot = runner.robot;
-    let requested = PlanAsked {
+    let requested = CirclePlanOptions {
         count: expected.count,
         joints: (0..robot.joints().len()).collect(),
         most_lobes: expected.most_lobes,
@@ -173,7 +173,7 @@ pub fn plan(study: &Study, expected: &PlanWanted, watch: Watch<'_>) -> Result<Pl
 ///
 /// # Errors
 /// See [`circles`].
-pub fn candidate_count(study: &Study, expected: &PlanWanted) -> Result<usize, StudyError> {
+pub fn candidate_count(study: &Study, expected: &PlanOptions) -> Result<usize, StudyError> {
     circles(study, &expected.analyses)?;
     let radii = if expected.radii.is_empty() {
         2
@@ -206,10 +206,10 @@ fn proposed(robot: &Robot, one: &Proposed) -> ProposedAnswer {
     }
 }
 
-fn known(robot: &Robot, known: &Known) -> KnownAnswer {
+fn known(robot: &Robot, known: &ExpectedUncertainty) -> IdentifiabilityAnswer {
     let name = |joint: &usize| robot.joints()[*joint].name.clone();
-    KnownAnswer {
-        joints: (known.given.iter())
+    IdentifiabilityAnswer {
+        joints: (known.estimates.iter())
             .map(|gap| {
                 let slides = robot.slides(gap.joint);
                 ExpectedAnswer {

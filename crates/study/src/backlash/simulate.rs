@@ -1,4 +1,4 @@
-//! What a ball-bar would show of the robot file: backlash, the arm as it was measured, gravity, and noise where it is asked for.
+//! Ball-bar records simulated from the robot file: backlash, calibrated geometry, gravity, and noise if requested.
 //!
 //! ```text
 //! SLUG.csv     # radius_mm: 100
@@ -21,12 +21,12 @@ use crate::file::resolve::Study;
 use crate::number::decimals;
 use crate::output::slug;
 
-/// How it is asked.
+/// Options of a simulation.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SimulationWanted {
-    /// Names of the circles; all where none is named.
+pub struct SimulationOptions {
+    /// Names of the circles; all if none is named.
     pub analyses: Vec<String>,
-    /// Runs each way.
+    /// Runs in each direction.
     pub runs: usize,
     /// Standard deviation of a sample, m.
     pub noise: f64,
@@ -34,18 +34,18 @@ pub struct SimulationWanted {
     pub seed: u64,
 }
 
-/// A file that was made up.
+/// A simulated file.
 #[derive(Clone, Debug, Serialize)]
-pub struct Simulated {
+pub struct SimulatedFile {
     /// Name of the circle.
     pub analysis: String,
     /// Its file.
     pub file: String,
-    /// Greatest deviation of the radius by size.
+    /// Greatest magnitude of the deviation of the radius.
     pub largest_um: f64,
 }
 
-/// Samples of a run: every half degree, a quarter beside whole ones, since a sample on a reversal is on neither side.
+/// Samples of a run: every half degree, offset by a quarter, so that no sample is exactly on a reversal.
 const SAMPLES: u32 = 720;
 
 /// The points that the progress of [`simulate`] ends at.
@@ -60,12 +60,12 @@ pub fn point_count(study: &Study, analyses: &[String]) -> Result<usize, StudyErr
 /// Writes a file for each circle into the folder `out`.
 ///
 /// # Errors
-/// See [`circles`]; a circle that the arm does not follow; a folder that takes no more.
+/// See [`circles`]; a circle that the robot cannot follow; a folder that cannot be written.
 pub fn simulate(
     study: &Study,
-    (requested, out, writer): (&SimulationWanted, &Path, &Writer),
+    (requested, out, writer): (&SimulationOptions, &Path, &Writer),
     watch: Watch<'_>,
-) -> Result<Vec<Simulated>, StudyError> {
+) -> Result<Vec<SimulatedFile>, StudyError> {
     let mut noise = Noise::seeded(requested.seed);
     let mut files: Vec<(PathBuf, String)> = Vec::new();
     let mut given = Vec::new();
@@ -80,7 +80,7 @@ pub fn simulate(
                 "give them names that differ in letters or digits",
             ));
         }
-        given.push(Simulated {
+        given.push(SimulatedFile {
             analysis: circle.name.to_owned(),
             file: path.display().to_string(),
             largest_um: largest,
@@ -99,10 +99,10 @@ pub fn simulate(
 fn table(
     circle: &CircleAnalysis<'_>,
     along: &Followed,
-    (requested, noise): (&SimulationWanted, &mut Noise),
+    (requested, noise): (&SimulationOptions, &mut Noise),
 ) -> (String, f64) {
     let mut gaps = vec![0.0; along.joint_count()];
-    for (joint, gap) in circle.path.setting.model.structure.gaps() {
+    for (joint, gap) in circle.path.setting.model.structure.joints_with_backlash() {
         gaps[joint] = gap.gap;
     }
     let degrees: Vec<f64> = (0..SAMPLES)
@@ -110,7 +110,7 @@ fn table(
         .collect();
     let angles: Vec<f64> = degrees.iter().map(|deg| deg.to_radians()).collect();
     let mut text = format!(
-        "# made up by armill: backlash of {} joints, noise {} um, seed {}\n# radius_mm: {}\nangle_deg,radius_dev_um,direction,run\n",
+        "# simulated by armill: backlash of {} joints, noise {} um, seed {}\n# radius_mm: {}\nangle_deg,radius_dev_um,direction,run\n",
         gaps.iter().filter(|gap| **gap > 0.0).count(),
         decimals(requested.noise * 1e6, 6),
         requested.seed,

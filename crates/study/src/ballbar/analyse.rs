@@ -2,7 +2,7 @@
 
 use armill_core::measure::ballbar::centre::seen_from;
 use armill_core::measure::ballbar::parts::{
-    Asked, Parts, Reversal, Step, of_axes, parts, periods, strongest_period,
+    Parts, PartsOptions, Reversal, Step, of_axes, parts, periods, strongest_period,
 };
 use armill_core::measure::ballbar::{
     Centre, CircularTest, Difference, Direction, Lobes, Outlier, Quantities, Run, between_directions,
@@ -13,7 +13,7 @@ use super::Measured;
 use crate::StudyError;
 use crate::number::decimals;
 
-/// From which centre radii are counted.
+/// Centre from which radii are measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Centring {
     /// Where the pivot was set up.
@@ -25,39 +25,39 @@ pub enum Centring {
 /// Whether an error that repeats along an axis is looked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cyclic {
-    /// No.
+    /// Not fitted.
     None,
     /// With this period, m.
-    Told(f64),
-    /// With the period that stands out, if one does.
-    Found,
+    Period(f64),
+    /// With the period that has a significant peak, if there is one.
+    Search,
 }
 
-/// What is asked of a test.
+/// Settings of the analysis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
     /// From which centre.
     pub centring: Centring,
-    /// Most lobes that are told and taken into account.
+    /// Greatest number of lobes that are fitted and reported.
     pub most_lobes: usize,
     /// Error of an axis that repeats.
     pub cyclic: Cyclic,
-    /// Angles at which something reverses beside the axes, rad.
+    /// Angles of further reversals apart from those of the axes, rad.
     pub reversals: Vec<f64>,
-    /// Whether the axes of the plane reverse at their ends: not those of an arm with turning joints.
+    /// Whether the axes of the plane reverse at their ends: not for a robot with revolute joints.
     pub axes_reverse: bool,
-    /// Whether outliers are left out.
+    /// Whether outliers are excluded.
     pub without_outliers: bool,
 }
 
 /// What a test shows.
 #[derive(Clone, Debug)]
-pub struct Found {
-    /// The runs as they are told: from the centre that was asked for, without outliers where these were left out.
+pub struct BallbarAnalysis {
+    /// The runs as reported: from the requested centre, without outliers if these are excluded.
     pub test: CircularTest,
     /// The least-squares centre of all runs, from the set-up; none of short arcs.
     pub centre: Option<Centre>,
-    /// Whether radii are counted from it.
+    /// Whether radii are measured from it.
     pub is_centred: bool,
     /// Of each run.
     pub runs: Vec<Quantities>,
@@ -69,15 +69,15 @@ pub struct Found {
     pub mean_bidirectional: Option<f64>,
     /// H, m.
     pub hysteresis: Option<f64>,
-    /// Pairs of runs the same way, by their places, and what they differ by.
+    /// Pairs of runs of the same direction, by their indices, and their difference.
     pub repeats: Vec<([usize; 2], Difference)>,
     /// Clockwise minus anticlockwise, of the means.
     pub between: Difference,
     /// What was looked for.
-    pub requested: Asked,
-    /// What makes the test what it is; none of too few samples.
+    pub requested: PartsOptions,
+    /// Contributions to the deviation; none if there are too few samples.
     pub parts: Option<Parts>,
-    /// Lobes of what both directions have in common; none where there is a gap.
+    /// Lobes common to both directions; none if there is a gap in the samples.
     pub lobes: Option<Lobes>,
     /// Of each run.
     pub outliers: Vec<Vec<Outlier>>,
@@ -86,8 +86,8 @@ pub struct Found {
 /// What `measured` shows.
 ///
 /// # Errors
-/// Runs of which too little is left without their outliers; a centre that is too far off.
-pub fn analyse(measured: &Measured, question: &Question) -> Result<Found, StudyError> {
+/// Runs with too few samples without their outliers; a centre that is too far off.
+pub fn analyse(measured: &Measured, question: &Question) -> Result<BallbarAnalysis, StudyError> {
     let [a, b] = measured.axes();
     let mut reversals = match question.axes_reverse {
         true => of_axes([a.as_str(), b.as_str()]),
@@ -114,15 +114,15 @@ pub fn analyse(measured: &Measured, question: &Question) -> Result<Found, StudyE
         false => measured.test.clone(),
     };
     let centre = least_squares_centre(&test);
-    let mut requested = Asked {
+    let mut requested = PartsOptions {
         reversals,
         most_lobes: question.most_lobes.min(most_lobes(&test)),
         period: None,
     };
     requested.period = match question.cyclic {
         Cyclic::None => None,
-        Cyclic::Told(period) => Some(period_of(&test, period)?),
-        Cyclic::Found => strongest_period(&test, &requested),
+        Cyclic::Period(period) => Some(period_of(&test, period)?),
+        Cyclic::Search => strongest_period(&test, &requested),
     };
     let parts = parts(&test, &requested);
     let offset = centre.filter(|_| question.centring == Centring::LeastSquares);
@@ -139,7 +139,7 @@ pub fn analyse(measured: &Measured, question: &Question) -> Result<Found, StudyE
     let of = |runs: &[&Run]| quantities(&shown, runs);
     let direction = |direction: Direction| of(&shown.of(direction).collect::<Vec<_>>());
     let runs = shown.runs().iter().map(|run| of(&[run]).ok_or_else(nothing));
-    Ok(Found {
+    Ok(BallbarAnalysis {
         centre,
         is_centred: offset.is_some(),
         runs: runs.collect::<Result<_, _>>()?,
@@ -157,10 +157,10 @@ pub fn analyse(measured: &Measured, question: &Question) -> Result<Found, StudyE
     })
 }
 
-/// A told period, if the test can tell it.
+/// A given period, if the test can resolve it.
 fn period_of(test: &CircularTest, period: f64) -> Result<f64, StudyError> {
     let [least, most] = periods(test);
-    // A period at its limit is told in as many digits as the limit.
+    // A period at its limit is shown with as many digits as the limit.
     if period >= least * (1.0 - 1e-3) && period <= most * (1.0 + 1e-3) {
         return Ok(period);
     }
@@ -170,7 +170,7 @@ fn period_of(test: &CircularTest, period: f64) -> Result<f64, StudyError> {
         decimals(least * 1e3, 3),
         decimals(most * 1e3, 3)
     );
-    Err(StudyError::value(message, "name the period in mm, or `found`"))
+    Err(StudyError::value(message, "give the period in mm, or `found`"))
 }
 
 /// The runs without the outliers that belong to no reversal.

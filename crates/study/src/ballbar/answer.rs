@@ -1,14 +1,14 @@
 //! What a circular test shows, in numbers with their units.
 //!
-//! Deviations are outwards positive. Angles count from the first axis of the plane towards the second.
+//! Deviations are positive outwards. Angles are from the first axis of the plane towards the second.
 
 use armill_core::measure::ballbar::parts::{Axis, Part, Parts, Term, Wave};
 use armill_core::measure::ballbar::{Difference, Direction, Quantities, Run};
 use serde::Serialize;
 
-use super::analyse::{Found, Question};
+use super::analyse::{BallbarAnalysis, Question};
 use super::read::Measured;
-use super::results::{ResultsAnswer, beside, results};
+use super::results::{ResultsAnswer, add_own_values, results};
 use super::teach::{BeforeAnswer, TaughtAnswer};
 use super::warnings::warnings;
 
@@ -19,41 +19,41 @@ pub struct BallbarAnswer {
     pub files: Vec<String>,
     /// Nominal radius.
     pub radius_mm: f64,
-    /// Speed along the circle, if it was told.
+    /// Feed along the circle, if given.
     pub feed_mm_per_min: Option<f64>,
-    /// The plane, if it was told.
+    /// The plane, if given.
     pub plane: Option<String>,
     /// Names of its axes.
     pub axes: [String; 2],
-    /// From which centre radii are counted.
+    /// Centre from which radii are measured.
     pub centring: CentringAnswer,
     /// Every run.
     pub runs: Vec<RunAnswer>,
     /// The runs of each direction together.
     pub directions: Vec<DirectionAnswer>,
-    /// G(b): circular deviation of both directions together; none of one alone.
+    /// G(b): circular deviation of both directions together; none for a single direction.
     pub circular_bidirectional_um: Option<f64>,
     /// D: radius of the least-squares circle of both directions minus the nominal one.
     pub mean_bidirectional_um: Option<f64>,
     /// H: largest difference between the directions.
     pub hysteresis_um: Option<f64>,
-    /// Runs the same way, two by two.
+    /// Differences of runs of the same direction, in pairs.
     pub repeatability: Vec<DifferenceAnswer>,
     /// Clockwise minus anticlockwise.
     pub between_directions: Option<DifferenceAnswer>,
-    /// What makes the circle what it is; none of too few samples.
+    /// Contributions to the deviation; none if there are too few samples.
     pub parts: Option<PartsAnswer>,
-    /// Lobes of what both directions have in common, from the centre that radii are counted from.
+    /// Lobes common to both directions, from the centre of the radii.
     pub lobes: Vec<LobeAnswer>,
     /// Samples that their neighbours contradict.
     pub outliers: Vec<OutlierAnswer>,
-    /// Whether these were left out, but for those at a reversal.
+    /// Whether these were excluded, except those at a reversal.
     pub outliers_left_out: bool,
-    /// What the bar's own program made of it: results only.
+    /// Results of the software of the ball-bar: values only.
     pub results: Vec<ResultsAnswer>,
-    /// The circle to teach, where that was asked for.
+    /// The corrected circle, if requested.
     pub taught: Option<TaughtAnswer>,
-    /// The test before, where one was named.
+    /// The previous test, if given.
     pub before: Option<BeforeAnswer>,
     /// Columns that were passed over.
     pub unused: Vec<String>,
@@ -66,7 +66,7 @@ pub struct BallbarAnswer {
 pub struct CentringAnswer {
     /// `least-squares` or `setup`.
     pub centre: &'static str,
-    /// Where the least-squares centre of all runs lies from the set-up, whether it is used or not; none of short arcs.
+    /// Least-squares centre of all runs relative to the set-up, used or not; none for short arcs.
     pub offset_um: Option<[f64; 2]>,
     /// Radius of that circle.
     pub radius_mm: Option<f64>,
@@ -87,11 +87,11 @@ pub struct RunAnswer {
     pub samples: usize,
     /// Where it began.
     pub start_deg: f64,
-    /// How much of a turn it has.
+    /// Its arc.
     pub arc_deg: f64,
     /// Where no samples are, from and to.
     pub gaps_deg: Vec<[f64; 2]>,
-    /// What it shows.
+    /// Its quantities.
     #[serde(flatten)]
     pub shown: ShownAnswer,
 }
@@ -111,7 +111,7 @@ pub struct DirectionAnswer {
 /// Circular and radial deviation.
 #[derive(Clone, Debug, Serialize)]
 pub struct ShownAnswer {
-    /// G; none where no ring is narrowest.
+    /// G; none if the arc is too short for it.
     pub circular_um: Option<f64>,
     /// F, greatest.
     pub radial_max_um: f64,
@@ -136,7 +136,7 @@ pub struct DifferenceAnswer {
     pub rms_um: f64,
 }
 
-/// What makes the circle what it is.
+/// Contributions to the deviation.
 #[derive(Clone, Debug, Serialize)]
 pub struct PartsAnswer {
     /// Each as it shows along the radius.
@@ -145,7 +145,7 @@ pub struct PartsAnswer {
     pub scale_um_per_m: Option<[f64; 2]>,
     /// Its standard uncertainty.
     pub scale_u_um_per_m: Option<[f64; 2]>,
-    /// Angle between the positive axes, beyond a right one; um/m is the same number.
+    /// Deviation of the angle between the positive axes from 90 degrees; um/m is the same number.
     pub squareness_urad: Option<f64>,
     /// Its standard uncertainty.
     pub squareness_u_urad: Option<f64>,
@@ -153,13 +153,13 @@ pub struct PartsAnswer {
     pub servo_mismatch_s: Option<f64>,
     /// Its standard uncertainty.
     pub servo_mismatch_u_s: Option<f64>,
-    /// Period of a cyclic error along either axis, as it was told or found.
+    /// Period of a cyclic error along either axis, given or detected.
     pub cyclic_period_mm: Option<f64>,
-    /// Sets of parts of which only a sum is known, or a single one that nothing is known of.
+    /// Sets of parts of which only a sum is determined, or a single part that is not determined.
     pub not_identifiable: Vec<Vec<String>>,
     /// Root mean square without radius and offset, those of the parts.
     pub rms_before_um: f64,
-    /// And of what no part explains.
+    /// The same, of the residual of all parts.
     pub rms_after_um: f64,
 }
 
@@ -195,14 +195,14 @@ pub struct OutlierAnswer {
     pub run: String,
     /// Where.
     pub angle_deg: f64,
-    /// How far off.
+    /// Its deviation.
     pub off_um: f64,
-    /// Whether an axis reverses there: then it is a spike, no dirt.
+    /// Whether an axis reverses there: then it is a spike, not dirt.
     pub at_reversal: bool,
 }
 
-/// What `found` says of `measured`.
-pub fn answer(measured: &Measured, question: &Question, found: &Found) -> BallbarAnswer {
+/// The result `found` for `measured`.
+pub fn answer(measured: &Measured, question: &Question, found: &BallbarAnalysis) -> BallbarAnswer {
     let axes = measured.axes();
     let um = |value: f64| value * 1e6;
     let parts = found
@@ -277,7 +277,7 @@ pub fn answer(measured: &Measured, question: &Question, found: &Found) -> Ballba
         unused: measured.unused.clone(),
         warnings: Vec::new(),
     };
-    beside(&mut given, found);
+    add_own_values(&mut given, found);
     given.warnings = warnings(measured, question, (found, &given));
     given
 }
@@ -306,7 +306,7 @@ impl LobeAnswer {
     }
 }
 
-fn of_run(measured: &Measured, found: &Found, index: usize) -> RunAnswer {
+fn of_run(measured: &Measured, found: &BallbarAnalysis, index: usize) -> RunAnswer {
     let (origin, shown) = (&measured.origins[index], &found.runs[index]);
     let run: &Run = &measured.test.runs()[index];
     let profile = armill_core::measure::ballbar::Profile::of(&found.test.runs()[index]);
@@ -328,7 +328,7 @@ fn of_run(measured: &Measured, found: &Found, index: usize) -> RunAnswer {
 }
 
 /// What a term is called.
-pub(crate) fn name_of(term: Term, (axes, found): (&[String; 2], &Found)) -> String {
+pub(crate) fn name_of(term: Term, (axes, found): (&[String; 2], &BallbarAnalysis)) -> String {
     let axis = |axis: Axis| match axis {
         Axis::A => &axes[0],
         Axis::B => &axes[1],
@@ -350,7 +350,7 @@ pub(crate) fn name_of(term: Term, (axes, found): (&[String; 2], &Found)) -> Stri
     }
 }
 
-/// What kind of part a term makes.
+/// Kind of the part of a term.
 fn kind_of(term: Term) -> &'static str {
     match term {
         Term::Radius => "radius",
@@ -365,7 +365,7 @@ fn kind_of(term: Term) -> &'static str {
     }
 }
 
-fn of_parts(parts: &Parts, (measured, found): (&Measured, &Found)) -> PartsAnswer {
+fn of_parts(parts: &Parts, (measured, found): (&Measured, &BallbarAnalysis)) -> PartsAnswer {
     let axes = measured.axes();
     let radius = measured.test.radius();
     let name = |term: Term| name_of(term, (&axes, found));
@@ -410,7 +410,7 @@ fn of_parts(parts: &Parts, (measured, found): (&Measured, &Found)) -> PartsAnswe
     }
 }
 
-fn outliers(names: &[&str], found: &Found) -> Vec<OutlierAnswer> {
+fn outliers(names: &[&str], found: &BallbarAnalysis) -> Vec<OutlierAnswer> {
     let of_run = names.iter().zip(&found.outliers);
     of_run
         .flat_map(|(name, outliers)| {

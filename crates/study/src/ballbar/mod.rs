@@ -1,13 +1,15 @@
-//! How round does the tool go, and why not rounder? Files of a ball-bar from their text to quantities, parts and pictures.
+//! Analysis of circular tests: ball-bar files to quantities, contributions and pictures.
 //!
 //! ```text
-//! files -> Measured (one circle, its runs) -> analyse -> Found (SI) -> BallbarAnswer, tables, pictures, report
+//! files -> Measured (one circle, its runs) -> analyse -> BallbarAnalysis (SI) -> BallbarAnswer, tables, pictures, report
 //! ```
 //!
-//! [`read`](mod@read): files into one circle. [`analyse`](mod@analyse): what it shows. [`answer`](mod@answer): that, in numbers with their units.
-//! [`results`]: what the bar's own program made of it. `warnings`: what to know before use.
-//! [`teach`](mod@teach): the circle to teach instead, and the test before beside the one after. [`program`]: that circle as
-//! a program of the robot. [`output`]: tables, pictures, report.
+//! [`read`](mod@read): files into one circle. [`analyse`](mod@analyse): the analysis. [`answer`](mod@answer): its
+//! values with
+//! units.
+//! [`results`]: results of the software of the ball-bar. `warnings`: what to know before use.
+//! [`teach`](mod@teach): the corrected circle, and the comparison of two tests. [`program`]: that circle as
+//! a robot program. [`output`]: tables, pictures, report.
 
 pub mod analyse;
 pub mod answer;
@@ -18,8 +20,8 @@ pub mod results;
 pub mod teach;
 mod warnings;
 
-pub use analyse::{Centring, Cyclic, Found, Question, analyse};
+pub use analyse::{BallbarAnalysis, Centring, Cyclic, Question, analyse};
 pub use answer::{BallbarAnswer, answer};
-pub use program::{CircleWanted, points_within, sagitta, taught_program};
-pub use read::{Measured, Wanted, read};
+pub use program::{CirclePlacement, points_within, sagitta, taught_program};
+pub use read::{FileOptions, Measured, read};
 pub use teach::{BeforeAnswer, TaughtAnswer, TaughtCircle, before, teach};

@@ -1,15 +1,15 @@
-//! What a circular test leaves behind: the answer, tables, pictures and a report in one folder.
+//! Files of a circular test: the result, tables, pictures and a report in one folder.
 //!
 //! ```text
-//! result.json           the answer
+//! result.json           the result
 //! report.html           quantities, parts, pictures, warnings
 //! runs.csv              angle_deg, then a column a run: CW1_um, ...
 //! differences.csv       angle_deg, a column a pair of runs, and CW minus CCW
 //! parts.csv             a row a part: value and standard uncertainty
 //! ballbar.svg           the runs round the nominal circle, magnified
-//! repeat-CW.svg         what runs the same way differ by, by size; repeat-CCW.svg likewise
-//! directions.svg        what the directions differ by
-//! taught.csv            points to teach, where these were asked for
+//! repeat-CW.svg         magnitude of the difference of runs of the same direction; repeat-CCW.svg too
+//! directions.svg        difference of the directions
+//! taught.csv            corrected points, if requested
 //! ```
 //!
 //! Each picture is there as .png too.
@@ -23,7 +23,7 @@ use armill_formats::table::{Column, ColumnData, Table, csv};
 use armill_report::html::{Report, Table as Rows};
 use armill_report::{BallbarPlot, BallbarTrace, Growth, PathPlot, Sense, Series};
 
-use super::analyse::Found;
+use super::analyse::BallbarAnalysis;
 use super::answer::{BallbarAnswer, ShownAnswer};
 use super::read::Measured;
 use crate::error::StudyError;
@@ -35,13 +35,13 @@ const TAUGHT: &str = "taught.csv";
 /// The other tables.
 const TABLES: [&str; 3] = ["runs.csv", "differences.csv", "parts.csv"];
 
-/// Writes everything into `out` and gives the paths of the files.
+/// Writes all files into `out` and returns their paths.
 ///
 /// # Errors
 /// A file cannot be written.
 pub fn write(
     given: &BallbarAnswer,
-    (measured, found): (&Measured, &Found),
+    (measured, found): (&Measured, &BallbarAnalysis),
     (out, taught): (&ResultFolder, Option<&[u8]>),
 ) -> Result<Vec<PathBuf>, StudyError> {
     let drawn = pictures(given, (measured, found));
@@ -70,7 +70,7 @@ pub fn write(
     })
 }
 
-/// A number for every station, um; none in a gap.
+/// A number for every station, um; none where samples are missing.
 fn stations(name: &str, description: &str, values: &[Option<f64>]) -> Column {
     Column {
         name: format!("{name}_um"),
@@ -92,7 +92,7 @@ fn angles() -> Column {
     }
 }
 
-fn runs(measured: &Measured, found: &Found) -> Result<Table, StudyError> {
+fn runs(measured: &Measured, found: &BallbarAnalysis) -> Result<Table, StudyError> {
     let of = measured.origins.iter().zip(found.test.runs());
     let of = of.map(|(origin, run)| {
         stations(
@@ -104,13 +104,17 @@ fn runs(measured: &Measured, found: &Found) -> Result<Table, StudyError> {
     Ok(Table::new("runs", [angles()].into_iter().chain(of).collect())?)
 }
 
-fn differences(measured: &Measured, found: &Found) -> Result<Table, StudyError> {
+fn differences(measured: &Measured, found: &BallbarAnalysis) -> Result<Table, StudyError> {
     let pair = |([one, other], of): &([usize; 2], Difference)| {
         let name = format!(
             "{}_minus_{}",
             measured.origins[*one].name, measured.origins[*other].name
         );
-        stations(&name, "difference of two runs the same way", &of.stations)
+        stations(
+            &name,
+            "difference of two runs of the same direction",
+            &of.stations,
+        )
     };
     let pairs = found.repeats.iter().map(pair);
     let between = stations(
@@ -136,7 +140,7 @@ fn parts(given: &BallbarAnswer) -> Result<Table, StudyError> {
     let names = Column {
         name: "part".to_owned(),
         unit: None,
-        description: "what it is".to_owned(),
+        description: "kind of the value".to_owned(),
         decimals: None,
         data: ColumnData::Text(radial.iter().map(|part| part.what.clone()).collect()),
     };
@@ -157,7 +161,10 @@ fn parts(given: &BallbarAnswer) -> Result<Table, StudyError> {
 }
 
 /// The circle, the repeats of each direction that has some, the directions.
-pub(crate) fn pictures(given: &BallbarAnswer, (measured, found): (&Measured, &Found)) -> Vec<Picture> {
+pub(crate) fn pictures(
+    given: &BallbarAnswer,
+    (measured, found): (&Measured, &BallbarAnalysis),
+) -> Vec<Picture> {
     let mut pictures = vec![circle(given, (measured, found))];
     pictures.extend(
         Direction::BOTH
@@ -168,14 +175,15 @@ pub(crate) fn pictures(given: &BallbarAnswer, (measured, found): (&Measured, &Fo
     pictures
 }
 
-/// What stands below the title of every picture.
+/// The subtitle of all pictures.
 fn under(given: &BallbarAnswer) -> String {
     let mut parts = vec![format!(
         "radius {} mm",
         crate::number::decimals(given.radius_mm, 3)
     )];
     parts.extend(
-        given.feed_mm_per_min
+        given
+            .feed_mm_per_min
             .map(|feed| format!("{} mm/min", crate::number::decimals(feed, 1))),
     );
     parts.extend(given.plane.as_ref().map(|plane| format!("plane {plane}")));
@@ -186,11 +194,11 @@ fn under(given: &BallbarAnswer) -> String {
     parts.join(", ")
 }
 
-fn circle(given: &BallbarAnswer, (measured, found): (&Measured, &Found)) -> Picture {
+fn circle(given: &BallbarAnswer, (measured, found): (&Measured, &BallbarAnalysis)) -> Picture {
     let trace = |index: usize| {
         let run = &found.test.runs()[index];
         let radii = Profile::of(run).stations();
-        // The first again, so that the line closes; a gap breaks it.
+        // The first point again, so that the line closes; missing samples interrupt it.
         let closed = (0..=STATIONS).map(|k| radii[k % STATIONS].map_or(f64::NAN, |dr| dr * 1e6));
         BallbarTrace {
             name: measured.origins[index].name.clone(),
@@ -217,8 +225,8 @@ fn circle(given: &BallbarAnswer, (measured, found): (&Measured, &Found)) -> Pict
     };
     Picture {
         name: "ballbar".to_owned(),
-        caption: "The runs round the nominal circle, magnified: radial deviation outwards. The first run each way is solid, \
-                  repeats are dashed."
+        caption: "The runs about the nominal circle, magnified: radial deviation, positive outwards. The first run of each direction \
+                  is solid, repeats are dashed."
             .to_owned(),
         svg: picture.to_svg(),
     }
@@ -237,7 +245,7 @@ fn along(name: String, values: &[Option<f64>], of: fn(f64) -> f64) -> Series {
 }
 
 /// What runs of a direction differ by from its first; `None` of a single run.
-fn repeats(direction: Direction, (measured, found): (&Measured, &Found)) -> Option<Picture> {
+fn repeats(direction: Direction, (measured, found): (&Measured, &BallbarAnalysis)) -> Option<Picture> {
     let first = found
         .test
         .runs()
@@ -255,7 +263,7 @@ fn repeats(direction: Direction, (measured, found): (&Measured, &Found)) -> Opti
     }
     let picture = PathPlot {
         title: format!("Repeatability, {}", direction.name()),
-        subtitle: "difference of the radius between runs the same way, by size".to_owned(),
+        subtitle: "magnitude of the difference of the radius between runs of the same direction".to_owned(),
         position_label: "angle (deg)".to_owned(),
         quantity: "difference (µm)".to_owned(),
         series,
@@ -269,7 +277,7 @@ fn repeats(direction: Direction, (measured, found): (&Measured, &Found)) -> Opti
     })
 }
 
-fn directions(given: &BallbarAnswer, found: &Found) -> Picture {
+fn directions(given: &BallbarAnswer, found: &BallbarAnalysis) -> Picture {
     let picture = PathPlot {
         title: "Clockwise minus anticlockwise".to_owned(),
         subtitle: under(given),
@@ -291,7 +299,7 @@ fn directions(given: &BallbarAnswer, found: &Found) -> Picture {
 /// The page.
 fn html(given: &BallbarAnswer, drawn: &[Picture]) -> String {
     let mut report = Report::new(&format!("Circular test: {}", given.files.join(", ")))
-        .question("How round does the tool go, and why not rounder?")
+        .question("What is the circularity, and what causes the deviation?")
         .answer(&sentence(given));
     for warning in &given.warnings {
         report = report.warning(warning);
@@ -310,7 +318,7 @@ fn html(given: &BallbarAnswer, drawn: &[Picture]) -> String {
         };
         report = report.section("Parts").table(&Rows {
             caption: format!(
-                "What makes the radius what it is; ± is twice the standard uncertainty. About the circle {:.1} µm rms, unexplained {:.1} µm.",
+                "Contributions to the radial deviation; ± is twice the standard uncertainty. About the circle {:.1} µm rms, unexplained {:.1} µm.",
                 parts.rms_before_um, parts.rms_after_um
             ),
             columns: columns(&[("part", ""), ("along the radius", "µm"), ("±", "µm")]),
@@ -327,12 +335,17 @@ fn html(given: &BallbarAnswer, drawn: &[Picture]) -> String {
                 feature.unit.clone(),
             ]
         };
-        report = report.section("Results of the bar's own program").table(&Rows {
+        report = report.section("Results of the ball-bar software").table(&Rows {
             caption: format!(
-                "{}: results only, no radii. Definitions and signs may differ from ours.",
+                "{}: values only, no radii. Definitions and signs may differ from those of armill.",
                 results.file
             ),
-            columns: columns(&[("result", ""), ("theirs", "-"), ("ours", "-"), ("unit", "")]),
+            columns: columns(&[
+                ("result", ""),
+                ("ball-bar software", "-"),
+                ("armill", "-"),
+                ("unit", ""),
+            ]),
             rows: results.features.iter().map(row).collect(),
         });
     }
@@ -356,13 +369,13 @@ fn html(given: &BallbarAnswer, drawn: &[Picture]) -> String {
     report.inputs(runs).to_html()
 }
 
-/// The answer in one sentence.
+/// The main result in one sentence.
 pub fn sentence(given: &BallbarAnswer) -> String {
     let g = match given.circular_bidirectional_um {
-        Some(g) => format!("Both ways together the path lies within a ring of {g:.1} µm"),
+        Some(g) => format!("The bidirectional circular deviation G(b) is {g:.1} µm"),
         None => {
             let of = given.directions.iter().filter_map(|of| of.shown.circular_um);
-            format!("The path lies within a ring of {:.1} µm", of.fold(0.0, f64::max))
+            format!("The circular deviation G is {:.1} µm", of.fold(0.0, f64::max))
         }
     };
     match &given.between_directions {

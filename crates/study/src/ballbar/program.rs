@@ -1,4 +1,4 @@
-//! The taught circle as a program of the robot, on the circle that a study asks for.
+//! The corrected circle as a robot program, on a circle of a study.
 //!
 //! ```text
 //! a = zero + f   or, where the bar looks from the other side, a = zero - f
@@ -11,7 +11,7 @@
 //! | `f`, `a` | angle in the files, and on the circle of the study: from its +y' towards z' | rad |
 //! | `c` | correction of the radius | m |
 //!
-//! The program passes every point of the table, and closes the circle. The arm keeps the branch of the study.
+//! The program passes every point of the table, and closes the circle. The robot keeps the branch of the study.
 
 use std::f64::consts::{PI, TAU};
 
@@ -28,15 +28,15 @@ use crate::compensate::paths;
 use crate::error::StudyError;
 use crate::file::path::PathAnalysis;
 use crate::file::resolve::Study;
-use crate::program_out::{ProgramWanted, program};
+use crate::program_out::{ProgramSettings, program};
 use crate::run::runner;
 
-/// Where the taught circle lies in the cell.
+/// Position of the corrected circle in the cell.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct CircleWanted {
-    /// Name of the path, a circle; the only one if left out.
+pub struct CirclePlacement {
+    /// Name of the circle; the only one if not given.
     pub analysis: Option<String>,
-    /// Where angle 0 of the files lies, from +y' towards z', rad.
+    /// Angle on the circle, from +y' towards z', at which the files have angle 0, rad.
     pub zero: f64,
     /// Whether angles of the files grow from z' towards y'.
     pub mirrored: bool,
@@ -44,17 +44,18 @@ pub struct CircleWanted {
 
 /// Radii that differ by more are of two circles, m.
 const SAME_RADIUS: f64 = 1e-6;
-/// No point of the table is left out, m.
+/// Tolerance for leaving out points of the table, m: none is left out.
 const ALL: f64 = 1e-9;
 
-/// The fewest points, a multiple of 12, between which straight moves leave a circle of `radius` (m) by `within` (m) at most.
+/// The fewest points, a multiple of 12, between which straight moves leave a circle of `radius` (m) by `within` (m)
+/// at most.
 pub fn points_within(radius: f64, within: f64) -> usize {
     let half = (1.0 - (within / radius).min(1.0)).acos();
     let least = (PI / half.max(1e-6)).ceil() as usize;
     least.div_ceil(12) * 12
 }
 
-/// How far straight moves between `points` even points leave a circle of `radius` (m), m.
+/// Deviation of linear moves between `points` equally spaced points from a circle of `radius` (m), m.
 pub fn sagitta(radius: f64, points: usize) -> f64 {
     radius * (1.0 - (PI / points as f64).cos())
 }
@@ -62,13 +63,13 @@ pub fn sagitta(radius: f64, points: usize) -> f64 {
 /// The program of `taught` on a circle of `study`.
 ///
 /// # Errors
-/// No such circle, or one of another radius; a posture that is searched for along the path; a point out of reach; what the
-/// language cannot hold.
+/// No such circle, or one of another radius; an analysis with a posture search; a point out of reach; data that the
+/// language cannot express.
 pub fn taught_program(
     study: &Study,
     taught: &TaughtCircle,
-    circle: &CircleWanted,
-    expected: &ProgramWanted,
+    circle: &CirclePlacement,
+    expected: &ProgramSettings,
 ) -> Result<Written, StudyError> {
     let (analysis, centre, radius) = requested(study, circle.analysis.as_deref())?;
     if (radius - taught.radius).abs() > SAME_RADIUS {
@@ -78,13 +79,13 @@ pub fn taught_program(
                 crate::number::decimals(radius * 1e3, 6),
                 crate::number::decimals(taught.radius * 1e3, 6)
             ),
-            "the same circle in both; --radius-mm, where the files do not tell it",
+            "use the same circle in both; give --radius-mm if the files do not contain it",
         ));
     }
     if analysis.setting.search.is_some() {
         return Err(StudyError::value(
-            "posture.search turns the tool along the path: what the ball-bar saw was another circle",
-            "the study that the bar was measured in, with one turn and one branch",
+            "posture.search changes the spin of the tool along the path, which the ball-bar test did not have",
+            "use the study of the ball-bar test, with one spin and one branch",
         ));
     }
     let sign = if circle.mirrored { -1.0 } else { 1.0 };
@@ -108,14 +109,14 @@ pub fn taught_program(
     });
     let runner = runner(study, Watch::NONE)?;
     let along = along_path(&runner.question(&analysis.setting), &track, nothing, Watch::NONE)?;
-    let expected = ProgramWanted {
+    let expected = ProgramSettings {
         within: ALL,
         ..expected.clone()
     };
     program(study, &analysis.setting, (&track, &along.answers), &expected)
 }
 
-/// The circle that is asked for, its centre and its radius.
+/// The requested circle, its centre and its radius.
 fn requested<'a>(
     study: &'a Study,
     name: Option<&str>,
@@ -126,14 +127,14 @@ fn requested<'a>(
             _ => None,
         })
         .collect();
-    let hint = "an ask of kind = \"path\" with circle = { radius_mm = 100 }";
+    let hint = "an analysis of kind = \"path\" with circle = { radius_mm = 100 }";
     match (&circles[..], name) {
         ([(_, one)], _) => Ok(*one),
         ([], Some(name)) => Err(StudyError::value(
             format!("the study has no circle called `{name}`"),
             hint,
         )),
-        ([], None) => Err(StudyError::value("the study asks for no circle", hint)),
+        ([], None) => Err(StudyError::value("the study has no circle", hint)),
         (several, _) => {
             let names: Vec<&str> = several.iter().map(|(name, _)| *name).collect();
             let message = format!("the study has {} circles: {}", several.len(), names.join(", "));

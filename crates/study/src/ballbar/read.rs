@@ -1,4 +1,4 @@
-//! Files into one circle: runs of all of them, and results of the bar's own program beside.
+//! Files into one circle: the runs of all of them, and the results of the software of the ball-bar.
 
 use std::io::BufReader;
 use std::path::Path;
@@ -6,14 +6,14 @@ use std::path::Path;
 use armill_core::measure::ballbar::{CircularTest, Run, RunError};
 use armill_formats::document::{Problem, Problems};
 use armill_formats::input;
-use armill_formats::measurement::ballbar::{self, BallbarFile, BallbarRuns, Results, BallbarReadOptions};
+use armill_formats::measurement::ballbar::{self, BallbarFile, BallbarReadOptions, BallbarRuns, Results};
 
 use crate::StudyError;
 
-/// What files do not tell.
+/// Data that the files do not contain.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Wanted {
-    /// What a file does not tell of its runs.
+pub struct FileOptions {
+    /// Data of the runs that a file does not contain.
     pub given: BallbarReadOptions,
     /// The plane, by its two axes.
     pub plane: Option<String>,
@@ -21,12 +21,12 @@ pub struct Wanted {
     pub feed: Option<f64>,
 }
 
-/// A run, and where it came from.
+/// Name and origin of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Origin {
-    /// `CW1`: which run of its direction.
+    /// `CW1`: direction and number of the run.
     pub name: String,
-    /// As its file calls it; empty where it does not.
+    /// Its name in the file; empty if there is none.
     pub label: String,
     /// Its file.
     pub file: String,
@@ -43,18 +43,18 @@ pub struct Measured {
     pub files: Vec<String>,
     /// Speed along the circle, m/s.
     pub feed: Option<f64>,
-    /// The plane, as it is called.
+    /// Name of the plane.
     pub plane: Option<String>,
-    /// What the bar's own program made of it, each with its file.
+    /// Results of the software of the ball-bar, each with its file.
     pub results: Vec<(String, Results)>,
-    /// Columns that were passed over, each with its file.
+    /// Unused columns, each with its file.
     pub unused: Vec<String>,
     /// What a user must know, each a sentence.
     pub notes: Vec<String>,
 }
 
 impl Measured {
-    /// Names of the two axes of the plane; A and B where nobody tells them.
+    /// Names of the two axes of the plane; A and B if they are not given.
     pub fn axes(&self) -> [String; 2] {
         let plane = self.plane.as_deref().unwrap_or_default();
         match plane.chars().collect::<Vec<_>>()[..] {
@@ -68,7 +68,7 @@ impl Measured {
 ///
 /// # Errors
 /// Files that cannot be read; the problems of all files; no runs; radii, planes or feeds of different circles.
-pub fn read(files: &[impl AsRef<Path>], requested: &Wanted) -> Result<Measured, StudyError> {
+pub fn read(files: &[impl AsRef<Path>], requested: &FileOptions) -> Result<Measured, StudyError> {
     let mut problems: Vec<Problem> = Vec::new();
     let mut recorded: Vec<(String, BallbarRuns)> = Vec::new();
     let mut results = Vec::new();
@@ -97,14 +97,15 @@ pub fn read(files: &[impl AsRef<Path>], requested: &Wanted) -> Result<Measured, 
     if recorded.is_empty() {
         let message = match results.is_empty() {
             true => "no file was named".to_owned(),
-            false => "these files hold results only, no radii".to_owned(),
+            false => "these files contain results only, no radii".to_owned(),
         };
-        let hint = "name a CSV with the radii too; what Renishaw's program made of them is shown beside";
+        let hint =
+            "give a CSV with the radii too; the results of the Renishaw software are shown for comparison";
         return Err(StudyError::value(message, hint));
     }
     let Some(radius) = radius else {
         return Err(StudyError::value(
-            "nothing tells the nominal radius",
+            "the nominal radius is not given",
             "a line `# radius_mm: 100` in the file, or --radius-mm 100",
         ));
     };
@@ -129,7 +130,7 @@ pub fn read(files: &[impl AsRef<Path>], requested: &Wanted) -> Result<Measured, 
         }
     }
     let test = CircularTest::new(radius, runs).map_err(|error| {
-        // Runs count from the first of each file on: as results call them, and as the file does.
+        // Runs are numbered from the first of each file on: as in results, and as in the file.
         let message = match &error {
             RunError::TooFar {
                 run,
@@ -167,17 +168,17 @@ pub fn read(files: &[impl AsRef<Path>], requested: &Wanted) -> Result<Measured, 
     })
 }
 
-/// What all files tell alike, or what is told beside them.
+/// The common value of all files and the option.
 ///
 /// # Errors
 /// Two files, or a file and an option, that differ.
 fn one_of<T: PartialEq + std::fmt::Debug>(
     files: &[(String, BallbarRuns)],
     what: &str,
-    beside: Option<T>,
+    given: Option<T>,
     of: impl Fn(&BallbarRuns) -> Option<T>,
 ) -> Result<Option<T>, StudyError> {
-    let mut found: Option<(T, &str)> = beside.map(|value| (value, "the option"));
+    let mut found: Option<(T, &str)> = given.map(|value| (value, "the option"));
     for (file, recorded) in files {
         let Some(value) = of(recorded) else {
             continue;

@@ -1,14 +1,14 @@
-//! What the bar's own program made of a test, with ours beside where both tell the same kind of thing.
+//! Results of the software of the ball-bar, with the value of armill for comparison where both have the same quantity.
 
 use armill_core::measure::ballbar::parts::Term;
 use armill_formats::measurement::ballbar::Feature;
 use serde::Serialize;
 
-use super::analyse::Found;
+use super::analyse::BallbarAnalysis;
 use super::answer::BallbarAnswer;
 use super::read::Measured;
 
-/// What the bar's own program made of it.
+/// Results of the software of the ball-bar.
 #[derive(Clone, Debug, Serialize)]
 pub struct ResultsAnswer {
     /// Its file.
@@ -23,26 +23,26 @@ pub struct ResultsAnswer {
     pub plane: Option<String>,
     /// Each result as the file has it.
     pub features: Vec<FeatureAnswer>,
-    /// Results whose text is no number, as they are called.
+    /// Names of results without a number.
     pub without_number: Vec<String>,
 }
 
-/// One result of the bar's own program, and ours of the same kind.
+/// One result of the software of the ball-bar, and the value of armill.
 #[derive(Clone, Debug, Serialize)]
 pub struct FeatureAnswer {
     /// As the file calls it.
     pub name: String,
     /// As the file has it.
-    // unit: the field `unit` tells it
+    // unit: given by the field `unit`
     pub value: f64,
     /// The unit of both.
     pub unit: String,
-    /// Ours in that unit, where both tell the same kind of thing; definitions and signs may differ.
-    // unit: the field `unit` tells it
+    /// Value of armill in that unit, if it has the same quantity; definitions and signs may differ.
+    // unit: given by the field `unit`
     pub ours: Option<f64>,
 }
 
-/// All results that files hold, ours not yet beside them.
+/// All results in the files, without the values of armill.
 pub(super) fn results(measured: &Measured) -> Vec<ResultsAnswer> {
     let of = measured.results.iter().map(|(file, results)| {
         let feature = |feature: &Feature| FeatureAnswer {
@@ -64,10 +64,10 @@ pub(super) fn results(measured: &Measured) -> Vec<ResultsAnswer> {
     of.collect()
 }
 
-/// Puts our numbers beside those of the bar's own program.
-pub(super) fn beside(given: &mut BallbarAnswer, found: &Found) {
+/// Adds the values of armill to those of the software of the ball-bar.
+pub(super) fn add_own_values(given: &mut BallbarAnswer, found: &BallbarAnalysis) {
     let [a, b] = &given.axes;
-    // The reversal of that name: told ones may come with it, or in place of those of the axes.
+    // The reversal of that name: given ones may be added to those of the axes, or replace them.
     let step = |axis: &str, side: &str| {
         let name = format!("{axis}{side}");
         let index = found.requested.reversals.iter().position(|of| of.name == name)?;

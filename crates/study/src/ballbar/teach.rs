@@ -1,9 +1,9 @@
-//! Two-step teaching: the circle to teach after a first test, and a second test beside the first.
+//! Two-step teaching: the corrected circle after a first test, and the comparison of a second test with the first.
 //!
 //! | column of the table | unit | meaning |
 //! |---|---|---|
 //! | `angle_deg` | deg | along the circle |
-//! | `radius_mm`, `correction_um` | mm, um | radius to teach, and what it has more than the nominal one |
+//! | `radius_mm`, `correction_um` | mm, um | radius to teach, and its difference from the nominal one |
 //! | `x_mm`, `y_mm` | mm | the point from the centre, along the axes of the plane |
 
 use std::f64::consts::TAU;
@@ -12,7 +12,7 @@ use armill_core::measure::ballbar::{Extreme, Taught, taught};
 use armill_formats::table::{Column, ColumnData, Table, csv};
 use serde::Serialize;
 
-use super::analyse::Found;
+use super::analyse::BallbarAnalysis;
 use super::read::Measured;
 use crate::StudyError;
 use crate::number::decimals;
@@ -22,35 +22,35 @@ use crate::number::decimals;
 pub struct TaughtAnswer {
     /// How many points.
     pub points: usize,
-    /// Lobes up to this number are corrected: as asked for, or as many as the samples tell.
+    /// Highest lobe that is corrected: as requested, or as many as the samples resolve.
     pub most_lobes: usize,
     /// Largest move of a point.
     pub largest_correction_um: f64,
     /// Circular deviation of all runs before, about their own centre.
     pub circular_before_um: Option<f64>,
-    /// And as it is expected with the taught circle.
+    /// The expected value with the corrected circle.
     pub circular_expected_um: Option<f64>,
     /// Radial deviation about the least-squares centre before: least, greatest.
     pub radial_before_um: [f64; 2],
-    /// And as it is expected.
+    /// The expected value.
     pub radial_expected_um: [f64; 2],
-    /// Half of the largest difference between the directions: no taught circle takes it off. None of one direction.
+    /// Half of the largest difference between the directions, which cannot be corrected. None for one direction.
     pub stays_um: Option<f64>,
 }
 
 impl TaughtAnswer {
-    /// What must be known before this circle is taught, of which so many lobes were asked to be taken off.
+    /// Warnings before this circle is taught; `most_lobes` were requested.
     pub fn warnings(&self, most_lobes: usize) -> Vec<String> {
         let fewer = (self.most_lobes < most_lobes).then(|| {
             format!(
-                "the taught circle takes off {} lobes, not {most_lobes}: the samples are too far apart for more",
+                "the corrected circle compensates {} lobes, not {most_lobes}: the samples are too far apart for more",
                 self.most_lobes
             )
         });
         let worse = match (self.circular_before_um, self.circular_expected_um) {
             (Some(before), Some(expected)) if expected >= before => Some(format!(
-                "do not teach this circle: the ring would go from {before:.1} to {expected:.1} um; where joints that turn \
-                 back make steps, those are no lobes (`armill backlash` tells which joints)"
+                "do not teach this circle: the circularity would change from {before:.1} to {expected:.1} um; steps at reversals \
+                 of joints are not lobes (`armill backlash` reports the joints)"
             )),
             _ => None,
         };
@@ -83,7 +83,7 @@ impl TaughtCircle {
     }
 }
 
-/// A test before the one that is told.
+/// A previous test for comparison.
 #[derive(Clone, Debug, Serialize)]
 pub struct BeforeAnswer {
     /// Its files.
@@ -97,7 +97,7 @@ pub struct BeforeAnswer {
 pub struct ComparedQuantity {
     /// What it is.
     pub what: &'static str,
-    /// In the first test; none where it does not tell it.
+    /// In the first test; none if it is not known.
     pub before_um: Option<f64>,
     /// In the second.
     pub after_um: Option<f64>,
@@ -105,13 +105,14 @@ pub struct ComparedQuantity {
     pub left_percent: Option<f64>,
 }
 
-/// The circle to teach at `points` even angles with lobes up to `most_lobes`, or as many as the samples tell: in numbers,
-/// and itself. Of the test as it is shown: without outliers where these were left out.
+/// The corrected circle at `points` equally spaced angles with lobes up to `most_lobes`, or as many as the samples
+/// resolve:
+/// its values and itself. For the test as reported: without outliers if these were excluded.
 ///
 /// # Errors
 /// Runs that are no full turns.
 pub fn teach(
-    shown: &Found,
+    shown: &BallbarAnalysis,
     (points, most_lobes): (usize, usize),
 ) -> Result<(TaughtAnswer, TaughtCircle), StudyError> {
     let found = taught(&shown.test, most_lobes).ok_or_else(|| {
@@ -163,19 +164,21 @@ fn table(radius: f64, corrections: &[f64]) -> Result<Table, StudyError> {
     Ok(Table::new("taught", columns)?)
 }
 
-/// A test before, and what it shows, beside another.
+/// Comparison of the previous test with another.
 ///
 /// # Errors
 /// Tests of different circles: radius, plane or feed.
 pub fn before(
-    (before, first): (&Measured, &Found),
-    (after, second): (&Measured, &Found),
+    (before, first): (&Measured, &BallbarAnalysis),
+    (after, second): (&Measured, &BallbarAnalysis),
 ) -> Result<BeforeAnswer, StudyError> {
     same_circle(before, after)?;
-    let g = |found: &Found, direction: usize| found.directions[direction].and_then(|of| of.circular.ok());
-    let both = |found: &Found| found.all.circular.ok().filter(|_| found.test.is_bidirectional());
-    let f = |found: &Found, end: usize| Some(found.all.radial[end].deviation);
-    let compared = |what: &'static str, of: &dyn Fn(&Found) -> Option<f64>| {
+    let g = |found: &BallbarAnalysis, direction: usize| {
+        found.directions[direction].and_then(|of| of.circular.ok())
+    };
+    let both = |found: &BallbarAnalysis| found.all.circular.ok().filter(|_| found.test.is_bidirectional());
+    let f = |found: &BallbarAnalysis, end: usize| Some(found.all.radial[end].deviation);
+    let compared = |what: &'static str, of: &dyn Fn(&BallbarAnalysis) -> Option<f64>| {
         let [before, after] = [first, second].map(|found| of(found).map(|value| value * 1e6));
         let left = before.zip(after).filter(|(before, _)| *before != 0.0);
         ComparedQuantity {
@@ -199,7 +202,7 @@ pub fn before(
     })
 }
 
-/// Refuses to compare tests of different circles; what one of them does not tell is no difference.
+/// Refuses to compare tests of different circles; values that one of them lacks are not compared.
 fn same_circle(before: &Measured, after: &Measured) -> Result<(), StudyError> {
     let [one, other] = [before, after].map(|of| of.test.radius());
     let mm = |radius: f64| format!("{} mm", radius * 1e3);
@@ -217,7 +220,7 @@ fn same_circle(before: &Measured, after: &Measured) -> Result<(), StudyError> {
     match differing.into_iter().flatten().next() {
         None => Ok(()),
         Some((what, one, other)) => Err(StudyError::value(
-            format!("--before: the {what} was {one}, and is {other} now"),
+            format!("--before: the {what} was {one}, but is {other} now"),
             "tests of one circle are compared, in the same plane and at the same feed",
         )),
     }
@@ -228,7 +231,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_circle_that_makes_the_ring_worse_is_not_to_be_taught() {
+    fn warns_of_a_corrected_circle_that_is_worse() {
         let given = |expected: Option<f64>| TaughtAnswer {
             points: 72,
             most_lobes: 15,
@@ -240,9 +243,12 @@ mod tests {
             stays_um: Some(77.8),
         };
         let worse = given(Some(169.6)).warnings(15);
-        assert!(worse[0].starts_with("do not teach this circle: the ring would go from 158.4 to 169.6 um"));
+        assert!(
+            worse[0]
+                .starts_with("do not teach this circle: the circularity would change from 158.4 to 169.6 um")
+        );
         assert!(given(Some(34.9)).warnings(15).is_empty());
         assert!(given(None).warnings(15).is_empty());
-        assert!(given(Some(34.9)).warnings(30)[0].contains("takes off 15 lobes, not 30"));
+        assert!(given(Some(34.9)).warnings(30)[0].contains("compensates 15 lobes, not 30"));
     }
 }

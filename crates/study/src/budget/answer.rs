@@ -1,52 +1,54 @@
 //! The budget in numbers with their units.
 //!
-//! Deviations are radial, outwards positive; angles count from +y' of the plane towards z', the way in which the circle
-//! is cut. Percentages of what is explained are of the measured mean square; below 0 a curve is worse than none.
+//! Deviations are radial, positive outwards; angles are from +y' of the plane towards z', the direction in which the
+//! circle
+//! is cut. Explained percentages are of the measured mean square; below 0 a curve is worse than none.
 
 use armill_core::budget::turn::largest;
 use armill_core::budget::{Comparison, Contribution, Datum, Origin, Share, WavePair};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::combine::{Beside, Combined};
+use super::combine::{CombinedCurves, UnloadedPath};
 use crate::file::experiment::Experiment;
 use crate::file::path::PathAnalysis;
 
-/// What the error of a circle is made of.
+/// Contributions to the error of a circle.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct BudgetAnswer {
     /// Name of the path.
     pub analysis: String,
-    /// Posture asked for: words of a branch, or `best`.
+    /// Requested posture: words of a branch, or `best`.
     pub branch: String,
     /// Nominal radius of the circle.
     pub radius_mm: f64,
-    /// The files that were measured, and what they are of.
+    /// The measured files, and their kind.
     pub files: Vec<FileAnswer>,
-    /// What every curve counts from.
+    /// Datum of all curves.
     pub datum: DatumAnswer,
     /// Angles at which curves are compared.
     pub angles: usize,
-    /// How much of a turn they cover.
+    /// The arc that they cover.
     pub arc_deg: f64,
     /// Each part of the error.
     pub contributions: Vec<ContributionAnswer>,
     /// Load cases that the deviation under load was predicted for.
     pub load_cases: usize,
-    /// Least and greatest deviation that the load makes of all of them, from the nominal circle.
+    /// Least and greatest deviation under load over all cases, from the nominal circle.
     pub load_envelope_um: [f64; 2],
-    /// Standard deviation of ball-bar runs the same way; where no way has two, of the arm as robot file or study tell it;
-    /// none where neither does.
+    /// Standard deviation of ball-bar runs of the same direction; if no direction has two, that of the robot file or
+    /// study;
+    /// none if neither gives it.
     pub repeatability_um: Option<f64>,
-    /// What they make together.
+    /// Their combinations.
     pub sums: SumsAnswer,
-    /// What is predicted of the path without load beside what the ball-bar saw; none where either is missing.
+    /// The path without load, predicted and measured by the ball-bar; none if either is missing.
     pub without_load: Option<WithoutLoadAnswer>,
-    /// The part beside them; none where it was not measured.
+    /// The measured part; none if it was not measured.
     pub part: Option<PartAnswer>,
     /// What a user must know, each a sentence.
     pub warnings: Vec<String>,
-    /// Where definitions and methods come from.
+    /// Sources of definitions and methods.
     pub sources: Vec<&'static str>,
 }
 
@@ -59,12 +61,12 @@ pub struct FileAnswer {
     pub of: &'static str,
 }
 
-/// What curves count from.
+/// Datum of the curves.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct DatumAnswer {
     /// `least-squares` of each curve, or `as-measured`.
     pub centre: &'static str,
-    /// Likewise.
+    /// The same values.
     pub radius: &'static str,
 }
 
@@ -81,21 +83,21 @@ pub struct ContributionAnswer {
     pub largest_at_deg: f64,
     /// Root mean square of the bias.
     pub rms_um: f64,
-    /// Standard uncertainty of the bias, root mean square round the circle, where it is known.
+    /// Standard uncertainty of the bias, root mean square over the circle, if known.
     pub bias_u_um: Option<f64>,
     /// Root mean square of the standard deviation of one cut.
     pub scatter_um: f64,
-    /// Centre that was taken off, along y' and z'.
+    /// Centre that was removed, along y' and z'.
     pub centre_um: [f64; 2],
-    /// Radius that was taken off, beyond the nominal one.
+    /// Radius that was removed, relative to the nominal one.
     pub radius_um: f64,
-    /// What it explains of the part alone; none without part or bias.
+    /// Percentage of the part explained by it alone; none without part or bias.
     pub explained_alone_percent: Option<f64>,
-    /// What the others explain without it, likewise.
+    /// Percentage explained by the others without it; none without part or bias.
     pub explained_without_percent: Option<f64>,
 }
 
-/// The path without load, predicted (gravity, backlash, geometry) and measured the way it was cut.
+/// The path without load, predicted (gravity, backlash, geometry) and measured in the cutting direction.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct WithoutLoadAnswer {
     /// Largest predicted by size, from its datum.
@@ -112,22 +114,22 @@ pub struct WithoutLoadAnswer {
     pub measured_rms_um: f64,
     /// How much of the measured mean square is predicted.
     pub explained_percent: f64,
-    /// How alike the shapes are.
+    /// Similarity of the shapes.
     pub likeness_percent: Option<f64>,
 }
 
-/// What the parts make together.
+/// Their combinations.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct SumsAnswer {
-    /// Largest bias of what the load does.
+    /// Largest bias of the load.
     pub load_um: f64,
-    /// Largest bias of the path without load, the way it was cut.
+    /// Largest bias of the path without load, in the cutting direction.
     pub unloaded_um: f64,
     /// Largest sum of biases, added with their signs at every angle.
     pub as_functions_um: f64,
     /// The same with twice the scatter.
     pub with_scatter_um: f64,
-    /// Standard uncertainty of the biases together, root mean square round the circle, as far as it is known.
+    /// Standard uncertainty of the combined bias, root mean square over the circle, as far as it is known.
     pub u_um: f64,
     /// Root of the squares of `load_um` and `unloaded_um`.
     pub root_sum_square_um: f64,
@@ -135,7 +137,7 @@ pub struct SumsAnswer {
     pub plain_um: f64,
 }
 
-/// The part beside its prediction.
+/// The part and its prediction.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PartAnswer {
     /// Points in its file.
@@ -146,25 +148,25 @@ pub struct PartAnswer {
     pub largest_at_deg: f64,
     /// Root mean square.
     pub rms_um: f64,
-    /// Centre in the axes of its file, where deviations count from it.
+    /// Centre in the axes of its file, if deviations are measured from it.
     pub centre_mm: Option<[f64; 2]>,
-    /// Radius beyond the nominal one, where it was taken off.
+    /// Radius relative to the nominal one, if it was removed.
     pub radius_um: f64,
-    /// Standard uncertainty of a point, as the study tells it.
+    /// Standard uncertainty of a point, from the study.
     pub u_um: f64,
-    /// How much of its mean square all contributions explain.
+    /// Percentage of its mean square explained by all contributions.
     pub explained_percent: f64,
-    /// How much could be explained: the rest is known scatter.
+    /// Percentage that can be explained: the rest is known scatter.
     pub explainable_percent: f64,
-    /// How alike the shapes are, whatever the size: 100 alike, 0 unlike, -100 upside down.
+    /// Similarity of the shapes, independent of their size: 100 equal, 0 unrelated, -100 inverted.
     pub likeness_percent: Option<f64>,
-    /// The size that would explain most, of the predicted one.
+    /// The scale of the prediction that explains most.
     pub best_size_percent: Option<f64>,
     /// Of all turns of the prediction round the circle those at which it is as like the part.
     pub turns_as_good_percent: Option<f64>,
     /// What is not explained.
     pub residual: ResidualAnswer,
-    /// Waves of less amplitude are none: they have no phase, and no share.
+    /// Harmonics of less amplitude have no phase and no percentage.
     pub least_wave_um: f64,
     /// Wave by wave.
     pub waves: Vec<WaveAnswer>,
@@ -179,34 +181,34 @@ pub struct ResidualAnswer {
     pub largest_um: f64,
     /// Where.
     pub largest_at_deg: f64,
-    /// Root mean square beyond all known scatter and uncertainty: what has another cause.
+    /// Root mean square beyond all known scatter and uncertainty: from another cause.
     pub beyond_known_um: f64,
 }
 
-/// One wave of the part and of its prediction.
+/// One harmonic of the part and of its prediction.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct WaveAnswer {
     /// A turn.
     pub waves: usize,
     /// Amplitude of the part.
     pub measured_um: f64,
-    /// Its phase: a crest lies at this over `waves`; none where there is no wave.
+    /// Its phase: a crest is at this over `waves`; none if there is no such harmonic.
     pub measured_phase_deg: Option<f64>,
     /// Amplitude of the prediction.
     pub predicted_um: f64,
-    /// Its phase, likewise.
+    /// Its phase; none if there is no such harmonic.
     pub predicted_phase_deg: Option<f64>,
-    /// Phase of the prediction beyond that of the part, where both are there.
+    /// Phase of the prediction relative to that of the part, if both have one.
     pub phase_difference_deg: Option<f64>,
-    /// How much of this wave of the part is explained; none where there is no wave.
+    /// Percentage of this harmonic of the part that is explained; none if there is no such harmonic.
     pub explained_percent: Option<f64>,
 }
 
 /// A part of which less than this is explained is not understood, percent.
 const LITTLE: f64 = 50.0;
-/// A prediction that is as good at more of its turns than this may be so by chance, percent.
+/// A prediction that is as good at more of its rotations than this may agree by chance, percent.
 const BY_CHANCE: f64 = 5.0;
-/// What a centre that is taken off to first order may leave untold, um.
+/// Error of removing a centre to first order that need not be reported, um.
 const SECOND_ORDER_UM: f64 = 1.0;
 
 const SOURCES: [&str; 3] = [
@@ -215,8 +217,8 @@ const SOURCES: [&str; 3] = [
     "theory: docs/theory/budget.md",
 ];
 
-/// What `combined` says.
-pub fn answer(experiment: &Experiment, path: &PathAnalysis, combined: &Combined) -> BudgetAnswer {
+/// The result for `combined`.
+pub fn answer(experiment: &Experiment, path: &PathAnalysis, combined: &CombinedCurves) -> BudgetAnswer {
     let um = |value: f64| value * 1e6;
     let (balance, sums) = (&combined.balance, &combined.balance.sums);
     let shares = balance.comparison.as_ref().map(|given| &given.shares[..]);
@@ -261,7 +263,7 @@ pub fn answer(experiment: &Experiment, path: &PathAnalysis, combined: &Combined)
         without_load: combined
             .without_load
             .as_ref()
-            .map(|beside| without_load(combined, beside)),
+            .map(|path| without_load(combined, path)),
         part: balance
             .comparison
             .as_ref()
@@ -289,7 +291,7 @@ fn files(experiment: &Experiment, path: &PathAnalysis) -> Vec<FileAnswer> {
 }
 
 fn contribution(
-    combined: &Combined,
+    combined: &CombinedCurves,
     (one, datum): (&Contribution, &Datum),
     share: Option<Share>,
 ) -> ContributionAnswer {
@@ -314,27 +316,27 @@ fn contribution(
     }
 }
 
-fn without_load(combined: &Combined, beside: &Beside) -> WithoutLoadAnswer {
+fn without_load(combined: &CombinedCurves, path: &UnloadedPath) -> WithoutLoadAnswer {
     let turn = &combined.turn;
     let most = |curve: &[f64]| {
         let (at, most) = largest(curve);
         (most * 1e6, turn.angle()[at].to_degrees())
     };
     let [(predicted_um, predicted_at_deg), (measured_um, measured_at_deg)] =
-        [most(&beside.predicted), most(&beside.measured)];
+        [most(&path.predicted), most(&path.measured)];
     WithoutLoadAnswer {
         predicted_um,
         predicted_at_deg,
-        predicted_rms_um: turn.rms(&beside.predicted) * 1e6,
+        predicted_rms_um: turn.rms(&path.predicted) * 1e6,
         measured_um,
         measured_at_deg,
-        measured_rms_um: turn.rms(&beside.measured) * 1e6,
-        explained_percent: beside.agreement.explained * 100.0,
-        likeness_percent: beside.agreement.likeness.map(|share| share * 100.0),
+        measured_rms_um: turn.rms(&path.measured) * 1e6,
+        explained_percent: path.agreement.explained * 100.0,
+        likeness_percent: path.agreement.likeness.map(|share| share * 100.0),
     }
 }
 
-fn part(experiment: &Experiment, combined: &Combined, given: &Comparison) -> PartAnswer {
+fn part(experiment: &Experiment, combined: &CombinedCurves, given: &Comparison) -> PartAnswer {
     let at_deg = |at: usize| combined.turn.angle()[at].to_degrees();
     let of_file = experiment.part.as_ref();
     let (at, most) = largest(&given.measured);
@@ -370,7 +372,7 @@ fn part(experiment: &Experiment, combined: &Combined, given: &Comparison) -> Par
 }
 
 fn wave(pair: &WavePair, least: f64) -> WaveAnswer {
-    let given = pair.given(least);
+    let given = pair.reported(least);
     let deg = |phase: Option<f64>| phase.map(f64::to_degrees);
     WaveAnswer {
         waves: pair.measured.waves,
@@ -384,36 +386,41 @@ fn wave(pair: &WavePair, least: f64) -> WaveAnswer {
 }
 
 /// Whether the path without load is a prediction.
-fn is_predicted(combined: &Combined) -> bool {
+fn is_predicted(combined: &CombinedCurves) -> bool {
     let moves = |one: &Contribution| one.bias.iter().any(|by| *by != 0.0);
     let of_path = |one: &Contribution| one.origin == Origin::Unloaded && moves(one);
     combined.has_cut_way.is_none() && combined.balance.contributions.iter().any(of_path)
 }
 
-/// What was taken for granted, and what the numbers do not bear.
-fn warnings(experiment: &Experiment, combined: &Combined, given: &BudgetAnswer) -> Vec<String> {
+/// Assumptions, and limits of the numbers.
+fn warnings(experiment: &Experiment, combined: &CombinedCurves, given: &BudgetAnswer) -> Vec<String> {
     let mut warnings = experiment.notes.clone();
     match combined.has_cut_way {
         None if is_predicted(combined) => warnings.push(
-            "no ball-bar test: the path without load is predicted from gravity, backlash and geometry alone".to_owned(),
+            "no ball-bar test: the path without load is predicted only from gravity, backlash and geometry".to_owned(),
         ),
         None => warnings.push(
-            "no ball-bar test: what the path does without load is left out, and the part holds it".to_owned(),
+            "no ball-bar test: the deviation without load is not included, but the part contains it".to_owned(),
         ),
         Some(false) => warnings.push(
-            "no ball-bar run goes the way that is cut: that of the other way stands for it, with its reversals".to_owned(),
+            "no ball-bar run in the cutting direction: the other direction is used, with its reversals".to_owned(),
         ),
         Some(true) if !combined.both_ways => warnings.push(
-            "the ball-bar went one way alone: what turns with the way is not told apart".to_owned(),
+            "ball-bar runs in one direction only: deviations that depend on the direction cannot be separated".to_owned(),
         ),
         Some(true) => {}
     }
     if combined.has_cut_way.is_some() && combined.repeatability.is_none() {
-        warnings
-            .push("no way of the ball-bar has two runs: nothing tells how well the path repeats".to_owned());
+        warnings.push(
+            "no direction of the ball-bar has two runs: the repeatability of the path is not known"
+                .to_owned(),
+        );
     }
     if combined.cases > 1 && !combined.cases_are_given {
-        warnings.push("the mean force makes the bias; the greatest stands in the envelope alone".to_owned());
+        warnings.push(
+            "the bias is that of the mean force; the greatest force is only included in the envelope"
+                .to_owned(),
+        );
     }
     let moved = combined
         .balance
@@ -423,20 +430,20 @@ fn warnings(experiment: &Experiment, combined: &Combined, given: &BudgetAnswer) 
     let second = 1e6 * moved * moved / (2.0 * experiment.radius);
     if second > SECOND_ORDER_UM {
         warnings.push(format!(
-            "the load moves the centre by {:.2} mm: taken off to first order, up to {second:.1} um of it are left",
+            "the load moves the centre by {:.2} mm: it is removed to first order, up to {second:.1} um remain",
             moved * 1e3
         ));
     }
     if combined.turn.arc() < 0.999 * std::f64::consts::TAU {
         warnings.push(format!(
-            "{:.0} deg of the turn are known: all numbers are those of that arc",
+            "only {:.0} deg of the circle are known: all numbers are those of that arc",
             given.arc_deg
         ));
     }
     let Some(part) = &given.part else {
         let no_part = match experiment.part {
-            None => "no part was measured: nothing tells whether the budget is right",
-            Some(_) => "the part shows nothing beside its datum: nothing is left to be explained",
+            None => "no part was measured: the budget cannot be verified",
+            Some(_) => "the part has no deviation from its datum: there is nothing to explain",
         };
         warnings.push(no_part.to_owned());
         return warnings;
@@ -444,11 +451,11 @@ fn warnings(experiment: &Experiment, combined: &Combined, given: &BudgetAnswer) 
     let by_chance = part.turns_as_good_percent.filter(|percent| *percent > BY_CHANCE);
     if let Some(percent) = by_chance {
         warnings.push(format!(
-            "turned round the circle the prediction is as like the part at {percent:.0} % of all angles: the likeness may be chance, or zero_deg wrong"
+            "rotated about the circle the prediction agrees as well with the part at {percent:.0} % of all angles: the agreement may be by chance, or zero_deg is wrong"
         ));
     } else if part.explained_percent < LITTLE {
         warnings.push(format!(
-            "{:.0} % of the part are explained: equal sizes of prediction and part would be no agreement",
+            "{:.0} % of the part are explained: similar sizes of prediction and part are not an agreement",
             part.explained_percent
         ));
     }

@@ -2,15 +2,16 @@
 //!
 //! | contribution | origin | bias | scatter of one cut |
 //! |---|---|---|---|
-//! | deviation under load | load | what the load adds: its mean force, or the mean of the cases given | between these cases |
+//! | deviation under load | load | effect of the load: its mean force, or the mean of the given cases | between these cases |
 //! | predicted | unloaded | without a ball-bar: gravity, backlash and geometry of the study | - |
-//! | both ways | unloaded | mean of clockwise and anticlockwise runs | - |
-//! | reversal | unloaded | half of what the way that was cut has more than the other | - |
-//! | repeatability | unloaded | - | of runs the same way; where no ball-bar tells, what the robot file or the study says |
+//! | both directions | unloaded | mean of clockwise and anticlockwise runs | - |
+//! | reversal | unloaded | half of the difference of the cutting direction from the other | - |
+//! | repeatability | unloaded | - | of runs of the same direction; without a ball-bar, from the robot file or the study |
 //!
-//! A cut and a measured force have a mean and a greatest force: the mean is the bias, the greatest is told as the end of
-//! the envelope. Given cases may each act: all are as likely. A ball-bar sees gravity, backlash and geometry: where one was
-//! taken, what is predicted of them stands beside it and in no sum.
+//! A cut and a measured force have a mean and a greatest force: the mean is the bias, the greatest is reported as the
+//! end of
+//! the envelope. Given cases are equally probable. A ball-bar measures gravity, backlash and geometry: if there is a
+//! ball-bar test, their prediction is reported for comparison and is not part of a sum.
 
 use armill_core::budget::turn::Turn;
 use armill_core::budget::unloaded::known_angles;
@@ -20,39 +21,39 @@ use armill_core::measure::ballbar::profile::{STATIONS, station};
 use armill_core::measure::ballbar::{CircularTest, Direction, Profile};
 use armill_core::watch::Watch;
 
-use super::parts::{Parts, parts};
+use super::parts::{DeviationParts, parts};
 use crate::error::StudyError;
 use crate::file::experiment::Experiment;
 use crate::file::path::PathAnalysis;
 use crate::file::resolve::Study;
-use crate::run::PathFound;
+use crate::run::PathResult;
 
 /// Curves at common angles. SI.
 #[derive(Clone, Debug)]
-pub struct Combined {
+pub struct CombinedCurves {
     /// The angles.
     pub turn: Turn,
     /// The budget.
     pub balance: Balance,
-    /// Least and greatest deviation that the load makes of all cases at each angle, from the nominal circle.
+    /// Least and greatest deviation under load over all cases at each angle, from the nominal circle.
     pub envelope: [Vec<f64>; 2],
     /// Load cases.
     pub cases: usize,
-    /// Whether these are given, each as likely as the others; else the first is the mean and the second the greatest force.
+    /// Whether these are given and equally probable; otherwise the first is the mean and the second the greatest force.
     pub cases_are_given: bool,
-    /// Whether the way that was cut was measured without load; `None` where nothing was.
+    /// Whether the cutting direction was measured without load; `None` if nothing was measured.
     pub has_cut_way: Option<bool>,
-    /// Whether both ways were.
+    /// Whether both directions were measured.
     pub both_ways: bool,
-    /// Standard deviation of runs the same way; none where no way has two.
+    /// Standard deviation of runs of the same direction; none if no direction has two.
     pub repeatability: Option<f64>,
-    /// The path without load, predicted and measured the way it was cut; none where either is missing.
-    pub without_load: Option<Beside>,
+    /// The path without load, predicted and measured in the cutting direction; none if either is missing.
+    pub without_load: Option<UnloadedPath>,
 }
 
-/// A predicted curve beside the measured one, both from their datum. m
+/// A predicted curve and the measured one, both from their datum. m
 #[derive(Clone, Debug)]
-pub struct Beside {
+pub struct UnloadedPath {
     /// Predicted.
     pub predicted: Vec<f64>,
     /// Measured.
@@ -61,18 +62,18 @@ pub struct Beside {
     pub agreement: Agreement,
 }
 
-/// Waves a turn that are told.
+/// Greatest number of harmonics reported.
 pub const MOST_WAVES: usize = 12;
 
-/// What was measured beside what was found of the path.
+/// Combines the measurements with the result for the path.
 ///
 /// # Errors
 /// A path that is not reached everywhere; curves that have too few angles in common; those of a run.
 pub fn combine(
     (study, experiment): (&Study, &Experiment),
-    (path, found): (&PathAnalysis, &PathFound),
+    (path, found): (&PathAnalysis, &PathResult),
     watch: Watch<'_>,
-) -> Result<Combined, StudyError> {
+) -> Result<CombinedCurves, StudyError> {
     if found.radial.is_empty() {
         return Err(StudyError::value(
             format!(
@@ -91,13 +92,13 @@ pub fn combine(
     let common = test.map_or_else(|| own.clone(), |test| known_angles(test, &own));
     let turn = Turn::new(common).map_err(|error| {
         StudyError::value(
-            format!("{}: of what was measured {error}", experiment.analysis),
+            format!("{}: of the measurements {error}", experiment.analysis),
             "full turns, a sample every 15 degrees or more",
         )
     })?;
     let cases_are_given = matches!(path.load, PathLoad::Cases(_));
     let biased = if cases_are_given { found.radial.len() } else { 1 };
-    let Parts {
+    let DeviationParts {
         load,
         without,
         uncertainties,
@@ -120,7 +121,8 @@ pub fn combine(
         has_cut_way = Some(seen.has_cut_way);
         both_ways = seen.reversal.is_some();
         measured_scatter = seen.scatter;
-        without_load = without.and_then(|(predicted, _)| beside(&turn, (&predicted, &seen), experiment));
+        without_load =
+            without.and_then(|(predicted, _)| unloaded_path(&turn, (&predicted, &seen), experiment));
         contributions.extend(contributions_of(seen));
     } else if let Some((bias, u)) = without {
         contributions.push(of_unloaded("path without load, predicted", bias, u));
@@ -136,7 +138,7 @@ pub fn combine(
     let extreme = |of: fn(f64, f64) -> f64, begin: f64| -> Vec<f64> {
         (0..turn.angle().len()).map(|k| at(k).fold(begin, of)).collect()
     };
-    Ok(Combined {
+    Ok(CombinedCurves {
         envelope: [extreme(f64::min, f64::MAX), extreme(f64::max, f64::MIN)],
         cases: cases.len(),
         cases_are_given,
@@ -154,7 +156,7 @@ pub fn combine(
     })
 }
 
-/// What the load does: the mean of these cases, each as likely, and how they scatter about it.
+/// The effect of the load: the mean of these cases, equally probable, and their scatter.
 fn under_load(taken: &[Vec<f64>]) -> Contribution {
     let count = taken.len() as f64;
     let mean = |k: usize| taken.iter().map(|case| case[k]).sum::<f64>() / count;
@@ -173,28 +175,28 @@ fn under_load(taken: &[Vec<f64>]) -> Contribution {
     }
 }
 
-/// Standard uncertainty (m) of what the load does, root mean square round the circle: that of the curves that each unknown
-/// adds, from their datum; `None` where nothing of it is known.
+/// Standard uncertainty (m) of the effect of the load, root mean square over the circle: that of the curves of all
+/// independent unknowns, from their datum; `None` if nothing is known of it.
 fn uncertainty(uncertainties: &[Vec<f64>], turn: &Turn, experiment: &Experiment) -> Option<f64> {
     let of = |curve: &Vec<f64>| {
-        let (_, form) = Datum::taken_off(turn, &turn.of_even(curve), experiment.removed);
+        let (_, form) = Datum::remove(turn, &turn.of_even(curve), experiment.removed);
         turn.rms(&form)
     };
     (!uncertainties.is_empty()).then(|| uncertainties.iter().map(of).fold(0.0, f64::hypot))
 }
 
-/// What is predicted of the path without load beside what the ball-bar saw of it, the way it was cut.
-fn beside(
+/// The path without load as predicted and as measured by the ball-bar, in the cutting direction.
+fn unloaded_path(
     turn: &Turn,
     (predicted, seen): (&[f64], &armill_core::budget::Unloaded),
     experiment: &Experiment,
-) -> Option<Beside> {
+) -> Option<UnloadedPath> {
     let reversal = seen.reversal.as_ref();
     let cut_way = |k: usize| seen.mean[k] + reversal.map_or(0.0, |by| by[k]);
     let measured: Vec<f64> = (0..seen.mean.len()).map(cut_way).collect();
-    let form = |curve: &[f64]| Datum::taken_off(turn, curve, experiment.removed).1;
+    let form = |curve: &[f64]| Datum::remove(turn, curve, experiment.removed).1;
     let (predicted, measured) = (form(predicted), form(&measured));
-    Some(Beside {
+    Some(UnloadedPath {
         agreement: agreement(turn, &predicted, &measured)?,
         predicted,
         measured,
@@ -207,7 +209,7 @@ fn of_test(
     turn: &Turn,
     experiment: &Experiment,
 ) -> Result<armill_core::budget::Unloaded, StudyError> {
-    // A circle of a study is cut the way its angle grows.
+    // A circle of a study is cut in the direction of increasing angle.
     let seen = unloaded(test, turn, Direction::Anticlockwise, experiment.removed);
     seen.ok_or_else(|| {
         StudyError::value(
@@ -217,10 +219,10 @@ fn of_test(
     })
 }
 
-/// Those parts as contributions, but how they scatter.
+/// Those parts as contributions, without their scatter.
 fn contributions_of(seen: armill_core::budget::Unloaded) -> Vec<Contribution> {
     let mean = match seen.reversal {
-        Some(_) => "path without load, both ways",
+        Some(_) => "path without load, both directions",
         None => "path without load",
     };
     let mut parts = vec![of_unloaded(mean, seen.mean, seen.u)];
@@ -239,7 +241,7 @@ fn of_unloaded(name: &str, bias: Vec<f64>, u: Option<f64>) -> Contribution {
     }
 }
 
-/// What differs from time to time, alike at all of `count` angles: a standard deviation, m.
+/// Scatter that is the same at all of `count` angles: a standard deviation, m.
 fn scattering(deviation: f64, count: usize) -> Contribution {
     Contribution {
         scatter: vec![deviation; count],

@@ -1,10 +1,12 @@
-//! What is the error of a measured circle made of, and how much of it is predicted?
+//! Error budget of a measured circle: its contributions, and how much of it is predicted.
 //!
 //! ```text
-//! study with [measured] -> run the circle -> its parts -> combine: Combined (SI) -> BudgetAnswer, table, pictures
+//! study with [measured] -> run the circle -> its parts -> combine: CombinedCurves (SI) -> BudgetAnswer, table, pictures
 //! ```
 //!
-//! [`parts`](mod@parts): what the load does, and what there is without it. [`combine`](mod@combine): predicted and measured curves at common angles. [`answer`](mod@answer): what came of it, in numbers.
+//! [`parts`](mod@parts): the effect of the load, and the path without it. [`combine`](mod@combine): predicted and
+//! measured
+//! curves at common angles. [`answer`](mod@answer): the values of the result.
 //! [`output`]: its table and pictures.
 
 pub mod answer;
@@ -13,7 +15,7 @@ pub mod output;
 pub mod parts;
 
 pub use answer::{BudgetAnswer, answer};
-pub use combine::{Combined, combine};
+pub use combine::{CombinedCurves, combine};
 
 use armill_core::watch::Watch;
 
@@ -21,38 +23,41 @@ use crate::error::StudyError;
 use crate::file::experiment::Experiment;
 use crate::file::path::PathAnalysis;
 use crate::file::resolve::{Study, Subject};
-use crate::run::{Done, Found, passes, runner};
+use crate::run::{AnalysisData, AnalysisResult, passes, runner};
 
-/// What was measured, and the path that it was measured on.
+/// The measurements, and the path on which they were made.
 fn circle(study: &Study) -> Result<(&Experiment, &PathAnalysis), StudyError> {
     let nothing = || {
         StudyError::value(
-            "the study names nothing that was measured",
+            "the study has no measurements",
             "[measured] with part = \"cmm.csv\" and ballbar = [\"first.csv\", \"second.csv\"]",
         )
     };
     let experiment = study.experiment.as_ref().ok_or_else(nothing)?;
-    let path = study.analyses.iter().find_map(|analysis| match &analysis.subject {
-        Subject::Path(path) if analysis.name == experiment.analysis => Some(&**path),
-        _ => None,
-    });
+    let path = study
+        .analyses
+        .iter()
+        .find_map(|analysis| match &analysis.subject {
+            Subject::Path(path) if analysis.name == experiment.analysis => Some(&**path),
+            _ => None,
+        });
     Ok((experiment, path.ok_or_else(nothing)?))
 }
 
 /// The points that the progress of [`budget`] ends at.
 ///
 /// # Errors
-/// A study in which nothing was measured.
+/// A study without measurements.
 pub fn point_count(study: &Study) -> Result<usize, StudyError> {
     let (_, path) = circle(study)?;
     Ok(path.track.len() * passes(path))
 }
 
-/// The budget of the circle that was measured; of all that the study asks for that circle alone is run.
+/// The budget of the measured circle; only this path of the study is computed.
 ///
 /// # Errors
-/// A study in which nothing was measured; those of running the path; curves that have too few angles in common.
-pub fn budget(study: &Study, watch: Watch<'_>) -> Result<(Combined, BudgetAnswer), StudyError> {
+/// A study without measurements; errors of the path; curves that have too few angles in common.
+pub fn budget(study: &Study, watch: Watch<'_>) -> Result<(CombinedCurves, BudgetAnswer), StudyError> {
     let (experiment, path) = circle(study)?;
     let found = runner(study, watch)?.path(path)?;
     let combined = combine((study, experiment), (path, &found), watch)?;
@@ -60,11 +65,14 @@ pub fn budget(study: &Study, watch: Watch<'_>) -> Result<(Combined, BudgetAnswer
     Ok((combined, given))
 }
 
-/// The budget beside all that was run; `None` where nothing was measured, a sentence where it cannot be told.
-pub(crate) fn beside(study: &Study, done: &[Done<'_>]) -> Option<Result<(Combined, BudgetAnswer), String>> {
+/// The budget for results already computed; `None` without measurements, a sentence if it cannot be computed.
+pub(crate) fn of_results(
+    study: &Study,
+    done: &[AnalysisResult<'_>],
+) -> Option<Result<(CombinedCurves, BudgetAnswer), String>> {
     let experiment = study.experiment.as_ref()?;
     let found = done.iter().find(|done| done.name == experiment.analysis)?;
-    let Found::Path(path, found) = &found.found else {
+    let AnalysisData::Path(path, found) = &found.found else {
         return None;
     };
     let combined = combine((study, experiment), (path, found), Watch::NONE).map(|combined| {

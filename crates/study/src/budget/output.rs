@@ -1,13 +1,13 @@
 //! Table and pictures of a budget.
 //!
 //! ```text
-//! budget.csv         a row an angle: each contribution, their sum, the part and what is not explained
-//! ASK-budget.svg     how large each contribution is, the sums and the part; each picture as .png too
-//! ASK-measured.svg   part and prediction round the circle, magnified
-//! ASK-waves.svg      amplitude and phase, wave by wave
+//! budget.csv         one row per angle: each contribution, their sum, the part and the residual
+//! NAME-budget.svg    magnitude of each contribution, the sums and the part; each picture as .png too
+//! NAME-measured.svg  part and prediction about the circle, magnified
+//! NAME-waves.svg     amplitude and phase per harmonic
 //! ```
 //!
-//! `armill run` puts the pictures and `tables` into its report.
+//! `armill run` includes the pictures and `tables` in its report.
 
 use std::path::PathBuf;
 
@@ -18,7 +18,7 @@ use armill_report::html;
 use armill_report::{BudgetBar, BudgetBars, BudgetGroup, Growth, PolarPlot, RadialSeries, WaveBar, WaveBars};
 
 use super::answer::{BudgetAnswer, PartAnswer, WithoutLoadAnswer};
-use super::combine::Combined;
+use super::combine::CombinedCurves;
 use crate::StudyError;
 use crate::output::report::cells::columns;
 use crate::output::{Picture, picture_files, slug, write_pictures};
@@ -26,13 +26,13 @@ use crate::output::{Picture, picture_files, slug, write_pictures};
 /// The table.
 const TABLE: &str = "budget.csv";
 
-/// Writes table and pictures into the folder `out` and gives their paths.
+/// Writes table and pictures into the folder `out` and returns their paths.
 ///
 /// # Errors
 /// The folder or a file cannot be written.
 pub fn write(
     given: &BudgetAnswer,
-    combined: &Combined,
+    combined: &CombinedCurves,
     out: &ResultFolder,
 ) -> Result<Vec<PathBuf>, StudyError> {
     let pictures = pictures(given, combined);
@@ -49,12 +49,12 @@ pub fn write(
 /// The table of all curves, a row an angle, as CSV.
 ///
 /// # Errors
-/// A table that cannot be made, which would be a fault of armill.
-pub fn table_csv(given: &BudgetAnswer, combined: &Combined) -> Result<Vec<u8>, StudyError> {
+/// A table that cannot be written, which is a defect of armill.
+pub fn table_csv(given: &BudgetAnswer, combined: &CombinedCurves) -> Result<Vec<u8>, StudyError> {
     Ok(csv::write(&table_of(given, combined)?))
 }
 
-/// Whether a picture of this name is one of [`pictures`] of this ask.
+/// Whether a picture of this name is one of [`pictures`] of this analysis.
 pub(crate) fn is_of_budget(name: &str, analysis: &str) -> bool {
     let what = name
         .strip_prefix(&slug(analysis))
@@ -63,14 +63,14 @@ pub(crate) fn is_of_budget(name: &str, analysis: &str) -> bool {
 }
 
 /// The pictures: bars; with a part the circle and its waves.
-pub(crate) fn pictures(given: &BudgetAnswer, combined: &Combined) -> Vec<Picture> {
+pub(crate) fn pictures(given: &BudgetAnswer, combined: &CombinedCurves) -> Vec<Picture> {
     let picture = |what: &str, caption: &str, svg: String| Picture {
         name: format!("{}-{what}", slug(&given.analysis)),
         caption: format!("{}: {caption}", given.analysis),
         svg,
     };
     let mut pictures = vec![
-        picture("budget", "what its radial deviation is made of.", bars(given)),
+        picture("budget", "contributions to the radial deviation.", bars(given)),
         picture(
             "measured",
             "radial deviation, predicted and measured, magnified.",
@@ -78,7 +78,8 @@ pub(crate) fn pictures(given: &BudgetAnswer, combined: &Combined) -> Vec<Picture
         ),
     ];
     pictures.extend(
-        given.part
+        given
+            .part
             .as_ref()
             .filter(|part| !part.waves.is_empty())
             .map(|part| {
@@ -92,7 +93,7 @@ pub(crate) fn pictures(given: &BudgetAnswer, combined: &Combined) -> Vec<Picture
     pictures
 }
 
-/// What all curves count from, in a line.
+/// Datum of all curves, in a line.
 fn subtitle(given: &BudgetAnswer) -> String {
     let mut parts = vec![
         format!("circle of {} mm", crate::number::decimals(given.radius_mm, 3)),
@@ -148,7 +149,7 @@ fn bars(given: &BudgetAnswer) -> String {
         ));
     }
     let picture = BudgetBars {
-        title: format!("{}: what its error is made of", given.analysis),
+        title: format!("{}: error budget", given.analysis),
         subtitle: subtitle(given),
         quantity: "largest radial deviation (µm)".to_owned(),
         bars,
@@ -156,7 +157,7 @@ fn bars(given: &BudgetAnswer) -> String {
     picture.to_svg()
 }
 
-fn circle(given: &BudgetAnswer, combined: &Combined) -> String {
+fn circle(given: &BudgetAnswer, combined: &CombinedCurves) -> String {
     let balance = &combined.balance;
     let closed = |name: &str, curve: &[f64]| {
         let angle = combined.turn.angle();
@@ -196,7 +197,7 @@ fn circle(given: &BudgetAnswer, combined: &Combined) -> String {
         combined
             .without_load
             .as_ref()
-            .map(|beside| closed("path without load, predicted", &beside.predicted)),
+            .map(|path| closed("path without load, predicted", &path.predicted)),
     );
     let picture = PolarPlot {
         title: format!("{}: predicted and measured", given.analysis),
@@ -227,18 +228,18 @@ fn waves(given: &BudgetAnswer, part: &PartAnswer) -> String {
     picture.to_svg()
 }
 
-/// What the budget comes to, in a paragraph.
+/// The budget in a paragraph.
 pub(crate) fn in_words(given: &BudgetAnswer) -> String {
     let sums = &given.sums;
     let mut text = format!(
-        "{}: the load makes {:.1} µm at most, the path without load {:.1} µm. Added with their signs at every angle they \
-         make {:.1} µm, plainly {:.1} µm.",
+        "{}: largest contribution of the load {:.1} µm, of the path without load {:.1} µm. Largest signed sum over all angles \
+         {:.1} µm, plain sum {:.1} µm.",
         given.analysis, sums.load_um, sums.unloaded_um, sums.as_functions_um, sums.plain_um
     );
     if let Some(part) = &given.part {
         text.push_str(&format!(
-            " The part is off by {:.1} µm; {:.1} % of its mean square are explained, {:.1} % could be. What is left has {:.1} \
-             µm rms, {:.1} µm of it beyond known scatter and uncertainty.",
+            " The largest deviation of the part is {:.1} µm; {:.1} % of its mean square are explained, {:.1} % can be explained. The \
+             residual is {:.1} µm rms, {:.1} µm of it beyond known scatter and uncertainty.",
             part.largest_um,
             part.explained_percent,
             part.explainable_percent,
@@ -254,7 +255,7 @@ pub(crate) fn tables(given: &BudgetAnswer) -> Vec<html::Table> {
     let um = |value: f64| format!("{value:.2}");
     let percent = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |value| format!("{value:.1}"));
     let contributions = html::Table {
-        caption: "Contributions, and what they explain of the part: alone, and the others without them."
+        caption: "Contributions, and the percentage of the part explained by each alone, and by the others without it."
             .to_owned(),
         columns: columns(&[
             ("contribution", ""),
@@ -284,7 +285,7 @@ pub(crate) fn tables(given: &BudgetAnswer) -> Vec<html::Table> {
     let of_part = |part: &PartAnswer| html::Table {
         caption: "Part and prediction, wave by wave.".to_owned(),
         columns: columns(&[
-            ("waves a turn", ""),
+            ("harmonic", ""),
             ("part", "µm"),
             ("predicted", "µm"),
             ("phase difference", "deg"),
@@ -307,14 +308,14 @@ pub(crate) fn tables(given: &BudgetAnswer) -> Vec<html::Table> {
         .as_ref()
         .filter(|part| !part.waves.is_empty())
         .map(of_part);
-    let beside = given.without_load.as_ref().map(without_load);
+    let unloaded = given.without_load.as_ref().map(without_load);
     std::iter::once(contributions)
-        .chain(beside)
+        .chain(unloaded)
         .chain(waves)
         .collect()
 }
 
-/// The path without load: what is predicted beside what was measured.
+/// The path without load: predicted and measured.
 fn without_load(given: &WithoutLoadAnswer) -> html::Table {
     let row = |name: &str, [most_um, at_deg, rms_um]: [f64; 3], shares: [Option<f64>; 2]| {
         let percent =
@@ -329,7 +330,7 @@ fn without_load(given: &WithoutLoadAnswer) -> html::Table {
         ]
     };
     html::Table {
-        caption: "The path without load. The measured one stands in the sums, the predicted one beside it."
+        caption: "The path without load. The measured path is included in the sums, the predicted one is for comparison."
             .to_owned(),
         columns: columns(&[
             ("path without load", ""),
@@ -337,7 +338,7 @@ fn without_load(given: &WithoutLoadAnswer) -> html::Table {
             ("at", "deg"),
             ("rms", "µm"),
             ("explained", "%"),
-            ("alike", "%"),
+            ("similarity", "%"),
         ]),
         rows: vec![
             row(
@@ -355,7 +356,7 @@ fn without_load(given: &WithoutLoadAnswer) -> html::Table {
 }
 
 /// A row an angle.
-fn table_of(given: &BudgetAnswer, combined: &Combined) -> Result<Table, StudyError> {
+fn table_of(given: &BudgetAnswer, combined: &CombinedCurves) -> Result<Table, StudyError> {
     let column = |name: String, unit: &str, (decimals, data): (u8, Vec<f64>)| Column {
         name,
         unit: Some(unit.to_owned()),
@@ -378,9 +379,9 @@ fn table_of(given: &BudgetAnswer, combined: &Combined) -> Result<Table, StudyErr
     }
     columns.push(column("sum_um".to_owned(), "um", um(&balance.sums.bias)));
     columns.push(column("scatter_um".to_owned(), "um", um(&balance.sums.scatter)));
-    if let Some(beside) = &combined.without_load {
+    if let Some(path) = &combined.without_load {
         let name = "predicted_without_load_um".to_owned();
-        columns.push(column(name, "um", um(&beside.predicted)));
+        columns.push(column(name, "um", um(&path.predicted)));
     }
     if let Some(part) = &balance.comparison {
         columns.push(column("part_um".to_owned(), "um", um(&part.measured)));

@@ -1,7 +1,8 @@
-//! The predicted deviation of a circle in its parts: what the load does, what there is without it, and how sure the load's
-//! part is.
+//! The predicted deviation of a circle in its parts: the effect of the load, the path without it, and the uncertainty
+//! of the
+//! effect of the load.
 
-use armill_core::map::{WithoutLoad, radial_doubts, radial_without_load};
+use armill_core::map::{WithoutLoad, radial_uncertainties, radial_without_load};
 use armill_core::nalgebra::Point2;
 use armill_core::path::{Shape, Track};
 use armill_core::watch::Watch;
@@ -9,29 +10,29 @@ use armill_core::watch::Watch;
 use crate::error::StudyError;
 use crate::file::path::PathAnalysis;
 use crate::file::resolve::Study;
-use crate::run::{PathFound, runner};
+use crate::run::{PathResult, runner};
 
 /// Outward deviations at the points of the circle, m.
 #[derive(Clone, Debug, Default)]
-pub struct Parts {
-    /// Of each load case, what the load alone does.
+pub struct DeviationParts {
+    /// The effect of the load alone, for each load case.
     pub load: Vec<Vec<f64>>,
-    /// What the same path does without it; none where nothing else moves the tool.
+    /// The path without load; none if nothing else moves the tool.
     pub without: Option<WithoutLoad>,
-    /// Change of the mean of the cases that make the bias by each independent unknown.
+    /// Change of the mean of the cases of the bias by each independent unknown.
     pub uncertainties: Vec<Vec<f64>>,
 }
 
-/// The parts of `found`, of whose cases the first `biased` make the bias.
+/// The parts of `found`; the bias is the mean of the first `biased` cases.
 ///
 /// # Errors
 /// Those of a run.
 pub fn parts(
     study: &Study,
-    (path, found): (&PathAnalysis, &PathFound),
+    (path, found): (&PathAnalysis, &PathResult),
     biased: usize,
     watch: Watch<'_>,
-) -> Result<Parts, StudyError> {
+) -> Result<DeviationParts, StudyError> {
     let centre = match path.shape() {
         Some(Shape::Circle { centre, .. }) => *centre,
         _ => Point2::origin(),
@@ -53,9 +54,9 @@ pub fn parts(
             .map(|(all, own)| all - own)
             .collect(),
     };
-    Ok(Parts {
+    Ok(DeviationParts {
         load: found.radial.iter().map(|case| of_load(&case.outward)).collect(),
-        uncertainties: radial_doubts(&question, followed, centre, biased),
+        uncertainties: radial_uncertainties(&question, followed, centre, biased),
         without,
     })
 }

@@ -1,54 +1,54 @@
-//! What was found, in numbers.
+//! The result of a calibration.
 
-use armill_core::calibrate::{Estimate, Place, PoseErrors, Spread, Unknown};
+use armill_core::calibrate::{Estimate, ParameterLocation, PoseErrors, Spread, Unknown};
 use armill_core::frame::{Isometry, fixed_angles};
 use armill_core::robot::Robot;
 use serde::Serialize;
 
-use super::calibration::{Calibration, Set};
+use super::calibration::{Calibration, PoseSet};
 use super::question::Question;
 use crate::number::decimals;
 
-/// Poses that are told one by one: the worst of each set.
+/// Number of poses reported individually: the worst of each set.
 const WORST: usize = 5;
-/// Beyond so many times the rms a pose stands out: one in thousands does by chance.
-const STANDS_OUT: f64 = 4.0;
+/// A pose with an error beyond this multiple of the rms is an outlier: one in thousands is by chance.
+const OUTLIER: f64 = 4.0;
 
 /// A calibration in numbers.
 #[derive(Clone, Debug, Serialize)]
 pub struct CalibrateAnswer {
     /// Its name.
     pub robot: String,
-    /// Poses that it was found from.
+    /// Training poses: those from which the parameters were identified.
     pub training: SetAnswer,
-    /// Poses that judge it.
-    pub held_out: Option<SetAnswer>,
-    /// What was found of the chain.
+    /// Validation poses.
+    pub validation: Option<SetAnswer>,
+    /// Identified parameters of the chain.
     pub parameters: Vec<ParameterAnswer>,
-    /// What these poses cannot tell: it stays at its nominal value.
+    /// Parameters that these poses cannot determine: they keep their nominal values.
     pub not_identifiable: Vec<RedundantAnswer>,
-    /// Where the base stands in the axes of the tracker.
+    /// The base in the axes of the tracker.
     pub tracker_from_base: FrameAnswer,
     /// Where the measured point is on the flange.
     pub flange_from_point: FrameAnswer,
-    /// What was known before; none where nothing was.
+    /// The prior; none if it was not given.
     pub prior: Option<PriorAnswer>,
-    /// How many of all estimates, base and point included, the poses tell; all without a prior.
+    /// Number of parameters, base and point included, that the poses determine; all without a prior.
     // unit: a count
     pub effective_parameters: f64,
-    /// Standard deviation of a single reading about what was found.
+    /// Standard deviation of a single reading after calibration.
     pub standard_deviation_mm: f64,
     /// Columns that were passed over.
     pub unused: Vec<String>,
     /// Rows without a measured point.
     pub not_measured: usize,
-    /// What to know of these numbers.
+    /// Notes on these numbers.
     pub notes: Vec<String>,
-    /// Where methods come from.
+    /// Sources of the methods.
     pub sources: Vec<&'static str>,
 }
 
-/// Standard deviations of small motions of the chain about zero.
+/// Prior standard deviations of the corrections of the chain about zero.
 #[derive(Clone, Debug, Serialize)]
 pub struct PriorAnswer {
     /// Along an axis.
@@ -60,15 +60,15 @@ pub struct PriorAnswer {
 /// Poses of one kind.
 #[derive(Clone, Debug, Serialize)]
 pub struct SetAnswer {
-    /// Where they stand.
+    /// File of the poses.
     pub file: String,
     /// How many.
     pub poses: usize,
-    /// Whether base and tool were found anew for them.
+    /// Whether base and tool were fitted again for them.
     pub frames_refitted: bool,
-    /// Poses with a joint beyond the range of the poses that the geometry was found from.
+    /// Poses with a joint beyond the range of the training poses.
     pub beyond_found_range: usize,
-    /// By the robot file as it is.
+    /// Errors with the robot file unchanged.
     pub before: ErrorsAnswer,
     /// By the calibrated chain.
     pub after: ErrorsAnswer,
@@ -76,7 +76,7 @@ pub struct SetAnswer {
     pub worst: Vec<PoseAnswer>,
 }
 
-/// How far predictions miss.
+/// Errors of the predictions.
 #[derive(Clone, Debug, Serialize)]
 pub struct ErrorsAnswer {
     /// Mean distance.
@@ -89,7 +89,7 @@ pub struct ErrorsAnswer {
     pub rms_xyz_mm: [f64; 3],
     /// Of the turns, where they were used.
     pub turn_mean_deg: Option<f64>,
-    /// Likewise.
+    /// The same.
     pub turn_max_deg: Option<f64>,
 }
 
@@ -100,48 +100,48 @@ pub struct PoseAnswer {
     pub line: usize,
     /// After calibration.
     pub error_mm: f64,
-    /// Whether it lies beyond four times the rms.
-    pub stands_out: bool,
+    /// Whether its error is beyond four times the rms.
+    pub is_outlier: bool,
 }
 
-/// A small motion that was found.
+/// An identified correction.
 #[derive(Clone, Debug, Serialize)]
 pub struct ParameterAnswer {
     /// Such as `A2 along x`.
     pub name: String,
     /// Whether it is the zero of its joint.
     pub zero: bool,
-    /// How far along.
+    /// Translation along the axis.
     pub value_mm: Option<f64>,
     /// Standard uncertainty.
     pub u_mm: Option<f64>,
-    /// How far about.
+    /// Rotation about the axis.
     pub value_deg: Option<f64>,
     /// Standard uncertainty.
     pub u_deg: Option<f64>,
-    /// Of the zero of a joint that turns: how much farther it stands than its controller counts, in the controller's sense.
+    /// For the zero of a revolute joint: actual minus nominal position, in the sense of the controller.
     pub offset_deg: Option<f64>,
-    /// Of the zero of a joint that slides.
+    /// For the zero of a prismatic joint.
     pub offset_mm: Option<f64>,
 }
 
-/// A motion that cannot be told.
+/// A correction that cannot be determined.
 #[derive(Clone, Debug, Serialize)]
 pub struct RedundantAnswer {
     /// Such as `A1 about z`.
     pub name: String,
-    /// Those that do together what it does; empty where no pose shows it.
+    /// Corrections with the same effect; empty if it has no effect on any pose.
     pub same_as: Vec<String>,
 }
 
-/// A frame that was found.
+/// An identified frame.
 #[derive(Clone, Debug, Serialize)]
 pub struct FrameAnswer {
     /// Its origin.
     pub at_mm: [f64; 3],
-    /// Standard uncertainty along its own axes; none of what could not be told.
+    /// Standard uncertainty along its own axes; none for what could not be determined.
     pub at_u_mm: [Option<f64>; 3],
-    /// Turned about the fixed axes x, y, z.
+    /// Rotated about the fixed axes x, y, z.
     pub turned_deg: [f64; 3],
     /// Standard uncertainty about its own axes.
     pub turned_u_deg: [Option<f64>; 3],
@@ -154,7 +154,7 @@ pub fn answer(robot: &Robot, calibration: &Calibration, question: &Question) -> 
     let parameters: Vec<ParameterAnswer> = after
         .estimates
         .iter()
-        .filter(|estimate| matches!(estimate.unknown.place, Place::After(_)))
+        .filter(|estimate| matches!(estimate.unknown.place, ParameterLocation::After(_)))
         .map(|estimate| parameter(robot, estimate))
         .collect();
     let redundant = after.redundant.iter().map(|redundant| RedundantAnswer {
@@ -170,16 +170,16 @@ pub fn answer(robot: &Robot, calibration: &Calibration, question: &Question) -> 
     CalibrateAnswer {
         robot: robot.name().to_owned(),
         training: set_answer(&calibration.training),
-        held_out: calibration.held_out.as_ref().map(set_answer),
+        validation: calibration.validation.as_ref().map(set_answer),
         parameters,
         not_identifiable: redundant.collect(),
-        tracker_from_base: frame(Place::Base, &after.tracker_from_base),
-        flange_from_point: frame(Place::Tool, &after.flange_from_point),
+        tracker_from_base: frame(ParameterLocation::Base, &after.tracker_from_base),
+        flange_from_point: frame(ParameterLocation::Tool, &after.flange_from_point),
         prior: question.prior.map(|prior| PriorAnswer {
             length_mm: reported(prior.length * 1e3),
             angle_deg: reported(prior.angle.to_degrees()),
         }),
-        effective_parameters: decimals(after.reported, 3),
+        effective_parameters: decimals(after.effective_parameters, 3),
         standard_deviation_mm: reported(after.standard_deviation * 1e3),
         unused: calibration.unused.clone(),
         not_measured: calibration.not_measured,
@@ -194,31 +194,31 @@ pub fn answer(robot: &Robot, calibration: &Calibration, question: &Question) -> 
 
 fn notes(calibration: &Calibration, question: &Question) -> Vec<String> {
     let mut notes = vec![
-        "uncertainties take what the geometry leaves for noise; sag, gears and heat that repeat are not noise".to_owned(),
-        "before: the chain as the robot file says, base and measured point fitted to the same poses".to_owned(),
+        "uncertainties treat all residuals as noise; systematic effects of gravity, gears and temperature are not noise".to_owned(),
+        "before: the chain of the robot file, base and measured point fitted to the same poses".to_owned(),
     ];
     if question.prior.is_some() {
         notes.push(
-            "small motions are held to zero as far as the poses tell them less well than the prior"
+            "corrections that the poses determine less well than the prior are kept near zero by the prior"
                 .to_owned(),
         );
     }
     if question.turn_length.is_none() {
-        notes.push("found from positions alone".to_owned());
+        notes.push("identified from positions only".to_owned());
     }
-    match &calibration.held_out {
-        None => notes.push("no poses were held out: how well others are met is not known (--hold-out)".to_owned()),
+    match &calibration.validation {
+        None => notes.push("no validation poses: the accuracy for other poses is not known (--validation)".to_owned()),
         Some(set) if set.frames_refitted => notes.push(
-            "held out from another set-up: base and measured point are fitted to these poses, before and after alike; \
+            "validation poses of another set-up: base and measured point are fitted to these poses, before and after; \
              the chain is not"
                 .to_owned(),
         ),
         Some(_) => {}
     }
-    if let Some(set) = calibration.held_out.as_ref().filter(|set| set.beyond > 0) {
+    if let Some(set) = calibration.validation.as_ref().filter(|set| set.beyond > 0) {
         notes.push(format!(
-            "{} of the {} poses held out have a joint beyond the range of those that the geometry was found from: there \
-             it is a guess",
+            "{} of the {} validation poses have a joint beyond the range of the training poses: the calibration extrapolates \
+             there",
             set.beyond,
             set.lines.len()
         ));
@@ -227,7 +227,7 @@ fn notes(calibration: &Calibration, question: &Question) -> Vec<String> {
 }
 
 /// The errors of a set.
-fn set_answer(set: &Set) -> SetAnswer {
+fn set_answer(set: &PoseSet) -> SetAnswer {
     let lengths: Vec<f64> = set
         .after
         .position
@@ -240,7 +240,7 @@ fn set_answer(set: &Set) -> SetAnswer {
     let pose = |place: &usize| PoseAnswer {
         line: set.lines[*place],
         error_mm: reported(lengths[*place] * 1e3),
-        stands_out: lengths[*place] > STANDS_OUT * rms,
+        is_outlier: lengths[*place] > OUTLIER * rms,
     };
     SetAnswer {
         file: set.file.clone(),
@@ -273,8 +273,12 @@ pub(crate) fn errors_answer(errors: &PoseErrors) -> ErrorsAnswer {
     }
 }
 
-/// A frame with what is known of it.
-pub(crate) fn frame_answer(estimates: &[Estimate], place: Place, isometry: &Isometry) -> FrameAnswer {
+/// A frame with its uncertainties.
+pub(crate) fn frame_answer(
+    estimates: &[Estimate],
+    place: ParameterLocation,
+    isometry: &Isometry,
+) -> FrameAnswer {
     let u = |component: usize| {
         let here = Unknown { place, component };
         let found = estimates.iter().find(|estimate| estimate.unknown == here);
@@ -294,7 +298,7 @@ fn parameter(robot: &Robot, estimate: &Estimate) -> ParameterAnswer {
     let (value, u) = (estimate.value, estimate.standard_uncertainty);
     let turns = estimate.unknown.turns();
     let counted = match estimate.unknown.place {
-        Place::After(joint) if estimate.unknown.is_zero_of(robot) => {
+        ParameterLocation::After(joint) if estimate.unknown.is_zero_of(robot) => {
             Some(robot.joints()[joint].sign.factor() * value)
         }
         _ => None,
@@ -316,9 +320,9 @@ fn parameter(robot: &Robot, estimate: &Estimate) -> ParameterAnswer {
 /// What an unknown is called.
 fn unknown_name(robot: &Robot, unknown: &Unknown) -> String {
     let at = match unknown.place {
-        Place::Base => "base",
-        Place::Tool => "tool",
-        Place::After(joint) => &robot.joints()[joint].name,
+        ParameterLocation::Base => "base",
+        ParameterLocation::Tool => "tool",
+        ParameterLocation::After(joint) => &robot.joints()[joint].name,
     };
     let word = if unknown.turns() { "about" } else { "along" };
     format!("{at} {word} {}", unknown.axis().letter())

@@ -1,44 +1,44 @@
-//! The fits: base and tool alone, which is the arm as its file says, and all that was asked; each judged by the poses
-//! that it was found from and by those held out.
+//! The fits: base and tool only, for the robot file as it is, and all requested parameters; each evaluated with the
+//! training poses and the validation poses.
 
-use armill_core::calibrate::{Asked, Calibrated, MeasuredPose, PoseErrors, Refusal, fit};
+use armill_core::calibrate::{Calibrated, MeasuredPose, ParameterSet, PoseErrors, Refusal, fit};
 use armill_core::robot::Robot;
 use armill_formats::measurement::poses::{MeasuredPoses, PoseReadOptions};
 
-use super::question::{HoldOut, Question, read};
+use super::question::{Question, ValidationPoses, read};
 use crate::StudyError;
 
-/// Fewest poses on either side of a fraction held out.
+/// Fewest training and validation poses for a fraction.
 const FEWEST: usize = 4;
 
 /// Poses of one kind, with their errors before and after.
 #[derive(Clone, Debug)]
-pub struct Set {
-    /// The file they stand in.
+pub struct PoseSet {
+    /// Their file.
     pub file: String,
     /// Their lines, from 1.
     pub lines: Vec<usize>,
-    /// By the robot file as it is.
+    /// Errors with the robot file unchanged.
     pub before: PoseErrors,
     /// By the calibrated chain.
     pub after: PoseErrors,
-    /// Whether base and tool were found anew for these poses.
+    /// Whether base and tool were fitted again for these poses.
     pub frames_refitted: bool,
-    /// Poses with a joint beyond the range of the poses that the geometry was found from.
+    /// Poses with a joint beyond the range of the training poses.
     pub beyond: usize,
 }
 
 /// What came of it.
 #[derive(Clone, Debug)]
 pub struct Calibration {
-    /// Base and tool, the chain as it is.
+    /// Base and tool only, the chain unchanged.
     pub before: Calibrated,
-    /// With what was asked of the chain.
+    /// With the requested parameters of the chain.
     pub after: Calibrated,
-    /// Poses that it was found from.
-    pub training: Set,
-    /// Poses that judge it.
-    pub held_out: Option<Set>,
+    /// Training poses.
+    pub training: PoseSet,
+    /// Validation poses.
+    pub validation: Option<PoseSet>,
     /// Columns that were passed over.
     pub unused: Vec<String>,
     /// Rows without a measured point.
@@ -48,14 +48,14 @@ pub struct Calibration {
 /// Calibrates `robot` by the poses of `measured`, the file `shown`.
 ///
 /// # Errors
-/// Poses that tell too little or belong to another arm; a hold-out that cannot be read or leaves too few.
+/// Poses that determine too little or belong to another robot; validation poses that cannot be read or are too few.
 pub fn calibrate(
     robot: &Robot,
     (shown, measured): (&str, &MeasuredPoses),
     question: &Question,
-    (hold_out, given): (&HoldOut, &PoseReadOptions),
+    (validation, given): (&ValidationPoses, &PoseReadOptions),
 ) -> Result<Calibration, StudyError> {
-    let (kept, apart) = parted(shown, measured.poses.len(), hold_out)?;
+    let (kept, apart) = parted(shown, measured.poses.len(), validation)?;
     let chosen = |places: &[usize]| -> Vec<MeasuredPose> {
         places
             .iter()
@@ -65,9 +65,9 @@ pub fn calibrate(
     let lines = |places: &[usize]| places.iter().map(|place| measured.lines[*place]).collect();
     let poses = chosen(&kept);
     let by = |poses: &[MeasuredPose], requested| fit(robot, poses, &question.for_core(requested));
-    let before = by(&poses, Asked::BaseAndTool).map_err(|error| refused(shown, &error))?;
+    let before = by(&poses, ParameterSet::BaseAndTool).map_err(|error| refused(shown, &error))?;
     let after = by(&poses, question.requested).map_err(|error| refused(shown, &error))?;
-    let training = Set {
+    let training = PoseSet {
         file: shown.to_owned(),
         lines: lines(&kept),
         before: before.errors.clone(),
@@ -76,9 +76,9 @@ pub fn calibrate(
         beyond: 0,
     };
     let found_from = poses;
-    let judged = |file: &str, poses: &[MeasuredPose], lines| -> Result<Set, StudyError> {
+    let evaluated = |file: &str, poses: &[MeasuredPose], lines| -> Result<PoseSet, StudyError> {
         let errors = |of: &Calibrated| of.errors_of(robot, poses).map_err(|error| refused(file, &error));
-        Ok(Set {
+        Ok(PoseSet {
             file: file.to_owned(),
             lines,
             before: errors(&before)?,
@@ -87,15 +87,15 @@ pub fn calibrate(
             beyond: beyond(&found_from, poses),
         })
     };
-    let held_out = match hold_out {
-        HoldOut::Nothing => None,
-        HoldOut::Fraction(_) => Some(judged(shown, &chosen(&apart), lines(&apart))?),
-        HoldOut::File { path, same_set_up } => {
+    let validation = match validation {
+        ValidationPoses::Nothing => None,
+        ValidationPoses::Fraction(_) => Some(evaluated(shown, &chosen(&apart), lines(&apart))?),
+        ValidationPoses::File { path, same_set_up } => {
             let file = path.display().to_string();
             let other = read((&file, path), robot, given, question)?;
             Some(match same_set_up {
-                true => judged(&file, &other.poses, other.lines)?,
-                false => Set {
+                true => evaluated(&file, &other.poses, other.lines)?,
+                false => PoseSet {
                     beyond: beyond(&found_from, &other.poses),
                     ..elsewhere(robot, &after, (&file, other), question)?
                 },
@@ -106,29 +106,29 @@ pub fn calibrate(
         before,
         after,
         training,
-        held_out,
+        validation,
         unused: measured.unused.clone(),
         not_measured: measured.not_measured,
     })
 }
 
-/// Poses measured from another place: base and tool are found anew, alike for both chains.
+/// Poses measured in another set-up: base and tool are fitted again, for both chains.
 fn elsewhere(
     robot: &Robot,
     after: &Calibrated,
     (file, other): (&str, MeasuredPoses),
     question: &Question,
-) -> Result<Set, StudyError> {
+) -> Result<PoseSet, StudyError> {
     let calibrated = after
         .bare_robot(robot)
         .map_err(|error| StudyError::value(error.to_string(), "do these poses belong to this robot?"))?;
     let errors = |robot: &Robot| {
-        let found = fit(robot, &other.poses, &question.for_core(Asked::BaseAndTool));
+        let found = fit(robot, &other.poses, &question.for_core(ParameterSet::BaseAndTool));
         found
             .map(|found| found.errors)
             .map_err(|error| refused(file, &error))
     };
-    Ok(Set {
+    Ok(PoseSet {
         file: file.to_owned(),
         before: errors(robot)?,
         after: errors(&calibrated)?,
@@ -138,7 +138,7 @@ fn elsewhere(
     })
 }
 
-/// How many of `poses` have a joint beyond the range of `found_from`.
+/// Number of `poses` with a joint beyond the range of `found_from`.
 fn beyond(found_from: &[MeasuredPose], poses: &[MeasuredPose]) -> usize {
     let range = |joint: usize| {
         let all = found_from.iter().map(move |pose| pose.joints[joint]);
@@ -153,23 +153,27 @@ fn beyond(found_from: &[MeasuredPose], poses: &[MeasuredPose]) -> usize {
     poses.iter().filter(is_beyond).count()
 }
 
-/// Which of `count` poses calibrate, and which judge.
-fn parted(shown: &str, count: usize, hold_out: &HoldOut) -> Result<(Vec<usize>, Vec<usize>), StudyError> {
-    let HoldOut::Fraction(fraction) = hold_out else {
+/// Which of `count` poses are used for training, and which for validation.
+fn parted(
+    shown: &str,
+    count: usize,
+    validation: &ValidationPoses,
+) -> Result<(Vec<usize>, Vec<usize>), StudyError> {
+    let ValidationPoses::Fraction(fraction) = validation else {
         return Ok(((0..count).collect(), Vec::new()));
     };
-    // One is set apart wherever the sum of fractions passes a whole number.
+    // A pose is used for validation wherever the sum of fractions passes a whole number.
     let whole = |places: usize| (places as f64 * fraction).floor();
     let (apart, kept): (Vec<usize>, Vec<usize>) =
         (0..count).partition(|place| whole(place + 1) > whole(*place));
     if apart.len() < FEWEST || kept.len() < FEWEST {
         return Err(StudyError::value(
             format!(
-                "--hold-out: {fraction} of the {count} poses of {shown} leaves {} and {}",
+                "--validation: {fraction} of the {count} poses of {shown} leaves {} for training and {} for validation",
                 kept.len(),
                 apart.len()
             ),
-            format!("at least {FEWEST} on either side"),
+            format!("at least {FEWEST} of each"),
         ));
     }
     Ok((kept, apart))

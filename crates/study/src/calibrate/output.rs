@@ -1,7 +1,7 @@
-//! The table of residuals, their drawing, and the robot file with what was found.
+//! The table of residuals, their drawing, and the calibrated robot file.
 //!
 //! ```text
-//! set, line, before_x_mm .. before_mm, after_x_mm .. after_mm       training and held out; axes of the tracker
+//! set, line, before_x_mm .. before_mm, after_x_mm .. after_mm       training and validation; axes of the tracker
 //! ```
 
 use std::fmt::Write;
@@ -12,7 +12,7 @@ use armill_formats::robot::armill::{Geometry, with_geometry};
 use armill_report::{ErrorDistribution, ErrorSet};
 
 use super::answer::CalibrateAnswer;
-use super::calibration::{Calibration, Set};
+use super::calibration::{Calibration, PoseSet};
 use crate::StudyError;
 
 /// Measured less predicted position of every pose, as CSV.
@@ -20,7 +20,7 @@ pub fn residuals(calibration: &Calibration) -> String {
     let mut text =
         "set,line,before_x_mm,before_y_mm,before_z_mm,before_mm,after_x_mm,after_y_mm,after_z_mm,after_mm\n"
             .to_owned();
-    let mut add = |name: &str, set: &Set| {
+    let mut add = |name: &str, set: &PoseSet| {
         for (place, line) in set.lines.iter().enumerate() {
             let _ = write!(text, "{name},{line}");
             for errors in [&set.before, &set.after] {
@@ -38,8 +38,8 @@ pub fn residuals(calibration: &Calibration) -> String {
         }
     };
     add("training", &calibration.training);
-    if let Some(set) = &calibration.held_out {
-        add("held out", set);
+    if let Some(set) = &calibration.validation {
+        add("validation", set);
     }
     text
 }
@@ -47,27 +47,27 @@ pub fn residuals(calibration: &Calibration) -> String {
 /// Errors of position before and after, as SVG.
 pub fn drawing(given: &CalibrateAnswer, calibration: &Calibration) -> String {
     let lengths = |errors: &PoseErrors| errors.position.iter().map(|e| e.norm() * 1e3).collect();
-    let of = |name: &str, set: &Set| ErrorSet {
+    let of = |name: &str, set: &PoseSet| ErrorSet {
         name: name.to_owned(),
         before_mm: lengths(&set.before),
         after_mm: lengths(&set.after),
     };
-    let mut sets = vec![of("found from", &calibration.training)];
-    sets.extend(calibration.held_out.as_ref().map(|set| of("held out", set)));
-    let held_out = match &given.held_out {
-        Some(set) => format!(", {} held out", set.poses),
+    let mut sets = vec![of("training", &calibration.training)];
+    sets.extend(calibration.validation.as_ref().map(|set| of("validation", set)));
+    let validation = match &given.validation {
+        Some(set) => format!(", {} validation poses", set.poses),
         None => String::new(),
     };
     ErrorDistribution {
         title: format!("{}: errors of position", given.robot),
-        subtitle: format!("{} poses found from{held_out}", given.training.poses),
+        subtitle: format!("{} training poses{validation}", given.training.poses),
         quantity: "distance of measured from predicted (mm)".to_owned(),
         sets,
     }
     .to_svg()
 }
 
-/// The robot file `text` (at `path`) with the small motions that were found.
+/// The robot file `text` (at `path`) with the identified corrections.
 ///
 /// # Errors
 /// A robot file that is not TOML, or that no longer reads with these motions in it.
@@ -85,16 +85,12 @@ pub fn robot_file(
         })
         .filter(|(_, motions)| !motions.is_empty())
         .collect();
-    let rms = |set: &Set| set.after.of_position().map_or(0.0, |spread| spread.rms * 1e3);
-    let held_out = calibration.held_out.as_ref().map_or(String::new(), |set| {
-        format!(
-            "; {} poses held out are met within {:.3} mm rms",
-            set.lines.len(),
-            rms(set)
-        )
+    let rms = |set: &PoseSet| set.after.of_position().map_or(0.0, |spread| spread.rms * 1e3);
+    let validation = calibration.validation.as_ref().map_or(String::new(), |set| {
+        format!("; {} validation poses: {:.3} mm rms", set.lines.len(), rms(set))
     });
     let what = format!(
-        "small motions calibrated by armill from {} measured poses, met within {:.3} mm rms{held_out}",
+        "corrections identified by armill from {} measured poses, {:.3} mm rms{validation}",
         calibration.training.lines.len(),
         rms(&calibration.training)
     );

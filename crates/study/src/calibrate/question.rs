@@ -1,9 +1,9 @@
-//! What is asked of measured poses, and where they are read from.
+//! Settings of a calibration, and reading of its poses.
 
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
-use armill_core::calibrate::{self, Asked, Prior};
+use armill_core::calibrate::{self, ParameterSet, Prior};
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::Robot;
@@ -12,52 +12,52 @@ use armill_formats::measurement::poses::{self, MeasuredPoses, PoseReadOptions};
 
 use crate::StudyError;
 
-/// Which poses judge what the others found.
+/// The validation poses.
 #[derive(Clone, Debug, PartialEq)]
-pub enum HoldOut {
+pub enum ValidationPoses {
     /// None.
     Nothing,
     /// This part of the file, evenly spread over it.
     Fraction(f64),
-    /// Another file; `same_set_up` says that tracker and measured point stayed where they were.
+    /// Another file; `same_set_up` means that the tracker and the measured point had the same position.
     File {
         /// Where it is.
         path: PathBuf,
-        /// Else base and point are found anew for it.
+        /// Otherwise base and point are fitted again for it.
         same_set_up: bool,
     },
 }
 
-/// What is asked.
+/// Settings of a calibration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
     /// Of the chain.
-    pub requested: Asked,
+    pub requested: ParameterSet,
     /// About where the measured point is, flange frame, m.
     pub tool_point: Vector3<f64>,
-    /// So many metres count as much as a radian of turn; without it turns are passed over.
+    /// Length in metres with the weight of one radian; without it orientations are not used.
     pub turn_length: Option<f64>,
     /// What is known of small motions of the chain before they are measured.
     pub prior: Option<Prior>,
 }
 
 impl Question {
-    /// In the words of the core.
-    pub(crate) fn for_core(&self, requested: Asked) -> calibrate::Question {
+    /// The question to the core.
+    pub(crate) fn for_core(&self, requested: ParameterSet) -> calibrate::Question {
         calibrate::Question {
             requested,
             flange_from_point: Isometry::from_parts(self.tool_point.into(), Default::default()),
-            // Where no turn is given, nothing is weighed by it.
+            // Without orientations the weight has no effect.
             turn_length: self.turn_length.unwrap_or(1.0),
             prior: self.prior,
         }
     }
 }
 
-/// Reads the poses of `robot` in `path`; `shown` is what problems call it. Turns are kept if `turns` says so.
+/// Reads the poses of `robot` in `path`; `shown` is its name in problems. Orientations are read if `turns` is set.
 ///
 /// # Errors
-/// The file cannot be read; its problems; turns that are asked for and not there.
+/// The file cannot be read; its problems; orientations that are requested but missing.
 pub fn read(
     (shown, path): (&str, &Path),
     robot: &Robot,
@@ -75,7 +75,7 @@ pub fn read(
         measured.poses.iter_mut().for_each(|pose| pose.rotation = None);
     } else if measured.poses.iter().any(|pose| pose.rotation.is_none()) {
         return Err(StudyError::value(
-            format!("--turns: {shown} tells no turns"),
+            format!("--turns: {shown} has no orientations"),
             "columns rx_deg, ry_deg, rz_deg, or leave --turns out",
         ));
     }

@@ -1,6 +1,7 @@
 //! The comparison as one JSON value.
 //!
-//! `cells[]` are what was compared, in the order given; `analyses[]` what they were asked alike, paths first, each with its
+//! `cells[]` are the compared cells, in the order given; `analyses[]` the analyses they have in common, paths first,
+//! each with its
 //! cells best first.
 
 use std::cmp::Ordering;
@@ -13,7 +14,7 @@ use super::curve::Curve;
 use super::numbers::CellNumbers;
 use super::sentence;
 use super::traits::TraitAnswer;
-use super::{Comparable, Compared, Entry};
+use super::{ComparableCells, ComparisonResult, Entry};
 use crate::answer::StudyAnswer;
 use crate::file::path::PathAnalysis;
 use crate::file::resolve::Subject;
@@ -25,17 +26,17 @@ pub struct ComparisonAnswer {
     pub format: u32,
     /// Version of armill that gave it.
     pub armill: &'static str,
-    /// The first ask in one sentence.
+    /// The main result of the first analysis in one sentence.
     pub answer: String,
     /// What was compared.
     pub cells: Vec<CellAnswer>,
-    /// What was asked of two cells at least.
+    /// Analyses that at least two cells have.
     pub analyses: Vec<ComparedAnswer>,
     /// What was not compared, a sentence each.
     pub left_out: Vec<String>,
-    /// What to know before trusting it, with the cell that it is about.
+    /// Warnings, with the cell to which they apply.
     pub warnings: Vec<String>,
-    /// Where the numbers come from, of all cells.
+    /// Sources of the numbers, of all cells.
     pub sources: Vec<Source>,
 }
 
@@ -61,7 +62,7 @@ pub struct CellAnswer {
     pub(super) sources: Vec<Source>,
 }
 
-/// One ask in all cells that have it.
+/// One analysis in all cells that have it.
 #[derive(Clone, Debug, Serialize)]
 pub struct ComparedAnswer {
     /// Its name; of a section with the label.
@@ -95,11 +96,17 @@ impl CellAnswer {
 }
 
 /// All entries by name, paths first, then holes, maps and volumes, each kind in the order given.
-pub(super) fn put_together(of: &Comparable, entries: Vec<Entry>, cells: Vec<CellAnswer>) -> Compared {
+pub(super) fn put_together(
+    of: &ComparableCells,
+    entries: Vec<Entry>,
+    cells: Vec<CellAnswer>,
+) -> ComparisonResult {
     let mut groups: Vec<Vec<Entry>> = Vec::new();
     for entry in entries {
         let same = |group: &&mut Vec<Entry>| {
-            let first = group.first().map(|first| (&first.requested.name, first.requested.kind));
+            let first = group
+                .first()
+                .map(|first| (&first.requested.name, first.requested.kind));
             first == Some((&entry.requested.name, entry.requested.kind))
         };
         match groups.iter_mut().find(same) {
@@ -118,7 +125,10 @@ pub(super) fn put_together(of: &Comparable, entries: Vec<Entry>, cells: Vec<Cell
     for group in groups {
         if let [alone] = &group[..] {
             let name = &cells[alone.cell].name;
-            left_out.push(format!("`{}` is asked of {name} alone.", alone.requested.name));
+            left_out.push(format!(
+                "only {name} has the analysis `{}`.",
+                alone.requested.name
+            ));
             continue;
         }
         let (given, drawn) = compared(of, group, &cells);
@@ -135,10 +145,10 @@ pub(super) fn put_together(of: &Comparable, entries: Vec<Entry>, cells: Vec<Cell
         sources: sources(&cells),
         cells,
     };
-    Compared { answer, curves }
+    ComparisonResult { answer, curves }
 }
 
-/// Which cell is best, and whose compliances nobody measured.
+/// Which cell is best, and which have assumed compliances.
 fn in_a_sentence(first: &ComparedAnswer) -> String {
     match sentence::assumed(&first.cells) {
         Some(assumed) => format!("{} {assumed}", first.answer),
@@ -146,8 +156,12 @@ fn in_a_sentence(first: &ComparedAnswer) -> String {
     }
 }
 
-/// One ask, its cells best first.
-fn compared(of: &Comparable, mut group: Vec<Entry>, cells: &[CellAnswer]) -> (ComparedAnswer, Vec<Curve>) {
+/// One analysis, its cells best first.
+fn compared(
+    of: &ComparableCells,
+    mut group: Vec<Entry>,
+    cells: &[CellAnswer],
+) -> (ComparedAnswer, Vec<Curve>) {
     let first = group
         .first()
         .map(|entry| (entry.requested.name.clone(), entry.requested.kind));
@@ -185,15 +199,15 @@ fn compared(of: &Comparable, mut group: Vec<Entry>, cells: &[CellAnswer]) -> (Co
 
 /// Which of two cells is better: `Less` where `a` is.
 fn better(a: &CellNumbers, b: &CellNumbers) -> Ordering {
-    let holds = |of: &CellNumbers| of.fraction_within_and_inside_joint_limits;
+    let within = |of: &CellNumbers| of.fraction_within_and_inside_joint_limits;
     let reaches = |of: &CellNumbers| of.inside_joint_limits as f64 / of.points.max(1) as f64;
     let largest = |of: &CellNumbers| of.max_in_plane_um.unwrap_or(f64::INFINITY);
-    let by = holds(b).total_cmp(&holds(a));
+    let by = within(b).total_cmp(&within(a));
     by.then(reaches(b).total_cmp(&reaches(a)))
         .then(largest(a).total_cmp(&largest(b)))
 }
 
-/// What the cells are: a row a trait, whether they differ in it or not.
+/// Properties of the cells: one row each, whether they differ or not.
 fn traits(group: &[Entry]) -> Vec<TraitAnswer> {
     let rows = group.first().map_or(0, |entry| entry.traits.len());
     (0..rows)
@@ -208,11 +222,11 @@ fn traits(group: &[Entry]) -> Vec<TraitAnswer> {
         .collect()
 }
 
-/// Points of two paths nearer than this are the same, m: what reading a coordinate may leave.
+/// Points of two paths nearer than this are the same, m: the error of reading a coordinate.
 const SAME: f64 = 1e-6;
 
-/// Paths of one name that are not one path, told against the first; each in its own frame, wherever that lies.
-fn unlike_paths(of: &Comparable, group: &[Entry], name: &str) -> Vec<String> {
+/// Paths of one name that are not the same path, relative to the first; each in its own frame.
+fn unlike_paths(of: &ComparableCells, group: &[Entry], name: &str) -> Vec<String> {
     let path = |entry: &Entry| {
         let analyses = &of.cells[entry.cell].study.analyses;
         analyses.iter().find_map(|analysis| match &analysis.subject {
@@ -232,9 +246,10 @@ fn unlike_paths(of: &Comparable, group: &[Entry], name: &str) -> Vec<String> {
         if reference.track.len() == other.track.len() && apart <= SAME {
             return None;
         }
-        let size = |path: &PathAnalysis| format!("{} points over {:.1} mm", path.track.len(), path.length() * 1e3);
+        let size =
+            |path: &PathAnalysis| format!("{} points over {:.1} mm", path.track.len(), path.length() * 1e3);
         let how = match reference.track.len() == other.track.len() {
-            true => format!("points lie up to {:.3} mm apart", apart * 1e3),
+            true => format!("points differ by up to {:.3} mm", apart * 1e3),
             false => format!("{} against {}", size(reference), size(other)),
         };
         Some(format!(
@@ -244,7 +259,7 @@ fn unlike_paths(of: &Comparable, group: &[Entry], name: &str) -> Vec<String> {
     group.iter().skip(1).filter_map(unlike).collect()
 }
 
-/// Warnings of the cells: once what all say, else with the cell's name.
+/// Warnings of the cells: once if all have it, otherwise with the name of the cell.
 fn warnings(cells: &[CellAnswer]) -> Vec<String> {
     let mut given = Vec::new();
     for cell in cells {

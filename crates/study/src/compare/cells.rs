@@ -1,12 +1,12 @@
-//! Which cells are compared: studies as they stand, and each of them with other robots in place of its own.
+//! The cells compared: studies as given, and each of them with other robots.
 //!
-//! | given | cells | called |
+//! | given | cells | names |
 //! |---|---|---|
-//! | studies | each as it stands | by their folders |
-//! | one study, robots | as it stands, then with each robot | by their robots |
-//! | studies, robots | each as it stands and with each robot | `FOLDER`, `FOLDER with ROBOT` |
+//! | studies | each as given | by their folders |
+//! | one study, robots | as given, then with each robot | by their robots |
+//! | studies, robots | each as given and with each robot | `FOLDER`, `FOLDER with ROBOT` |
 //!
-//! A robot that is a study's own makes no second cell of it.
+//! The study's own robot does not make a second cell.
 
 use std::path::{Path, PathBuf};
 
@@ -20,21 +20,21 @@ use crate::library;
 use crate::robots;
 use crate::studies::{self, FoundStudy};
 
-/// Cells that are compared at most: more lines no picture shows.
+/// Greatest number of cells: pictures cannot show more lines.
 const MOST_CELLS: usize = 40;
 
 /// One set-up to compare.
 #[derive(Clone, Debug)]
 pub struct Cell {
-    /// What it is called.
+    /// Its name.
     pub name: String,
-    /// What errors call its study.
+    /// Name of its study in errors.
     pub shown: String,
-    /// What is asked of it.
+    /// Its analyses.
     pub study: Study,
 }
 
-/// The cells that these studies (folders, files, names of examples) make with these robots (of the library, or files
+/// The cells of these studies (folders, files, names of examples) with these robots (of the library, or files
 /// relative to the current folder).
 ///
 /// # Errors
@@ -84,7 +84,7 @@ pub fn cells(given: &[PathBuf], robot_names: &[String]) -> Result<Vec<Cell>, Stu
                         Err(error) => keep(error),
                     }
                 }
-                // The study as it stands comes before its other robots.
+                // The study as given comes before its other robots.
                 let at = cells.iter().position(|(_, of, ..)| *of == label);
                 cells.insert(at.unwrap_or(cells.len()), (None, label, study, own));
             }
@@ -111,14 +111,14 @@ pub fn cells(given: &[PathBuf], robot_names: &[String]) -> Result<Vec<Cell>, Stu
             "another study, or the same with another robot: --robot kuka/kr120r2500pro (`armill robots` lists them)",
         )),
         n if n > MOST_CELLS => Err(StudyError::value(
-            format!("{n} cells are more than the {MOST_CELLS} that can be told apart"),
+            format!("{n} cells: at most {MOST_CELLS} can be compared"),
             "compare in groups",
         )),
         _ => Ok(cells),
     }
 }
 
-/// A robot to put in place of others.
+/// A robot that replaces others.
 struct Other {
     /// What a study finds it by.
     found_as: String,
@@ -133,7 +133,7 @@ impl Other {
     /// This study with it.
     ///
     /// # Errors
-    /// Every problem of the file, with the robot's name behind that of the file; a study that cannot be asked for it.
+    /// All problems of the file, with the robot's name after that of the file; a study that cannot use it.
     fn in_place(&self, study: &FoundStudy) -> Result<Study, StudyError> {
         let study = FoundStudy {
             shown: format!("{} (with {})", study.shown, self.name()),
@@ -153,7 +153,8 @@ impl Other {
     }
 }
 
-/// What a study in any folder finds a robot by: the name in the library, else the whole path of its file.
+/// The reference by which a study in any folder finds a robot: the name in the library, else the absolute path of its
+/// file.
 fn wherever(name: &str) -> String {
     let path =
         || std::path::absolute(name).map_or_else(|_| name.to_owned(), |path| path.display().to_string());
@@ -163,13 +164,13 @@ fn wherever(name: &str) -> String {
     }
 }
 
-/// Whether two studies are one file, however their paths are written.
+/// Whether two studies are one file, even with different paths.
 fn same_file(a: &str, b: &str) -> bool {
     let whole = |shown: &str| std::fs::canonicalize(shown).unwrap_or_else(|_| PathBuf::from(shown));
     whole(a) == whole(b)
 }
 
-/// What studies are called: by their folders, by their whole paths where folders have the same name.
+/// Names of the studies: those of their folders, or their complete paths if folders have the same name.
 fn labels(found: &[FoundStudy]) -> Vec<String> {
     let short = |study: &FoundStudy| {
         let file = Path::new(&study.shown);
@@ -188,7 +189,7 @@ fn labels(found: &[FoundStudy]) -> Vec<String> {
         .collect()
 }
 
-/// Nothing where nothing is wrong; else the problems of all files, or where no file is wrong everything else in one.
+/// `Ok` without errors; otherwise the problems of all files, or if no file has problems all other errors in one.
 fn together(errors: Vec<StudyError>) -> Result<(), StudyError> {
     let (mut problems, mut values): (Vec<Problem>, Vec<[String; 2]>) = (Vec::new(), Vec::new());
     for error in errors {
@@ -205,7 +206,7 @@ fn together(errors: Vec<StudyError>) -> Result<(), StudyError> {
             other => return Err(other),
         }
     }
-    // Each with its own hint, as if they were told one after the other.
+    // Each with its own hint, as if they were reported separately.
     let reported = values.into_iter().reduce(|[first, hint], [message, next_hint]| {
         [format!("{first}\n  help: {hint}\nerror: {message}"), next_hint]
     });

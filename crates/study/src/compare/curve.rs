@@ -3,14 +3,14 @@
 use armill_core::kernel::Answers;
 
 use crate::file::path::PathAnalysis;
-use crate::output::along::Handfuls;
+use crate::output::along::PointGroups;
 
 /// Deviation over distance.
 #[derive(Clone, Debug)]
 pub(super) struct Curve {
     /// Distance along the path.
     pub position_mm: Vec<f64>,
-    /// Deviation; NaN where no point is reached.
+    /// Deviation; NaN at unreachable points.
     pub in_plane_um: Vec<f64>,
 }
 
@@ -18,7 +18,7 @@ impl Curve {
     /// Along this path.
     pub(super) fn along(analysis: &PathAnalysis, answers: &Answers) -> Curve {
         let points = &analysis.track.path.points;
-        let handfuls = Handfuls::of(points.len());
+        let handfuls = PointGroups::of(points.len());
         let in_plane = |i: usize| match &answers.points[i] {
             Ok(evaluation) => evaluation.in_plane * 1e6,
             Err(_) => f64::NAN,

@@ -1,6 +1,7 @@
-//! One ask in one cell, in numbers.
+//! One analysis in one cell, in numbers.
 //!
-//! `95 %`: the least deviation that 95 of 100 reached points keep (nearest rank). Points count alike, however far they lie
+//! `95 %`: the deviation that 95 of 100 reached points do not exceed (nearest rank). Points have equal weight,
+//! independent
 //! apart.
 
 use armill_core::kernel::Answers;
@@ -12,7 +13,7 @@ use crate::answer::{
 };
 use crate::file::path::PathAnalysis;
 
-/// One ask in one cell.
+/// One analysis in one cell.
 #[derive(Clone, Debug, Serialize)]
 pub struct CellNumbers {
     /// Which cell.
@@ -21,7 +22,7 @@ pub struct CellNumbers {
     pub robot: String,
     /// Whether the joint compliances of its robot are assumed, not measured.
     pub compliance_assumed: bool,
-    /// Branch that was followed, or asked for.
+    /// Branch that was followed, or requested.
     pub branch: String,
     /// How many points.
     pub points: usize,
@@ -39,22 +40,22 @@ pub struct CellNumbers {
     pub p95_in_plane_um: Option<f64>,
     /// Largest in-plane deviation.
     pub max_in_plane_um: Option<f64>,
-    /// Its standard uncertainty; none where nothing of it is known.
+    /// Its standard uncertainty; none if not known.
     pub max_in_plane_u_um: Option<f64>,
     /// Largest deviation along the normal (along the tool, of a path), by size.
     pub max_normal_um: Option<f64>,
-    /// Points within the limit over all points.
+    /// Points within the tolerance over all points.
     pub fraction_within: f64,
     /// The same, of points inside the joint limits only.
     pub fraction_within_and_inside_joint_limits: f64,
-    /// What has the largest share where the deviation is largest: a joint, or base, flange or tool.
+    /// Largest contributor where the deviation is largest: a joint, or base, flange or tool.
     pub mostly_by: Option<String>,
     /// Its share there.
     pub mostly_by_percent: Option<f64>,
 }
 
-/// One ask as one cell has answered it.
-pub(super) struct Asked {
+/// The result of one analysis in one cell.
+pub(super) struct AnalysisNumbers {
     /// Its name; of a section with the label.
     pub name: String,
     /// `path`, `holes`, `map` or `volume`.
@@ -63,15 +64,18 @@ pub(super) struct Asked {
     pub numbers: CellNumbers,
 }
 
-impl Asked {
+impl AnalysisNumbers {
     /// A path.
-    pub(super) fn path(given: &PathAnswer, (analysis, answers): (&PathAnalysis, &Answers)) -> Asked {
+    pub(super) fn path(
+        given: &PathAnswer,
+        (analysis, answers): (&PathAnalysis, &Answers),
+    ) -> AnalysisNumbers {
         let branch = given.followed_branch.as_ref().unwrap_or(&given.branch);
-        Asked {
+        AnalysisNumbers {
             name: given.name.clone(),
             kind: "path",
             numbers: numbers(
-                (branch, analysis.setting.limit),
+                (branch, analysis.setting.tolerance),
                 answers,
                 given.worst.as_ref(),
                 &given.setting,
@@ -79,36 +83,46 @@ impl Asked {
         }
     }
 
-    /// A set of holes against a limit, m.
-    pub(super) fn holes(given: &HolesAnswer, limit: f64, answers: &Answers) -> Asked {
+    /// A set of holes and its tolerance, m.
+    pub(super) fn holes(given: &HolesAnswer, limit: f64, answers: &Answers) -> AnalysisNumbers {
         let worst = given.worst_holes.first().map(|worst| &worst.point);
-        Asked {
+        AnalysisNumbers {
             name: given.name.clone(),
             kind: "holes",
             numbers: numbers((&given.branch, limit), answers, worst, &given.setting),
         }
     }
 
-    /// A plane against a limit, m.
-    pub(super) fn map(given: &MapAnswer, limit: f64, answers: &Answers) -> Asked {
-        Asked {
+    /// A plane and its tolerance, m.
+    pub(super) fn map(given: &MapAnswer, limit: f64, answers: &Answers) -> AnalysisNumbers {
+        AnalysisNumbers {
             name: given.name.clone(),
             kind: "map",
-            numbers: numbers((&given.branch, limit), answers, given.worst.as_ref(), &given.setting),
+            numbers: numbers(
+                (&given.branch, limit),
+                answers,
+                given.worst.as_ref(),
+                &given.setting,
+            ),
         }
     }
 
-    /// A box against a limit, m.
-    pub(super) fn volume(given: &VolumeAnswer, limit: f64, answers: &Answers) -> Asked {
-        Asked {
+    /// A box and its tolerance, m.
+    pub(super) fn volume(given: &VolumeAnswer, limit: f64, answers: &Answers) -> AnalysisNumbers {
+        AnalysisNumbers {
             name: given.name.clone(),
             kind: "volume",
-            numbers: numbers((&given.branch, limit), answers, given.worst.as_ref(), &given.setting),
+            numbers: numbers(
+                (&given.branch, limit),
+                answers,
+                given.worst.as_ref(),
+                &given.setting,
+            ),
         }
     }
 }
 
-/// Points `answers` against a limit (m), worst at `worst`.
+/// Points `answers` and their tolerance (m), worst at `worst`.
 fn numbers(
     (branch, limit): (&str, f64),
     answers: &Answers,
@@ -116,10 +130,15 @@ fn numbers(
     setting: &SettingAnswer,
 ) -> CellNumbers {
     let counts = Counts::of(answers, limit);
-    let mut deviations: Vec<f64> = answers.evaluation().map(|(_, evaluation)| evaluation.in_plane * 1e6).collect();
+    let mut deviations: Vec<f64> = answers
+        .evaluations()
+        .map(|(_, evaluation)| evaluation.in_plane * 1e6)
+        .collect();
     deviations.sort_by(f64::total_cmp);
     let reached = deviations.len();
-    let normal = answers.evaluation().map(|(_, evaluation)| evaluation.normal.abs() * 1e6);
+    let normal = answers
+        .evaluations()
+        .map(|(_, evaluation)| evaluation.normal.abs() * 1e6);
     let share = worst.and_then(|worst| worst.mostly_by(&setting.contributors));
     CellNumbers {
         cell: String::new(),

@@ -1,11 +1,11 @@
 //! What a comparison leaves behind: `result.json`, a table, pictures and a report in one folder.
 //!
 //! ```text
-//! result.json              the answer
-//! report.html              ranking, what differs, tables, pictures, warnings
-//! cells.csv                a row an ask and cell
-//! ASK-cells.svg, .png      mean, 95 % and largest deviation of each cell against the tolerance
-//! ASK-along.svg, .png      of a path the deviation of each cell along it
+//! result.json              the result
+//! report.html              ranking, differences, tables, pictures, warnings
+//! cells.csv                one row per analysis and cell
+//! NAME-cells.svg, .png     mean, 95 % and largest deviation of each cell and the tolerance
+//! NAME-along.svg, .png     for a path the deviation of each cell along it
 //! ```
 
 use std::path::PathBuf;
@@ -17,7 +17,7 @@ use armill_report::{ComparedCell, Comparison, PathPlot, Series};
 
 use super::answer::{ComparedAnswer, ComparisonAnswer};
 use super::numbers::CellNumbers;
-use super::{Compared, Curve};
+use super::{ComparisonResult, Curve};
 use crate::error::StudyError;
 use crate::output::report::cells::{COUNT, columns, input, percent, um, without_empty_columns};
 use crate::output::{Picture, Pictures, REPORT, RESULT, picture_files, replace, save_pictures, slug};
@@ -25,12 +25,12 @@ use crate::output::{Picture, Pictures, REPORT, RESULT, picture_files, replace, s
 /// The table.
 const TABLE: &str = "cells.csv";
 
-/// Writes everything into `out` and gives the paths of the files; `note` hears each name as it comes, from any thread.
+/// Writes all files into `out` and returns their paths; `note` receives each name as it is written, from any thread.
 ///
 /// # Errors
 /// A file cannot be written.
 pub fn write(
-    compared: &Compared,
+    compared: &ComparisonResult,
     (out, requested): (&ResultFolder, Pictures),
     note: &(dyn Fn(&str) + Sync),
 ) -> Result<Vec<PathBuf>, StudyError> {
@@ -55,7 +55,7 @@ pub fn write(
     })
 }
 
-/// A row an ask and cell.
+/// One row per analysis and cell.
 fn table(answer: &ComparisonAnswer) -> Result<Table, StudyError> {
     let rows: Vec<(&ComparedAnswer, &CellNumbers)> = answer
         .analyses
@@ -78,7 +78,11 @@ fn table(answer: &ComparisonAnswer) -> Result<Table, StudyError> {
         ColumnData::OptionalFloat(rows.iter().map(|(_, cell)| of(cell)).collect())
     };
     let columns = vec![
-        column("analysis", "name of the ask", text(&|(analysis, _)| analysis.name.clone())),
+        column(
+            "analysis",
+            "name of the analysis",
+            text(&|(analysis, _)| analysis.name.clone()),
+        ),
         column(
             "kind",
             "path, holes, map or volume",
@@ -93,7 +97,7 @@ fn table(answer: &ComparisonAnswer) -> Result<Table, StudyError> {
         ),
         column(
             "branch",
-            "followed, or asked for",
+            "followed, or requested",
             text(&|(_, cell)| cell.branch.clone()),
         ),
         column("points", "all points", count(&|cell| cell.points)),
@@ -103,7 +107,11 @@ fn table(answer: &ComparisonAnswer) -> Result<Table, StudyError> {
             "points with a posture inside joint limits",
             count(&|cell| cell.inside_joint_limits),
         ),
-        column("tolerance_um", "the tolerance", number(&|cell| Some(cell.tolerance_um))),
+        column(
+            "tolerance_um",
+            "the tolerance",
+            number(&|cell| Some(cell.tolerance_um)),
+        ),
         column(
             "mean_in_plane_um",
             "of reached points",
@@ -111,7 +119,7 @@ fn table(answer: &ComparisonAnswer) -> Result<Table, StudyError> {
         ),
         column(
             "p95_in_plane_um",
-            "what 95 of 100 reached points keep",
+            "deviation that 95 of 100 reached points do not exceed",
             number(&|cell| cell.p95_in_plane_um),
         ),
         column("max_in_plane_um", "largest", number(&|cell| cell.max_in_plane_um)),
@@ -127,7 +135,7 @@ fn table(answer: &ComparisonAnswer) -> Result<Table, StudyError> {
         ),
         column(
             "fraction_within",
-            "points within the limit over all points",
+            "points within the tolerance over all points",
             number(&|cell| Some(cell.fraction_within)),
         ),
         column(
@@ -137,26 +145,27 @@ fn table(answer: &ComparisonAnswer) -> Result<Table, StudyError> {
         ),
         column(
             "mostly_by",
-            "largest share where the deviation is largest",
+            "largest contributor where the deviation is largest",
             text(&|(_, cell)| cell.mostly_by.clone().unwrap_or_default()),
         ),
         column(
             "mostly_by_percent",
-            "that share",
+            "its share",
             number(&|cell| cell.mostly_by_percent),
         ),
     ];
     Ok(Table::new("cells", columns)?)
 }
 
-/// Two pictures of a path, one of other asks.
-fn pictures(compared: &Compared) -> Vec<Picture> {
+/// Two pictures for a path, one for other analyses.
+fn pictures(compared: &ComparisonResult) -> Vec<Picture> {
     let analyses = compared.answer.analyses.iter().zip(&compared.curves);
-    analyses.flat_map(|(analysis, curves)| {
-        let along = (!curves.is_empty()).then(|| along(analysis, curves));
-        [ranges(analysis)].into_iter().chain(along)
-    })
-    .collect()
+    analyses
+        .flat_map(|(analysis, curves)| {
+            let along = (!curves.is_empty()).then(|| along(analysis, curves));
+            [ranges(analysis)].into_iter().chain(along)
+        })
+        .collect()
 }
 
 /// Mean, 95 % and largest of each cell.
@@ -172,7 +181,7 @@ fn ranges(analysis: &ComparedAnswer) -> Picture {
         result: format!("{} %", percent(cell.fraction_within_and_inside_joint_limits)),
     };
     let picture = Comparison {
-        title: format!("{}: which cell holds the tolerance", analysis.name),
+        title: format!("{}: deviation and tolerance of each cell", analysis.name),
         subtitle: "mean, 95 % and largest deviation of the points that are reached; best first".to_owned(),
         quantity: "in-plane deviation (µm)".to_owned(),
         result: "within".to_owned(),
@@ -188,7 +197,7 @@ fn ranges(analysis: &ComparedAnswer) -> Picture {
     }
 }
 
-/// What speaks against a cell, in a few words.
+/// Limitations of a cell, in a few words.
 fn note(cell: &CellNumbers) -> String {
     let of_all = |points: usize, what: &str| {
         (points > 0).then(|| format!("{points} of {} points {what}", cell.points))
@@ -212,7 +221,7 @@ fn along(analysis: &ComparedAnswer, curves: &[Curve]) -> Picture {
     let one_limit = analysis.cells.iter().all(|cell| Some(cell.tolerance_um) == limit);
     let picture = PathPlot {
         title: format!("{}: the same path in each cell", analysis.name),
-        subtitle: "deviation across the tool, the largest of the load cases; gaps: out of reach".to_owned(),
+        subtitle: "in-plane deviation, the largest of the load cases; no line: out of reach".to_owned(),
         position_label: "along the path (mm)".to_owned(),
         quantity: "in-plane deviation (µm)".to_owned(),
         series: series.collect(),
@@ -221,16 +230,19 @@ fn along(analysis: &ComparedAnswer, curves: &[Curve]) -> Picture {
     };
     Picture {
         name: format!("{}-along", slug(&analysis.name)),
-        caption: format!("{}: the deviation along the path, a line a cell.", analysis.name),
+        caption: format!(
+            "{}: the deviation along the path, one line per cell.",
+            analysis.name
+        ),
         svg: picture.to_svg(),
     }
 }
 
-/// The page: ranking, then of each ask its numbers and what differs, then pictures.
+/// The page: ranking, then for each analysis its numbers and differences, then pictures.
 fn html(answer: &ComparisonAnswer, drawn: &[Picture]) -> String {
     let names: Vec<&str> = answer.cells.iter().map(|cell| cell.name.as_str()).collect();
     let mut report = Report::new(&format!("Compared: {}", names.join(", ")))
-        .question("Which cell holds the tolerance?")
+        .question("Which cell meets the tolerance?")
         .answer(&answer.answer);
     for warning in &answer.warnings {
         report = report.warning(warning);
@@ -254,13 +266,13 @@ fn html(answer: &ComparisonAnswer, drawn: &[Picture]) -> String {
     report.inputs(answer.sources.iter().map(source)).to_html()
 }
 
-/// Whether a picture was drawn of this ask.
+/// Whether a picture belongs to this analysis.
 fn is_of(picture: &Picture, analysis: &ComparedAnswer) -> bool {
     let slug = slug(&analysis.name);
     [format!("{slug}-cells"), format!("{slug}-along")].contains(&picture.name)
 }
 
-/// The cells of one ask in numbers.
+/// The cells of one analysis in numbers.
 fn numbers(analysis: &ComparedAnswer) -> Rows {
     let row = |cell: &CellNumbers| {
         let assumed = if cell.compliance_assumed { "assumed" } else { "" };
@@ -310,7 +322,7 @@ fn numbers(analysis: &ComparedAnswer) -> Rows {
     })
 }
 
-/// What the cells are; of what all share one cell stands for all.
+/// Properties of the cells; common values have one cell in the table.
 fn traits(analysis: &ComparedAnswer) -> Rows {
     let names = analysis.cells.iter().map(|cell| (cell.cell.as_str(), ""));
     let heads: Vec<(&str, &str)> = [("", "")].into_iter().chain(names).collect();
@@ -322,7 +334,7 @@ fn traits(analysis: &ComparedAnswer) -> Rows {
         [of.what.to_owned()].into_iter().chain(given).collect()
     };
     Rows {
-        caption: format!("{}: what the cells are.", analysis.name),
+        caption: format!("{}: properties of the cells.", analysis.name),
         columns: columns(&heads),
         rows: analysis.traits.iter().map(row).collect(),
     }

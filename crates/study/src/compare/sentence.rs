@@ -1,18 +1,19 @@
-//! Which cell is best, in one sentence with the numbers that carry it; and what speaks against it.
+//! The ranking of cells in one sentence with its numbers; and what limits it.
 //!
 //! ```text
-//! groove: B holds 20 µm on 93.0 % of the path, A on 12.0 %; largest 18.2 against 61.1 µm.
+//! groove: B is within 20 µm on 93.0 % of the path, A on 12.0 %; largest deviation 18.2 and 61.1 µm.
 //! ```
 //!
-//! A point holds where it is within the tolerance and the arm inside its joint limits. Where cells have tolerances of their
-//! own, each is told with it.
+//! A point is within the tolerance if the robot is inside its joint limits, too. If cells have different tolerances,
+//! each
+//! is reported with its own.
 
 use armill_core::map::COVERAGE;
 
 use super::numbers::CellNumbers;
 use crate::answer::sentence::micrometres;
 
-/// The ranking of cells that stand best first.
+/// The ranking of cells, given best first.
 pub(super) fn ranking(name: &str, kind: &str, cells: &[CellNumbers]) -> String {
     let (whole, of) = match kind {
         "path" => ("the whole path", "the path"),
@@ -33,36 +34,39 @@ pub(super) fn ranking(name: &str, kind: &str, cells: &[CellNumbers]) -> String {
         0.0 => format!("no point of {of}"),
         fraction => format!("{:.1} %", fraction * 100.0),
     };
-    let holds = cells.iter().enumerate().map(|(index, cell)| {
+    let parts = cells.iter().enumerate().map(|(index, cell)| {
         let limit = micrometres(cell.tolerance_um);
         let part = part(cell);
-        // The first share says of what, unless it is all or nothing of it.
+        // The first percentage names the whole, unless it is all or nothing of it.
         let part = if index == 0 && part.ends_with('%') {
             format!("{part} of {of}")
         } else {
             part
         };
         match (index, one_limit) {
-            (0, true) => format!("{} holds {limit} µm on {part}", cell.cell),
+            (0, true) => format!("{} is within {limit} µm on {part}", cell.cell),
             (_, true) => format!("{} on {part}", cell.cell),
-            (_, false) => format!("{} holds its {limit} µm on {part}", cell.cell),
+            (_, false) => format!("{} is within its {limit} µm on {part}", cell.cell),
         }
     });
-    let holds: Vec<String> = holds.collect();
+    let parts: Vec<String> = parts.collect();
     let all = |fraction: f64| {
         let same = |cell: &CellNumbers| cell.fraction_within_and_inside_joint_limits == fraction;
         one_limit && cells.iter().all(same)
     };
     let limit = micrometres(first.tolerance_um);
-    let holds = if all(1.0) {
-        format!("every cell holds {limit} µm on {whole}, {} best", first.cell)
+    let main = if all(1.0) {
+        format!(
+            "every cell is within {limit} µm on {whole}, {} is best",
+            first.cell
+        )
     } else if all(0.0) {
         format!(
-            "no cell holds {limit} µm at any point of {of}, {} comes nearest",
+            "no cell is within {limit} µm at any point of {of}, {} is best",
             first.cell
         )
     } else {
-        holds.join(", ")
+        parts.join(", ")
     };
     let largest: Vec<String> = cells
         .iter()
@@ -70,8 +74,8 @@ pub(super) fn ranking(name: &str, kind: &str, cells: &[CellNumbers]) -> String {
         .map(micrometres)
         .collect();
     let largest = match &largest[..] {
-        [a, b] => format!("; largest {a} against {b} µm"),
-        several => format!("; largest {} µm", several.join(", ")),
+        [a, b] => format!("; largest deviation {a} and {b} µm"),
+        several => format!("; largest deviation {} µm", several.join(", ")),
     };
     let lost = cells.iter().filter(|cell| cell.inside_joint_limits < cell.points);
     let lost = lost.map(|cell| {
@@ -81,24 +85,20 @@ pub(super) fn ranking(name: &str, kind: &str, cells: &[CellNumbers]) -> String {
             _ if reaches_nothing(&cell) => Some("reaches no point".to_owned()),
             n => Some(format!("does not reach {n} of {} points", cell.points)),
         };
-        let limits = (outside > 0).then(|| {
-            format!(
-                "stands outside joint limits at {outside} of {} points",
-                cell.points
-            )
-        });
+        let limits =
+            (outside > 0).then(|| format!("is outside joint limits at {outside} of {} points", cell.points));
         let given: Vec<String> = reach.into_iter().chain(limits).collect();
         format!("; {} {}", cell.cell, given.join(" and "))
     });
     let lost: String = lost.collect();
-    format!("{name}: {holds}{largest}{lost}.")
+    format!("{name}: {main}{largest}{lost}.")
 }
 
-/// What makes the ranking doubtful: neighbours of different arms whose largest deviations differ by less than is known of
-/// them, assumed compliances, cells that miss points.
+/// Limitations of the ranking: neighbours with different robots whose largest deviations differ by less than their
+/// uncertainty, assumed compliances, cells that do not reach all points.
 ///
-/// Of two cells with one arm (`same_arm`, by the index of the first) the uncertainty is common: what is unknown of the arm
-/// changes both alike.
+/// For two cells with the same robot (`same_arm`, by the index of the first) the uncertainty is common and
+/// does not affect the ranking.
 pub(super) fn uncertainties(cells: &[CellNumbers], same_arm: impl Fn(usize) -> bool) -> Vec<String> {
     let mut uncertainties = Vec::new();
     for (index, pair) in cells.windows(2).enumerate() {
@@ -114,7 +114,7 @@ pub(super) fn uncertainties(cells: &[CellNumbers], same_arm: impl Fn(usize) -> b
         };
         if (a - b).abs() < ua.hypot(ub) {
             uncertainties.push(format!(
-                "The largest deviations of {} and {} cannot be told apart: {} ± {} and {} ± {} µm.",
+                "The largest deviations of {} and {} do not differ significantly: {} ± {} and {} ± {} µm.",
                 pair[0].cell,
                 pair[1].cell,
                 micrometres(a),
@@ -127,14 +127,14 @@ pub(super) fn uncertainties(cells: &[CellNumbers], same_arm: impl Fn(usize) -> b
     uncertainties.extend(assumed(cells));
     if cells.iter().any(|cell| cell.reached < cell.points) {
         uncertainties.push(
-            "Mean, 95 % and largest are of the points that a cell reaches: cells that miss points are compared over fewer."
+            "Mean, 95 % and largest deviation are of the points that a cell reaches: cells that do not reach all points are compared over fewer."
                 .to_owned(),
         );
     }
     uncertainties
 }
 
-/// Cells whose joint compliances nobody measured, in a sentence.
+/// Cells with assumed joint compliances, in a sentence.
 pub(super) fn assumed(cells: &[CellNumbers]) -> Option<String> {
     let assumed = cells.iter().filter(|cell| cell.compliance_assumed);
     let names: Vec<&str> = assumed.map(|cell| cell.cell.as_str()).collect();
@@ -174,17 +174,17 @@ mod tests {
     }
 
     #[test]
-    fn two_cells_are_told_against_each_other() {
+    fn two_cells_are_compared() {
         let cells = [cell("b", 0.93, Some(18.2)), cell("a", 0.12, Some(61.1))];
         assert_eq!(
             ranking("ring", "path", &cells),
-            "ring: b holds 20 µm on 93.0 % of the path, a on 12.0 %; largest 18.2 against 61.1 µm."
+            "ring: b is within 20 µm on 93.0 % of the path, a on 12.0 %; largest deviation 18.2 and 61.1 µm."
         );
         assert!(uncertainties(&cells, |_| false).is_empty());
     }
 
     #[test]
-    fn all_nothing_and_other_tolerances_have_words_of_their_own() {
+    fn reports_all_none_and_different_tolerances() {
         let mut cells = [
             cell("b", 1.0, Some(18.2)),
             cell("a", 0.0, Some(61.1)),
@@ -192,12 +192,12 @@ mod tests {
         ];
         assert_eq!(
             ranking("ring", "path", &cells),
-            "ring: b holds 20 µm on the whole path, a on no point of the path, c on no point of the path; largest 18.2 against 61.1 µm; c reaches no point."
+            "ring: b is within 20 µm on the whole path, a on no point of the path, c on no point of the path; largest deviation 18.2 and 61.1 µm; c reaches no point."
         );
         cells[1].tolerance_um = 50.0;
         let given = ranking("ring", "path", &cells);
         assert!(
-            given.contains("b holds its 20 µm on the whole path, a holds its 50 µm on no point"),
+            given.contains("b is within its 20 µm on the whole path, a is within its 50 µm on no point"),
             "{given}"
         );
         assert_eq!(
@@ -207,26 +207,28 @@ mod tests {
     }
 
     #[test]
-    fn where_all_hold_or_none_the_best_is_named() {
+    fn names_the_best_cell_if_all_or_none_meet_the_tolerance() {
         let all = [cell("b", 1.0, Some(18.2)), cell("a", 1.0, Some(19.5))];
         assert_eq!(
             ranking("ring", "path", &all),
-            "ring: every cell holds 20 µm on the whole path, b best; largest 18.2 against 19.5 µm."
+            "ring: every cell is within 20 µm on the whole path, b is best; largest deviation 18.2 and 19.5 µm."
         );
         let none = [cell("b", 0.0, Some(58.2)), cell("a", 0.0, Some(61.1))];
         assert_eq!(
             ranking("ring", "path", &none),
-            "ring: no cell holds 20 µm at any point of the path, b comes nearest; largest 58.2 against 61.1 µm."
+            "ring: no cell is within 20 µm at any point of the path, b is best; largest deviation 58.2 and 61.1 µm."
         );
     }
 
     #[test]
-    fn neighbours_within_their_uncertainty_are_told() {
+    fn reports_neighbours_within_their_uncertainty() {
         // k = 2: hypot(8, 8) = 11.3 um.
         let near = [cell("b", 1.0, Some(18.0)), cell("a", 1.0, Some(29.0))];
         let far = [cell("b", 1.0, Some(18.0)), cell("a", 1.0, Some(30.0))];
         assert!(uncertainties(&near, |_| true).is_empty());
-        assert!(uncertainties(&near, |_| false)[0].contains("cannot be told apart: 18 ± 8 and 29 ± 8 µm"));
+        assert!(
+            uncertainties(&near, |_| false)[0].contains("do not differ significantly: 18 ± 8 and 29 ± 8 µm")
+        );
         assert!(uncertainties(&far, |_| false).is_empty());
     }
 }

@@ -1,6 +1,7 @@
-//! What a cell is, in the words of a table: robot, compliances, place, tool, posture, load, tolerance, model, points.
+//! Properties of a cell, as text for a table: robot, compliances, placement, tool, posture, load, tolerance, model,
+//! points.
 //!
-//! Cells are told apart by these words alone: two that read the same count as the same.
+//! Cells are distinguished by this text only: two with the same text are the same.
 
 use armill_core::frame::Isometry;
 use armill_core::load::LoadFrame;
@@ -14,7 +15,7 @@ use crate::file::resolve::{Setting, Sheet, Study};
 use crate::model_words::parts;
 use crate::number::decimals;
 
-/// One side of what cells are.
+/// One property of the cells.
 #[derive(Clone, Debug, Serialize)]
 pub struct TraitAnswer {
     /// Which: `robot`, `place`, `tool`, ...
@@ -25,7 +26,7 @@ pub struct TraitAnswer {
     pub of: Vec<String>,
 }
 
-/// Load cases that are told one by one at most.
+/// Greatest number of load cases listed individually.
 const MOST_CASES: usize = 4;
 
 /// A plane.
@@ -44,7 +45,7 @@ pub(super) fn of_sheet(study: &Study, sheet: &Sheet) -> Vec<(&'static str, Strin
 
 /// A box.
 pub(super) fn of_volume(study: &Study, setting: &Setting, volume: &VolumeMap) -> Vec<(&'static str, String)> {
-    let corner = setting.counted(&volume.grid.corner());
+    let corner = setting.in_reference(&volume.grid.corner());
     let [x, y, z] = volume.grid.counts;
     let step = plain(volume.grid.step * 1e3);
     let place = format!(
@@ -75,7 +76,7 @@ pub(super) fn of_holes(study: &Study, analysis: &HolesAnalysis) -> Vec<(&'static
     along(
         study,
         &analysis.path,
-        format!("{count} holes, {turns} turns tried at each"),
+        format!("{count} holes, {turns} spins tried at each"),
     )
 }
 
@@ -103,7 +104,7 @@ fn all(study: &Study, setting: &Setting, [place, load, points]: [String; 3]) -> 
     };
     let searched = setting
         .search
-        .map_or("", |_| ", best turns and branches searched for");
+        .map_or("", |_| ", best spins and branches searched");
     vec![
         ("robot", format!("{} ({})", study.robot.title, robot.name())),
         ("compliance", compliance),
@@ -111,23 +112,23 @@ fn all(study: &Study, setting: &Setting, [place, load, points]: [String; 3]) -> 
         ("tool", pose("TCP", "from the flange", &setting.flange_from_tool)),
         ("posture", setting.branch() + searched),
         ("load", load),
-        ("tolerance", format!("{} µm", plain(setting.limit * 1e6))),
+        ("tolerance", format!("{} µm", plain(setting.tolerance * 1e6))),
         ("stiffness model", parts(robot, &setting.model).join("; ")),
         ("points", points),
     ]
 }
 
-/// Where a frame of the part lies, counted as the study counts.
+/// A frame of the part, relative to the reference frame of the study.
 fn place(setting: &Setting, base_from: &Isometry) -> String {
     let counted = setting.base_from_reference.inverse() * base_from;
     pose("origin", &format!("from {}", setting.base_name), &counted)
 }
 
-/// A frame: where it lies and how it is turned about the fixed axes x, y, z.
+/// A frame: its position and its rotation about the fixed axes x, y, z.
 fn pose(what: &str, from: &str, at: &Isometry) -> String {
     let (x, y, z) = at.rotation.euler_angles();
     format!(
-        "{what} at {} mm, turned by {} deg {from}",
+        "{what} at {} mm, rotated by {} deg {from}",
         numbers(&at.translation.vector, 1e3),
         numbers(&Vector3::new(x, y, z), 1f64.to_degrees())
     )

@@ -1,4 +1,4 @@
-//! `calibrated_robot`: the arm as it was measured, beside the one that its controller reckons with.
+//! `calibrated_robot`: the calibrated arm, in addition to the nominal model that its controller uses.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -10,20 +10,20 @@ use armill_formats::robot::RobotDescription;
 use armill_formats::sources::Source;
 
 use super::format::StudyFile;
-use super::places::Places;
+use super::problem_log::ProblemLog;
 use crate::error::StudyError;
 use crate::number::decimals;
 use crate::robots;
 
-/// The robot as it was measured.
-pub(super) struct Actual {
+/// The calibrated robot.
+pub(super) struct CalibratedArm {
     pub robot: Arc<Robot>,
-    /// Where its numbers come from.
+    /// Source of the values.
     pub sources: Vec<Source>,
 }
 
-/// An arm whose flange is farther than this from where its controller believes it is another arm, or told otherwise, m: five
-/// times what uncalibrated arms are off, far below what another zero or base frame moves.
+/// If the calibrated flange is farther than this from the nominal one, it is a different arm or other conventions, m:
+/// five times the typical error of uncalibrated arms, far below the effect of another zero or base frame.
 const ANOTHER_ARM: f64 = 0.02;
 
 /// Why `actual` cannot be `believed` as it was measured, as the words between their names; `None` if it can.
@@ -59,23 +59,23 @@ fn other_arm(actual: &Robot, believed: &Robot) -> Option<String> {
     })
 }
 
-/// The robot as it was measured; `None` where the study names none, or one that does not fit,
-/// told at its place.
+/// The calibrated robot; `None` if the study names none, or one that does not fit,
+/// reported at its key.
 ///
 /// # Errors
 /// The problems of its file.
 pub(super) fn find_calibrated(
-    places: &mut Places<'_>,
+    log: &mut ProblemLog<'_>,
     file: &StudyFile,
     (believed, folder): (&RobotDescription, &Path),
-) -> Result<Option<Actual>, StudyError> {
+) -> Result<Option<CalibratedArm>, StudyError> {
     let Some(name) = &file.calibrated_robot else {
         return Ok(None);
     };
     let found = match robots::find(name, folder) {
         Ok(found) => found,
         Err(StudyError::Value { message, hint }) => {
-            places.problem("calibrated_robot", message, &hint);
+            log.problem("calibrated_robot", message, &hint);
             return Ok(None);
         }
         Err(problems) => return Err(problems),
@@ -84,14 +84,14 @@ pub(super) fn find_calibrated(
         let message = format!("`{name}` {message} `{}`", file.robot);
         let hint = "the same arm as `robot`, with the lengths and angles that were measured: joints, senses, zeros and base \
                     frame as there";
-        places.problem("calibrated_robot", message, hint);
+        log.problem("calibrated_robot", message, hint);
         return Ok(None);
     }
     let sources = found.sources.into_iter().map(|source| Source {
         key: format!("actual:{}", source.key),
         ..source
     });
-    Ok(Some(Actual {
+    Ok(Some(CalibratedArm {
         robot: Arc::new(found.robot),
         sources: sources.collect(),
     }))

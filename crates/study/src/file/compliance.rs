@@ -1,27 +1,27 @@
-//! The joint compliances that a study brings: its own numbers, or those of a class.
+//! The joint compliances given by a study: its own numbers, or those of a class.
 //!
-//! | `[compliance]` | what the joints yield | assumed |
+//! | `[compliance]` | compliance of the joints | assumed |
 //! |---|---|---|
-//! | `rad_per_n_m`, `u_rad_per_n_m`, `source` | these numbers, one a joint, base to flange | where `assumed = true` |
+//! | `rad_per_n_m`, `u_rad_per_n_m`, `source` | these numbers, one for each joint, base to flange | if `assumed = true` |
 //! | `class` | mean and spread of published arms of that payload | always |
-//! | left out | what the robot file says; a problem where it says nothing | - |
+//! | left out | those of the robot file; a problem if it has none | - |
 
 use armill_core::robot::{JointCompliance, Robot};
 
 use super::format::{ComplianceTable, StudyFile};
-use super::places::Places;
+use super::problem_log::ProblemLog;
 use crate::compliance_class::CLASSES;
 use crate::error::StudyError;
 
-/// No joint of an arm yields more, rad/(N m).
+/// Largest compliance of a joint of an arm, rad/(N m).
 const MOST_COMPLIANT: f64 = 1.0;
 
-/// What every result says of the compliances that a study brings.
+/// The statement of every result on compliances given by a study.
 #[derive(Clone, Debug)]
 pub struct OwnCompliance {
-    /// Where they come from.
+    /// Source of the values.
     pub source: String,
-    /// What to tell with every result, where they are assumed.
+    /// The warning of every result, if they are assumed.
     pub caution: Option<String>,
 }
 
@@ -29,7 +29,7 @@ impl OwnCompliance {
     /// Source and caution of `[compliance]`.
     ///
     /// # Errors
-    /// A class whose robots do not read: a defect of the library.
+    /// A class that cannot be read: a defect of the library.
     pub(super) fn of(table: &ComplianceTable) -> Result<OwnCompliance, StudyError> {
         let given = table.source.clone();
         Ok(match table.class {
@@ -40,20 +40,20 @@ impl OwnCompliance {
             None => OwnCompliance {
                 source: given.unwrap_or_default(),
                 caution: (table.assumed == Some(true)).then(|| {
-                    "The joint compliances are assumed, not measured: every deviation here is a guess of that quality.".to_owned()
+                    "The joint compliances are assumed, not measured: all deviations are estimates of that quality.".to_owned()
                 }),
             },
         })
     }
 }
 
-/// The compliances of `[compliance]` for `robot`, if there are any and they are sound; none are needed where the
+/// The compliances of `[compliance]` for `robot`, if there are any and they are valid; none are required if the
 /// robot has its own.
 ///
 /// # Errors
-/// A class whose robots do not read: a defect of the library.
+/// A class that cannot be read: a defect of the library.
 pub(super) fn of_study(
-    places: &mut Places<'_>,
+    log: &mut ProblemLog<'_>,
     file: &StudyFile,
     robot: &Robot,
 ) -> Result<Option<Vec<JointCompliance>>, StudyError> {
@@ -61,31 +61,31 @@ pub(super) fn of_study(
         if robot.compliance().is_none() {
             let message = format!("no joint compliance is known for robot `{}`", file.robot);
             let hint = format!(
-                "two ways out: identify it from load tests (`armill identify`) and bring it as [compliance] rad_per_n_m = [...] (one a joint) with its source; or assume it: [compliance] class = \"...\", {CLASSES}, marked as assumed in every result"
+                "identify it from load tests (`armill identify`) and give it as [compliance] rad_per_n_m = [...] (one for each joint) with its source; or assume it: [compliance] class = \"...\", {CLASSES}, marked as assumed in every result"
             );
-            places.problem("robot", message, &hint);
+            log.problem("robot", message, &hint);
         }
         return Ok(None);
     };
     match (&table.rad_per_n_m, table.class) {
-        (Some(values), None) => Ok(given(places, table, values, robot.joints().len())),
+        (Some(values), None) => Ok(given(log, table, values, robot.joints().len())),
         (None, Some(class)) => {
             if table.u_rad_per_n_m.is_some() {
                 let hint = "leave it out: the uncertainty of a class is its spread";
-                places.problem(
+                log.problem(
                     "compliance.u_rad_per_n_m",
                     "a class has its own uncertainty",
                     hint,
                 );
             }
             if table.assumed == Some(false) {
-                let hint = "leave `assumed` out, or bring measured values with `rad_per_n_m`";
-                places.problem("compliance.assumed", "values of a class are assumed", hint);
+                let hint = "leave `assumed` out, or give measured values with `rad_per_n_m`";
+                log.problem("compliance.assumed", "values of a class are assumed", hint);
             }
             match class.compliance_of(robot) {
                 Ok(joints) => Ok(Some(joints)),
                 Err(StudyError::Value { message, hint }) => {
-                    places.problem("compliance.class", message, &hint);
+                    log.problem("compliance.class", message, &hint);
                     Ok(None)
                 }
                 Err(other) => Err(other),
@@ -93,7 +93,7 @@ pub(super) fn of_study(
         }
         (Some(_), Some(_)) => {
             let hint = "keep `rad_per_n_m` if you know them, `class` if you do not";
-            places.problem(
+            log.problem(
                 "compliance.class",
                 "both `rad_per_n_m` and `class` are given",
                 hint,
@@ -101,8 +101,9 @@ pub(super) fn of_study(
             Ok(None)
         }
         (None, None) => {
-            let hint = format!("write rad_per_n_m = [...], one a joint, or class = \"...\"; {CLASSES}");
-            places.problem("compliance", "neither `rad_per_n_m` nor `class` is given", &hint);
+            let hint =
+                format!("write rad_per_n_m = [...], one for each joint, or class = \"...\"; {CLASSES}");
+            log.problem("compliance", "neither `rad_per_n_m` nor `class` is given", &hint);
             Ok(None)
         }
     }
@@ -110,18 +111,18 @@ pub(super) fn of_study(
 
 /// Compliances given one by one, checked.
 ///
-/// `None` where something of them is wrong; an uncertainty that is left out is zero.
+/// `None` if something of them is wrong; an uncertainty that is left out is zero.
 fn given(
-    places: &mut Places<'_>,
+    log: &mut ProblemLog<'_>,
     table: &ComplianceTable,
     values: &[f64],
     joints: usize,
 ) -> Option<Vec<JointCompliance>> {
-    // All problems are told, so whether there are new ones decides at the end.
-    let before = places.problems.len();
+    // All problems are reported, so whether there are new ones is evaluated at the end.
+    let before = log.problems.len();
     if table.source.is_none() {
-        let hint = "add source = \"...\": who measured them, or that they are a guess";
-        places.problem("compliance", "compliances without `source`", hint);
+        let hint = "add source = \"...\": who measured them, or that they are assumed";
+        log.problem("compliance", "compliances without `source`", hint);
     }
     let zeros = vec![0.0; joints];
     let uncertainties = table.u_rad_per_n_m.as_deref().unwrap_or(&zeros);
@@ -129,26 +130,30 @@ fn given(
         let path = format!("compliance.{key}");
         if list.len() != joints {
             let message = format!("{} values for the {joints} joints of the robot", list.len());
-            places.problem(&path, message, "one a joint, base to flange; 0 for a rigid joint");
+            log.problem(
+                &path,
+                message,
+                "give one for each joint, base to flange; 0 for a rigid joint",
+            );
         }
         for (index, value) in list.iter().enumerate() {
             let (message, hint) = if *value < 0.0 {
                 (
                     format!("{value} rad/(N m) is below 0"),
-                    "a joint yields with its load: 0 or more",
+                    "joint compliances must be 0 or more",
                 )
             } else if *value > MOST_COMPLIANT {
                 (
                     format!("{value} rad/(N m) is above {MOST_COMPLIANT} rad/(N m)"),
-                    "the joints of an arm yield some 1e-6 rad/(N m)",
+                    "typical joint compliances are around 1e-6 rad/(N m)",
                 )
             } else {
                 continue;
             };
-            places.problem(&format!("{path}[{index}]"), message, hint);
+            log.problem(&format!("{path}[{index}]"), message, hint);
         }
     }
-    (places.problems.len() == before).then(|| {
+    (log.problems.len() == before).then(|| {
         let both = values.iter().zip(uncertainties);
         both.map(|(value, u)| JointCompliance {
             value: *value,

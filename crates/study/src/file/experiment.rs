@@ -1,7 +1,7 @@
-//! `measured`: what was measured on one circle of the study, on the part that was cut and on the path without load.
+//! `measured`: measurements of one circle of the study, of the machined part and of the path without load.
 //!
 //! ```text
-//! a = zero_deg + f      or, where the files look at the circle from the other side, a = zero_deg - f
+//! a = zero_deg + f      or, if the files view the circle from the other side, a = zero_deg - f
 //! ```
 //!
 //! | symbol | meaning | unit |
@@ -23,17 +23,17 @@ use armill_formats::measurement::profile::{Points, ProfileReadOptions};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::places::Places;
-use super::resolve::{Ask, Subject};
-use crate::ballbar::{self, Wanted as BallbarWanted};
+use super::problem_log::ProblemLog;
+use super::resolve::{Analysis, Subject};
+use crate::ballbar::{self, FileOptions};
 use crate::error::StudyError;
 use crate::roundness;
 
-/// What was measured on one circle: the part that was cut, the path without load.
+/// Measurements of one circle: the machined part, the path without load.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ExperimentTable {
-    /// Name of the path that was cut, a circle; needed where the study asks for several.
+    /// Name of the path that was cut, a circle; required if the study has several.
     pub analysis: Option<String>,
     /// Profile of the part, relative to the study.
     pub part: Option<String>,
@@ -45,10 +45,10 @@ pub struct ExperimentTable {
     pub centre: Option<DatumName>,
     /// From which radius: `least-squares` (so if left out) of each, or `as-measured`, from the nominal one.
     pub radius: Option<DatumName>,
-    /// Nominal radius of what was measured, where a file does not tell it; that of the circle if left out.
+    /// Nominal radius of the measurement, if a file does not specify it; that of the circle if left out.
     #[schemars(range(min = 0.001, max = 1e4))]
     pub radius_mm: Option<f64>,
-    /// Where angle 0 of the files lies on the circle, from +y' towards z'; 0 if left out.
+    /// Position of angle 0 of the files on the circle, from +y' towards z'; 0 if left out.
     #[schemars(range(min = -360.0, max = 360.0))]
     pub zero_deg: Option<f64>,
     /// Whether angles of the files grow from z' towards y'.
@@ -64,32 +64,32 @@ pub struct ExperimentTable {
     pub part_u_um: Option<f64>,
 }
 
-/// What deviations count from.
+/// Reference of deviations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum DatumName {
-    /// As the file has it.
+    /// As in the file.
     AsMeasured,
     /// That of the least-squares circle.
     LeastSquares,
 }
 
-/// What was measured, in the angles of the circle.
+/// The measurements, in the angles of the circle.
 #[derive(Clone, Debug)]
 pub struct Experiment {
-    /// What the study says.
+    /// Its table in the study.
     pub table: ExperimentTable,
     /// Name of the path.
     pub analysis: String,
     /// Nominal radius of the circle, m.
     pub radius: f64,
-    /// What is taken off every curve.
+    /// Components that are removed from every curve.
     pub removed: Removed,
-    /// The part; none where it was not measured.
+    /// The part; none if it was not measured.
     pub part: Option<Part>,
-    /// The path without load; none where it was not measured.
+    /// The path without load; none if it was not measured.
     pub test: Option<CircularTest>,
-    /// What a user must know of the files, each a sentence.
+    /// Notes for the user on the files, each a sentence.
     pub notes: Vec<String>,
 }
 
@@ -100,43 +100,43 @@ pub struct Part {
     pub run: Run,
     /// How many points the file has.
     pub points: usize,
-    /// Where its centre was found, in the axes of the file, m; none where deviations count from the origin.
+    /// Where its centre was found, in the axes of the file, m; none if deviations count from the origin.
     pub centre: Option<[f64; 2]>,
     /// Standard uncertainty of a point, m.
     pub u: f64,
 }
 
-/// A point that is off by more than this part of the radius is none of that circle.
+/// A point farther off than this part of the radius does not belong to the circle.
 const FARTHEST: f64 = 0.1;
 
 impl Experiment {
-    /// Reads what the table names; `None` where something of it is wrong, told at its place.
+    /// Reads the files of the table; `None` if there are problems, reported at their keys.
     pub(super) fn read(
-        places: &mut Places<'_>,
+        log: &mut ProblemLog<'_>,
         table: &ExperimentTable,
         folder: &Path,
-        (analyses, all_read): (&[Ask], bool),
+        (analyses, all_read): (&[Analysis], bool),
     ) -> Option<Experiment> {
-        let circle = circle(places, ("measured", table.analysis.as_ref()), (analyses, all_read));
+        let circle = circle(log, ("measured", table.analysis.as_ref()), (analyses, all_read));
         if table.part.is_none() && table.ballbar.is_empty() {
             let hint = "part = \"cmm.csv\", or ballbar = [\"first.csv\", \"second.csv\"]";
-            places.problem("measured", "nothing measured is named", hint);
+            log.problem("measured", "no measurement is named", hint);
         }
         let least_squares = |name: Option<DatumName>| name != Some(DatumName::AsMeasured);
         let removed = Removed {
             centre: least_squares(table.centre),
             radius: least_squares(table.radius),
         };
-        // Files are read even where the circle is not known: their problems belong to the same list.
+        // Files are read even if the circle is not known: their problems belong to the same list.
         let radius_mm = table
             .radius_mm
             .or(circle.as_ref().map(|(_, radius)| radius * 1e3));
         let mut notes = Vec::new();
         let part = table.part.as_ref().map(|file| {
             let of = (file.as_str(), folder.join(file));
-            part(places, table, of, (radius_mm, removed))
+            part(log, table, of, (radius_mm, removed))
         });
-        let test = (!table.ballbar.is_empty()).then(|| test(places, table, folder, (removed, &mut notes)));
+        let test = (!table.ballbar.is_empty()).then(|| test(log, table, folder, (removed, &mut notes)));
         let (analysis, radius) = circle?;
         // A file that was named and could not be read is a problem already.
         let (part, test) = (part.map_or(Some(None), |part| part.map(Some))?, test);
@@ -147,8 +147,8 @@ impl Experiment {
             .filter(|r| (r / radius - 1.0).abs() > 0.01);
         notes.extend(other.map(|other| {
             format!(
-                "the ball-bar went round a circle of {} mm, the cut round one of {} mm: what the path does without \
-                 load is taken to be the same",
+                "the circle of the ball-bar has {} mm, that of the cut {} mm: the path error without load is \
+                 assumed to be the same",
                 crate::number::decimals(other * 1e3, 3),
                 crate::number::decimals(radius * 1e3, 3)
             )
@@ -165,13 +165,13 @@ impl Experiment {
     }
 }
 
-/// The circle that the table `key` is of, with its radius (m); `None` where there is none, told at its place.
+/// The circle of the table `key`, with its radius (m); `None` if there is none, reported at its key.
 pub(super) fn circle(
-    places: &mut Places<'_>,
+    log: &mut ProblemLog<'_>,
     (key, analysis): (&str, Option<&String>),
-    (analyses, all_read): (&[Ask], bool),
+    (analyses, all_read): (&[Analysis], bool),
 ) -> Option<(String, f64)> {
-    let radius = |analysis: &Ask| match &analysis.subject {
+    let radius = |analysis: &Analysis| match &analysis.subject {
         Subject::Path(path) => match path.shape() {
             Some(Shape::Circle { radius, .. }) => Some(*radius),
             _ => None,
@@ -182,30 +182,30 @@ pub(super) fn circle(
         .iter()
         .filter_map(|analysis| Some((analysis.name.clone(), radius(analysis)?)))
         .collect();
-    let hint = "the name of an ask of kind = \"path\" with circle = { radius_mm = 100 }";
+    let hint = "the name of an analysis of kind = \"path\" with circle = { radius_mm = 100 }";
     match (analysis, &circles[..]) {
         (Some(name), _) => {
             let found = circles.iter().find(|(own, _)| own == name);
-            // An ask with problems of its own is told there.
+            // The problems of an analysis are reported there.
             if found.is_none() && all_read {
                 let message = match analyses.iter().any(|analysis| analysis.name == *name) {
-                    true => format!("`{name}` is no circle"),
-                    false => format!("the study asks for nothing called `{name}`"),
+                    true => format!("`{name}` is not a circle"),
+                    false => format!("the study has no analysis called `{name}`"),
                 };
-                places.problem(&format!("{key}.ask"), message, hint);
+                log.problem(&format!("{key}.analysis"), message, hint);
             }
             found.cloned()
         }
         (None, [one]) => Some(one.clone()),
         (None, _) if !all_read => None,
         (None, []) => {
-            places.problem(key, "the study has no circle that could have been measured", hint);
+            log.problem(key, "the study has no circle", hint);
             None
         }
         (None, several) => {
             let names: Vec<&str> = several.iter().map(|(name, _)| name.as_str()).collect();
             let message = format!("the study has {} circles: {}", several.len(), names.join(", "));
-            places.problem(key, message, "name the one that was measured: ask = \"...\"");
+            log.problem(key, message, "name the one that was measured: analysis = \"...\"");
             None
         }
     }
@@ -213,14 +213,14 @@ pub(super) fn circle(
 
 /// Angles of a file as those of the circle.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Turned {
+pub(super) struct AngleMapping {
     zero: f64,
     sign: f64,
 }
 
-impl Turned {
-    pub(super) fn new(zero_deg: Option<f64>, mirrored: bool) -> Turned {
-        Turned {
+impl AngleMapping {
+    pub(super) fn new(zero_deg: Option<f64>, mirrored: bool) -> AngleMapping {
+        AngleMapping {
             zero: zero_deg.unwrap_or(0.0).to_radians(),
             sign: if mirrored { -1.0 } else { 1.0 },
         }
@@ -238,9 +238,9 @@ impl Turned {
     }
 }
 
-/// The profile of the part; `None` where it cannot be used, told at its place.
+/// The profile of the part; `None` if it cannot be used, reported at its key.
 fn part(
-    places: &mut Places<'_>,
+    log: &mut ProblemLog<'_>,
     table: &ExperimentTable,
     (file, path): (&str, std::path::PathBuf),
     (radius_mm, removed): (Option<f64>, Removed),
@@ -253,21 +253,21 @@ fn part(
         unit: None,
     };
     let given = roundness::read((&shown, &path), &requested);
-    let measured = taken(places, key, given)?;
+    let measured = taken(log, key, given)?;
     let count = measured.points.count();
     let points = match measured.points {
         Points::Plane(points) => points,
         Points::Space(_) if !removed.centre => {
-            let message = format!("{file} holds points in space: they have no centre to count from");
-            places.problem(key, message, "centre = \"least-squares\"");
+            let message = format!("{file} has points in space, which have no centre to measure from");
+            log.problem(key, message, "centre = \"least-squares\"");
             return None;
         }
         Points::Space(points) => {
             let Some(plane) = Plane::nearest(&points) else {
-                places.problem(
+                log.problem(
                     key,
-                    format!("the points of {file} lie in no plane"),
-                    "points of a circle",
+                    format!("the points of {file} are not in one plane"),
+                    "give points of a circle",
                 );
                 return None;
             };
@@ -283,15 +283,15 @@ fn part(
                 (Some(centre.into()), own.collect())
             }
             Err(error) => {
-                places.problem(key, format!("{file}: {error}"), "points of one circle");
+                log.problem(key, format!("{file}: {error}"), "give points of one circle");
                 return None;
             }
         },
     };
-    // Where the circle is unknown that is a problem already, and nothing more can be said of the part.
+    // An unknown circle is a problem already, and the part cannot be checked further.
     let radius_mm = radius_mm?;
     let nominal = radius_mm * 1e-3;
-    let turned = Turned::new(table.zero_deg, table.mirrored);
+    let turned = AngleMapping::new(table.zero_deg, table.mirrored);
     let angle = points.iter().map(|p| turned.angle(p.y.atan2(p.x))).collect();
     let deviation: Vec<f64> = points.iter().map(|p| p.coords.norm() - nominal).collect();
     if let Some(most) = deviation.iter().copied().find(|by| by.abs() > FARTHEST * nominal) {
@@ -299,8 +299,8 @@ fn part(
             "{file}: a point is {:.3} mm off a circle of {radius_mm} mm",
             most * 1e3
         );
-        let hint = "the radius that the part shows, such as radius_mm = 100; centre = \"least-squares\"";
-        places.problem(key, message, hint);
+        let hint = "give the measured radius, such as radius_mm = 100; centre = \"least-squares\"";
+        log.problem(key, message, hint);
         return None;
     }
     match Run::new(Direction::Anticlockwise, angle, deviation) {
@@ -311,35 +311,35 @@ fn part(
             u: table.part_u_um.unwrap_or(0.0) * 1e-6,
         }),
         Err(error) => {
-            places.problem(
+            log.problem(
                 key,
                 format!("{file}: {error}"),
-                "a point every 15 degrees, or more",
+                "give a point every 15 degrees or denser",
             );
             None
         }
     }
 }
 
-/// The path without load; `None` where it cannot be used, told at its place.
+/// The path without load; `None` if it cannot be used, reported at its key.
 fn test(
-    places: &mut Places<'_>,
+    log: &mut ProblemLog<'_>,
     table: &ExperimentTable,
     folder: &Path,
     (removed, notes): (Removed, &mut Vec<String>),
 ) -> Option<CircularTest> {
-    let turned = Turned::new(
+    let turned = AngleMapping::new(
         table.ballbar_zero_deg.or(table.zero_deg),
         table.ballbar_mirrored.unwrap_or(table.mirrored),
     );
     let of = ("measured.ballbar", &table.ballbar[..]);
-    let measured = bar(places, of, (folder, table.radius_mm), notes)?;
-    turned_test(places, of.0, &measured, (turned, removed.centre))
+    let measured = bar(log, of, (folder, table.radius_mm), notes)?;
+    turned_test(log, of.0, &measured, (turned, removed.centre))
 }
 
-/// What the files named at `key` hold of one circle; `None` where they cannot be read, told at its place.
+/// The measurements of one circle in the files named at `key`; `None` if they cannot be read, reported at its key.
 pub(super) fn bar(
-    places: &mut Places<'_>,
+    log: &mut ProblemLog<'_>,
     (key, files): (&str, &[String]),
     (folder, radius_mm): (&Path, Option<f64>),
     notes: &mut Vec<String>,
@@ -348,11 +348,7 @@ pub(super) fn bar(
     for (index, file) in files.iter().enumerate() {
         if !folder.join(file).is_file() {
             let hint = "a CSV with `angle_deg,radius_dev_um,direction,run`, or results of a ball-bar (.b5r)";
-            places.problem(
-                &format!("{key}[{index}]"),
-                format!("there is no file {file}"),
-                hint,
-            );
+            log.problem(&format!("{key}[{index}]"), format!("file {file} not found"), hint);
             all_there = false;
         }
     }
@@ -360,25 +356,25 @@ pub(super) fn bar(
     if !all_there {
         return None;
     }
-    let requested = BallbarWanted {
+    let requested = FileOptions {
         given: BallbarReadOptions {
             radius: radius_mm.map(|mm| mm * 1e-3),
             ..BallbarReadOptions::default()
         },
-        ..BallbarWanted::default()
+        ..FileOptions::default()
     };
-    let measured = taken(places, key, ballbar::read(&files, &requested))?;
+    let measured = taken(log, key, ballbar::read(&files, &requested))?;
     notes.extend(measured.notes.iter().cloned());
     Some(measured)
 }
 
-/// These runs in the angles of the circle, seen from their own centre where that is taken off; `None` where that cannot be,
-/// told at its place.
+/// These runs in the angles of the circle, seen from their own centre where that is taken off; `None` if that cannot
+/// be, reported at its key.
 pub(super) fn turned_test(
-    places: &mut Places<'_>,
+    log: &mut ProblemLog<'_>,
     key: &str,
     measured: &ballbar::Measured,
-    (turned, takes_centre): (Turned, bool),
+    (turned, takes_centre): (AngleMapping, bool),
 ) -> Option<CircularTest> {
     let of_test = || -> Result<CircularTest, RunError> {
         let offset = least_squares_centre(&measured.test).filter(|_| takes_centre);
@@ -397,29 +393,29 @@ pub(super) fn turned_test(
     };
     of_test()
         .map_err(|error| {
-            places.problem(
+            log.problem(
                 key,
                 error.to_string(),
-                "see what `armill ballbar` tells of these files",
+                "see the output of `armill ballbar` for these files",
             );
         })
         .ok()
 }
 
-/// What was read; `None` where it has problems: those of a file stand in it, others at `key`.
-fn taken<T>(places: &mut Places<'_>, key: &str, read: Result<T, StudyError>) -> Option<T> {
+/// What was read; `None` if it has problems: those of a file are reported in that file, others at `key`.
+fn taken<T>(log: &mut ProblemLog<'_>, key: &str, read: Result<T, StudyError>) -> Option<T> {
     match read {
         Ok(found) => Some(found),
         Err(StudyError::Problems(problems)) => {
-            places.problems.extend(problems);
+            log.problems.extend(problems);
             None
         }
         Err(StudyError::Value { message, hint }) => {
-            places.problem(key, message, &hint);
+            log.problem(key, message, &hint);
             None
         }
         Err(error) => {
-            places.problem(key, error.to_string(), "is the file readable?");
+            log.problem(key, error.to_string(), "check that the file is readable");
             None
         }
     }

@@ -1,6 +1,6 @@
 //! The study file, format 1: TOML, every number with its unit in its name.
 //!
-//! In-plane coordinates are the paper's y' (along base y on a tilted plane) and z', from the plane's centre.
+//! The in-plane coordinates are y' (along base y on a tilted plane) and z', measured from the centre of the plane.
 
 use armill_core::load::LoadFrame;
 use armill_formats::robot::spring_tables::{MassTable, SpringTable};
@@ -16,7 +16,7 @@ use super::placement::PlaceTable;
 use super::posture_search::SearchTable;
 use crate::compliance_class::ComplianceClass;
 
-/// A study: robot, tool, workpiece plane, load, tolerance, and what is asked.
+/// A study: robot, tool, workpiece plane, load, tolerance and analyses.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StudyFile {
@@ -29,48 +29,48 @@ pub struct StudyFile {
     pub question: Option<String>,
     /// Name of a library robot (`armill robots`), or a robot file of any format relative to the study.
     pub robot: String,
-    /// The robot as it was measured (calibrated), where its controller reckons with `robot`: found likewise.
+    /// The calibrated robot, where its controller uses the nominal model `robot`: specified in the same way.
     pub calibrated_robot: Option<String>,
-    /// Where heights count from: `base_link` (default) or a frame of the robot such as `controller`.
+    /// Reference frame of coordinates: `base_link` (default) or a frame of the robot such as `controller`.
     pub base: Option<String>,
-    /// Joint compliances in place of the robot file's, or where it has none.
+    /// Joint compliances that replace those of the robot file, or provide missing ones.
     pub compliance: Option<ComplianceTable>,
     /// The tool; the bare flange if left out.
     pub tool: Option<ToolTable>,
-    /// A turntable or positioner that carries the part; coordinates then may count from `table`.
+    /// A turntable or positioner that carries the part; coordinates may then be relative to its frame `table`.
     pub positioner: Option<PositionerTable>,
-    /// Gravity on the masses of robot and tool; left out without this table.
+    /// Gravity on the masses of robot and tool; neglected without this table.
     pub gravity: Option<GravityTable>,
-    /// Whether the load acts on the arm as it has yielded, instead of as it stood.
+    /// Load-dependent stiffness: the load acts on the deflected arm instead of the undeflected one.
     #[serde(default)]
     pub load_dependent: bool,
-    /// Pose repeatability RP of ISO 9283, in place of the robot file's.
+    /// Pose repeatability RP of ISO 9283; replaces that of the robot file.
     #[schemars(range(min = 0.0, max = 30.0))]
     pub repeatability_mm: Option<f64>,
     /// The workpiece plane.
     pub plane: PlaneTable,
-    /// The load on the tool; along paths a cut does as well.
+    /// The load on the tool; along paths a cut can be given instead.
     pub load: Option<LoadTable>,
-    /// The cut: along paths its forces take the place of the load.
+    /// The cut: along paths its forces replace the load.
     pub cut: Option<CutTable>,
-    /// Greatest in-plane deviation that is tolerated.
+    /// Largest permitted in-plane deviation.
     #[schemars(range(min = 0.0, max = 1e9))]
     pub tolerance_um: f64,
-    /// How the arm stands.
+    /// Posture of the arm.
     pub posture: Option<PostureTable>,
-    /// What is asked; one map of the plane if left out.
+    /// The analyses; one map of the plane if left out.
     #[schemars(length(max = 200))]
     #[serde(default)]
     pub analysis: Vec<AnalysisTable>,
-    /// Where the part may lie, for `armill place`.
+    /// Permitted placements of the part, for `armill place`.
     pub place: Option<PlaceTable>,
-    /// What was measured on one circle, beside which the prediction is put.
+    /// Measurements of one circle, to compare with the prediction.
     pub measured: Option<ExperimentTable>,
-    /// Circular tests without load on circles of the study, for the backlash of the joints.
+    /// Circular tests without load on circles of the study, to estimate the backlash of the joints.
     #[schemars(length(max = 100))]
     #[serde(default)]
     pub ballbar: Vec<BallbarTable>,
-    /// Figures published by others, to stand beside ours.
+    /// Published figures by others, to compare with these results.
     #[schemars(length(max = 1000))]
     #[serde(default)]
     pub statement: Vec<StatementTable>,
@@ -82,30 +82,30 @@ pub struct StudyFile {
 pub struct PositionerTable {
     /// Its chain: a robot file of any format relative to the study; the table is its flange.
     pub robot: String,
-    /// Where it stands: base_link of the robot to its own root, x, y, z in mm, then turns about the fixed axes x, y, z in
-    /// degrees.
+    /// Its position: base_link of the robot to its own root, x, y, z in mm, then rotations about the fixed axes x, y, z
+    /// in degrees.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub base_from_root_mm_deg: [f64; 6],
-    /// How it stands: one a joint, mm for sliding ones.
+    /// Its joint positions, one for each joint; mm for prismatic joints.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub joints_deg: Vec<f64>,
 }
 
-/// Joint compliances brought by the study: one a joint, or those of a class.
+/// Joint compliances given by the study: one for each joint, or those of a class.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ComplianceTable {
-    /// One a joint, base to flange.
+    /// One for each joint, base to flange.
     #[schemars(inner(range(min = 0.0, max = 1.0)))]
     pub rad_per_n_m: Option<Vec<f64>>,
-    /// Standard uncertainty, one a joint.
+    /// Standard uncertainty, one for each joint.
     #[schemars(inner(range(min = 0.0, max = 1.0)))]
     pub u_rad_per_n_m: Option<Vec<f64>>,
     /// Assumed values by payload in place of `rad_per_n_m`: light (to 20 kg), medium (to 100 kg), heavy (to 300 kg).
     pub class: Option<ComplianceClass>,
-    /// Where they come from.
+    /// Source of the values.
     pub source: Option<String>,
-    /// Whether they are a guess: every result then says so. Those of a class always are.
+    /// Whether they are assumed: every result then states this. Those of a class always are.
     pub assumed: Option<bool>,
 }
 
@@ -113,32 +113,32 @@ pub struct ComplianceTable {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ToolTable {
-    /// Flange to tool centre point: x, y, z in mm, then turns about the fixed axes x, y, z in degrees.
+    /// Flange to tool centre point: x, y, z in mm, then rotations about the fixed axes x, y, z in degrees.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub flange_from_tool_mm_deg: [f64; 6],
-    /// Standard uncertainty of the place of the TCP along the tool axis.
+    /// Standard uncertainty of the position of the TCP along the tool axis.
     #[schemars(range(min = 0.0, max = 1e3))]
     pub length_u_mm: Option<f64>,
-    /// How far the cutter sticks out of its holder; it then bends like a clamped bar.
+    /// Stick-out of the cutter from its holder; the cutter then bends like a clamped bar.
     #[schemars(range(min = 0.01, max = 1e4))]
     pub stick_out_mm: Option<f64>,
     /// Diameter of the cutter's core.
     #[schemars(range(min = 0.01, max = 1e3))]
     pub diameter_mm: Option<f64>,
-    /// What the cutter is made of.
+    /// Material of the cutter.
     pub material: Option<CutterMaterial>,
     /// Young's modulus of the cutter, in place of its material.
     #[schemars(range(min = 1.0, max = 2e3))]
     pub modulus_gpa: Option<f64>,
-    /// What yields in holder, spindle and tool; `at` is `flange` or `tool`.
+    /// Compliances of holder, spindle and tool; `at` is `flange` or `tool`.
     #[serde(default)]
     pub spring: Vec<SpringTable>,
-    /// Spindle and payload, where gravity counts.
+    /// Spindle and payload, if gravity is included.
     #[serde(default)]
     pub mass: Vec<MassTable>,
 }
 
-/// What a cutter is made of.
+/// Material of a cutter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum CutterMaterial {
@@ -148,11 +148,11 @@ pub enum CutterMaterial {
     Hss,
 }
 
-/// Gravity: only what the arm sags against where the tool was set counts.
+/// Gravity: only the change of the sag relative to the posture where the tool was set is included.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GravityTable {
-    /// Joint positions where the tool was set (mm for sliding joints), as the robot file counts.
+    /// Joint positions when the tool was set (mm for prismatic joints), in the convention of the robot file.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub reference_joints_deg: Vec<f64>,
     /// Direction of gravity in base, of any length; down the z axis if left out.
@@ -170,7 +170,7 @@ pub struct PlaneTable {
     /// Tilt from the vertical about base y: 0 faces the robot, 90 faces up. 0 if left out.
     #[schemars(range(min = -180.0, max = 180.0))]
     pub tilt_deg: Option<f64>,
-    /// Turns of the part frame (z = outward normal) about the fixed axes x, y, z, in place of `tilt_deg`.
+    /// Rotation of the part frame (z = outward normal) about the fixed axes x, y, z, in place of `tilt_deg`.
     pub rotation_deg: Option<[f64; 3]>,
     /// Half the side of the plane, or both along y' and z'.
     pub half_size_mm: HalfSize,
@@ -189,7 +189,7 @@ pub enum HalfSize {
     Oblong([f64; 2]),
 }
 
-/// Part of a plane that one ask changes.
+/// Keys of a plane that one analysis changes.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PlaneChange {
@@ -212,26 +212,26 @@ pub struct PlaneChange {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LoadTable {
-    /// Axes of the components: `base` (default), `part` (z = outward normal), or along a program `feed` (x along the feed,
-    /// y to the left, z from the tip towards the spindle).
+    /// Axes of the components: `base` (default), `part` (z = outward normal), or along a program `feed` (x along the
+    /// feed, y to the left, z from the tip towards the spindle).
     pub frame: Option<LoadFrameName>,
-    /// Force on the tool, x, y, z, one a case.
+    /// Force on the tool, x, y, z, one for each case.
     #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
     pub cases_n: Vec<[f64; 3]>,
-    /// Moment on the tool about the TCP, one a case.
+    /// Moment on the tool about the TCP, one for each case.
     #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
     pub moments_n_m: Option<Vec<[f64; 3]>>,
-    /// Standard uncertainty of the size of all cases together.
+    /// Standard uncertainty of the size of all cases, fully correlated.
     #[schemars(range(min = 0.0, max = 1e3))]
     pub u_percent: Option<f64>,
     /// Standard uncertainty of each component of the force, in the same axes as the cases; independent.
     #[schemars(inner(range(min = 0.0, max = 1e9)))]
     pub u_n: Option<[f64; 3]>,
-    /// Where they come from.
+    /// Source of the values.
     pub source: Option<String>,
 }
 
-/// Axes that a load is told in.
+/// Axes of the components of a load.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum LoadFrameName {
@@ -244,7 +244,7 @@ pub enum LoadFrameName {
 }
 
 impl LoadFrameName {
-    /// As the core knows it.
+    /// The frame in the core.
     pub(crate) fn frame(self) -> LoadFrame {
         match self {
             LoadFrameName::Base => LoadFrame::Base,
@@ -253,7 +253,7 @@ impl LoadFrameName {
         }
     }
 
-    /// As the study calls it.
+    /// Its name in the study.
     pub(crate) fn word(self) -> &'static str {
         match self {
             LoadFrameName::Base => "base",
@@ -263,21 +263,21 @@ impl LoadFrameName {
     }
 }
 
-/// How the arm stands.
+/// Posture of the arm.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PostureTable {
-    /// Words out of `front|back elbow-up|elbow-down flip|no-flip`, or `nominal` (so if left out), or `best`.
+    /// Words out of `front|back elbow-up|elbow-down flip|no-flip`, or `nominal` (default), or `best`.
     pub branch: Option<String>,
-    /// Where a rail stands (mm) and what joints to spare are drawn to (deg), one a joint; without, the middle of their
-    /// ranges.
+    /// Position of a rail (mm) and preferred positions of redundant joints (deg), one for each joint; if left out, the
+    /// middle of their ranges.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub home_deg: Option<Vec<f64>>,
-    /// Along paths the best turn of the tool and branch are searched for; `branch`, where it is said, bounds the search.
+    /// Along paths: search for the best spin of the tool and branch; `branch`, if given, restricts the search.
     pub search: Option<SearchTable>,
 }
 
-/// What is asked.
+/// Kind of an analysis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum AnalysisKind {
@@ -290,11 +290,11 @@ pub enum AnalysisKind {
     Volume,
     /// The deviation along a path: a shape on the plane, or a tool path program.
     Path,
-    /// The deviation at holes in any order, each held as is best for itself.
+    /// The deviation at holes in any order, each with its best posture.
     Holes,
 }
 
-/// One ask; what it does not say it takes from the study.
+/// One analysis; values that it leaves out are those of the study.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AnalysisTable {
@@ -308,17 +308,17 @@ pub struct AnalysisTable {
     pub tool: Option<ToolTable>,
     /// Another load.
     pub load: Option<LoadTable>,
-    /// Another frame that heights count from.
+    /// Another reference frame.
     pub base: Option<String>,
     /// Another tolerance.
     #[schemars(range(min = 0.0, max = 1e9))]
     pub tolerance_um: Option<f64>,
     /// Another posture.
     pub posture: Option<PostureTable>,
-    /// Sections: the x coordinate of the plane's centre, one a section.
+    /// Sections: the x coordinate of the plane's centre, one for each section.
     #[schemars(length(max = 1000), inner(range(min = -1e6, max = 1e6)))]
     pub distances_mm: Option<Vec<f64>>,
-    /// Sections: the tilt of the plane, one a section.
+    /// Sections: the tilt of the plane, one for each section.
     #[schemars(length(max = 1000), inner(range(min = -360.0, max = 360.0)))]
     pub tilts_deg: Option<Vec<f64>>,
     /// Volume: the box of points.
@@ -328,7 +328,7 @@ pub struct AnalysisTable {
     pub circle: Option<CircleTable>,
     /// Path: a straight line.
     pub line: Option<LineTable>,
-    /// Path: straight pieces through points (y', z').
+    /// Path: straight segments through points (y', z').
     #[schemars(inner(inner(range(min = -1e6, max = 1e6))))]
     pub polyline_mm: Option<Vec<[f64; 2]>>,
     /// Path: a rectangle.
@@ -338,7 +338,7 @@ pub struct AnalysisTable {
     pub step_mm: Option<f64>,
     /// Path: another cut.
     pub cut: Option<CutTable>,
-    /// Path: by what angle the tool is turned about its axis on a shape; of a program that is `program.spin_deg`.
+    /// Path: spin of the tool about its axis on a shape; for a program use `program.spin_deg`.
     #[schemars(range(min = -360.0, max = 360.0))]
     pub spin_deg: Option<f64>,
     /// Path: a tool path program, and how the tool follows it; holes: those that it drills.
@@ -347,7 +347,7 @@ pub struct AnalysisTable {
     pub holes: Option<HolesTable>,
 }
 
-/// A box of points along the axes of the frame that the study counts from.
+/// A box of points along the axes of the reference frame of the study.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BoxTable {
@@ -386,7 +386,7 @@ pub struct LineTable {
     pub to_mm: [f64; 2],
 }
 
-/// A rectangle on the plane, walked once round.
+/// A rectangle on the plane, one turn.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RectangleTable {
@@ -398,17 +398,17 @@ pub struct RectangleTable {
     pub size_mm: [f64; 2],
 }
 
-/// What others state about the same thing.
+/// A published statement about the same quantity.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StatementTable {
     /// The statement in words.
     pub text: String,
-    /// Where it stands.
+    /// Where it was published.
     pub source: String,
     /// The stated bound of the in-plane deviation.
     #[schemars(range(min = 0.0, max = 1e9))]
     pub at_most_um: f64,
-    /// Names of the maps or paths that may be what it speaks of.
+    /// Names of the maps or paths that it may refer to.
     pub of: Vec<String>,
 }

@@ -1,13 +1,13 @@
-//! A set of holes of an ask: where they are, which way out of the part, and what pushes at each. Their order is of no
-//! consequence.
+//! A set of holes of an analysis: where they are, which way out of the part, and the load at each. Their order is of
+//! no consequence.
 //!
-//! | told by | place | direction out of the part |
+//! | specified by | position | direction out of the part |
 //! |---|---|---|
 //! | `holes.at_mm`, `holes.normals` | the frame of the part, moved by `part_from_holes_mm_deg` | one a hole, one for all, or the normal of the plane |
-//! | `holes.file` | likewise: a CSV with `x_mm, y_mm, z_mm` | its columns `i, j, k`, where it has them |
-//! | `program.file` | where the program lies: the ends of its plunges | where the program says |
+//! | `holes.file` | the same: a CSV with `x_mm, y_mm, z_mm` | its columns `i, j, k`, if it has them |
+//! | `program.file` | as in the program: the ends of its plunges | as in the program |
 //!
-//! A load told in axes of the feed (`load.frame = "feed"`) has z out of the hole and x where the tool has it unturned; thrust
+//! A load in axes of the feed (`load.frame = "feed"`) has z out of the hole and x as for the tool at spin 0; thrust
 //! and torque of a `drill` are such a load.
 
 use std::io::BufReader;
@@ -20,15 +20,15 @@ use armill_core::optimize::PostureSearch;
 use armill_core::path::{Hole, Pace, Placing, SampledPath, Spin, Step, Track, drilled_holes, path_of_holes};
 use armill_core::robot::Robot;
 use armill_formats::input;
-use armill_formats::toolpath::format::{self, Format, Wanted};
+use armill_formats::toolpath::format::{self, Format, ToolpathReadOptions};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::format::AnalysisTable;
 use super::path::drill::DrillTable;
-use super::path::program::{self, BESIDE_STUDY, ProgramTable, SpinName};
-use super::path::{PathAnalysis, PathSource, Push, put_on};
-use super::places::Places;
+use super::path::program::{self, FILE_HINT, ProgramTable, SpinName};
+use super::path::{LoadSource, PathAnalysis, PathSource, put_on};
+use super::problem_log::ProblemLog;
 use super::quantities::pose_mm_deg;
 use super::resolve::Setting;
 use crate::StudyError;
@@ -37,8 +37,8 @@ use crate::StudyError;
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HolesTable {
-    /// Where the tip stands at the end of each: x, y, z in the part frame (z = outward normal of the plane, origin at its
-    /// centre), moved by `part_from_holes_mm_deg`.
+    /// Position of the tip at the end of each: x, y, z in the part frame (z = outward normal of the plane, origin at
+    /// its centre), moved by `part_from_holes_mm_deg`.
     #[schemars(length(max = 100_000), inner(inner(range(min = -1e6, max = 1e6))))]
     pub at_mm: Option<Vec<[f64; 3]>>,
     /// Directions out of the part, same axes, of any length: one a hole or one for all; the normal of the plane if left
@@ -48,24 +48,24 @@ pub struct HolesTable {
     pub normals: Option<Vec<[f64; 3]>>,
     /// A CSV of them in place of `at_mm`, relative to the study: columns x_mm, y_mm, z_mm, and i, j, k out of the part.
     pub file: Option<String>,
-    /// Where their zero lies in the part frame: x, y, z in mm, then turns about the fixed axes x, y, z in degrees.
+    /// Their origin in the part frame: x, y, z in mm, then rotations about the fixed axes x, y, z in degrees.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub part_from_holes_mm_deg: Option<[f64; 6]>,
     /// A drill: its thrust and torque are the load.
     pub drill: Option<DrillTable>,
 }
 
-/// Holes with what pushes at them.
+/// Holes with their load.
 #[derive(Clone, Debug)]
 pub struct HolesAnalysis {
-    /// Their places as points that no path joins, and what pushes there.
+    /// Their positions as separate points, and the load there.
     pub path: PathAnalysis,
-    /// Which turns and branches are tried at each.
+    /// Spins and branches that are tried at each.
     pub search: PostureSearch,
 }
 
 impl HolesAnalysis {
-    /// Branches that are open, in words: `best` where all are.
+    /// Permitted branches, in words: `best` if all are.
     pub fn branch(&self) -> String {
         let open = self.search.branches;
         match open == armill_core::robot::BranchPattern::default() {
@@ -78,31 +78,31 @@ impl HolesAnalysis {
 /// Holes that a study may list.
 const MOST_HOLES: usize = 100_000;
 
-/// The holes of this ask; `None` where it has problems, told at their places.
+/// The holes of this analysis; `None` if it has problems, reported at their keys.
 ///
 /// # Errors
 /// The problems of the files that it names.
 pub(super) fn resolve(
-    places: &mut Places<'_>,
+    log: &mut ProblemLog<'_>,
     table: &AnalysisTable,
     (folder, robot): (&Path, Option<&Robot>),
-    (setting, push, search): (Option<Setting>, Option<Push<'_>>, Option<PostureSearch>),
+    (setting, push, search): (Option<Setting>, Option<LoadSource<'_>>, Option<PostureSearch>),
 ) -> Result<Option<HolesAnalysis>, StudyError> {
     let of = table.holes.clone().unwrap_or_default();
     let reported = [of.at_mm.is_some(), of.file.is_some(), table.program.is_some()];
     if reported.iter().filter(|reported| **reported).count() != 1 {
         let hint = "holes = { at_mm = [[0, 0, 0]] }, holes = { file = \"holes.csv\" }, or program = { file = \"drilling.ngc\" }";
-        places.problem_here("holes come from one list, one file or one program", hint);
+        log.problem_here("holes need exactly one list, file or program", hint);
         return Ok(None);
     }
-    let before = places.problems.len();
+    let before = log.problems.len();
     let found = match &table.program {
         Some(program) => {
-            refuse_keys(places, program, &of);
+            refuse_keys(log, program, &of);
             let Some(setting) = &setting else { return Ok(None) };
-            of_program(places, program, (folder, robot), setting)?
+            of_program(log, program, (folder, robot), setting)?
         }
-        None => of_list(places, &of, folder, setting.as_ref())?,
+        None => of_list(log, &of, folder, setting.as_ref())?,
     };
     let (Some((path, placing, source)), Some(setting), Some(push), Some(search)) =
         (found, setting, push, search)
@@ -126,16 +126,19 @@ pub(super) fn resolve(
         features: Vec::new(),
         setting,
     };
-    let pushes = put_on(places, push, folder, &mut analysis)?;
-    let fine = pushes && places.problems.len() == before;
-    Ok(fine.then_some(HolesAnalysis { path: analysis, search }))
+    let pushes = put_on(log, push, folder, &mut analysis)?;
+    let fine = pushes && log.problems.len() == before;
+    Ok(fine.then_some(HolesAnalysis {
+        path: analysis,
+        search,
+    }))
 }
 
-/// Points, where they lie, and what gave them.
-type Found = (SampledPath, Placing, PathSource);
+/// Points, their placement, and their source.
+type LocatedHoles = (SampledPath, Placing, PathSource);
 
-/// Tells keys of a program that mean nothing to holes.
-fn refuse_keys(places: &mut Places<'_>, program: &ProgramTable, of: &HolesTable) {
+/// Reports keys of a program that are not valid for holes.
+fn refuse_keys(log: &mut ProblemLog<'_>, program: &ProgramTable, of: &HolesTable) {
     let given = [
         ("program.feature", !program.feature.is_empty()),
         ("program.limits", program.limits.is_some()),
@@ -151,35 +154,38 @@ fn refuse_keys(places: &mut Places<'_>, program: &ProgramTable, of: &HolesTable)
         ),
     ];
     for (key, _) in given.iter().filter(|(_, given)| *given) {
-        let message = format!("`{key}` means nothing to the holes of a program");
-        places.problem(key, message, "remove it, or ask for the program as a path");
+        let message = format!("`{key}` is not valid for the holes of a program");
+        log.problem(
+            key,
+            message,
+            "remove it, or analyse the program with kind = \"path\"",
+        );
     }
     if of.drill.is_some() && program.drill.is_some() {
-        places.problem("holes.drill", "two drills are told", "keep `program.drill`");
+        log.problem("holes.drill", "two drills are given", "keep `program.drill`");
     }
 }
 
 /// The ends of the plunges of a program.
 fn of_program(
-    places: &mut Places<'_>,
+    log: &mut ProblemLog<'_>,
     table: &ProgramTable,
     (folder, robot): (&Path, Option<&Robot>),
     setting: &Setting,
-) -> Result<Option<Found>, StudyError> {
+) -> Result<Option<LocatedHoles>, StudyError> {
     let cell = robot.map(|robot| (robot, setting));
-    let Some(found) = program::read(places, table, (folder, cell))? else {
+    let Some(found) = program::read(log, table, (folder, cell))? else {
         return Ok(None);
     };
     let placing = program::placing(table, &setting.plane.base_from_part, found.robot.as_deref());
     let holes = drilled_holes(&found.path, &placing);
     if holes.points.is_empty() {
         let message = format!(
-            "{} drills no hole: no cut goes along the tool and ends there",
+            "{} drills no hole: no cut is along the tool and ends there",
             table.file
         );
-        let hint =
-            "drilling cycles, or plunges that nothing follows; a path is asked for with kind = \"path\"";
-        places.problem("program.file", message, hint);
+        let hint = "use drilling cycles or single plunges; use kind = \"path\" for a path";
+        log.problem("program.file", message, hint);
         return Ok(None);
     }
     let file = table.file.clone();
@@ -193,24 +199,28 @@ fn of_program(
 
 /// Holes of a list or a CSV.
 fn of_list(
-    places: &mut Places<'_>,
+    log: &mut ProblemLog<'_>,
     of: &HolesTable,
     folder: &Path,
     setting: Option<&Setting>,
-) -> Result<Option<Found>, StudyError> {
+) -> Result<Option<LocatedHoles>, StudyError> {
     let part_from_holes = of
         .part_from_holes_mm_deg
         .as_ref()
         .map_or_else(Isometry::identity, pose_mm_deg);
     let axis = part_from_holes.rotation.inverse() * Vector3::z_axis();
     let path = match (&of.at_mm, &of.file) {
-        (Some(at), _) => listed(places, at, of.normals.as_deref(), axis),
+        (Some(at), _) => listed(log, at, of.normals.as_deref(), axis),
         (None, Some(file)) => {
             if of.normals.is_some() {
-                let hint = "columns i, j, k of the file";
-                places.problem("holes.normals", "directions of a file stand in it", hint);
+                let hint = "use the columns i, j, k of the file";
+                log.problem(
+                    "holes.normals",
+                    "the directions of a file are given in the file",
+                    hint,
+                );
             }
-            in_file(places, file, folder, axis)?
+            in_file(log, file, folder, axis)?
         }
         (None, None) => None,
     };
@@ -229,23 +239,23 @@ fn of_list(
 
 /// Holes that the study lists.
 fn listed(
-    places: &mut Places<'_>,
+    log: &mut ProblemLog<'_>,
     at_mm: &[[f64; 3]],
     normals: Option<&[[f64; 3]]>,
     axis: Unit<Vector3<f64>>,
 ) -> Option<SampledPath> {
-    let before = places.problems.len();
+    let before = log.problems.len();
     if at_mm.is_empty() {
-        places.problem(
+        log.problem(
             "holes.at_mm",
-            "no hole is listed",
+            "the list has no holes",
             "at_mm = [[0, 0, 0], [50, 0, 0]]",
         );
     }
     let normals = normals.unwrap_or_default();
     if normals.len() > 1 && normals.len() != at_mm.len() {
         let message = format!("{} normals for {} holes", normals.len(), at_mm.len());
-        places.problem("holes.normals", message, "one a hole, or one for all");
+        log.problem("holes.normals", message, "give one for each hole, or one for all");
     }
     let mut axes = Vec::new();
     for (index, normal) in normals.iter().enumerate() {
@@ -253,7 +263,7 @@ fn listed(
             Some(axis) => axes.push(axis),
             None => {
                 let path = format!("holes.normals[{index}]");
-                places.problem(&path, "a normal without length", "such as [0, 0, 1]");
+                log.problem(&path, "the normal has zero length", "such as [0, 0, 1]");
             }
         }
     }
@@ -262,7 +272,7 @@ fn listed(
         [one] => one,
         _ => axes[index],
     };
-    (places.problems.len() == before).then(|| {
+    (log.problems.len() == before).then(|| {
         let hole = |(index, at): (usize, &[f64; 3])| Hole {
             at: Point3::from(Vector3::from(*at) * 1e-3),
             axis: axis_of(index),
@@ -277,7 +287,7 @@ fn listed(
 /// # Errors
 /// The problems of the file.
 fn in_file(
-    places: &mut Places<'_>,
+    log: &mut ProblemLog<'_>,
     file: &str,
     folder: &Path,
     axis: Unit<Vector3<f64>>,
@@ -288,7 +298,7 @@ fn in_file(
         Ok(opened) => opened,
         Err(error) => {
             let message = format!("cannot read {shown}: {error}");
-            places.problem("holes.file", message, BESIDE_STUDY);
+            log.problem("holes.file", message, FILE_HINT);
             return Ok(None);
         }
     };
@@ -297,7 +307,7 @@ fn in_file(
     let summary = format::read(
         &shown,
         BufReader::new(opened),
-        &Wanted::default(),
+        &ToolpathReadOptions::default(),
         &mut |step| match step {
             Step::Operation(operation) => operations.push((holes.len(), operation)),
             Step::Move(_) if holes.len() >= MOST_HOLES => too_many = true,
@@ -313,31 +323,31 @@ fn in_file(
     )?;
     let problem = if summary.format != Format::Csv {
         Some((
-            format!("{shown} is a program, no table of holes"),
-            "name it as program = { file = ... }",
+            format!("{shown} is a program, not a table of holes"),
+            "use program = { file = ... }",
         ))
     } else if too_many {
         Some((
             format!("{shown} has more than {MOST_HOLES} holes"),
-            "a part of them",
+            "split the file",
         ))
     } else if holes.is_empty() {
         Some((
             format!("{shown} has no hole"),
-            "a row a hole below the names of the columns",
+            "give one row for each hole below the header",
         ))
     } else {
         None
     };
     if let Some((message, hint)) = problem {
-        places.problem("holes.file", message, hint);
+        log.problem("holes.file", message, hint);
         return Ok(None);
     }
     let mut path = path_of_holes(&holes);
     path.operations = operations;
     for (point, pace) in path.points.iter_mut().zip(paces) {
-        // A row is a hole whether the tool comes to it fast or not.
-        point.pace = if pace.cuts() { pace } else { Pace::EvaluateError };
+        // A row is a hole at any feed of the tool.
+        point.pace = if pace.cuts() { pace } else { Pace::Unknown };
     }
     Ok(Some(path))
 }

@@ -1,11 +1,11 @@
-//! What the answers of a study take in memory: known, and refused where it is too much, before anything is allocated.
+//! The memory of the answers of a study: estimated, and refused if it is too much, before anything is allocated.
 //!
 //! ```text
-//! bytes = sum over asks of  points (answers of a point + tables and fields of a point) + cases (columns of a case)
+//! bytes = sum over analyses of  points (answers of a point + tables and fields of a point) + cases (columns of a case)
 //! ```
 //!
-//! At most 4 GiB for each plane, box or path, and for all together. Both parts of a point grow with joints, shares and load
-//! cases; what they are made of is written beside the constants. Measured (MH12, resident at its peak, without pictures)
+//! At most 4 GiB for each plane, box or path, and for all together. Both parts of a point grow with joints, shares and
+//! load cases; the comments of the constants list their contents. Measured (MH12, peak resident size, without pictures)
 //! and estimated, bytes a point:
 //!
 //! | | 1 case | 8 cases |
@@ -22,53 +22,52 @@ use armill_formats::robot::RobotDescription;
 
 use super::format::AnalysisKind;
 use super::path::PathAnalysis;
-use super::places::Places;
-use super::resolve::{Ask, Setting, Subject};
+use super::problem_log::ProblemLog;
+use super::resolve::{Analysis, Setting, Subject};
 
 /// Bytes in a GiB.
 pub(super) const GIB: f64 = 1024.0 * 1024.0 * 1024.0;
-/// Most memory that the answers of a study may take: what a laptop can spare.
+/// Most memory that the answers of a study may take: available on a laptop.
 pub(super) const MOST_BYTES: f64 = 4.0 * GIB;
-/// What a point takes at least beside its answers, bytes.
-pub(super) const LEAST_BYTES_BESIDE: usize = OF_FIELD.point;
+/// Minimum of the bytes of a point in addition to its answers.
+pub(super) const LEAST_EXTRA_BYTES: usize = OF_FIELD.point;
 
-/// What tables and fields take beside the answers, bytes: of a point, of each of its joints and shares, of each of its
+/// Bytes of tables and fields in addition to the answers: of a point, of each of its joints and shares, of each of its
 /// load cases. A number is 16 in a column that may lack some, about 11 in a field's file and 12 in CSV.
-struct Beside {
+struct ExtraBytes {
     point: usize,
     joint_or_share: usize,
     case: usize,
 }
 
-/// Boxes and sections: position (24) and 13 columns in the table (148), four numbers in the field and its file (107), and what
-/// is copied on the way (50).
-/// Of a case three columns (48), a vector in the field (32) and in its file (32).
-const OF_FIELD: Beside = Beside {
+/// Boxes and sections: position (24) and 13 columns in the table (148), four numbers in the field and its file (107),
+/// and temporary copies (50). Of a case three columns (48), a vector in the field (32) and in its file (32).
+const OF_FIELD: ExtraBytes = ExtraBytes {
     point: 330,
     joint_or_share: 16,
     case: 112,
 };
 /// Maps: also CSV.
-const OF_MAP: Beside = Beside {
+const OF_MAP: ExtraBytes = ExtraBytes {
     point: 330 + 13 * 12,
     joint_or_share: 16 + 12,
     case: 112 + 36,
 };
 /// Paths and holes: also the points of the path and their columns, and the load at each.
-const OF_PATH: Beside = Beside {
+const OF_PATH: ExtraBytes = ExtraBytes {
     point: 330 + 350,
     joint_or_share: 16,
     case: 112 + 48,
 };
-/// Names, descriptions and buffers of the columns of one load case, whatever the points; measured 13 kB.
+/// Names, descriptions and buffers of the columns of one load case, independent of the points; measured 13 kB.
 const BYTES_PER_CASE: usize = 16 << 10;
 
-/// What to do where one ask is too large.
-const HINT: &str = "a larger step, a smaller plane, or fewer load cases";
+/// Hint for an analysis that is too large.
+const HINT: &str = "use a larger step, a smaller plane, or fewer load cases";
 
 /// Whether `points` of this setting under so many load cases fit; a problem at `path` if not.
 pub(super) fn check_points(
-    places: &mut Places<'_>,
+    log: &mut ProblemLog<'_>,
     path: &str,
     (kind, points): (AnalysisKind, f64),
     (robot, setting, cases): (&RobotDescription, &Setting, usize),
@@ -84,12 +83,12 @@ pub(super) fn check_points(
     };
     let message =
         format!("{points:.0} points{under} would take {gib:.1} GiB of memory, more than {most:.0} GiB");
-    places.problem(path, message, HINT);
+    log.problem(path, message, HINT);
     None
 }
 
-/// A problem if all asks do not fit together: their answers are held at once.
-pub(super) fn check_asks(places: &mut Places<'_>, robot: &RobotDescription, analyses: &[Ask]) {
+/// A problem if all analyses do not fit into memory together: their answers are in memory at the same time.
+pub(super) fn check_analyses(log: &mut ProblemLog<'_>, robot: &RobotDescription, analyses: &[Analysis]) {
     let of = |kind: AnalysisKind, setting: &Setting, points: usize| {
         bytes(kind, points as f64, (robot, setting, setting.cases.len()))
     };
@@ -97,7 +96,7 @@ pub(super) fn check_asks(places: &mut Places<'_>, robot: &RobotDescription, anal
         let cases = path.load.case_count();
         bytes(kind, path.track.len() as f64, (robot, &path.setting, cases))
     };
-    let of_ask = |analysis: &Ask| match &analysis.subject {
+    let of_analysis = |analysis: &Analysis| match &analysis.subject {
         Subject::Map(sheet) => of(AnalysisKind::Map, &sheet.setting, sheet.grid.len()),
         Subject::Sections(all) => all
             .iter()
@@ -107,17 +106,26 @@ pub(super) fn check_asks(places: &mut Places<'_>, robot: &RobotDescription, anal
         Subject::Holes(holes) => of_path(AnalysisKind::Holes, &holes.path),
         Subject::Path(path) => of_path(AnalysisKind::Path, path),
     };
-    let bytes: f64 = analyses.iter().map(of_ask).sum();
+    let bytes: f64 = analyses.iter().map(of_analysis).sum();
     if bytes > MOST_BYTES {
         let (gib, most) = (bytes / GIB, MOST_BYTES / GIB);
-        let message = format!("all asks together would take {gib:.1} GiB of memory, more than {most:.0} GiB");
-        places.problem("analysis", message, "larger steps, smaller planes, or several studies");
+        let message =
+            format!("all analyses together would take {gib:.1} GiB of memory, more than {most:.0} GiB");
+        log.problem(
+            "analysis",
+            message,
+            "use larger steps, smaller planes, or several studies",
+        );
     }
 }
 
-/// What so many points take: their answers in the core, tables and fields beside them.
-fn bytes(kind: AnalysisKind, points: f64, (robot, setting, cases): (&RobotDescription, &Setting, usize)) -> f64 {
-    let beside = match kind {
+/// Bytes of so many points: their answers in the core, and their tables and fields.
+fn bytes(
+    kind: AnalysisKind,
+    points: f64,
+    (robot, setting, cases): (&RobotDescription, &Setting, usize),
+) -> f64 {
+    let extra = match kind {
         AnalysisKind::Map => OF_MAP,
         AnalysisKind::Sections | AnalysisKind::Volume => OF_FIELD,
         AnalysisKind::Path | AnalysisKind::Holes => OF_PATH,
@@ -125,8 +133,8 @@ fn bytes(kind: AnalysisKind, points: f64, (robot, setting, cases): (&RobotDescri
     let joints = robot.robot.joints().len();
     let shares = setting.model.contributors(joints).len();
     let point = Answers::bytes_per_point(joints, shares, cases)
-        + beside.point
-        + beside.joint_or_share * (joints + shares)
-        + beside.case * cases;
+        + extra.point
+        + extra.joint_or_share * (joints + shares)
+        + extra.case * cases;
     points * point as f64 + (cases * BYTES_PER_CASE) as f64
 }

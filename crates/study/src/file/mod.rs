@@ -1,13 +1,15 @@
 //! What a user writes: the study file, format 1.
 //!
 //! ```text
-//! text -> Document -> StudyFile (schema walked, all slips told) -> Study: asks in SI, in base, checked
+//! text -> Document -> StudyFile (schema checked, all mistakes reported) -> Study: analyses in SI, in base, checked
 //! ```
 //!
-//! [`format`](mod@format) is the file as it stands; [`resolve`] checks it and works out what each ask means (`analysis`,
-//! [`path`], [`holes`], `names`, `memory`), its [`quantities`] in SI, the [`compliance`] and [`stiffness`] that it brings, and the
-//! [`positioner`]; `actual` the arm as it was measured; `other_robot` puts another robot in place of its own; [`posture_search`] the turns of the tool that are tried
-//! along paths, [`placement`] where a part may lie, [`experiment`] what was measured on a circle, [`circles`] circular tests for the backlash of joints; `places` tells problems where they stand.
+//! [`format`](mod@format) is the file as written; [`resolve`] checks it and resolves each analysis (`analysis`,
+//! [`path`], [`holes`], `names`, `memory`), its [`quantities`] in SI, its [`compliance`] and [`stiffness`], and the
+//! [`positioner`]. `calibrated` is the calibrated arm; `other_robot` replaces the robot. [`posture_search`] is the
+//! search for spin and branch along paths, [`placement`] the permitted placements of a part, [`experiment`] the
+//! measurements of a circle, [`circles`] circular tests for the backlash of joints. `problem_log` reports problems at
+//! their keys.
 
 pub mod circles;
 pub mod compliance;
@@ -22,9 +24,9 @@ pub mod quantities;
 pub mod resolve;
 pub mod stiffness;
 
-mod calibrated;
 pub(crate) mod analysis;
+mod calibrated;
 mod memory;
 mod names;
 pub(crate) mod other_robot;
-mod places;
+mod problem_log;

@@ -1,19 +1,20 @@
-//! Names of asks: fit to name files by, told apart, and found by the statements that speak of them.
+//! Names of analyses: valid as file names, unique, and found by the statements that refer to them.
 //!
-//! A name becomes a part of file names by its letters and digits alone (`output::slug`). There must be at least one of
-//! them and not more than systems take; and no two asks, nor one ask and a picture of another, may give the same file.
+//! The letters and digits of a name become a part of file names (`output::slug`). There must be at least one of
+//! them and not more than systems take; and no two analyses, nor one analysis and a picture of another, may give the
+//! same file.
 
 use armill_formats::document::{Document, Problem};
 
 use super::analysis::kind_name;
 use super::format::{AnalysisKind, AnalysisTable, StudyFile};
-use super::places::Places;
-use super::resolve::{Ask, Subject};
+use super::problem_log::ProblemLog;
+use super::resolve::{Analysis, Subject};
 
-/// Longest part of a file name that an ask may give, bytes: systems take 255, sections and pictures add to it.
+/// Longest part of a file name that an analysis may give, bytes: systems take 255, sections and pictures add to it.
 const LONGEST_SLUG: usize = 160;
 
-/// The name of an ask; of its kind and number where it gives none.
+/// The name of an analysis; its kind and number if it has none.
 pub(super) fn name_of(table: &AnalysisTable, index: usize) -> String {
     table
         .name
@@ -23,9 +24,9 @@ pub(super) fn name_of(table: &AnalysisTable, index: usize) -> String {
 
 /// Problems of statements that speak of no map, section or path.
 ///
-/// A section is spoken of as `NAME: LABEL`; the labels of an ask with problems are not known, so names like that pass
-/// then.
-pub(super) fn check_statements(places: &mut Places<'_>, file: &StudyFile, analyses: &[Ask]) {
+/// A section is spoken of as `NAME: LABEL`; the labels of an analysis with problems are not known, so names like that
+/// pass then.
+pub(super) fn check_statements(log: &mut ProblemLog<'_>, file: &StudyFile, analyses: &[Analysis]) {
     let named = |kinds: &[AnalysisKind], name: &str| {
         let of_kind = file
             .analysis
@@ -36,8 +37,8 @@ pub(super) fn check_statements(places: &mut Places<'_>, file: &StudyFile, analys
             .map(|(index, analysis)| name_of(analysis, index))
             .any(|analysis| analysis == name)
     };
-    // Sections are named by their labels; those of an ask with problems are not known.
-    let sections = |analysis: &Ask| match &analysis.subject {
+    // Sections are named by their labels; those of an analysis with problems are not known.
+    let sections = |analysis: &Analysis| match &analysis.subject {
         Subject::Sections(sections) => sections
             .iter()
             .map(|(label, _)| format!("{}: {label}", analysis.name))
@@ -45,14 +46,14 @@ pub(super) fn check_statements(places: &mut Places<'_>, file: &StudyFile, analys
         _ => Vec::new(),
     };
     let sections: Vec<String> = analyses.iter().flat_map(sections).collect();
-    // A study without asks has one that it does not write.
-    let all_asks_known = analyses.len() == file.analysis.len().max(1);
+    // A study without analyses has one that it does not write.
+    let all_analyses_known = analyses.len() == file.analysis.len().max(1);
     for (index, statement) in file.statement.iter().enumerate() {
         for (k, name) in statement.of.iter().enumerate() {
             let known = named(&[AnalysisKind::Map, AnalysisKind::Path], name)
                 || sections.contains(name)
                 || (file.analysis.is_empty() && name == "map")
-                || (!all_asks_known && name.contains(": "));
+                || (!all_analyses_known && name.contains(": "));
             if known {
                 continue;
             }
@@ -66,25 +67,25 @@ pub(super) fn check_statements(places: &mut Places<'_>, file: &StudyFile, analys
             } else if named(&[AnalysisKind::Volume], name) {
                 (
                     format!("`{name}` is a volume"),
-                    "a statement speaks of maps, sections and paths".to_owned(),
+                    "a statement can refer to maps, sections and paths".to_owned(),
                 )
             } else if named(&[AnalysisKind::Holes], name) {
                 (
                     format!("`{name}` is a set of holes"),
-                    "a statement speaks of maps, sections and paths".to_owned(),
+                    "a statement can refer to maps, sections and paths".to_owned(),
                 )
             } else {
                 (
-                    format!("no ask is called `{name}`"),
-                    "give an ask this `name`".to_owned(),
+                    format!("no analysis is called `{name}`"),
+                    "give an analysis this `name`".to_owned(),
                 )
             };
-            places.problem(&format!("statement[{index}].of[{k}]"), message, &hint);
+            log.problem(&format!("statement[{index}].of[{k}]"), message, &hint);
         }
     }
 }
 
-/// Problems of names that give no file name, too long a one, or that of an earlier ask.
+/// Problems of names that give no valid file name, too long a one, or that of an earlier analysis.
 pub(super) fn unfit_names(document: &Document, file: &StudyFile) -> Vec<Problem> {
     let names: Vec<String> = file
         .analysis
@@ -96,25 +97,28 @@ pub(super) fn unfit_names(document: &Document, file: &StudyFile) -> Vec<Problem>
     let problem = |i: usize| {
         let (message, hint) = if slugs[i].is_empty() {
             (
-                format!("`{}` has no letter and no digit to name files by", names[i]),
+                format!(
+                    "`{}` has no letter and no digit, which file names require",
+                    names[i]
+                ),
                 "such as `plate`",
             )
         } else if slugs[i].len() > LONGEST_SLUG {
             let message = format!(
-                "file names of {} bytes would come of this name, more than {LONGEST_SLUG}",
+                "the name gives file names of {} bytes, more than {LONGEST_SLUG}",
                 slugs[i].len()
             );
             (
                 message,
-                "a shorter name; `title` and `question` may be as long as you like",
+                "use a shorter name; `title` and `question` may have any length",
             )
         } else if let Some(other) =
             (0..slugs.len()).find(|j| crate::output::is_picture_of(&slugs[i], &slugs[*j]))
         {
-            let message = format!("`{}` would write a picture of `{}` over", names[i], names[other]);
+            let message = format!("`{}` would overwrite a picture of `{}`", names[i], names[other]);
             (
                 message,
-                "another name: pictures of an ask are called by its name and what they show",
+                "use another name: pictures are named after the analysis and their content",
             )
         } else if let Some(earlier) = (0..i).find(|j| slugs[*j] == slugs[i]) {
             let message = format!(
@@ -123,7 +127,7 @@ pub(super) fn unfit_names(document: &Document, file: &StudyFile) -> Vec<Problem>
             );
             (
                 message,
-                "each ask needs a name of its own; case and punctuation do not tell names apart",
+                "each analysis needs a unique name; case and punctuation are ignored",
             )
         } else {
             return None;

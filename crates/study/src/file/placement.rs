@@ -1,4 +1,4 @@
-//! `place`: where the part may lie, and what shall be least there.
+//! `place`: the permitted placements of the part, and the objective.
 //!
 //! ```text
 //! reference_from_part = (x, y, z) Rz(heading) Ry(tilt) R Rz(roll)
@@ -6,12 +6,12 @@
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | `x, y, z` | centre of the plane, in the frame that the study counts from | m |
-//! | `heading` | about z of that frame, beside where the part lies | rad |
-//! | `tilt` | about its y; of a plane told by `tilt_deg` that angle itself, of others beside where it lies | rad |
-//! | `rail` | where the rail under the robot stands: the first joint that slides | m |
-//! | `roll` | about the normal of the plane, beside where the part lies | rad |
-//! | `R` | axes of the part as the study has them (without their tilt, where they are told by it) | - |
+//! | `x, y, z` | centre of the plane, relative to the reference frame of the study | m |
+//! | `heading` | about z of that frame, relative to the present placement | rad |
+//! | `tilt` | about its y; absolute for a plane given by `tilt_deg`, else relative to the present placement | rad |
+//! | `rail` | position of the rail under the robot: its first prismatic joint | m |
+//! | `roll` | about the normal of the plane, relative to the present placement | rad |
+//! | `R` | axes of the part as in the study (without their tilt, if they are given by it) | - |
 
 use armill_core::optimize::RankBy;
 use armill_core::robot::BranchPattern;
@@ -20,11 +20,11 @@ use serde::Deserialize;
 
 use super::posture_search::{ComponentName, ObjectiveName};
 
-/// Where the part may lie, and what shall be least there; for `armill place`.
+/// The permitted placements of the part and the objective, for `armill place`.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PlaceTable {
-    /// Name of the path that is placed; needed where the study asks for several.
+    /// Name of the path that is placed; required if the study has several.
     pub analysis: Option<String>,
     /// Least and greatest x of the plane's centre.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
@@ -35,35 +35,36 @@ pub struct PlaceTable {
     /// Its z.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub z_mm: Option<[f64; 2]>,
-    /// Least and greatest heading: turn of the part about the vertical, beside where it lies.
+    /// Least and greatest heading: rotation of the part about the vertical, relative to its present placement.
     #[schemars(inner(range(min = -360.0, max = 360.0)))]
     pub heading_deg: Option<[f64; 2]>,
-    /// Least and greatest tilt: `plane.tilt_deg` itself, or of a plane told by `rotation_deg` beside where it lies.
+    /// Least and greatest tilt: absolute as `plane.tilt_deg`, or for a plane given by `rotation_deg` relative to it.
     #[schemars(inner(range(min = -360.0, max = 360.0)))]
     pub tilt_deg: Option<[f64; 2]>,
-    /// Least and greatest turn of the part about the plane's normal, beside where it lies.
+    /// Least and greatest rotation of the part about the normal of the plane, relative to its present placement.
     #[schemars(inner(range(min = -360.0, max = 360.0)))]
     pub roll_deg: Option<[f64; 2]>,
-    /// Least and greatest turn of the tool about its axis, the same all along, beside the one it has.
+    /// Least and greatest spin of the tool, constant along the path, relative to its present value.
     #[schemars(inner(range(min = -360.0, max = 360.0)))]
     pub spin_deg: Option<[f64; 2]>,
-    /// Where the rail under the robot may stand: its first joint that slides.
+    /// Range of the rail under the robot: its first prismatic joint.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub rail_mm: Option<[f64; 2]>,
-    /// Places that there are, in place of x, y, z, heading and tilt.
+    /// Available fixtures, in place of x, y, z, heading and tilt.
     #[schemars(length(max = 1000))]
     #[serde(default)]
     pub fixture: Vec<FixtureTable>,
-    /// Branches that may be taken: words of a branch, or `any`; those that the study leaves open if left out.
+    /// Permitted branches: words of a branch, or `any`; if left out, those that the study permits.
     pub branch: Option<String>,
-    /// Which part of the deviation counts; `in-plane` if left out.
+    /// Component of the deviation that is evaluated; `in-plane` if left out.
     pub component: Option<ComponentName>,
-    /// What shall be least; `worst` if left out.
+    /// The objective; `worst` if left out.
     pub objective: Option<ObjectiveName>,
-    /// What places are compared by: the goal as if all were known, with two standard uncertainties more, or how probably it
-    /// keeps the limit; `nominal` if left out.
+    /// Criterion that placements are compared by: the nominal objective, the objective plus two standard uncertainties,
+    /// or the probability that it is within the tolerance; `nominal` if left out.
     pub rank_by: Option<RankByName>,
-    /// How far every joint stays from its limits, the elbow from stretched and the wrist from straight; 0 if left out.
+    /// Distance of every joint from its limits, of the elbow from stretched and of the wrist from straight; 0 if left
+    /// out.
     #[schemars(range(min = 0.0, max = 90.0))]
     pub margin_deg: Option<f64>,
     /// Least angle by which the wrist is bent; 3 if left out.
@@ -71,25 +72,25 @@ pub struct PlaceTable {
     pub least_wrist_deg: Option<f64>,
 }
 
-/// What places are compared by.
+/// Criterion that placements are compared by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RankByName {
-    /// The goal as if all were known.
+    /// The nominal value of the objective.
     Nominal,
-    /// The goal and two standard uncertainties.
+    /// The objective plus two standard uncertainties.
     PlusTwoSigma,
-    /// How probably the goal is within the limit.
-    WithinLimit,
+    /// The probability that the objective is within the tolerance.
+    WithinTolerance,
 }
 
 impl RankByName {
-    /// As the core knows it; `limit` in m.
-    pub fn rank_by(self, limit: f64) -> RankBy {
+    /// As the core knows it; `tolerance` in m.
+    pub fn rank_by(self, tolerance: f64) -> RankBy {
         match self {
             RankByName::Nominal => RankBy::Nominal,
             RankByName::PlusTwoSigma => RankBy::PlusTwoSigma,
-            RankByName::WithinLimit => RankBy::WithinLimit(limit),
+            RankByName::WithinTolerance => RankBy::WithinTolerance(tolerance),
         }
     }
 }
@@ -100,7 +101,7 @@ impl RankByName {
 pub struct FixtureTable {
     /// What it is called.
     pub name: String,
-    /// Where the centre of the plane comes to lie there.
+    /// Position of the centre of the plane in this fixture.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub centre_mm: [f64; 3],
     /// Its tilt, as `plane.tilt_deg`.
@@ -169,13 +170,13 @@ impl PlaceTable {
             if least > greatest {
                 faults.push((
                     key.to_owned(),
-                    format!("`{key}` goes from {least} to {greatest}: there is nothing between"),
-                    "the least first, then the greatest, such as [700, 1300]",
+                    format!("`{key}` ranges from {least} to {greatest}: the range is empty"),
+                    "give the least first, then the greatest, such as [700, 1300]",
                 ));
             } else if key == "tilt_deg" && least.abs().max(greatest.abs()) > 180.0 {
                 faults.push((
                     key.to_owned(),
-                    format!("`{key}` goes from {least} to {greatest} deg"),
+                    format!("`{key}` ranges from {least} to {greatest} deg"),
                     "from -180 to 180, as plane.tilt_deg",
                 ));
             } else if key.ends_with("_deg") && greatest - least > 360.0 {
@@ -189,8 +190,8 @@ impl PlaceTable {
             if of_place && !self.fixture.is_empty() {
                 faults.push((
                     key.to_owned(),
-                    format!("`{key}` beside fixtures, which say where the part lies"),
-                    "leave out one of them; roll_deg, spin_deg and rail_mm may stand beside fixtures",
+                    format!("`{key}` cannot be combined with fixtures, which determine the placement"),
+                    "remove one of them; roll_deg, spin_deg and rail_mm can be combined with fixtures",
                 ));
             }
         }
@@ -212,7 +213,7 @@ impl PlaceTable {
                 faults.push((
                     format!("fixture[{index}].name"),
                     format!("there are two fixtures `{}`", fixture.name),
-                    "a name of its own for each",
+                    "give each a unique name",
                 ));
             }
         }

@@ -1,16 +1,16 @@
-//! A turntable or positioner that carries the part: a second chain beside the robot.
+//! A turntable or positioner that carries the part: a second kinematic chain.
 //!
-//! Its table is a frame that coordinates count from, and what it yields under the cut adds to what the arm yields: the
-//! part gives way to `-w` where the tool gives way to `w`, so each of its joints is a spring under the arm, at its own
+//! Its table is a frame that coordinates can be relative to. Its deflection under the cut adds to that of the arm: the
+//! part moves by `-w` where the tool moves by `w`, so each of its joints is a spring under the arm, at its own
 //! axis in base.
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | `base_from_root` | where the positioner stands, `base_from_root_mm_deg` | m, rad |
-//! | `q` | how it stands, `joints_deg`; the same all study long | rad (m) |
+//! | `base_from_root` | position of the positioner, `base_from_root_mm_deg` | m, rad |
+//! | `q` | its joint positions, `joints_deg`; constant within a study | rad (m) |
 //! | `S_k`, `c_k` | screw of its joint k about the origin of base, its compliance | -, rad/(N m) |
 //!
-//! Its own springs, masses and gravity are left out: only the compliances of its joints count.
+//! Its other springs, its masses and gravity are neglected: only the compliances of its joints are included.
 
 use std::path::Path;
 
@@ -26,13 +26,13 @@ use armill_formats::robot::RobotDescription;
 use armill_formats::sources::Source;
 
 use super::format::PositionerTable;
-use super::places::Places;
+use super::problem_log::ProblemLog;
 use super::quantities::pose_mm_deg;
 use crate::error::StudyError;
 use crate::pose::joint_positions;
 use crate::robots;
 
-/// What its table is called where coordinates count from it.
+/// The name of its table as a reference frame.
 pub const TABLE: &str = "table";
 
 /// The robot with the table of this positioner as a frame, its joints as springs, and its sources; unchanged where
@@ -40,8 +40,8 @@ pub const TABLE: &str = "table";
 ///
 /// # Errors
 /// The problems of the positioner's file.
-pub(super) fn beside(
-    places: &mut Places<'_>,
+pub(super) fn with_positioner(
+    log: &mut ProblemLog<'_>,
     table: &PositionerTable,
     folder: &Path,
     mut found: RobotDescription,
@@ -50,7 +50,7 @@ pub(super) fn beside(
     let described = match robots::find(&table.robot, folder) {
         Ok(found) => found,
         Err(StudyError::Value { message, hint }) => {
-            places.problem("positioner.robot", message, &hint);
+            log.problem("positioner.robot", message, &hint);
             return Ok(found);
         }
         Err(problems) => return Err(problems),
@@ -58,7 +58,7 @@ pub(super) fn beside(
     let q = match joint_positions(&described, &table.joints_deg) {
         Ok(q) => q,
         Err(StudyError::Value { message, hint }) => {
-            places.problem("positioner.joints_deg", message, &hint);
+            log.problem("positioner.joints_deg", message, &hint);
             return Ok(found);
         }
         Err(problems) => return Err(problems),
@@ -71,8 +71,8 @@ pub(super) fn beside(
         } else {
             format!("{:.1} deg", -outside.to_degrees())
         };
-        let message = format!("the positioner's joint {name} stands {beyond} outside its range");
-        places.problem(
+        let message = format!("the positioner's joint {name} is {beyond} outside its range");
+        log.problem(
             "positioner.joints_deg",
             message,
             "see `armill robots FILE` for its limits",
@@ -80,7 +80,7 @@ pub(super) fn beside(
     }
     if robot.frames().iter().any(|frame| frame.name == TABLE) {
         let message = format!("the robot has a frame `{TABLE}` already");
-        places.problem("positioner", message, "rename the frame in the robot file");
+        log.problem("positioner", message, "rename the frame in the robot file");
     }
 
     let base_from_root = pose_mm_deg(&table.base_from_root_mm_deg);
@@ -108,13 +108,10 @@ pub(super) fn beside(
             }));
     }
     let refused = |error: armill_core::robot::RobotError| {
-        StudyError::value(
-            error.to_string(),
-            "see the positioner's file, and where it stands",
-        )
+        StudyError::value(error.to_string(), "see the positioner's file and its position")
     };
-    let beside = robot.clone().with_frames(all).with_structure(structure);
-    found.robot = beside.map_err(refused)?;
+    let with_positioner = robot.clone().with_frames(all).with_structure(structure);
+    found.robot = with_positioner.map_err(refused)?;
     found
         .sources
         .extend(described.sources.into_iter().map(|source| Source {

@@ -1,52 +1,52 @@
-//! `posture.search`: which turns of the tool and branches are tried along a path, and what of the deviation shall be least.
+//! `posture.search`: spins of the tool and branches to search along a path, and the objective.
 
 use armill_core::optimize::{Component, Objective, PostureSearch, Spins};
 use armill_core::robot::BranchPattern;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::places::Places;
+use super::problem_log::ProblemLog;
 use super::resolve::{Study, Subject};
 use crate::StudyError;
 
-/// The best turn of the tool and branch along a path, in place of those of the study.
+/// The search for the best spin of the tool and branch along a path.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SearchTable {
-    /// First and last turn of the tool about its axis, beside the one it has; -180 to 180 if left out.
+    /// First and last spin of the tool about its axis, relative to its present one; -180 to 180 if left out.
     #[schemars(inner(range(min = -720.0, max = 720.0)))]
     pub turns_deg: Option<[f64; 2]>,
-    /// From one turn to the next; 5 if left out.
+    /// Step between spins; 5 if left out.
     #[schemars(range(min = 0.1, max = 180.0))]
     pub step_deg: Option<f64>,
-    /// Which part of the deviation counts; `in-plane` if left out.
+    /// Component of the deviation that is evaluated; `in-plane` if left out.
     pub component: Option<ComponentName>,
-    /// What shall be least; `worst` if left out.
+    /// The objective; `worst` if left out.
     pub objective: Option<ObjectiveName>,
-    /// How much the tool may turn along the path; 1 if left out.
+    /// Largest change of spin along the path; 1 if left out.
     #[schemars(range(min = 1e-6, max = 1e3))]
     pub turn_deg_per_mm: Option<f64>,
     /// Least angle by which the wrist is bent; 3 if left out.
     #[schemars(range(min = 0.0, max = 80.0))]
     pub least_wrist_deg: Option<f64>,
-    /// What a joint that turns back weighs: as much as so much more deviation over 1 mm of the path; 0 if left out.
+    /// Penalty for the reversal of a joint: as much as this additional deviation over 1 mm of the path; 0 if left out.
     #[schemars(range(min = 0.0, max = 1e9))]
     pub reversal_um_mm: Option<f64>,
 }
 
-/// Which part of the deviation counts.
+/// Component of the deviation that is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ComponentName {
     /// Across the tool.
     InPlane,
-    /// Across tool and feed: what walls get.
+    /// Across tool and feed: relevant for walls.
     CrossTrack,
-    /// Along the tool: what floors get.
+    /// Along the tool: relevant for floors.
     Axial,
 }
 
-/// What shall be least.
+/// The objective: the quantity to minimise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ObjectiveName {
@@ -54,17 +54,17 @@ pub enum ObjectiveName {
     Worst,
     /// The mean of its points.
     Mean,
-    /// What is above the limit.
-    AboveLimit,
+    /// The excess over the tolerance.
+    AboveTolerance,
 }
 
 impl ObjectiveName {
-    /// As the core knows it; `limit` in m.
-    pub fn objective(self, limit: f64) -> Objective {
+    /// As the core knows it; `tolerance` in m.
+    pub fn objective(self, tolerance: f64) -> Objective {
         match self {
             ObjectiveName::Worst => Objective::Worst,
             ObjectiveName::Mean => Objective::Mean,
-            ObjectiveName::AboveLimit => Objective::Above(limit),
+            ObjectiveName::AboveTolerance => Objective::Above(tolerance),
         }
     }
 }
@@ -80,14 +80,14 @@ impl ComponentName {
     }
 }
 
-/// A turn that gains less than this part of the tolerance a step is not worth it.
+/// A change of spin must reduce the deviation by this fraction of the tolerance for each step.
 const TURN_PRICE: f64 = 1e-3;
 
 /// Turns of a full circle that miss it by less than this (deg) are one.
 const FULL: f64 = 1e-9;
 
 impl SearchTable {
-    /// Whether it says nothing.
+    /// Whether no key is given.
     pub fn is_empty(&self) -> bool {
         self.turns_deg.is_none()
             && self.step_deg.is_none()
@@ -98,25 +98,28 @@ impl SearchTable {
             && self.reversal_um_mm.is_none()
     }
 
-    /// As the core searches, for a path whose tolerance is `limit` (m), in branches that match `branches`; `None` where it
-    /// has problems, told at their places.
+    /// As the core searches, for a path whose tolerance is `tolerance` (m), in branches that match `branches`; `None` where
+    /// it has problems, reported at their keys.
     pub(super) fn resolve(
         &self,
-        places: &mut Places<'_>,
-        limit: f64,
+        log: &mut ProblemLog<'_>,
+        tolerance: f64,
         branches: BranchPattern,
     ) -> Option<PostureSearch> {
-        let tell =
-            |(message, hint): (String, &str)| places.problem("posture.search.turns_deg", message, hint);
-        self.search(limit, branches).map_err(tell).ok()
+        let report = |(message, hint): (String, &str)| log.problem("posture.search.turns_deg", message, hint);
+        self.search(tolerance, branches).map_err(report).ok()
     }
 
     /// The same, or what is wrong with the turns, and a hint.
-    fn search(&self, limit: f64, branches: BranchPattern) -> Result<PostureSearch, (String, &'static str)> {
+    fn search(
+        &self,
+        tolerance: f64,
+        branches: BranchPattern,
+    ) -> Result<PostureSearch, (String, &'static str)> {
         let [first, last] = self.turns_deg.unwrap_or([-180.0, 180.0]);
         let step = self.step_deg.unwrap_or(5.0);
         if !(first <= last && last - first <= 360.0 + FULL) {
-            let message = format!("turns from {first} to {last} deg");
+            let message = format!("turns range from {first} to {last} deg");
             return Err((
                 message,
                 "the first, then the last, at most 360 deg apart, such as -90 and 90",
@@ -133,10 +136,13 @@ impl SearchTable {
                 count,
             },
             component: self.component.unwrap_or(ComponentName::InPlane).component(),
-            objective: self.objective.unwrap_or(ObjectiveName::Worst).objective(limit),
+            objective: self
+                .objective
+                .unwrap_or(ObjectiveName::Worst)
+                .objective(tolerance),
             branches,
             turn_rate: self.turn_deg_per_mm.unwrap_or(1.0).to_radians() * 1e3,
-            turn_price: TURN_PRICE * limit,
+            turn_price: TURN_PRICE * tolerance,
             back_price: self.reversal_um_mm.unwrap_or(0.0) * 1e-9,
             wrist: self.least_wrist_deg.unwrap_or(3.0).to_radians(),
         })
@@ -144,12 +150,11 @@ impl SearchTable {
 }
 
 impl Study {
-    /// Lets turns of the tool and branches be searched for along every path: as `wanted` says, or without it as the study
-    /// says, where it does, else with all that is usual; in the branches
-    /// that the words of the study leave open.
+    /// Searches spins of the tool and branches along every path, as `requested` specifies. Without it the search of the
+    /// study is used, or the default search if it has none, within the branches that the study permits.
     ///
     /// # Errors
-    /// A study without paths; turns that are none.
+    /// A study without paths; an invalid range of spins.
     pub fn search_postures(&mut self, requested: Option<&SearchTable>) -> Result<(), StudyError> {
         let usual = SearchTable::default();
         let mut paths = 0;
@@ -161,13 +166,13 @@ impl Study {
             let setting = &mut path.setting;
             let table = requested.or(setting.search.is_none().then_some(&usual));
             if let Some(table) = table {
-                let search = table.search(setting.limit, setting.open);
+                let search = table.search(setting.tolerance, setting.open);
                 let search = search.map_err(|(message, hint)| StudyError::value(message, hint))?;
                 setting.search = Some(search);
             }
         }
         if paths == 0 {
-            let message = "the study asks for no path, along which the tool could be turned";
+            let message = "the study has no path along which the tool could be turned";
             return Err(StudyError::value(
                 message,
                 "[[analysis]] kind = \"path\" with a program or a shape",

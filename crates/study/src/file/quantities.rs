@@ -1,7 +1,7 @@
-//! Quantities of a study file, checked and told in SI.
+//! Quantities of a study file, checked and converted to SI.
 //!
-//! Millimetres become metres, degrees radians. A function that finds a problem tells it at the key `path` of the value
-//! and gives `None`.
+//! Millimetres become metres, degrees radians. A function that finds a problem reports it at the key `path` of the
+//! value and gives `None`.
 
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
 use armill_core::load::{LoadCases, LoadFrame};
@@ -10,15 +10,15 @@ use armill_core::spatial::Wrench;
 use armill_core::workpiece::{Grid, Plane};
 
 use super::format::{HalfSize, LoadFrameName, LoadTable, PlaneTable};
-use super::memory::{GIB, LEAST_BYTES_BESIDE, MOST_BYTES};
-use super::places::Places;
+use super::memory::{GIB, LEAST_EXTRA_BYTES, MOST_BYTES};
+use super::problem_log::ProblemLog;
 
 /// A length above 0, m.
-pub(super) fn positive(places: &mut Places<'_>, path: &str, value_mm: f64) -> Option<f64> {
+pub(super) fn positive(log: &mut ProblemLog<'_>, path: &str, value_mm: f64) -> Option<f64> {
     if value_mm > 0.0 {
         return Some(value_mm * 1e-3);
     }
-    places.problem(
+    log.problem(
         path,
         format!("`{path}` is {value_mm} mm: must be above 0 mm"),
         "a length above 0",
@@ -26,26 +26,26 @@ pub(super) fn positive(places: &mut Places<'_>, path: &str, value_mm: f64) -> Op
     None
 }
 
-/// Least distance of points, mm: far below what any machine keeps.
+/// Least distance of points, mm: far below the accuracy of any machine.
 const LEAST_STEP_MM: f64 = 1e-3;
 
 /// A distance of points that is not too small to be counted, m.
-pub(super) fn step(places: &mut Places<'_>, path: &str, value_mm: f64) -> Option<f64> {
-    at_least(places, path, value_mm, LEAST_STEP_MM)
+pub(super) fn step(log: &mut ProblemLog<'_>, path: &str, value_mm: f64) -> Option<f64> {
+    at_least(log, path, value_mm, LEAST_STEP_MM)
 }
 
 /// A length of at least `least_mm`, m.
-pub(super) fn at_least(places: &mut Places<'_>, path: &str, value_mm: f64, least_mm: f64) -> Option<f64> {
+pub(super) fn at_least(log: &mut ProblemLog<'_>, path: &str, value_mm: f64, least_mm: f64) -> Option<f64> {
     if value_mm >= least_mm {
         return Some(value_mm * 1e-3);
     }
-    // As short as it can be told: 1e-30 has 30 zeros otherwise.
+    // As short as possible: 1e-30 has 30 zeros otherwise.
     let value = match value_mm.abs() {
         0.0 | 1e-6.. => format!("{value_mm}"),
         _ => format!("{value_mm:e}"),
     };
     let message = format!("`{path}` is {value} mm: must be at least {least_mm} mm");
-    places.problem(path, message, "a larger length");
+    log.problem(path, message, "a larger length");
     None
 }
 
@@ -53,7 +53,7 @@ pub(super) fn at_least(places: &mut Places<'_>, path: &str, value_mm: f64, least
 const LARGEST_MM: f64 = 1e6;
 
 /// Half sizes of 0 to 1 km, m.
-pub(super) fn sizes(places: &mut Places<'_>, path: &str, half_size_mm: &[f64]) -> Option<Vec<f64>> {
+pub(super) fn sizes(log: &mut ProblemLog<'_>, path: &str, half_size_mm: &[f64]) -> Option<Vec<f64>> {
     let Some(wrong) = half_size_mm
         .iter()
         .find(|half| !(0.0..=LARGEST_MM).contains(*half))
@@ -61,52 +61,52 @@ pub(super) fn sizes(places: &mut Places<'_>, path: &str, half_size_mm: &[f64]) -
         return Some(half_size_mm.iter().map(|half| half * 1e-3).collect());
     };
     let message = format!("`{path}` is {wrong} mm: must be from 0 to {LARGEST_MM} mm");
-    places.problem(path, message, "0 (a single line of points) or more");
+    log.problem(path, message, "0 (a single line of points) or more");
     None
 }
 
 /// The grid of a plane.
 ///
-/// Points lie at whole steps from its centre, as far as the half sizes go; a problem where they are more than memory
-/// holds.
-pub(super) fn grid(places: &mut Places<'_>, plane: &PlaneTable) -> Option<Grid> {
-    let step = step(places, "plane.step_mm", plane.step_mm);
+/// The points are at whole steps from its centre, within the half sizes; a problem if they do not fit into
+/// memory.
+pub(super) fn grid(log: &mut ProblemLog<'_>, plane: &PlaneTable) -> Option<Grid> {
+    let step = step(log, "plane.step_mm", plane.step_mm);
     let half_mm = match plane.half_size_mm {
         HalfSize::Square(half) => [half, half],
         HalfSize::Oblong(halves) => halves,
     };
-    let half = sizes(places, "plane.half_size_mm", &half_mm);
+    let half = sizes(log, "plane.half_size_mm", &half_mm);
     let (step, half) = (step?, half?);
     // Counted as numbers first: a grid too large for memory must not overflow an index.
     if half.iter().any(|h| h / step > 1e8) {
-        // Bounded so that it can still be told; at least what a point takes beside its answers.
+        // Bounded so that it can be shown; at least the extra bytes of a point.
         let points = half
             .iter()
             .map(|h| 2.0 * h / step + 1.0)
             .product::<f64>()
             .min(1e300);
-        let (gib, most) = (points * LEAST_BYTES_BESIDE as f64 / GIB, MOST_BYTES / GIB);
+        let (gib, most) = (points * LEAST_EXTRA_BYTES as f64 / GIB, MOST_BYTES / GIB);
         let message =
             format!("{points:.0e} points would take {gib:.0e} GiB of memory, more than {most:.0} GiB");
-        places.problem("plane.step_mm", message, "a larger step, or a smaller plane");
+        log.problem("plane.step_mm", message, "a larger step, or a smaller plane");
         return None;
     }
     Some(Grid::within([half[0], half[1]], step))
 }
 
-/// The plane in base, and its tilt (rad) where it was given by one.
+/// The plane in base, and its tilt (rad) if it was given by one.
 ///
 /// `base_from_reference` is the frame that the table counts from. Without tilt and rotation the plane is vertical and
 /// faces the robot.
 pub(super) fn plane_at(
-    places: &mut Places<'_>,
+    log: &mut ProblemLog<'_>,
     table: &PlaneTable,
     base_from_reference: &Isometry,
 ) -> Option<(Plane, Option<f64>)> {
     let centre = Point3::from(Vector3::from(table.centre_mm) * 1e-3);
     let (reference_from_part, tilt) = match (table.tilt_deg, table.rotation_deg) {
         (Some(_), Some(_)) => {
-            places.problem(
+            log.problem(
                 "plane.rotation_deg",
                 "a plane has either `tilt_deg` or `rotation_deg`",
                 "remove one",
@@ -132,10 +132,10 @@ pub(super) fn plane_at(
 
 /// The load cases in their own frame.
 ///
-/// `None` where it has no case, or not one moment a case; moments that are left out are zero.
-pub(super) fn load_cases(places: &mut Places<'_>, table: &LoadTable) -> Option<LoadCases> {
+/// `None` if it has no case, or not one moment a case; moments that are left out are zero.
+pub(super) fn load_cases(log: &mut ProblemLog<'_>, table: &LoadTable) -> Option<LoadCases> {
     if table.cases_n.is_empty() {
-        places.problem(
+        log.problem(
             "load.cases_n",
             "the load has no case",
             "cases_n = [[3, 5, 5]]: force on the tool, x, y, z",
@@ -148,7 +148,11 @@ pub(super) fn load_cases(places: &mut Places<'_>, table: &LoadTable) -> Option<L
         .unwrap_or_else(|| vec![[0.0; 3]; table.cases_n.len()]);
     if moments.len() != table.cases_n.len() {
         let message = format!("{} moments for {} cases", moments.len(), table.cases_n.len());
-        places.problem("load.moments_n_m", message, "one a case, in the same order");
+        log.problem(
+            "load.moments_n_m",
+            message,
+            "give one for each case, in the same order",
+        );
         return None;
     }
     let cases = table.cases_n.iter().zip(moments).map(|(f, m)| Wrench {

@@ -1,7 +1,7 @@
-//! From the study file to what each ask means: in SI, in the robot's base, checked.
+//! From the study file to resolved analyses: in SI, in the robot's base, checked.
 //!
-//! Everything of the file is looked at before anything is refused: a value that is wrong for one ask does not hide
-//! those of the next, and a value of the study that several asks take is told once.
+//! The whole file is checked before it is refused: a wrong value of one analysis does not hide
+//! those of the next, and a value of the study that several analyses use is reported once.
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -20,8 +20,8 @@ use armill_formats::document::{Document, Problem, Problems};
 use armill_formats::input::Inputs;
 use armill_formats::robot::RobotDescription;
 
-use super::calibrated::find_calibrated;
 use super::analysis::Resolver;
+use super::calibrated::find_calibrated;
 use super::circles::MeasuredCircle;
 use super::compliance::{self, OwnCompliance};
 use super::experiment::Experiment;
@@ -31,8 +31,8 @@ use super::memory;
 use super::names::{check_statements, name_of, unfit_names};
 use super::path::PathAnalysis;
 use super::placement::PlaceTable;
-use super::places::Places;
 use super::positioner;
+use super::problem_log::ProblemLog;
 use crate::error::StudyError;
 use crate::robots;
 
@@ -43,54 +43,56 @@ pub struct Study {
     pub title: String,
     /// The question in words.
     pub question: Option<String>,
-    /// The robot, with the compliance of the study if it brings one.
+    /// The robot, with the compliance of the study if it gives one.
     pub robot: RobotDescription,
-    /// Compliances that the study brings.
+    /// Compliances given by the study.
     pub own_compliance: Option<OwnCompliance>,
-    /// What is asked.
-    pub analyses: Vec<Ask>,
-    /// Where the part may lie.
+    /// The analyses.
+    pub analyses: Vec<Analysis>,
+    /// Permitted placements of the part.
     pub place: Option<PlaceTable>,
-    /// What was measured on one circle.
+    /// Measurements of one circle.
     pub experiment: Option<Experiment>,
     /// Circular tests for the backlash of the joints.
     pub circles: Vec<MeasuredCircle>,
-    /// What others state.
+    /// Published statements by others.
     pub statements: Vec<StatementTable>,
 }
 
 impl Study {
-    /// Whether the study brings joint compliances that nobody measured.
+    /// Whether the study gives joint compliances that were not measured.
     pub fn compliance_is_assumed(&self) -> bool {
         self.own_compliance
             .as_ref()
             .is_some_and(|own| own.caution.is_some())
     }
 
-    /// What the points of each ask share, ask by ask.
+    /// What the points of each analysis share, by analysis.
     ///
-    /// Of sections the first stands for all: they differ in the plane alone.
+    /// The first section represents all: sections differ in the plane alone.
     pub fn settings(&self) -> impl Iterator<Item = &Setting> {
-        self.analyses.iter().filter_map(|analysis| match &analysis.subject {
-            Subject::Map(sheet) => Some(&sheet.setting),
-            Subject::Sections(sections) => sections.first().map(|(_, sheet)| &sheet.setting),
-            Subject::Volume(setting, _) => Some(setting),
-            Subject::Path(path) => Some(&path.setting),
-            Subject::Holes(holes) => Some(&holes.path.setting),
-        })
+        self.analyses
+            .iter()
+            .filter_map(|analysis| match &analysis.subject {
+                Subject::Map(sheet) => Some(&sheet.setting),
+                Subject::Sections(sections) => sections.first().map(|(_, sheet)| &sheet.setting),
+                Subject::Volume(setting, _) => Some(setting),
+                Subject::Path(path) => Some(&path.setting),
+                Subject::Holes(holes) => Some(&holes.path.setting),
+            })
     }
 }
 
-/// One ask, worked out.
+/// One resolved analysis.
 #[derive(Clone, Debug)]
-pub struct Ask {
+pub struct Analysis {
     /// Its name.
     pub name: String,
     /// What it is about.
     pub subject: Subject,
 }
 
-/// What an ask is about.
+/// The subject of an analysis.
 #[derive(Clone, Debug)]
 pub enum Subject {
     /// One plane.
@@ -108,13 +110,13 @@ pub enum Subject {
 /// A plane with its grid.
 #[derive(Clone, Debug)]
 pub struct Sheet {
-    /// How the points are asked.
+    /// How the points are evaluated.
     pub setting: Setting,
     /// Which points.
     pub grid: Grid,
 }
 
-/// Everything that a point needs to be answered, SI, base.
+/// Everything needed to evaluate a point, SI, base.
 #[derive(Clone, Debug)]
 pub struct Setting {
     /// Name of the frame that coordinates count from.
@@ -123,27 +125,27 @@ pub struct Setting {
     pub base_from_reference: Isometry,
     /// Flange to tool centre point.
     pub flange_from_tool: Isometry,
-    /// What yields and weighs beside the drives.
+    /// Compliances and masses in addition to the drives.
     pub model: StiffnessModel,
     /// The workpiece plane.
     pub plane: Plane,
-    /// Its tilt as asked, rad, where it was given by one.
+    /// Its tilt as given, rad, if it was given by one.
     pub tilt: Option<f64>,
-    /// Load cases as they are told; none where the forces come with a path.
+    /// Load cases as given; none if the forces come with a path.
     pub load: LoadCases,
-    /// The same in base; of a load that turns with the feed as if that went along x of the part.
+    /// The same in base; a load that turns with the feed as if the feed were along x of the part.
     pub cases: Vec<Wrench>,
     /// Where the load comes from, in the user's words.
     pub load_source: Option<String>,
-    /// Where springs and masses of the tool come from, likewise.
+    /// Where springs and masses of the tool come from, in the user's words.
     pub tool_sources: Vec<String>,
-    /// How sure load and tool are.
+    /// Uncertainty of load and tool.
     pub uncertainty: InputUncertainty,
     /// The tolerance, m.
-    pub limit: f64,
+    pub tolerance: f64,
     /// Which posture.
     pub choice: BranchChoice,
-    /// Where a rail stands and what joints to spare are drawn to, rad (m).
+    /// Position of a rail and preferred positions of redundant joints, rad (m).
     pub home: Option<Vec<f64>>,
     /// Branches that the words of the study leave open; all where it has none.
     pub open: BranchPattern,
@@ -152,7 +154,7 @@ pub struct Setting {
 }
 
 impl Setting {
-    /// Name of the posture asked for: words of a branch, or `best`.
+    /// Name of the requested posture: words of a branch, or `best`.
     pub fn branch(&self) -> String {
         match self.choice {
             BranchChoice::Of(pattern) if pattern == BranchPattern::default() => "nominal".to_owned(),
@@ -161,7 +163,7 @@ impl Setting {
         }
     }
 
-    /// Compliance of the unloaded arm at joint positions `q` (rad, m), SI; zeros where the arm does not hold itself.
+    /// Compliance of the unloaded arm at joint positions `q` (rad, m), SI; zeros if the arm is not stable.
     pub fn compliance_at(&self, robot: &Robot, q: &[f64]) -> Matrix6<f64> {
         let mut arm_state = ArmState::new(Arm {
             robot,
@@ -173,8 +175,8 @@ impl Setting {
         arm_state.compliance().unwrap_or_else(Matrix6::zeros)
     }
 
-    /// A point of base told in the frame that the study counts from, m.
-    pub fn counted(&self, in_base: &Point3<f64>) -> Point3<f64> {
+    /// A point of base relative to the reference frame of the study, m.
+    pub fn in_reference(&self, in_base: &Point3<f64>) -> Point3<f64> {
         self.base_from_reference.inverse_transform_point(in_base)
     }
 }
@@ -184,12 +186,12 @@ impl Setting {
 /// # Errors
 /// Every problem of the file, each with its place.
 ///
-/// A study without asks means one map of its plane, called `map`.
+/// A study without analyses means one map of its plane, called `map`.
 pub fn read(shown: &str, folder: &Path, bytes: &[u8]) -> Result<Study, StudyError> {
     read_changed((shown, folder), bytes, |_| ())
 }
 
-/// [`read`], with what `change` makes of the file before it is worked out; problems stand where the file as it is has them.
+/// [`read`], with the file modified by `change` before it is resolved; problems refer to the unmodified file.
 ///
 /// # Errors
 /// As of [`read`].
@@ -207,23 +209,23 @@ pub fn read_changed(
 #[derive(Clone, Debug)]
 pub struct Parsed {
     document: Document,
-    /// The file as it stands.
+    /// The file as written.
     pub file: StudyFile,
 }
 
 impl Parsed {
-    /// The file in this text; `shown` is what errors call it.
+    /// The file in this text; `shown` is its name in messages.
     ///
     /// # Errors
-    /// What is no TOML, or no field of a study.
+    /// Invalid TOML, or a field that a study does not have.
     pub fn of(shown: &str, bytes: &[u8]) -> Result<Parsed, StudyError> {
         let document = Document::from_bytes(shown, bytes)?;
         let file = document.read()?;
         Ok(Parsed { document, file })
     }
 
-    /// The tables of its asks; of a study without any that of the map which it means.
-    pub fn ask_tables(&self) -> Cow<'_, [AnalysisTable]> {
+    /// The tables of its analyses; of a study without any, the table of its implied map.
+    pub fn analysis_tables(&self) -> Cow<'_, [AnalysisTable]> {
         if self.file.analysis.is_empty() {
             Cow::Owned(vec![whole_plane()])
         } else {
@@ -231,9 +233,9 @@ impl Parsed {
         }
     }
 
-    /// The names of its asks, in order.
-    pub fn ask_names(&self) -> Vec<String> {
-        let tables = self.ask_tables();
+    /// The names of its analyses, in order.
+    pub fn analysis_names(&self) -> Vec<String> {
+        let tables = self.analysis_tables();
         let names = tables
             .iter()
             .enumerate()
@@ -246,10 +248,10 @@ impl Parsed {
         self.document.keys(path)
     }
 
-    /// What the file means; with `only` that ask alone is worked out, and problems of others are not looked for.
+    /// The resolved study; with `only` that analysis alone is resolved, and problems of others are not looked for.
     ///
     /// # Errors
-    /// Every problem of the file, each with its place; no ask of that name.
+    /// Every problem of the file, each with its place; no analysis of that name.
     pub fn resolve(&self, folder: &Path, only: Option<&str>) -> Result<Study, StudyError> {
         self.meaning(folder, only).map_err(|error| match error {
             StudyError::Problems(problems) => {
@@ -261,20 +263,22 @@ impl Parsed {
 
     fn meaning(&self, folder: &Path, only: Option<&str>) -> Result<Study, StudyError> {
         let (document, file) = (&self.document, &self.file);
-        let tables = self.ask_tables();
+        let tables = self.analysis_tables();
         let requested = only.map(|name| self.index_of(name)).transpose()?;
-        let mut places = Places::new(document, None);
-        let robot = find_robot(&mut places, file, folder)?;
+        let mut log = ProblemLog::new(document, None);
+        let robot = find_robot(&mut log, file, folder)?;
         let actual = match &robot {
-            Some(robot) => find_calibrated(&mut places, file, (robot, folder))?,
+            Some(robot) => find_calibrated(&mut log, file, (robot, folder))?,
             None => None,
         };
-        let mut problems = std::mem::take(&mut places.problems);
+        let mut problems = std::mem::take(&mut log.problems);
         let mut analyses = Vec::new();
         let chosen = tables.iter().enumerate();
-        for (index, table) in chosen.filter(|(index, _)| requested.is_none_or(|requested| requested == *index)) {
+        for (index, table) in
+            chosen.filter(|(index, _)| requested.is_none_or(|requested| requested == *index))
+        {
             let own = (!file.analysis.is_empty()).then_some(index);
-            let mut places = Places::new(document, own);
+            let mut log = ProblemLog::new(document, own);
             let resolver = Resolver {
                 file,
                 robot: robot.as_ref(),
@@ -283,32 +287,29 @@ impl Parsed {
                 folder,
             };
             let name = name_of(table, index);
-            if let Some(subject) = resolver.subject(&mut places)? {
-                analyses.push(Ask { name, subject });
+            if let Some(subject) = resolver.subject(&mut log)? {
+                analyses.push(Analysis { name, subject });
             }
-            problems.append(&mut places.problems);
+            problems.append(&mut log.problems);
         }
         if let Some(robot) = &robot {
-            memory::check_asks(&mut places, robot, &analyses);
+            memory::check_analyses(&mut log, robot, &analyses);
         }
-        check_statements(&mut places, file, &analyses);
+        check_statements(&mut log, file, &analyses);
         let all_read = analyses.len() == tables.len();
-        check_place(&mut places, file, (&analyses, all_read));
+        check_place(&mut log, file, (&analyses, all_read));
         let experiment = file
             .measured
             .as_ref()
-            .and_then(|table| Experiment::read(&mut places, table, folder, (&analyses, all_read)));
+            .and_then(|table| Experiment::read(&mut log, table, folder, (&analyses, all_read)));
         let circles: Vec<MeasuredCircle> = (file.ballbar.iter().enumerate())
-            .filter_map(|table| MeasuredCircle::read(&mut places, table, folder, (&analyses, all_read)))
+            .filter_map(|table| MeasuredCircle::read(&mut log, table, folder, (&analyses, all_read)))
             .collect();
-        problems.append(&mut places.problems);
+        problems.append(&mut log.problems);
         problems.extend(unfit_names(document, file));
         Problems::from(without_repeats(problems)).into_result()?;
         let Some(mut robot) = robot else {
-            return Err(StudyError::value(
-                "the study names no robot",
-                "name one with `robot = ...`",
-            ));
+            return Err(StudyError::value("the study has no robot", "add `robot = ...`"));
         };
         robot
             .sources
@@ -329,19 +330,19 @@ impl Parsed {
         })
     }
 
-    /// Which ask is called so.
+    /// Which analysis is called so.
     pub(crate) fn index_of(&self, name: &str) -> Result<usize, StudyError> {
-        let names = self.ask_names();
+        let names = self.analysis_names();
         names.iter().position(|own| own == name).ok_or_else(|| {
             let all: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
-            let hint = format!("its asks: {}", all.join(", "));
-            StudyError::value(format!("no ask is called `{name}`"), hint)
+            let hint = format!("its analyses: {}", all.join(", "));
+            StudyError::value(format!("no analysis is called `{name}`"), hint)
         })
     }
 }
 
-/// Whether problems may quote this file: one in the folder of the study, one that the command line names, and a text that is
-/// no file, as of the library. A study from elsewhere must not show what else is on this machine.
+/// Whether problems may quote this file: one in the folder of the study, one that the command line names, and a text
+/// that is no file, as of the library. A study from elsewhere must not show what else is on this machine.
 fn may_be_quoted(file: &str, folder: &Path) -> bool {
     let file = Path::new(file);
     let Ok(real) = file.canonicalize() else {
@@ -353,23 +354,27 @@ fn may_be_quoted(file: &str, folder: &Path) -> bool {
     inside || Inputs::current().name(file)
 }
 
-/// Problems of where the part may lie.
-fn check_place(places: &mut Places<'_>, file: &StudyFile, (analyses, all_read): (&[Ask], bool)) {
+/// Problems of the permitted placements.
+fn check_place(log: &mut ProblemLog<'_>, file: &StudyFile, (analyses, all_read): (&[Analysis], bool)) {
     let Some(place) = &file.place else { return };
     for (key, message, hint) in place.faults() {
-        places.problem(&format!("place.{key}"), message, hint);
+        log.problem(&format!("place.{key}"), message, hint);
     }
-    let is_it = |analysis: &Ask, name: &String| {
+    let is_it = |analysis: &Analysis, name: &String| {
         analysis.name == *name && matches!(analysis.subject, Subject::Path(_) | Subject::Holes(_))
     };
     let of_none = |name: &&String| all_read && !analyses.iter().any(|analysis| is_it(analysis, name));
     if let Some(name) = place.analysis.as_ref().filter(of_none) {
         let message = format!("the study has no path called `{name}`");
-        places.problem("place.ask", message, "the name of an ask of kind = \"path\"");
+        log.problem(
+            "place.analysis",
+            message,
+            "the name of an analysis of kind = \"path\"",
+        );
     }
 }
 
-/// An ask for one map of the study's plane.
+/// An analysis for one map of the study's plane.
 fn whole_plane() -> AnalysisTable {
     AnalysisTable {
         name: Some("map".to_owned()),
@@ -377,7 +382,7 @@ fn whole_plane() -> AnalysisTable {
     }
 }
 
-/// A value of the study that several asks take is wrong once, not once an ask.
+/// A problem of a value of the study that several analyses use is reported once.
 fn without_repeats(problems: Vec<Problem>) -> Vec<Problem> {
     let mut kept: Vec<Problem> = Vec::new();
     for problem in problems {
@@ -388,20 +393,20 @@ fn without_repeats(problems: Vec<Problem>) -> Vec<Problem> {
     kept
 }
 
-/// The robot of the study, with its compliances and its positioner where the study brings them; `None` where it is not
-/// found, told at its place.
+/// The robot of the study, with the compliances and the positioner of the study, if given; `None` if it is not
+/// found, reported at its key.
 ///
 /// # Errors
 /// The problems of a robot file; compliances or a positioner that the robot refuses.
 fn find_robot(
-    places: &mut Places<'_>,
+    log: &mut ProblemLog<'_>,
     file: &StudyFile,
     folder: &Path,
 ) -> Result<Option<RobotDescription>, StudyError> {
     let mut found = match robots::find(&file.robot, folder) {
         Ok(found) => found,
         Err(StudyError::Value { message, hint }) => {
-            places.problem("robot", message, &hint);
+            log.problem("robot", message, &hint);
             return Ok(None);
         }
         Err(problems) => return Err(problems),
@@ -409,10 +414,10 @@ fn find_robot(
     let joints = found.robot.joints().len();
     if joints < crate::ENOUGH_JOINTS {
         let message = format!("robot `{}` has {joints} joints", file.robot);
-        let hint = "holding a tool at any pose takes six; `armill pose` takes its joints";
-        places.problem("robot", message, hint);
+        let hint = "a tool at any pose requires six joints; `armill pose` accepts the joint positions";
+        log.problem("robot", message, hint);
     }
-    let own = compliance::of_study(places, file, &found.robot)?;
+    let own = compliance::of_study(log, file, &found.robot)?;
     if let Some(joints) = own {
         let refused = |error: armill_core::robot::RobotError| {
             let hint = "one compliance for each joint of the robot, 0 for a rigid one";
@@ -421,7 +426,7 @@ fn find_robot(
         found.robot = found.robot.with_other_compliance(joints).map_err(refused)?;
     }
     if let Some(table) = &file.positioner {
-        found = positioner::beside(places, table, folder, found)?;
+        found = positioner::with_positioner(log, table, folder, found)?;
     }
     Ok(Some(found))
 }

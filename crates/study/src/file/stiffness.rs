@@ -1,14 +1,14 @@
-//! The stiffness model of an ask: what the robot file holds, and what the study adds to it.
+//! The stiffness model of an analysis: that of the robot file, and what the study adds to it.
 //!
-//! | from | what |
+//! | key | meaning |
 //! |---|---|
 //! | robot file | springs, masses, compensator, torque curves, covariance, backlash, repeatability |
-//! | `[[tool.spring]]`, `[[tool.mass]]` | what yields and weighs in holder, spindle and tool |
-//! | `tool.stick_out_mm` and what goes with it | a cutter that bends like a clamped bar, two springs |
-//! | `[gravity]` | where the tool was set, and where down is |
+//! | `[[tool.spring]]`, `[[tool.mass]]` | compliances and masses of holder, spindle and tool |
+//! | `tool.stick_out_mm` and related keys | a cutter that bends like a clamped bar, two springs |
+//! | `[gravity]` | joint positions when the tool was set, and the direction of gravity |
 //! | `repeatability_mm` | how the arm scatters, in place of the robot file's |
-//! | `load_dependent` | whether the load acts on the arm as it has yielded |
-//! | `calibrated_robot` | the arm as it was measured, where its controller reckons with another |
+//! | `load_dependent` | whether the load acts on the deflected arm |
+//! | `calibrated_robot` | the calibrated arm, if its controller uses a nominal model |
 
 use std::sync::Arc;
 
@@ -17,32 +17,32 @@ use armill_core::robot::spring::cutter_springs;
 use armill_core::robot::{Robot, Structure};
 use armill_core::source::stiffness_model::FREE_FALL;
 use armill_core::source::{Gravity, StiffnessModel, repeatability};
-use armill_formats::robot::spring_tables::Fault;
+use armill_formats::robot::spring_tables::SpringTableError;
 
 use super::format::{CutterMaterial, GravityTable, StudyFile, ToolTable};
-use super::places::Places;
+use super::problem_log::ProblemLog;
 
-/// The model of `robot`, which is in truth the `actual` one, with this tool; `None` where something is wrong with it.
+/// The model of `robot`, which is in truth the `actual` one, with this tool; `None` if something is wrong with it.
 pub(super) fn model(
-    places: &mut Places<'_>,
+    log: &mut ProblemLog<'_>,
     file: &StudyFile,
     tool: Option<&ToolTable>,
     (robot, actual): (&Robot, Option<&Arc<Robot>>),
 ) -> Option<StiffnessModel> {
-    // All problems are told, so whether there are new ones decides at the end.
-    let before = places.problems.len();
+    // All problems are reported, so whether there are new ones is evaluated at the end.
+    let before = log.problems.len();
     let mut structure = robot.structure().clone();
     if let Some(pose_mm) = file.repeatability_mm {
         structure.repeatability = repeatability::deviation_of(pose_mm * 1e-3);
     }
     if let Some(tool) = tool {
-        add_tool(places, tool, robot, &mut structure);
+        add_tool(log, tool, robot, &mut structure);
     }
     let gravity = file
         .gravity
         .as_ref()
-        .and_then(|table| gravity(places, table, robot, &structure));
-    (places.problems.len() == before).then_some(StiffnessModel {
+        .and_then(|table| gravity(log, table, robot, &structure));
+    (log.problems.len() == before).then_some(StiffnessModel {
         structure,
         gravity,
         load_dependent: file.load_dependent,
@@ -51,7 +51,7 @@ pub(super) fn model(
 }
 
 impl ToolTable {
-    /// Where its springs and masses come from, each once.
+    /// Sources of its springs and masses, each once.
     pub(super) fn sources(&self) -> Vec<String> {
         let of_springs = self.spring.iter().map(|spring| &spring.source);
         let all = of_springs.chain(self.mass.iter().map(|mass| &mass.source));
@@ -65,22 +65,22 @@ impl ToolTable {
     }
 }
 
-/// Adds springs and masses of the tool, and the cutter where its stick-out is told.
-fn add_tool(places: &mut Places<'_>, tool: &ToolTable, robot: &Robot, structure: &mut Structure) {
+/// Adds springs and masses of the tool, and the cutter if its stick-out is given.
+fn add_tool(log: &mut ProblemLog<'_>, tool: &ToolTable, robot: &Robot, structure: &mut Structure) {
     let joints: Vec<&str> = robot.joints().iter().map(|joint| joint.name.as_str()).collect();
-    let mut tell = |table: String, fault: Fault| {
-        places.problem(&fault.path_in(&table), fault.message, &fault.hint);
+    let mut report = |table: String, fault: SpringTableError| {
+        log.problem(&fault.path_in(&table), fault.message, &fault.hint);
     };
     for (index, table) in tool.spring.iter().enumerate() {
         match table.springs(&joints) {
             Ok(springs) => structure.springs.extend(springs),
-            Err(fault) => tell(format!("tool.spring[{index}]"), fault),
+            Err(fault) => report(format!("tool.spring[{index}]"), fault),
         }
     }
     for (index, table) in tool.mass.iter().enumerate() {
         match table.mass(&joints) {
             Ok(mass) => structure.masses.push(mass),
-            Err(fault) => tell(format!("tool.mass[{index}]"), fault),
+            Err(fault) => report(format!("tool.mass[{index}]"), fault),
         }
     }
     let hint =
@@ -91,16 +91,16 @@ fn add_tool(places: &mut Places<'_>, tool: &ToolTable, robot: &Robot, structure:
             (Some(material), None) => structure
                 .springs
                 .extend(cutter(length, diameter, modulus(material))),
-            _ => places.problem(
+            _ => log.problem(
                 "tool.stick_out_mm",
                 "the cutter needs either a `material` or a `modulus_gpa`",
                 hint,
             ),
         },
         (None, None) if tool.material.is_none() && tool.modulus_gpa.is_none() => {}
-        _ => places.problem(
+        _ => log.problem(
             "tool",
-            "a cutter that bends needs stick-out, diameter and material",
+            "the bending of a cutter requires stick-out, diameter and material",
             hint,
         ),
     }
@@ -122,7 +122,7 @@ fn modulus(material: CutterMaterial) -> f64 {
 /// The gravity of `[gravity]`, in base; a problem where it would move nothing, has no direction, or counts joints
 /// wrongly.
 fn gravity(
-    places: &mut Places<'_>,
+    log: &mut ProblemLog<'_>,
     table: &GravityTable,
     robot: &Robot,
     structure: &Structure,
@@ -134,20 +134,20 @@ fn gravity(
             "{} joint positions for the {joints} joints of the robot",
             given.len()
         );
-        let hint = "where the arm stood when the tool was set, base to flange";
-        places.problem("gravity.reference_joints_deg", message, hint);
+        let hint = "the joint positions when the tool was set, base to flange";
+        log.problem("gravity.reference_joints_deg", message, hint);
     }
     if structure.masses.is_empty() && structure.compensator.is_none() {
-        let message = "gravity moves nothing: neither robot nor tool has a mass";
+        let message = "gravity has no effect: neither robot nor tool has a mass";
         let hint = "add [[mass]] to the robot file, or [[tool.mass]] for spindle and payload";
-        places.problem("gravity", message, hint);
+        log.problem("gravity", message, hint);
     }
     let direction = Vector3::from(table.direction.unwrap_or([0.0, 0.0, -1.0])).try_normalize(1e-9);
     if direction.is_none() {
         let hint = "[0, 0, -1] for an arm on the floor, [0, 0, 1] under the ceiling";
-        places.problem(
+        log.problem(
             "gravity.direction",
-            "the direction of gravity has no length",
+            "the direction of gravity has zero length",
             hint,
         );
     }
@@ -157,9 +157,9 @@ fn gravity(
     })
 }
 
-/// Joint positions in SI from degrees (mm for sliding joints).
+/// Joint positions in SI from degrees (mm for prismatic joints).
 ///
-/// Not checked: that there is one a joint; what is missing or too much is left out.
+/// Not checked: the number of joint positions; missing or additional ones are ignored.
 pub fn positions(robot: &Robot, given: &[f64]) -> Vec<f64> {
     let joints = 0..robot.joints().len();
     let si = |(joint, value): (usize, &f64)| {

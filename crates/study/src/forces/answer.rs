@@ -9,7 +9,7 @@ use armill_core::nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{Air, Measured, Treated, Treatment};
+use super::{Air, Measured, ProcessedRecord, Treatment};
 
 /// A record in numbers.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -32,11 +32,11 @@ pub struct ForcesAnswer {
     pub channels: Vec<&'static str>,
     /// Columns that were passed over.
     pub unused: Vec<String>,
-    /// What was taken off; none where the drift was to stay.
+    /// The drift removed; none if it was not removed.
     pub drift: Option<DriftAnswer>,
     /// Slower than this was kept.
     pub low_pass_hz: Option<f64>,
-    /// Speed of the spindle that turns were counted by.
+    /// Spindle speed for the revolutions.
     pub spindle_rpm: Option<f64>,
     /// As it was measured.
     pub before: SummaryAnswer,
@@ -46,16 +46,16 @@ pub struct ForcesAnswer {
     pub revolutions: Option<RevolutionsAnswer>,
 }
 
-/// Drift that was taken off.
+/// The drift removed.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct DriftAnswer {
     /// Of the force at the first instant.
     pub offset_n: [f64; 3],
     /// Its growth.
     pub rate_n_per_s: [f64; 3],
-    /// Stretches where nothing is cut.
+    /// Intervals without cutting.
     pub air_s: Vec<[f64; 2]>,
-    /// Whether these were found, not told.
+    /// Whether these were detected, not given.
     pub air_found: bool,
     /// Samples in them.
     pub samples: usize,
@@ -78,13 +78,13 @@ pub struct SummaryAnswer {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct RangeAnswer {
     /// Over all samples.
-    // unit: that of the name it stands under
+    // unit: that of the name of its field
     pub mean: f64,
     /// The least.
-    // unit: that of the name it stands under
+    // unit: that of the name of its field
     pub least: f64,
     /// The greatest.
-    // unit: that of the name it stands under
+    // unit: that of the name of its field
     pub greatest: f64,
 }
 
@@ -100,13 +100,13 @@ pub struct RevolutionsAnswer {
 }
 
 impl DriftAnswer {
-    /// What was taken off, and whether `air` had to be found.
+    /// The drift removed, and whether `air` was detected.
     pub(crate) fn of(drift: &Drift, air: &Air) -> DriftAnswer {
         DriftAnswer {
             offset_n: drift.offset.into(),
             rate_n_per_s: drift.rate.into(),
             air_s: drift.through.clone(),
-            air_found: *air == Air::Found,
+            air_found: *air == Air::Detected,
             samples: drift.samples,
         }
     }
@@ -143,7 +143,12 @@ impl RangeAnswer {
 }
 
 /// The record of `file` in numbers.
-pub fn answer(file: &str, measured: &Measured, treatment: &Treatment, treated: &Treated) -> ForcesAnswer {
+pub fn answer(
+    file: &str,
+    measured: &Measured,
+    treatment: &Treatment,
+    treated: &ProcessedRecord,
+) -> ForcesAnswer {
     let record = &treated.before;
     let (samples, duration_s) = (record.time().len(), record.end() - record.begin());
     let mut channels = vec!["fx", "fy", "fz"];

@@ -1,18 +1,18 @@
-//! Which force was measured, and what is left of it? A dynamometer's file from its text to the force that a study uses.
+//! Measured forces: a dynamometer file, from its text to the force that a study uses.
 //!
 //! ```text
 //! file -> Measured (axes of the sensor) -> treat: drift off, low-pass, turns -> ForcesAnswer, tables, picture
 //! ```
 //!
-//! [`treat`](mod@treat): what is done to a record: drift taken off, low-pass, revolutions of the spindle.
-//! [`answer`](mod@answer): what came of it, in numbers. [`output`]: tables and pictures of it.
+//! [`treat`](mod@treat): processing of a record: drift removal, low-pass, revolutions of the spindle.
+//! [`answer`](mod@answer): the values of the result. [`output`]: its tables and pictures.
 
 pub mod answer;
 pub mod output;
 pub mod treat;
 
 pub use answer::{DriftAnswer, ForcesAnswer, RangeAnswer, SummaryAnswer, answer};
-pub use treat::{Air, Refusal, Treated, Treatment, treat};
+pub use treat::{Air, ProcessedRecord, Refusal, Treatment, treat};
 
 use std::io::BufReader;
 use std::path::Path;
@@ -36,7 +36,7 @@ pub struct Measured {
     pub cycle: [usize; 2],
 }
 
-/// Why there is no record: the file is wrong, or what was asked of it.
+/// Reason why there is no record: the file or a setting is wrong.
 #[derive(Debug)]
 pub enum Unread {
     /// Problems of the file.
@@ -45,10 +45,10 @@ pub enum Unread {
     Value(Refusal),
 }
 
-/// Reads the record in `path`; `shown` is what problems call it, `cycle` counts from 1.
+/// Reads the record in `path`; `shown` is its name in problems, `cycle` counts from 1.
 ///
 /// # Errors
-/// The file cannot be read; its problems; several cycles and none told, or one that it does not have.
+/// The file cannot be read; its problems; several cycles and none given, or one that it does not have.
 pub fn read(
     (shown, path): (&str, &Path),
     acts_on: ActsOn,
@@ -71,8 +71,8 @@ pub fn read(
         (Some(cycle), _) if (1..=count).contains(&cycle) => cycle,
         (given, _) => {
             let message = match given {
-                None => format!("{shown} holds {count} cycles"),
-                Some(given) => format!("{shown} holds {count} cycles, not a cycle {given}"),
+                None => format!("{shown} has {count} cycles"),
+                Some(given) => format!("{shown} has {count} cycles, but no cycle {given}"),
             };
             let hint = format!("choose one, from 1 to {count}");
             return Err(Unread::Value(Refusal::new("cycle", message, hint)));

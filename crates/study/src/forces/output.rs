@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! forces.csv        time_s, fx_n, fy_n, fz_n, fx_before_n, fy_before_n, fz_before_n
-//! revolutions.csv   start_s, fx_mean_n, ... fz_mean_n, then least, most, strongest; where turns were counted
+//! revolutions.csv   start_s, fx_mean_n, ... fz_mean_n, then least, most, strongest; if revolutions were averaged
 //! forces.svg        each component and the size over time, before and after; forces.png is the same
 //! ```
 
@@ -15,7 +15,7 @@ use armill_formats::file::ResultFolder;
 use armill_formats::table::{Column, Table, csv};
 use armill_report::{Envelope, ForcePlot, ForceTrace};
 
-use super::{ForcesAnswer, Treated};
+use super::{ForcesAnswer, ProcessedRecord};
 use crate::StudyError;
 use crate::output::column;
 
@@ -23,17 +23,17 @@ use crate::output::column;
 const FORCE_DECIMALS: u8 = 6;
 /// Decimals of times: nanoseconds.
 const TIME_DECIMALS: u8 = 9;
-/// Pixels that a picture is drawn in for each of its own.
+/// Pixels of a picture per unit of its drawing.
 #[cfg(feature = "png")]
 const PNG_SCALE: f64 = 2.0;
 
-/// Writes tables and picture into the folder `out` and gives their paths.
+/// Writes tables and pictures into the folder `out` and returns their paths.
 ///
 /// # Errors
 /// The folder or a file cannot be written.
 pub fn write(
     answer: &ForcesAnswer,
-    treated: &Treated,
+    treated: &ProcessedRecord,
     out: &ResultFolder,
 ) -> Result<Vec<PathBuf>, StudyError> {
     let svg = plot(("measured force".to_owned(), subtitle(answer)), treated).to_svg();
@@ -59,7 +59,7 @@ fn subtitle(answer: &ForcesAnswer) -> String {
     let mut parts = vec![format!("{}, {} Hz", answer.file, Short(answer.rate_hz))];
     parts.push(
         if answer.drift.is_some() {
-            "drift taken off"
+            "drift removed"
         } else {
             "drift left in"
         }
@@ -74,7 +74,7 @@ fn subtitle(answer: &ForcesAnswer) -> String {
     parts.join("; ")
 }
 
-/// A number without decimals that say nothing.
+/// A number without superfluous decimals.
 struct Short(f64);
 
 impl std::fmt::Display for Short {
@@ -85,15 +85,15 @@ impl std::fmt::Display for Short {
 
 /// The picture of a record.
 ///
-/// Where turns were counted, the treated traces are their means.
-pub(crate) fn plot((title, subtitle): (String, String), treated: &Treated) -> ForcePlot {
+/// If revolutions were averaged, the processed traces are their means.
+pub(crate) fn plot((title, subtitle): (String, String), treated: &ProcessedRecord) -> ForcePlot {
     let before = &treated.before;
     let span_s = [before.begin(), before.end()];
     let envelope = |record: &Record, value: fn(&Vector3<f64>) -> f64| {
         let samples = record.time().iter().zip(record.force());
         Envelope::of(span_s, samples.map(|(time, force)| (*time, value(force))))
     };
-    // Where turns were counted, their means are what is used.
+    // If revolutions were averaged, their means are used.
     let after = |value: fn(&Vector3<f64>) -> f64| match &treated.turns {
         Some(turns) => {
             let means = turns.iter().map(|turn| (turn.middle, value(&turn.mean)));
@@ -123,8 +123,8 @@ pub(crate) fn plot((title, subtitle): (String, String), treated: &Treated) -> Fo
     }
 }
 
-/// A row a sample: the force as it was treated, and as it was measured.
-fn forces(treated: &Treated) -> Result<Table, StudyError> {
+/// One row per sample: the processed and the measured force.
+fn forces(treated: &ProcessedRecord) -> Result<Table, StudyError> {
     let mut columns = vec![time("time_s", "instant", treated.before.time().to_vec())];
     for (suffix, what, record) in [
         ("n", "as it was treated", &treated.after),
@@ -141,13 +141,13 @@ fn forces(treated: &Treated) -> Result<Table, StudyError> {
     Ok(Table::new("forces", columns)?)
 }
 
-/// A force of a turn.
+/// A force of a revolution.
 type OfTurn = fn(&Revolution) -> Vector3<f64>;
 
-/// A row a turn of the spindle.
+/// One row per revolution of the spindle.
 fn turns_table(turns: &[Revolution]) -> Result<Table, StudyError> {
     let starts = turns.iter().map(|turn| turn.start).collect();
-    let mut columns = vec![time("start_s", "when the turn begins", starts)];
+    let mut columns = vec![time("start_s", "start of the revolution", starts)];
     let groups: [(&str, &str, OfTurn); 4] = [
         ("mean", "mean over the turn", |turn| turn.mean),
         ("least", "least in the turn", |turn| turn.least),

@@ -1,4 +1,4 @@
-//! What is done to a record: first the drift is taken off, then it is low-passed; turns of the spindle are of what is
+//! Processing of a record: drift removal, then the low-pass filter; revolutions of the spindle are of the
 //! left.
 
 use std::f64::consts::TAU;
@@ -8,15 +8,15 @@ use armill_core::load::record::low_pass::low_pass;
 use armill_core::load::record::revolutions::{Revolution, revolutions};
 use armill_core::load::{Record, RecordError};
 
-/// Where no force acts, so that drift can be seen there.
+/// Intervals without cutting, from which the drift is determined.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Air {
     /// From when to when, s.
-    Told(Vec<[f64; 2]>),
-    /// The quietest stretches of both halves.
-    Found,
-    /// Nowhere: the drift stays.
-    Kept,
+    Given(Vec<[f64; 2]>),
+    /// The quietest intervals of both halves.
+    Detected,
+    /// None: the drift is not removed.
+    NotRemoved,
 }
 
 /// What is done to a record.
@@ -32,23 +32,23 @@ pub struct Treatment {
 
 /// A record before and after.
 #[derive(Clone, Debug)]
-pub struct Treated {
+pub struct ProcessedRecord {
     /// As it was measured.
     pub before: Record,
     /// Without drift, low-passed.
     pub after: Record,
-    /// What was taken off.
+    /// The drift removed.
     pub drift: Option<Drift>,
-    /// The whole turns of the spindle, of what is left.
+    /// The complete revolutions of the spindle, after processing.
     pub turns: Option<Vec<Revolution>>,
 }
 
-/// A value that cannot be, and what to do about it.
+/// An invalid value, and what to do about it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Refusal {
-    /// Key of the value in a study; the option of the command is called alike.
+    /// Key of the value in a study; the option of the command has the same name.
     pub key: &'static str,
-    /// The thing, its value, the limit and the unit.
+    /// The quantity, its value, the limit and the unit.
     pub message: String,
     /// What to do about it.
     pub hint: String,
@@ -69,7 +69,7 @@ impl Refusal {
 ///
 /// # Errors
 /// Air cuts that are none, a cutoff or spindle speed that the record cannot show.
-pub fn treat(record: Record, treatment: &Treatment) -> Result<Treated, Refusal> {
+pub fn treat(record: Record, treatment: &Treatment) -> Result<ProcessedRecord, Refusal> {
     let (without_drift, drift) = match without_drift(&record, &treatment.air)? {
         Some((freed, drift)) => (Some(freed), Some(drift)),
         None => (None, None),
@@ -91,7 +91,7 @@ pub fn treat(record: Record, treatment: &Treatment) -> Result<Treated, Refusal> 
             )
         })
     });
-    Ok(Treated {
+    Ok(ProcessedRecord {
         turns: turns.transpose()?,
         before: record,
         after,
@@ -99,12 +99,12 @@ pub fn treat(record: Record, treatment: &Treatment) -> Result<Treated, Refusal> 
     })
 }
 
-/// The record without its drift, and the drift; `None` where it is to stay.
+/// The record without its drift, and the drift; `None` if it is not removed.
 fn without_drift(record: &Record, air: &Air) -> Result<Option<(Record, Drift)>, Refusal> {
     let found = match air {
-        Air::Kept => return Ok(None),
-        Air::Found => drift::remove(record, AirCut::Found),
-        Air::Told(stretches) => {
+        Air::NotRemoved => return Ok(None),
+        Air::Detected => drift::remove(record, AirCut::Found),
+        Air::Given(stretches) => {
             if let Some([from, to]) = stretches.iter().find(|[from, to]| from.is_nan() || from >= to) {
                 let message = format!("an air cut from {from} to {to} s has no length");
                 return Err(Refusal::new("air_s", message, "its begin, then its end"));
@@ -112,13 +112,13 @@ fn without_drift(record: &Record, air: &Air) -> Result<Option<(Record, Drift)>, 
             drift::remove(record, AirCut::Given(stretches))
         }
     };
-    let within = format!("the record goes from {} to {} s", record.begin(), record.end());
+    let within = format!("the record is from {} to {} s", record.begin(), record.end());
     found.map(Some).map_err(|error| match error {
         RecordError::NoSamplesOfAirCut(_) => Refusal::new("air_s", error.to_string(), within),
         error => Refusal::new(
             "air_s",
             error.to_string(),
-            "tell from when to when nothing is cut, or that the drift is to stay",
+            "give an interval without cutting, or do not remove the drift",
         ),
     })
 }
@@ -130,7 +130,7 @@ mod tests {
 
     use super::*;
 
-    /// 50 N for a second between half seconds of nothing, all 3 N too high.
+    /// 50 N for a second between half seconds without force, all 3 N too high.
     fn record() -> Record {
         let time: Vec<f64> = (0..2000).map(|k| f64::from(k) * 1e-3).collect();
         let cut = |t: &f64| if (0.5..1.5).contains(t) { 50.0 } else { 0.0 };
@@ -150,20 +150,20 @@ mod tests {
     }
 
     #[test]
-    fn drift_goes_where_it_is_told_and_stays_where_it_is_to_stay() {
-        let given = treat(record(), &treatment(Air::Told(vec![[0.0, 0.4], [1.6, 2.0]]))).unwrap();
+    fn drift_is_removed_with_given_intervals_and_kept_on_request() {
+        let given = treat(record(), &treatment(Air::Given(vec![[0.0, 0.4], [1.6, 2.0]]))).unwrap();
         assert!((given.after.force_at(1.0).x - 50.0).abs() < 1e-9);
         assert_eq!(given.before, record());
         assert!((given.drift.unwrap().offset.x - 3.0).abs() < 1e-9);
-        let kept = treat(record(), &treatment(Air::Kept)).unwrap();
+        let kept = treat(record(), &treatment(Air::NotRemoved)).unwrap();
         assert_eq!((kept.after, kept.drift), (record(), None));
     }
 
     #[test]
-    fn turns_are_of_what_is_left() {
+    fn revolutions_are_of_the_processed_record() {
         let requested = Treatment {
             spindle_rpm: Some(600.0),
-            ..treatment(Air::Told(vec![[0.0, 0.4]]))
+            ..treatment(Air::Given(vec![[0.0, 0.4]]))
         };
         let turns = treat(record(), &requested).unwrap().turns.unwrap();
         assert_eq!(turns.len(), 19);
@@ -171,12 +171,12 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_is_told_under_its_key() {
-        let base = treatment(Air::Kept);
+    fn refuses_invalid_values_under_their_keys() {
+        let base = treatment(Air::NotRemoved);
         for (requested, key, word) in [
-            (treatment(Air::Told(vec![[5.0, 6.0]])), "air_s", "0 samples"),
-            (treatment(Air::Told(vec![[1.0, 1.0]])), "air_s", "no length"),
-            (treatment(Air::Told(vec![[0.0, f64::NAN]])), "air_s", "0 samples"),
+            (treatment(Air::Given(vec![[5.0, 6.0]])), "air_s", "0 samples"),
+            (treatment(Air::Given(vec![[1.0, 1.0]])), "air_s", "no length"),
+            (treatment(Air::Given(vec![[0.0, f64::NAN]])), "air_s", "0 samples"),
             (
                 Treatment {
                     low_pass_hz: Some(500.0),

@@ -1,7 +1,8 @@
-//! Springs with uncertainties, residuals, prediction of tests left out, outliers, what stays open: one JSON value.
+//! Springs with uncertainties, residuals, prediction of left-out tests, outliers, open questions: one JSON value.
 //!
-//! With a prior the fit weighs readings far off less (Huber), without one it is plain least squares. Residuals are
-//! predicted minus measured. How springs are found, and what the numbers mean: `docs/theory/identification.md`.
+//! With a prior the fit has less weight for readings with large residuals (Huber), without one it is plain least
+//! squares. Residuals are
+//! predicted minus measured. Method and meaning of the numbers: `docs/theory/identification.md`.
 
 use armill_core::identify::fit::Scatter;
 use armill_core::identify::{
@@ -14,10 +15,10 @@ use armill_formats::measurement::load_tests::LoadTests;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::question::{PointsAsked, PriorAsked, Question, Units, attachment_name, spring_name};
+use super::question::{PointsModel, PriorModel, Question, Units, attachment_name, spring_name};
 use crate::StudyError;
 
-/// What load tests tell of an arm. The fields are those of the JSON answer.
+/// Result of load tests. The fields are those of the JSON result.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Answer {
     /// Library name or file stem.
@@ -28,13 +29,13 @@ pub struct Answer {
     pub readings: usize,
     /// One a spring, drives first.
     pub springs: Vec<SpringAnswer>,
-    /// Gaps in drives, where asked for.
+    /// Backlash in drives, if requested.
     pub lost_motion: Vec<LostMotionAnswer>,
-    /// Where the force acted, flange frame; where that was asked.
+    /// The point of the force, flange frame; if requested.
     pub force_point: Option<PointAnswer>,
     /// Where displacement was measured, flange frame.
     pub gauge_point: Option<PointAnswer>,
-    /// Standard uncertainty of a reading, found from the residuals, over the one stated (or over 10 um, 10 urad).
+    /// Standard uncertainty of a reading, estimated from the residuals, over the one given (or over 10 um, 10 urad).
     pub scatter_ratio: f64,
     /// Predicted minus measured displacement, over all tests.
     pub residual: Option<ErrorsAnswer>,
@@ -42,7 +43,7 @@ pub struct Answer {
     pub left_out: Option<ErrorsAnswer>,
     /// Names of the outliers: residuals beyond 3.5 times the scatter.
     pub outliers: Vec<String>,
-    /// Springs of which these tests tell only some sum or difference; a single one is seen by no test.
+    /// Springs of which these tests determine only some sum or difference; a single one is not loaded in any test.
     pub not_identifiable: Vec<Vec<String>>,
     /// Every test.
     pub by_test: Vec<TestAnswer>,
@@ -67,7 +68,7 @@ pub struct SpringAnswer {
     pub compliance_rad_per_n_m: Option<f64>,
     /// Standard uncertainty.
     pub compliance_u_rad_per_n_m: Option<f64>,
-    /// Its inverse; none where rigid fits best.
+    /// Its inverse; none if rigid fits best.
     pub stiffness_n_m_per_rad: Option<f64>,
     /// Of springs that slide.
     pub compliance_um_per_n: Option<f64>,
@@ -75,29 +76,29 @@ pub struct SpringAnswer {
     pub compliance_u_um_per_n: Option<f64>,
     /// Its inverse.
     pub stiffness_n_per_um: Option<f64>,
-    /// How much of it the tests tell, 0 to 1; the rest is what is known of any arm.
+    /// How much of it the tests determine, 0 to 1; the rest is prior knowledge.
     pub fraction_known_from_tests: f64,
 }
 
-/// The gap in a drive.
+/// The backlash in a drive.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct LostMotionAnswer {
     /// Joint.
     pub joint: String,
-    /// The whole gap.
+    /// The total backlash.
     pub gap_urad: f64,
     /// Standard uncertainty.
     pub gap_u_urad: f64,
     /// Torque that takes up three quarters of it: assumed, 5 % of the largest of the tests.
     pub closing_torque_n_m: f64,
-    /// How much of it the tests tell, 0 to 1.
+    /// How much of it the tests determine, 0 to 1.
     pub fraction_known_from_tests: f64,
 }
 
 /// A point in the flange frame.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PointAnswer {
-    /// Against the point that the tests tell.
+    /// Offset from the point given in the tests.
     pub shift_mm: [f64; 3],
     /// Standard uncertainty.
     pub shift_u_mm: [f64; 3],
@@ -114,7 +115,7 @@ pub struct ErrorsAnswer {
     pub rms_um: f64,
     /// Greatest.
     pub max_um: f64,
-    /// Mean over the mean of what was measured.
+    /// Mean over the mean of the measured displacement.
     pub fraction_of_measured: f64,
 }
 
@@ -123,7 +124,7 @@ pub struct ErrorsAnswer {
 pub struct TestAnswer {
     /// Its `test` cell, or its line.
     pub name: String,
-    /// Predicted minus measured displacement; none where an axis was not measured.
+    /// Predicted minus measured displacement; none if an axis was not measured.
     pub residual_um: [Option<f64>; 3],
     /// The same with a prediction that has not seen this test.
     pub left_out_um: [Option<f64>; 3],
@@ -131,23 +132,23 @@ pub struct TestAnswer {
     pub turn_residual_urad: Option<f64>,
     /// Residual over the scatter.
     pub residual_ratio: f64,
-    /// How much it counted, 0 to 1.
+    /// Its weight, 0 to 1.
     pub weight_fraction: f64,
     /// Beyond 3.5 times the scatter.
     pub outlier: bool,
 }
 
-/// Measured displacements this much larger or smaller than those of a typical arm are of another unit.
+/// Measured displacements larger or smaller by this factor than those of a typical robot have another unit.
 const TOO_LARGE: f64 = 300.0;
 /// The same to the other side.
 const TOO_SMALL: f64 = 0.01;
-/// Springs of which the tests tell less than this are named.
+/// Springs of which the tests determine less than this are listed.
 const HARDLY_KNOWN: f64 = 0.5;
 
-/// The answer for `tests` of `robot`.
+/// The result for `tests` of `robot`.
 ///
 /// # Errors
-/// Unknown groups, readings that no arm gives, tests that cannot tell what is asked.
+/// Unknown groups, implausible readings, tests that cannot determine the requested springs.
 pub fn answer(robot: &Robot, tests: &LoadTests, question: &Question) -> Result<Answer, StudyError> {
     let unknowns = question.unknowns(robot, &tests.tests)?;
     if question.units == Units::Checked {
@@ -157,8 +158,8 @@ pub fn answer(robot: &Robot, tests: &LoadTests, question: &Question) -> Result<A
         prior: question.prior(),
         points: question.points(),
         loss: match question.prior {
-            PriorAsked::Typical => Loss::Huber,
-            PriorAsked::None => Loss::Squares,
+            PriorModel::Typical => Loss::Huber,
+            PriorModel::None => Loss::Squares,
         },
         scatter: if tests.uncertainties_stated {
             Scatter::Stated
@@ -171,7 +172,7 @@ pub fn answer(robot: &Robot, tests: &LoadTests, question: &Question) -> Result<A
     Ok(reported(robot, tests, question, unknowns, identified))
 }
 
-/// Refuses readings so far from those of a typical arm that a unit must be wrong.
+/// Refuses readings so far from those of a typical robot that a unit must be wrong.
 fn check_units(robot: &Robot, tests: &[LoadTest]) -> Result<(), StudyError> {
     let Some(ratio) = measured_over_typical(robot, tests) else {
         return Ok(());
@@ -189,29 +190,29 @@ fn check_units(robot: &Robot, tests: &[LoadTest]) -> Result<(), StudyError> {
     } else {
         return Ok(());
     };
-    // Told as a factor above 1, whichever way it is.
+    // As a factor above 1, in either direction.
     let times = if ratio > 1.0 { ratio } else { 1.0 / ratio };
     let message =
-        format!("readings are {times:.0} times {word} than those of a typical arm under these loads");
+        format!("readings are {times:.0} times {word} than those of a typical robot under these loads");
     Err(StudyError::value(
         message,
-        format!("{guess} The unit stands in the column's name; --trust-units takes them as they are"),
+        format!("{guess} The unit is in the name of the column; --trust-units accepts the values"),
     ))
 }
 
-/// A refusal of the core, with what the user can do about it.
+/// An error of the core, with what the user can do about it.
 fn refused(refusal: &Refusal, question: &Question) -> StudyError {
     let hint = match refusal {
         Refusal::TooFewReadings { .. } => {
             let fewer = match (question.points, question.unknowns.as_str()) {
-                (PointsAsked::Known, "drives") => "",
-                (PointsAsked::Known, _) => " or ask for less: --unknowns drives",
-                _ => " or ask for less: --unknowns drives --points known",
+                (PointsModel::Known, "drives") => "",
+                (PointsModel::Known, _) => " or use fewer unknowns: --unknowns drives",
+                _ => " or use fewer unknowns: --unknowns drives --points known",
             };
             format!("do more tests{fewer}; `armill identify --plan 20` proposes some")
         }
         Refusal::OnePosture { .. } => {
-            "one posture tells how the tool yields there, not which joint does; `armill identify --plan 20` proposes \
+            "one posture determines the compliance at the tool, but not the joints; `armill identify --plan 20` proposes \
              postures"
                 .to_owned()
         }
@@ -220,7 +221,7 @@ fn refused(refusal: &Refusal, question: &Question) -> StudyError {
     StudyError::value(refusal.to_string(), hint)
 }
 
-/// What was found, in the units and names of the answer.
+/// The result, in the units and names of the JSON value.
 fn reported(
     robot: &Robot,
     tests: &LoadTests,
@@ -318,7 +319,7 @@ fn reported(
     }
 }
 
-/// One test, by axes of base; what was not measured stays empty.
+/// One test, by axes of base; empty where not measured.
 fn test_answer(name: &str, test: &LoadTest, outcome: &TestOutcome) -> TestAnswer {
     let mut answer = TestAnswer {
         name: name.to_owned(),
@@ -341,7 +342,7 @@ fn test_answer(name: &str, test: &LoadTest, outcome: &TestOutcome) -> TestAnswer
     answer
 }
 
-/// What a user should know: rows without a reading, springs that the tests hardly tell, residuals far beyond the stated
+/// Notes for the user: rows without a reading, springs that the tests hardly determine, residuals far beyond the given
 /// uncertainties.
 fn notes(tests: &LoadTests, names: &[String], identified: &Identified) -> Vec<String> {
     let mut notes = Vec::new();
@@ -360,13 +361,13 @@ fn notes(tests: &LoadTests, names: &[String], identified: &Identified) -> Vec<St
         .collect();
     if !hardly.is_empty() {
         notes.push(format!(
-            "mostly what is known of any arm, not of these tests: {}",
+            "mostly from prior knowledge, not from these tests: {}",
             hardly.join(", ")
         ));
     }
     if tests.uncertainties_stated && identified.scale > 2.0 {
         notes.push(format!(
-            "residuals are {:.1} times as large as the stated uncertainties: something is missing in the model or in \
+            "residuals are {:.1} times as large as the given uncertainties: something is missing in the model or in \
              the uncertainties",
             identified.scale
         ));

@@ -1,11 +1,11 @@
-//! Load tests in, springs of the arm out: what `armill identify` answers.
+//! Identification of springs from load tests: the result of `armill identify`.
 //!
 //! ```text
 //! robot + tests.csv + Question -> Answer -> robot file with the new compliances
 //! robot + Question + count     -> PlanAnswer: tests to do, as a table to fill in
 //! ```
 //!
-//! [`question`] (what is asked for, in the words of the command), [`answer`](mod@answer) (springs, uncertainties,
+//! [`question`] (settings of the command), [`answer`](mod@answer) (springs, uncertainties,
 //! residuals, as one JSON value), [`robot_file`] (the robot with its new compliances), [`plan`](mod@plan) (tests to do,
 //! as a table to fill in).
 
@@ -16,4 +16,4 @@ pub mod robot_file;
 
 pub use answer::{Answer, SpringAnswer, answer};
 pub use plan::{PlanAnswer, plan};
-pub use question::{PointsAsked, PriorAsked, Question, Units};
+pub use question::{PointsModel, PriorModel, Question, Units};

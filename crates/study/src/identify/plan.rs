@@ -4,9 +4,9 @@
 //! test,A1_deg,...,A6_deg,fx_n,fy_n,fz_n,dx_mm,dy_mm,dz_mm,expected_dx_mm,expected_dy_mm,expected_dz_mm
 //! ```
 //!
-//! A row a test. `dx_mm` to `dz_mm` are empty, for what the gauge will show: loaded minus unloaded, base axes. Expected
-//! displacements are those of the drives as the robot file knows them, else of a typical arm. Sliding joints are in mm, and
-//! their columns say so.
+//! One row per test. `dx_mm` to `dz_mm` are empty, for the measured values: loaded minus unloaded, base axes. Expected
+//! displacements are those of the drives of the robot file, else of a typical robot. Prismatic joints are in mm, as
+//! their column names say.
 
 use armill_core::frame::Isometry;
 use armill_core::identify::{Floor, PlanQuestion, PlannedTest, plan as core_plan};
@@ -22,7 +22,7 @@ use serde::Serialize;
 use super::question::{Question, spring_name, within};
 use crate::StudyError;
 
-/// A plan, as JSON has it and as a table.
+/// A plan, for JSON and as a table.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PlanAnswer {
     /// Library name or file stem.
@@ -41,11 +41,11 @@ pub struct PlanAnswer {
 /// One test to do.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PlannedTestAnswer {
-    /// Joint positions (sliding joints in mm).
+    /// Joint positions (prismatic joints in mm).
     pub joints_deg: Vec<f64>,
     /// Pull on the tool, base axes.
     pub force_n: [f64; 3],
-    /// Displacement that the drives of the robot file give, or those of a typical arm where it knows none.
+    /// Displacement from the drives of the robot file, or those of a typical robot if it has none.
     pub expected_mm: [f64; 3],
 }
 
@@ -54,9 +54,9 @@ pub struct PlannedTestAnswer {
 pub struct ExpectedSpring {
     /// `A2 drive`.
     pub name: String,
-    /// Standard uncertainty over compliance to expect; 2 is a factor of seven, and known of any arm.
+    /// Expected standard uncertainty over compliance; 2 is a factor of seven, which is prior knowledge for any robot.
     pub relative_u_ratio: f64,
-    /// How much of it the tests will tell, 0 to 1.
+    /// How much of it the tests are expected to determine, 0 to 1.
     pub fraction_known_from_tests: f64,
 }
 
@@ -67,11 +67,11 @@ const PULL_N: [f64; 2] = [1e-3, 1e6];
 /// Least and greatest uncertainty of a gauge, um.
 const GAUGE_UM: [f64; 2] = [1e-3, 1e6];
 
-/// A plan of `count` tests with pulls of `pull` (N): down, and level along base x and y. `gauge` (m) is the standard
+/// A plan of `count` tests with forces of `pull` (N): down, and level along base x and y. `gauge` (m) is the standard
 /// uncertainty of a reading.
 ///
 /// # Errors
-/// A count, pull or uncertainty that cannot be; an arm without a posture that has room.
+/// An invalid count, force or uncertainty; a robot without a suitable posture.
 pub fn plan(
     robot: &Robot,
     question: &Question,
@@ -105,7 +105,7 @@ pub fn plan(
     let plan = core_plan(robot, &unknowns, &requested);
     if plan.tests.is_empty() {
         return Err(StudyError::value(
-            "no posture inside the joint limits keeps the tool clear of the floor and of the arm itself",
+            "no posture inside the joint limits keeps the tool clear of the floor and of the robot",
             "is --tool-mm right, and do the limits of the robot file leave room?",
         ));
     }
@@ -124,7 +124,7 @@ pub fn plan(
         })
         .collect();
     let mut postures: Vec<&Vec<f64>> = tests.iter().map(|test| &test.joints_deg).collect();
-    // Tests in one posture stand next to each other.
+    // Tests in one posture are next to each other.
     postures.dedup();
     let springs = unknowns
         .iter()
@@ -144,7 +144,7 @@ pub fn plan(
     })
 }
 
-/// What the table counts joint `i` in, of rad (m): degrees, mm.
+/// Unit of joint `i` in the table, per rad (m): degrees, mm.
 fn scale(robot: &Robot, i: usize) -> f64 {
     if robot.slides(i) { 1e3 } else { 1f64.to_degrees() }
 }
@@ -154,7 +154,7 @@ fn rounded(robot: &Robot, i: usize, q: f64) -> f64 {
     (q * scale(robot, i)).round()
 }
 
-/// What the gauge is likely to show where the table puts the arm, m, base axes: of the arm's own drives where they are known.
+/// The expected reading in the posture of the table, m, base axes: from the drives of the robot if they are known.
 fn expected(robot: &Robot, question: &Question, test: &PlannedTest) -> Vector3<f64> {
     let Some(compliance) = robot.compliance() else {
         return test.expected;
@@ -170,7 +170,7 @@ fn expected(robot: &Robot, question: &Question, test: &PlannedTest) -> Vector3<f
     displacement(&posture.screws, compliance, &Wrench::from_force(test.force))
 }
 
-/// The plan as CSV, with empty cells for what will be measured.
+/// The plan as CSV, with empty cells for the measured values.
 fn table(robot: &Robot, tests: &[PlannedTestAnswer]) -> String {
     let mut header = vec!["test".to_owned()];
     header.extend(robot.joints().iter().enumerate().map(|(i, joint)| {

@@ -1,11 +1,11 @@
-//! What is asked for: which unknowns, which points, what is known beforehand.
+//! Settings: the unknowns, the points, the prior knowledge.
 //!
 //! | group | unknowns |
 //! |---|---|
-//! | `drives` | the spring of every joint; always asked for |
-//! | `bending` | bearings and links: turns across the axes of turning joints |
-//! | `base`, `tool` | the floor: turns about axes of base; holder and tool: slides along axes of the flange |
-//! | `lost-motion` | the gap in every drive that turns |
+//! | `drives` | the spring of every joint; required |
+//! | `bending` | bearings and links: rotations about the axes perpendicular to those of revolute joints |
+//! | `base`, `tool` | foundation: rotations about axes of base; holder and tool: translations along axes of the flange |
+//! | `lost-motion` | the backlash in the drive of every revolute joint |
 
 use armill_core::identify::effect::Effects;
 use armill_core::identify::unknown::{base, bending, drives, lost_motion, tool};
@@ -16,44 +16,44 @@ use armill_formats::robot::spring_tables::SpringKind;
 
 use crate::{StudyError, robot_answers};
 
-/// A question about load tests.
+/// Settings for load tests.
 #[derive(Clone, Debug)]
 pub struct Question {
     /// Groups of unknowns with `+` between: `drives+bending+base`.
     pub unknowns: String,
     /// Whether force point and measured point are known.
-    pub points: PointsAsked,
+    pub points: PointsModel,
     /// Standard uncertainty of points that are not known, m.
     pub point_u: f64,
-    /// What is known beforehand.
-    pub prior: PriorAsked,
-    /// Where force and displacement are unless a test says otherwise, m, flange frame.
+    /// Prior knowledge.
+    pub prior: PriorModel,
+    /// Point of force and displacement unless given in a test, m, flange frame.
     pub tool_point: Vector3<f64>,
-    /// Whether sizes that no arm has are refused.
+    /// Whether implausible values are refused.
     pub units: Units,
 }
 
 /// What is known of the two points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PointsAsked {
-    /// Both, as told.
+pub enum PointsModel {
+    /// Both, as given.
     Known,
     /// Both are off by one and the same shift.
     Common,
-    /// Each is off by itself.
+    /// Each with its own offset.
     Separate,
 }
 
 /// What is known of the springs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PriorAsked {
-    /// Arms are alike within powers of ten.
+pub enum PriorModel {
+    /// Compliances of robots are within some powers of ten.
     Typical,
     /// Only that none is negative.
     None,
 }
 
-/// Whether readings far from those of any arm are taken as they are.
+/// Whether implausible readings are accepted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Units {
     /// They are refused.
@@ -64,37 +64,38 @@ pub enum Units {
 
 /// The groups that `unknowns` may name.
 pub const GROUPS: [&str; 5] = ["drives", "bending", "base", "tool", "lost-motion"];
-/// Share of the largest torque on a joint that takes up its gap.
+/// Share of the largest torque on a joint that takes up its backlash.
 const GAP_CLOSES_AT: f64 = 0.05;
 
 impl Question {
     /// The points for the core.
     pub fn points(&self) -> Points {
         match self.points {
-            PointsAsked::Known => Points::Known,
-            PointsAsked::Common => Points::Common(self.point_u),
-            PointsAsked::Separate => Points::Separate(self.point_u),
+            PointsModel::Known => Points::Known,
+            PointsModel::Common => Points::Common(self.point_u),
+            PointsModel::Separate => Points::Separate(self.point_u),
         }
     }
 
     /// The prior for the core.
     pub fn prior(&self) -> Prior {
         match self.prior {
-            PriorAsked::Typical => Prior::Typical,
-            PriorAsked::None => Prior::None,
+            PriorModel::Typical => Prior::Typical,
+            PriorModel::None => Prior::None,
         }
     }
 
-    /// The unknowns that the groups name, on this robot. Lost motion needs tests: their torques say how soon a gap is
+    /// The unknowns of the groups, for this robot. Lost motion needs tests: their torques determine how soon a
+    /// backlash is
     /// taken up.
     ///
     /// # Errors
-    /// A word that names no group; a list without drives; an uncertainty of points that no gauge has.
+    /// An unknown group; a list without drives; an implausible uncertainty of the points.
     pub fn unknowns(&self, robot: &Robot, tests: &[LoadTest]) -> Result<Vec<Unknown>, StudyError> {
         within("--point-u-mm", self.point_u * 1e3, POINT_U_MM, "mm")?;
         let groups: Vec<&str> = self.unknowns.split('+').map(str::trim).collect();
         if let Some(unknown) = groups.iter().find(|group| !GROUPS.contains(group)) {
-            let message = format!("--unknowns: `{unknown}` is no group of springs");
+            let message = format!("--unknowns: `{unknown}` is not a group of springs");
             return Err(StudyError::value(
                 message,
                 format!("one or more of {}, such as drives+bending", GROUPS.join(", ")),
@@ -102,7 +103,10 @@ impl Question {
         }
         if !groups.contains(&"drives") {
             let message = format!("--unknowns {}: drives are missing", self.unknowns);
-            return Err(StudyError::value(message, "they yield most: write drives+..."));
+            return Err(StudyError::value(
+                message,
+                "drives have the largest compliance: write drives+...",
+            ));
         }
         let drives = drives(robot);
         let mut unknowns = drives.clone();
@@ -131,7 +135,7 @@ impl Question {
     }
 }
 
-/// Uncertainties of points that tests can have, mm: squares of far smaller ones are 0.
+/// Plausible uncertainties of points, mm: squares of far smaller ones are 0.
 const POINT_U_MM: [f64; 2] = [1e-3, 1e6];
 
 /// A problem where `value` is outside of these limits.
@@ -145,13 +149,13 @@ pub(super) fn within(flag: &str, value: f64, [low, high]: [f64; 2], unit: &str) 
     ))
 }
 
-/// What a robot file calls the seat of an unknown.
+/// Name of the attachment of an unknown in a robot file.
 pub fn attachment_name(robot: &Robot, unknown: &Unknown) -> String {
     robot_answers::attachment_name(robot, unknown.attachment)
 }
 
-/// How an unknown yields, as a robot file says it.
-pub fn yields(unknown: &Unknown) -> SpringKind {
+/// The kind of spring of an unknown, as a robot file states it.
+pub fn spring_kind(unknown: &Unknown) -> SpringKind {
     let direction = if unknown.turns() {
         unknown.direction.angular
     } else {
@@ -166,10 +170,10 @@ pub fn yields(unknown: &Unknown) -> SpringKind {
     }
 }
 
-/// What people call an unknown: `A2 drive`, `A2 about x`, `A2 lost motion`.
+/// Name of an unknown in texts: `A2 drive`, `A2 about x`, `A2 lost motion`.
 pub fn spring_name(robot: &Robot, unknown: &Unknown) -> String {
     let attachment = attachment_name(robot, unknown);
-    match (unknown.role, yields(unknown)) {
+    match (unknown.role, spring_kind(unknown)) {
         (Role::LostMotion { .. }, _) => format!("{attachment} lost motion"),
         (_, SpringKind::Drive | SpringKind::PrismaticDrive) => format!("{attachment} drive"),
         (_, spring) => spring.name_at(&attachment),

@@ -1,6 +1,7 @@
-//! The robot file with identified compliances: what later predictions use.
+//! The robot file with identified compliances, for predictions.
 //!
-//! It takes springs with their uncertainties, the covariance of those that turn, how much left-out tests miss by as the error
+//! It contains springs with their uncertainties, the covariance of those of revolute joints, the error of left-out
+//! tests as the error
 //! of the model, and a source that names the tests.
 //! Lost motion is left out.
 
@@ -9,10 +10,10 @@ use armill_core::robot::Robot;
 use armill_formats::robot::armill::{Identified, IdentifiedSpring, with_springs};
 
 use super::answer::Answer;
-use super::question::{attachment_name, yields};
+use super::question::{attachment_name, spring_kind};
 use crate::StudyError;
 
-/// The robot file `text` (at `path`) with the springs of `answer`, found from the tests in `tests_path`.
+/// The robot file `text` (at `path`) with the springs of `answer`, identified from the tests in `tests_path`.
 ///
 /// # Errors
 /// A robot file that is not TOML, or that no longer reads with these compliances in it.
@@ -31,7 +32,7 @@ pub fn robot_file(
             let (unknown, estimate) = (&answer.unknowns[*k], answer.identified.estimates[*k]);
             IdentifiedSpring {
                 at: attachment_name(robot, unknown),
-                yields: yields(unknown),
+                kind: spring_kind(unknown),
                 compliance: estimate.value,
                 standard_uncertainty: estimate.standard_uncertainty,
             }
@@ -53,7 +54,7 @@ pub fn robot_file(
         .collect();
     let left_out = answer.left_out.as_ref().map_or(String::new(), |errors| {
         format!(
-            "; a test left out is predicted within {:.1} um in the mean, {:.1} % of what was measured",
+            "; a left-out test is predicted within {:.1} um on average, {:.1} % of the measured displacement",
             errors.mean_um,
             errors.fraction_of_measured * 100.0
         )

@@ -1,17 +1,17 @@
-//! What `armill run` says of a text, in memory: the same bytes as its files have.
+//! The results of `armill run` for a text, in memory: the same bytes as its files.
 
 use armill_core::watch::Watch;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::Text;
+use super::StudyText;
 use crate::answer::answer;
 use crate::budget::output::is_of_budget;
 use crate::error::StudyError;
 use crate::output::{self, Picture};
 use crate::run::run;
 
-/// The pictures of an ask.
+/// The pictures of an analysis.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PicturesAnswer {
     /// In the order of the report.
@@ -25,46 +25,58 @@ pub struct PictureAnswer {
     pub name: String,
     /// What it shows, in a sentence.
     pub title: String,
-    /// Whether its numbers are those of the budget of what was measured, not of the table of the ask.
+    /// Whether its numbers are those of the error budget of the measurement, not of the table of the analysis.
     pub measured: bool,
     /// The picture.
     pub svg: String,
 }
 
-/// The answer to this ask, or to all, as `armill run --json` prints it.
+/// The answer to this analysis, or to all, as `armill run --json` prints it.
 ///
 /// # Errors
-/// Every problem of the text that concerns it; no ask of that name; cancelled by the watch.
-pub fn answer_json(text: Text<'_>, analysis: Option<&str>, watch: Watch<'_>) -> Result<String, StudyError> {
+/// Every problem of the text that concerns the analysis; no analysis of that name; cancelled by the watch.
+pub fn answer_json(
+    text: StudyText<'_>,
+    analysis: Option<&str>,
+    watch: Watch<'_>,
+) -> Result<String, StudyError> {
     let study = text.study(analysis)?;
     let done = run(&study, watch)?;
     output::json(&answer(&study, &done))
 }
 
-/// The table of this ask, or of the first, as the CSV that `armill run --csv` writes.
+/// The table of this analysis, or of the first, as the CSV that `armill run --csv` writes.
 ///
 /// # Errors
 /// As of [`answer_json`].
-pub fn table_csv(text: Text<'_>, analysis: Option<&str>, watch: Watch<'_>) -> Result<Vec<u8>, StudyError> {
-    let (_, _, study) = text.one_ask(analysis)?;
+pub fn table_csv(
+    text: StudyText<'_>,
+    analysis: Option<&str>,
+    watch: Watch<'_>,
+) -> Result<Vec<u8>, StudyError> {
+    let (_, _, study) = text.one_analysis(analysis)?;
     let done = run(&study, watch)?;
-    output::table_csv(&study, done.first().ok_or_else(no_ask)?)
+    output::table_csv(&study, done.first().ok_or_else(no_analysis)?)
 }
 
-/// The table of the budget of what was measured, as `armill budget --out` writes it.
+/// The table of the error budget of the measurement, as `armill budget --out` writes it.
 ///
 /// # Errors
-/// As of [`answer_json`]; a study in which nothing was measured.
-pub fn measured_csv(text: Text<'_>, watch: Watch<'_>) -> Result<Vec<u8>, StudyError> {
+/// As of [`answer_json`]; a study without a measurement.
+pub fn measured_csv(text: StudyText<'_>, watch: Watch<'_>) -> Result<Vec<u8>, StudyError> {
     let (combined, given) = crate::budget::budget(&text.study(None)?, watch)?;
     crate::budget::output::table_csv(&given, &combined)
 }
 
-/// The pictures of this ask, or of all, as `armill run` draws them.
+/// The pictures of this analysis, or of all, as `armill run` draws them.
 ///
 /// # Errors
 /// As of [`answer_json`].
-pub fn pictures(text: Text<'_>, analysis: Option<&str>, watch: Watch<'_>) -> Result<PicturesAnswer, StudyError> {
+pub fn pictures(
+    text: StudyText<'_>,
+    analysis: Option<&str>,
+    watch: Watch<'_>,
+) -> Result<PicturesAnswer, StudyError> {
     let study = text.study(analysis)?;
     let done = run(&study, watch)?;
     let given = |Picture { name, caption, svg }| PictureAnswer {
@@ -87,7 +99,7 @@ pub fn pictures(text: Text<'_>, analysis: Option<&str>, watch: Watch<'_>) -> Res
 /// # Errors
 /// As of [`answer_json`]; no picture of that name.
 pub fn picture_svg(
-    text: Text<'_>,
+    text: StudyText<'_>,
     analysis: Option<&str>,
     name: &str,
     watch: Watch<'_>,
@@ -104,7 +116,7 @@ pub fn picture_svg(
     })
 }
 
-/// A study always has an ask, its own or the map that it means.
-fn no_ask() -> StudyError {
-    StudyError::value("the study asks for nothing", "add an [[analysis]]")
+/// A study always has an analysis, its own or the implied map.
+fn no_analysis() -> StudyError {
+    StudyError::value("the study has no analysis", "add an [[analysis]]")
 }

@@ -1,6 +1,6 @@
-//! What a file seems to be, by its ending and its first lines, and how a study names such a file.
+//! The probable kind of a file, by its extension and its first lines, and the line of a study that names such a file.
 //!
-//! A guess that spares a look into the guide: what reads the file decides.
+//! Only a guess to save the user a look into the guide: the reader of the file decides.
 
 use std::io::Read;
 use std::path::Path;
@@ -10,13 +10,13 @@ use armill_formats::toolpath::format::{Format as PathFormat, HEAD_BYTES};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-/// What a file seems to be.
+/// The probable kind of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum FileKind {
     /// A robot.
     Robot,
-    /// A tool path, or the program of a robot.
+    /// A tool path, or the robot program.
     Path,
     /// Forces of a dynamometer.
     Forces,
@@ -24,15 +24,15 @@ pub enum FileKind {
     Ballbar,
     /// A measured profile.
     Profile,
-    /// Nothing that is known.
+    /// Unknown.
     Unknown,
 }
 
-/// What the file at `path` seems to be, and the line of a study that names it as `name`.
+/// The probable kind of the file at `path`, and the line of a study that names it as `name`.
 pub fn kind_of(path: &Path, name: &str) -> (FileKind, String) {
     let mut head = Vec::new();
     let opened = armill_formats::input::open(path).map(|file| file.take(HEAD_BYTES));
-    // What cannot be read is told by its name alone.
+    // A file that cannot be read is classified by its name alone.
     let _ = opened.and_then(|mut begin| begin.read_to_end(&mut head));
     let kind = guess(Path::new(name), &String::from_utf8_lossy(&head));
     let line = match kind {
@@ -41,7 +41,7 @@ pub fn kind_of(path: &Path, name: &str) -> (FileKind, String) {
         FileKind::Forces => format!("program = {{ file = \"...\", forces = {{ file = \"{name}\" }} }}"),
         FileKind::Ballbar => format!("[measured] ballbar = [\"{name}\"]"),
         FileKind::Profile => format!("[measured] part = \"{name}\""),
-        FileKind::Unknown => "no kind of file that armill reads by this name".to_owned(),
+        FileKind::Unknown => "armill reads no kind of file with this name".to_owned(),
     };
     (kind, line)
 }
@@ -72,7 +72,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn files_are_told_apart_by_name_and_first_line() {
+    fn files_are_classified_by_name_and_first_line() {
         let of = |name: &str, head: &str| guess(Path::new(name), head);
         assert_eq!(of("arm.urdf", "<robot/>"), FileKind::Robot);
         assert_eq!(of("part.ngc", "G21 G90\nG1 X10 F500\n"), FileKind::Path);

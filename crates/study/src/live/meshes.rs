@@ -1,8 +1,8 @@
-//! How does the robot look, where its file names shapes?
+//! The meshes of the robot, if its file names them.
 //!
-//! A URDF names mesh files, most often as `package://PACKAGE/PATH`. They are looked for beside the URDF and in the folders
-//! above it, up to the folder of the study; never outside of both. Of a link that looks like a file of another format its
-//! shape for collisions is taken. Drawn is all or nothing: an arm with a link that is missing would be a wrong one.
+//! A URDF names mesh files, most often as `package://PACKAGE/PATH`. They are searched in the folder of the URDF and in
+//! the folders above it, up to the folder of the study; never outside of both. For a link whose visual mesh has another
+//! format, its collision mesh is used. If one mesh is missing, none is drawn: an incomplete arm would be misleading.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -14,12 +14,12 @@ use armill_formats::robot::xacro;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::Text;
+use super::StudyText;
 use crate::error::StudyError;
 use crate::file::resolve::Parsed;
 use crate::number::without_rounding;
 
-/// The ending of meshes that a page draws.
+/// The extension of meshes that a page can draw.
 const ENDING: &str = "stl";
 
 /// A shape of a link, in base.
@@ -27,13 +27,13 @@ const ENDING: &str = "stl";
 pub struct DrawnMesh {
     /// Its link.
     pub link: String,
-    /// Its file, as the robot's file names it.
+    /// Its file, as in the robot file.
     pub file: String,
     /// Millimetres for one unit of the file, along its axes.
     pub scale_mm: [f64; 3],
-    /// Where it stands.
+    /// Its position.
     pub xyz_mm: [f64; 3],
-    /// How it stands there, unit quaternion.
+    /// Its orientation, unit quaternion.
     pub quaternion_wxyz: [f64; 4],
 }
 
@@ -41,12 +41,12 @@ pub struct DrawnMesh {
 pub(super) struct Shapes(Vec<(Mesh, PathBuf)>);
 
 impl Shapes {
-    /// Those that the file of this robot names; none where it names none, or not all are there.
+    /// Those that the file of this robot names; none if it names none, or if one is missing.
     pub(super) fn of(robot: &str, folder: &Path) -> Shapes {
         Shapes(found(robot, folder).unwrap_or_default())
     }
 
-    /// As the robot stands at these positions (rad, m).
+    /// The meshes at these joint positions (rad, m).
     pub(super) fn drawn(&self, robot: &Robot, q: &[f64]) -> Vec<DrawnMesh> {
         let position = |name: &str| {
             let index = robot.joints().iter().position(|joint| joint.name == name)?;
@@ -67,29 +67,29 @@ impl Shapes {
     }
 }
 
-/// The bytes of this mesh of the study's robot, by the name that the robot's file has for it.
+/// The bytes of this mesh of the study's robot, by its name in the robot file.
 ///
 /// # Errors
-/// A text that is no study; a robot that names no such mesh, or whose file is not there or too large.
-pub fn mesh_bytes(text: Text<'_>, file: &str) -> Result<Vec<u8>, StudyError> {
+/// A text that is not a study; a robot that names no such mesh, or whose file is missing or too large.
+pub fn mesh_bytes(text: StudyText<'_>, file: &str) -> Result<Vec<u8>, StudyError> {
     let robot = Parsed::of(text.shown, text.bytes)?.file.robot;
     let Shapes(shapes) = Shapes::of(&robot, text.folder);
     let named = shapes.into_iter().find(|(mesh, _)| mesh.file == file);
     let bytes = named.and_then(|(_, path)| input::read(&path).ok());
     bytes.ok_or_else(|| {
-        let message = format!("the robot shows no mesh `{file}`");
+        let message = format!("the robot has no mesh `{file}`");
         StudyError::value(
             message,
-            "meshes lie beside the URDF, or in the folder of the study",
+            "mesh files must be in the folder of the URDF or in the folder of the study",
         )
     })
 }
 
-/// The meshes that stand for the links, with their files.
+/// The meshes of the links, with their files.
 fn found(robot: &str, folder: &Path) -> Option<Vec<(Mesh, PathBuf)>> {
     let path = folder.join(robot);
     let format = |text: &str| Format::of(Path::new(robot), text);
-    // What is no file of its own, of the library say, names no meshes.
+    // A robot without a file of its own, such as one of the library, names no meshes.
     let bytes = path.is_file().then(|| input::read(&path).ok()).flatten()?;
     let text = String::from_utf8_lossy(&bytes);
     let urdf = match format(&text)? {
@@ -115,35 +115,35 @@ fn found(robot: &str, folder: &Path) -> Option<Vec<(Mesh, PathBuf)>> {
     found.map(|found| found.into_iter().flatten().collect())
 }
 
-/// Where meshes may lie.
+/// Where meshes may be.
 struct Places {
     /// The folder of the URDF and those above it up to that of the study, nearest first.
     folders: Vec<PathBuf>,
-    /// What no file may lie outside of: real paths.
+    /// Folders that every file must be inside of: real paths.
     roots: [PathBuf; 2],
 }
 
 impl Places {
     fn of(urdf: &Path, study: &Path) -> Option<Places> {
-        let beside = urdf.canonicalize().ok()?.parent()?.to_owned();
+        let urdf_folder = urdf.canonicalize().ok()?.parent()?.to_owned();
         let study = if study.as_os_str().is_empty() {
             Path::new(".")
         } else {
             study
         };
         let root = study.canonicalize().ok()?;
-        let inside = |folder: &&Path| folder.starts_with(&root) || *folder == beside;
+        let inside = |folder: &&Path| folder.starts_with(&root) || *folder == urdf_folder;
         Some(Places {
-            folders: beside
+            folders: urdf_folder
                 .ancestors()
                 .take_while(inside)
                 .map(Path::to_owned)
                 .collect(),
-            roots: [root, beside],
+            roots: [root, urdf_folder],
         })
     }
 
-    /// The file of that name; none where it is not there, of another kind, or outside.
+    /// The file of that name; none if it is not there, of another kind, or outside.
     fn find(&self, file: &str) -> Option<PathBuf> {
         let (path, packed) = match file.split_once("://") {
             Some(("package" | "model", path)) => (path, true),
@@ -152,7 +152,7 @@ impl Places {
             None => (file, false),
         };
         let path = Path::new(path);
-        // The package may be a folder, or what the folder of the URDF lies in.
+        // The package may be a folder, or a folder that contains that of the URDF.
         let without = path.components().skip(1).collect::<PathBuf>();
         let ways = if packed { vec![path, &without] } else { vec![path] };
         let tries = self
@@ -164,7 +164,7 @@ impl Places {
             .find(|real| self.may_be_read(real))
     }
 
-    /// Whether this real path is a mesh inside of what may be read, and not hidden.
+    /// Whether this real path is a mesh inside of the permitted folders, and not hidden.
     fn may_be_read(&self, real: &Path) -> bool {
         let mesh = real
             .extension()
@@ -187,7 +187,7 @@ impl Places {
 mod tests {
     use super::*;
 
-    /// A study beside which something lies that no robot may show.
+    /// A study, and files outside of it that no robot may show.
     fn cell(file: &str) -> (tempfile::TempDir, Option<Vec<PathBuf>>) {
         let outer = tempfile::tempdir().unwrap();
         let cell = outer.path().join("cell");
@@ -215,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mesh_is_found_beside_the_urdf_and_below_the_study() {
+    fn a_mesh_is_found_next_to_the_urdf_and_below_the_study() {
         for (file, at) in [
             ("near.stl", "arm/urdf/near.stl"),
             ("../meshes/a.STL", "arm/meshes/a.STL"),

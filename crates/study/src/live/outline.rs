@@ -1,29 +1,29 @@
-//! What is in a text, and what is wrong with it.
+//! The contents and the problems of a text.
 
 use armill_formats::document::Problem;
 use armill_formats::document::edit::{self, Change};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Text;
+use super::StudyText;
 use crate::error::StudyError;
 use crate::file::analysis::kind_name;
 use crate::file::resolve::Parsed;
 
-/// What is in a text; a text that is broken has problems, and as much of the rest as can be told.
+/// The contents of a text; an invalid text has problems, and as much of the contents as can be read.
 #[derive(Clone, Debug, Default, Serialize, JsonSchema)]
 pub struct OutlineAnswer {
     /// Title of the study.
     pub title: Option<String>,
     /// The robot, as the study names it.
     pub robot: Option<String>,
-    /// Its asks, in order; one map where it has none.
+    /// Its analyses, in order; one map if it has none.
     pub analyses: Vec<OutlinedAnalysis>,
-    /// Everything that is wrong, as `armill check --json` tells it.
+    /// All problems, as in `armill check --json`.
     pub problems: Vec<Problem>,
 }
 
-/// One ask.
+/// One analysis.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct OutlinedAnalysis {
     /// Its name.
@@ -34,32 +34,32 @@ pub struct OutlinedAnalysis {
     pub keys: Vec<String>,
 }
 
-/// A text that was changed, and what is in it now.
+/// A changed text and its contents.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct ChangedAnswer {
     /// The text.
     pub text: String,
-    /// Its asks.
+    /// Its analyses.
     pub analyses: Vec<OutlinedAnalysis>,
-    /// Everything that is wrong with it.
+    /// All its problems.
     pub problems: Vec<Problem>,
 }
 
-/// A value that is to be another.
+/// A new value of a key.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ChangedValue {
-    /// Which: `plane.centre_mm`, `program.feature[1]`.
+    /// The key: `plane.centre_mm`, `program.feature[1]`.
     pub key: String,
-    /// What it is to be; `null` takes it away. The entry behind the last of a list is a new one.
+    /// The new value; `null` removes the key. The index after the last of a list adds an entry.
     pub value: serde_json::Value,
-    /// Whether it is one of the study, also where an ask is named.
+    /// Whether the key is one of the study, even if an analysis is named.
     #[serde(default)]
     pub whole: bool,
 }
 
-/// What is in this text.
-pub fn outline(text: Text<'_>) -> OutlineAnswer {
+/// The contents of this text.
+pub fn outline(text: StudyText<'_>) -> OutlineAnswer {
     let parsed = match Parsed::of(text.shown, text.bytes) {
         Ok(parsed) => parsed,
         Err(error) => {
@@ -81,18 +81,20 @@ pub fn outline(text: Text<'_>) -> OutlineAnswer {
     }
 }
 
-/// The text with these values changed in the ask of that name, or in the study where none is named; comments and order
-/// stay.
+/// The text with these values changed in the analysis of that name, or in the study if none is named; comments and
+/// order are kept.
 ///
 /// # Errors
-/// A text that is not TOML; no ask of that name; a change that cannot be made.
+/// A text that is not TOML; no analysis of that name; a change that cannot be made.
 pub fn changed(
-    text: Text<'_>,
+    text: StudyText<'_>,
     analysis: Option<&str>,
     changes: &[ChangedValue],
 ) -> Result<ChangedAnswer, StudyError> {
     let new = changed_text(text, analysis, changes)?;
-    let OutlineAnswer { analyses, problems, .. } = outline(Text {
+    let OutlineAnswer {
+        analyses, problems, ..
+    } = outline(StudyText {
         bytes: new.as_bytes(),
         ..text
     });
@@ -105,14 +107,14 @@ pub fn changed(
 
 /// The text alone of [`changed`].
 pub(super) fn changed_text(
-    text: Text<'_>,
+    text: StudyText<'_>,
     analysis: Option<&str>,
     changes: &[ChangedValue],
 ) -> Result<String, StudyError> {
     let below = match analysis {
         Some(name) if changes.iter().any(|change| !change.whole) => {
             let parsed = Parsed::of(text.shown, text.bytes)?;
-            // The map that a study without asks means stands in the study itself.
+            // The map that a study without analyses implies is in the study itself.
             match (parsed.index_of(name)?, parsed.file.analysis.is_empty()) {
                 (_, true) => String::new(),
                 (index, false) => format!("analysis[{index}]."),
@@ -129,8 +131,8 @@ pub(super) fn changed_text(
 }
 
 pub(super) fn analyses(parsed: &Parsed) -> Vec<OutlinedAnalysis> {
-    let tables = parsed.ask_tables();
-    let names = parsed.ask_names();
+    let tables = parsed.analysis_tables();
+    let names = parsed.analysis_names();
     let one = |(index, (table, name)): (usize, (_, String))| {
         let table: &crate::file::format::AnalysisTable = table;
         OutlinedAnalysis {
@@ -142,7 +144,7 @@ pub(super) fn analyses(parsed: &Parsed) -> Vec<OutlinedAnalysis> {
     tables.iter().zip(names).enumerate().map(one).collect()
 }
 
-/// What is wrong, one by one; what has no place in a file stands at the begin of the study.
+/// All problems, one by one; one without a position in a file is at the start of the study.
 fn problems(error: StudyError) -> Vec<Problem> {
     match error {
         StudyError::Problems(problems) => problems.as_slice().to_vec(),

@@ -1,10 +1,10 @@
-//! How the arm stands at one place of an ask, in every posture, and what each load case does there.
+//! The postures of the arm at one target of an analysis, and the deviation under each load case there.
 //!
-//! A place is told on the plane of the ask, by joints, as a point of the frame that coordinates count from with the tool
-//! held as on the plane, or by the number of a point of a path, of holes or of a box. What yields and weighs is the
-//! study's, as in its answer.
+//! A target is given on the plane of the analysis, by joints, as a point in the reference frame with the tool
+//! orientation of the plane, or by the number of a point of a path, of holes or of a box. Compliances and masses are
+//! those of the study, as in its answer.
 //!
-//! At a point of a path the posture that the path is followed in deviates as the path tells: `along` says what that takes.
+//! At a point of a path, the deviation of the posture followed is that of the path: see `along`.
 
 use armill_core::compliance::{by_force, permissible_force, permissible_force_in_worst_direction};
 use armill_core::frame::{Isometry, both_across, tool_orientation};
@@ -14,38 +14,38 @@ use armill_core::predict::predict;
 use armill_core::robot::Robot;
 use armill_core::robot::forward::{forward, joint_axis};
 use armill_core::robot::inverse::tool_on;
-use armill_core::source::{Arm, Links, ArmState};
+use armill_core::source::{Arm, ArmState, Links};
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
 use armill_core::workpiece::Split;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::along::{Held, at_hole, on_path};
+use super::along::{AnsweredPose, at_hole, on_path};
 use super::meshes::{DrawnMesh, Shapes};
-use super::{Text, setting};
+use super::{StudyText, setting};
 use crate::error::StudyError;
 use crate::file::resolve::{Parsed, Setting, Study, Subject};
 use crate::joint_unit::JointUnit;
 use crate::number::without_rounding;
 use crate::output::arm_posture;
-use crate::pose::{At, PoseAnswer, PoseQuestion, Situation, answer_in, joint_positions};
-use crate::run::Done;
+use crate::pose::{At, PoseAnswer, PoseContext, PoseQuestion, answer_in, joint_positions};
+use crate::run::AnalysisResult;
 
-/// Where the tool is: one of these.
+/// A target of the tool: one of these.
 #[derive(Clone, Debug, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Place {
+pub struct PoseTarget {
     /// In the plane, together with `z_mm`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub y_mm: Option<f64>,
     /// In the plane, together with `y_mm`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub z_mm: Option<f64>,
-    /// Joint positions as the robot file counts them; mm for sliding ones.
+    /// Joint positions in the convention of the robot file; mm for prismatic joints.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub joints_deg: Option<Vec<f64>>,
-    /// TCP in the frame that coordinates count from.
+    /// TCP in the reference frame.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub xyz_mm: Option<[f64; 3]>,
     /// Point of a path, of holes or of a box, from 0, in the order of their table.
@@ -56,30 +56,30 @@ pub struct Place {
     pub section: Option<usize>,
 }
 
-/// What is asked of one place.
+/// A query for one target.
 #[derive(Clone, Debug)]
 pub struct PostureQuestion<'a> {
-    /// The ask; the first if left out.
+    /// The analysis; the first if left out.
     pub analysis: Option<&'a str>,
-    /// Where.
-    pub at: Place,
-    /// Load case that the answer tells the deviation of, from 1.
+    /// The target.
+    pub at: PoseTarget,
+    /// Load case whose deviation is reported, from 1.
     pub case: usize,
 }
 
-/// Every posture at one place, as `armill pose --json` tells it, and how each is drawn.
+/// Every posture at one target, as in `armill pose --json`, and its drawing.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PosturesAnswer {
-    /// The postures under the load case asked for, with every source: the same totals as `in_plane`.
+    /// The postures under the requested load case, with every source: the same totals as `in_plane`.
     pub answer: PoseAnswer,
     /// The arm in each posture.
     pub drawings: Vec<DrawnPosture>,
     /// Limits of the joints.
     pub limits: Vec<JointLimits>,
-    /// Joints of each posture as the chain of the robot counts them, in place of its controller.
+    /// Joints of each posture in the convention of the chain, not of the controller.
     pub chain: Vec<Vec<ChainPosition>>,
-    /// Deviation of each posture under each load case; `null` where the arm finds no rest, or no compliance is known. Along a
-    /// path backlash and geometry are in that of the posture that it is followed in.
+    /// Deviation of each posture under each load case; `null` if the arm has no equilibrium, or no compliance is known.
+    /// Along a path, backlash and geometry are included for the posture in which it is followed.
     pub in_plane: Vec<Vec<Option<CaseAnswer>>>,
 }
 
@@ -94,9 +94,9 @@ pub struct DrawnPosture {
     pub tool_mm: [f64; 3],
     /// Axis of the tool, from the spindle towards the part.
     pub tool_axis: [f64; 3],
-    /// The arm as a line: from its foot over the joints and the flange to the TCP.
+    /// The arm as a line: from its base through the joints and the flange to the TCP.
     pub links_mm: Vec<[f64; 3]>,
-    /// The shapes of its links, where the robot's file names them and all are there.
+    /// The meshes of its links, if the robot file names them and all exist.
     pub meshes: Vec<DrawnMesh>,
 }
 
@@ -113,72 +113,75 @@ pub struct DrawnJoint {
     pub kind: &'static str,
 }
 
-/// Limits of a joint as the robot file counts; `null` where they are not known.
+/// Limits of a joint in the convention of the robot file; `null` if they are not known.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct JointLimits {
     /// Its name.
     pub name: String,
-    /// Least position, mm of a joint that slides.
+    /// Lower limit, mm for a prismatic joint.
     pub lower_deg: Option<f64>,
-    /// Greatest position, likewise.
+    /// Upper limit, mm for a prismatic joint.
     pub upper_deg: Option<f64>,
     /// `deg` or `mm`.
     pub unit: &'static str,
 }
 
-/// A joint as the chain counts it: by the right hand about the axes of the chain, from where the chain is straight. What
-/// the robot file tells of signs, zeros and coupled joints is in it; mm of a joint that slides.
+/// A joint in the convention of the chain: right-handed about the axes of the chain, zero where the chain is straight.
+/// The signs, zeros and couplings of the robot file are applied; mm for a prismatic joint.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ChainPosition {
-    /// Where it stands.
+    /// Its position.
     pub at_deg: f64,
-    /// Least position; `null` where it has no limits. Limits of a coupled joint move with the other.
+    /// Lower limit; `null` if it has none. Limits of a coupled joint move with the other.
     pub lower_deg: Option<f64>,
-    /// Greatest position, likewise.
+    /// Upper limit; `null` if it has none.
     pub upper_deg: Option<f64>,
 }
 
-/// A deviation seen from the plane; what is not told of such a posture is `null`.
+/// A deviation relative to the plane; values that are not known for such a posture are `null`.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct CaseAnswer {
-    /// Length of its part in the plane.
+    /// Length of its component in the plane.
     pub in_plane_um: f64,
-    /// Its standard uncertainty, from compliances, load, tool length, repeatability and model error; of postures with a name.
+    /// Its standard uncertainty, from compliances, load, tool length, repeatability and model error; of postures with a
+    /// name.
     pub in_plane_u_um: Option<f64>,
     /// Along the outward normal.
     pub normal_um: f64,
     /// Its length.
     pub full_um: f64,
-    /// All of it, of the TCP, base axes.
+    /// The whole vector, of the TCP, base axes.
     pub deviation_um: [f64; 3],
-    /// Share of each of `answer.contributors` in the in-plane deviation; they add up to it. Of postures with a name.
+    /// Share of each of `answer.contributors` in the in-plane deviation; their sum is the deviation. Of postures with a
+    /// name.
     pub share_um: Option<Vec<f64>>,
-    /// Force that keeps the limit in the direction of this case; none where it has no force or moves nothing in the plane.
+    /// Force that meets the tolerance in the direction of this case; none without a force or without an in-plane
+    /// deviation.
     pub permissible_along_load_n: Option<f64>,
-    /// Force that keeps the limit whatever its direction.
+    /// Force that meets the tolerance in any direction.
     pub permissible_any_direction_n: Option<f64>,
 }
 
-/// Where the tool is, in the terms of the core.
-pub(super) struct Asked {
+/// A target of the tool in the terms of the core.
+pub(super) struct ToolTarget {
     pub at: At,
     pub normal: Unit<Vector3<f64>>,
     /// Wrenches on the tool, base, one a case.
     pub cases: Vec<Wrench>,
-    /// How the answer holds the tool there, of a path and of holes.
-    pub evaluation: Option<Held>,
+    /// The pose of the arm there in the answer, of a path and of holes.
+    pub pose: Option<AnsweredPose>,
 }
 
-/// Every posture at a place of this ask.
+/// Every posture at a target of this analysis.
 ///
 /// # Errors
-/// Every problem of the text that concerns the ask; a place that is none; no such load case.
+/// Every problem of the text that concerns the analysis; an invalid target; no such load case.
 pub fn postures(
-    text: Text<'_>,
+    text: StudyText<'_>,
     question: &PostureQuestion<'_>,
     watch: Watch<'_>,
 ) -> Result<PosturesAnswer, StudyError> {
-    let (parsed, _, study) = text.one_ask(question.analysis)?;
+    let (parsed, _, study) = text.one_analysis(question.analysis)?;
     postures_of(
         (text, &parsed, &study),
         (&question.at, question.case),
@@ -187,11 +190,11 @@ pub fn postures(
     )
 }
 
-/// [`postures`] of a text that has been read, its study with this ask alone, which may have been done.
+/// [`postures`] of a text that has been read, its study with this analysis alone, which may have been evaluated.
 pub(super) fn postures_of(
-    (text, parsed, study): (Text<'_>, &Parsed, &Study),
-    (at, case): (&Place, usize),
-    done: Option<&Done<'_>>,
+    (text, parsed, study): (StudyText<'_>, &Parsed, &Study),
+    (at, case): (&PoseTarget, usize),
+    done: Option<&AnalysisResult<'_>>,
     watch: Watch<'_>,
 ) -> Result<PosturesAnswer, StudyError> {
     let setting = setting(study, at.section.unwrap_or(0))?;
@@ -202,17 +205,14 @@ pub(super) fn postures_of(
         requested.cases.len(),
     ) {
         (None, count) if count > 0 => {
-            let message = format!("there is no load case {case}");
-            return Err(StudyError::value(
-                message,
-                format!("they count from 1 to {count}"),
-            ));
+            let message = format!("load case {case} does not exist");
+            return Err(StudyError::value(message, format!("cases are 1 to {count}")));
         }
         (found, _) => found.copied(),
     };
-    // Joints to spare stand as they do in the answer.
-    let evaluation = requested.evaluation.as_ref().and_then(|evaluation| evaluation.joints.as_ref());
-    let home = evaluation.or(setting.home.as_ref());
+    // Redundant joints are positioned as in the answer.
+    let pose = requested.pose.as_ref().and_then(|pose| pose.joints.as_ref());
+    let home = pose.or(setting.home.as_ref());
     let answer = answer_in(
         &study.robot,
         &PoseQuestion {
@@ -230,10 +230,10 @@ pub(super) fn postures_of(
                     .collect()
             }),
         },
-        &Situation {
+        &PoseContext {
             model: &setting.model,
             normal: Some(requested.normal),
-            dragged: &|q| requested.evaluation.as_ref()?.dragged_in(q),
+            link_offsets: &|q| requested.pose.as_ref()?.link_offsets_in(q),
         },
     )?;
     let joints = answer
@@ -260,18 +260,18 @@ pub(super) fn postures_of(
     })
 }
 
-/// What the place means.
+/// The tool target of a query.
 fn requested(
     (study, setting): (&Study, &Setting),
-    at: &Place,
-    done: Option<&Done<'_>>,
+    at: &PoseTarget,
+    done: Option<&AnalysisResult<'_>>,
     watch: Watch<'_>,
-) -> Result<Asked, StudyError> {
-    let on_plane = |at: At| Asked {
+) -> Result<ToolTarget, StudyError> {
+    let on_plane = |at: At| ToolTarget {
         at,
         normal: setting.plane.normal(),
         cases: setting.cases.clone(),
-        evaluation: None,
+        pose: None,
     };
     let one_of = "one of: y_mm with z_mm, joints_deg, xyz_mm, point";
     let numbers = [at.y_mm, at.z_mm].into_iter().flatten();
@@ -279,31 +279,31 @@ fn requested(
     let mut numbers = numbers.chain(at.joints_deg.iter().flatten().copied());
     if let Some(beyond) = numbers.find(|value| !value.is_finite() || value.abs() > LARGEST) {
         return Err(StudyError::value(
-            format!("{beyond} is beyond {LARGEST:e}"),
-            "is the unit right?",
+            format!("{beyond} is larger than {LARGEST:e}"),
+            "check the unit",
         ));
     }
     match (at.y_mm, at.z_mm, &at.joints_deg, at.xyz_mm, at.point) {
         (Some(y), Some(z), None, None, None) => {
-            // y' runs against x of the part.
+            // y' is opposite to x of the part.
             let in_part = Point2::new(-y * 1e-3, z * 1e-3);
             Ok(on_plane(At::Pose(setting.plane.base_from_tool(in_part, 0.0))))
         }
         (None, None, Some(joints), None, None) => Ok(on_plane(At::JointsDeg(joints.clone()))),
         (None, None, None, Some(xyz), None) => {
             let tcp = setting.base_from_reference * Point3::from(Vector3::from(xyz) * 1e-3);
-            Ok(on_plane(At::Pose(held_at(setting, tcp))))
+            Ok(on_plane(At::Pose(pose_on_plane(setting, tcp))))
         }
         (None, None, None, None, Some(index)) => point((study, setting), index, done, watch),
-        _ => Err(StudyError::value("the place is not told in one way", one_of)),
+        _ => Err(StudyError::value("give exactly one kind of target", one_of)),
     }
 }
 
-/// No length (mm) or angle (deg) of a real cell is larger; beyond it a unit is wrong.
+/// Larger lengths (mm) or angles (deg) are refused: the unit must be wrong.
 const LARGEST: f64 = 1e9;
 
-/// The tool with its tip there (base), held as on the plane.
-fn held_at(setting: &Setting, tcp: Point3<f64>) -> Isometry {
+/// The tool with its tip there (base), oriented as on the plane.
+fn pose_on_plane(setting: &Setting, tcp: Point3<f64>) -> Isometry {
     Isometry::from_parts(
         tcp.coords.into(),
         tool_orientation(setting.plane.tool_axis(), 0.0),
@@ -314,14 +314,14 @@ fn held_at(setting: &Setting, tcp: Point3<f64>) -> Isometry {
 fn point(
     (study, setting): (&Study, &Setting),
     index: usize,
-    done: Option<&Done<'_>>,
+    done: Option<&AnalysisResult<'_>>,
     watch: Watch<'_>,
-) -> Result<Asked, StudyError> {
+) -> Result<ToolTarget, StudyError> {
     let within = |count: usize| match index < count {
         true => Ok(()),
         false => Err(StudyError::value(
-            format!("there is no point {index}"),
-            format!("they count from 0 to {}", count.saturating_sub(1)),
+            format!("point {index} does not exist"),
+            format!("points are 0 to {}", count.saturating_sub(1)),
         )),
     };
     match study.analyses.first().map(|analysis| &analysis.subject) {
@@ -335,32 +335,33 @@ fn point(
         }
         Some(Subject::Volume(_, grid)) => {
             within(grid.len())?;
-            Ok(Asked {
-                at: At::Pose(held_at(setting, grid.point(index))),
+            Ok(ToolTarget {
+                at: At::Pose(pose_on_plane(setting, grid.point(index))),
                 normal: setting.plane.normal(),
                 cases: setting.cases.clone(),
-                evaluation: None,
+                pose: None,
             })
         }
         _ => Err(StudyError::value(
-            "points of a map are told by y_mm and z_mm",
+            "points of a map are given by y_mm and z_mm",
             "such as {\"y_mm\": 0, \"z_mm\": 0}",
         )),
     }
 }
 
-/// The deviation of this posture under each case; beside paths, and of another one than the path's, as a point by itself has it.
+/// The deviation of this posture under each case. Outside paths, and for other postures than that of the path, it is
+/// that of a single point.
 fn deviations(
     robot: &Robot,
     setting: &Setting,
     (q, branch): (&[f64], &str),
-    requested: &Asked,
+    requested: &ToolTarget,
 ) -> Vec<Option<CaseAnswer>> {
     let (cases, normal) = (&requested.cases, requested.normal);
     let Some(compliance) = robot.compliance() else {
         return vec![None; cases.len()];
     };
-    let dragged = requested.evaluation.as_ref().and_then(|evaluation| evaluation.dragged_in(q));
+    let link_offsets = requested.pose.as_ref().and_then(|pose| pose.link_offsets_in(q));
     let arm = Arm {
         robot,
         compliance,
@@ -370,11 +371,11 @@ fn deviations(
     let mut arm_state = ArmState::new(arm);
     arm_state.set_joints(q);
     let mut positions = vec![0.0; q.len()];
-    let yields = by_force(&setting.compliance_at(robot, q));
-    let any = permissible_force_in_worst_direction(&yields, normal, setting.limit).0;
+    let compliance_by_force = by_force(&setting.compliance_at(robot, q));
+    let any = permissible_force_in_worst_direction(&compliance_by_force, normal, setting.tolerance).0;
     let mut of = |wrench: &Wrench| {
-        let mut links = match dragged {
-            Some(dragged) => Links::KeptByFriction(dragged),
+        let mut links = match link_offsets {
+            Some(link_offsets) => Links::KeptByFriction(link_offsets),
             None => Links::Farthest(both_across(&normal), &mut positions),
         };
         let moved = predict(&mut arm_state, wrench, &mut links).ok()?.twist.linear;
@@ -387,10 +388,10 @@ fn deviations(
             normal,
             choice: BranchChoice::Best,
         };
-        let (u, shares) = in_plane_parts(&question, (q, branch), dragged).unzip();
+        let (u, shares) = in_plane_parts(&question, (q, branch), link_offsets).unzip();
         // A case that is a moment alone has no direction.
-        let along =
-            Unit::try_new(wrench.force, 1e-12).map(|f| permissible_force(&yields, normal, f, setting.limit));
+        let along = Unit::try_new(wrench.force, 1e-12)
+            .map(|f| permissible_force(&compliance_by_force, normal, f, setting.tolerance));
         Some(CaseAnswer {
             in_plane_um: split.in_plane * 1e6,
             in_plane_u_um: u,
@@ -413,12 +414,12 @@ pub(super) fn is_same(a: &[f64], b: &[f64]) -> bool {
     a.iter().zip(b).all(|(a, b)| (a - b).abs() < SAME_POSTURE)
 }
 
-/// Standard uncertainty (um) of the in-plane deviation and the shares in it, as a map tells them, of the posture `q` of this
-/// name; none where the arm cannot be asked for it by name. On a path it is known where links were `dragged` in their gaps.
+/// Standard uncertainty (um) of the in-plane deviation and the shares in it, as in a map, of the posture `q` of this
+/// name; none if the posture cannot be selected by name. On a path the `link_offsets` must be given.
 fn in_plane_parts(
     question: &Question<'_>,
     (q, branch): (&[f64], &str),
-    dragged: Option<&[f64]>,
+    link_offsets: Option<&[f64]>,
 ) -> Option<(f64, Vec<f64>)> {
     let arm = &question.arm;
     let question = Question {
@@ -426,8 +427,8 @@ fn in_plane_parts(
         ..*question
     };
     let base_from_tool = tool_on(&forward(arm.robot, q), arm.flange_from_tool);
-    let answers = match dragged {
-        Some(dragged) => evaluate_on_path(&question, &base_from_tool, dragged),
+    let answers = match link_offsets {
+        Some(link_offsets) => evaluate_on_path(&question, &base_from_tool, link_offsets),
         None => evaluate(&question, 1, |_| base_from_tool, Watch::NONE).ok()?,
     };
     let evaluation = answers.points[0].as_ref().ok()?;
@@ -437,30 +438,30 @@ fn in_plane_parts(
 
 /// The arm at these joint positions (rad, m).
 fn drawn(robot: &Robot, q: &[f64], flange_from_tool: &Isometry) -> DrawnPosture {
-    let stands = arm_posture(robot, q, flange_from_tool);
+    let arm = arm_posture(robot, q, flange_from_tool);
     let frames = forward(robot, q);
     let clean = |v: Vector3<f64>| -> [f64; 3] { v.map(without_rounding).into() };
     let joint = |i: usize| DrawnJoint {
         name: robot.joints()[i].name.clone(),
-        origin_mm: stands.joints[i].origin_mm,
+        origin_mm: arm.joints[i].origin_mm,
         axis: clean(joint_axis(robot, &frames, i)),
         kind: if robot.slides(i) { "slides" } else { "turns" },
     };
-    let origins = stands.joints.iter().map(|joint| joint.origin_mm);
-    let links = std::iter::once(stands.base_mm)
+    let origins = arm.joints.iter().map(|joint| joint.origin_mm);
+    let links = std::iter::once(arm.base_mm)
         .chain(origins)
-        .chain([stands.flange_mm, stands.tool_mm]);
+        .chain([arm.flange_mm, arm.tool_mm]);
     DrawnPosture {
         joints: (0..robot.joints().len()).map(joint).collect(),
-        flange_mm: stands.flange_mm,
-        tool_mm: stands.tool_mm,
+        flange_mm: arm.flange_mm,
+        tool_mm: arm.tool_mm,
         tool_axis: clean(tool_on(&frames, flange_from_tool) * Vector3::z()),
         links_mm: links.collect(),
         meshes: Vec::new(),
     }
 }
 
-/// These joint positions (rad, m) as the chain counts them.
+/// These joint positions (rad, m) in the convention of the chain.
 fn as_chain(robot: &Robot, q: &[f64]) -> Vec<ChainPosition> {
     let of = |i: usize| {
         let scale = JointUnit::of(robot, i).scale;
@@ -470,7 +471,7 @@ fn as_chain(robot: &Robot, q: &[f64]) -> Vec<ChainPosition> {
             without_rounding(robot.theta(i, &other) * scale)
         };
         let limits = robot.joints()[i].limits;
-        // A joint of negative sign counts from its upper limit up.
+        // A joint of negative sign is measured from its upper limit.
         let ends = limits.map(|limits| [given(limits.lower), given(limits.upper)]);
         ChainPosition {
             at_deg: given(q[i]),
@@ -502,7 +503,7 @@ mod tests {
 
     #[test]
     fn the_chain_counts_by_sign_zero_and_coupling_and_back() {
-        // The FANUC counts its second joint in with the third.
+        // The FANUC couples its second joint with the third.
         for name in ["yaskawa/mh12", "fanuc/r2000ic"] {
             let robot = crate::library::robot(name).unwrap().unwrap().robot;
             let q: Vec<f64> = (0..robot.joints().len()).map(|i| 0.1 + 0.05 * i as f64).collect();

@@ -1,7 +1,7 @@
-//! What of an ask can be drawn in space: everything in base, mm.
+//! The parts of an analysis that can be drawn in space: everything in base, mm.
 //!
-//! A map is drawn on its plate with the numbers of the answer's grid; along a path, at holes and in a box the points come
-//! with theirs.
+//! A map is drawn on its plate with the numbers of the answer's grid; along a path, at holes and in a box the points
+//! come with theirs.
 
 use armill_core::map::BoxGrid;
 use armill_core::nalgebra::{Point3, Vector3};
@@ -11,21 +11,21 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
-use super::Text;
+use super::StudyText;
 use crate::error::StudyError;
 use crate::file::analysis::plane_of;
 use crate::file::format::{HalfSize, PlaneTable};
 use crate::file::resolve::{Parsed, Setting, Sheet, Study, Subject};
 use crate::number::without_rounding;
 use crate::output;
-use crate::run::{Done, Found, run};
+use crate::run::{AnalysisData, AnalysisResult, run};
 
-/// What can be drawn of one ask, base.
+/// The parts of one analysis that can be drawn, base.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct SceneAnswer {
     /// Name of the robot.
     pub robot: String,
-    /// Where the frame stands that coordinates count from.
+    /// The reference frame of coordinates.
     pub base_mm: [f64; 3],
     /// The plane; of sections the first.
     pub plate: PlateInScene,
@@ -49,28 +49,28 @@ pub struct PlateInScene {
     pub y_axis: [f64; 3],
     /// Axis z'.
     pub z_axis: [f64; 3],
-    /// Where y' and z' count from.
+    /// Origin of y' and z'.
     pub centre_mm: [f64; 3],
 }
 
 /// One of several planes.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct SectionInScene {
-    /// What tells it from the others.
+    /// Its label.
     pub label: String,
-    /// Where it lies.
+    /// Its plane.
     pub plate: PlateInScene,
 }
 
-/// Points with some columns of their table: of each as many as there are points, `null` where one has none.
+/// Points with some columns of their table: each column has as many values as there are points, `null` if one has none.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PointsInScene {
     /// Where they are.
     pub xyz_mm: Vec<[f64; 3]>,
-    /// Deviation under the deciding case, base.
+    /// Deviation under the worst case, base.
     pub deviation_um: Vec<Option<[f64; 3]>>,
     /// `state`, `branch`, `in_plane_um`, `normal_um`, `full_um`, of a path `along_um`, `cross_um`, `axial_um`, `line`,
-    /// `distance_mm`: see the table of the ask.
+    /// `distance_mm`: see the table of the analysis.
     pub columns: Map<String, Value>,
 }
 
@@ -85,7 +85,7 @@ pub struct BoxInScene {
     pub counts: [usize; 3],
 }
 
-/// Columns that are drawn, of those that the table of the ask has.
+/// The columns that are drawn, if the table of the analysis has them.
 const COLUMNS: [&str; 11] = [
     "state",
     "branch",
@@ -100,12 +100,16 @@ const COLUMNS: [&str; 11] = [
     "distance_mm",
 ];
 
-/// What can be drawn of this ask, or of the first; of a path, holes or a box it is run for that.
+/// What can be drawn of this analysis, or of the first; a path, holes or a box are evaluated for it.
 ///
 /// # Errors
-/// Every problem of the text that concerns it; no ask of that name; cancelled by the watch.
-pub fn scene(text: Text<'_>, analysis: Option<&str>, watch: Watch<'_>) -> Result<SceneAnswer, StudyError> {
-    let (parsed, name, study) = text.one_ask(analysis)?;
+/// Every problem of the text that concerns the analysis; no analysis of that name; cancelled by the watch.
+pub fn scene(
+    text: StudyText<'_>,
+    analysis: Option<&str>,
+    watch: Watch<'_>,
+) -> Result<SceneAnswer, StudyError> {
+    let (parsed, name, study) = text.one_analysis(analysis)?;
     let done = match has_points(&study) {
         true => run(&study, watch)?,
         false => Vec::new(),
@@ -113,19 +117,19 @@ pub fn scene(text: Text<'_>, analysis: Option<&str>, watch: Watch<'_>) -> Result
     scene_of(&parsed, &name, (&study, &done))
 }
 
-/// Whether the points of this study's ask are drawn one by one.
+/// Whether the points of the only analysis of this study are drawn one by one.
 fn has_points(study: &Study) -> bool {
     let subject = study.analyses.first().map(|analysis| &analysis.subject);
     !matches!(subject, Some(Subject::Map(_) | Subject::Sections(_)))
 }
 
-/// What can be drawn of the ask of this name, the only one of the study, and of what was found where it has points.
+/// What can be drawn of the analysis of this name, the only one of the study, and of its result if it has points.
 pub(super) fn scene_of(
     parsed: &Parsed,
     name: &str,
-    (study, done): (&Study, &[Done<'_>]),
+    (study, done): (&Study, &[AnalysisResult<'_>]),
 ) -> Result<SceneAnswer, StudyError> {
-    let tables = parsed.ask_tables();
+    let tables = parsed.analysis_tables();
     let plane = plane_of(&parsed.file, &tables[parsed.index_of(name)?]);
     let setting = super::setting(study, 0)?;
     let (mut sections, mut in_box) = (Vec::new(), None);
@@ -172,7 +176,7 @@ impl PlateInScene {
     /// The plane of this setting with half its sides (m) along y' and z'.
     pub(super) fn of(setting: &Setting, [y, z]: [f64; 2]) -> PlateInScene {
         let base_from_part = setting.plane.base_from_part;
-        // y' runs against x of the part.
+        // y' is opposite to x of the part.
         let corner =
             |along: f64, up: f64| mm(&(base_from_part * Point3::new(-along * y, up * z, 0.0)).coords);
         PlateInScene {
@@ -208,16 +212,16 @@ impl BoxInScene {
     }
 }
 
-/// The points of what was found, with what is drawn of their table.
-fn points(study: &Study, done: &Done<'_>) -> Result<PointsInScene, StudyError> {
+/// The points of the result, with the drawn columns of their table.
+fn points(study: &Study, done: &AnalysisResult<'_>) -> Result<PointsInScene, StudyError> {
     let (setting, answers) = match &done.found {
-        Found::Volume(setting, volume) => (*setting, &volume.answers),
-        Found::Path(analysis, found) => (&analysis.setting, &found.along.answers),
-        Found::Holes(analysis, found) => (&analysis.path.setting, &found.answers),
-        Found::Map(..) | Found::Sections(_) => {
+        AnalysisData::Volume(setting, volume) => (*setting, &volume.answers),
+        AnalysisData::Path(analysis, found) => (&analysis.setting, &found.along.answers),
+        AnalysisData::Holes(analysis, found) => (&analysis.path.setting, &found.answers),
+        AnalysisData::Map(..) | AnalysisData::Sections(_) => {
             return Err(StudyError::value(
-                "a map has its points in the answer",
-                "ask for the answer",
+                "the points of a map are in the answer",
+                "request the answer",
             ));
         }
     };
@@ -230,11 +234,11 @@ fn points(study: &Study, done: &Done<'_>) -> Result<PointsInScene, StudyError> {
         _ => &[],
     };
     let counted = place("x_mm").iter().zip(place("y_mm")).zip(place("z_mm"));
-    let in_base =
-        counted.map(|((x, y), z)| mm(&(setting.base_from_reference * (Point3::new(*x, *y, *z) * 1e-3)).coords));
+    let in_base = counted
+        .map(|((x, y), z)| mm(&(setting.base_from_reference * (Point3::new(*x, *y, *z) * 1e-3)).coords));
     let deviation = |index: usize| {
         let evaluation = answers.points[index].as_ref().ok()?;
-        let deviation = answers.deviations_at(index)[evaluation.deciding_case];
+        let deviation = answers.deviations_at(index)[evaluation.worst_case];
         Some(deviation.map(|m| (m * 1e9).round() * 1e-3).into())
     };
     let drawn = table
@@ -276,7 +280,7 @@ fn number(value: f64) -> Value {
     Value::from((value * 1e6).round() / 1e6)
 }
 
-/// Metres as mm, without what changes of frame leave behind.
+/// Metres as mm, without the rounding of frame changes.
 fn mm(v: &Vector3<f64>) -> [f64; 3] {
     clean(v * 1e3)
 }

@@ -1,36 +1,36 @@
-//! Which values does a text give? What a page fills fields with, and where each stands, so that a problem is shown at the
-//! field that it is about.
+//! The values of a text, to fill the fields of a page, each with its position, so that a problem is shown at
+//! its field.
 
 use armill_formats::document::{Document, Problem};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::Text;
+use super::StudyText;
 use super::outline::outline;
 
 /// The values of a text.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct TablesAnswer {
-    /// All tables and values as they stand, keys as in the schema of a study; `null` where the text is no TOML.
+    /// All tables and values as written, keys as in the schema of a study; `null` if the text is not valid TOML.
     #[schemars(with = "serde_json::Value")]
     pub values: serde_json::Value,
-    /// Where each value stands.
-    pub places: Vec<ValuePlace>,
-    /// Everything that is wrong, as `armill check --json` tells it.
+    /// The position of each value.
+    pub places: Vec<ValueLocation>,
+    /// All problems, as in `armill check --json`.
     pub problems: Vec<Problem>,
 }
 
-/// Where a value stands.
+/// The position of a value in the text.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct ValuePlace {
-    /// Which: `place.x_mm`, `analysis[1].circle.radius_mm`; a list is one value, but for lists of tables.
+pub struct ValueLocation {
+    /// Its key: `place.x_mm`, `analysis[1].circle.radius_mm`; a list is one value, except for lists of tables.
     pub path: String,
-    /// Its bytes in the text: the first, and the one behind the last.
+    /// Its range of bytes in the text, the end excluded.
     pub bytes: [usize; 2],
 }
 
 /// The values of this text.
-pub fn tables(text: Text<'_>) -> TablesAnswer {
+pub fn tables(text: StudyText<'_>) -> TablesAnswer {
     let problems = outline(text).problems;
     let Ok(document) = Document::from_bytes(text.shown, text.bytes) else {
         return TablesAnswer {
@@ -44,7 +44,7 @@ pub fn tables(text: Text<'_>) -> TablesAnswer {
     values_below(&values, "", &mut paths);
     let place = |path: String| {
         let bytes = document.place(&path)?;
-        Some(ValuePlace {
+        Some(ValueLocation {
             path,
             bytes: [bytes.start, bytes.end],
         })
@@ -56,7 +56,7 @@ pub fn tables(text: Text<'_>) -> TablesAnswer {
     }
 }
 
-/// The paths of all values below `value` that are no tables and no lists of tables.
+/// The paths of all values below `value` that are neither tables nor lists of tables.
 fn values_below(value: &serde_json::Value, path: &str, found: &mut Vec<String>) {
     use serde_json::Value as Json;
     match value {
@@ -87,7 +87,7 @@ mod tests {
     use super::*;
 
     fn of(text: &str) -> TablesAnswer {
-        tables(Text {
+        tables(StudyText {
             shown: "study.toml",
             folder: Path::new("."),
             bytes: text.as_bytes(),
@@ -95,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn every_value_is_told_with_its_place() {
+    fn every_value_is_reported_with_its_position() {
         let text = "tolerance_um = 50 # of it\n[place]\nx_mm = [900, 1100.5]\n[[analysis]]\nkind = \"path\"\ncircle.radius_mm = 60\n";
         let given = of(text);
         assert_eq!(given.values["place"]["x_mm"], json!([900, 1100.5]));
@@ -113,14 +113,15 @@ mod tests {
         );
         // The study lacks its robot.
         assert!(
-            given.problems
+            given
+                .problems
                 .iter()
                 .any(|problem| problem.message().contains("robot"))
         );
     }
 
     #[test]
-    fn a_text_that_is_no_toml_has_problems_alone() {
+    fn an_invalid_text_has_problems_alone() {
         let given = of("tolerance_um = = 3");
         assert!(given.values.is_null() && given.places.is_empty());
         assert_eq!(given.problems.len(), 1);

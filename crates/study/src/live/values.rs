@@ -1,60 +1,60 @@
-//! The settings that an ask resolves to: what controls of a page show before they are touched.
+//! The settings that an analysis resolves to: initial values for the controls of a page.
 //!
-//! Values are those of the file, of the ask where it gives them, else of the study; those that neither gives are what is
-//! then meant.
+//! Values are those of the analysis if it gives them, else those of the study, else the
+//! defaults.
 
 use armill_core::robot::Branch;
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::scene::{PlateInScene, half_of};
-use super::{Text, setting};
+use super::{StudyText, setting};
 use crate::error::StudyError;
 use crate::file::analysis::{kind_name, plane_of};
 use crate::file::format::{AnalysisTable, HalfSize, StudyFile};
 use crate::file::resolve::{Parsed, Study};
 use crate::number::without_rounding;
 
-/// Every setting of one ask; `null` where there is none.
+/// Every setting of one analysis; `null` if it has none.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct ValuesAnswer {
-    /// Name of the ask.
+    /// Name of the analysis.
     pub analysis: String,
     /// `map`, `sections`, `volume`, `path` or `holes`.
     pub kind: &'static str,
     /// The robot, as the study names it.
     pub robot: String,
-    /// Frame that coordinates count from.
+    /// Reference frame of coordinates.
     pub base: String,
-    /// Frames that they may count from.
+    /// Available reference frames.
     pub bases: Vec<String>,
     /// Centre of the plane.
     pub centre_mm: [f64; 3],
-    /// Its tilt; `null` where it is told by turns.
+    /// Its tilt; `null` if it is given by `rotation_deg`.
     pub tilt_deg: Option<f64>,
-    /// Its turns; `null` where it is told by its tilt.
+    /// Its rotation; `null` if it is given by its tilt.
     pub rotation_deg: Option<[f64; 3]>,
     /// Half its sides along y' and z'.
     pub half_size_mm: [f64; 2],
     /// Pitch of its grid; of a path that of its points.
     pub step_mm: f64,
-    /// Flange to tool centre point, as the file tells it.
+    /// Flange to tool centre point, as in the file.
     pub flange_from_tool_mm_deg: [f64; 6],
     /// Distance of the TCP from the flange.
     pub tool_length_mm: f64,
-    /// Axes that forces are told in; `null` where they come with a cut.
+    /// Axes of the forces; `null` if they come with a cut.
     pub load_frame: Option<&'static str>,
     /// Forces on the tool, one a case.
     pub cases_n: Vec<[f64; 3]>,
     /// The tolerance.
     pub tolerance_um: f64,
-    /// Posture as the file asks for it: words of a branch, `nominal` or `best`.
+    /// Requested posture as in the file: words of a branch, `nominal` or `best`.
     pub branch: String,
     /// The branch that this means.
     pub branch_meant: String,
-    /// Names of branches that the robot has; none where they have no names.
+    /// Names of branches that the robot has; none if they have no names.
     pub branches: Vec<String>,
-    /// Turn of the tool about its axis; of paths alone.
+    /// Spin of the tool about its axis; of paths alone.
     pub spin_deg: Option<f64>,
     /// Sections: the x coordinate of the plane's centre, one a section.
     pub distances_mm: Option<Vec<f64>>,
@@ -66,18 +66,18 @@ pub struct ValuesAnswer {
     pub plane_corners_mm: [[f64; 3]; 4],
 }
 
-/// The settings of this ask, or of the first.
+/// The settings of this analysis, or of the first.
 ///
 /// # Errors
-/// Every problem of the text that concerns it; no ask of that name.
-pub fn values(text: Text<'_>, analysis: Option<&str>) -> Result<ValuesAnswer, StudyError> {
-    let (parsed, name, study) = text.one_ask(analysis)?;
+/// Every problem of the text that concerns the analysis; no analysis of that name.
+pub fn values(text: StudyText<'_>, analysis: Option<&str>) -> Result<ValuesAnswer, StudyError> {
+    let (parsed, name, study) = text.one_analysis(analysis)?;
     values_of(&parsed, name, &study)
 }
 
-/// The settings of the ask of this name, the only one of the study.
+/// The settings of the analysis of this name, the only one of the study.
 pub(super) fn values_of(parsed: &Parsed, name: String, study: &Study) -> Result<ValuesAnswer, StudyError> {
-    let tables = parsed.ask_tables();
+    let tables = parsed.analysis_tables();
     let table = &tables[parsed.index_of(&name)?];
     let file = &parsed.file;
     let setting = setting(study, 0)?;
@@ -132,7 +132,7 @@ fn branch_words(file: &StudyFile, table: &AnalysisTable) -> String {
     words.unwrap_or_else(|| "nominal".to_owned())
 }
 
-/// The turn of the tool on a path.
+/// The spin of the tool on a path.
 fn spin(table: &AnalysisTable) -> Option<f64> {
     match (&table.program, table.kind) {
         (Some(program), _) => Some(program.spin_deg.unwrap_or(0.0)),

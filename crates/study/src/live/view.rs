@@ -1,61 +1,61 @@
-//! All that a page shows of one ask after a value has changed: one question, so that a slider costs one way to the server
-//! and back, and the text is read and the ask run once.
+//! Everything that a page shows of one analysis after a value has changed: one request, so that a slider costs one
+//! round trip to the server, and the text is read and the analysis run once.
 
 use armill_core::watch::Watch;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::arm::{ExtremesAnswer, PoseAtTarget, PoseRequest, extremes_of, pose_at_target};
 use super::outline::{analyses, changed_text};
 use super::scene::scene_of;
-use super::stand::{ExtremesAnswer, Stand, StandsAnswer, extremes_of, stands_of};
 use super::values::values_of;
-use super::{ChangedValue, OutlinedAnalysis, SceneAnswer, Text, ValuesAnswer};
+use super::{ChangedValue, OutlinedAnalysis, SceneAnswer, StudyText, ValuesAnswer};
 use crate::answer::{StudyAnswer, answer};
 use crate::error::StudyError;
 use crate::run::run;
 
-/// What is shown of one ask.
+/// Everything shown of one analysis.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct ViewAnswer {
-    /// The text with the changes made in it.
+    /// The text with the changes.
     pub text: String,
-    /// Its asks.
+    /// Its analyses.
     pub analyses: Vec<OutlinedAnalysis>,
-    /// The settings that the ask resolves to.
+    /// The settings that the analysis resolves to.
     pub values: ValuesAnswer,
-    /// What of it can be drawn in space.
+    /// What can be drawn in space.
     pub scene: SceneAnswer,
-    /// As `armill run --json` tells it of that ask.
+    /// Its answer, as in `armill run --json`.
     pub answer: StudyAnswer,
-    /// Where its worst and best points are: of sections those of each, else of one.
+    /// Its worst and best points: of sections those of each, else of one.
     pub extremes: Vec<ExtremesAnswer>,
-    /// The arm where it was to stand; `null` where nobody asked, and where there is no such place.
-    pub stands: Option<StandsAnswer>,
+    /// The arm at the requested point; `null` if none was requested, and if there is no such point.
+    pub arm: Option<PoseAtTarget>,
 }
 
-/// What is shown of this ask, or of the first, once these values are changed, and how the arm stands in it.
+/// Everything shown of this analysis, or of the first, after these changes, and the arm at the requested point.
 ///
 /// # Errors
-/// A change that cannot be made; every problem of the changed text that concerns the ask; no ask of that name; cancelled
-/// by the watch.
+/// A change that cannot be made; every problem of the changed text that concerns the analysis; no analysis of that
+/// name; cancelled by the watch.
 pub fn view(
-    text: Text<'_>,
+    text: StudyText<'_>,
     analysis: Option<&str>,
-    (changes, stand): (&[ChangedValue], Option<&Stand>),
+    (changes, request): (&[ChangedValue], Option<&PoseRequest>),
     watch: Watch<'_>,
 ) -> Result<ViewAnswer, StudyError> {
     let new = changed_text(text, analysis, changes)?;
-    let text = Text {
+    let text = StudyText {
         bytes: new.as_bytes(),
         ..text
     };
-    let (parsed, name, study) = text.one_ask(analysis)?;
+    let (parsed, name, study) = text.one_analysis(analysis)?;
     let done = run(&study, watch)?;
     let answer = answer(&study, &done);
     let extremes = extremes_of(&answer, &done);
     let given = (&answer, extremes.as_slice(), done.as_slice());
-    let stands = match stand {
-        Some(stand) => stands_of((text, &parsed, &study), given, stand, watch)?,
+    let arm = match request {
+        Some(request) => pose_at_target((text, &parsed, &study), given, request, watch)?,
         None => None,
     };
     Ok(ViewAnswer {
@@ -64,7 +64,7 @@ pub fn view(
         values: values_of(&parsed, name, &study)?,
         answer,
         extremes,
-        stands,
+        arm,
         text: new,
     })
 }

@@ -1,25 +1,25 @@
-//! A path too long for a chart: handfuls of points that follow on each other, each drawn as its largest value.
+//! Downsampling of a path for a chart: groups of consecutive points, each drawn as its largest value.
 
 use armill_core::path::PathPoint;
 
-/// Points that a chart shows at most: of a longer path each stands for the largest of those around it.
+/// Points that a chart shows at most: of a longer path each represents the largest value of a group.
 const MOST_POINTS: usize = 1200;
 
-/// The points of a path in handfuls, each of one point where they are few.
+/// The points of a path in groups, each of one point if they are few.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Handfuls {
+pub(crate) struct PointGroups {
     points: usize,
     each: usize,
 }
 
-impl Handfuls {
-    /// Of so many points.
-    pub(crate) fn of(points: usize) -> Handfuls {
+impl PointGroups {
+    /// For so many points.
+    pub(crate) fn of(points: usize) -> PointGroups {
         let each = points.div_ceil(MOST_POINTS).max(1);
-        Handfuls { points, each }
+        PointGroups { points, each }
     }
 
-    /// Whether each is one point, whose value is shown with its sign.
+    /// Whether each group is one point, whose value is shown with its sign.
     pub(crate) fn are_points(self) -> bool {
         self.each == 1
     }
@@ -30,7 +30,7 @@ impl Handfuls {
         first.map(|point| point.along * 1e3).collect()
     }
 
-    /// The largest size in each; of single points the value itself. NaN where none is a number.
+    /// The largest absolute value in each group; of single points the value itself. NaN if none is a number.
     pub(crate) fn largest(self, of: impl Fn(usize) -> f64) -> Vec<f64> {
         let firsts = (0..self.points).step_by(self.each);
         let of_handful = |first: usize| {

@@ -1,6 +1,6 @@
-//! The arm as the pictures need it: joint axes, flange and tool as points.
+//! The arm in the form that pictures need: joint axes, flange and tool as points.
 //!
-//! Joint positions come in rad (m), points go out in mm, both in base; an axis is a unit vector from the origin of its
+//! Joint positions are in rad (m), points in mm, both in base; an axis is a unit vector from the origin of its
 //! joint.
 
 use armill_core::frame::Isometry;
@@ -31,16 +31,16 @@ pub fn arm_posture(robot: &Robot, joints: &[f64], flange_from_tool: &Isometry) -
     }
 }
 
-/// Half the side of the plate that a single pose is drawn with, m.
+/// Half the side of the plate in the picture of a single pose, m.
 const PLATE: f64 = 0.15;
 
-/// The arm in the first posture of an answer that stands inside limits, the others faintly, with a plate that the
-/// tool stands against.
+/// The arm in the first posture of an answer that is inside limits, the others faintly, with a plate in front of the
+/// tool.
 pub fn posture_drawing(robot: &Robot, flange_from_tool: &Isometry, answer: &PoseAnswer) -> String {
     let to_si = |(i, q): (usize, &f64)| if robot.slides(i) { q * 1e-3 } else { q.to_radians() };
     let joints =
         |posture: &PostureAnswer| -> Vec<f64> { posture.joints_deg.iter().enumerate().map(to_si).collect() };
-    let stand = |posture: &PostureAnswer| arm_posture(robot, &joints(posture), flange_from_tool);
+    let draw = |posture: &PostureAnswer| arm_posture(robot, &joints(posture), flange_from_tool);
     let plate = |posture: &PostureAnswer| {
         let base_from_tool = posture_at(robot, &joints(posture), flange_from_tool).base_from_tool;
         [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| -> [f64; 3] {
@@ -61,20 +61,20 @@ pub fn posture_drawing(robot: &Robot, flange_from_tool: &Isometry, answer: &Pose
             .postures
             .get(chosen)
             .map_or_else(|| "out of reach".to_owned(), name),
-        posture: answer.postures.get(chosen).map(stand).unwrap_or_default(),
-        ghosts: others.map(|(_, posture)| stand(posture)).collect(),
+        posture: answer.postures.get(chosen).map(draw).unwrap_or_default(),
+        ghosts: others.map(|(_, posture)| draw(posture)).collect(),
         plate_mm: answer.postures.get(chosen).map(plate),
         ..ArmDrawing::default()
     };
     drawing.to_svg_views(&[View::Iso, View::Side])
 }
 
-/// The arm alone, at its joint zeros, from four sides.
+/// The arm alone, with all joints at zero, from four sides.
 pub fn arm_drawing(robot: &Robot, title: &str) -> String {
     let zeros = vec![0.0; robot.joints().len()];
     let drawing = ArmDrawing {
         title: title.to_owned(),
-        subtitle: "all joints at zero; base frame at the foot".to_owned(),
+        subtitle: "all joints at zero; base frame at the base of the arm".to_owned(),
         posture: arm_posture(robot, &zeros, &Isometry::identity()),
         ..ArmDrawing::default()
     };

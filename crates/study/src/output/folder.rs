@@ -1,4 +1,4 @@
-//! Many files into one folder: made on all threads, forced to the disk meanwhile.
+//! Many files in one folder: made on all threads and flushed to disk at the same time.
 
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::sync::{Mutex, PoisonError};
@@ -12,17 +12,17 @@ const WAITING: usize = 4;
 /// Files that are written and wait for their name at most: each is open, and systems allow some hundred.
 const QUEUE: usize = 64;
 
-/// A folder that takes files from any thread.
+/// A folder that accepts files from any thread.
 pub(crate) struct Folder<'a> {
     out: &'a ResultFolder,
     queue: SyncSender<(String, PartFile)>,
 }
 
 impl Folder<'_> {
-    /// Writes a file beside its place; it takes its name soon after.
+    /// Writes a file under a temporary name; it is renamed soon after.
     ///
     /// # Errors
-    /// The file cannot be written; one that cannot take its name is told by [`write_together`].
+    /// The file cannot be written; one that cannot be renamed is reported by [`write_together`].
     pub(crate) fn save(&self, name: &str, bytes: &[u8]) -> Result<(), StudyError> {
         let part = self.out.part(name, bytes)?;
         // The other end is open as long as this one.
@@ -31,7 +31,7 @@ impl Folder<'_> {
     }
 }
 
-/// Runs `work`, which saves files into `out`; when this returns they have their names. `note` hears each.
+/// Runs `work`, which saves files into `out`; when this returns they have their names. `note` receives each name.
 ///
 /// # Errors
 /// That of `work`; or of the first file, by name, that could not be written.
@@ -57,7 +57,7 @@ pub(super) fn write_together(
     refused.map_or(Ok(()), |(_, error)| Err(error.into()))
 }
 
-/// Names files until no more come; what could not be named, with the reason.
+/// Renames files until no more arrive; returns those that could not be renamed, with the reason.
 fn name_all(
     waiting: &Mutex<Receiver<(String, PartFile)>>,
     note: &(dyn Fn(&str) + Sync),
@@ -80,7 +80,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn of_files_that_cannot_be_written_the_first_by_name_is_told() {
+    fn reports_the_first_by_name_of_the_files_that_cannot_be_written() {
         let folder = tempfile::tempdir().unwrap();
         let said = |name: &str| {
             let part = PartFile::write(folder.path().join(name), b"x").unwrap();

@@ -1,4 +1,4 @@
-//! Pictures of holes: where each comes out, and which joint is to blame at the worst.
+//! Pictures of holes: the deviation of each, and the contributions of the joints at the worst.
 //!
 //! | file name ends in | shows | of |
 //! |---|---|---|
@@ -40,7 +40,7 @@ pub(super) fn pictures(
             &worst.point,
         )
     });
-    let title = format!("{}: which joint is to blame", given.name);
+    let title = format!("{}: contributions of the joints", given.name);
     let quantity = "share of deviation across the hole (µm)";
     let setting = open_setting(analysis);
     let svg = shares(study, &title, (&setting, quantity), bars.collect());
@@ -50,7 +50,7 @@ pub(super) fn pictures(
     pictures
 }
 
-/// The setting with the branches that were open.
+/// The setting with the permitted branches.
 fn open_setting(analysis: &HolesAnalysis) -> Setting {
     let choice = match analysis.search.branches == BranchPattern::default() {
         true => BranchChoice::Best,
@@ -72,8 +72,9 @@ fn map(analysis: &HolesAnalysis, given: &HolesAnswer, found: &HolesFound) -> Str
     };
     let mark = |(index, point): (usize, &PathPoint)| {
         let evaluation = found.answers.points[index].as_ref().ok();
-        let moved =
-            evaluation.map(|evaluation| path_from_base * found.answers.deviations_at(index)[evaluation.deciding_case] * 1e6);
+        let moved = evaluation.map(|evaluation| {
+            path_from_base * found.answers.deviations_at(index)[evaluation.worst_case] * 1e6
+        });
         HoleMark {
             at_mm: [point.at.x * 1e3, point.at.y * 1e3],
             error_um: moved.map_or([f64::NAN; 2], |moved| [moved.x, moved.y]),
@@ -92,7 +93,7 @@ fn map(analysis: &HolesAnalysis, given: &HolesAnswer, found: &HolesFound) -> Str
             vertical: "y of the holes' frame (mm)".to_owned(),
         },
         quantity: "deviation across the hole (µm)".to_owned(),
-        tolerance_um: Some(analysis.path.setting.limit * 1e6),
+        tolerance_um: Some(analysis.path.setting.tolerance * 1e6),
         scale: ColourScale::Viridis,
         holes: track.path.points.iter().enumerate().map(mark).collect(),
     };

@@ -1,45 +1,50 @@
-//! The picture of a search for turns of the tool: path by turn, coloured by deviation, with the turn that was chosen.
+//! The picture of a search for spins of the tool: path by spin, coloured by deviation, with the chosen spin.
 
-use armill_core::kernel::Stand;
+use armill_core::kernel::PostureStatus;
 use armill_core::optimize::{Component, PostureSearch};
 use armill_report::{AxisLabels, Cell, CellMap};
 
 use super::pictures::Picture;
 use crate::file::path::PathAnalysis;
-use crate::run::PathFound;
+use crate::run::PathResult;
 
-/// Deviation over path and turn; `None` where nothing was searched for.
-pub(super) fn picture(name: &str, subtitle: String, analysis: &PathAnalysis, found: &PathFound) -> Option<Picture> {
+/// Deviation over path and spin; `None` without a search.
+pub(super) fn picture(
+    name: &str,
+    subtitle: String,
+    analysis: &PathAnalysis,
+    found: &PathResult,
+) -> Option<Picture> {
     let (searched, search) = (found.searched.as_ref()?, analysis.setting.search.as_ref()?);
     let lattice = &searched.posture.lattice;
     let points = &analysis.track.path.points;
-    // Of points at one place, behind and before a rapid, the first is drawn.
+    // Of two points at one position, behind and before a rapid, the first is drawn.
     let mut columns: Vec<usize> = (0..lattice.points.len()).collect();
     columns.dedup_by(|next, before| {
         points[lattice.points[*next]].along <= points[lattice.points[*before]].along
     });
     let turns = lattice.spins.len();
-    let cell = |(deviation, stand): (&f64, &Stand)| match stand {
-        Stand::Holds => Cell::Holds(deviation * 1e6),
-        Stand::OutsideLimits => Cell::OutsideJointLimits,
-        Stand::Singular => Cell::Singular,
-        Stand::Unstable | Stand::OutOfReach => Cell::OutOfReach,
+    let cell = |(deviation, status): (&f64, &PostureStatus)| match status {
+        PostureStatus::Usable => Cell::Deviation(deviation * 1e6),
+        PostureStatus::OutsideLimits => Cell::OutsideJointLimits,
+        PostureStatus::Singular => Cell::Singular,
+        PostureStatus::Unstable | PostureStatus::OutOfReach => Cell::OutOfReach,
     };
     let cells = |column: &usize| {
         let at = column * turns..(column + 1) * turns;
-        let both = lattice.deviations[at.clone()].iter().zip(&lattice.stands[at]);
+        let both = lattice.deviations[at.clone()].iter().zip(&lattice.statuses[at]);
         both.map(cell).collect::<Vec<_>>()
     };
     let of_column = |column: &usize| lattice.points[*column];
-    let stands = |index: usize| {
+    let usable = |index: usize| {
         searched
             .posture
-            .lost
+            .unreachable
             .binary_search_by_key(&index, |(lost, _)| *lost)
             .is_err()
     };
     let drawing = CellMap {
-        title: format!("{name}: how the tool may be turned along the path"),
+        title: format!("{name}: spin of the tool along the path"),
         subtitle,
         quantity: quantity(search).to_owned(),
         across: columns.iter().map(|c| points[of_column(c)].along * 1e3).collect(),
@@ -49,32 +54,32 @@ pub(super) fn picture(name: &str, subtitle: String, analysis: &PathAnalysis, fou
             .iter()
             .map(of_column)
             .map(|index| {
-                if stands(index) {
+                if usable(index) {
                     searched.posture.spins[index].to_degrees()
                 } else {
                     f64::NAN
                 }
             })
             .collect(),
-        tolerance_um: Some(analysis.setting.limit * 1e6),
+        tolerance_um: Some(analysis.setting.tolerance * 1e6),
         labels: AxisLabels {
             horizontal: "along the path (mm)".to_owned(),
-            vertical: "turn of the tool (deg)".to_owned(),
+            vertical: "spin of the tool (deg)".to_owned(),
         },
-        chosen_word: "turn chosen".to_owned(),
+        chosen_word: "chosen spin".to_owned(),
         period: Some(360.0),
         marks: Vec::new(),
     };
     Some(Picture {
         name: format!("{}-turns", super::slug(name)),
         caption: format!(
-            "{name}: deviation at each point of the path for each turn of the tool about its axis, in the branch that was chosen there, and the turn that was chosen."
+            "{name}: deviation at each point of the path for each spin of the tool about its axis, in the branch chosen there, and the chosen spin."
         ),
         svg: drawing.to_svg(),
     })
 }
 
-/// What the colours mean.
+/// The quantity of the colours.
 fn quantity(search: &PostureSearch) -> &'static str {
     match search.component {
         Component::InPlane => "deviation across the tool (µm)",

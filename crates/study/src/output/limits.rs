@@ -1,14 +1,14 @@
-//! What keeps the tolerance along a path: a table of its points, and a picture of depth over feed.
+//! The process limits along a path: a table of its points, and a picture of depth over feed.
 //!
 //! | column | unit | meaning |
 //! |---|---|---|
-//! | `line`, `distance_mm`, `in_plane_um` | -, mm, um | which point, and its deviation as the study cuts |
+//! | `line`, `distance_mm`, `in_plane_um` | -, mm, um | the point, and its deviation with the cut of the study |
 //! | `permitted_along_n`, `_cross_n`, `_axial_n` | N | force along the feed, across it, along the tool, each alone |
-//! | `permitted_any_direction_n` | N | force in the direction that permits least |
-//! | `permitted_axial_depth_mm`, `_radial_depth_mm`, `_feed_per_tooth_mm` | mm | of the cut, all else as it is |
-//! | these with `_verdict` for `_mm` | - | `up to`, `at least` (more was not looked at), `nothing` |
+//! | `permitted_any_direction_n` | N | force in the least favourable direction |
+//! | `permitted_axial_depth_mm`, `_radial_depth_mm`, `_feed_per_tooth_mm` | mm | of the cut, everything else unchanged |
+//! | these with `_verdict` for `_mm` | - | `up to`, `at least` (larger values were not evaluated), `nothing` |
 //!
-//! Columns of the cut are there only where some point has them.
+//! Columns of the cut exist only if some point has them.
 
 use armill_core::load::PathLoad;
 use armill_core::map::{CutLimits, Permitted, PermittedForces, PointLimits};
@@ -19,20 +19,24 @@ use super::pictures::Picture;
 use crate::answer::path::limits::verdict;
 use crate::error::StudyError;
 use crate::file::path::PathAnalysis;
-use crate::run::PathFound;
+use crate::run::PathResult;
 
-/// What the table's name ends in.
+/// Suffix of the name of the table.
 pub(super) const EXTENSION: &str = "limits.csv";
-/// Digits that a force (N) and a length (mm) of the table keep after the point.
+/// Decimals of forces (N) in the table.
 const N_DECIMALS: u8 = 2;
 /// Of lengths; the deviation has them too, in um.
 const MM_DECIMALS: u8 = 4;
 
-/// One row for each point that was asked; `None` where it was not.
+/// One row for each point; `None` if process limits were not requested.
 ///
 /// # Errors
-/// Never in practice: columns of one length with names of their own.
-pub(super) fn table(name: &str, analysis: &PathAnalysis, found: &PathFound) -> Result<Option<Table>, StudyError> {
+/// Never in practice: columns of one length with unique names.
+pub(super) fn table(
+    name: &str,
+    analysis: &PathAnalysis,
+    found: &PathResult,
+) -> Result<Option<Table>, StudyError> {
     let Some(limits) = &found.limits else {
         return Ok(None);
     };
@@ -69,7 +73,7 @@ pub(super) fn table(name: &str, analysis: &PathAnalysis, found: &PathFound) -> R
         column(
             "in_plane_um",
             Some("um"),
-            "deviation across the tool as the study cuts",
+            "deviation across the tool with the cut of the study",
             Some(MM_DECIMALS),
             numbers(&|point| {
                 let evaluation = found.along.answers.points[point.index].as_ref().ok()?;
@@ -78,39 +82,41 @@ pub(super) fn table(name: &str, analysis: &PathAnalysis, found: &PathFound) -> R
         ),
         force(
             "permitted_along_n",
-            "force along the feed that the limit permits",
+            "force along the feed that the tolerance permits",
             |forces| forces.along,
         ),
         force(
             "permitted_cross_n",
-            "force across the feed that the limit permits",
+            "force across the feed that the tolerance permits",
             |forces| forces.across,
         ),
         force(
             "permitted_axial_n",
-            "force along the tool that the limit permits",
+            "force along the tool that the tolerance permits",
             |forces| forces.normal,
         ),
         force(
             "permitted_any_direction_n",
-            "force that the limit permits in every direction",
+            "force that the tolerance permits in every direction",
             |forces| forces.weakest,
         ),
     ];
     type Part = fn(&CutLimits) -> Option<Permitted>;
     let parts: [(&str, &str, Part); 3] = [
-        ("axial_depth", "axial depth that the limit permits", |cut| {
+        ("axial_depth", "axial depth that the tolerance permits", |cut| {
             Some(cut.depth)
         }),
-        ("radial_depth", "radial depth that the limit permits", |cut| {
+        ("radial_depth", "radial depth that the tolerance permits", |cut| {
             cut.width
         }),
-        ("feed_per_tooth", "feed per tooth that the limit permits", |cut| {
-            Some(cut.feed_per_tooth)
-        }),
+        (
+            "feed_per_tooth",
+            "feed per tooth that the tolerance permits",
+            |cut| Some(cut.feed_per_tooth),
+        ),
     ];
     let given = |part: Part| move |point: &PointLimits| point.cut.as_ref().and_then(part);
-    // Parts of the cut that no point tells get no column.
+    // Parts of the cut that no point has get no column.
     for (name, description, part) in parts
         .into_iter()
         .filter(|(.., part)| points.iter().any(|p| given(*part)(p).is_some()))
@@ -118,14 +124,14 @@ pub(super) fn table(name: &str, analysis: &PathAnalysis, found: &PathFound) -> R
         columns.push(column(
             &format!("permitted_{name}_mm"),
             Some("mm"),
-            &format!("{description}, all else as the study has it"),
+            &format!("{description}, everything else as in the study"),
             Some(MM_DECIMALS),
             numbers(&|point| given(part)(point).map(|permitted| permitted.value() * 1e3)),
         ));
         columns.push(column(
             &format!("permitted_{name}_verdict"),
             None,
-            "whether it is up to this, at least this (more was not looked at), or nothing",
+            "whether it is up to this, at least this (larger values were not evaluated), or nothing",
             None,
             ColumnData::Text(
                 points
@@ -139,11 +145,16 @@ pub(super) fn table(name: &str, analysis: &PathAnalysis, found: &PathFound) -> R
 }
 
 /// Depth over feed with the line of the tolerance; `None` without a cut.
-pub(super) fn picture(name: &str, subtitle: String, analysis: &PathAnalysis, found: &PathFound) -> Option<Picture> {
+pub(super) fn picture(
+    name: &str,
+    subtitle: String,
+    analysis: &PathAnalysis,
+    found: &PathResult,
+) -> Option<Picture> {
     let sheet = found.limits.as_ref()?.depth_by_feed.as_ref()?;
     let mm = |values: &[f64]| values.iter().map(|value| value * 1e3).collect();
     let drawing = ProcessMap {
-        title: format!("{name}: which depth and feed hold the tolerance"),
+        title: format!("{name}: depth and feed within the tolerance"),
         subtitle,
         axes: AxisLabels {
             horizontal: "feed per tooth (mm)".to_owned(),
@@ -153,20 +164,20 @@ pub(super) fn picture(name: &str, subtitle: String, analysis: &PathAnalysis, fou
         horizontal: mm(&sheet.feeds_per_tooth),
         vertical: mm(&sheet.depths),
         deviation_um: sheet.deviations.iter().map(|deviation| deviation * 1e6).collect(),
-        tolerance_um: analysis.setting.limit * 1e6,
+        tolerance_um: analysis.setting.tolerance * 1e6,
         drawn: drawn(found),
     };
     Some(Picture {
         name: format!("{}-process", super::slug(name)),
         caption: format!(
-            "{name}: largest deviation of the program over axial depth and feed per tooth, all else as the study has it."
+            "{name}: largest deviation of the program over axial depth and feed per tooth, everything else as in the study."
         ),
         svg: drawing.to_svg(),
     })
 }
 
 /// Feed per tooth and depth (mm) where the tool deviates most, if it cuts there.
-fn drawn(found: &PathFound) -> Option<[f64; 2]> {
+fn drawn(found: &PathResult) -> Option<[f64; 2]> {
     let PathLoad::Cuts(cuts) = &found.along.load else {
         return None;
     };

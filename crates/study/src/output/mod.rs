@@ -1,21 +1,21 @@
-//! What a study leaves behind: `result.json`, tables, pictures and a report in one folder.
+//! The results of a study: `result.json`, tables, pictures and a report in one folder.
 //!
-//! Every file is written under another name and renamed, and `result.json` comes last: a study that was killed leaves no
-//! half file, and a folder without `result.json` is not finished. `result.json` names the files that belong to it, each with
-//! its SHA-256. Files of an earlier run of the same command are removed; files that were changed, and files that armill
-//! did not make, are neither removed nor replaced (see [`armill_formats::file`]).
+//! Every file is written under another name and renamed, and `result.json` is written last: an interrupted run leaves
+//! no incomplete file, and a folder without `result.json` is not complete. `result.json` names the files that belong to
+//! it, each with its SHA-256. Files of an earlier run of the same command are removed; files that were changed, and
+//! files that armill did not make, are neither removed nor replaced (see [`armill_formats::file`]).
 //!
 //! ```text
 //! result.json             the answer
 //! report.html             question, answer, inputs with sources, tables, pictures, warnings
-//! ASK.parquet, ASK.csv    a row a point; ASK.limits.csv: what a program permits
-//! ASK.vtp, ASK.vti        for ParaView: planes and paths, boxes
-//! ASK.svg, ASK-WHAT.svg   pictures, each as .png too
+//! NAME.parquet, NAME.csv  a row a point; NAME.limits.csv: the process limits of a program
+//! NAME.vtp, NAME.vti      for ParaView: planes and paths, boxes
+//! NAME.svg, NAME-WHAT.svg pictures, each as .png too
 //! .armill-files           which of these files armill made
 //! ```
 //!
-//! `ASK` is the `slug` of the ask's name. `folder`: which files; `rows`: the points; `tables`, `pictures`, `plates`,
-//! `path` with `along`, `holes`, `lattice`, `limits`, `arm`, `report`: what they show.
+//! `NAME` is the `slug` of the analysis's name. `folder`: which files; `rows`: the points; `tables`, `pictures`,
+//! `plates`, `path` with `along`, `holes`, `lattice`, `limits`, `arm`, `report`: their contents.
 
 pub(crate) mod along;
 mod arm;
@@ -44,48 +44,48 @@ use serde::Serialize;
 use crate::answer::StudyAnswer;
 use crate::error::StudyError;
 use crate::file::resolve::Study;
-use crate::run::Done;
+use crate::run::AnalysisResult;
 
-/// What to write beside `result.json`, Parquet and VTK.
+/// What to write in addition to `result.json`, Parquet and VTK.
 #[derive(Clone, Copy, Debug)]
-pub struct Wanted<'a> {
+pub struct OutputOptions<'a> {
     /// Whether there are pictures and a report.
     pub pictures: Pictures,
-    /// Which asks get a CSV.
+    /// Which analyses get a CSV.
     pub csv: Csv,
-    /// What the report begins with, where the study was changed before it was run.
+    /// First chapter of the report, if the study was changed before it was run.
     pub opening: Option<&'a Opening>,
 }
 
-/// The first chapter of a report: what was looked for and found before the study was run.
+/// The first chapter of a report: the search that preceded the run, and its result.
 #[derive(Clone, Debug)]
 pub struct Opening {
     /// Its heading.
     pub heading: &'static str,
-    /// What was found, a sentence each.
+    /// The result, a sentence each.
     pub sentences: Vec<String>,
     /// Pictures of the search.
     pub pictures: Vec<Picture>,
 }
 
-impl Wanted<'static> {
-    /// What a run writes unless it is told otherwise.
-    pub const USUAL: Wanted<'static> = Wanted {
+impl OutputOptions<'static> {
+    /// The default of a run.
+    pub const USUAL: OutputOptions<'static> = OutputOptions {
         pictures: Pictures::Drawn,
         csv: Csv::MapsAndPaths,
         opening: None,
     };
     /// No pictures, no report.
-    pub const TABLES: Wanted<'static> = Wanted {
+    pub const TABLES: OutputOptions<'static> = OutputOptions {
         pictures: Pictures::None,
-        ..Wanted::USUAL
+        ..OutputOptions::USUAL
     };
 }
 
-/// Which asks get a CSV; Parquet has the same columns and a third of the size or less.
+/// Which analyses get a CSV; Parquet has the same columns and a third of the size or less.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Csv {
-    /// Maps and paths, which one looks through in a spreadsheet.
+    /// Maps and paths, which are often opened in a spreadsheet.
     MapsAndPaths,
     /// Series and volumes too.
     Every,
@@ -100,24 +100,24 @@ pub enum Pictures {
     None,
 }
 
-/// Pixels a picture is drawn in for each of its own: sharp on paper.
+/// Pixels of a raster picture for each of its own: sharp in print.
 #[cfg(feature = "png")]
 const PNG_SCALE: f64 = 2.0;
 
-/// What pictures of an ask add to its name.
+/// Suffixes of the names of pictures of an analysis.
 const PICTURES: [&str; 16] = [
     "budget", "measured", "waves", "holes", "cells", "turns", "region", "shares", "ellipse", "arm",
     "vectors", "along", "polar", "track", "process", "forces",
 ];
 
-/// Whether files called `slug` could be pictures of the ask called `analysis`.
+/// Whether files called `slug` could be pictures of the analysis called `analysis`.
 pub(crate) fn is_picture_of(slug: &str, analysis: &str) -> bool {
     slug.strip_prefix(analysis)
         .and_then(|rest| rest.strip_prefix('-'))
         .is_some_and(|rest| PICTURES.contains(&rest))
 }
 
-/// A part of a file name that every system takes: letters (of any script), digits and hyphens.
+/// A part of a file name that is valid on every system: letters (of any script), digits and hyphens.
 ///
 /// Different names may give the same; a name without letters and digits gives nothing.
 pub fn slug(name: &str) -> String {
@@ -136,20 +136,21 @@ pub fn slug(name: &str) -> String {
 ///
 /// # Errors
 /// Files there that may not be replaced.
-pub fn allow(study: &Study, (out, requested): (&ResultFolder, Wanted<'_>)) -> Result<(), StudyError> {
+pub fn allow(study: &Study, (out, requested): (&ResultFolder, OutputOptions<'_>)) -> Result<(), StudyError> {
     let names = names(study, &[], requested);
     Ok(out.allow(names.iter().map(String::as_str))?)
 }
 
-/// Writes everything into `out` and gives the paths of the files; `note` hears each name as it comes, from any thread.
+/// Writes everything into `out` and returns the paths of the files; `note` receives each name when it is written, from
+/// any thread.
 ///
 /// # Errors
 /// A file cannot be written.
 pub fn write(
     study: &Study,
-    done: &[Done<'_>],
+    done: &[AnalysisResult<'_>],
     answer: &StudyAnswer,
-    (out, requested): (&ResultFolder, Wanted<'_>),
+    (out, requested): (&ResultFolder, OutputOptions<'_>),
     note: &(dyn Fn(&str) + Sync),
 ) -> Result<Vec<PathBuf>, StudyError> {
     let drawn = match requested.pictures {
@@ -182,7 +183,7 @@ pub fn write(
     })
 }
 
-/// Puts the files called `names`, `answer` last, in the place of those of an earlier run, and gives their paths. `work`
+/// Replaces the files of an earlier run by those called `names`, `answer` last, and returns their paths. `work`
 /// saves all but the answer.
 ///
 /// # Errors
@@ -193,7 +194,7 @@ pub(crate) fn replace<T: Serialize>(
     work: impl FnOnce(&folder::Folder<'_>) -> Result<(), StudyError>,
 ) -> Result<Vec<PathBuf>, StudyError> {
     out.allow(names.iter().map(String::as_str))?;
-    // An older answer next to newer tables would pass for theirs if this run were killed.
+    // An older answer next to newer tables would seem to belong to them if this run were interrupted.
     out.remove(RESULT);
     folder::write_together(out, note, work)?;
     let written = WrittenAnswer {
@@ -215,13 +216,13 @@ struct WrittenAnswer<'a, T> {
     files: BTreeMap<String, String>,
 }
 
-/// The answer, written last.
+/// The name of the answer, written last.
 pub(crate) const RESULT: &str = "result.json";
-/// The report, where pictures are drawn.
+/// The name of the report, if pictures are drawn.
 pub(crate) const REPORT: &str = "report.html";
 
 /// The names of all files, the answer last.
-fn names(study: &Study, drawn: &[Picture], requested: Wanted) -> Vec<String> {
+fn names(study: &Study, drawn: &[Picture], requested: OutputOptions) -> Vec<String> {
     let tables = study.analyses.iter().flat_map(|analysis| {
         let slug = slug(&analysis.name);
         let extensions = tables::extensions(analysis, requested.csv).into_iter();
@@ -254,12 +255,12 @@ pub(crate) fn save_pictures(drawn: &[Picture], files: &folder::Folder<'_>) -> Re
     })
 }
 
-/// The pictures of every ask, in the order of the report.
-pub fn pictures(study: &Study, done: &[Done<'_>], answer: &StudyAnswer) -> Vec<Picture> {
+/// The pictures of every analysis, in the order of the report.
+pub fn pictures(study: &Study, done: &[AnalysisResult<'_>], answer: &StudyAnswer) -> Vec<Picture> {
     pictures::draw(study, done, answer)
 }
 
-/// A picture in pixels, as it is written beside its SVG.
+/// A picture in pixels, as it is written in addition to its SVG.
 ///
 /// # Errors
 /// A picture that cannot become pixels.
@@ -268,23 +269,23 @@ pub fn png(svg: &str) -> Result<Vec<u8>, StudyError> {
     Ok(armill_report::raster::png(svg, PNG_SCALE)?)
 }
 
-/// The points of one ask with their columns.
+/// The points of one analysis with their columns.
 ///
 /// # Errors
 /// A table that cannot be made, which would be a fault of armill.
-pub fn points_table(study: &Study, done: &Done<'_>) -> Result<Table, StudyError> {
+pub fn points_table(study: &Study, done: &AnalysisResult<'_>) -> Result<Table, StudyError> {
     tables::rows_of(study, done)
 }
 
-/// The table of one ask as the CSV that is written of it.
+/// The table of one analysis as the CSV that is written for it.
 ///
 /// # Errors
 /// A table that cannot be made, which would be a fault of armill.
-pub fn table_csv(study: &Study, done: &Done<'_>) -> Result<Vec<u8>, StudyError> {
+pub fn table_csv(study: &Study, done: &AnalysisResult<'_>) -> Result<Vec<u8>, StudyError> {
     Ok(csv::write(&points_table(study, done)?))
 }
 
-/// Writes pictures that are not those of an ask into `out`.
+/// Writes pictures that are not those of an analysis into `out`.
 ///
 /// # Errors
 /// A file cannot be written; a picture cannot be drawn in pixels.
@@ -300,7 +301,7 @@ pub fn write_pictures(pictures: &[Picture], out: &ResultFolder) -> Result<(), St
 /// The answer as JSON, one line.
 ///
 /// # Errors
-/// Never in practice: the answer holds strings, finite numbers and lists of them.
+/// Never in practice: the answer contains strings, finite numbers and lists of them.
 pub fn json(answer: &StudyAnswer) -> Result<String, StudyError> {
     Ok(serde_json::to_string(answer)? + "\n")
 }

@@ -1,13 +1,13 @@
-//! Pictures of a path: where it deviates, how far along it, which joint is to blame, what a circle becomes, the arm.
+//! Pictures of a path: where it deviates, by how much along it, the contributions of the joints, the circle, the arm.
 //!
 //! | file name ends in | shows | of |
 //! |---|---|---|
-//! | `vectors` | arrows of the deviation under each case | a shape under loads that are the same everywhere |
+//! | `vectors` | arrows of the deviation under each case | a shape under constant loads |
 //! | `track` | the path from above, coloured | every other path |
 //! | `along` | deviation over distance | every path |
-//! | `polar` | the circle that comes out, magnified | a circle |
+//! | `polar` | the resulting circle, magnified | a circle |
 //! | `shares` | shares of the joints at the worst points | a path that is reached |
-//! | `turns` | deviation over path and turn of the tool, with the turn chosen | a search |
+//! | `turns` | deviation over path and spin of the tool, with the chosen spin | a search |
 //! | `process` | largest deviation over depth and feed per tooth | a cut |
 //! | `forces` | the record before and after treatment | measured forces |
 //! | `arm` | the arm at the worst point, faintly elsewhere | a path that is reached |
@@ -22,16 +22,16 @@ use armill_report::{
     Series, Stretch, TrackMap, VectorField, View,
 };
 
-use super::along::Handfuls;
+use super::along::PointGroups;
 use super::arm::arm_posture;
 use super::pictures::{Picture, share_bar, shares};
 use super::plates::{axes, base_y, subtitle};
 use crate::answer::PathAnswer;
 use crate::file::path::{MeasuredForces, PathAnalysis};
 use crate::file::resolve::{Setting, Study};
-use crate::run::PathFound;
+use crate::run::PathResult;
 
-/// Points that the arm's picture has of the path at most.
+/// Points of the path in the picture of the arm at most.
 const MOST_IN_SPACE: usize = 8_000;
 /// Marks nearer to each other than this part of the width would hide each other's numbers.
 const APART: f64 = 0.025;
@@ -39,11 +39,16 @@ const APART: f64 = 0.025;
 const ARROWS: usize = 72;
 /// Postures that are drawn faintly along a path.
 const GHOSTS: usize = 5;
-/// The arm's plate reaches this many times as far as the path.
+/// Size of the plate of the arm relative to the path.
 const PLATE: f64 = 1.3;
 
 /// The pictures of a path.
-pub(super) fn pictures(study: &Study, analysis: &PathAnalysis, given: &PathAnswer, found: &PathFound) -> Vec<Picture> {
+pub(super) fn pictures(
+    study: &Study,
+    analysis: &PathAnalysis,
+    given: &PathAnswer,
+    found: &PathResult,
+) -> Vec<Picture> {
     let drawing = Drawing {
         study,
         analysis,
@@ -52,25 +57,35 @@ pub(super) fn pictures(study: &Study, analysis: &PathAnalysis, given: &PathAnswe
     };
     let mut pictures = vec![drawing.where_it_deviates(), drawing.along()];
     pictures.extend(drawing.polar());
-    pictures.extend(drawing.blame());
-    pictures.extend(super::limits::picture(&given.name, drawing.subtitle(), analysis, found));
+    pictures.extend(drawing.contributions());
+    pictures.extend(super::limits::picture(
+        &given.name,
+        drawing.subtitle(),
+        analysis,
+        found,
+    ));
     pictures.extend(super::lattice::picture(
         &given.name,
         drawing.subtitle(),
         analysis,
         found,
     ));
-    pictures.extend(analysis.measured.as_deref().map(|measured| drawing.forces(measured)));
+    pictures.extend(
+        analysis
+            .measured
+            .as_deref()
+            .map(|measured| drawing.forces(measured)),
+    );
     pictures.extend(drawing.arm());
     pictures
 }
 
-/// What a path's pictures are made of.
+/// The data of the pictures of a path.
 struct Drawing<'a> {
     study: &'a Study,
     analysis: &'a PathAnalysis,
     given: &'a PathAnswer,
-    found: &'a PathFound,
+    found: &'a PathResult,
 }
 
 impl Drawing<'_> {
@@ -91,7 +106,7 @@ impl Drawing<'_> {
         }
     }
 
-    /// What a reader must know beside the title.
+    /// The subtitle.
     fn subtitle(&self) -> String {
         subtitle(&self.setting())
     }
@@ -99,10 +114,12 @@ impl Drawing<'_> {
     /// NaN where the point is not reached: the drawing leaves a gap there.
     fn in_plane_um(&self, index: usize) -> f64 {
         let point = &self.found.along.answers.points[index];
-        point.as_ref().map_or(f64::NAN, |evaluation| evaluation.in_plane * 1e6)
+        point
+            .as_ref()
+            .map_or(f64::NAN, |evaluation| evaluation.in_plane * 1e6)
     }
 
-    /// A load case in a word: its force where that is the same everywhere.
+    /// The name of a load case: its force, if it is constant.
     fn case_name(&self, case: usize) -> String {
         let force = self
             .analysis
@@ -119,7 +136,7 @@ impl Drawing<'_> {
         )
     }
 
-    /// Arrows on a shape under loads that are the same everywhere, else the path coloured by its deviation.
+    /// Arrows on a shape under constant loads, else the path coloured by its deviation.
     fn where_it_deviates(&self) -> Picture {
         if self.analysis.shape().is_some() && self.analysis.load.is_steady() {
             let caption = "in-plane deviation along the path under every load case.";
@@ -166,7 +183,7 @@ impl Drawing<'_> {
                 vertical: "path y (mm)".to_owned(),
             },
             quantity: "deviation across the tool (µm)".to_owned(),
-            tolerance_um: Some(self.analysis.setting.limit * 1e6),
+            tolerance_um: Some(self.analysis.setting.tolerance * 1e6),
             stretches,
             markers,
             ..TrackMap::default()
@@ -184,8 +201,12 @@ impl Drawing<'_> {
         let reached = |i: &usize| answers.points[*i].is_ok();
         let arrows = |case: usize| {
             let arrow = |i: usize| {
-                let deviation: Vector3<f64> =
-                    self.analysis.setting.plane.in_part(&answers.deviations_at(i)[case]) * 1e6;
+                let deviation: Vector3<f64> = self
+                    .analysis
+                    .setting
+                    .plane
+                    .in_part(&answers.deviations_at(i)[case])
+                    * 1e6;
                 Arrow {
                     at_mm: at(i),
                     deviation_um: [-deviation.x, deviation.y],
@@ -217,12 +238,12 @@ impl Drawing<'_> {
         picture.to_svg()
     }
 
-    /// The deviation along the path: of one load case its parts, of several each in the plane. Of a path too long for a
-    /// chart the largest sizes of each handful of points.
+    /// The deviation along the path: of one load case its components, of several each in the plane. Of a path too long
+    /// for a chart the largest absolute values of each group of points.
     fn along(&self) -> Picture {
         let (track, answers) = (&self.analysis.track, &self.found.along.answers);
         let points = &track.path.points;
-        let handfuls = Handfuls::of(points.len());
+        let handfuls = PointGroups::of(points.len());
         let position = handfuls.positions_mm(points);
         let series = |name: String, of: &dyn Fn(usize) -> f64| Series {
             name,
@@ -270,12 +291,12 @@ impl Drawing<'_> {
             quantity: quantity.to_owned(),
             series: all,
             envelope: Some(series(envelope.to_owned(), &|i| self.in_plane_um(i))),
-            tolerance_um: Some(self.analysis.setting.limit * 1e6),
+            tolerance_um: Some(self.analysis.setting.tolerance * 1e6),
         };
         self.picture("along", "the deviation along the path.", picture.to_svg())
     }
 
-    /// What becomes of a circle, magnified.
+    /// The resulting circle, magnified.
     fn polar(&self) -> Option<Picture> {
         let count = self.analysis.track.len();
         let angle_deg: Vec<f64> = (0..=count).map(|i| 360.0 * i as f64 / count as f64).collect();
@@ -303,20 +324,20 @@ impl Drawing<'_> {
         (!self.found.radial.is_empty()).then(|| self.picture("polar", caption, picture.to_svg()))
     }
 
-    /// Which joint is to blame at the worst points.
-    fn blame(&self) -> Option<Picture> {
+    /// The contributions of the joints at the worst points.
+    fn contributions(&self) -> Option<Picture> {
         let worst = &self.given.worst_points;
         let bars = worst.iter().enumerate().map(|(i, worst)| {
             let label = format!("{}: line {}", i + 1, worst.line);
             share_bar(&label, &worst.point)
         });
-        let title = format!("{}: which joint is to blame", self.given.name);
+        let title = format!("{}: contributions of the joints", self.given.name);
         let quantity = "share of deviation across the tool (µm)";
         let svg = shares(self.study, &title, (&self.setting(), quantity), bars.collect());
         (!worst.is_empty()).then(|| self.picture("shares", "share of each joint at the worst points.", svg))
     }
 
-    /// The record with begin and end of the program.
+    /// The record with start and end of the program.
     fn forces(&self, measured: &MeasuredForces) -> Picture {
         let axes = measured.table.frame.word();
         let mut subtitle = format!("{}; force on the tool, {axes} axes", measured.table.file);
@@ -324,16 +345,16 @@ impl Drawing<'_> {
             let _ = write!(subtitle, "; low-pass {hz} Hz");
         }
         if let Some(rpm) = measured.table.spindle_rpm {
-            let _ = write!(subtitle, "; means of turns at {rpm} rpm");
+            let _ = write!(subtitle, "; mean of each revolution at {rpm} rpm");
         }
         let title = format!("{}: measured force", self.given.name);
         let mut plot = crate::forces::output::plot((title, subtitle), &measured.treated);
         let [from, to] = measured.program;
         plot.marks_s = vec![
-            (from, "first cut begins".to_owned()),
+            (from, "first cut starts".to_owned()),
             (to, "last cut ends".to_owned()),
         ];
-        let caption = "the measured force on the tool, before and after drift and teeth were taken off.";
+        let caption = "the measured force on the tool, before and after removal of drift and tooth passing.";
         self.picture("forces", caption, plot.to_svg())
     }
 
@@ -343,7 +364,7 @@ impl Drawing<'_> {
         let (worst, _) = answers.worst()?;
         let robot = &self.study.robot.robot;
         let flange_from_tool = &self.analysis.setting.flange_from_tool;
-        let stand = |i: usize| arm_posture(robot, answers.joints_at(i), flange_from_tool);
+        let draw = |i: usize| arm_posture(robot, answers.joints_at(i), flange_from_tool);
         let ghosts = (0..GHOSTS)
             .map(|k| k * track.len() / GHOSTS)
             .filter(|i| answers.points[*i].is_ok());
@@ -363,13 +384,13 @@ impl Drawing<'_> {
         let drawing = ArmDrawing {
             title: self.given.name.clone(),
             subtitle: self.subtitle(),
-            posture: stand(worst),
-            ghosts: ghosts.map(stand).collect(),
+            posture: draw(worst),
+            ghosts: ghosts.map(draw).collect(),
             plate_mm: Some(self.plate().map(|corner| base(&corner))),
             path_mm,
             view: View::Iso,
         };
-        let caption = "the arm along the path, in full where the deviation is largest.";
+        let caption = "the arm along the path, solid where the deviation is largest.";
         Some(self.picture("arm", caption, drawing.to_svg_views(&[View::Iso, View::Side])))
     }
 

@@ -1,13 +1,13 @@
 //! Every picture of a study.
 //!
-//! | ask | pictures |
+//! | analysis | pictures |
 //! |---|---|
 //! | map | the deviation over the plane, `region`; at the worst point `shares` (and at the best), `ellipse`, `arm` |
 //! | sections | one sheet with a panel a section |
 //! | volume | one sheet with slices of the box |
 //! | path, holes | those of `path` and `holes` |
 //!
-//! Asks are drawn on all threads, their pictures stand in the order of the asks.
+//! Analyses are drawn on all threads, their pictures are in the order of the analyses.
 
 use armill_core::kernel::Answers;
 use armill_core::map::PlaneMap;
@@ -21,7 +21,7 @@ use super::arm::arm_posture;
 use super::plates::{axes, base_y, map_pictures, section_panel, sheet, slices, subtitle};
 use crate::answer::{GEOMETRY, HolesAnswer, MapAnswer, PathAnswer, PointAnswer, StudyAnswer};
 use crate::file::resolve::{Setting, Study, Subject};
-use crate::run::{Done, Found};
+use crate::run::{AnalysisData, AnalysisResult};
 
 /// A picture with its file name (without extension) and caption.
 #[derive(Clone, Debug)]
@@ -34,26 +34,26 @@ pub struct Picture {
     pub svg: String,
 }
 
-/// The pictures of every ask, in order.
-pub(super) fn draw(study: &Study, done: &[Done<'_>], answer: &StudyAnswer) -> Vec<Picture> {
-    // Maps and paths stand in the answer in the order of the asks.
+/// The pictures of every analysis, in order.
+pub(super) fn draw(study: &Study, done: &[AnalysisResult<'_>], answer: &StudyAnswer) -> Vec<Picture> {
+    // Maps and paths of the answer are in the order of the analyses.
     let (mut maps, mut paths) = (answer.maps.as_slice(), answer.paths.iter());
     let mut holes = answer.holes.iter();
     let given = done.iter().map(|done| {
         let count = match &done.found {
-            Found::Map(..) => 1,
-            Found::Sections(sections) => sections.len(),
-            Found::Volume(..) | Found::Path(..) | Found::Holes(..) => 0,
+            AnalysisData::Map(..) => 1,
+            AnalysisData::Sections(sections) => sections.len(),
+            AnalysisData::Volume(..) | AnalysisData::Path(..) | AnalysisData::Holes(..) => 0,
         };
-        let (of_ask, others) = maps.split_at(count.min(maps.len()));
+        let (of_analysis, others) = maps.split_at(count.min(maps.len()));
         maps = others;
-        let path = matches!(done.found, Found::Path(..))
+        let path = matches!(done.found, AnalysisData::Path(..))
             .then(|| paths.next())
             .flatten();
-        let of_holes = matches!(done.found, Found::Holes(..))
+        let of_holes = matches!(done.found, AnalysisData::Holes(..))
             .then(|| holes.next())
             .flatten();
-        (done, of_ask, (path, of_holes))
+        (done, of_analysis, (path, of_holes))
     });
     let given: Vec<_> = given.collect();
     let mut pictures: Vec<Picture> = given
@@ -61,21 +61,21 @@ pub(super) fn draw(study: &Study, done: &[Done<'_>], answer: &StudyAnswer) -> Ve
         .with_max_len(1)
         .flat_map_iter(|(done, maps, others)| pictures_of(study, done, maps, others))
         .collect();
-    if let Some(Ok((combined, given))) = crate::budget::beside(study, done) {
+    if let Some(Ok((combined, given))) = crate::budget::of_results(study, done) {
         pictures.extend(crate::budget::output::pictures(&given, &combined));
     }
     pictures
 }
 
-/// The pictures of one ask; `maps`, `path` and `holes` are what the answer says of it.
+/// The pictures of one analysis; `maps`, `path` and `holes` are its parts of the answer.
 fn pictures_of(
     study: &Study,
-    done: &Done<'_>,
+    done: &AnalysisResult<'_>,
     maps: &[MapAnswer],
     (path, holes): (Option<&PathAnswer>, Option<&HolesAnswer>),
 ) -> Vec<Picture> {
     match &done.found {
-        Found::Map(plate, map) => {
+        AnalysisData::Map(plate, map) => {
             let Some(given) = maps.first() else {
                 return Vec::new();
             };
@@ -86,7 +86,7 @@ fn pictures_of(
             pictures.extend(worst_point(study, &plate.setting, given, map));
             pictures
         }
-        Found::Sections(sections) => {
+        AnalysisData::Sections(sections) => {
             let panels = sections.iter().zip(maps).map(|(section, given)| {
                 section_panel(
                     section.label,
@@ -100,17 +100,17 @@ fn pictures_of(
             let drawn = first.map(|setting| sheet(done.name, panels, setting, axes(setting)));
             drawn.into_iter().collect()
         }
-        Found::Volume(setting, volume) => vec![slices(done.name, volume, setting)],
-        Found::Path(analysis, found) => {
-            path.map_or_else(Vec::new, |given| super::path::pictures(study, analysis, given, found))
-        }
-        Found::Holes(analysis, found) => {
-            holes.map_or_else(Vec::new, |given| super::holes::pictures(study, analysis, (given, found)))
-        }
+        AnalysisData::Volume(setting, volume) => vec![slices(done.name, volume, setting)],
+        AnalysisData::Path(analysis, found) => path.map_or_else(Vec::new, |given| {
+            super::path::pictures(study, analysis, given, found)
+        }),
+        AnalysisData::Holes(analysis, found) => holes.map_or_else(Vec::new, |given| {
+            super::holes::pictures(study, analysis, (given, found))
+        }),
     }
 }
 
-/// Paths of the study that lie on the same plane as a map, to be drawn on it.
+/// Paths of the study on the same plane as a map, to be drawn on it.
 fn overlays(study: &Study, setting: &Setting) -> Vec<Overlay> {
     let mut overlays: Vec<Overlay> = Vec::new();
     for analysis in &study.analyses {
@@ -119,7 +119,7 @@ fn overlays(study: &Study, setting: &Setting) -> Vec<Overlay> {
         };
         let Some(shape) = path.shape() else { continue };
         let of_path = &path.setting;
-        // The same plane counted from the same frame.
+        // The same plane relative to the same frame.
         let apart =
             of_path.plane.base_from_part.to_homogeneous() - setting.plane.base_from_part.to_homogeneous();
         if apart.norm() > 1e-9 || of_path.base_name != setting.base_name {
@@ -142,7 +142,7 @@ fn overlays(study: &Study, setting: &Setting) -> Vec<Overlay> {
     overlays
 }
 
-/// Why the worst point of a map is bad: shares of the joints there and at the best point, the compliance in the
+/// The causes at the worst point of a map: shares of the joints there and at the best point, the compliance in the
 /// plane, and the arm.
 fn worst_point(study: &Study, setting: &Setting, given: &MapAnswer, map: &PlaneMap) -> Vec<Picture> {
     let Some((worst, best)) = given.worst.as_ref().zip(given.best.as_ref()) else {
@@ -165,7 +165,7 @@ fn worst_point(study: &Study, setting: &Setting, given: &MapAnswer, map: &PlaneM
             ),
             svg: shares(
                 study,
-                &format!("{}: which joint is to blame", given.name),
+                &format!("{}: contributions of the joints", given.name),
                 (setting, "share of in-plane deviation (µm)"),
                 bars.to_vec(),
             ),
@@ -194,7 +194,7 @@ pub(super) fn share_bar(label: &str, point: &PointAnswer) -> ShareBar {
     }
 }
 
-/// Bars of several points under each other; what a measured arm moves, which is in nobody's share, as a part of its own.
+/// Bars of several points; the contribution of a calibrated arm, which is in no share, as a part of its own.
 pub(super) fn shares(
     study: &Study,
     title: &str,
@@ -221,8 +221,8 @@ pub(super) fn shares(
     picture.to_svg()
 }
 
-/// How far 1 N in the plane moves the tool in the plane: the compliance of the unloaded arm at this point, on base y
-/// (or y') and z'.
+/// In-plane displacement of the tool by an in-plane force of 1 N: the compliance of the unloaded arm at this point, on
+/// base y (or y') and z'.
 fn ellipse(study: &Study, setting: &Setting, slug: &str, answers: &Answers, index: usize) -> Picture {
     let robot = &study.robot.robot;
     let compliance = setting.compliance_at(robot, answers.joints_at(index));
@@ -242,7 +242,7 @@ fn ellipse(study: &Study, setting: &Setting, slug: &str, answers: &Answers, inde
     };
     Picture {
         name: format!("{slug}-ellipse"),
-        caption: "How far a force of 1 N in the plane moves the tool in the plane, by direction.".to_owned(),
+        caption: "In-plane displacement of the tool by an in-plane force of 1 N, by direction.".to_owned(),
         svg: picture.to_svg(),
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Drawn as seen from the tool side: part x to the right, which is base y to the left on a tilted plane.
 
-use armill_core::kernel::Held;
+use armill_core::kernel::Evaluation;
 use armill_core::map::{COVERAGE, PlaneMap, VolumeMap};
 use armill_core::robot::Unreachable;
 use armill_report::{
@@ -18,10 +18,10 @@ use crate::file::resolve::Setting;
 const SLICES: usize = 8;
 /// Panels in a row at most.
 const COLUMNS: usize = 4;
-/// What the colours mean.
+/// The quantity of the colours.
 const QUANTITY: &str = "in-plane deviation (µm)";
 
-/// The axes of a plane: base y where it is told by a tilt, else its own y'.
+/// The axes of a plane: base y if it is given by a tilt, else its own y'.
 pub(super) fn axes(setting: &Setting) -> AxisLabels {
     let along_base_y = setting.tilt.is_some();
     AxisLabels {
@@ -46,19 +46,19 @@ pub(super) fn subtitle(setting: &Setting) -> String {
         .map_or(String::new(), |tilt| format!(", tilt {:.0}°", tilt.to_degrees()));
     let cases = setting.cases.len();
     let worst = match cases {
-        // Forces that come from the cut are no cases of the study.
+        // Forces of the cut are not cases of the study.
         0 => "the force of the cut".to_owned(),
         1 => "1 load case".to_owned(),
         _ => format!("worst of {cases} load cases"),
     };
     format!(
-        "{}{tilt}, {tool}, {worst}, heights from {}",
+        "{}{tilt}, {tool}, {worst}, heights relative to {}",
         setting.branch(),
         setting.base_name
     )
 }
 
-/// The points of a map as a picture takes them: row by row, mm.
+/// The points of a map for a picture: row by row, mm.
 pub(super) fn grid(map: &PlaneMap, setting: &Setting) -> Grid {
     let y0 = base_y(setting);
     Grid {
@@ -72,17 +72,20 @@ pub(super) fn grid(map: &PlaneMap, setting: &Setting) -> Grid {
     }
 }
 
-/// How far each deviation may stray to either side; none where no point is uncertain.
+/// Expanded uncertainty of each deviation; none if no point is uncertain.
 fn spread_um(map: &PlaneMap) -> Vec<f64> {
     let points = map.answers.points.iter();
-    let uncertainty =
-        |point: &Result<Held, Unreachable>| point.as_ref().map_or(0.0, |evaluation| evaluation.in_plane_uncertainty);
+    let uncertainty = |point: &Result<Evaluation, Unreachable>| {
+        point
+            .as_ref()
+            .map_or(0.0, |evaluation| evaluation.in_plane_uncertainty)
+    };
     points.map(|point| COVERAGE * uncertainty(point) * 1e6).collect()
 }
 
 /// Base y of the plane's centre where the horizontal axis is base y, otherwise 0; mm.
 pub(super) fn base_y(setting: &Setting) -> f64 {
-    let centre = setting.counted(&setting.plane.base_from_part.translation.vector.into());
+    let centre = setting.in_reference(&setting.plane.base_from_part.translation.vector.into());
     if setting.tilt.is_some() {
         centre.y * 1e3
     } else {
@@ -90,8 +93,8 @@ pub(super) fn base_y(setting: &Setting) -> f64 {
     }
 }
 
-/// What a point shows: its deviation, told apart outside joint limits, or that it is not reached.
-fn state(point: &Result<Held, Unreachable>) -> PointState {
+/// The state of a point: its deviation, marked if outside joint limits, or that it is not reached.
+fn state(point: &Result<Evaluation, Unreachable>) -> PointState {
     match point {
         Ok(evaluation) if evaluation.within_limits() => PointState::Reached(evaluation.in_plane * 1e6),
         Ok(evaluation) => PointState::OutsideJointLimits(evaluation.in_plane * 1e6),
@@ -99,7 +102,8 @@ fn state(point: &Result<Held, Unreachable>) -> PointState {
     }
 }
 
-/// The map of a plane with its best and worst point, and the region within the limit with what fits inside.
+/// The map of a plane with its best and worst point, and the region within the tolerance with the largest shapes
+/// inside.
 pub(super) fn map_pictures(
     answer: &MapAnswer,
     setting: &Setting,
@@ -124,7 +128,7 @@ pub(super) fn map_pictures(
             .as_ref()
             .map(|p| marker("largest", MarkerKind::Point, at(p.in_plane_mm))),
     ];
-    let tolerance_um = setting.limit * 1e6;
+    let tolerance_um = setting.tolerance * 1e6;
     let deviation = DeviationMap {
         title: answer.name.clone(),
         subtitle: subtitle(setting),
@@ -135,11 +139,11 @@ pub(super) fn map_pictures(
         scale: ColourScale::Viridis,
         overlays,
         markers: markers.into_iter().flatten().collect(),
-        // A coarse lattice is part of the question; a fine one would hide the answer.
+        // A coarse grid is drawn; a fine one would hide the contours.
         show_grid_points: map.grid.len() <= 200,
     };
     let region = RegionMap {
-        title: format!("{}: where {tolerance_um:.0} µm hold", answer.name),
+        title: format!("{}: region within {tolerance_um:.0} µm", answer.name),
         subtitle: subtitle(setting),
         grid: grid(map, setting),
         spread_um: spread_um(map),
@@ -174,7 +178,7 @@ pub(super) fn map_pictures(
         Picture {
             name: format!("{slug}-region"),
             caption: format!(
-                "{}: {:.1} % of the points hold {tolerance_um:.0} µm{}.",
+                "{}: {:.1} % of the points are within {tolerance_um:.0} µm{}.",
                 answer.name,
                 answer.fraction_within_and_inside_joint_limits * 100.0,
                 if answer.outside_joint_limits > 0 {
@@ -198,7 +202,7 @@ pub(super) fn sheet(name: &str, panels: Vec<Panel>, setting: &Setting, axes: Axi
         panels,
         axes,
         quantity: QUANTITY.to_owned(),
-        tolerance_um: Some(setting.limit * 1e6),
+        tolerance_um: Some(setting.tolerance * 1e6),
         scale: ColourScale::Viridis,
         show_regions: true,
     };
@@ -206,7 +210,7 @@ pub(super) fn sheet(name: &str, panels: Vec<Panel>, setting: &Setting, axes: Axi
         name: super::slug(name),
         caption: format!(
             "{name}: in-plane deviation above, the region within {:.0} µm below.",
-            setting.limit * 1e6
+            setting.tolerance * 1e6
         ),
         svg: sheet.to_svg(),
     }
@@ -220,7 +224,7 @@ fn subtitle_without_tilt(setting: &Setting) -> String {
     })
 }
 
-/// One panel of a series; `fraction` of its points is within the limit.
+/// One panel of a series; `fraction` of its points is within the tolerance.
 pub(super) fn section_panel(label: &str, map: &PlaneMap, setting: &Setting, fraction: f64) -> Panel {
     Panel {
         title: label.replace('-', "−"),
@@ -237,7 +241,7 @@ pub(super) fn slices(name: &str, volume: &VolumeMap, setting: &Setting) -> Pictu
     let count = nx.min(SLICES);
     // Spread over the box, both ends among them.
     let chosen = (0..count).map(|k| if count == 1 { 0 } else { k * (nx - 1) / (count - 1) });
-    let origin = setting.counted(&volume.grid.corner()) * 1e3;
+    let origin = setting.in_reference(&volume.grid.corner()) * 1e3;
     let step = volume.grid.step * 1e3;
     let panels = chosen.map(|i| {
         // Rows upwards, y from right to left: as seen from the robot.
@@ -245,7 +249,7 @@ pub(super) fn slices(name: &str, volume: &VolumeMap, setting: &Setting) -> Pictu
         let points: Vec<PointState> = points.map(|index| state(&volume.answers.points[index])).collect();
         let within = points
             .iter()
-            .filter(|p| p.value_um().is_some_and(|v| v <= setting.limit * 1e6))
+            .filter(|p| p.value_um().is_some_and(|v| v <= setting.tolerance * 1e6))
             .count();
         Panel {
             title: format!("x = {:.0} mm", origin.x + i as f64 * step),
@@ -271,7 +275,7 @@ pub(super) fn slices(name: &str, volume: &VolumeMap, setting: &Setting) -> Pictu
     let mut picture = sheet(name, panels.collect(), setting, axes);
     picture.caption = format!(
         "{name}: slices of the box across {frame} x; above the in-plane deviation, below the region within {:.0} µm.",
-        setting.limit * 1e6
+        setting.tolerance * 1e6
     );
     picture
 }

@@ -1,4 +1,4 @@
-//! The place that was found, as values of a result.
+//! The best placement, as values of a result.
 
 use armill_core::optimize::{PlacementEvaluation, RankBy};
 use schemars::JsonSchema;
@@ -15,21 +15,21 @@ pub struct PlacementAnswer {
     pub format: u32,
     /// The path.
     pub analysis: String,
-    /// Which part of the deviation counted: `in-plane`, `cross-track`, `axial`.
+    /// Component of the deviation: `in-plane`, `cross-track`, `axial`.
     pub component: &'static str,
     /// What was to be least: `worst`, `mean`, `above-tolerance`.
     pub objective: &'static str,
-    /// What places were compared by: `nominal`, `plus-two-sigma`, `within-limit`.
+    /// What places were compared by: `nominal`, `plus-two-sigma`, `within-tolerance`.
     pub rank_by: &'static str,
-    /// How far every joint stays from its limits, the elbow from stretched and the wrist from straight.
+    /// Margin of every joint to its limits, of the elbow to stretched and the wrist to straight.
     pub margin_deg: f64,
     /// Points of the path.
     pub points: usize,
     /// Where the study has the part, in the branches that it has there.
     pub nominal: OutcomeAnswer,
-    /// At the place that was found.
+    /// At the best placement.
     pub found: OutcomeAnswer,
-    /// The fixture that it is, where fixtures were told.
+    /// Its fixture, if fixtures are given.
     pub fixture: Option<String>,
     /// The place.
     pub place: PlaceAnswer,
@@ -37,91 +37,92 @@ pub struct PlacementAnswer {
     pub home_deg: Option<Vec<f64>>,
     /// What was free.
     pub free: Vec<FreeAnswer>,
-    /// What grids of places say of it.
+    /// Placements on grids, compared with the best.
     pub certificate: CertificateAnswer,
     /// The best place for each margin.
     pub by_margin: Vec<MarginAnswer>,
     /// Seed of the search.
     pub seed: u64,
-    /// Whether the tool turns with the part though the study does not say so: it leans from point to point, and its turn
-    /// counts from the axes of base. The table of the path then tells its turn at each point.
+    /// Whether the tool turns with the part though the study does not say so: its inclination varies from point to
+    /// point, and
+    /// its spin is relative to the axes of base. The table of the path then has its spin at each point.
     pub tool_turns_with_part: bool,
     /// Rounds that an earlier run, which was stopped, had done.
     pub rounds_taken_up: usize,
 }
 
-/// What a place comes to.
+/// Result at a placement.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct OutcomeAnswer {
-    /// What was to be least, of the points that are held.
+    /// The objective, over the reachable points.
     pub cost_um: f64,
     /// Its standard uncertainty, from those of the joints' compliances and of the size of the load.
     pub cost_u_um: f64,
-    /// How probably it is above the limit, where it is not sure.
-    pub probability_above_limit: Option<f64>,
-    /// Points that the arm does not hold inside its limits and away from singularities.
+    /// Probability that it is above the tolerance, if it is not certain.
+    pub probability_above_tolerance: Option<f64>,
+    /// Points that the robot does not reach inside its limits and away from singularities.
     pub unreachable_points: usize,
-    /// The branch; none for arms whose branches have no names.
+    /// The branch; none for robots without named branches.
     pub branch: Option<String>,
 }
 
 /// A degree that was free.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct FreeAnswer {
-    /// Its key in the study, which tells the unit of the numbers.
+    /// Its key in the study, with the unit of the numbers.
     pub degree: &'static str,
     /// Least value.
-    // unit: the one of its degree
+    // unit: that of its degree
     pub least: f64,
     /// Greatest value.
-    // unit: the one of its degree
+    // unit: that of its degree
     pub greatest: f64,
-    /// The value at the place that was found.
-    // unit: the one of its degree
+    /// The value at the best placement.
+    // unit: that of its degree
     pub found: f64,
-    /// Whether that is at one of its bounds: with more room there may be a better place.
+    /// Whether it is at one of its bounds: wider bounds may allow a better placement.
     pub at_bound: bool,
 }
 
 /// The best place for one margin.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct MarginAnswer {
-    /// How far every joint stays from its limits, the elbow from stretched and the wrist from straight.
+    /// Margin of every joint to its limits, of the elbow to stretched and the wrist to straight.
     pub margin_deg: f64,
     /// What was to be least.
     pub cost_um: f64,
-    /// The fixture that it is, where fixtures were told.
+    /// Its fixture, if fixtures are given.
     pub fixture: Option<String>,
     /// The place.
     pub place: PlaceAnswer,
 }
 
 impl OutcomeAnswer {
-    /// Of a place appraised so, against this limit, m.
-    pub(super) fn of(appraised: &PlacementEvaluation, limit: f64) -> OutcomeAnswer {
-        let PlacementEvaluation { score, uncertainty } = appraised;
+    /// The result for an evaluated placement and this tolerance, m.
+    pub(super) fn of(evaluated: &PlacementEvaluation, limit: f64) -> OutcomeAnswer {
+        let PlacementEvaluation { score, uncertainty } = evaluated;
         let cost = if score.cost.is_finite() { score.cost } else { 0.0 };
         OutcomeAnswer {
             cost_um: cost * 1e6,
             cost_u_um: uncertainty * 1e6,
-            probability_above_limit: appraised.probability_above(limit),
-            unreachable_points: score.lost,
+            probability_above_tolerance: evaluated.probability_above(limit),
+            unreachable_points: score.unreachable,
             branch: score.branch.map(|branch| branch.to_string()),
         }
     }
 }
 
 impl PlacementAnswer {
-    /// What was found, in sentences.
+    /// The result as sentences.
     pub fn sentences(&self) -> Vec<String> {
         let what = match self.objective {
-            "worst" => "at most",
-            "mean" => "on the mean",
-            _ => "a cost (mean excess over the limit, and a thousandth of the mean) of",
+            "worst" => "largest",
+            "mean" => "mean",
+            _ => "cost (mean excess over the tolerance plus a thousandth of the mean) of the",
         };
-        let comes_to = |outcome: &OutcomeAnswer| match outcome.unreachable_points {
+        let value = |outcome: &OutcomeAnswer| match outcome.unreachable_points {
             0 => format!(
-                "{what} {}{} µm",
+                "{}{} µm",
                 micrometres(outcome.cost_um),
                 match outcome.cost_u_um {
                     0.0 => String::new(),
@@ -138,17 +139,17 @@ impl PlacementAnswer {
         };
         let mut lines = vec![match self.found.unreachable_points {
             0 => format!(
-                "{}: {} {} deviation{} at {}; as drawn {}{}.",
+                "{}: {what} {} deviation {}{} at {}; nominal: {}{}.",
                 self.analysis,
-                comes_to(&self.found),
                 self.component,
+                value(&self.found),
                 branch(&self.found),
                 self.place_in_words(),
-                comes_to(&self.nominal),
+                value(&self.nominal),
                 branch(&self.nominal),
             ),
             lost => format!(
-                "{}: no place was found that the arm holds everywhere; the best, {}, loses {lost} of {} points{}.",
+                "{}: no placement was found at which all points can be reached; the best, {}, has no posture at {lost} of {} points{}.",
                 self.analysis,
                 self.place_in_words(),
                 self.points,
@@ -157,7 +158,7 @@ impl PlacementAnswer {
         }];
         if self.tool_turns_with_part {
             lines.push(
-                "The tool turns with the part; a study says so by spin = \"along-feed\", otherwise column turn_deg of the table has its turns.".to_owned(),
+                "The tool turns with the part; in a study use spin = \"along-feed\", otherwise column turn_deg of the table has its spin.".to_owned(),
             );
         }
         let edges: Vec<&str> = self
@@ -168,24 +169,24 @@ impl PlacementAnswer {
             .collect();
         if !edges.is_empty() {
             lines.push(format!(
-                "At a bound: {}. With more room there may be a better place.",
+                "At a bound: {}. Wider bounds may allow a better placement.",
                 edges.join(", ")
             ));
         }
         let grid = |grid: &super::GridAnswer| {
             format!(
-                "{} places every {:.0} mm and {:.1} deg",
+                "{} placements every {:.0} mm and {:.1} deg",
                 grid.places, grid.pitch_mm, grid.pitch_deg
             )
         };
         let [near, wide] = [&self.certificate.near, &self.certificate.wide];
         if let Some(above) = self
             .found
-            .probability_above_limit
-            .filter(|_| self.rank_by == "within-limit")
+            .probability_above_tolerance
+            .filter(|_| self.rank_by == "within-tolerance")
         {
             lines.push(format!(
-                "It is above the limit with a probability of {:.1} %.",
+                "It is above the tolerance with a probability of {:.1} %.",
                 100.0 * above
             ));
         }
@@ -194,18 +195,18 @@ impl PlacementAnswer {
         }
         lines.push(match near.better + wide.better {
             0 => format!(
-                "None is better of {} around it, nor of {} over all that is free.",
+                "None is better of {} near it, nor of {} over the whole range.",
                 grid(near),
                 grid(wide)
             ),
             better => {
-                format!("{better} places of the grids are better still: search again with another --seed.")
+                format!("{better} placements of the grids are better: search again with another --seed.")
             }
         });
         lines
     }
 
-    /// The place in words: `centre (700.0, 0.0, 1028.7) mm, tilt 90.0 deg`.
+    /// The placement as text: `centre (700.0, 0.0, 1028.7) mm, tilt 90.0 deg`.
     pub fn place_in_words(&self) -> String {
         let place = &self.place;
         let [x, y, z] = place.centre_mm;
@@ -218,18 +219,18 @@ impl PlacementAnswer {
             words += &format!(", tilt {tilt:.1} deg");
         }
         if let Some([rx, ry, rz]) = place.rotation_deg {
-            words += &format!(", turned by ({rx:.1}, {ry:.1}, {rz:.1}) deg");
+            words += &format!(", rotated by ({rx:.1}, {ry:.1}, {rz:.1}) deg");
         }
         if let Some(rail) = place.rail_mm {
             words += &format!(", rail at {rail:.1} mm");
         }
         if place.spin_deg != 0.0 {
-            words += &format!(", tool turned by {:.1} deg", place.spin_deg);
+            words += &format!(", tool spin changed by {:.1} deg", place.spin_deg);
         }
         words
     }
 
-    /// Lines of a study file that lay the path there; none where no place holds it.
+    /// Lines of a study file for this placement; none if not all points can be reached.
     pub fn study_lines(&self) -> String {
         if self.found.unreachable_points > 0 {
             return String::new();
@@ -254,7 +255,7 @@ impl PlacementAnswer {
         }
         if place.spin_deg != 0.0 {
             lines += &format!(
-                "spin_deg = {:.4} # of a program: program.spin_deg, this much more\n",
+                "spin_deg = {:.4} # of a program: add this to program.spin_deg\n",
                 place.spin_deg
             );
         }
@@ -262,11 +263,11 @@ impl PlacementAnswer {
     }
 }
 
-/// As the study calls it.
-pub(super) fn sure_word(rank_by: RankBy) -> &'static str {
+/// Its name in the study.
+pub(super) fn rank_by_name(rank_by: RankBy) -> &'static str {
     match rank_by {
         RankBy::Nominal => "nominal",
         RankBy::PlusTwoSigma => "plus-two-sigma",
-        RankBy::WithinLimit(_) => "within-limit",
+        RankBy::WithinTolerance(_) => "within-tolerance",
     }
 }

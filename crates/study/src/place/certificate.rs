@@ -1,11 +1,13 @@
-//! Is there really nothing better? Places on a grid, near the place that was found and over all that is free.
+//! Check for better placements on grids, near the best placement and over the whole range.
 //!
-//! Near it every degree is stepped both ways. Over all that is free the pitch is as fine as the effort allows, the same in
-//! all millimetres and in all degrees. A place is looked at until it is known to be no better. Where the largest deviation
-//! counts, some points of the path show that first; what they leave is looked at in full.
+//! Near it every degree of freedom is stepped in both directions. Over the whole range the pitch is as fine as the
+//! effort allows, the same in
+//! all millimetres and in all degrees. A placement is evaluated until it is known to be no better. For the largest
+//! deviation
+//! some points of the path may show that first; the others are evaluated completely.
 
 use armill_core::kernel::PartPlacement;
-use armill_core::optimize::{Objective, Score, Placeable, RankBy};
+use armill_core::optimize::{Objective, Placeable, RankBy, Score};
 use armill_core::watch::{Cancelled, Watch};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -13,7 +15,7 @@ use serde::Serialize;
 use super::freedom::is_angle;
 use super::search::{Searched, Spot};
 
-/// What grids of places say of the one that was found.
+/// Placements on grids, compared with the best.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct CertificateAnswer {
     /// Near it.
@@ -31,23 +33,23 @@ pub struct GridAnswer {
     pub pitch_mm: f64,
     /// From one to the next in every angle.
     pub pitch_deg: f64,
-    /// Places that are better than the one that was found.
+    /// Placements that are better than the best of the search.
     pub better: usize,
 }
 
-/// Pitch of the grid near a place, m and rad.
+/// Pitch of the grid near a placement, m and rad.
 const NEAR: [f64; 2] = [2e-3, 0.5 * PER_DEG];
 /// Finest pitch of the grid over all that is free.
 const FINEST: [f64; 2] = [5e-3, PER_DEG];
 const PER_DEG: f64 = std::f64::consts::PI / 180.0;
-/// How much coarser a grid is tried next.
+/// Factor by which the next grid is coarser.
 const COARSER: f64 = 1.05;
 /// Places worked on at once.
 const CHUNK: usize = 8192;
-/// A place counts as better from this part of the cost on: beyond that is rounding.
+/// A placement is better if it differs by more than this part of the cost: less is rounding.
 const SLACK: f64 = 1e-9;
 
-/// Places on a grid: so many along each free degree, from the first part of its range with this step.
+/// Placements on a grid: this number along each free degree, from the first part of its range with this step.
 struct Grid {
     first: Vec<f64>,
     step: Vec<f64>,
@@ -56,7 +58,7 @@ struct Grid {
 }
 
 impl GridAnswer {
-    /// Both grids as one, of places elsewhere.
+    /// Both grids as one, for other placements.
     pub(super) fn and(self, other: GridAnswer) -> GridAnswer {
         GridAnswer {
             places: self.places + other.places,
@@ -68,7 +70,7 @@ impl GridAnswer {
 }
 
 impl Searched<'_> {
-    /// What the grid near `best` says of it, and the best place there where one is better.
+    /// The grid near `best`, and its best placement if that is better.
     pub(super) fn near_grid(
         &self,
         best: &Spot,
@@ -77,7 +79,7 @@ impl Searched<'_> {
         self.grid(&self.near(&best.at), &best.score, watch)
     }
 
-    /// What the grid over all that is free says of a place that is worth `best`, and the best place there where one is better.
+    /// The grid over the whole range, for a placement with the score `best`, and its best placement if that is better.
     pub(super) fn wide_grid(
         &self,
         best: &Score,
@@ -86,7 +88,7 @@ impl Searched<'_> {
         self.grid(&self.wide(), best, watch)
     }
 
-    /// Places that a grid may have: fewer where all points must be looked at.
+    /// Greatest number of placements of a grid: fewer if all points must be evaluated.
     fn most(&self) -> usize {
         match self.is_quick() {
             true => self.effort.grid,
@@ -95,7 +97,7 @@ impl Searched<'_> {
         }
     }
 
-    /// Whether some points show that a place is no better.
+    /// Whether some points show that a placement is no better.
     fn is_quick(&self) -> bool {
         matches!(
             (self.all.objective.objective, self.all.objective.rank_by),
@@ -118,7 +120,7 @@ impl Searched<'_> {
         };
         for ((degree, [least, greatest]), at) in self.freedom.free().zip(at) {
             let step = NEAR[usize::from(is_angle(degree))] / (greatest - least);
-            // What would lie outside the bounds is left out.
+            // Placements outside the bounds are left out.
             let fits = |part: f64| (part / step + 1e-9).floor().min(f64::from(steps)) as usize;
             let (below, above) = (fits(*at), fits(1.0 - at));
             grid.first.push(at - below as f64 * step);
@@ -202,7 +204,8 @@ impl Searched<'_> {
         bar: &Score,
         watch: Watch<'_>,
     ) -> Result<Vec<Spot>, Cancelled> {
-        let placements: Vec<PartPlacement> = places.iter().map(|at| self.freedom.placement(at)).collect();
+        let placements: Vec<PartPlacement> =
+            places.iter().map(|at| self.freedom.part_placement(at)).collect();
         let quiet = Watch {
             finished: &|_| (),
             ..watch

@@ -15,39 +15,40 @@ use crate::number::decimals;
 /// Numbers that place a part and its tool.
 pub(super) const DEGREES: usize = 8;
 
-/// Where the part may lie.
+/// Permitted placements of the part.
 #[derive(Clone, Debug)]
 pub(super) struct Freedom {
-    /// The frame that the study counts from.
+    /// The reference frame of the study.
     base_from_reference: Isometry,
-    /// Axes of the part there, without their tilt where the plane is told by it.
+    /// Axes of the part, without their tilt if the plane is given by it.
     axes: UnitQuaternion<f64>,
-    /// Whether the plane is told by its tilt.
+    /// Whether the plane is given by its tilt.
     by_tilt: bool,
     turn: ToolTurn,
     /// Whether the rail may move.
     rail: bool,
-    /// Least and greatest of each degree, m and rad; the same where it does not move.
+    /// Least and greatest of each degree of freedom, m and rad; the same if it is fixed.
     bounds: [[f64; 2]; DEGREES],
 }
 
-/// A place, in words of the study.
+/// A placement, in terms of the study.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct PlaceAnswer {
     /// `plane.centre_mm`.
     pub centre_mm: [f64; 3],
-    /// `plane.tilt_deg`, where the plane is told by it.
+    /// `plane.tilt_deg`, if the plane is given by it.
     pub tilt_deg: Option<f64>,
-    /// `plane.rotation_deg`, where it is not.
+    /// `plane.rotation_deg`, otherwise.
     pub rotation_deg: Option<[f64; 3]>,
-    /// Turn of the tool about its axis, beside the one it has.
+    /// Spin of the tool about its axis, relative to that of the study.
     pub spin_deg: f64,
-    /// Where the rail stands, where it may move.
+    /// Position of the rail, if it is free.
     pub rail_mm: Option<f64>,
 }
 
 impl Freedom {
-    /// Of a path asked with `setting` and its rail at `rail` (m), whose tool is turned as `turn` says, inside the bounds of `table`.
+    /// For a path with `setting` and its rail at `rail` (m), with the spin of the tool as in `turn`, within the
+    /// bounds of `table`.
     pub fn new((setting, rail): (&Setting, f64), turn: ToolTurn, table: &PlaceTable) -> Freedom {
         let base_from_reference = setting.base_from_reference;
         let reference_from_part = base_from_reference.inverse() * setting.plane.base_from_part;
@@ -93,7 +94,7 @@ impl Freedom {
         values
     }
 
-    /// The part at these values, in the frame that the study counts from.
+    /// The part at these values, in the reference frame of the study.
     fn reference_from_part(&self, [x, y, z, heading, tilt, roll, ..]: [f64; DEGREES]) -> Isometry {
         let rotation = about(Vector3::z_axis(), heading)
             * about(Vector3::y_axis(), tilt)
@@ -104,16 +105,16 @@ impl Freedom {
 
     /// The place where the free degrees have these parts of their ranges.
     pub fn part_placement(&self, at: &[f64]) -> PartPlacement {
-        self.lie_of(self.values(at))
+        self.placement_of(self.values(at))
     }
 
     /// The place where the degrees have these values, m and rad.
-    pub fn lie_of(&self, values: [f64; DEGREES]) -> PartPlacement {
+    pub fn placement_of(&self, values: [f64; DEGREES]) -> PartPlacement {
         let base_from_part = self.base_from_reference * self.reference_from_part(values);
         let [.., spin, rail] = values;
         PartPlacement {
             rail: self.rail.then_some(rail),
-            ..self.turn.part_placement(base_from_part, spin)
+            ..self.turn.placement(base_from_part, spin)
         }
     }
 
@@ -138,13 +139,13 @@ impl Freedom {
         self.free().map(reported).collect()
     }
 
-    /// The same place in words of the study.
+    /// The same placement in terms of the study.
     pub fn answer(&self, at: &[f64]) -> PlaceAnswer {
         let values = self.values(at);
         let [x, y, z, heading, tilt, roll, spin, rail] = values;
         let by_tilt = self.by_tilt && heading == 0.0 && roll == 0.0;
         let rotation = fixed_angles(&self.reference_from_part(values).rotation);
-        // A tenth of a micrometre: nobody lays a part more finely.
+        // A tenth of a micrometre: finer than a part can be placed.
         let reported = |value: f64| decimals(value, 4) + 0.0;
         let deg = |angle: f64| reported(angle.to_degrees());
         PlaceAnswer {

@@ -1,8 +1,8 @@
-//! What a search has found so far, kept in a file, so that it goes on where it was stopped.
+//! State of a search, stored in a file, so that an interrupted search can continue.
 //!
 //! ```text
-//! 1f3a...                    fingerprint of all that goes in: another search does not go on from here
-//! NAME  3fe0... 3fd5...      a round that is done, and the place it found: the bits of its numbers
+//! 1f3a...                    fingerprint of all input: another search does not continue from here
+//! NAME  3fe0... 3fd5...      a finished round, and its best placement: the bits of its numbers
 //! ```
 
 use std::collections::BTreeMap;
@@ -26,7 +26,7 @@ pub struct Journal<'a> {
 const ROUNDS: &str = "place.rounds";
 
 impl<'a> Journal<'a> {
-    /// One that is kept nowhere.
+    /// A journal without a file.
     pub fn none() -> Journal<'a> {
         Journal {
             kept_in: None,
@@ -44,7 +44,7 @@ impl<'a> Journal<'a> {
         }
     }
 
-    /// Takes up what is in the file, if it is of a search with this fingerprint.
+    /// Loads the file, if it is of a search with this fingerprint.
     pub(super) fn take_up(&mut self, fingerprint: u64) {
         self.fingerprint = fingerprint;
         self.rounds = self
@@ -58,10 +58,10 @@ impl<'a> Journal<'a> {
         self.taken
     }
 
-    /// The place that this round finds: as it is kept, or worked out and kept.
+    /// The result of this round: from the file, or computed and stored.
     ///
     /// # Errors
-    /// What working it out gives; a file that cannot be written.
+    /// Errors of the computation; a file that cannot be written.
     pub(super) fn round(
         &mut self,
         name: &str,
@@ -92,7 +92,7 @@ impl<'a> Journal<'a> {
     }
 }
 
-/// The rounds in this file; `None` where it is not there, of another search, or not whole.
+/// The rounds in this file; `None` if it does not exist, is of another search, or is incomplete.
 fn read(file: &Path, fingerprint: u64) -> Option<BTreeMap<String, Vec<f64>>> {
     let regular = file.symlink_metadata().is_ok_and(|found| found.is_file());
     let text = regular.then(|| std::fs::read_to_string(file).ok()).flatten()?;
@@ -153,7 +153,7 @@ mod tests {
         let kept = again.round("valley 0", || panic!("it is kept")).unwrap();
         assert_eq!(kept, found);
         assert_eq!((journal.taken(), again.taken()), (0, 1));
-        // Another search begins anew.
+        // Another search starts from the beginning.
         let mut other = Journal::kept_in(&out);
         other.take_up(8);
         assert_eq!(other.round("valley 0", || Ok(vec![0.5])).unwrap(), [0.5]);
@@ -162,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_that_is_not_whole_counts_for_nothing() {
+    fn an_incomplete_file_is_ignored() {
         let folder = tempfile::tempdir().unwrap();
         let out = Writer::new("place", true).folder(folder.path()).unwrap();
         for text in [

@@ -1,45 +1,46 @@
-//! Where should the part lie, so that the path deviates least?
+//! Search for the placement of the part with the least deviation along the path.
 //!
 //! ```text
-//! what is free -> places spread over it -> valleys -> floor on all points -> certificate -> the study at that place
+//! free degrees -> placements spread over them -> best regions -> local search on all points -> certificate -> the study there
 //! ```
 //!
-//! `freedom`: what may move; `search`: from places spread over it to the best; `certificate`: whether grids of places hold a
-//! better one; `rounds`: all of that for every site and margin; [`journal`]: what is kept so that a search goes on where it was
-//! stopped; [`answer`]: the values of the result; `found`: the study at the place; `pictures`; [`judge`]: places that somebody
-//! else chose. Theory: `docs/theory/placement.md`.
+//! `freedom`: free degrees; `search`: from spread placements to the best; `certificate`: whether grids contain a
+//! better one; `rounds`: all of that for every fixture and margin; [`journal`]: state of an interrupted
+//! search; [`answer`]: the values of the result; `result`: the study at the placement; `pictures`; [`evaluate`]:
+//! scores of
+//! given placements. Theory: `docs/theory/placement.md`.
 //!
-//! Where fixtures are told each is searched by itself, and the best is taken. Against a margin to limits and singularities
-//! the search is done again for each of some margins, with the place before as one more start.
+//! If fixtures are given each is searched separately, and the best is used. For the margin to limits and singularities
+//! the search is repeated for several margins, with the previous placement as an additional start.
 
 pub mod answer;
 mod certificate;
-mod found;
+pub mod evaluate;
 mod freedom;
 pub mod journal;
-pub mod judge;
 mod pictures;
+mod result;
 mod rounds;
 mod search;
 
 pub use answer::{FreeAnswer, MarginAnswer, OutcomeAnswer, PlacementAnswer};
 pub use certificate::{CertificateAnswer, GridAnswer};
-pub use found::Found;
+pub use evaluate::{PlacementParameters, PlacementScores};
 pub use freedom::PlaceAnswer;
 pub use journal::Journal;
-pub use judge::{PartPlace, Worth};
+pub use result::PlacementResult;
 
 use armill_core::frame::from_xyz_and_fixed_angles;
 use armill_core::kernel::{BranchChoice, PartPlacement};
 use armill_core::nalgebra::{Point3, UnitQuaternion, Vector3};
-use armill_core::optimize::{Holding, PlacementObjective, PostureSearch, ToolTurn, on_part};
+use armill_core::optimize::{PlacementObjective, PostureSearch, PostureSelection, ToolTurn, on_part};
 use armill_core::path::Spin;
 use armill_core::robot::{BranchPattern, Robot};
 use armill_core::watch::Watch;
 use armill_core::workpiece::Plane;
 
 use crate::ENOUGH_JOINTS;
-use crate::answer::path::search::{counts_word, goal_word};
+use crate::answer::path::search::{component_name, objective_name};
 use crate::error::StudyError;
 use crate::file::path::PathAnalysis;
 use crate::file::placement::{ANY, FixtureTable, PlaceTable, RankByName};
@@ -48,36 +49,41 @@ use crate::file::resolve::{Setting, Study, Subject};
 use crate::joint_unit::JointUnit;
 use crate::number::decimals;
 use crate::run::runner;
-use answer::sure_word;
+use answer::rank_by_name;
 use freedom::Freedom;
 use rounds::{Best, MARGINS_DEG, Prepared, Site};
 use search::Effort;
 
-/// Where the part may go where nobody says: so far to all sides, mm.
+/// Default range of the part in each direction, mm.
 const USUAL_MM: f64 = 300.0;
-/// Least bend of the wrist where nobody says, deg.
+/// Default least angle of the wrist from straight, deg.
 const USUAL_WRIST_DEG: f64 = 3.0;
 
-/// A search that is ready to begin.
-pub struct Placing<'a> {
+/// A prepared search.
+pub struct PlacementSearch<'a> {
     study: &'a Study,
-    /// Which of its asks.
+    /// Index of the analysis.
     index: usize,
     name: &'a str,
     analysis: &'a PathAnalysis,
-    /// Turns and branches that each point may take for itself, where it is a set of holes.
+    /// Spins and branches that each point may have, for a set of holes.
     holes: Option<&'a PostureSearch>,
     table: PlaceTable,
     seed: u64,
 }
 
-impl<'a> Placing<'a> {
-    /// Of the path that `wanted` names, or the study's own table, or that is the only one; what `wanted` leaves open is as
-    /// the study says, else as usual.
+impl<'a> PlacementSearch<'a> {
+    /// For the path named in `requested`, or in the table of the study, or the only one; what `requested` does not
+    /// give is
+    /// taken from the study, else the default.
     ///
     /// # Errors
-    /// No such path, or several; bounds that leave nothing; words that name no branch.
-    pub fn new(study: &'a Study, requested: PlaceTable, seed: u64) -> Result<Placing<'a>, StudyError> {
+    /// No such path, or several; empty bounds; words that name no branch.
+    pub fn new(
+        study: &'a Study,
+        requested: PlaceTable,
+        seed: u64,
+    ) -> Result<PlacementSearch<'a>, StudyError> {
         let mut table = requested.or(study.place.clone().unwrap_or_default());
         let (index, chosen) = chosen(study, table.analysis.as_deref())?;
         let (name, (analysis, holes)) = (chosen.0, chosen.1);
@@ -87,8 +93,8 @@ impl<'a> Placing<'a> {
             .is_some_and(|robot| robot.cell.base_from_path.is_none());
         if stays {
             let message =
-                format!("`{name}` follows a program of a robot, which lies where its frame is told");
-            let hint = "program.part_from_path_mm_deg = [0, 0, 0, 0, 0, 0] lays its frame on the plane, which can be moved";
+                format!("`{name}` is from a robot program, which is placed where its frame is given");
+            let hint = "program.part_from_path_mm_deg = [0, 0, 0, 0, 0, 0] places its frame on the plane, which can be moved";
             return Err(StudyError::value(message, hint));
         }
         if let Some([least, greatest]) = table.rail_mm {
@@ -96,10 +102,10 @@ impl<'a> Placing<'a> {
         }
         if holes.is_some() && table.spin_deg.is_some() {
             let message =
-                "`spin_deg` turns the tool alike at all points, and holes are each held in their best turn";
+                "`spin_deg` changes the spin at all points alike, but each hole has its own best spin";
             return Err(StudyError::value(
                 message,
-                "posture.search.turns_deg bounds the turns of holes",
+                "posture.search.turns_deg bounds the spin of holes",
             ));
         }
         let faults = table.faults();
@@ -108,11 +114,13 @@ impl<'a> Placing<'a> {
             return Err(StudyError::value(messages.join("; "), *hint));
         }
         if !table.is_free() {
-            let at = analysis.setting.counted(&analysis.setting.plane.at(Point3::origin().xy()));
+            let at = analysis
+                .setting
+                .in_reference(&analysis.setting.plane.at(Point3::origin().xy()));
             let about = |at: f64| Some([at * 1e3 - USUAL_MM, at * 1e3 + USUAL_MM]);
             (table.x_mm, table.y_mm, table.z_mm) = (about(at.x), about(at.y), about(at.z));
         }
-        Ok(Placing {
+        Ok(PlacementSearch {
             study,
             index,
             name,
@@ -123,17 +131,17 @@ impl<'a> Placing<'a> {
         })
     }
 
-    /// What is placed.
+    /// Name of the path.
     pub fn name(&self) -> &str {
         self.name
     }
 
-    /// Whether that is a set of holes.
+    /// Whether it is a set of holes.
     pub fn is_of_holes(&self) -> bool {
         self.holes.is_some()
     }
 
-    /// Places that the search looks at, about: what its progress ends at.
+    /// Approximate number of placements evaluated: the end of its progress.
     pub fn place_count(&self) -> usize {
         let effort = self.effort();
         let margins = MARGINS_DEG.len() - 1;
@@ -150,16 +158,17 @@ impl<'a> Placing<'a> {
         effort.shared_by(self.holes.map_or(1, |search| search.spins.count))
     }
 
-    /// Searches; `told` hears of the best so far, `watch` of every place.
+    /// Searches; `given` receives the best so far, `watch` every placement.
     ///
     /// # Errors
-    /// A robot without compliance; a path that misses its stock; cancelled by the watch; a journal that cannot be written.
+    /// A robot without compliance; a path that misses its stock; cancelled by the watch; a journal that cannot be
+    /// written.
     pub fn search(
         &self,
         journal: &mut Journal<'_>,
         watch: Watch<'_>,
         given: &dyn Fn(&str),
-    ) -> Result<Found, StudyError> {
+    ) -> Result<PlacementResult, StudyError> {
         let quiet = Watch {
             finished: &|_| (),
             ..watch
@@ -196,13 +205,18 @@ impl<'a> Placing<'a> {
         if let Some((_, first)) = front.first_mut() {
             *first = best.clone();
         }
-        let answer = self.answer(&prepared, objective, (&best, certificate, &front), journal.taken());
+        let answer = self.answer(
+            &prepared,
+            objective,
+            (&best, certificate, &front),
+            journal.taken(),
+        );
         let freedom = &sites[best.site].freedom;
         let mut pictures = prepared
             .searched(freedom, objective, effort)
             .sections(&best.spot, &answer, watch)?;
-        pictures.extend(pictures::front(&answer, self.analysis.setting.limit));
-        Ok(Found {
+        pictures.extend(pictures::front(&answer, self.analysis.setting.tolerance));
+        Ok(PlacementResult {
             with_part: answer
                 .tool_turns_with_part
                 .then(|| self.tool_on_part(&freedom.part_placement(&best.spot.at))),
@@ -212,7 +226,7 @@ impl<'a> Placing<'a> {
         })
     }
 
-    /// What was found, as values of a result.
+    /// The values of the result.
     fn answer(
         &self,
         prepared: &Prepared<'_>,
@@ -224,7 +238,7 @@ impl<'a> Placing<'a> {
         let turn = ToolTurn::of(track);
         let rail = self.rail();
         let drawn = Freedom::new((setting, rail), turn, &PlaceTable::default());
-        let as_asked = PlacementObjective {
+        let as_requested = PlacementObjective {
             branches: match setting.choice {
                 BranchChoice::Of(pattern) => pattern,
                 BranchChoice::Best => BranchPattern::default(),
@@ -233,23 +247,26 @@ impl<'a> Placing<'a> {
         };
         let outcome = |freedom: &Freedom, objective: PlacementObjective, at: &[f64]| {
             let searched = prepared.searched(freedom, objective, prepared.effort);
-            OutcomeAnswer::of(&searched.all.appraised(&freedom.part_placement(at)), setting.limit)
+            OutcomeAnswer::of(
+                &searched.all.evaluated(&freedom.part_placement(at)),
+                setting.tolerance,
+            )
         };
         let of = |best: &Best| &prepared.sites[best.site];
         let place = of(best).freedom.answer(&best.spot.at);
         PlacementAnswer {
             format: 1,
             analysis: self.name.to_owned(),
-            component: counts_word(objective.component),
-            objective: goal_word(objective.objective),
+            component: component_name(objective.component),
+            objective: objective_name(objective.objective),
             margin_deg: decimals(objective.margin.to_degrees(), 4),
-            rank_by: sure_word(objective.rank_by),
-            nominal: outcome(&drawn, as_asked, &[]),
+            rank_by: rank_by_name(objective.rank_by),
+            nominal: outcome(&drawn, as_requested, &[]),
             found: outcome(&of(best).freedom, objective, &best.spot.at),
             fixture: of(best).name.map(str::to_owned),
             home_deg: place.rail_mm.and_then(|rail| self.home_with_rail(rail)),
             place,
-            free: of(best).freedom.given(&best.spot.at),
+            free: of(best).freedom.reported(&best.spot.at),
             certificate,
             by_margin: front
                 .iter()
@@ -282,7 +299,7 @@ impl<'a> Placing<'a> {
         Some(all)
     }
 
-    /// The tool on the part at each point, turned as it is judged at this place.
+    /// The tool on the part at each point, with its spin at this placement.
     fn tool_on_part(&self, part_placement: &PartPlacement) -> Vec<UnitQuaternion<f64>> {
         let track = &self.analysis.track;
         let part_from_base = track.base_from_part.inverse().rotation;
@@ -308,14 +325,20 @@ impl<'a> Placing<'a> {
                 (None, Some(search)) => search.component,
                 (None, None) => ComponentName::InPlane.component(),
             },
-            objective: table.objective.unwrap_or(ObjectiveName::Worst).objective(setting.limit),
+            objective: table
+                .objective
+                .unwrap_or(ObjectiveName::Worst)
+                .objective(setting.tolerance),
             branches,
             margin: table.margin_deg.unwrap_or(0.0).to_radians(),
-            holding: match self.holes {
-                Some(search) => Holding::EachForItself(search.spins),
-                None => Holding::InOneBranch,
+            selection: match self.holes {
+                Some(search) => PostureSelection::PerPoint(search.spins),
+                None => PostureSelection::ForPath,
             },
-            rank_by: table.rank_by.unwrap_or(RankByName::Nominal).rank_by(setting.limit),
+            rank_by: table
+                .rank_by
+                .unwrap_or(RankByName::Nominal)
+                .rank_by(setting.tolerance),
             wrist: match (table.least_wrist_deg, self.holes) {
                 (Some(least), _) => least.to_radians(),
                 (None, Some(search)) => search.wrist,
@@ -324,7 +347,7 @@ impl<'a> Placing<'a> {
         })
     }
 
-    /// Where the rail stands in the study, m; 0 where there is none.
+    /// Position of the rail in the study, m; 0 without one.
     fn rail(&self) -> f64 {
         let robot = &self.study.robot.robot;
         let home = self.analysis.setting.home.as_deref();
@@ -360,7 +383,7 @@ impl<'a> Placing<'a> {
     }
 }
 
-/// The joint that is the rail: the first that slides, of an arm with joints to spare.
+/// The joint that is the rail: the first prismatic joint of a robot with redundant joints.
 fn rail_of(robot: &Robot) -> Option<usize> {
     let joints = robot.joints().len();
     (0..joints).find(|joint| joints > ENOUGH_JOINTS && robot.slides(*joint))
@@ -369,17 +392,17 @@ fn rail_of(robot: &Robot) -> Option<usize> {
 /// Refuses a rail that is not there, or bounds (m) outside its limits.
 fn check_rail(robot: &Robot, [least, greatest]: [f64; 2]) -> Result<(), StudyError> {
     let Some(rail) = rail_of(robot) else {
-        let message = format!("`rail_mm`: robot `{}` stands on no rail", robot.name());
+        let message = format!("`rail_mm`: robot `{}` has no rail", robot.name());
         return Err(StudyError::value(
             message,
-            "a rail is a sliding joint before the six of the arm",
+            "a rail is a prismatic joint before the six of the robot",
         ));
     };
     let joint = &robot.joints()[rail];
     match joint.limits {
         Some(limits) if least < limits.lower || greatest > limits.upper => {
             let message = format!(
-                "`rail_mm` goes from {} to {} mm, joint {} from {} to {} mm",
+                "`rail_mm` ranges from {} to {} mm, joint {} from {} to {} mm",
                 least * 1e3,
                 greatest * 1e3,
                 joint.name,
@@ -392,11 +415,14 @@ fn check_rail(robot: &Robot, [least, greatest]: [f64; 2]) -> Result<(), StudyErr
     }
 }
 
-/// A path, or a set of holes with what each may be turned by.
+/// A path, or a set of holes with the permitted spins.
 type Placed<'a> = (&'a PathAnalysis, Option<&'a PostureSearch>);
 
-/// The ask that is placed: which one, its name, and what it is about.
-fn chosen<'a>(study: &'a Study, requested: Option<&str>) -> Result<(usize, (&'a str, Placed<'a>)), StudyError> {
+/// The analysis that is placed: its index, its name, and its path.
+fn chosen<'a>(
+    study: &'a Study,
+    requested: Option<&str>,
+) -> Result<(usize, (&'a str, Placed<'a>)), StudyError> {
     let all: Vec<(usize, (&str, Placed<'_>))> = study
         .analyses
         .iter()
@@ -416,13 +442,16 @@ fn chosen<'a>(study: &'a Study, requested: Option<&str>) -> Result<(usize, (&'a 
     };
     match (requested, &all[..]) {
         (None, []) => Err(StudyError::value(
-            "the study asks for no path that could be placed",
+            "the study has no path that could be placed",
             "[[analysis]] kind = \"path\" with a program or a shape, or kind = \"holes\"",
         )),
         (None, [one]) => Ok(*one),
         (None, _) => {
             let message = format!("the study has several paths: {}", names());
-            Err(StudyError::value(message, "name one: --analysis NAME, or `place.ask`"))
+            Err(StudyError::value(
+                message,
+                "select one: --analysis NAME, or `place.analysis`",
+            ))
         }
         (Some(requested), _) => all
             .iter()
@@ -435,7 +464,7 @@ fn chosen<'a>(study: &'a Study, requested: Option<&str>) -> Result<(usize, (&'a 
     }
 }
 
-/// The plane in this fixture, base, and its tilt where it is told by one.
+/// The plane in this fixture, base, and its tilt if it is given by one.
 fn plane_of(fixture: &FixtureTable, setting: &Setting) -> (Plane, Option<f64>) {
     let centre = Vector3::from(fixture.centre_mm) * 1e-3;
     let reference_from_part = match fixture.rotation_deg {

@@ -1,4 +1,4 @@
-//! What a search for a place shows: the front against margins, and what lies around the place that was found.
+//! Pictures of a search: deviation against margin, and the surroundings of the best placement.
 
 use armill_core::kernel::PartPlacement;
 use armill_core::optimize::{Placeable, PlacementObjective, RankBy};
@@ -13,18 +13,18 @@ use crate::output::Picture;
 /// Cells of a section along its longer side.
 const CELLS: usize = 61;
 
-/// The best that each margin leaves; nothing where there are no two.
+/// The best placement for each margin; `None` for fewer than two.
 pub(super) fn front(answer: &PlacementAnswer, limit: f64) -> Option<Picture> {
     if answer.by_margin.len() < 2 {
         return None;
     }
     let drawing = PathPlot {
         title: format!("{}: deviation against margin", answer.analysis),
-        subtitle: "the best place that keeps every joint so far from its limits, the elbow from stretched, the wrist from straight".to_owned(),
+        subtitle: "the best placement with this margin of every joint to its limits, of the elbow to stretched, of the wrist to straight".to_owned(),
         position_label: "margin (deg)".to_owned(),
         quantity: quantity(answer),
         series: vec![Series {
-            name: "best place".to_owned(),
+            name: "best placement".to_owned(),
             position: answer.by_margin.iter().map(|at| at.margin_deg).collect(),
             deviation_um: answer.by_margin.iter().map(|at| at.cost_um).collect(),
         }],
@@ -33,13 +33,13 @@ pub(super) fn front(answer: &PlacementAnswer, limit: f64) -> Option<Picture> {
     };
     Some(Picture {
         name: "placement-margin".to_owned(),
-        caption: "The best place for each margin to joint limits and singularities.".to_owned(),
+        caption: "The best placement for each margin to joint limits and singularities.".to_owned(),
         svg: drawing.to_svg(),
     })
 }
 
 impl Searched<'_> {
-    /// What lies around `best`, over two free degrees at a time: the first two places and the first two angles.
+    /// The surroundings of `best`, over two free degrees at a time: the first two positions and the first two angles.
     pub(super) fn sections(
         &self,
         best: &Spot,
@@ -75,7 +75,7 @@ impl Searched<'_> {
             for up in &parts {
                 let mut at = best.at.clone();
                 (at[pair[0]], at[pair[1]]) = (*across, *up);
-                placements.push(self.freedom.placement(&at));
+                placements.push(self.freedom.part_placement(&at));
             }
         }
         let quiet = Watch {
@@ -87,10 +87,14 @@ impl Searched<'_> {
             rank_by: RankBy::Nominal,
             ..self.some.objective
         };
-        let scores = Placeable { objective, ..self.some }.scores(&placements, None, quiet)?;
+        let scores = Placeable {
+            objective,
+            ..self.some
+        }
+        .scores(&placements, None, quiet)?;
         let cells = scores.iter().map(|score| match score {
-            Some(score) if score.lost == 0 => Cell::Holds(score.cost * 1e6),
-            _ => Cell::PointsLost,
+            Some(score) if score.unreachable == 0 => Cell::Deviation(score.cost * 1e6),
+            _ => Cell::PointsUnreachable,
         });
         let scale = |which: usize| {
             let (degree, [least, greatest]) = free[pair[which]];
@@ -104,12 +108,14 @@ impl Searched<'_> {
         let names = pair.map(|which| WORDS[free[which].0]);
         let found = [0, 1].map(|which| scale(which)(best.at[pair[which]]));
         let drawing = CellMap {
-            title: format!("{}: around the place that was found", answer.analysis),
+            title: format!("{}: around the best placement", answer.analysis),
             subtitle: match (self.some.path.len(), self.all.path.len()) {
                 (some, all) if some < all => {
-                    format!("all else as it was found; {some} of {all} points, the best branch at each place")
+                    format!(
+                        "all other values fixed; {some} of {all} points, the best branch at each placement"
+                    )
                 }
-                _ => "all else as it was found; the best branch at each place".to_owned(),
+                _ => "all other values fixed; the best branch at each placement".to_owned(),
             },
             quantity: quantity(answer),
             labels: AxisLabels {
@@ -121,7 +127,7 @@ impl Searched<'_> {
             cells: cells.collect(),
             marks: vec![Marker {
                 at_mm: found,
-                label: "found".to_owned(),
+                label: "best".to_owned(),
                 kind: MarkerKind::Best,
                 name: String::new(),
             }],
@@ -129,7 +135,7 @@ impl Searched<'_> {
         };
         Ok(Picture {
             name: format!("placement-{}-{}", names[0].0, names[1].0),
-            caption: format!("What places come to over {} and {}.", names[0].0, names[1].0),
+            caption: format!("Deviation over {} and {}.", names[0].0, names[1].0),
             svg: drawing.to_svg(),
         })
     }
@@ -142,12 +148,12 @@ const WORDS: [(&str, &str); DEGREES] = [
     ("z", "z of the plane's centre (mm)"),
     ("heading", "heading (deg)"),
     ("tilt", "tilt (deg)"),
-    ("roll", "turn about the normal (deg)"),
-    ("spin", "turn of the tool (deg)"),
+    ("roll", "rotation about the normal (deg)"),
+    ("spin", "spin of the tool (deg)"),
     ("rail", "rail (mm)"),
 ];
 
-/// What was to be least.
+/// The objective.
 fn quantity(answer: &PlacementAnswer) -> String {
     let which = match answer.objective {
         "worst" => "largest",

@@ -1,17 +1,17 @@
 //! The rounds of a search: valleys of every site, the floor of the best, the same for each margin, and the grids.
 
 use armill_core::kernel::{PlacedPath, Question};
-use armill_core::optimize::{Score, Placeable, PlacementObjective, RankBy};
+use armill_core::optimize::{Placeable, PlacementObjective, RankBy, Score};
 use armill_core::watch::Watch;
 
-use super::Placing;
+use super::PlacementSearch;
 use super::certificate::{CertificateAnswer, GridAnswer};
 use super::freedom::Freedom;
 use super::journal::{Fingerprint, Journal};
 use super::search::{Effort, Searched, Spot};
 use crate::error::StudyError;
 
-/// Margins that are tried, deg.
+/// Margins of the search, deg.
 pub(super) const MARGINS_DEG: [f64; 8] = [0.0, 5.0, 10.0, 15.0, 20.0, 30.0, 45.0, 60.0];
 /// A better place that a grid shows is taken as a start so often.
 const MOST_TRIES: usize = 3;
@@ -29,9 +29,9 @@ pub(super) struct Best {
     pub spot: Spot,
 }
 
-/// All that searches of one path share.
+/// Data common to all searches of one path.
 pub(super) struct Prepared<'a> {
-    pub of: &'a Placing<'a>,
+    pub of: &'a PlacementSearch<'a>,
     pub question: &'a Question<'a>,
     /// Some points of the path, and all.
     pub paths: [&'a PlacedPath; 2],
@@ -42,7 +42,12 @@ pub(super) struct Prepared<'a> {
 }
 
 impl Prepared<'_> {
-    pub fn searched<'s>(&'s self, freedom: &'s Freedom, objective: PlacementObjective, effort: Effort) -> Searched<'s> {
+    pub fn searched<'s>(
+        &'s self,
+        freedom: &'s Freedom,
+        objective: PlacementObjective,
+        effort: Effort,
+    ) -> Searched<'s> {
         let of = |path| Placeable {
             question: self.question,
             path,
@@ -89,17 +94,17 @@ impl Prepared<'_> {
                     };
                     Ok(searched.valley(start, round, self.watch)?.at)
                 })?;
-                spots.push(searched.judged(at)?);
-                self.tell(&spots, objective.rank_by);
+                spots.push(searched.evaluated(at)?);
+                self.report(&spots, objective.rank_by);
             }
             if let Some(also) = also {
-                spots.push(searched.judged(also)?);
+                spots.push(searched.evaluated(also)?);
             }
             let Some(valley) = the_best(spots) else { continue };
             let floor = journal.round(&format!("{name}site {site} floor"), || {
                 Ok(searched.floor(&valley.at, self.watch)?.at)
             })?;
-            let spot = searched.judged(floor)?;
+            let spot = searched.evaluated(floor)?;
             if best
                 .as_ref()
                 .is_none_or(|best| spot.score.beats(&best.spot.score))
@@ -108,22 +113,25 @@ impl Prepared<'_> {
             }
         }
         best.ok_or_else(|| {
-            StudyError::value("there is no place to look at", "free a degree, or name fixtures")
+            StudyError::value(
+                "there is no placement to evaluate",
+                "free a degree, or give fixtures",
+            )
         })
     }
 
-    fn tell(&self, spots: &[Spot], rank_by: RankBy) {
+    fn report(&self, spots: &[Spot], rank_by: RankBy) {
         let score = the_best(spots.to_vec()).map_or(Score::NONE, |spot| spot.score);
-        (self.given)(&match score.lost {
-            0 if matches!(rank_by, RankBy::WithinLimit(_)) => {
-                format!("best so far {:.2} sigma from the limit", score.cost)
+        (self.given)(&match score.unreachable {
+            0 if matches!(rank_by, RankBy::WithinTolerance(_)) => {
+                format!("best so far {:.2} sigma from the tolerance", score.cost)
             }
             0 => format!("best so far {:.2} µm", score.cost * 1e6),
-            lost => format!("best so far loses {lost} points"),
+            lost => format!("best so far: no posture at {lost} points"),
         });
     }
 
-    /// The best place and what grids say of it; a better one that they show is gone down from.
+    /// The best placement and its grids; a better one of the grids is the start of another local search.
     pub fn certified(
         &self,
         mut best: Best,
@@ -144,7 +152,7 @@ impl Prepared<'_> {
             let floor = journal.round(&format!("better {tried}"), || {
                 Ok(searched.floor(&best.spot.at, self.watch)?.at)
             })?;
-            let spot = searched.judged(floor)?;
+            let spot = searched.evaluated(floor)?;
             if spot.score.beats(&best.spot.score) {
                 best.spot = spot;
             }
@@ -152,7 +160,7 @@ impl Prepared<'_> {
         }
     }
 
-    /// What the grids of all sites say of `best`, and the best place among them where one is better.
+    /// The grids of all fixtures for `best`, and their best placement if that is better.
     fn certificate(
         &self,
         best: &Best,
@@ -179,7 +187,7 @@ impl Prepared<'_> {
         Ok((CertificateAnswer { near, wide }, better))
     }
 
-    /// The best place for each margin, from the least on; where none holds the path the front ends.
+    /// The best placement for each margin, from the least on; it ends where not all points can be reached.
     pub fn front(
         &self,
         objective: PlacementObjective,
@@ -187,7 +195,7 @@ impl Prepared<'_> {
         journal: &mut Journal<'_>,
     ) -> Result<Vec<(f64, Best)>, StudyError> {
         let mut front: Vec<(f64, Best)> = Vec::new();
-        if best.spot.score.lost > 0 {
+        if best.spot.score.unreachable > 0 {
             return Ok(front);
         }
         front.push((objective.margin, best.clone()));
@@ -200,7 +208,7 @@ impl Prepared<'_> {
             let name = format!("margin {:.0} ", margin.to_degrees());
             let also = front.last().map(|(_, best)| best);
             let found = self.best((objective, effort), &name, also, journal)?;
-            if found.spot.score.lost > 0 {
+            if found.spot.score.unreachable > 0 {
                 break;
             }
             front.push((margin, found));
@@ -214,7 +222,7 @@ impl Prepared<'_> {
         Ok(front)
     }
 
-    /// Of all that goes into the search.
+    /// Fingerprint of all input of the search.
     pub fn fingerprint(&self, objective: &PlacementObjective) -> u64 {
         let mut print = Fingerprint::new();
         let of = self.of;

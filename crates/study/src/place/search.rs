@@ -1,14 +1,14 @@
 //! The search itself: places spread over all that is free, then the valleys under the best of them, then their floors.
 //!
 //! ```text
-//! Sobol's points on some points of the path -> CMA-ES from the best that lie apart -> CMA-ES with small steps on all points
+//! Sobol points on some points of the path -> CMA-ES from the best separate ones -> CMA-ES with small steps on all points
 //! ```
 //!
-//! Of a path of many points some are looked at first; the floor is looked for on all. With the same seed the answer is the
-//! same on any number of threads: places are asked for by one, judged by all, and told in order.
+//! For a path of many points some are evaluated first; the local search uses all. With the same seed the result is the
+//! same on any number of threads: placements are proposed by one thread, evaluated by all, and reported in order.
 
 use armill_core::kernel::PartPlacement;
-use armill_core::optimize::{Score, Placeable};
+use armill_core::optimize::{Placeable, Score};
 use armill_core::watch::{Cancelled, Watch};
 use fcmaes_core::{Cmaes, CmaesParams, Fitness};
 
@@ -32,7 +32,7 @@ pub(super) struct Effort {
 }
 
 impl Effort {
-    /// Of arms that lanes answer for, along a path of so many points.
+    /// For robots with a vectorised solution, along a path with this number of points.
     pub fn lanes(points: usize) -> Effort {
         let points = points.clamp(1, 240);
         Effort {
@@ -41,12 +41,12 @@ impl Effort {
             places: 4000,
             floor: 1600,
             points,
-            // Lanes take eighty points at once.
+            // Vector lanes evaluate eighty points at once.
             grid: 1_500_000 / points.div_ceil(80),
         }
     }
 
-    /// Of arms that are looked at one pose after the other.
+    /// For robots that are evaluated one pose after the other.
     pub const ONE_BY_ONE: Effort = Effort {
         spread: 512,
         rounds: 3,
@@ -56,7 +56,7 @@ impl Effort {
         grid: 3000,
     };
 
-    /// Less of the same, where every place is as much work as so many.
+    /// Less of the same, if each placement is as much work as this number.
     pub fn shared_by(self, count: usize) -> Effort {
         let share = |of: usize, least: usize| (of / count.max(1)).max(least.min(of));
         Effort {
@@ -85,7 +85,7 @@ impl Effort {
     }
 }
 
-/// A path with some of its points, and what may move.
+/// A path with some of its points, and the free degrees.
 #[derive(Clone, Copy)]
 pub(super) struct Searched<'a> {
     pub some: Placeable<'a>,
@@ -95,30 +95,30 @@ pub(super) struct Searched<'a> {
     pub seed: u64,
 }
 
-/// A place that was found: parts of the ranges of the free degrees, and what it is worth.
+/// A placement: parts of the ranges of the free degrees, and its score.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Spot {
     pub at: Vec<f64>,
     pub score: Score,
 }
 
-/// Places nearer than this part of the ranges lie in one valley.
+/// Placements nearer than this part of the ranges are in one region.
 const APART: f64 = 0.15;
-/// First steps of a valley and of its floor, parts of the ranges.
+/// First steps of the regional and of the local search, parts of the ranges.
 const STEP: f64 = 0.15;
 const FLOOR_STEP: f64 = 0.01;
 /// Most of Sobol's points that there are.
 const MOST_SPREAD: usize = 1 << 16;
 /// Costs differ by less than this, um, where a valley ends.
 const FLAT_UM: f64 = 1e-6;
-/// So much worse than any cost is a place that loses points.
+/// Penalty of a placement with unreachable points, larger than any cost.
 const LOST_UM: f64 = 1e9;
 
 impl Searched<'_> {
-    /// The best of the places spread over all that is free, best first, each apart from the others, as many as there are
+    /// The best of the placements spread over the range, best first, separate from each other, as many as there are
     /// rounds.
     pub fn starts(&self, watch: Watch<'_>) -> Result<Vec<Spot>, Cancelled> {
-        // Where nothing is free there is one place.
+        // Without free degrees there is one placement.
         let count = match self.freedom.count() {
             0 => 1,
             _ => self.effort.spread.min(MOST_SPREAD),
@@ -136,9 +136,9 @@ impl Searched<'_> {
             })
             .collect();
         let mut spots = self.spots(&self.some, spread, watch)?;
-        // Stable, so that of equal ones the first stays first.
+        // A stable sort, so that of equal ones the first stays first.
         spots.sort_by(|a, b| {
-            let key = |spot: &Spot| (spot.score.lost, spot.score.cost);
+            let key = |spot: &Spot| (spot.score.unreachable, spot.score.cost);
             key(a).0.cmp(&key(b).0).then(key(a).1.total_cmp(&key(b).1))
         });
         let mut starts: Vec<Spot> = Vec::new();
@@ -176,8 +176,8 @@ impl Searched<'_> {
         self.descend(&self.all, start, run, watch)
     }
 
-    /// The place at `at`, judged on all points.
-    pub fn judged(&self, at: Vec<f64>) -> Result<Spot, Cancelled> {
+    /// The placement at `at`, evaluated at all points.
+    pub fn evaluated(&self, at: Vec<f64>) -> Result<Spot, Cancelled> {
         let spots = self.spots(&self.all, vec![at], Watch::NONE)?;
         Ok(spots.into_iter().next().unwrap_or(Spot {
             at: Vec::new(),
@@ -191,7 +191,8 @@ impl Searched<'_> {
         places: Vec<Vec<f64>>,
         watch: Watch<'_>,
     ) -> Result<Vec<Spot>, Cancelled> {
-        let placements: Vec<PartPlacement> = places.iter().map(|at| self.freedom.placement(at)).collect();
+        let placements: Vec<PartPlacement> =
+            places.iter().map(|at| self.freedom.part_placement(at)).collect();
         let scores = path.scores(&placements, None, watch)?;
         let both = places.into_iter().zip(scores);
         Ok(both
@@ -223,7 +224,7 @@ impl Searched<'_> {
             };
             let mut strategy = Cmaes::new(bounds, start, &[run.step], &requested);
             while looked < run.places && strategy.stop() == 0 {
-                let spots = self.spots(path, strategy.analysis(), watch)?;
+                let spots = self.spots(path, strategy.ask(), watch)?;
                 looked += spots.len();
                 let costs: Vec<f64> = spots.iter().map(|spot| cost_um(&spot.score)).collect();
                 strategy.tell(&costs);
@@ -234,7 +235,7 @@ impl Searched<'_> {
                 }
             }
         }
-        // What was not needed counts as done.
+        // Work that was not needed counts as finished.
         (watch.finished)(run.places.saturating_sub(looked));
         Ok(best)
     }
@@ -250,9 +251,9 @@ struct Run {
     seed: u64,
 }
 
-/// Feasibility first, told as one number.
+/// Feasibility first, as one number.
 fn cost_um(score: &Score) -> f64 {
-    score.lost as f64 * LOST_UM + score.cost * 1e6
+    score.unreachable as f64 * LOST_UM + score.cost * 1e6
 }
 
 /// Largest difference of two places in any degree.

@@ -1,6 +1,7 @@
-//! What was found of a profile, in numbers.
+//! The result of a profile.
 //!
-//! `lsci, mzci, mcci, mici` with `centre_mm`, `radius_mm` or `radii_mm`, and `ront_mm` are a public contract. A centre has
+//! `lsci, mzci, mcci, mici` with `centre_mm`, `radius_mm` or `radii_mm`, and `ront_mm` are a public contract. A
+//! centre has
 //! two coordinates where the points had two, and three, in the axes of the file, where they had three.
 
 use armill_core::nalgebra::Point2;
@@ -8,7 +9,7 @@ use armill_core::roundness::{Plane, ReferenceCircle, Zone};
 use armill_formats::measurement::profile::MeasuredProfile;
 use serde::Serialize;
 
-use super::{Judged, Question};
+use super::{Question, RoundnessEvaluation};
 
 /// A profile in numbers.
 #[derive(Clone, Debug, Serialize)]
@@ -25,11 +26,11 @@ pub struct RoundnessAnswer {
     pub plane: Option<PlaneAnswer>,
     /// The largest angle between neighbours.
     pub largest_gap_deg: f64,
-    /// Cut-off of the Gaussian filter, waves a turn; none where nothing was filtered.
+    /// Cut-off of the Gaussian filter, undulations per revolution; none without a filter.
     pub filter_upr: Option<u32>,
     /// Least-squares circle.
     pub lsci: LeastSquaresAnswer,
-    /// Minimum zone circles; none where they could not be told.
+    /// Minimum zone circles; none if they could not be determined.
     pub mzci: Option<ZoneAnswer>,
     /// Why there are none.
     pub mzci_refused: Option<String>,
@@ -37,15 +38,15 @@ pub struct RoundnessAnswer {
     pub mcci: CircleAnswer,
     /// Maximum inscribed circle; none for an arc.
     pub mici: Option<CircleAnswer>,
-    /// Why there is none.
+    /// Reason why there is none.
     pub mici_refused: Option<String>,
-    /// Waves of the points as they were measured, from one a turn.
+    /// Harmonics of the measured points, from one per revolution.
     pub harmonics: Vec<HarmonicAnswer>,
-    /// Points that stand out of their neighbours; none is left out of the numbers.
+    /// Outliers; they are included in the numbers.
     pub outliers: Vec<OutlierAnswer>,
     /// What to know of these numbers.
     pub notes: Vec<String>,
-    /// Where definitions and methods come from.
+    /// Sources of definitions and methods.
     pub sources: Vec<&'static str>,
 }
 
@@ -54,7 +55,7 @@ pub struct RoundnessAnswer {
 pub struct PlaneAnswer {
     /// Its normal.
     pub normal: [f64; 3],
-    /// Its first axis: angles are told from here ...
+    /// Its first axis: angles are measured from here ...
     pub x_axis: [f64; 3],
     /// ... towards here.
     pub y_axis: [f64; 3],
@@ -108,22 +109,22 @@ pub struct HarmonicAnswer {
     pub waves: usize,
     /// Half of crest to trough.
     pub amplitude_um: f64,
-    /// A crest lies at this over `waves`.
+    /// A crest is at this over `waves`.
     pub phase_deg: f64,
 }
 
-/// A point that stands out.
+/// An outlier.
 #[derive(Clone, Debug, Serialize)]
 pub struct OutlierAnswer {
     /// Its line in the file.
     pub line: usize,
-    /// Where it is, about the least-squares centre.
+    /// Its position, relative to the least-squares centre.
     pub angle_deg: f64,
-    /// How far it is off its neighbours, outwards positive.
+    /// Its distance from its neighbours, positive outwards.
     pub off_um: f64,
 }
 
-/// Waves that every profile should tell; with fewer a note says so.
+/// Harmonics that every profile should resolve; with fewer a note is given.
 const FEW_WAVES: f64 = 50.0;
 
 const SOURCES: [&str; 4] = [
@@ -134,8 +135,13 @@ const SOURCES: [&str; 4] = [
 ];
 
 /// The profile of `file` in numbers.
-pub fn answer(file: &str, measured: &MeasuredProfile, question: &Question, judged: &Judged) -> RoundnessAnswer {
-    let plane = judged.plane.as_ref();
+pub fn answer(
+    file: &str,
+    measured: &MeasuredProfile,
+    question: &Question,
+    evaluation: &RoundnessEvaluation,
+) -> RoundnessAnswer {
+    let plane = evaluation.plane.as_ref();
     let round = |circle: &ReferenceCircle| CircleAnswer {
         centre_mm: place(plane, &circle.centre),
         radius_mm: circle.radius * 1e3,
@@ -146,7 +152,7 @@ pub fn answer(file: &str, measured: &MeasuredProfile, question: &Question, judge
         radii_mm: [zone.inner * 1e3, zone.outer * 1e3],
         ront_mm: zone.peak_to_valley() * 1e3,
     };
-    let as_measured = judged.measured.as_ref().unwrap_or(&judged.polar);
+    let as_measured = evaluation.measured.as_ref().unwrap_or(&evaluation.polar);
     RoundnessAnswer {
         file: file.to_owned(),
         format: measured.format.name(),
@@ -161,19 +167,19 @@ pub fn answer(file: &str, measured: &MeasuredProfile, question: &Question, judge
         largest_gap_deg: as_measured.gap.width.to_degrees(),
         filter_upr: question.upr,
         lsci: LeastSquaresAnswer {
-            centre_mm: place(plane, &judged.least_squares.centre),
-            radius_mm: judged.least_squares.radius * 1e3,
-            ront_mm: judged.least_squares.peak_to_valley * 1e3,
-            ronp_mm: judged.polar.highest_peak() * 1e3,
-            ronv_mm: judged.polar.deepest_valley() * 1e3,
-            ronq_mm: judged.polar.root_mean_square() * 1e3,
+            centre_mm: place(plane, &evaluation.least_squares.centre),
+            radius_mm: evaluation.least_squares.radius * 1e3,
+            ront_mm: evaluation.least_squares.peak_to_valley * 1e3,
+            ronp_mm: evaluation.polar.highest_peak() * 1e3,
+            ronv_mm: evaluation.polar.deepest_valley() * 1e3,
+            ronq_mm: evaluation.polar.root_mean_square() * 1e3,
         },
-        mzci: judged.zone.as_ref().ok().map(zone),
-        mzci_refused: judged.zone.as_ref().err().map(ToString::to_string),
-        mcci: round(&judged.circumscribed),
-        mici: judged.inscribed.as_ref().ok().map(round),
-        mici_refused: judged.inscribed.as_ref().err().map(ToString::to_string),
-        harmonics: judged
+        mzci: evaluation.zone.as_ref().ok().map(zone),
+        mzci_refused: evaluation.zone.as_ref().err().map(ToString::to_string),
+        mcci: round(&evaluation.circumscribed),
+        mici: evaluation.inscribed.as_ref().ok().map(round),
+        mici_refused: evaluation.inscribed.as_ref().err().map(ToString::to_string),
+        harmonics: evaluation
             .harmonics
             .iter()
             .map(|wave| HarmonicAnswer {
@@ -182,7 +188,7 @@ pub fn answer(file: &str, measured: &MeasuredProfile, question: &Question, judge
                 phase_deg: wave.phase.to_degrees(),
             })
             .collect(),
-        outliers: judged
+        outliers: evaluation
             .outliers
             .iter()
             .map(|(index, off)| OutlierAnswer {
@@ -191,7 +197,7 @@ pub fn answer(file: &str, measured: &MeasuredProfile, question: &Question, judge
                 off_um: off * 1e6,
             })
             .collect(),
-        notes: notes(measured, question, judged),
+        notes: notes(measured, question, evaluation),
         sources: SOURCES.to_vec(),
     }
 }
@@ -205,38 +211,36 @@ fn place(plane: Option<&Plane>, at: &Point2<f64>) -> Vec<f64> {
 }
 
 /// What to know of the numbers.
-fn notes(measured: &MeasuredProfile, question: &Question, judged: &Judged) -> Vec<String> {
-    let as_measured = judged.measured.as_ref().unwrap_or(&judged.polar);
+fn notes(measured: &MeasuredProfile, question: &Question, evaluation: &RoundnessEvaluation) -> Vec<String> {
+    let as_measured = evaluation.measured.as_ref().unwrap_or(&evaluation.polar);
     let gap_deg = as_measured.gap.width.to_degrees();
     let waves = as_measured.most_waves();
     let mut notes = Vec::new();
     if gap_deg >= 90.0 {
         notes.push(format!(
-            "the points leave {gap_deg:.1} deg open: centre and radius of an arc are known the less the shorter it is"
+            "the points leave {gap_deg:.1} deg open: the shorter an arc, the larger the uncertainty of its centre and radius"
         ));
     } else if waves < FEW_WAVES {
         notes.push(format!(
-            "{} points, {gap_deg:.2} deg apart at most, tell waves up to {waves} a turn; finer ones, if there are any, \
-             look like coarser ones",
+            "{} points, at most {gap_deg:.2} deg apart, resolve up to {waves} undulations per revolution; finer ones \
+             appear as coarser ones (aliasing)",
             measured.points.count()
         ));
     }
-    if judged.harmonics.len() < question.harmonics && gap_deg < 90.0 {
+    if evaluation.harmonics.len() < question.harmonics && gap_deg < 90.0 {
         notes.push(format!(
-            "harmonics above {} a turn cannot be told from these points",
-            judged.harmonics.len()
+            "harmonics above {} per revolution cannot be determined from these points",
+            evaluation.harmonics.len()
         ));
     }
-    if !judged.outliers.is_empty() {
+    if !evaluation.outliers.is_empty() {
         notes.push(format!(
-            "{} of the points stand out of their neighbours by twelve times what others do, perhaps dirt; none was left out",
-            judged.outliers.len()
+            "{} points differ from their neighbours by more than twelve times the usual difference, perhaps by dirt; they are included",
+            evaluation.outliers.len()
         ));
     }
     if question.upr.is_none() {
-        notes.push(
-            "no filter was used: the numbers hold all waves that the points show, and noise".to_owned(),
-        );
+        notes.push("no filter was used: the numbers include all undulations and noise".to_owned());
     }
     notes
 }

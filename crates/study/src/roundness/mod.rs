@@ -1,18 +1,19 @@
-//! How round is what was measured? Points of a profile from their file to the four circles of the standard.
+//! Roundness: points of a profile, from their file to the four circles of the standard.
 //!
 //! ```text
-//! file -> Measured -> judge: plane, circles, filter, waves, what stands out -> RoundnessAnswer, table, picture
+//! file -> Measured -> evaluate: plane, circles, filter, harmonics, outliers -> RoundnessAnswer, table, picture
 //! ```
 //!
-//! [`judge`](mod@judge): the circles of a profile, and what else is asked of it. [`answer`](mod@answer): what came of it, in
+//! [`evaluate`](mod@evaluate): the circles of a profile, and its other quantities. [`answer`](mod@answer): the values
+//! of the
 //! numbers. [`output`]: table and picture of it.
 
 pub mod answer;
-pub mod judge;
+pub mod evaluate;
 pub mod output;
 
 pub use answer::{CircleAnswer, RoundnessAnswer, ZoneAnswer, answer};
-pub use judge::{Judged, Question, judge};
+pub use evaluate::{Question, RoundnessEvaluation, evaluate};
 
 use std::io::BufReader;
 use std::path::Path;
@@ -22,11 +23,14 @@ use armill_formats::measurement::profile::{self, MeasuredProfile, ProfileReadOpt
 
 use crate::StudyError;
 
-/// Reads the profile in `path`; `shown` is what problems call it.
+/// Reads the profile in `path`; `shown` is its name in problems.
 ///
 /// # Errors
 /// The file cannot be read; its problems.
-pub fn read((shown, path): (&str, &Path), requested: &ProfileReadOptions) -> Result<MeasuredProfile, StudyError> {
+pub fn read(
+    (shown, path): (&str, &Path),
+    requested: &ProfileReadOptions,
+) -> Result<MeasuredProfile, StudyError> {
     let file = input::open(path).map_err(|error| {
         StudyError::value(
             format!("cannot read {shown}: {error}"),

@@ -13,31 +13,31 @@ use armill_formats::file::ResultFolder;
 use armill_formats::table::{Table, csv};
 use armill_report::{Growth, PolarPlot, RadialReference, RadialSeries};
 
-use super::{Judged, RoundnessAnswer};
+use super::{RoundnessAnswer, RoundnessEvaluation};
 use crate::StudyError;
 use crate::output::column;
 
-/// Pixels that a picture is drawn in for each of its own.
+/// Pixels of a picture per unit of its drawing.
 #[cfg(feature = "png")]
 const PNG_SCALE: f64 = 2.0;
-/// A line on the picture has no more points: of more, the extremes of each step are drawn.
+/// Greatest number of points of a line in the picture: of more, the extremes of each step are drawn.
 const MOST_DRAWN: usize = 3600;
-/// A gap wider than this is no part of the profile: nothing is drawn in it.
+/// A gap wider than this is not part of the profile: no line is drawn across it.
 const OPEN_DEG: f64 = 20.0;
 /// Steps of a circle on the picture.
 const CIRCLE_STEPS: usize = 360;
 
-/// Writes table and picture into the folder `out` and gives their paths.
+/// Writes table and picture into the folder `out` and returns their paths.
 ///
 /// # Errors
 /// The folder or a file cannot be written.
 pub fn write(
     answer: &RoundnessAnswer,
-    judged: &Judged,
+    evaluation: &RoundnessEvaluation,
     out: &ResultFolder,
 ) -> Result<Vec<PathBuf>, StudyError> {
-    let svg = plot(answer, judged).to_svg();
-    let mut files = vec![("roundness.csv", csv::write(&table(judged)?))];
+    let svg = plot(answer, evaluation).to_svg();
+    let mut files = vec![("roundness.csv", csv::write(&table(evaluation)?))];
     #[cfg(feature = "png")]
     files.push(("roundness.png", armill_report::raster::png(&svg, PNG_SCALE)?));
     files.push(("roundness.svg", svg.into_bytes()));
@@ -52,8 +52,8 @@ pub fn write(
 }
 
 /// The picture of a profile.
-pub fn plot(answer: &RoundnessAnswer, judged: &Judged) -> PolarPlot {
-    let polar = &judged.polar;
+pub fn plot(answer: &RoundnessAnswer, evaluation: &RoundnessEvaluation) -> PolarPlot {
+    let polar = &evaluation.polar;
     let given = |name: &str, ront_mm: f64| format!("{name}, RONt {:.2} µm", ront_mm * 1e3);
     let filter = match answer.filter_upr {
         Some(upr) => format!("Gaussian filter {upr} UPR"),
@@ -71,20 +71,20 @@ pub fn plot(answer: &RoundnessAnswer, judged: &Judged) -> PolarPlot {
         series.radial_um.extend(series.radial_um.first().copied());
     }
     let mut references = Vec::new();
-    if let (Ok(zone), Some(answer)) = (&judged.zone, &answer.mzci) {
+    if let (Ok(zone), Some(answer)) = (&evaluation.zone, &answer.mzci) {
         references.push(reference(
             &given("MZCI", answer.ront_mm),
             polar,
             (zone.centre, &[zone.inner, zone.outer]),
         ));
     }
-    // About an arc the smallest circle is another one altogether, which would be all that the picture shows.
+    // For an arc the smallest circle is another one, which would dominate the picture.
     if !is_open(polar) {
-        let outer = &judged.circumscribed;
+        let outer = &evaluation.circumscribed;
         let name = given("MCCI", answer.mcci.ront_mm);
         references.push(reference(&name, polar, (outer.centre, &[outer.radius])));
     }
-    if let (Ok(inner), Some(answer)) = (&judged.inscribed, &answer.mici) {
+    if let (Ok(inner), Some(answer)) = (&evaluation.inscribed, &answer.mici) {
         references.push(reference(
             &given("MICI", answer.ront_mm),
             polar,
@@ -107,12 +107,12 @@ pub fn plot(answer: &RoundnessAnswer, judged: &Judged) -> PolarPlot {
     }
 }
 
-/// Whether the points leave so much open that nothing is to be drawn there.
+/// Whether the points leave so much open that no line is drawn there.
 fn is_open(polar: &Polar) -> bool {
     polar.gap.width.to_degrees() > OPEN_DEG
 }
 
-/// Circles about `centre` with these radii (m), as they are seen from the centre of `polar`, where it has points.
+/// Circles about `centre` with these radii (m), as seen from the centre of `polar`, where it has points.
 fn reference(name: &str, polar: &Polar, (centre, radii): (Point2<f64>, &[f64])) -> RadialReference {
     let shift = centre - polar.centre;
     let gap = &polar.gap;
@@ -129,7 +129,7 @@ fn reference(name: &str, polar: &Polar, (centre, radii): (Point2<f64>, &[f64])) 
             let angle = begin + sweep * step as f64 / CIRCLE_STEPS as f64;
             let (sin, cos) = angle.sin_cos();
             let (along, across) = (shift.x * cos + shift.y * sin, shift.y * cos - shift.x * sin);
-            // From the centre of the plot the circle is met at `along` and what is left of the radius.
+            // From the centre of the plot the circle is met at `along` and the remaining part of the radius.
             let distance = along + (radius * radius - across * across).max(0.0).sqrt();
             seen.angle_deg.push(angle.to_degrees());
             seen.radial_um.push((distance - polar.radius) * 1e6);
@@ -144,10 +144,10 @@ fn reference(name: &str, polar: &Polar, (centre, radii): (Point2<f64>, &[f64])) 
     }
 }
 
-/// The points that are drawn, round the circle from behind the gap: all, or the lowest and highest of each step.
+/// The points that are drawn, in order from after the gap: all, or the lowest and highest of each step.
 fn drawn(polar: &Polar) -> Vec<usize> {
     let count = polar.order.len();
-    // Behind the widest gap an arc begins; a full circle may begin there too.
+    // An arc begins after the widest gap; a full circle may begin there too.
     let first = polar
         .order
         .iter()
@@ -170,8 +170,8 @@ fn drawn(polar: &Polar) -> Vec<usize> {
 }
 
 /// A row a point, round the circle.
-fn table(judged: &Judged) -> Result<Table, StudyError> {
-    let polar = &judged.polar;
+fn table(evaluation: &RoundnessEvaluation) -> Result<Table, StudyError> {
+    let polar = &evaluation.polar;
     let all = |of: &dyn Fn(usize) -> f64| polar.order.iter().map(|i| of(*i)).collect::<Vec<f64>>();
     let mut columns = vec![
         column(
@@ -193,7 +193,7 @@ fn table(judged: &Judged) -> Result<Table, StudyError> {
             (6, all(&|i| polar.deviations[i] * 1e6)),
         ),
     ];
-    if let Some(measured) = &judged.measured {
+    if let Some(measured) = &evaluation.measured {
         let values = all(&|i| measured.deviations[i] * 1e6);
         columns.push(column(
             "deviation_measured_um",

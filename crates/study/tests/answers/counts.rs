@@ -1,4 +1,4 @@
-//! Counts of points, fractions and areas that hold the tolerance.
+//! Counts of points, fractions and areas within the tolerance.
 
 use armill_study::answer::MapAnswer;
 
@@ -28,7 +28,12 @@ fn counts_add_up_and_the_fraction_is_those_within_over_all() {
             map.name
         );
         let reached = map.grid.in_plane_um.iter().flatten().count();
-        assert_eq!(reached, map.counts.within + map.counts.above_tolerance, "{}", map.name);
+        assert_eq!(
+            reached,
+            map.counts.within + map.counts.above_tolerance,
+            "{}",
+            map.name
+        );
         assert!(
             map.fraction_within_and_inside_joint_limits <= map.fraction_within,
             "{}",
@@ -51,7 +56,7 @@ fn counts_add_up_and_the_fraction_is_those_within_over_all() {
             "{}",
             map.name
         );
-        let named: usize = map.grid.remarks.iter().map(|remark| remark.points.len()).sum();
+        let named: usize = map.grid.flags.iter().map(|remark| remark.points.len()).sum();
         assert_eq!(
             named,
             81 - reached + map.outside_joint_limits + map.near_singularity,
@@ -63,7 +68,7 @@ fn counts_add_up_and_the_fraction_is_those_within_over_all() {
 }
 
 #[test]
-fn a_larger_tolerance_holds_at_least_as_much() {
+fn a_larger_tolerance_is_met_at_least_as_often() {
     let fractions = [10, 40, 60, 80, 200, 1000].map(|limit| {
         let analysis = format!("[[analysis]]\nkind = \"map\"\nname = \"m\"\ntolerance_um = {limit}\n");
         let answer = answered(&plate_with(&analysis));

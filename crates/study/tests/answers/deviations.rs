@@ -1,10 +1,10 @@
-//! Deviations, their shares and their uncertainty, as load, compliance and doubt change.
+//! Deviations, their contributions and their uncertainty for changes of load, compliance and uncertainty.
 
 use crate::{PLATE, answered, plate_with, study};
 
 #[test]
-fn doubt_about_load_and_tool_widens_the_uncertainty_and_nothing_else() {
-    let sure = answered(&plate_with(""));
+fn uncertainty_of_load_and_tool_only_increases_the_uncertainty() {
+    let exact = answered(&plate_with(""));
     for (table, key) in [
         (
             "tool = { flange_from_tool_mm_deg = [0, 0, 0, 0, 0, 0], length_u_mm = 2 }\n",
@@ -17,18 +17,18 @@ fn doubt_about_load_and_tool_widens_the_uncertainty_and_nothing_else() {
             Some(more) => PLATE.replace("5, 5]] }", &format!("5, 5]], {} }}", more.trim())),
             None => format!("{PLATE}{table}"),
         };
-        let doubtful = answered(&study(&text));
-        let (a, b) = (&sure.maps[0].grid, &doubtful.maps[0].grid);
+        let uncertain = answered(&study(&text));
+        let (a, b) = (&exact.maps[0].grid, &uncertain.maps[0].grid);
         assert_eq!(
-            doubtful.maps[0].fraction_within, sure.maps[0].fraction_within,
+            uncertain.maps[0].fraction_within, exact.maps[0].fraction_within,
             "{key}"
         );
-        for (sure, doubtful) in a.in_plane_u_um.iter().zip(&b.in_plane_u_um) {
-            assert!(doubtful > sure, "{key}: {doubtful:?} against {sure:?}");
+        for (exact, uncertain) in a.in_plane_u_um.iter().zip(&b.in_plane_u_um) {
+            assert!(uncertain > exact, "{key}: {uncertain:?} against {exact:?}");
         }
-        for (sure, doubtful) in a.in_plane_um.iter().zip(&b.in_plane_um) {
+        for (exact, uncertain) in a.in_plane_um.iter().zip(&b.in_plane_um) {
             // Rounded to 0.1 nm.
-            assert!((sure.unwrap() - doubtful.unwrap()).abs() < 2e-4, "{key}");
+            assert!((exact.unwrap() - uncertain.unwrap()).abs() < 2e-4, "{key}");
         }
     }
 }
@@ -54,7 +54,7 @@ fn twice_the_compliance_or_twice_the_force_deviates_twice() {
             .flatten()
             .zip(other.maps[0].grid.in_plane_um.iter().flatten())
         {
-            // Both told to 1e-4 um.
+            // Both reported to 1e-4 um.
             assert!((2.0 * a - b).abs() < 2.0 * 1e-4, "{a} um and {b} um");
         }
     }

@@ -1,7 +1,8 @@
-//! Small studies through the library: answers against each other, against counting, and against what must hold.
+//! Small studies through the library: results compared with each other, with counting, and with invariants.
 //!
-//! `counts`: points and what holds; `same_points`: one point asked in two ways; `paths`: shapes; `deviations`: what
-//! moves them; `told`: sentences, sources, warnings; `running`: reading, progress, files.
+//! `counts`: points and the tolerance; `same_points`: one point computed in two ways; `paths`: shapes; `deviations`:
+//! what
+//! changes them; `statements`: sentences, sources, warnings; `running`: reading, progress, files.
 
 // A panic is how a test says that its claim is false; helper functions too.
 #![allow(clippy::unwrap_used, clippy::panic)]
@@ -11,14 +12,14 @@ mod deviations;
 mod paths;
 mod running;
 mod same_points;
-mod given;
+mod statements;
 
 use std::path::Path;
 
 use armill_core::watch::Watch;
 use armill_study::answer::{MapAnswer, StudyAnswer, answer};
 use armill_study::file::resolve::{Study, read};
-use armill_study::run::{Done, run};
+use armill_study::run::{AnalysisResult, run};
 
 /// 9 x 9 points in front of an MH12; tables can be appended.
 const PLATE: &str = r#"format = 1
@@ -37,13 +38,13 @@ fn study(text: &str) -> Study {
     read("study.toml", Path::new("."), text.as_bytes()).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// The plate with these asks, or whatever else its file shall say.
+/// The plate with these analyses, or other tables of its file.
 fn plate_with(analyses: &str) -> Study {
     study(&format!("{PLATE}{analyses}"))
 }
 
-/// What came out of each ask.
-fn found(study: &Study) -> Vec<Done<'_>> {
+/// The result of each analysis.
+fn found(study: &Study) -> Vec<AnalysisResult<'_>> {
     run(study, Watch::NONE).unwrap_or_else(|error| panic!("{error}"))
 }
 

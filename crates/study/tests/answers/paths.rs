@@ -1,6 +1,6 @@
-//! Shapes on the plane: where they begin, how round they come out, in which branch they are followed.
+//! Shapes on the plane: where they begin, their roundness, in which branch they are followed.
 
-use armill_study::run::Found;
+use armill_study::run::AnalysisData;
 
 use crate::{answered, found, plate_with};
 
@@ -10,7 +10,7 @@ fn a_circle_starts_at_plus_y_and_turns_towards_z() {
         "[[analysis]]\nkind = \"path\"\nname = \"c\"\ncircle = { centre_mm = [50, 100], radius_mm = 40 }\n",
     );
     let found = found(&study);
-    let Found::Path(analysis, _) = &found[0].found else {
+    let AnalysisData::Path(analysis, _) = &found[0].found else {
         panic!("a path")
     };
     let points = &analysis.track.path.points;
@@ -27,7 +27,7 @@ fn a_circle_starts_at_plus_y_and_turns_towards_z() {
 }
 
 #[test]
-fn a_rigid_arm_deviates_by_nothing_and_cuts_round_circles() {
+fn a_rigid_robot_does_not_deviate_and_cuts_round_circles() {
     let rigid = "compliance = { rad_per_n_m = [0, 0, 0, 0, 0, 0], source = \"rigid\" }\n";
     let answer = answered(&plate_with(&format!(
         "{rigid}[[analysis]]\nkind = \"map\"\ntolerance_um = 0\n[[analysis]]\nkind = \"path\"\ncircle.radius_mm = 100\n"
@@ -47,7 +47,9 @@ fn a_rigid_arm_deviates_by_nothing_and_cuts_round_circles() {
 
 #[test]
 fn roundness_is_at_most_the_spread_of_the_radial_deviation() {
-    let answer = answered(&plate_with("[[analysis]]\nkind = \"path\"\ncircle.radius_mm = 100\n"));
+    let answer = answered(&plate_with(
+        "[[analysis]]\nkind = \"path\"\ncircle.radius_mm = 100\n",
+    ));
     let path = &answer.paths[0];
     assert_eq!((path.circle_cases.len(), path.unreachable), (4, 0));
     for case in &path.circle_cases {
@@ -68,7 +70,8 @@ fn roundness_is_at_most_the_spread_of_the_radial_deviation() {
 
 #[test]
 fn a_path_is_followed_in_one_branch_which_the_answer_names() {
-    let analysis = "[[analysis]]\nkind = \"path\"\nname = \"c\"\ncircle.radius_mm = 100\nposture.branch = \"best\"\n";
+    let analysis =
+        "[[analysis]]\nkind = \"path\"\nname = \"c\"\ncircle.radius_mm = 100\nposture.branch = \"best\"\n";
     let answer = answered(&plate_with(analysis));
     let path = &answer.paths[0];
     let followed = path.followed_branch.as_ref().unwrap();

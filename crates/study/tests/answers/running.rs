@@ -1,4 +1,4 @@
-//! A study as it is read and run: what is asked of it, progress, cancelling, files.
+//! Reading and running a study: its analyses, progress, cancelling, files.
 
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -7,14 +7,14 @@ use armill_core::watch::Watch;
 use armill_formats::file::Writer;
 use armill_study::answer::answer;
 use armill_study::file::resolve::read;
-use armill_study::output::{Wanted, write};
+use armill_study::output::{OutputOptions, write};
 use armill_study::run::{point_count, run};
 use armill_study::{ErrorKind, StudyError, library};
 
 use crate::{answered, found, plate_with};
 
 #[test]
-fn a_study_without_asks_maps_its_plane() {
+fn a_study_without_analyses_maps_its_plane() {
     let answer = answered(&plate_with(""));
     assert_eq!((answer.maps.len(), answer.maps[0].name.as_str()), (1, "map"));
     let statement = "[[statement]]\ntext = \"t\"\nsource = \"s\"\nat_most_um = 5\nof = [\"map\"]\n";
@@ -32,7 +32,7 @@ fn every_example_study_reads() {
 }
 
 #[test]
-fn an_ask_that_names_a_branch_keeps_the_home_of_the_study() {
+fn an_analysis_that_names_a_branch_keeps_the_home_of_the_study() {
     let home = "posture = { branch = \"front elbow-up\", home_deg = [1, 2, 3, 4, 5, 6] }\n";
     let study = plate_with(&format!(
         "{home}[[analysis]]\nkind = \"map\"\nposture.branch = \"front elbow-down\"\n"
@@ -44,7 +44,7 @@ fn an_ask_that_names_a_branch_keeps_the_home_of_the_study() {
 }
 
 #[test]
-fn points_are_counted_before_they_are_asked() {
+fn points_are_counted_before_they_are_computed() {
     let study = plate_with(
         "[[analysis]]\nkind = \"map\"\n[[analysis]]\nkind = \"sections\"\ntilts_deg = [0, 30]\n\
          [[analysis]]\nkind = \"volume\"\nbox = { half_size_mm = [50, 50, 50], step_mm = 50 }\n",
@@ -70,7 +70,7 @@ fn points_are_counted_before_they_are_asked() {
 }
 
 #[test]
-fn a_cancelled_study_says_so_and_has_no_answer() {
+fn a_cancelled_study_reports_it_and_has_no_result() {
     let watch = Watch {
         finished: &|_| (),
         cancel: &AtomicBool::new(true),
@@ -89,7 +89,7 @@ fn the_same_study_gives_the_same_files() {
     for folder in &folders {
         let found = found(&study);
         let out = Writer::new("run", false).folder(folder.path()).unwrap();
-        let expected = (&out, Wanted::TABLES);
+        let expected = (&out, OutputOptions::TABLES);
         write(&study, &found, &answer(&study, &found), expected, &|_| ()).unwrap();
     }
     let mut names: Vec<_> = std::fs::read_dir(folders[0].path())
@@ -97,7 +97,7 @@ fn the_same_study_gives_the_same_files() {
         .map(|entry| entry.unwrap().file_name())
         .collect();
     names.sort();
-    // Three tables an ask, the answer, the list of files.
+    // Three tables per analysis, the result, the list of files.
     assert_eq!(names.len(), 2 * 3 + 2, "{names:?}");
     for name in names {
         let [a, b] = [0, 1].map(|i: usize| std::fs::read(folders[i].path().join(&name)).unwrap());

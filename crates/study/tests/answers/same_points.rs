@@ -1,7 +1,7 @@
-//! The same points asked in two ways: as map, section, volume or path; in two branches, axes or frames.
+//! The same points computed in two ways: as map, section, volume or path; in two branches, axes or frames.
 
 use armill_study::answer::answer;
-use armill_study::run::Found;
+use armill_study::run::AnalysisData;
 
 use crate::{SAME, answered, found, map, plate_with};
 
@@ -29,7 +29,7 @@ fn a_section_is_the_map_of_its_plane() {
 }
 
 #[test]
-fn a_load_told_in_the_part_turns_with_the_plane_of_each_section() {
+fn a_load_given_in_the_part_turns_with_the_plane_of_each_section() {
     let load = "load = { frame = \"part\", cases_n = [[3, 5, 7]], u_n = [1, 0.5, 0] }\n";
     let answer = answered(&plate_with(&format!(
         "[[analysis]]\nkind = \"sections\"\nname = \"s\"\ntilts_deg = [0, 60]\n{load}\
@@ -51,7 +51,8 @@ fn a_volume_agrees_with_the_map_of_a_plane_through_it() {
          [[analysis]]\nkind = \"volume\"\nname = \"v\"\nbox = { half_size_mm = [50, 200, 200], step_mm = 50 }\n",
     );
     let found = found(&study);
-    let (Found::Map(_, map), Found::Volume(_, volume)) = (&found[0].found, &found[1].found) else {
+    let (AnalysisData::Map(_, map), AnalysisData::Volume(_, volume)) = (&found[0].found, &found[1].found)
+    else {
         panic!("a map and a volume")
     };
     assert_eq!(volume.grid.counts, [3, 9, 9]);
@@ -67,8 +68,8 @@ fn a_volume_agrees_with_the_map_of_a_plane_through_it() {
             volume.answers.points[same.unwrap()].unwrap(),
         );
         assert_eq!(
-            (in_map.name, in_map.deciding_case),
-            (in_volume.name, in_volume.deciding_case)
+            (in_map.name, in_map.worst_case),
+            (in_volume.name, in_volume.worst_case)
         );
         assert!((in_map.in_plane - in_volume.in_plane).abs() < SAME, "{tcp}");
         assert!(
@@ -78,7 +79,7 @@ fn a_volume_agrees_with_the_map_of_a_plane_through_it() {
     let given = answer(&study, &found);
     let counts = given.volumes[0].counts;
     assert_eq!(counts.within + counts.above_tolerance, 3 * 81);
-    // Each point stands for a cell of (50 mm)^3; products of such sizes are exact to 1e-9 mm^3 or better.
+    // Each point represents a cell of (50 mm)^3; products of such sizes are exact to 1e-9 mm^3 or better.
     assert!((given.volumes[0].volume_within_mm3 - counts.within as f64 * 125_000.0).abs() < 1e-3);
 }
 
@@ -89,7 +90,8 @@ fn a_path_agrees_with_the_map_where_they_meet() {
          [[analysis]]\nkind = \"path\"\nname = \"row\"\nline = { from_mm = [-200, 50], to_mm = [200, 50] }\nstep_mm = 50\n",
     );
     let found = found(&study);
-    let (Found::Map(_, map), Found::Path(analysis, path)) = (&found[0].found, &found[1].found) else {
+    let (AnalysisData::Map(_, map), AnalysisData::Path(analysis, path)) = (&found[0].found, &found[1].found)
+    else {
         panic!("a map and a path")
     };
     let points = &analysis.track.path.points;
@@ -108,12 +110,16 @@ fn the_best_posture_is_inside_limits_and_never_worse_than_a_named_one_that_is() 
     let analysis = |branch: &str| {
         format!("[[analysis]]\nkind = \"map\"\nname = \"{branch}\"\nposture.branch = \"{branch}\"\n")
     };
-    let study = plate_with(&["best", "front elbow-up", "front elbow-down"].map(analysis).concat());
+    let study = plate_with(
+        &["best", "front elbow-up", "front elbow-down"]
+            .map(analysis)
+            .concat(),
+    );
     let found = found(&study);
     let maps: Vec<_> = found
         .iter()
         .map(|found| {
-            if let Found::Map(_, map) = &found.found {
+            if let AnalysisData::Map(_, map) = &found.found {
                 map
             } else {
                 panic!("a map")
@@ -161,7 +167,7 @@ fn a_load_in_part_axes_is_the_same_load_in_base_axes() {
         .iter()
         .zip(&answer.maps[1].grid.full_um)
     {
-        // Told to 1e-4 um.
+        // Reported to 1e-4 um.
         assert!((a.unwrap() - b.unwrap()).abs() < 1.1e-4, "{a:?} um and {b:?} um");
     }
 }
@@ -178,7 +184,7 @@ fn heights_of_the_controller_frame_count_450_mm_higher() {
         .flatten()
         .zip(answer.maps[1].grid.in_plane_um.iter().flatten())
     {
-        // Told to 1e-4 um.
+        // Reported to 1e-4 um.
         assert!((a - b).abs() < 1.1e-4, "{a} um and {b} um");
     }
     assert_eq!(answer.maps[1].setting.centre_mm, [900.0, 0.0, 350.0]);

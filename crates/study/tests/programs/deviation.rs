@@ -8,8 +8,9 @@ use crate::{CELL, LOAD, RING, analysis, reported};
 fn a_circle_as_program_deviates_as_the_circle_of_a_path() {
     // Both have 360 points: the path begins at y' and turns to z', the program at x_part = -y'.
     let step = TAU * 40.0 / 360.0;
-    let shape =
-        format!("\n[[analysis]]\nkind = \"path\"\nname = \"shape\"\ncircle.radius_mm = 40\nstep_mm = {step}\n");
+    let shape = format!(
+        "\n[[analysis]]\nkind = \"path\"\nname = \"shape\"\ncircle.radius_mm = 40\nstep_mm = {step}\n"
+    );
     let feature = "feature = [{ name = \"ring\", kind = \"circle\", lines = [5, 5] }]";
     let program = analysis(&format!(
         "file = \"ring.ngc\"\nstep_mm = {step}\nchord_error_mm = 1\n{feature}"
@@ -28,7 +29,7 @@ fn a_circle_as_program_deviates_as_the_circle_of_a_path() {
         part.max_in_plane_um
     );
     assert!(same(shape.max_full_um, part.max_full_um));
-    // The last point of the program stands on its first: the least-squares circle hardly notices.
+    // The last point of the program is on its first: the least-squares circle hardly changes.
     assert!((shape.roundness_um.unwrap() - part.roundness_um.unwrap()).abs() < 0.05);
     let program = part.program.as_ref().unwrap();
     let ring = &part.features[0];
@@ -87,17 +88,20 @@ fn a_load_in_the_feed_frame_turns_with_the_circle() {
 fn a_given_spin_turns_the_last_joint_as_a_fixed_one_does() {
     let row = |x: i32, spin: &str| format!("{x},0,0,{spin}\n");
     let head = "x_mm,y_mm,z_mm,spin_deg\n";
-    let told_ones = format!("{head}{}{}", row(0, "20"), row(40, "50"));
+    let given_spins = format!("{head}{}{}", row(0, "20"), row(40, "50"));
     let last = |extra: &str, table: &str| {
-        let study = format!("{CELL}{LOAD}{}", analysis(&format!("file = \"path.csv\"\n{extra}")));
+        let study = format!(
+            "{CELL}{LOAD}{}",
+            analysis(&format!("file = \"path.csv\"\n{extra}"))
+        );
         reported(&study, &[("path.csv", table)]).map(|answer| answer.paths[0].joint_range_deg[5])
     };
-    let given = last("spin = \"given\"\nspin_deg = 5", &told_ones).unwrap();
+    let given = last("spin = \"given\"\nspin_deg = 5", &given_spins).unwrap();
     let [from, to] = [25.0, 55.0].map(|deg| {
         let table = format!("{head}{}{}", row(0, ""), row(40, ""));
         last(&format!("spin_deg = {deg}"), &table).unwrap()
     });
-    // At the ends of the line the arm stands as with that spin all along.
+    // At the ends of the line the posture is that of a constant spin.
     let range = [from[0].min(to[0]), from[1].max(to[1])];
     let among = |q: f64, of: [f64; 2]| of.iter().any(|end| (end - q).abs() < 1e-6);
     assert!(
@@ -111,7 +115,7 @@ fn a_given_spin_turns_the_last_joint_as_a_fixed_one_does() {
     assert!(given[1] - given[0] > 20.0 && given[1] <= range[1] + 1e-6);
     let silent = format!("{head}{}{}{}", row(0, ""), row(10, ""), row(40, "50"));
     let error = last("spin = \"given\"", &silent).unwrap_err();
-    for word in ["study.toml:", "path.csv: line 3 tells no spin", "spin_deg"] {
+    for word in ["study.toml:", "path.csv: line 3 gives no spin", "spin_deg"] {
         assert!(error.contains(word), "no `{word}` in\n{error}");
     }
 }

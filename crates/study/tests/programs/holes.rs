@@ -1,10 +1,10 @@
-//! Holes: of lists, tables and programs; each for itself, in any order; what cannot be is told.
+//! Holes: of lists, tables and programs; each separately, in any order; errors.
 
 use armill_study::answer::{HoleAnswer, HolesAnswer};
 
-use super::{CELL, LOAD, given};
+use super::{CELL, LOAD, reported};
 
-/// Drilling cycles: a plain one at two places, a peck at a third, and a pocket that is no hole.
+/// Drilling cycles: a plain one at two positions, a peck at a third, and a pocket, which is not a hole.
 const DRILLING: &str = "G21 G90 G98\nS3000 M3 F120\nG0 X0 Y0 Z10\nG81 X0 Y0 Z-5 R2\nX40\nG83 X40 Y30 Z-9 R2 Q3\nG80\nG0 X-30 Y0\nG0 Z1\nG1 Z-1 F120\nG1 X-20\nG0 Z10\nM2\n";
 const DRILL: &str = "drill = { material = \"aluminium-6082-t6\", diameter_mm = 6 }";
 /// Thrust in the axes of each hole.
@@ -16,7 +16,7 @@ fn study(holes: &str) -> String {
 }
 
 fn holes(text: &str, files: &[(&str, &str)]) -> HolesAnswer {
-    let mut answer = given(text, files).unwrap();
+    let mut answer = reported(text, files).unwrap();
     answer.holes.remove(0)
 }
 
@@ -31,7 +31,7 @@ fn a_program_drills_the_holes_that_it_should() {
     let text = study(&format!("program = {{ file = \"drill.ngc\", {DRILL} }}"));
     let found = holes(&text, &[("drill.ngc", DRILLING)]);
     let at: Vec<[f64; 3]> = by_number(&found).iter().map(|hole| hole.xyz_mm).collect();
-    // x of the part goes along -y of base: its origin lies at (1000, 50, 500), its y along x.
+    // x of the part is along -y of base: its origin is at (1000, 50, 500), its y along x.
     let expected = [
         [1000.0, 50.0, 495.0],
         [1000.0, 10.0, 495.0],
@@ -49,21 +49,21 @@ fn a_program_drills_the_holes_that_it_should() {
     let along = format!(
         "{CELL}[[analysis]]\nkind = \"path\"\nname = \"panel\"\nprogram = {{ file = \"drill.ngc\", {DRILL} }}\n"
     );
-    let path = given(&along, &[("drill.ngc", DRILLING)]).unwrap();
+    let path = reported(&along, &[("drill.ngc", DRILLING)]).unwrap();
     let thrust = path.paths[0].cut.as_ref().unwrap().largest_mean_n;
     assert!((found.largest_thrust_n.unwrap() - thrust).abs() < 1e-9 * thrust);
-    // Thrust comes out of the part: the tool stands off, every hole is too shallow.
+    // The thrust is directed out of the part: the tool deflects away, every hole is too shallow.
     assert!(found.each.iter().all(|hole| hole.depth_um.unwrap() > 0.0));
 }
 
 #[test]
-fn x_y_and_depth_are_the_deviation_and_the_worst_comes_first() {
+fn x_y_and_depth_are_the_deviation_and_the_worst_is_first() {
     let list = "holes = { at_mm = [[0, 0, 0], [60, 20, 0], [-50, 60, 0], [30, -40, 5]], normals = [[0, 0, 1], [0.2, 0, 1], [0, -0.3, 1], [0, 0, 1]] }";
     let found = holes(&study(&format!("{THRUST}{list}")), &[]);
     assert_eq!((found.holes, found.unreachable, found.turns), (4, 0, 24));
     for hole in &found.each {
         let across = hole.x_um.unwrap().hypot(hole.y_um.unwrap());
-        // One case: what lies across the hole is the whole envelope.
+        // One case: the deviation across the hole is the whole envelope.
         assert!((across - hole.in_plane_um.unwrap()).abs() < 1e-9 * across);
         assert!(hole.limit_margin_deg.unwrap() > 0.0 && hole.wrist_bend_deg.unwrap() > 3.0);
         assert!(hole.in_plane_u_um.unwrap() > 0.0);
@@ -123,7 +123,7 @@ fn a_table_gives_the_holes_of_the_same_list() {
 }
 
 #[test]
-fn a_drill_of_a_list_pushes_as_its_feed_tells() {
+fn the_thrust_of_a_drill_of_a_list_is_that_of_its_feed() {
     let drilled = |feed: &str| {
         let drill = format!(
             "drill = {{ material = \"aluminium-6082-t6\", diameter_mm = 6, feed_mm_per_min = {feed}, spindle_rpm = 3000 }}"
@@ -140,8 +140,8 @@ fn a_drill_of_a_list_pushes_as_its_feed_tells() {
 }
 
 #[test]
-fn a_hole_out_of_reach_is_told_first_with_its_reason() {
-    let answer = given(
+fn a_hole_out_of_reach_is_reported_first_with_its_reason() {
+    let answer = reported(
         &study(&format!("{THRUST}holes = {{ at_mm = [[0, 0, 0], [0, 900, 0]] }}")),
         &[],
     )
@@ -152,7 +152,7 @@ fn a_hole_out_of_reach_is_told_first_with_its_reason() {
     assert!(lost.in_plane_um.is_none() && lost.joints_deg.is_empty());
     assert!(lost.reason.is_some() && lost.state != "within", "{lost:?}");
     assert_eq!(found.fraction_within, found.counts.within as f64 / 2.0);
-    assert!(!answer.holds_everywhere());
+    assert!(!answer.meets_tolerance());
     assert!(
         answer
             .warnings
@@ -165,7 +165,7 @@ fn a_hole_out_of_reach_is_told_first_with_its_reason() {
 }
 
 #[test]
-fn turning_the_tool_is_free_unless_the_study_says_so() {
+fn the_spin_is_free_unless_the_study_gives_it() {
     let spindle = CELL.replace("[0, 0, 150, 0, 0, 0]", "[100, 0, 150, 0, 90, 0]");
     let analysis = |search: &str| {
         let text = format!(
@@ -176,7 +176,8 @@ fn turning_the_tool_is_free_unless_the_study_says_so() {
     let (free, evaluation) = (analysis(""), analysis("posture.search.turns_deg = [0, 0]\n"));
     assert_eq!((free.turns, evaluation.turns), (72, 1));
     assert!(
-        evaluation.each
+        evaluation
+            .each
             .iter()
             .all(|hole| hole.turn_deg.is_none_or(|turn| turn == 0.0))
     );
@@ -185,34 +186,30 @@ fn turning_the_tool_is_free_unless_the_study_says_so() {
 }
 
 #[test]
-fn what_holes_cannot_be_is_told_at_its_place() {
+fn errors_of_holes_are_reported_at_their_positions() {
     let refused = |text: &str, files: &[(&str, &str)], words: &[&str]| {
-        let error = given(text, files).unwrap_err();
+        let error = reported(text, files).unwrap_err();
         for word in words {
             assert!(error.contains(word), "no `{word}` in:\n{error}");
         }
     };
     let with = |holes: &str| study(&format!("{THRUST}{holes}"));
-    refused(
-        &with(""),
-        &[],
-        &["holes come from one list, one file or one program"],
-    );
+    refused(&with(""), &[], &["holes need exactly one list, file or program"]);
     refused(
         &with("holes = { at_mm = [[0, 0, 0]], file = \"a.csv\" }"),
         &[],
-        &["one list, one file or one program"],
+        &["exactly one list, file or program"],
     );
-    refused(&with("holes = { at_mm = [] }"), &[], &["no hole is listed"]);
+    refused(&with("holes = { at_mm = [] }"), &[], &["the list has no holes"]);
     refused(
         &with("holes = { at_mm = [[0, 0, 0], [1, 0, 0], [2, 0, 0]], normals = [[0, 0, 1], [0, 0, 1]] }"),
         &[],
-        &["2 normals for 3 holes", "one a hole, or one for all"],
+        &["2 normals for 3 holes", "one for each hole, or one for all"],
     );
     refused(
         &with("holes = { at_mm = [[0, 0, 0]], normals = [[0, 0, 0]] }"),
         &[],
-        &["study.toml:12:", "a normal without length"],
+        &["study.toml:12:", "the normal has zero length"],
     );
     refused(
         &with("holes = { file = \"none.csv\" }"),
@@ -222,7 +219,7 @@ fn what_holes_cannot_be_is_told_at_its_place() {
     refused(
         &with("holes = { file = \"drill.ngc\" }"),
         &[("drill.ngc", DRILLING)],
-        &["is a program, no table of holes", "program = { file = ... }"],
+        &["is a program, not a table of holes", "program = { file = ... }"],
     );
     let mill = "G21 G90\nG0 X0 Y0 Z1\nG1 Z-1 F100\nG1 X20\nG0 Z10\nM2\n";
     refused(
@@ -235,7 +232,7 @@ fn what_holes_cannot_be_is_told_at_its_place() {
             "program = {{ file = \"drill.ngc\", limits = true, {DRILL} }}"
         )),
         &[("drill.ngc", DRILLING)],
-        &["`program.limits` means nothing to the holes of a program"],
+        &["`program.limits` is not valid for the holes of a program"],
     );
     refused(
         &study(&format!("{THRUST}holes = {{ at_mm = [[0, 0, 0]], {DRILL} }}")),
@@ -255,31 +252,31 @@ fn what_holes_cannot_be_is_told_at_its_place() {
     refused(
         &study("holes = { at_mm = [[0, 0, 0]] }"),
         &[],
-        &["nothing pushes on the tool"],
+        &["no force on the tool"],
     );
     let search = |keys: &str| with("holes = { at_mm = [[0, 0, 0]] }").replace("step_deg = 15", keys);
     refused(
-        &search("goal = \"mean\""),
+        &search("objective = \"mean\""),
         &[],
-        &["`goal` means nothing to holes"],
+        &["`objective` is not valid for holes"],
     );
     refused(
-        &search("counts = \"cross-track\""),
+        &search("component = \"cross-track\""),
         &[],
-        &["a hole has no track to go across"],
+        &["`cross-track` is not valid for holes"],
     );
     refused(
         &search("turns_deg = [90, -90]"),
         &[],
-        &["turns from 90 to -90 deg"],
+        &["turns range from 90 to -90 deg"],
     );
     refused(
         &with("holes = { at_mm = [[0, 0, 0]] }\nstep_mm = 3"),
         &[],
-        &["`step_mm` means nothing to a set of holes"],
+        &["`step_mm` is not valid for a set of holes"],
     );
     let map = format!("{CELL}{LOAD}[[analysis]]\nkind = \"map\"\nholes = {{ at_mm = [[0, 0, 0]] }}\n");
-    refused(&map, &[], &["`holes` means nothing to a map", "kind = \"holes\""]);
+    refused(&map, &[], &["`holes` is not valid for a map", "kind = \"holes\""]);
     let stated = format!(
         "{}[[statement]]\ntext = \"t\"\nsource = \"s\"\nat_most_um = 5\nof = [\"panel\"]\n",
         with("holes = { at_mm = [[0, 0, 0]] }")

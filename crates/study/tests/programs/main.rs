@@ -1,7 +1,8 @@
 //! Tool path programs in a study: the same numbers as shapes of the same form, features, forces from the cut, errors.
 //!
 //! `deviation`: under a load that is given; `cut`: under forces of the cut; `stock`: where the cutter meets it;
-//! `turned`: turns of the tool that are searched for; `robot`: programs of robots; `holes`: those that a program drills, and
+//! `turned`: turns of the tool that are searched for; `robot`: programs of robots; `holes`: those that a program
+//! drills, and
 //! lists of them; `refused`: what is wrong.
 
 // A panic is how a test says that its claim is false; helper functions too.
@@ -22,7 +23,7 @@ use armill_study::answer::{StudyAnswer, answer};
 use armill_study::file::resolve::read;
 use armill_study::run::run;
 
-/// A horizontal plate in front of an MH12; asks follow.
+/// A horizontal plate in front of an MH12; analyses follow.
 const CELL: &str = r#"format = 1
 robot = "yaskawa/mh12"
 tolerance_um = 60
@@ -46,7 +47,7 @@ spindle_rpm = 9000
 /// A full circle of radius 40 mm about the zero, and a rapid to its start.
 const RING: &str = "G21 G90 G17\nS9000 M3\nG0 X40 Y0 Z10\nG0 Z0\nG3 X40 Y0 I-40 J0 F600\nG0 Z10\nM2\n";
 
-/// The answer of a study with these files beside it, or its problems in words.
+/// The result of a study with these files in its folder, or its problems as text.
 fn reported(study: &str, files: &[(&str, &str)]) -> Result<StudyAnswer, String> {
     let folder = tempfile::tempdir().unwrap();
     for (name, text) in files {
@@ -57,7 +58,7 @@ fn reported(study: &str, files: &[(&str, &str)]) -> Result<StudyAnswer, String> 
     Ok(answer(&study, &found))
 }
 
-/// An ask for a path with this table of its program.
+/// A path analysis with this table of its program.
 fn analysis(program: &str) -> String {
     format!("\n[[analysis]]\nkind = \"path\"\nname = \"part\"\n[analysis.program]\n{program}\n")
 }

@@ -1,11 +1,11 @@
-//! What is wrong with a program, a cut or a load is told at its place.
+//! Errors in a program, a cut or a load are reported at their positions.
 
 use std::fmt::Write;
 
-use crate::{CELL, CUT, LOAD, RING, STOCK, analysis, given};
+use crate::{CELL, CUT, LOAD, RING, STOCK, analysis, reported};
 
 #[test]
-fn what_is_wrong_is_told_at_its_place() {
+fn errors_are_reported_at_their_positions() {
     let ring = analysis("file = \"ring.ngc\"");
     let slow = CUT
         .replace("spindle_rpm = 9000", "")
@@ -40,7 +40,9 @@ fn what_is_wrong_is_told_at_its_place() {
         (
             format!(
                 "{CELL}{LOAD}{}",
-                analysis("file = \"ring.ngc\"\nfeature = [{ name = \"a\", kind = \"line\", lines = [5, 2] }]")
+                analysis(
+                    "file = \"ring.ngc\"\nfeature = [{ name = \"a\", kind = \"line\", lines = [5, 2] }]"
+                )
             ),
             RING,
             &["lines 5 to 2"],
@@ -48,10 +50,12 @@ fn what_is_wrong_is_told_at_its_place() {
         (
             format!(
                 "{CELL}{LOAD}{}",
-                analysis("file = \"ring.ngc\"\nfeature = [{ name = \"a\", kind = \"line\", lines = [8, 9] }]")
+                analysis(
+                    "file = \"ring.ngc\"\nfeature = [{ name = \"a\", kind = \"line\", lines = [8, 9] }]"
+                )
             ),
             RING,
-            &["`a`: no cut stands in lines 8 to 9", "lines 5 to 5"],
+            &["`a`: lines 8 to 9 contain no cut", "lines 5 to 5"],
         ),
         (
             format!("{CELL}{LOAD}{}", analysis("file = \".\"")),
@@ -118,12 +122,14 @@ fn what_is_wrong_is_told_at_its_place() {
             ],
         ),
         (
-            format!("{CELL}load = {{ frame = \"feed\", cases_n = [[1, 0, 0]] }}\n[[analysis]]\nkind = \"map\"\n"),
+            format!(
+                "{CELL}load = {{ frame = \"feed\", cases_n = [[1, 0, 0]] }}\n[[analysis]]\nkind = \"map\"\n"
+            ),
             RING,
-            &["no feed that a load could turn with"],
+            &["which has no feed direction"],
         ),
     ] {
-        let error = given(&study, &[("ring.ngc", program)]).unwrap_err();
+        let error = reported(&study, &[("ring.ngc", program)]).unwrap_err();
         let mut message = String::new();
         let _ = write!(message, "{error}");
         for word in words {

@@ -1,6 +1,6 @@
-//! Programs of robots as paths of a study: where they lie, which posture they tell, what is wrong with them.
+//! Robot programs as paths of a study: their placement, their postures, their errors.
 
-use crate::{CELL, LOAD, analysis, given};
+use crate::{CELL, LOAD, analysis, reported};
 
 /// A square in the frame of the program, whose controller counts 450 mm above the floor: 500 mm high.
 const SQUARE: &str = "&ACCESS RVP\r\nDEF part ( )\r\n$BASE={X 1000,Y 50,Z 50,A 0,B 0,C 0}\r\n$TOOL={X 0,Y 0,Z 150,A 0,B 0,C 0}\r\n\
@@ -18,10 +18,10 @@ fn study(program: &str) -> String {
 }
 
 #[test]
-fn a_program_of_a_robot_has_the_numbers_of_the_same_path_in_gcode_wherever_its_frame_is_told() {
+fn a_program_of_a_robot_has_the_numbers_of_the_same_path_in_gcode_wherever_its_frame_is_reported() {
     let gcode = "G21 G90\nG0 X-40 Y-40 Z0\nG1 X40 F600\nG1 Y40\nG1 Z60 F30000\nM2\n";
-    let of = |study: &str, files: &[(&str, &str)]| given(study, files).unwrap().paths[0].clone();
-    // The tip lies on axis 6, so that a force there turns nothing about it: the spin has no say.
+    let of = |study: &str, files: &[(&str, &str)]| reported(study, files).unwrap().paths[0].clone();
+    // The tip is on axis 6, so that a force there turns nothing about it: the spin has no effect.
     let drawn = of(&study("file = \"a.ngc\""), &[("a.ngc", gcode)]);
     let by_number = SQUARE.replace("{X 1000,Y 50,Z 50,A 0,B 0,C 0}", "BASE_DATA[3]");
     let by_name = SQUARE.replace("LIN {X 40,Y 40,Z 0,A 0,B 180,C 0}", "LIN XP1");
@@ -60,7 +60,7 @@ fn a_program_of_a_robot_has_the_numbers_of_the_same_path_in_gcode_wherever_its_f
             (robot.max_cross_um, drawn.max_cross_um),
             (robot.max_axial_um, drawn.max_axial_um),
         ] {
-            // Rounding of angles told in degrees.
+            // Rounding of angles given in degrees.
             assert!(
                 (a.unwrap() / b.unwrap() - 1.0).abs() < 1e-9,
                 "{program}: {a:?} {b:?}"
@@ -68,7 +68,7 @@ fn a_program_of_a_robot_has_the_numbers_of_the_same_path_in_gcode_wherever_its_f
         }
         let notes = robot.notes.join("\n");
         assert!(
-            notes.contains("line 5: the arm stands front elbow-up no-flip"),
+            notes.contains("line 5: the posture front elbow-up no-flip"),
             "{notes}"
         );
         assert_eq!(
@@ -85,7 +85,7 @@ fn a_program_of_a_robot_has_the_numbers_of_the_same_path_in_gcode_wherever_its_f
 }
 
 #[test]
-fn the_posture_is_that_of_the_program_unless_the_study_says_otherwise() {
+fn the_posture_is_that_of_the_program_unless_the_study_gives_it() {
     let rear = SQUARE.replace("S 2,T 35", "S 6,T 35");
     let branch = |posture: &str| {
         let study = format!(
@@ -93,7 +93,9 @@ fn the_posture_is_that_of_the_program_unless_the_study_says_otherwise() {
             cell(),
             analysis("file = \"a.src\"\nlimits = false")
         );
-        given(&study, &[("a.src", &rear)]).unwrap().paths[0].branch.clone()
+        reported(&study, &[("a.src", &rear)]).unwrap().paths[0]
+            .branch
+            .clone()
     };
     assert_eq!(branch(""), "front elbow-up flip");
     assert_eq!(
@@ -103,7 +105,7 @@ fn the_posture_is_that_of_the_program_unless_the_study_says_otherwise() {
 }
 
 #[test]
-fn what_is_wrong_with_a_program_of_a_robot_is_told_with_what_mends_it() {
+fn errors_of_a_robot_program_are_reported_with_a_hint() {
     let by_number = SQUARE.replace("{X 1000,Y 50,Z 50,A 0,B 0,C 0}", "BASE_DATA[3]");
     let without = SQUARE.replace("$BASE={X 1000,Y 50,Z 50,A 0,B 0,C 0}", "");
     let longer = SQUARE.replace("Z 150", "Z 152");
@@ -115,25 +117,28 @@ fn what_is_wrong_with_a_program_of_a_robot_is_told_with_what_mends_it() {
             "",
             by_number.as_str(),
             &[
-                "line 7: places count from frame 3 of the controller",
+                "line 7: coordinates are relative to frame 3 of the controller",
                 "frame_mm_deg = [x, y, z",
             ][..],
         ),
-        ("", &without, &["does not tell which frame", "frame_mm_deg"]),
+        ("", &without, &["does not define the frame", "frame_mm_deg"]),
         (
             "frame_mm_deg = [0, 0, 0, 0, 0, 0]",
             SQUARE,
-            &["the program tells its frame itself", "leave `frame_mm_deg` out"],
+            &[
+                "the program already defines its frame",
+                "leave `frame_mm_deg` out",
+            ],
         ),
         (
             "frame_mm_deg = [0, 0, 0, 0, 0, 0]\npart_from_path_mm_deg = [0, 0, 0, 0, 0, 0]",
             &by_number,
-            &["both tell where"],
+            &["both specify the placement"],
         ),
         (
             "unit = \"inch\"",
             SQUARE,
-            &["`unit` means nothing to a program of a robot (KUKA KRL)"],
+            &["`unit` is not valid for a robot program (KUKA KRL)"],
         ),
         (
             "",
@@ -144,25 +149,21 @@ fn what_is_wrong_with_a_program_of_a_robot_is_told_with_what_mends_it() {
                 "[0, 0, 152, 0, 0, 0]",
             ],
         ),
-        (
-            "",
-            &unknown,
-            &["a.src:8:1", "`LINX` is a move that is not understood"],
-        ),
+        ("", &unknown, &["a.src:8:1", "`LINX` is an unsupported move"]),
         ("", &nameless, &["a.src:8:5", "XP7"]),
         (
             "",
             joints,
             &["no cutting move", "moves of the joints cut nothing"],
         ),
-        ("", "DEF a()\nEND\n", &["no move stands in this program"]),
+        ("", "DEF a()\nEND\n", &["the program contains no moves"]),
         (
             "cuts_up_to_mm_per_min = 1",
             SQUARE,
             &["no cutting move", "cuts_up_to_mm_per_min"],
         ),
     ] {
-        let error = given(
+        let error = reported(
             &study(&format!("file = \"a.src\"\n{program}")),
             &[("a.src", text)],
         )
@@ -171,17 +172,17 @@ fn what_is_wrong_with_a_program_of_a_robot_is_told_with_what_mends_it() {
             assert!(error.contains(word), "no `{word}` in\n{error}");
         }
     }
-    let gcode = given(
+    let gcode = reported(
         &study("file = \"a.ngc\"\nframe_mm_deg = [0, 0, 0, 0, 0, 0]"),
         &[("a.ngc", "G21 G90\nG0 X0 Y0\nG1 X9 F60\nM2\n")],
     );
-    assert!(gcode.unwrap_err().contains("is no program of a robot"));
+    assert!(gcode.unwrap_err().contains("is not a robot program"));
 }
 
 #[test]
 fn unknown_lines_calls_and_loops_are_noted_with_their_lines() {
     let text = SQUARE.replace("$VEL.CP=0.5", "LOOP\r\nZange(1)\r\nENDLOOP\r\n$VEL.CP=0.5");
-    let found = given(&study("file = \"a.src\"\nlimits = false"), &[("a.src", &text)]).unwrap();
+    let found = reported(&study("file = \"a.src\"\nlimits = false"), &[("a.src", &text)]).unwrap();
     let notes = found.paths[0].notes.join("\n");
     assert!(
         notes.contains("line 9: `LOOP`") && notes.contains("line 10: `Zange` is called"),

@@ -10,7 +10,7 @@ use armill_study::run::run;
 use crate::{CELL, CUT, STEP_OVER, STOCK, analysis, of_cut};
 
 #[test]
-fn a_stock_tells_where_the_cutter_is_in_the_air_in_a_slot_and_beside_one() {
+fn a_stock_determines_where_the_cutter_is_in_the_air_in_a_slot_and_next_to_one() {
     let with_stock = format!("{CUT}{STOCK}");
     let program = of_cut(&with_stock);
     let stock = program.cut.as_ref().unwrap().stock.as_ref().unwrap();
@@ -27,8 +27,8 @@ fn a_stock_tells_where_the_cutter_is_in_the_air_in_a_slot_and_beside_one() {
     let note = |program: &armill_study::answer::PathAnswer, words: &str| {
         program.notes.iter().any(|note| note.contains(words))
     };
-    assert!(note(&program, "finds in the stock") && !note(&program, "same engagement"));
-    // A slot pushes harder than the cut that the study told.
+    assert!(note(&program, "of the tool in the stock") && !note(&program, "constant engagement"));
+    // A slot has larger forces than the cut given in the study.
     let given = of_cut(CUT);
     let mean = |program: &armill_study::answer::PathAnswer| program.cut.as_ref().unwrap().largest_mean_n;
     assert!(
@@ -37,7 +37,7 @@ fn a_stock_tells_where_the_cutter_is_in_the_air_in_a_slot_and_beside_one() {
         mean(&program),
         mean(&given)
     );
-    assert!(given.cut.as_ref().unwrap().stock.is_none() && note(&given, "same engagement"));
+    assert!(given.cut.as_ref().unwrap().stock.is_none() && note(&given, "constant engagement"));
 }
 
 #[test]

@@ -11,7 +11,7 @@ use serde_json::Value;
 /// Longest time that any test waits for one answer.
 pub const PATIENCE: Duration = Duration::from_secs(60);
 
-/// A server with what is needed to ask it.
+/// A server with what is needed to send requests to it.
 pub struct Served {
     pub server: Option<Server>,
     pub port: u16,
@@ -87,7 +87,7 @@ impl Served {
         read(&mut stream)
     }
 
-    /// As the page asks: with host, token and origin of its own.
+    /// As the page does: with host, token and origin of its own.
     pub fn analysis(&self, method: &str, path: &str, body: &[u8]) -> Answer {
         let Served { port, token, .. } = self;
         let head = format!(

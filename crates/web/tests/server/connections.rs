@@ -11,8 +11,8 @@ use crate::client::{STUDY, Served, folder, read, serve};
 /// More than the system keeps of an answer for a client that does not read.
 const LARGE: u64 = 64 << 20;
 
-/// Asks for a file of so many bytes, and reads nothing yet.
-fn asked_for_large(served: &Served, folder: &tempfile::TempDir) -> TcpStream {
+/// Requests a file of so many bytes, and reads nothing yet.
+fn requested_large(served: &Served, folder: &tempfile::TempDir) -> TcpStream {
     let file = std::fs::File::create(folder.path().join("large.csv")).unwrap();
     file.set_len(LARGE).unwrap();
     let mut stream = served.connect();
@@ -42,7 +42,7 @@ fn read_slowly(stream: &mut TcpStream, pause: Duration) -> u64 {
 fn a_client_that_does_not_read_is_closed() {
     let folder = folder(STUDY);
     let served = serve(folder.path());
-    let mut stream = asked_for_large(&served, &folder);
+    let mut stream = requested_large(&served, &folder);
     // The limit is 10 s: with room for a busy machine.
     std::thread::sleep(Duration::from_secs(20));
     let read = read_slowly(&mut stream, Duration::ZERO);
@@ -54,7 +54,7 @@ fn a_client_that_does_not_read_is_closed() {
 fn a_client_that_reads_slowly_gets_the_whole_answer() {
     let folder = folder(STUDY);
     let served = serve(folder.path());
-    let mut stream = asked_for_large(&served, &folder);
+    let mut stream = requested_large(&served, &folder);
     let begun = Instant::now();
     let read = read_slowly(&mut stream, Duration::from_millis(200));
     assert!(
@@ -107,8 +107,8 @@ fn a_head_of_the_limit_passes_and_one_byte_more_does_not() {
     );
 }
 
-/// Asks what takes seconds, with these bytes behind the question.
-fn asked_for_long(served: &Served, behind: &str) -> TcpStream {
+/// Requests a computation of seconds, with these bytes behind the request.
+fn requested_long(served: &Served, behind: &str) -> TcpStream {
     let text = STUDY.replace("step_mm = 20", "step_mm = 0.3");
     let body = json!({ "text": text, "analysis": "plate" }).to_string();
     let mut stream = served.connect();
@@ -122,9 +122,9 @@ fn the_work_of_clients_that_have_left_ends() {
     let folder = folder(STUDY);
     let served = serve(folder.path());
     // All questions of a round together would take more than a minute on two processors.
-    // hyper holds what comes behind a question, and then does not see that its client leaves.
+    // hyper buffers the bytes behind a request, and then does not see that its client leaves.
     for behind in ["", "\r\n", "GET / HTTP/1.1\r\n"] {
-        let requested: Vec<TcpStream> = (0..60).map(|_| asked_for_long(&served, behind)).collect();
+        let requested: Vec<TcpStream> = (0..60).map(|_| requested_long(&served, behind)).collect();
         std::thread::sleep(Duration::from_millis(500));
         let begun = Instant::now();
         drop(requested);

@@ -1,4 +1,4 @@
-//! Jobs: to their end, cancelled, told as they go; and how the server stops.
+//! Jobs: completed, cancelled, their progress; and how the server stops.
 
 use std::io::{BufRead, BufReader, Write};
 use std::time::{Duration, Instant};
@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 use armill_core::nalgebra::Vector3;
 use armill_core::watch::Watch;
 use armill_study::file::placement::PlaceTable;
-use armill_study::identify::{self, PointsAsked, PriorAsked, Question, Units};
-use armill_study::place::{Journal, Placing};
+use armill_study::identify::{self, PointsModel, PriorModel, Question, Units};
+use armill_study::place::{Journal, PlacementSearch};
 use armill_study::studies;
 use serde_json::{Value, json};
 
@@ -68,7 +68,7 @@ fn a_run_leaves_its_files_and_the_answer_of_the_command() {
 }
 
 #[test]
-fn a_broken_study_becomes_a_job_that_failed_and_says_why() {
+fn an_invalid_study_becomes_a_failed_job_with_its_problems() {
     let folder = folder(STUDY);
     let served = serve(folder.path());
     let text = STUDY.replace("step_mm = 20", "step_mm = -1");
@@ -98,11 +98,11 @@ fn answer_in(folder: &tempfile::TempDir, name: &str) -> Value {
 fn a_placement_ends_in_the_place_that_the_command_finds() {
     // A wide step and little room, so that it ends soon.
     let text = STUDY.replace("radius_mm = 50 }", "radius_mm = 50 }\nstep_mm = 30")
-        + "[place]\nask = \"rim\"\nx_mm = [950, 1050]\n";
+        + "[place]\nanalysis = \"rim\"\nx_mm = [950, 1050]\n";
     let folder = folder(&text);
     let found = studies::find(folder.path()).unwrap();
     let study = found.read().unwrap();
-    let placing = Placing::new(&study, PlaceTable::default(), 1).unwrap();
+    let placing = PlacementSearch::new(&study, PlaceTable::default(), 1).unwrap();
     let command = placing
         .search(&mut Journal::none(), Watch::NONE, &|_| ())
         .unwrap();
@@ -127,7 +127,7 @@ fn a_placement_ends_in_the_place_that_the_command_finds() {
 fn a_search_of_postures_ends_with_its_files() {
     let folder = folder(STUDY);
     let served = serve(folder.path());
-    let options = json!({ "step_deg": 30, "goal": "mean" });
+    let options = json!({ "step_deg": 30, "objective": "mean" });
     let job = ended(
         &served,
         &begin(
@@ -137,7 +137,10 @@ fn a_search_of_postures_ends_with_its_files() {
     );
     assert_eq!(job["state"], "done", "{job}");
     let search = &job["answer"]["paths"][0]["search"];
-    assert_eq!((&search["goal"], &search["turns"]), (&json!("mean"), &json!(12)));
+    assert_eq!(
+        (&search["objective"], &search["turns"]),
+        (&json!("mean"), &json!(12))
+    );
     assert_eq!(answer_in(&folder, "posture"), job["answer"]);
     let table = std::fs::read_to_string(folder.path().join("posture/rim.csv")).unwrap();
     assert!(table.contains("turn_deg"));
@@ -155,9 +158,9 @@ fn springs_are_found_from_a_table_of_the_folder() {
         .robot;
     let question = Question {
         unknowns: "drives".to_owned(),
-        points: PointsAsked::Known,
+        points: PointsModel::Known,
         point_u: 0.2,
-        prior: PriorAsked::Typical,
+        prior: PriorModel::Typical,
         tool_point: Vector3::new(0.0, 0.06, 0.15),
         units: Units::Checked,
     };
@@ -230,11 +233,15 @@ fn jobs_wait_for_each_other_and_are_cancelled() {
     }
     assert_eq!(state(&second), "waiting");
     assert_eq!(
-        served.analysis("DELETE", &format!("/api/jobs/{second}"), b"").json()["state"],
+        served
+            .analysis("DELETE", &format!("/api/jobs/{second}"), b"")
+            .json()["state"],
         "cancelled"
     );
     assert_eq!(
-        served.analysis("DELETE", &format!("/api/jobs/{first}"), b"").status,
+        served
+            .analysis("DELETE", &format!("/api/jobs/{first}"), b"")
+            .status,
         200
     );
     assert_eq!(ended(&served, &first)["state"], "cancelled");
@@ -330,7 +337,7 @@ fn listening(served: &Served, id: &str) -> (std::net::TcpStream, u16) {
 }
 
 #[test]
-fn event_streams_are_limited_and_room_comes_back() {
+fn event_streams_are_limited_and_closed_ones_make_room() {
     let folder = folder(STUDY);
     let served = serve(folder.path());
     let ids: Vec<String> = (0..5).map(|_| begin(&served, long_search())).collect();
@@ -374,7 +381,8 @@ fn results_are_written_inside_the_folder_only() {
     let link = |to: &std::path::Path| {
         let _ = std::fs::remove_file(cell.join("out"));
         std::os::unix::fs::symlink(to, cell.join("out")).unwrap();
-        let job = json!({ "kind": "run", "text": STUDY, "options": { "analysis": "rim", "no_pictures": true } });
+        let job =
+            json!({ "kind": "run", "text": STUDY, "options": { "analysis": "rim", "no_pictures": true } });
         ended(&served, &begin(&served, job))
     };
     for to in ["elsewhere", "cell/../elsewhere", "missing"] {

@@ -46,7 +46,7 @@ fn without_the_token_there_is_no_api() {
         401
     );
     assert!(!folder.path().join("x.csv").exists());
-    // With it there is; the page itself holds nothing and needs none.
+    // With it there is; the page itself contains nothing and needs none.
     assert_eq!(
         request(&served, "GET /api/study", &[&host, &with(&served.token)]),
         200
@@ -136,7 +136,7 @@ fn request_any(served: &Served, lines: &[&str]) -> u16 {
         .status
 }
 
-/// A folder beside which something lies that nobody may read.
+/// A folder next to a file that may not be read.
 fn guarded() -> (tempfile::TempDir, std::path::PathBuf) {
     let outer = tempfile::tempdir().unwrap();
     let inner = outer.path().join("cell");
@@ -255,7 +255,7 @@ fn unfinished(folder: &std::path::Path) -> Vec<std::path::PathBuf> {
 }
 
 #[test]
-fn what_a_killed_upload_left_is_removed_at_the_next_start() {
+fn files_of_a_killed_upload_are_removed_at_the_next_start() {
     let folder = folder(STUDY);
     let served = serve(folder.path());
     let mut stream = served.connect();
@@ -285,7 +285,7 @@ fn what_a_killed_upload_left_is_removed_at_the_next_start() {
 }
 
 #[test]
-fn files_are_taken_in_once_and_whole() {
+fn files_are_uploaded_once_and_completely() {
     let (_outer, inner) = guarded();
     let served = serve(&inner);
     let put = |name: &str, body: &[u8]| served.analysis("PUT", &format!("/api/files/{name}"), body);
@@ -316,7 +316,7 @@ fn files_are_taken_in_once_and_whole() {
     assert!(!inner.join("half.csv").exists());
 }
 
-/// Peak memory of this process, kB; 0 where the system does not tell.
+/// Peak memory of this process, kB; 0 where the system does not report it.
 fn peak_kb() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
@@ -386,7 +386,7 @@ fn a_gigabyte_is_refused_without_being_kept() {
 }
 
 #[test]
-fn a_client_that_dribbles_is_cut_off() {
+fn a_client_that_sends_slowly_is_disconnected() {
     let folder = folder(STUDY);
     let served = serve(folder.path());
     let mut stream = served.connect();
@@ -413,7 +413,7 @@ fn a_client_that_dribbles_is_cut_off() {
 }
 
 #[test]
-fn a_body_that_stalls_is_answered_and_given_up() {
+fn a_stalled_body_is_answered_and_closed() {
     let folder = folder(STUDY);
     let served = serve(folder.path());
     let begun = Instant::now();
@@ -445,7 +445,7 @@ fn a_body_that_stalls_is_answered_and_given_up() {
 }
 
 #[test]
-fn odd_questions_are_refused_in_words() {
+fn invalid_requests_are_refused_with_a_message() {
     let folder = folder(STUDY);
     let served = serve(folder.path());
     for body in [
@@ -466,7 +466,10 @@ fn odd_questions_are_refused_in_words() {
     }
     let at = |at: serde_json::Value| {
         served
-            .post("/api/pose", json!({ "text": STUDY, "analysis": "plate", "at": at }))
+            .post(
+                "/api/pose",
+                json!({ "text": STUDY, "analysis": "plate", "at": at }),
+            )
             .status
     };
     assert_eq!(at(json!({})), 400);

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use armill_core::watch::Watch;
-use armill_study::live::{Text, answer_json, scene, values};
+use armill_study::live::{StudyText, answer_json, scene, values};
 use armill_study::{output, studies};
 use serde_json::{Value, json};
 
@@ -19,7 +19,10 @@ fn answers_are_the_bytes_of_the_command() {
     let on_disk = served.get("/api/study").json();
     assert_eq!(on_disk["writable"], false);
     assert_eq!(on_disk["text"].as_str().unwrap().as_bytes(), found.bytes);
-    let answer = served.post("/api/answer", json!({ "text": on_disk["text"], "analysis": null }));
+    let answer = served.post(
+        "/api/answer",
+        json!({ "text": on_disk["text"], "analysis": null }),
+    );
     assert_eq!((answer.status, answer.text()), (200, command));
 
     let rows = armill_study::robot_answers::library_rows().unwrap();
@@ -33,7 +36,7 @@ fn answers_are_the_bytes_of_the_command() {
 fn values_scene_pose_table_and_pictures_are_those_of_the_study() {
     let folder = folder(STUDY);
     let served = serve(folder.path());
-    let text = Text {
+    let text = StudyText {
         shown: "study.toml",
         folder: folder.path(),
         bytes: STUDY.as_bytes(),
@@ -82,7 +85,7 @@ fn values_scene_pose_table_and_pictures_are_those_of_the_study() {
 }
 
 #[test]
-fn a_broken_study_is_shown_with_its_problems_at_their_places() {
+fn an_invalid_study_is_shown_with_its_problems_at_their_places() {
     let broken = STUDY.replace("step_mm = 20", "step_mm = -20");
     let folder = folder(&broken);
     let served = serve(folder.path());
@@ -186,7 +189,7 @@ fn a_change_keeps_the_comments() {
 }
 
 #[test]
-fn a_view_is_what_change_answer_values_and_scene_give_one_after_the_other() {
+fn a_view_equals_change_answer_values_and_scene_in_sequence() {
     let served = serve(Path::new("mh12-groove"));
     for analysis in ["plate", "rim"] {
         let changes = json!([
@@ -194,10 +197,10 @@ fn a_view_is_what_change_answer_values_and_scene_give_one_after_the_other() {
             { "key": "tolerance_um", "value": 70, "whole": true },
         ]);
         let of = json!({ "text": STUDY, "analysis": analysis, "changes": changes });
-        let stand = json!({ "follow": "worst" });
+        let arm = json!({ "follow": "worst" });
         let view = served.post(
             "/api/view",
-            json!({ "text": STUDY, "analysis": analysis, "changes": changes, "stand": stand }),
+            json!({ "text": STUDY, "analysis": analysis, "changes": changes, "arm": arm }),
         );
         assert_eq!(view.status, 200, "{}", view.text());
         let changed = served.post("/api/change", of.clone()).json();
@@ -213,7 +216,9 @@ fn a_view_is_what_change_answer_values_and_scene_give_one_after_the_other() {
             ("values", "/api/values"),
             ("scene", "/api/scene"),
         ] {
-            let alone = served.post(path, json!({ "text": text, "analysis": analysis })).text();
+            let alone = served
+                .post(path, json!({ "text": text, "analysis": analysis }))
+                .text();
             // The bytes themselves, not only their meaning.
             assert!(
                 body.contains(&format!("\"{key}\":{}", alone.trim_end())),
@@ -224,18 +229,18 @@ fn a_view_is_what_change_answer_values_and_scene_give_one_after_the_other() {
             (&view.json()["text"], &view.json()["analyses"]),
             (&changed["text"], &changed["analyses"])
         );
-        let stands = &view.json()["stands"];
-        assert_eq!(stands["at"], view.json()["extremes"][0]["worst"]);
+        let arm = &view.json()["arm"];
+        assert_eq!(arm["at"], view.json()["extremes"][0]["worst"]);
         let pose = served.post(
             "/api/pose",
-            json!({ "text": text, "analysis": analysis, "at": stands["at"], "case": stands["case"] }),
+            json!({ "text": text, "analysis": analysis, "at": arm["at"], "case": arm["case"] }),
         );
         assert!(
             body.contains(&format!("\"pose\":{}", pose.text().trim_end())),
             "{analysis}"
         );
-        // Nobody has to ask where it stands.
-        assert!(served.post("/api/view", of).json()["stands"].is_null());
+        // Without `arm` in the request there is none in the answer.
+        assert!(served.post("/api/view", of).json()["arm"].is_null());
     }
     let refused = |changes: Value| {
         served.post(
@@ -256,7 +261,7 @@ fn a_view_is_what_change_answer_values_and_scene_give_one_after_the_other() {
 }
 
 #[test]
-fn tables_and_schema_are_what_fields_are_made_of() {
+fn tables_and_schema_describe_the_fields() {
     let served = serve(Path::new("mh12-groove"));
     let schema = served.get("/api/schema");
     let command = armill_formats::document::schema_json::<armill_study::file::format::StudyFile>();
@@ -294,7 +299,7 @@ const ARM: &str = r#"<robot name="arm">
 </robot>"#;
 
 #[test]
-fn meshes_are_handed_out_where_the_robot_names_them_and_nowhere_else() {
+fn only_meshes_that_the_robot_names_are_served() {
     let study = STUDY.replace(
         "\"yaskawa/mh12\"",
         "\"arm.urdf\"\ncompliance = { rad_per_n_m = [1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 1e-6], source = \"made up\" }",
@@ -351,9 +356,9 @@ fn meshes_are_handed_out_where_the_robot_names_them_and_nowhere_else() {
 }
 
 #[test]
-fn two_tabs_are_answered_at_once_and_a_later_question_takes_the_place_of_one_that_waits() {
+fn two_tabs_are_answered_at_once_and_a_later_request_replaces_the_waiting_one() {
     let served = serve(Path::new("mh12-groove"));
-    // So large that what follows is asked meanwhile.
+    // So large that the next request arrives meanwhile.
     let large = STUDY.replace("step_mm = 20", "step_mm = 0.25");
     let analysis = |tab: &str, text: &str| {
         let body = json!({ "text": text, "analysis": "plate" }).to_string();
@@ -407,6 +412,6 @@ fn the_page_knows_this_server() {
     let known: Value = serde_json::from_str(&text).unwrap();
     assert!(
         known == armill_web::openapi_document(),
-        "stale: `cargo xtask web` makes web/openapi.json and the types anew"
+        "stale: `cargo xtask web --describe` writes web/openapi.json and the types again"
     );
 }

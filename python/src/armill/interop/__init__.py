@@ -7,11 +7,11 @@
 ``from_pinocchio``     ``pinocchio.Model`` -> Robot
 =====================  ===================================================================
 
-Chain, joint names and limits go over; compliances, masses and sources do not. Whatever is made is compared with what it was made
-of at random joint positions before it is given, to a nanometre and a nanoradian. Poses of spatialmath (``SE3``) and scipy need no
-conversion: ``Robot.inverse`` and all else that takes poses takes them as they are.
+Kinematic chain, joint names and limits are converted; compliances, masses and sources are not. Each result is compared with its
+original at random joint positions, to 1 nm and 1 nrad. Poses of spatialmath (``SE3``) and scipy need no conversion:
+``Robot.inverse`` and all other functions of poses accept them.
 
-``pip install 'armill[interop]'`` brings both packages.
+``pip install 'armill[interop]'`` installs both packages.
 """
 
 from armill.interop._pinocchio import from_pinocchio, to_pinocchio

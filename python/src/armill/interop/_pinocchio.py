@@ -9,12 +9,12 @@ import numpy as np
 import armill
 from armill.interop import _screws
 
-# Frames that are taken for the flange where none is named, the first that is there.
+# Names of the flange frame by default, in this order.
 _FLANGES = ("tool0", "flange")
 
 
 def to_pinocchio(robot: armill.Robot) -> Any:
-    """Robot -> pinocchio.Model: a joint each, named and limited as the robot's, and a frame `flange`. No masses."""
+    """Robot -> pinocchio.Model: one joint per joint of the robot, with its name and limits, and a frame `flange`. No masses."""
     pin = _package()
     found = _screws.of_robot(robot)
     model = pin.Model()
@@ -36,9 +36,9 @@ def to_pinocchio(robot: armill.Robot) -> Any:
 
 
 def from_pinocchio(model: Any, frame: str | None = None, *, name: str | None = None) -> armill.Robot:
-    """pinocchio.Model -> Robot: a chain of joints that turn or slide, up to the frame `frame`.
+    """pinocchio.Model -> Robot: a chain of revolute or prismatic joints, up to the frame `frame`.
 
-    Without a name the flange is the frame `tool0`, else `flange`, else the last of the model.
+    By default the flange is the frame `tool0`, else `flange`, else the last frame of the model.
     """
     pin = _package()
     if not isinstance(model, pin.Model):
@@ -46,12 +46,12 @@ def from_pinocchio(model: Any, frame: str | None = None, *, name: str | None = N
     flange = frame or next((known for known in _FLANGES if model.existFrame(known)), model.frames[-1].name)
     if not model.existFrame(flange):
         known = ", ".join(each.name for each in model.frames)
-        raise ValueError(f"from_pinocchio: no frame is called {flange!r}; there are {known}")
+        raise ValueError(f"from_pinocchio: the model has no frame {flange!r}; it has {known}")
     count = model.njoints - 1
     if list(model.parents)[1:] != list(range(count)) or model.frames[model.getFrameId(flange)].parentJoint != count:
         raise ValueError(f"from_pinocchio: {flange!r} is not at the end of a chain without side branches: reduce the model first")
     if model.nv != count:
-        raise ValueError(f"from_pinocchio: {count} joints move in {model.nv} ways: each must turn or slide about one axis")
+        raise ValueError(f"from_pinocchio: {count} joints have {model.nv} degrees of freedom: each must be revolute or prismatic with one axis")
     data = model.createData()
     limits = [_limits(model, i) for i in range(1, model.njoints)]
     zero = np.zeros(count)
@@ -75,7 +75,7 @@ def _joint(pin: Any, joint: _screws.Joint) -> Any:
 def _limits(model: Any, joint: int) -> tuple[float, float] | None:
     at = model.joints[joint].idx_q
     if model.joints[joint].nq != 1:
-        # A joint without end counts by cosine and sine.
+        # A continuous joint has cosine and sine as coordinates.
         return None
     limits = model.lowerPositionLimit[at], model.upperPositionLimit[at]
     known = all(np.isfinite(limits)) and max(map(abs, limits)) < 1e6 and limits[0] < limits[1]

@@ -11,7 +11,7 @@ from armill.interop import _screws
 
 
 def to_ets(robot: armill.Robot) -> Any:
-    """Robot -> roboticstoolbox.ETS: base to flange, joints as the robot counts them, with their limits."""
+    """Robot -> roboticstoolbox.ETS: base to flange, joint signs and limits as those of the robot."""
     rtb = _package()
     et = rtb.ET
     found = _screws.of_robot(robot)
@@ -24,7 +24,7 @@ def to_ets(robot: armill.Robot) -> Any:
         name, sign = axis or ("z", 1)
         options: dict[str, Any] = {"flip": sign < 0, "jindex": i}
         if joint.limits is not None:
-            # A joint that is flipped counts against its axis, and so do its limits: both as the robot has them.
+            # A flipped joint has a reversed axis; its limits are those of the robot.
             options["qlim"] = np.array(joint.limits)
         moves = getattr(et, ("t" if joint.slides else "R") + name)(**options)
         turned = [] if axis is not None else [et.Rz(around), et.Ry(down)]
@@ -41,7 +41,7 @@ def to_ets(robot: armill.Robot) -> Any:
 def from_ets(ets: Any, *, name: str | None = None) -> armill.Robot:
     """roboticstoolbox.ETS (or a robot of the toolbox) -> Robot: base to the end of the sequence.
 
-    Joints are called q1, q2, ... and have the limits that the sequence tells.
+    Joints are called q1, q2, ... and have the limits of the sequence.
     """
     given = ets
     if not hasattr(ets, "jacob0") or not hasattr(ets, "n"):

@@ -1,4 +1,4 @@
-"""The one form between all packages: where the axes of the joints are while every joint stands at zero.
+"""The common form for all packages: the joint axes at zero joint positions.
 
     base_from_flange(q) = exp(S1 q1) ... exp(Sn qn) base_from_flange(0)
 
@@ -40,7 +40,7 @@ class Joint:
 
 @dataclass(frozen=True)
 class Screws:
-    """Joints from base to flange, and where the flange is while all stand at zero."""
+    """Joints from base to flange, and the pose of the flange at zero joint positions."""
 
     name: str
     joints: list[Joint]
@@ -69,21 +69,21 @@ def screws(
         direction = _snapped((v if slides else a) / np.linalg.norm(v if slides else a))
         if not slides:
             on_axis = flange + np.cross(a, v)
-            # The point of the axis that lies nearest to that of the axis before.
+            # The point of the axis nearest to the point of the previous axis.
             near = on_axis + direction * ((near - on_axis) @ direction)
         joints.append(Joint(names[i], slides, direction, _snapped(near), limits[i]))
     return Screws(name, joints, pose)
 
 
 def of_robot(robot: armill.Robot) -> Screws:
-    """Those of an arm."""
+    """The screws of an arm."""
     zero = np.zeros(robot.dof)
     limits = [(float(low), float(high)) if np.isfinite([low, high]).all() else None for low, high in robot.limits]
     return screws(robot.name, robot.joint_names, limits, (robot.forward(zero), robot.jacobian(zero)))
 
 
 def to_robot(found: Screws, source: str) -> armill.Robot:
-    """The arm that has these joints; `source` says where they come from."""
+    """The arm with these joints; `source` states their origin."""
     return armill.Robot.from_text(_toml(found, source), "armill", name=found.name)
 
 
@@ -93,15 +93,15 @@ def compared(
     made: Callable[[Floats], ArrayLike],
     given: Callable[[Floats], ArrayLike],
 ) -> None:
-    """Refuses what does not stand where its original stands: coupled joints, or such as neither turn nor slide."""
+    """Refuses a chain that differs from its original: coupled joints, or joints that are neither revolute nor prismatic."""
     random = np.random.default_rng(1)
     for _ in range(_COMPARED):
         q = random.uniform(-1.0, 1.0, count)
         off = float(np.abs(np.asarray(made(q)) - np.asarray(given(q))).max())
         if not off < _SAME:
             raise ValueError(
-                f"{what}: the chain that was made is off by {off:.3g} (m, rad): joints that are coupled, or that neither turn "
-                "nor slide about an axis of their own, cannot go over"
+                f"{what}: the converted chain differs by {off:.3g} (m, rad): coupled joints, and joints that are neither "
+                "revolute nor prismatic, cannot be converted"
             )
 
 

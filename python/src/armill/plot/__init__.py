@@ -1,22 +1,22 @@
 """Pictures of results, one call each, by matplotlib.
 
-Every function takes a ``Result``, the ``Answer`` of a command, the dict of their JSON or the folder that a command wrote, and gives
-the axes that it drew on; ``ax=`` draws on those of the caller. Nothing of matplotlib's settings is changed. Lengths are in mm,
+Every function accepts a ``Result``, the ``Answer`` of a command, the dict of their JSON or the folder that a command wrote. It
+returns the axes that it drew on; ``ax=`` draws on given axes. The settings of matplotlib are not changed. Lengths are in mm,
 deviations in µm.
 
 ================  ===========================================================================
-``map``           deviation over a plane: contours, the limit bold, hatches out of reach
-``region``        where on the plane the limit holds, how surely, and what fits into it
-``sections``      many planes on one sheet
+``map``           deviation over a plane: contours, the tolerance bold, hatches where unreachable
+``region``        the region within the tolerance, its uncertainty, and inscribed shapes
+``sections``      many planes in one figure
 ``path``          a path, coloured by its deviation
-``along``         the deviation and its parts over the length of a path
-``shares``        which joint the deviation comes from
+``along``         the deviation and its components along a path
+``contributions`` contribution of each joint to the deviation
 ``polar``         a circle under load, or the runs of a ball-bar, magnified
-``turns``         how the tool is turned along a path, among all turns
+``turns``         the spin of the tool along a path, among all spins
 ``roundness``     a measured profile and its four circles
-``budget``        what the error of a measured circle is made of; its waves
-``placement``     what a place of the part is worth
-``identify``      springs with intervals, and what load tests leave unexplained
+``budget``        the error budget of a measured circle, and its harmonics
+``placement``     the cost of placements of the part
+``identify``      springs with intervals, and the residuals of the load tests
 ``robot``         the arm in 3-D
 ``stiffness``     compliance at the tool as an ellipsoid
 ================  ===========================================================================
@@ -30,6 +30,7 @@ if find_spec("matplotlib") is None:
 from armill.plot._along import along
 from armill.plot._answers import Missing
 from armill.plot._budget import budget
+from armill.plot._contributions import contributions
 from armill.plot._identify import identify
 from armill.plot._map import map
 from armill.plot._path import path
@@ -39,7 +40,6 @@ from armill.plot._region import region
 from armill.plot._robot import robot, skeleton
 from armill.plot._roundness import roundness
 from armill.plot._sections import sections
-from armill.plot._shares import shares
 from armill.plot._stiffness import stiffness
 from armill.plot._turns import turns
 
@@ -47,6 +47,7 @@ __all__ = [
     "Missing",
     "along",
     "budget",
+    "contributions",
     "identify",
     "map",
     "path",
@@ -56,7 +57,6 @@ __all__ = [
     "robot",
     "roundness",
     "sections",
-    "shares",
     "skeleton",
     "stiffness",
     "turns",

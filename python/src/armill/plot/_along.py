@@ -1,4 +1,4 @@
-"""The deviation over the length of a path."""
+"""The deviation along a path."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 
 from armill.plot._answers import Source
 from armill.plot._setting import breaks, words
-from armill.plot._style import BLUE, GREEN, HALO, INK, LIMIT, ORANGE, PINK, legend_below, one, picture, title
+from armill.plot._style import BLUE, GREEN, HALO, INK, TOLERANCE, ORANGE, PINK, legend_below, one, picture, title
 
 _PARTS = (
     ("in_plane_um", "in-plane, across the tool", INK, "-", 1.9),
@@ -20,31 +20,31 @@ _PARTS = (
 
 
 @picture
-def along(source: Any, ask: str | None = None, *, table: Any = None, ax: Axes | None = None) -> Axes:
-    """Result, name of a path -> axes: the deviation and its parts over the length of the path, µm over mm.
+def along(source: Any, analysis: str | None = None, *, table: Any = None, ax: Axes | None = None) -> Axes:
+    """Result, name of a path -> axes: the deviation and its components along the path, µm over mm.
 
-    The worst points are numbered, the worst first. Parts are those of the deciding load case.
+    The worst points are numbered, the worst first. Components are those of the worst load case.
     """
     found = Source(source, "along", table)
-    answer = found.one("paths", ask)
+    answer = found.one("paths", analysis)
     columns = found.columns(answer["name"], ["x_mm", "y_mm", "z_mm", "distance_mm", *(name for name, *_ in _PARTS)])
     ax = one(ax, (7.6, 4.6))
-    # Cuts that lie apart are not joined by a line.
+    # Separate cuts are not joined by a line.
     gaps = breaks(columns)
     distance = np.insert(columns["distance_mm"].astype(float), gaps, np.nan)
     for name, label, colour, dashes, width in _PARTS:
         values = np.insert(columns[name].astype(float), gaps, np.nan)
         ax.plot(distance, values, color=colour, linestyle=dashes, linewidth=width, label=label)
-    limit = answer["setting"]["tolerance_um"]
-    ax.axhline(limit, color=LIMIT, linewidth=2.2, label=f"limit {limit:g} µm", zorder=1.5)
+    tolerance = answer["setting"]["tolerance_um"]
+    ax.axhline(tolerance, color=TOLERANCE, linewidth=2.2, label=f"tolerance {tolerance:g} µm", zorder=1.5)
     ax.axhline(0.0, color=INK, linewidth=0.6, zorder=1)
     _mark_worst(ax, answer["worst_points"])
     unreachable = ~np.isfinite(columns["in_plane_um"].astype(float))
     if unreachable.any():
         here = columns["distance_mm"].astype(float)[unreachable]
-        ax.plot(here, np.zeros(len(here)), "x", color=PINK, markersize=4, label=f"not reached ({len(here)} points)")
-    told = distance[np.isfinite(distance)]
-    ax.set_xlim(0.0, float(told.max()) if len(told) else 1.0)
+        ax.plot(here, np.zeros(len(here)), "x", color=PINK, markersize=4, label=f"unreachable ({len(here)} points)")
+    known = distance[np.isfinite(distance)]
+    ax.set_xlim(0.0, float(known.max()) if len(known) else 1.0)
     ax.margins(y=0.12)
     ax.set_xlabel("along the path (mm)")
     ax.set_ylabel("deviation (µm)")

@@ -1,7 +1,7 @@
-"""Where the numbers of a picture come from.
+"""The sources of the numbers of a picture.
 
-A ``Result``, the ``Answer`` of a command, the JSON of either, or the folder that a command wrote. What is at a point of a
-path stands in the tables beside the JSON: a ``Result`` and a folder have them, else they are given.
+A ``Result``, the ``Answer`` of a command, the JSON of either, or the folder that a command wrote. Values at the points of a
+path are not in the JSON but in tables: a ``Result`` and a folder have them, otherwise they are given.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ _ACCEPTED = "an armill.Result, an armill.Answer, the dict of their JSON, or the 
 
 
 class Missing(ValueError):
-    """What a picture needs and was not given."""
+    """Data that a picture needs is missing."""
 
 
 class Source:
-    """The JSON of an answer, and the tables beside it."""
+    """The JSON of an answer, and its tables."""
 
     def __init__(self, given: Any, picture: str, table: Any = None, file: str = "result.json") -> None:
         self.picture = picture
@@ -43,7 +43,7 @@ class Source:
             self._folder = given if given.is_dir() else given.parent
             path = given / file if given.is_dir() else given
             if not path.is_file():
-                raise Missing(f"{self.picture}: there is no file {path}")
+                raise Missing(f"{self.picture}: the file {path} does not exist")
             given = json.loads(path.read_text(encoding="utf-8"))
         elif isinstance(getattr(given, "json", None), str):
             given = json.loads(given.json)
@@ -56,38 +56,38 @@ class Source:
         return given
 
     def need(self, key: str, command: str) -> Any:
-        """What the answer has under ``key``; ``command`` is what answers with it."""
+        """The value of ``key`` in the answer; ``command`` is the command whose answer has it."""
         value = self.data.get(key)
         if value is None:
             has = ", ".join(self.data)
             raise Missing(f"{self.picture}: the answer has no `{key}`: give that of `{command}`; it has {has}")
         return value
 
-    def one(self, kind: str, ask: str | None) -> Json:
-        """The map or path called ``analysis``; the first where none is named."""
+    def one(self, kind: str, analysis: str | None) -> Json:
+        """The map or path with the name ``analysis``; by default the first."""
         found: list[Json] = self.need(kind, "armill run")
-        named = [each for each in found if ask in (None, each["name"])]
+        named = [each for each in found if analysis in (None, each["name"])]
         if named:
             return named[0]
         if not found:
             other = [key for key in ("maps", "paths", "volumes", "holes") if self.data.get(key)]
-            told = f"; it has {', '.join(other)}" if other else ""
-            raise Missing(f"{self.picture}: the answer has no {kind}{told}")
+            available = f"; it has {', '.join(other)}" if other else ""
+            raise Missing(f"{self.picture}: the answer has no {kind}{available}")
         names = ", ".join(repr(each["name"]) for each in found)
-        raise Missing(f"{self.picture}: none of the {kind} is called {ask!r}; there are {names}")
+        raise Missing(f"{self.picture}: {analysis!r} is not among the {kind}: {names}")
 
     def has_table(self, file: str) -> bool:
-        """Whether a table was given, or `file` lies in the folder."""
+        """Whether a table was given, or `file` is in the folder."""
         return self._table is not None or (self._folder is not None and (self._folder / file).is_file())
 
-    def columns(self, ask: str | None, needed: Sequence[str], file: str | None = None) -> Columns:
-        """The table of an ask, or ``file`` of the folder, which must have the columns ``needed``."""
+    def columns(self, analysis: str | None, needed: Sequence[str], file: str | None = None) -> Columns:
+        """The table of an analysis, or ``file`` of the folder, which must have the columns ``needed``."""
         table: Any = self._table
-        name = file or f"{slug(ask or '')}.csv"
+        name = file or f"{slug(analysis or '')}.csv"
         if table is None and self._folder is not None:
             table = self._folder / name
         if table is None and file is None and callable(getattr(self._given, "table", None)):
-            table = self._given.table(ask)
+            table = self._given.table(analysis)
         if table is None:
             raise Missing(
                 f"{self.picture}: its points are not in the JSON: give the folder that the command wrote, "
@@ -102,13 +102,13 @@ class Source:
 
 
 def slug(name: str) -> str:
-    """What files of the ask ``name`` are called: letters and digits in small, all else as hyphens."""
+    """The file name of the analysis ``name``: letters and digits in lower case, all else as hyphens."""
     letters = "".join(c.lower() if c.isalnum() else " " for c in name)
     return "-".join(letters.split())
 
 
 def read_table(table: Any, picture: str) -> Columns:
-    """Columns by name: of a CSV file, a dict or DataFrame, or whatever hands over Arrow; nothing is NaN."""
+    """Columns by name: of a CSV file, a dict, a DataFrame or an Arrow table; empty cells are NaN."""
     if isinstance(table, (str, os.PathLike)):
         return _read_csv(Path(table), picture)
     if callable(getattr(table, "keys", None)):
@@ -125,7 +125,7 @@ def read_table(table: Any, picture: str) -> Columns:
 
 def _read_csv(path: Path, picture: str) -> Columns:
     if not path.is_file():
-        raise Missing(f"{picture}: there is no file {path}: ask for it with `--csv`, or give table=")
+        raise Missing(f"{picture}: the file {path} does not exist: write it with `--csv`, or give table=")
     with path.open(encoding="utf-8", newline="") as file:
         names, *rows = list(csv.reader(file))
     return {name: _column([row[i] for row in rows]) for i, name in enumerate(names)}

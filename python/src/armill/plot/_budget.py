@@ -1,4 +1,4 @@
-"""What the error of a measured circle is made of."""
+"""The error budget of a measured circle."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _SUMS = (
 
 @picture
 def budget(source: Any, *, ax: Sequence[Axes] | None = None) -> list[Axes]:
-    """Answer of budget, or Result with what was measured -> [bars, waves]: contributions beside the part, µm, and both by waves.
+    """Answer of budget, or Result with what was measured -> [bars, waves]: contributions and the part, µm; harmonics.
 
     Bars are largest radial deviations, with twice the scatter of one cut.
     """
@@ -47,13 +47,13 @@ def _rows(answer: Json) -> list[tuple[str, float, float, str]]:
 
 def _bars(ax: Axes, answer: Json, rows: list[tuple[str, float, float, str]]) -> None:
     what = {BLUE: "contribution", ORANGE: "together", GREEN: "measured"}
-    told: set[str] = set()
+    shown: set[str] = set()
     for i, (_, largest, scatter, colour) in enumerate(rows):
-        ax.barh(i, largest, height=0.64, color=colour, label=None if colour in told else what[colour])
-        told.add(colour)
+        ax.barh(i, largest, height=0.64, color=colour, label=None if colour in shown else what[colour])
+        shown.add(colour)
         if scatter:
-            label = None if "scatter" in told else "twice the scatter of one cut"
-            told.add("scatter")
+            label = None if "scatter" in shown else "twice the scatter of one cut"
+            shown.add("scatter")
             ax.errorbar(largest, i, xerr=[[0.0], [2 * scatter]], color=INK, capsize=3, linewidth=1.2, label=label)
         scattered = f", s {scatter:.1f} µm" if scatter else ""
         ax.annotate(
@@ -67,15 +67,15 @@ def _bars(ax: Axes, answer: Json, rows: list[tuple[str, float, float, str]]) -> 
     ax.set_xlabel("largest radial deviation (µm)")
     ax.spines[["top", "right"]].set_visible(False)
     datum = answer["datum"]
-    held = f"circle of {answer['radius_mm']:g} mm, {answer['branch']}; centre {datum['centre']}, radius {datum['radius']}"
-    title(ax, f"{answer['analysis']}: what its error is made of", held)
+    conditions = f"circle of {answer['radius_mm']:g} mm, {answer['branch']}; centre {datum['centre']}, radius {datum['radius']}"
+    title(ax, f"{answer['analysis']}: error budget", conditions)
     legend_below(ax, columns=4, drop=-0.2)
 
 
 def _waves(ax: Axes, answer: Json) -> None:
     part: Json | None = answer["part"]
     if part is None:
-        raise Missing("budget: no part was measured, so there are no waves to put side by side: name it in [measured]")
+        raise Missing("budget: no measured part to compare harmonics with: give it in [measured]")
     waves = part["waves"]
     counts = np.array([wave["waves"] for wave in waves])
     ax.bar(counts - 0.2, [wave["measured_um"] for wave in waves], width=0.4, color=GREEN, label="part")
@@ -83,9 +83,9 @@ def _waves(ax: Axes, answer: Json) -> None:
     phases = [wave["phase_difference_deg"] for wave in waves]
     names = [f"{count}\n{phase:+.0f}°" if phase is not None else str(count) for count, phase in zip(counts, phases)]
     ax.set_xticks(counts, [name.replace("-0°", "0°").replace("+0°", "0°") for name in names])
-    ax.set_xlabel("waves a turn; below: phase of the prediction beyond the part")
+    ax.set_xlabel("waves per revolution; below: phase of the prediction minus phase of the part")
     ax.set_ylabel("amplitude (µm)")
     ax.spines[["top", "right"]].set_visible(False)
     rest = number(part["residual"]["rms_um"])
-    title(ax, "Wave by wave", f"{part['explained_percent']:.1f} % of the part explained, rest {rest} µm rms")
+    title(ax, "Harmonics", f"{part['explained_percent']:.1f} % of the part explained, residual {rest} µm rms")
     ax.legend(loc="upper right")

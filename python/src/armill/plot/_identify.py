@@ -1,4 +1,4 @@
-"""The springs of an arm, out of load tests."""
+"""The springs of an arm, identified from load tests."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ _KINDS = (
 )
 @picture
 def identify(source: Any, *, ax: Sequence[Axes] | None = None) -> list[Axes]:
-    """Answer of identify -> [springs, residuals]: compliances with intervals of ± 2 u, and what each test leaves unexplained, µm.
+    """Answer of identify -> [springs, residuals]: compliances with intervals of ± 2 u, and the residual of each test, µm.
 
-    Springs of which the tests tell less than half are hollow: they are what is known of any arm. Springs that slide, where there
-    are any, have axes of their own, before the residuals.
+    Hollow symbols: springs that the tests determine by less than half; their values are mostly prior knowledge. Prismatic
+    springs, if there are any, have separate axes before the residuals.
     """
     found = Source(source, "identify")
     springs: list[Json] = found.need("springs", "armill identify")
@@ -49,21 +49,21 @@ def _sheet(counts: list[int]) -> list[Axes]:
 
 def _springs(ax: Axes, answer: Json, kind: tuple[str, str, float, str], springs: list[Json]) -> None:
     value, spread, factor, label = kind
-    told: set[bool] = set()
+    shown: set[bool] = set()
     means = [factor * spring[value] for spring in springs]
     lows = [mean - 2 * factor * (spring[spread] or 0.0) for mean, spring in zip(means, springs)]
-    # On a scale of powers of ten there is no zero: what may be zero goes to the left edge.
+    # A logarithmic scale has no zero: intervals that include zero start at the left edge.
     edge = 0.3 * min((low if low > 0 else mean for low, mean in zip(lows, means) if mean > 0), default=1e-3)
     for i, spring in enumerate(springs):
         known = spring["fraction_known_from_tests"] >= 0.5
         mean, low = means[i], max(lows[i], edge)
-        what = "told by the tests, ± 2 u" if known else "mostly what is known of any arm, ± 2 u"
+        what = "determined by the tests, ± 2 u" if known else "mostly prior knowledge, ± 2 u"
         ax.plot([low, 2 * mean - lows[i]], [i, i], color=BLUE if known else ORANGE, linewidth=2.2, solid_capstyle="butt")
         ax.plot(
             mean, i, "o", markersize=6, color=BLUE if known else ORANGE, markerfacecolor=BLUE if known else "white",
-            label=None if known in told else what, linestyle="none",
+            label=None if known in shown else what, linestyle="none",
         )
-        told.add(known)
+        shown.add(known)
     ax.set_xscale("log")
     ax.set_xlim(left=edge)
     ax.set_yticks(range(len(springs)), [spring["name"] for spring in springs])
@@ -71,7 +71,7 @@ def _springs(ax: Axes, answer: Json, kind: tuple[str, str, float, str], springs:
     ax.grid(True, axis="x", color=FAINT, linewidth=0.6)
     ax.set_xlabel(label)
     counts = f"{answer['tests']} tests, {answer['readings']} readings"
-    title(ax, f"{answer['robot']}: springs", f"{counts}; intervals from the left edge hold zero")
+    title(ax, f"{answer['robot']}: springs", f"{counts}; intervals from the left edge include zero")
     legend_below(ax, columns=2, drop=-0.62 / (0.6 + 0.24 * len(springs)))
 
 
@@ -92,12 +92,12 @@ def _residuals(ax: Axes, answer: Json) -> None:
                 color=ORANGE, fontweight="bold", path_effects=HALO,
             )
     known = [(key, name) for key, name in (("residual", "used"), ("left_out", "left out")) if answer[key]]
-    told = ", ".join(f"{name} {number(answer[key]['mean_um'])} µm" for key, name in known)
+    means = ", ".join(f"{name} {number(answer[key]['mean_um'])} µm" for key, name in known)
     ax.set_xlim(0, len(tests) + 1)
     ax.set_ylim(bottom=0.0)
     ax.set_xlabel("test, in the order of the table")
     ax.set_ylabel("distance from the\nprediction (µm)")
-    title(ax, "What the springs leave", f"mean {told}")
+    title(ax, "Residuals", f"mean {means}")
     legend_below(ax, columns=2, drop=-0.24)
 
 

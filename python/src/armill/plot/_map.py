@@ -12,13 +12,13 @@ from matplotlib.lines import Line2D
 from armill.plot import _plane
 from armill.plot._answers import Source
 from armill.plot._setting import words
-from armill.plot._style import AMBER, INK, LIMIT, number, one, picture, rounded, title
+from armill.plot._style import AMBER, INK, TOLERANCE, number, one, picture, rounded, title
 
 
 @picture
 def map(
     source: Any,
-    ask: str | None = None,
+    analysis: str | None = None,
     *,
     value: str = "in_plane_um",
     levels: Sequence[float] | None = None,
@@ -26,14 +26,14 @@ def map(
 ) -> Axes:
     """Result, name of a map -> axes: contours of the deviation over a plane, µm.
 
-    The limit is bold; where the arm does not hold the tool the plane is hatched, with the reason in the legend. `value` is a list
-    of the grid: in_plane_um, in_plane_u_um, normal_um, full_um. The plane is seen from the tool side, so y' grows to the left.
+    The tolerance is bold. Unreachable parts of the plane are hatched, with the reason in the legend. `value` is a list of the
+    grid: in_plane_um, in_plane_u_um, normal_um, full_um. The plane is seen from the tool side: y' points to the left.
     """
-    answer = Source(source, "map").one("maps", ask)
+    answer = Source(source, "map").one("maps", analysis)
     _, _, values = _plane.grid(answer, value)
     reached = bool(np.isfinite(values).any())
-    told = rounded(*((np.nanmin(values), np.nanmax(values)) if reached else (0.0, 1.0)))
-    steps = np.unique(np.asarray(levels, dtype=float)) if levels is not None else told
+    default = rounded(*((np.nanmin(values), np.nanmax(values)) if reached else (0.0, 1.0)))
+    steps = np.unique(np.asarray(levels, dtype=float)) if levels is not None else default
     ax = one(ax, (6.4, 6.6))
     filled = _plane.fill(ax, answer, value, steps)
     _plane.name_axes(ax)
@@ -41,18 +41,18 @@ def map(
     handles: list[Any] = []
     bar = ax.figure.colorbar(filled, ax=ax, label=_plane.VALUES[value], shrink=0.8) if reached else None
     if bar is not None and value == "in_plane_um":
-        limit = answer["setting"]["tolerance_um"]
-        _plane.mark_limit(bar.ax, limit)
-        beyond = "" if _plane.limit_line(ax, answer) else ", nowhere crossed"
-        handles.append(Line2D([], [], color=LIMIT, linewidth=2.6, label=f"limit {limit:g} µm{beyond}"))
-        for key, label, marker, face in (("best", "least", "D", AMBER), ("worst", "largest", "o", "white")):
+        tolerance = answer["setting"]["tolerance_um"]
+        _plane.mark_tolerance(bar.ax, tolerance)
+        beyond = "" if _plane.tolerance_line(ax, answer) else ", not crossed"
+        handles.append(Line2D([], [], color=TOLERANCE, linewidth=2.6, label=f"tolerance {tolerance:g} µm{beyond}"))
+        for key, label, marker, face in (("best", "smallest", "D", AMBER), ("worst", "largest", "o", "white")):
             point = answer[key]
             place = point["in_plane_mm"]
-            told_um = f"{label} {number(point['in_plane_um'])} µm"
+            caption = f"{label} {number(point['in_plane_um'])} µm"
             handles.extend(
                 ax.plot(
                     *place, marker, markersize=7, markerfacecolor=face, markeredgecolor=INK, markeredgewidth=1.4,
-                    linestyle="none", label=told_um, zorder=6, clip_on=False,
+                    linestyle="none", label=caption, zorder=6, clip_on=False,
                 )
             )
     handles += _plane.reason_handles([answer])

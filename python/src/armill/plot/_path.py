@@ -1,4 +1,4 @@
-"""A path, coloured by what the tool deviates."""
+"""A path, coloured by the deviation."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ _NEEDED = ("x_mm", "y_mm", "z_mm", "distance_mm", "in_plane_um")
 
 
 @picture
-def path(source: Any, ask: str | None = None, *, table: Any = None, ax: Axes | None = None) -> Axes:
+def path(source: Any, analysis: str | None = None, *, table: Any = None, ax: Axes | None = None) -> Axes:
     """Result, name of a path -> axes: the path in its plane, coloured by the deviation across the tool, µm.
 
-    The worst points are numbered, the worst first. What is not reached is dotted.
+    The worst points are numbered, the worst first. Unreachable segments are dotted.
     """
     found = Source(source, "path", table)
-    answer = found.one("paths", ask)
+    answer = found.one("paths", analysis)
     columns = found.columns(answer["name"], _NEEDED)
     across, up = in_plane(answer, columns)
     values = columns["in_plane_um"].astype(float)
@@ -37,7 +37,7 @@ def path(source: Any, ask: str | None = None, *, table: Any = None, ax: Axes | N
     shown = drawn & ~lost
     ax = one(ax, (6.6, 5.8))
     if lost.any():
-        ax.add_collection(LineCollection(list(segments[lost]), colors=INK, linestyles=":", linewidths=1.0, label="not reached"))
+        ax.add_collection(LineCollection(list(segments[lost]), colors=INK, linestyles=":", linewidths=1.0, label="unreachable"))
     if shown.any():
         steps = rounded(float(colours[shown].min()), float(colours[shown].max()))
         lines = LineCollection(list(segments[shown]), cmap=COLOUR_MAP, norm=BoundaryNorm(steps, 256), linewidths=4.0)
@@ -45,7 +45,7 @@ def path(source: Any, ask: str | None = None, *, table: Any = None, ax: Axes | N
         lines.set_capstyle("round")
         ax.add_collection(lines)
         bar = ax.figure.colorbar(lines, ax=ax, label="deviation across the tool (µm)", shrink=0.85)
-        _plane.mark_limit(bar.ax, answer["setting"]["tolerance_um"])
+        _plane.mark_tolerance(bar.ax, answer["setting"]["tolerance_um"])
     for i, point in enumerate(answer["worst_points"], start=1):
         y, z = point["point"]["in_plane_mm"]
         label = f"worst points: {number(answer['max_in_plane_um'])} µm at 1" if i == 1 else None
@@ -59,8 +59,8 @@ def path(source: Any, ask: str | None = None, *, table: Any = None, ax: Axes | N
     # Seen from the tool side.
     ax.invert_xaxis()
     _plane.name_axes(ax)
-    limit = answer["setting"]["tolerance_um"]
-    share = f"{100 * answer['fraction_within']:.1f} % holds {limit:g} µm"
+    tolerance = answer["setting"]["tolerance_um"]
+    share = f"{100 * answer['fraction_within']:.1f} % within {tolerance:g} µm"
     title(ax, answer["name"], f"{share}; {words(answer)}")
     ax.legend(loc="upper left", bbox_to_anchor=(0.0, -0.13), ncols=2, borderaxespad=0.0)
     return ax

@@ -1,4 +1,4 @@
-"""One plane as contours: what maps and sections share."""
+"""One plane as contours, for maps and sections."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from matplotlib.transforms import Bbox
 from numpy.typing import NDArray
 
 from armill.plot._answers import Json, Missing
-from armill.plot._style import COLOUR_MAP, HALO, INK, LIMIT
+from armill.plot._style import COLOUR_MAP, HALO, INK, TOLERANCE
 
 Floats = NDArray[np.float64]
 
@@ -34,32 +34,32 @@ REASONS = {
     "inside_lateral_offset": ("inside the lateral offset", "|||"),
     "no_posture_inside_limits": ("no posture inside joint limits", "xxx"),
     "not_found": ("no posture found", "---"),
-    "other_branch": ("held in another branch only", "+++"),
+    "other_branch": ("reachable in another branch only", "+++"),
     "unverified": ("not verified", "***"),
-    "unstable": ("no stable rest under the load", "ooo"),
+    "unstable": ("no stable equilibrium under the load", "ooo"),
 }
 
 
 def grid(answer: Json, value: str) -> tuple[Floats, Floats, Floats]:
-    """y' of the columns, z' of the rows, the values; NaN where the arm does not hold the tool."""
+    """y' of the columns, z' of the rows, the values; NaN where unreachable."""
     if value not in VALUES:
         raise ValueError(f"value: expected one of {', '.join(VALUES)}; given {value!r}")
     cells: Json = answer["grid"]
     y, z = (np.array(cells[key], dtype=float) for key in ("y_mm", "z_mm"))
     if len(y) < 2 or len(z) < 2:
-        raise Missing(f"{answer['name']}: a line of points is no map: give the plane a half size along y' and z'")
+        raise Missing(f"{answer['name']}: a line of points is not a map: give the plane a half size along y' and z'")
     values = np.array(cells[value], dtype=float).reshape(len(z), len(y))
     return y, z, values
 
 
 def fill(ax: Axes, answer: Json, value: str, levels: Floats) -> QuadContourSet:
-    """Bands between levels, and hatches where the arm does not hold the tool."""
+    """Bands between levels, and hatches where unreachable."""
     y, z, values = grid(answer, value)
     hatch(ax, answer, y, z)
     masked = np.ma.masked_invalid(values)
     norm = BoundaryNorm(levels, 256)
     with warnings.catch_warnings():
-        # A plane out of reach as a whole has hatches alone.
+        # A plane that is unreachable as a whole has only hatches.
         warnings.simplefilter("ignore", UserWarning)
         filled = ax.contourf(y, z, masked, levels=levels, cmap=COLOUR_MAP, norm=norm, zorder=1)
     # Seen from the tool side.
@@ -70,7 +70,7 @@ def fill(ax: Axes, answer: Json, value: str, levels: Floats) -> QuadContourSet:
 
 
 def lines(ax: Axes, answer: Json, value: str, levels: Floats, labelled: bool) -> None:
-    """Thin lines at the levels, with their values where they hide nothing."""
+    """Thin lines at the levels, with their values where there is room."""
     y, z, values = grid(answer, value)
     if not crossed(values, levels):
         return
@@ -84,21 +84,21 @@ def lines(ax: Axes, answer: Json, value: str, levels: Floats, labelled: bool) ->
         thin(ax, texts, [answer[key]["in_plane_mm"] for key in ("best", "worst")])
 
 
-def limit_line(ax: Axes, answer: Json) -> bool:
-    """The limit, bold; whether it crosses the plane."""
+def tolerance_line(ax: Axes, answer: Json) -> bool:
+    """The tolerance as a bold contour; whether it crosses the plane."""
     y, z, values = grid(answer, "in_plane_um")
-    limit = answer["setting"]["tolerance_um"]
-    if not crossed(values, [limit]):
+    tolerance = answer["setting"]["tolerance_um"]
+    if not crossed(values, [tolerance]):
         return False
     halo: list[AbstractPathEffect] = [withStroke(linewidth=4.6, foreground="white")]
     ax.contour(
-        y, z, np.ma.masked_invalid(values), levels=[limit], colors=LIMIT, linewidths=2.6, zorder=3
+        y, z, np.ma.masked_invalid(values), levels=[tolerance], colors=TOLERANCE, linewidths=2.6, zorder=3
     ).set_path_effects(halo)
     return True
 
 
 def crossed(values: Floats, levels: Iterable[float]) -> bool:
-    """Whether a level lies between the least and the greatest value."""
+    """Whether a level is between the smallest and the largest value."""
     if not np.isfinite(values).any():
         return False
     low, high = np.nanmin(values), np.nanmax(values)
@@ -106,30 +106,30 @@ def crossed(values: Floats, levels: Iterable[float]) -> bool:
 
 
 def hatch(ax: Axes, answer: Json, y: Floats, z: Floats) -> None:
-    """Cells without an answer, each reason with a hatch of its own."""
-    # A whole cell to all sides, since bands end at the last point that is held.
+    """Cells without a value, with one hatch per reason."""
+    # A whole cell to all sides, since bands end at the last reachable point.
     half = (abs(y[1] - y[0]), abs(z[1] - z[0]))
-    for remark in answer["grid"]["remarks"]:
-        if remark["reason"] not in REASONS:
+    for flag in answer["grid"]["flags"]:
+        if flag["reason"] not in REASONS:
             continue
-        points = np.array(remark["points"])
+        points = np.array(flag["points"])
         centres = np.column_stack([y[points % len(y)], z[points // len(y)]])
         corners = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
         cells = [centre + np.multiply(corner, half) for centre in centres for corner in [*corners, corners[0]]]
         codes = [Path.MOVETO, Path.LINETO, Path.LINETO, Path.LINETO, Path.CLOSEPOLY] * len(centres)
-        _, pattern = REASONS[remark["reason"]]
+        _, pattern = REASONS[flag["reason"]]
         ax.add_patch(
             PathPatch(Path(cells, codes), facecolor="#f2f2f2", edgecolor="#8c8c8c", hatch=pattern, linewidth=0.0, zorder=0.5)
         )
 
 
 def reason_handles(answers: Iterable[Json]) -> list[Any]:
-    """What the hatches mean, with how many points there are of each."""
+    """Legend entries of the hatches, with the number of points of each."""
     counts: dict[str, int] = {}
     for answer in answers:
-        for remark in answer["grid"]["remarks"]:
-            if remark["reason"] in REASONS:
-                counts[remark["reason"]] = counts.get(remark["reason"], 0) + len(remark["points"])
+        for flag in answer["grid"]["flags"]:
+            if flag["reason"] in REASONS:
+                counts[flag["reason"]] = counts.get(flag["reason"], 0) + len(flag["points"])
     return [
         Patch(
             facecolor="#f2f2f2", edgecolor="#8c8c8c", linewidth=0.0, hatch=REASONS[reason][1],
@@ -140,7 +140,7 @@ def reason_handles(answers: Iterable[Json]) -> list[Any]:
 
 
 def thin(ax: Axes, texts: Iterable[Text], marked: Iterable[Any]) -> None:
-    """Takes away labels that lie over others, over points that are marked, or across the edge of the axes."""
+    """Removes labels that overlap others, marked points, or the edge of the axes."""
     figure = ax.get_figure(root=True)
     if figure is not None:
         figure.draw_without_rendering()
@@ -161,11 +161,11 @@ def name_axes(ax: Axes) -> None:
     ax.set_ylabel("along the plane, z′ (mm)")
 
 
-def mark_limit(bar_ax: Axes, limit: float) -> None:
-    """The limit on the bar of colours."""
+def mark_tolerance(bar_ax: Axes, tolerance: float) -> None:
+    """The tolerance on the colour bar."""
     low, high = sorted(bar_ax.get_ylim())
-    if low < limit < high:
-        bar_ax.axhline(limit, color="white", linewidth=4.2)
-        bar_ax.axhline(limit, color=LIMIT, linewidth=2.6)
+    if low < tolerance < high:
+        bar_ax.axhline(tolerance, color="white", linewidth=4.2)
+        bar_ax.axhline(tolerance, color=TOLERANCE, linewidth=2.6)
 
 

@@ -1,4 +1,4 @@
-"""How a circle becomes another: predicted under load, or measured by a ball-bar."""
+"""Radial deviation of a circle: predicted under load, or measured by a ball-bar."""
 
 from __future__ import annotations
 
@@ -12,31 +12,31 @@ from armill.plot._answers import Columns, Json, Missing, Source
 from armill.plot._setting import in_plane, plane_axes, words
 from armill.plot._style import BLUE, COLOURS, GREEN, number, one, picture, title
 
-# How far radial deviations out of a table may be from those of the answer: what its digits leave.
+# Largest difference of radial deviations of a table and of the answer, by rounding.
 _DIGITS_UM = 0.01
 
 
 @picture
-def polar(source: Any, ask: str | None = None, *, table: Any = None, ax: Axes | None = None) -> Axes:
-    """Result and name of a circle, or Answer of ballbar -> polar axes: radial deviation round the circle, magnified, µm.
+def polar(source: Any, analysis: str | None = None, *, table: Any = None, ax: Axes | None = None) -> Axes:
+    """Result and name of a circle, or Answer of ballbar -> polar axes: radial deviation around the circle, magnified, µm.
 
-    Of a predicted circle a curve each load case, seen from the tool side, angles from +y' towards z'. Of a ball-bar a curve each
-    run, clockwise and anticlockwise in two colours, repeats dashed; its runs come from `runs.csv` of the folder, or `table`.
+    For a predicted circle one curve per load case, seen from the tool side, angles from +y' towards z'. For a ball-bar one curve
+    per run, clockwise and anticlockwise in two colours, repeats dashed; the runs are from `runs.csv` of the folder, or `table`.
     """
     found = Source(source, "polar", table)
     ax = one(ax, (6.4, 6.9), "polar")
     if "runs" in found.data and "circular_bidirectional_um" in found.data:
         _runs(ax, found)
     else:
-        _cases(ax, found, ask)
+        _cases(ax, found, analysis)
     return ax
 
 
-def _cases(ax: Axes, found: Source, ask: str | None) -> None:
-    answer = found.one("paths", ask)
+def _cases(ax: Axes, found: Source, analysis: str | None) -> None:
+    answer = found.one("paths", analysis)
     circle: list[Json] | None = answer["circle_cases"]
     if not circle:
-        raise Missing(f"polar: {answer['name']!r} is no circle that is reached all round")
+        raise Missing(f"polar: {answer['name']!r} is not a circle that is reachable everywhere")
     names = [f"deviation_{axis}_case_{case['case']}_um" for case in circle for axis in "xyz"]
     columns = found.columns(answer["name"], ["x_mm", "y_mm", "z_mm", *names])
     angles, radial = radial_um(answer, columns, [case["case"] for case in circle])
@@ -99,7 +99,7 @@ def _runs(ax: Axes, found: Source) -> None:
 
 
 def _start(ax: Axes, runs: list[Json], angles: Any, values: Any) -> None:
-    """Where the runs begin: there the bar feeds in."""
+    """The start of the runs, where the bar feeds in."""
     for i, (run, each) in enumerate(zip(runs, values)):
         start = np.radians(run["start_deg"] % 360)
         nearest = int(np.argmin(np.abs(np.angle(np.exp(1j * (angles - start))))))

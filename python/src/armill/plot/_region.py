@@ -1,4 +1,4 @@
-"""Where on a plane the limit holds."""
+"""The region of a plane within the tolerance."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from armill.plot._answers import Json, Source
 from armill.plot._setting import words
 from armill.plot._style import BLUE, INK, ORANGE, SKY, one, picture, title
 
-_POSSIBLY, _SURELY = "#d3e8f5", "#4a9fcf"
+_POSSIBLY, _ROBUSTLY = "#d3e8f5", "#4a9fcf"
 
 
 @picture
-def region(source: Any, ask: str | None = None, *, ax: Axes | None = None) -> Axes:
-    """Result, name of a map -> axes: the region within the limit, what fits into it, and how sure it is.
+def region(source: Any, analysis: str | None = None, *, ax: Axes | None = None) -> Axes:
+    """Result, name of a map -> axes: the region within the tolerance, its uncertainty, and inscribed shapes.
 
-    Surely and possibly within are with twice the standard uncertainty added and taken away.
+    Robustly and possibly within are with twice the standard uncertainty added and subtracted.
     """
-    answer = Source(source, "region").one("maps", ask)
+    answer = Source(source, "region").one("maps", analysis)
     found: Json = answer["region"]
     certainty: Json = answer["certainty"]
     y, z, _ = _plane.grid(answer, "in_plane_um")
@@ -33,7 +33,7 @@ def region(source: Any, ask: str | None = None, *, ax: Axes | None = None) -> Ax
     areas = (
         ("possibly within", certainty["boundary_possibly_mm"], certainty["area_possibly_mm2"], _POSSIBLY, "none", 1.0),
         ("within", found["boundary_mm"], found["area_mm2"], SKY, BLUE, 1.1),
-        ("surely within", certainty["boundary_robust_mm"], certainty["area_robust_mm2"], _SURELY, "none", 1.2),
+        ("robustly within", certainty["boundary_robust_mm"], certainty["area_robust_mm2"], _ROBUSTLY, "none", 1.2),
     )
     for label, boundary, area_mm2, face, edge, order in areas:
         if boundary:
@@ -56,9 +56,9 @@ def region(source: Any, ask: str | None = None, *, ax: Axes | None = None) -> Ax
     ax.set_ylim(z.min(), z.max())
     ax.set_aspect("equal")
     _plane.name_axes(ax)
-    limit = answer["setting"]["tolerance_um"]
-    share = f"{100 * answer['fraction_within']:.1f} % of the points hold {limit:g} µm"
-    title(ax, f"{answer['name']}: region within {limit:g} µm", f"{share}; {words(answer)}")
+    tolerance = answer["setting"]["tolerance_um"]
+    share = f"{100 * answer['fraction_within']:.1f} % of the points within {tolerance:g} µm"
+    title(ax, f"{answer['name']}: region within {tolerance:g} µm", f"{share}; {words(answer)}")
     handles += _plane.reason_handles([answer])
     ax.legend(handles=handles, loc="upper left", bbox_to_anchor=(0.0, -0.12), ncols=2, borderaxespad=0.0, columnspacing=1.4)
     return ax

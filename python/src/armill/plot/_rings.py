@@ -1,6 +1,6 @@
 """Radial deviations round a circle, magnified: what polar pictures share.
 
-The radius of a picture is the deviation itself, in µm: the nominal circle is at 0, and what lies inside has room to the centre.
+The radius of a picture is the deviation itself, in µm: the nominal circle is at 0, with room inside for negative values.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ def draw(ax: Axes, low: float, high: float, directions: tuple[str, str, str, str
     division = float(rings[1] - rings[0])
     ax.set_rorigin(rings[0] - 0.55 * max(span, rings[-1] - rings[0]))  # type: ignore[attr-defined]
     ax.set_ylim(rings[0], rings[-1])
-    # The outermost has no label: those of the directions stand there.
+    # The outermost has no label: the labels of the directions are there.
     ax.set_yticks(rings, [*(f"{ring:+g} µm" if ring else "0 µm" for ring in rings[:-1]), ""])
     for label in ax.get_yticklabels():
         label.set_path_effects(HALO)
@@ -39,7 +39,7 @@ def draw(ax: Axes, low: float, high: float, directions: tuple[str, str, str, str
     return division
 
 
-# Points by which titles stand higher than the direction at the top.
+# Points by which titles are above the label of the direction at the top.
 LIFT = 20.0
 
 

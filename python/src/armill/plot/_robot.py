@@ -12,7 +12,7 @@ from armill.plot._style import BLUE, GREEN, GREY, INK, ORANGE, legend_below, one
 
 Floats = NDArray[np.float64]
 
-# Sines of angles below this are those of axes that lie parallel.
+# Axes whose angle has a sine below this are parallel.
 _PARALLEL = 1e-6
 
 
@@ -51,8 +51,8 @@ def robot(arm: Any, joints: ArrayLike, tool: ArrayLike | None = None, *, ax: Any
 def skeleton(arm: Any, posture: Floats, tool: ArrayLike | None = None) -> Floats:
     """(m, 3) points from base to TCP, m: feet of the shortest lines between one axis and the next.
 
-    An axis of direction a that gives the TCP the velocity v passes through TCP + a x v. Joints that slide have a
-    direction but no place, and are passed over.
+    An axis of direction a that gives the TCP the velocity v passes through TCP + a x v. Prismatic joints have a
+    direction but no position, and are omitted.
     """
     tip = np.asarray(arm.forward(posture, tool))[:3, 3]
     screws = [(screw[:3], screw[3:]) for screw in _screws(arm, posture, tool)]
@@ -69,9 +69,9 @@ def skeleton(arm: Any, posture: Floats, tool: ArrayLike | None = None) -> Floats
 
 
 def _screws(arm: Any, posture: Floats, tool: ArrayLike | None) -> list[Floats]:
-    """The twist of the TCP by each axis of the chain, translation first, whichever way it counts.
+    """The twist of the TCP by each axis of the chain, translation first, with either sign.
 
-    Not the columns of the Jacobian: those of joints that count together move two axes. What a joint alone yields is
+    Not the columns of the Jacobian: the columns of coupled joints move two axes. The compliance of one joint alone is
     C = c S S', which has its screw S.
     """
     rigid = np.zeros(arm.dof)

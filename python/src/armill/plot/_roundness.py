@@ -1,4 +1,4 @@
-"""A measured profile, and the four circles about it."""
+"""A measured profile, and its four reference circles."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from armill.plot._style import BLUE, GREEN, ORANGE, PINK, number, one, picture, 
 def roundness(source: Any, *, table: Any = None, ax: Axes | None = None) -> Axes:
     """Answer of roundness -> polar axes: the profile magnified, with the four reference circles, µm.
 
-    The points come from `roundness.csv` that the command writes (``out=folder``), given as `table`, or out of the folder; without
-    them the circles are drawn alone.
+    The points are from `roundness.csv` that the command writes (``out=folder``), given as `table`, or from the folder; without
+    them only the circles are drawn.
     """
     found = Source(source, "roundness", table)
     lsci: Json = found.need("lsci", "armill roundness")
@@ -42,8 +42,8 @@ def roundness(source: Any, *, table: Any = None, ax: Axes | None = None) -> Axes
         ax.plot(around, values, color=colour, linestyle=dashes, linewidth=1.6, label=label)
     upr = found.data["filter_upr"]
     filtered = f"filtered at {upr:g} UPR" if upr is not None else "not filtered"
-    held = f"{found.data['points']} points, radius {radius:.4f} mm, {filtered}"
-    title(ax, f"Roundness of {found.data['file']}", held, _rings.LIFT)
+    conditions = f"{found.data['points']} points, radius {radius:.4f} mm, {filtered}"
+    title(ax, f"Roundness of {found.data['file']}", conditions, _rings.LIFT)
     _rings.legend(ax, columns=2)
     return ax
 
@@ -53,19 +53,19 @@ def _circles(answer: Json, centre: Any, radius: float, around: NDArray[np.float6
 
     def off(circle: Json, size: float) -> NDArray[np.float64]:
         x, y = np.array(circle["centre_mm"], dtype=float) - centre
-        beside = x * np.sin(around) - y * np.cos(around)
-        out: NDArray[np.float64] = x * np.cos(around) + y * np.sin(around) + np.sqrt(size * size - beside * beside) - radius
+        offset = x * np.sin(around) - y * np.cos(around)
+        out: NDArray[np.float64] = x * np.cos(around) + y * np.sin(around) + np.sqrt(size * size - offset * offset) - radius
         return 1e3 * out
 
     circles: list[tuple[str | None, str, Any, Any]] = []
     if (mzci := answer["mzci"]) is not None:
-        told = f"MZCI, RONt {number(1e3 * mzci['ront_mm'])} µm"
+        label = f"MZCI, RONt {number(1e3 * mzci['ront_mm'])} µm"
         for i, size in enumerate(mzci["radii_mm"]):
-            circles.append((told if i == 0 else None, ORANGE, "-", off(mzci, size)))
+            circles.append((label if i == 0 else None, ORANGE, "-", off(mzci, size)))
     for key, colour, dashes in (("mcci", GREEN, (0, (5, 3))), ("mici", PINK, (0, (2, 2)))):
         if (circle := answer[key]) is not None:
-            told = f"{key.upper()}, RONt {number(1e3 * circle['ront_mm'])} µm"
-            circles.append((told, colour, dashes, off(circle, circle["radius_mm"])))
+            label = f"{key.upper()}, RONt {number(1e3 * circle['ront_mm'])} µm"
+            circles.append((label, colour, dashes, off(circle, circle["radius_mm"])))
     return circles
 
 

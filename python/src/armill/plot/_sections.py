@@ -1,4 +1,4 @@
-"""Many planes on one sheet."""
+"""Many planes in one figure."""
 
 from __future__ import annotations
 
@@ -12,27 +12,27 @@ from matplotlib.lines import Line2D
 from armill.plot import _plane
 from armill.plot._answers import Json, Missing, Source
 from armill.plot._setting import words
-from armill.plot._style import LIMIT, picture, rounded, several
+from armill.plot._style import TOLERANCE, picture, rounded, several
 
 
 @picture
 def sections(
     source: Any,
-    ask: str | None = None,
+    analysis: str | None = None,
     *,
     levels: Sequence[float] | None = None,
     ax: Sequence[Axes] | None = None,
 ) -> list[Axes]:
-    """Result, name of an ask for sections -> list of axes, one a plane: deviation over distances or tilts, µm.
+    """Result, name of an analysis for sections -> list of axes, one per plane: deviation over distances or tilts, µm.
 
     All planes have the same levels. `ax` takes as many axes as there are planes.
     """
     found = Source(source, "sections")
-    planes, name = _of_one_ask(found.need("maps", "armill run"), ask)
+    planes, name = _of_one_analysis(found.need("maps", "armill run"), analysis)
     values = [_plane.grid(plane, "in_plane_um")[2] for plane in planes]
     known = np.concatenate([each[np.isfinite(each)] for each in values])
     if not known.size:
-        raise Missing(f"sections: no point of {name!r} is reached")
+        raise Missing(f"sections: no point of {name!r} is reachable")
     steps = np.asarray(levels, dtype=float) if levels is not None else rounded(known.min(), known.max(), 9)
     columns = 4 if len(planes) in (4, 7, 8) or len(planes) > 9 else min(3, len(planes))
     rows = -(-len(planes) // columns)
@@ -43,10 +43,10 @@ def sections(
         drawn = _plane.fill(each, plane, "in_plane_um", steps)
         bands += [drawn] if np.isfinite(values[i]).any() else []
         _plane.lines(each, plane, "in_plane_um", steps, labelled=False)
-        _plane.limit_line(each, plane)
+        _plane.tolerance_line(each, plane)
         label = plane["name"].removeprefix(f"{name}: ")
-        held = 100 * plane["fraction_within"]
-        each.set_title(f"{label}\n{held:.0f} % within", loc="left", fontsize=9)
+        share = 100 * plane["fraction_within"]
+        each.set_title(f"{label}\n{share:.0f} % within", loc="left", fontsize=9)
         each.label_outer()
     figure = axes[0].figure
     for i, each in enumerate(axes):
@@ -55,10 +55,10 @@ def sections(
         if i + columns >= len(planes):
             each.set_xlabel("y′ (mm)")
             each.tick_params(labelbottom=True)
-    limit = planes[0]["setting"]["tolerance_um"]
+    tolerance = planes[0]["setting"]["tolerance_um"]
     bar = figure.colorbar(bands[0], ax=axes, label=_plane.VALUES["in_plane_um"], shrink=0.8, aspect=28)
-    _plane.mark_limit(bar.ax, limit)
-    handles = [Line2D([], [], color=LIMIT, linewidth=2.6, label=f"limit {limit:g} µm"), *_plane.reason_handles(planes)]
+    _plane.mark_tolerance(bar.ax, tolerance)
+    handles = [Line2D([], [], color=TOLERANCE, linewidth=2.6, label=f"tolerance {tolerance:g} µm"), *_plane.reason_handles(planes)]
     if ax is None:
         figure.suptitle(f"{name}: {_shared(planes[0])}", x=0.01, ha="left", fontsize=11, fontweight="bold")
         figure.legend(handles=handles, loc="outside lower left", ncols=min(3, len(handles)), handlelength=2.4)
@@ -67,20 +67,20 @@ def sections(
     return axes
 
 
-def _of_one_ask(maps: list[Json], ask: str | None) -> tuple[list[Json], str]:
-    """The planes `ASK: ...` of one ask, and its name."""
+def _of_one_analysis(maps: list[Json], analysis: str | None) -> tuple[list[Json], str]:
+    """The planes `ANALYSIS: ...` of one analysis, and its name."""
     names = list(dict.fromkeys(plane["name"].rsplit(": ", 1)[0] for plane in maps if ": " in plane["name"]))
     if not names:
-        raise Missing("sections: the answer has no sections: an ask of kind `sections` gives them")
-    name = names[0] if ask is None else ask
+        raise Missing("sections: the answer has no sections: an analysis of kind `sections` gives them")
+    name = names[0] if analysis is None else analysis
     planes = [plane for plane in maps if plane["name"].startswith(f"{name}: ")]
     if not planes:
-        raise Missing(f"sections: no sections are called {name!r}; there are {', '.join(map(repr, names))}")
+        raise Missing(f"sections: {name!r} is not among the sections: {', '.join(map(repr, names))}")
     return planes, name
 
 
 def _shared(plane: Json) -> str:
-    """What all planes have in common, in words."""
+    """The common setting of all planes, in words."""
     parts = [part for part in words(plane).split(", ") if not part.startswith("tilt ")]
     return ", ".join(parts)
 

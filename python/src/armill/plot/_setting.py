@@ -1,4 +1,4 @@
-"""What the points of an answer share: said under the title, and used to lay points into their plane."""
+"""The setting of an answer: the text under the title, and the axes of its plane."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ def words(answer: Json) -> str:
     cases = len(setting["cases_n"])
     if cases > 1:
         parts.append(f"worst of {cases} load cases")
-    parts.append(f"positions from {setting['base']}")
+    parts.append(f"positions relative to {setting['base']}")
     return ", ".join(parts)
 
 
 def plane_axes(answer: Json) -> tuple[Vector, Vector]:
-    """The axes y' and z' of the plane, in the frame that positions count from.
+    """The axes y' and z' of the plane, in the reference frame of positions.
 
-    ``v = a y' + b z'`` holds for a point whose place from the centre is v, and ``z' = y' x n``.
+    ``v = a y' + b z'`` for a point at v from the centre, and ``z' = y' x n``.
     """
     setting: Json = answer["setting"]
     normal = np.array(setting["normal_axis"], dtype=float)
@@ -53,9 +53,9 @@ def in_plane(answer: Json, columns: Columns) -> tuple[Vector, Vector]:
 
 
 def breaks(columns: Columns) -> NDArray[np.intp]:
-    """Where a cut ends and the next begins elsewhere: indices of first points."""
+    """Indices of the first points of separate cuts."""
     places = np.column_stack([columns[name] for name in ("x_mm", "y_mm", "z_mm")]).astype(float)
     gone = np.linalg.norm(np.diff(places, axis=0), axis=1)
-    told = np.diff(columns["distance_mm"].astype(float))
-    # An arc between two points is longer than its chord, and never so much shorter.
-    return np.flatnonzero(gone > 1.01 * told + 1e-3) + 1
+    along = np.diff(columns["distance_mm"].astype(float))
+    # An arc between two points is longer than its chord.
+    return np.flatnonzero(gone > 1.01 * along + 1e-3) + 1

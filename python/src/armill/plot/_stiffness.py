@@ -1,4 +1,4 @@
-"""How stiff the arm is at the tool, in which direction."""
+"""The stiffness of the arm at the tool, by direction."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from armill.plot._style import BLUE, GREEN, ORANGE, SKY, legend_below, number, o
 
 @picture
 def stiffness(arm: Any, joints: ArrayLike, tool: ArrayLike | None = None, *, ax: Any = None) -> Axes:
-    """Robot, (dof,) joints -> 3-D axes: where the tool goes under 1 N in every direction, µm, base axes.
+    """Robot, (dof,) joints -> 3-D axes: the deviation of the tool under 1 N in all directions, µm/N, base axes.
 
-    Forces of 1 N at the TCP make a ball; deviations under them an ellipsoid. Its half axes are the principal compliances, the
-    legend has the stiffness along each, N/µm. `tool` (4, 4) is flange_from_tool.
+    The forces form a sphere, the deviations an ellipsoid. Its half axes are the principal compliances; the legend gives the
+    stiffness along each, N/µm. `tool` (4, 4) is flange_from_tool.
     """
     if not callable(getattr(arm, "compliance", None)):
         raise TypeError(f"stiffness: expected an armill.Robot, given {type(arm).__name__}")
     posture = np.asarray(joints, dtype=float)
     if posture.ndim != 1:
         raise ValueError(f"stiffness: joints: expected shape ({arm.dof},), given {posture.shape}")
-    # µm/N: translations under forces stand first in a compliance.
+    # µm/N: translations under forces are first in a compliance.
     c = 1e6 * np.asarray(arm.compliance(posture, tool))[:3, :3]
     sizes, axes = np.linalg.eigh((c + c.T) / 2)
     drawn = one(ax, (6.4, 6.4), "3d")

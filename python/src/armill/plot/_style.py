@@ -1,7 +1,7 @@
-"""How the pictures look: sizes, colours, titles, and the axes that they are drawn on.
+"""The style of the pictures: sizes, colours, titles and axes.
 
-Settings hold while a picture is drawn, and are the caller's again after. Fonts are the caller's throughout. Colours are those
-of Okabe and Ito, and viridis: told apart by the colour-blind, and in print without colour.
+Settings are changed while a picture is drawn and restored afterwards. Fonts are those of the caller. Colours are those of Okabe
+and Ito, and viridis: they are distinguishable with colour-blindness, and in print without colour.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 BLUE, ORANGE, GREEN, PINK = "#0072b2", "#d55e00", "#009e73", "#cc79a7"
 SKY, AMBER, YELLOW, GREY = "#56b4e9", "#e69f00", "#f0e442", "#999999"
 COLOURS = (BLUE, ORANGE, GREEN, PINK, SKY, AMBER, YELLOW, GREY)
-INK, SOFT, FAINT, LIMIT = "#1a1a1a", "#5a5a5a", "#dddddd", "#c8102e"
+INK, SOFT, FAINT, TOLERANCE = "#1a1a1a", "#5a5a5a", "#dddddd", "#c8102e"
 COLOUR_MAP = "viridis"
 HALO: list[AbstractPathEffect] = [withStroke(linewidth=2.5, foreground="white")]
 
@@ -50,9 +50,9 @@ T = TypeVar("T")
 
 
 def picture(draw: Callable[P, T]) -> Callable[P, T]:
-    """A function that draws under the settings above, and puts back those that it changed.
+    """A function that draws with the settings above and restores them afterwards.
 
-    All others stay as they are, so that a backend that wakes up with its first figure may set its own.
+    All other settings are left as they are, so that a backend may change its own when it starts with the first figure.
     """
 
     @functools.wraps(draw)
@@ -69,15 +69,15 @@ def picture(draw: Callable[P, T]) -> Callable[P, T]:
 
 
 def one(ax: Any, size: tuple[float, float], projection: str | None = None) -> Axes:
-    """The caller's axes, or those of a new figure of ``size`` in inches."""
+    """The given axes, or those of a new figure of ``size`` in inches."""
     if ax is None:
         figure = plt.figure(figsize=size, layout="constrained")
         return _settled(figure.add_subplot(projection=projection))
     if not isinstance(ax, Axes):
         raise TypeError(f"ax: expected matplotlib axes, given {type(ax).__name__}")
-    wanted = projection or "rectilinear"
-    if ax.name != wanted:
-        raise ValueError(f"ax: expected {wanted} axes, as by figure.add_subplot(projection={projection!r}); these are {ax.name}")
+    expected = projection or "rectilinear"
+    if ax.name != expected:
+        raise ValueError(f"ax: expected {expected} axes, as by figure.add_subplot(projection={projection!r}); these are {ax.name}")
     return ax
 
 
@@ -88,7 +88,7 @@ def several(
     columns: int,
     **shared: Any,
 ) -> list[Axes]:
-    """``count`` axes of the caller, or of a new figure."""
+    """``count`` given axes, or those of a new figure."""
     if ax is None:
         rows = -(-count // columns)
         figure = plt.figure(figsize=size, layout="constrained")
@@ -103,18 +103,18 @@ def several(
 
 
 def _settled(ax: Axes) -> Axes:
-    """Ticks come into being when a figure is drawn: they are told their looks now."""
+    """Ticks are created when a figure is drawn: their style is set here."""
     for name in ("x", "y"):
         ax.tick_params(axis=name, which="both", color=INK, labelcolor=INK, labelsize=8.5, width=0.8)
     return ax
 
 
 def title(ax: Axes, text: str, subtitle: str = "", lift: float = 0.0) -> None:
-    """A bold title on the left, what the picture holds for below it; `lift` points higher, where labels stand above the axes."""
+    """A bold title on the left with a subtitle; `lift` points higher, above labels on top of the axes."""
     width = _room(ax)
     lines = textwrap.wrap(subtitle, max(24, int(13.0 * width)))
     heading = textwrap.fill(text, max(18, int(9.0 * width)))
-    # With `y` told, matplotlib leaves the title where it is.
+    # With `y` given, matplotlib does not move the title.
     ax.set_title(heading, loc="left", fontweight="bold", y=1.0, pad=7 + lift + 11.5 * len(lines))
     if lines:
         note = ax.annotate(
@@ -125,7 +125,7 @@ def title(ax: Axes, text: str, subtitle: str = "", lift: float = 0.0) -> None:
 
 
 def _room(ax: Axes) -> float:
-    """The width that a title has, in inches: that of the column of the axes."""
+    """The width for a title, in inches: that of the column of the axes."""
     figure = ax.get_figure(root=True)
     width = float(figure.get_size_inches()[0]) if figure is not None else 6.4
     cell = ax.get_subplotspec()
@@ -135,21 +135,21 @@ def _room(ax: Axes) -> float:
 
 
 def legend_below(ax: Axes, columns: int = 3, drop: float = -0.13) -> None:
-    """The legend under the axes, where it hides nothing."""
+    """A legend below the axes."""
     handles, _ = ax.get_legend_handles_labels()
     if handles:
         ax.legend(loc="upper left", bbox_to_anchor=(0.0, drop), ncols=columns, borderaxespad=0.0, columnspacing=1.4)
 
 
 def rounded(low: float, high: float, about: int = 8) -> NDArray[np.float64]:
-    """Round levels from ``low`` to ``high``, about so many."""
+    """About ``about`` round levels from ``low`` to ``high``."""
     if not high > low:
         high = low + max(abs(low) * 1e-3, 1e-3)
     return np.asarray(MaxNLocator(nbins=about, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high), dtype=float)
 
 
 def number(value: float) -> str:
-    """A value with three digits that mean something."""
+    """A value with three significant digits."""
     if value == 0 or not np.isfinite(value):
         return "0" if value == 0 else "-"
     decimals = max(0, 2 - int(np.floor(np.log10(abs(value)))))

@@ -1,4 +1,4 @@
-"""How the tool is turned along a path, among all turns that it could have."""
+"""The spin of the tool along a path, among all possible spins."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _SLIDES = "_mm"
 @picture
 def turns(
     source: Any,
-    ask: str | None = None,
+    analysis: str | None = None,
     *,
     robot: Any = None,
     tool: ArrayLike | None = None,
@@ -28,38 +28,38 @@ def turns(
     table: Any = None,
     ax: Axes | None = None,
 ) -> Axes:
-    """Result and name of a path with a search -> axes: the turn of the tool that was chosen, deg over mm.
+    """Result and name of a path with a search -> axes: the chosen spin of the tool, deg over mm.
 
-    With `robot` (armill.Robot) and `tool` (4, 4) flange_from_tool also what the deviation would be at `turn_count` other turns,
-    in the same branch under the load cases of the path, µm; what stands in the way is hatched.
+    With `robot` (armill.Robot) and `tool` (4, 4) flange_from_tool also the deviation at `turn_count` other spins, in the same
+    branch under the load cases of the path, µm; unreachable spins are hatched.
     """
     found = Source(source, "turns", table)
-    answer = found.one("paths", ask)
+    answer = found.one("paths", analysis)
     if answer["search"] is None:
-        raise Missing(f"turns: {answer['name']!r} was not searched: an ask with `posture.search` is")
+        raise Missing(f"turns: {answer['name']!r} has no search: an analysis with `posture.search` has one")
     columns = found.columns(answer["name"], ["line", "distance_mm", "turn_deg"])
     distance, chosen = (columns[name].astype(float) for name in ("distance_mm", "turn_deg"))
     ax = one(ax, (7.6, 4.8))
     if robot is not None:
         _lattice(ax, answer, columns, (robot, tool), turn_count)
-    # A path may turn the tool on beyond half a turn; it is the same turn, which comes in again from the other side.
+    # The spin may exceed half a turn: it is shown modulo one turn.
     within = (chosen + 180.0) % 360.0 - 180.0
     around = np.flatnonzero(np.abs(np.diff(within)) > 180.0) + 1
     along, turned = (np.insert(values, around, np.nan) for values in (distance, within))
     colour = INK if robot is None else "white"
-    line = ax.plot(along, turned, color=colour, linewidth=2.2, label="turn chosen", zorder=4)
+    line = ax.plot(along, turned, color=colour, linewidth=2.2, label="chosen spin", zorder=4)
     if robot is not None:
         line[0].set_path_effects([*_outline()])
     for place in answer["search"]["breaks"]:
         for at in distance[columns["line"].astype(float) == place][:1]:
-            ax.axvline(at, color=INK, linestyle=":", linewidth=1.2, label="takes another posture")
+            ax.axvline(at, color=INK, linestyle=":", linewidth=1.2, label="change of posture")
     ax.set_xlim(float(np.nanmin(distance)), float(np.nanmax(distance)))
     ax.set_ylim(-180, 180)
     ax.set_yticks(range(-180, 181, 60))
     ax.set_xlabel("along the path (mm)")
-    ax.set_ylabel("turn of the tool (deg)")
-    better = f"at most {answer['max_in_plane_um']:.1f} µm, without search {answer['search']['without']['max_in_plane_um']:.1f} µm"
-    title(ax, f"{answer['name']}: how the tool is turned", f"{better}; {words(answer)}")
+    ax.set_ylabel("spin of the tool (deg)")
+    better = f"largest {answer['max_in_plane_um']:.1f} µm, without search {answer['search']['without']['max_in_plane_um']:.1f} µm"
+    title(ax, f"{answer['name']}: spin of the tool", f"{better}; {words(answer)}")
     legend_below(ax, drop=-0.15)
     return ax
 
@@ -71,47 +71,47 @@ def _outline() -> list[Any]:
 
 
 def _lattice(ax: Axes, answer: Json, columns: Columns, arm: tuple[Any, Any], turn_count: int) -> None:
-    """The deviation at every point and turn, as the arm answers it."""
+    """The deviation at all points and spins, evaluated by the arm."""
     robot, tool = arm
     cases: list[list[float]] = answer["setting"]["cases_n"]
     if not cases or answer["setting"]["load_frame"] != "base_link":
-        raise Missing("turns: the load changes along this path: only the turn that was chosen can be drawn, without robot=")
+        raise Missing("turns: the load varies along this path: only the chosen spin can be drawn, without robot=")
     all_turns = np.linspace(-180.0, 180.0, turn_count)
     joints = _joints(answer, columns, robot)
     chosen = columns["turn_deg"].astype(float)
-    held = np.flatnonzero(np.isfinite(joints).all(axis=1))
-    poses: NDArray[np.float64] = robot.forward(joints[held], tool)
-    about = np.radians(all_turns[:, None] - chosen[None, held])
+    known = np.flatnonzero(np.isfinite(joints).all(axis=1))
+    poses: NDArray[np.float64] = robot.forward(joints[known], tool)
+    about = np.radians(all_turns[:, None] - chosen[None, known])
     spun = np.zeros((*about.shape, 4, 4))
     spun[..., 0, 0] = spun[..., 1, 1] = np.cos(about)
     spun[..., 1, 0] = np.sin(about)
     spun[..., 0, 1] = -spun[..., 1, 0]
     spun[..., 2, 2] = spun[..., 3, 3] = 1.0
-    asked = (poses[None] @ spun).reshape(-1, 4, 4)
+    requested = (poses[None] @ spun).reshape(-1, 4, 4)
     branch = answer["followed_branch"] or "best"
     normal = answer["setting"]["normal_axis"]
-    found = robot.hold(asked, np.asarray(cases, dtype=float), tool, branch=branch, normal=normal)
+    found = robot.evaluate(requested, np.asarray(cases, dtype=float), tool, branch=branch, normal=normal)
     values = np.full((turn_count, len(joints)), np.nan)
-    stands = np.asarray(found.held) & np.asarray(found.within_limits)
-    values[:, held] = np.where(stands, 1e6 * np.asarray(found.in_plane), np.nan).reshape(about.shape)
+    valid = np.asarray(found.reachable) & np.asarray(found.within_limits)
+    values[:, known] = np.where(valid, 1e6 * np.asarray(found.in_plane), np.nan).reshape(about.shape)
     distance = columns["distance_mm"].astype(float)
     ax.set_facecolor("#f2f2f2")
-    known = values[np.isfinite(values)]
-    if not known.size:
-        raise Missing("turns: the arm holds none of these turns in the branch of the path: is it the same arm and tool?")
-    steps = rounded(float(known.min()), float(known.max()))
+    finite = values[np.isfinite(values)]
+    if not finite.size:
+        raise Missing("turns: the arm reaches none of these spins in the branch of the path: check the arm and the tool")
+    steps = rounded(float(finite.min()), float(finite.max()))
     mesh = ax.pcolormesh(
         distance, all_turns, np.ma.masked_invalid(values), cmap=COLOUR_MAP, norm=BoundaryNorm(steps, 256), shading="nearest",
         rasterized=True,
     )
     ax.figure.colorbar(mesh, ax=ax, label="in-plane deviation (µm)")
-    if not stands.all():
-        lost = np.isnan(values).astype(float)
-        ax.contourf(distance, all_turns, lost, levels=[0.5, 1.5], colors="none", hatches=["///"])
+    if not valid.all():
+        unreachable = np.isnan(values).astype(float)
+        ax.contourf(distance, all_turns, unreachable, levels=[0.5, 1.5], colors="none", hatches=["///"])
         ax.add_patch(
             Rectangle(
                 (0, 0), 0, 0, facecolor="#f2f2f2", edgecolor="#8c8c8c", hatch="///", linewidth=0,
-                label="out of reach, or of joint limits",
+                label="out of reach or outside joint limits",
             )
         )
 
@@ -119,12 +119,12 @@ def _lattice(ax: Axes, answer: Json, columns: Columns, arm: tuple[Any, Any], tur
 def _joints(answer: Json, columns: Columns, robot: Any) -> NDArray[np.float64]:
     """(n, dof) joint positions of the table, rad (m)."""
     names: list[str] = list(robot.joint_names)
-    told = [f"joint_{name}_deg" if f"joint_{name}_deg" in columns else f"joint_{name}{_SLIDES}" for name in names]
-    missing = [name for name in told if name not in columns]
+    needed = [f"joint_{name}_deg" if f"joint_{name}_deg" in columns else f"joint_{name}{_SLIDES}" for name in names]
+    missing = [name for name in needed if name not in columns]
     if missing:
         raise Missing(f"turns: the table of {answer['name']!r} is of another arm: it has no {', '.join(missing)}")
     return np.column_stack(
-        [columns[name].astype(float) * (1e-3 if name.endswith(_SLIDES) else np.pi / 180) for name in told]
+        [columns[name].astype(float) * (1e-3 if name.endswith(_SLIDES) else np.pi / 180) for name in needed]
     )
 
 

@@ -1,17 +1,17 @@
-"""Sweeps beyond one machine: what is asked of many things, in parts, on threads, on Dask or on Ray.
+"""Sweeps on one or many machines: evaluations of many items, in parts, on threads, on Dask or on Ray.
 
-A sweep numbers its items; a part is a run of items and one Parquet file; a folder holds the parts and ``manifest.json``.
-A part that is done stays done: a worker that dies, or this very program, costs no more than the parts it was at. The parts
-hold the same bytes wherever and in whatever order they were made.
+A sweep numbers its items. A part is a range of items and one Parquet file. A folder contains the parts and
+``manifest.json``. Finished parts are kept: if a worker or the program is killed, only the parts in progress are lost. The
+parts have the same bytes on any machine and in any order of execution.
 
 ====================================  ==========================================================================
-``Sweep``, ``Block``                  what is asked: axes and a function of some items (``sweep.py``)
-``placements``, ``deviations``,       sweeps that are ready-made (``sweeps/``)
+``Sweep``, ``Block``                  axes and a function of some items (``sweep.py``)
+``placements``, ``deviations``,       predefined sweeps (``sweeps/``)
 ``studies``
-``plan``, ``Plan``                    into which parts it goes (``planning.py``)
-``run``, ``Finished``                 does what is not done yet (``running.py``)
+``plan``, ``Plan``                    division into parts (``planning.py``)
+``run``, ``Finished``                 runs the parts that are not finished (``running.py``)
 ``read``                              the rows of all parts, in their order (``reading.py``)
-``SweepFailed``, ``MissingExtra``     what goes wrong beside ``armill.InputError`` (``errors.py``)
+``SweepFailed``, ``MissingExtra``     errors in addition to ``armill.InputError`` (``errors.py``)
 ====================================  ==========================================================================
 """
 

@@ -1,8 +1,8 @@
-"""What goes wrong with a sweep.
+"""Errors of sweeps.
 
 ==================  ==============================================================================
-``InputError``      of ``armill``: what was asked cannot be, or the folder is of another sweep
-``SweepFailed``     a part failed, the disk is full, the cluster is gone; what is done stays
+``InputError``      of ``armill``: an invalid value, or the folder of another sweep
+``SweepFailed``     a part failed, the disk is full, the cluster is lost; finished parts are kept
 ``MissingExtra``    a package that a backend needs is not installed
 ==================  ==============================================================================
 """
@@ -16,15 +16,15 @@ from armill import InputError
 
 
 class SweepFailed(RuntimeError):
-    """A sweep that stopped before its end. What is done stays: the same call goes on from there."""
+    """A sweep that stopped before its end. Finished parts are kept: repeat the call to continue."""
 
 
 class MissingExtra(ImportError):
-    """A package that is not installed; its text says how to."""
+    """A package is not installed; the message says how to install it."""
 
 
 def refused(message: str, hint: str) -> InputError:
-    """Bad input, told as the command tells it."""
+    """Bad input, as the command reports it."""
     error = InputError(f"{message}\n  help: {hint}")
     error.problems = [{"message": message, "hint": hint}]
     return error

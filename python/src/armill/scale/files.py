@@ -1,4 +1,4 @@
-"""Files that are written whole or not at all, and a folder that one run has for itself."""
+"""Files that are written atomically, and a folder that is locked for one run."""
 
 from __future__ import annotations
 
@@ -13,27 +13,27 @@ from typing import IO
 
 from armill.scale.errors import refused
 
-#: What the names of files end in that are not whole yet.
+#: Suffix of unfinished files.
 UNFINISHED = ".unfinished"
-#: What a system says of a disk, a quota or a file that may not grow.
+#: Errors of a full disk, a quota or a file size limit.
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
 def write_whole(path: Path, data: bytes | memoryview, run: str = "") -> None:
-    """Writes to a file beside, makes sure that it is on the disk, and renames it: readers see all of it or nothing.
+    """Writes a temporary file, flushes it to the disk, and renames it: readers see all of it or nothing.
 
-    The file beside is locked while it is written, and its name tells which ``run`` it is of.
+    The temporary file is locked while it is written; its name contains ``run``.
     """
-    beside = path.with_name(f".{path.name}.{run}-{uuid.uuid4().hex}{UNFINISHED}")
+    temporary = path.with_name(f".{path.name}.{run}-{uuid.uuid4().hex}{UNFINISHED}")
     try:
-        with beside.open("xb") as file:
+        with temporary.open("xb") as file:
             _locked(file)
             file.write(data)
             file.flush()
             os.fsync(file.fileno())
-        beside.replace(path)
+        temporary.replace(path)
     except BaseException:
-        beside.unlink(missing_ok=True)
+        temporary.unlink(missing_ok=True)
         raise
 
 
@@ -47,8 +47,8 @@ def sha256_of(path: Path) -> str:
 
 
 def made(folder: Path) -> None:
-    """Makes the folder, with all above it. Raises InputError where that cannot be, or nothing can be written into it."""
-    hint = "give a folder that you may write into"
+    """Creates the folder and its parents. Raises InputError if that is not possible, or the folder is not writable."""
+    hint = "give a writable folder"
     try:
         folder.mkdir(parents=True, exist_ok=True)
         probe = folder / f".{uuid.uuid4().hex}{UNFINISHED}"
@@ -59,10 +59,10 @@ def made(folder: Path) -> None:
 
 
 def remove_unfinished(folder: Path, run: str | None = None) -> None:
-    """Removes what killed writers left: every unfinished file of ``run``, which has ended, and those of others that no process writes.
+    """Removes files of killed writers: unfinished files of ``run``, which has ended, and those of other runs without a writer.
 
-    A file of another run stays where it is locked, or where the system cannot tell. A process of ``run`` that is still
-    writing only repeats a part that is done.
+    A file of another run is kept if it is locked, or if locks are not supported. A process of ``run`` that is still writing
+    only repeats a finished part.
     """
     for left in folder.glob(f".*{UNFINISHED}"):
         is_ours = run is not None and f".{run}-" in left.name
@@ -73,14 +73,14 @@ def remove_unfinished(folder: Path, run: str | None = None) -> None:
 
 def _is_abandoned(path: Path) -> bool:
     if os.name != "posix":
-        # A file that is open cannot be removed there.
+        # An open file cannot be removed there.
         return True
     with path.open("r+b") as file:
         return _locked(file) is True
 
 
 def _locked(file: IO[bytes]) -> bool | None:
-    """Locks the file as long as it is open: False where another process has locked it, None where there are no such locks."""
+    """Locks the file while it is open: False if another process has locked it, None if locks are not supported."""
     if os.name != "posix":
         return None
     import fcntl
@@ -96,11 +96,11 @@ def _locked(file: IO[bytes]) -> bool | None:
 
 @contextlib.contextmanager
 def alone_in(folder: Path) -> Generator[None]:
-    """Keeps other runs out of the folder. The system lets go of it however this process ends.
+    """Locks the folder for one run. The system releases the lock when the process ends.
 
-    Some shared disks know no locks; two runs there would write the same bytes.
+    Some shared disks have no locks; two runs there would write the same bytes.
     """
     with (folder / ".lock").open("ab") as file:
         if _locked(file) is False:
-            raise refused(f"another run is at work in {folder}", "wait for it, or stop it first")
+            raise refused(f"another run uses {folder}", "wait for it, or stop it first")
         yield

@@ -1,8 +1,8 @@
-"""What a sweep was asked, in words that fit into a manifest: two sweeps are the same if these words are.
+"""The request of a sweep as text for the manifest: two sweeps are the same if these texts are equal.
 
-Short values stand as they are, everything else as SHA-256 of its bytes: arrays with their type and shape, functions with
-their source and what they enclose, other objects with what a pickle would hold of them. Not seen: what a function reads
-from elsewhere, a file or a global value.
+Short values are written as they are, everything else as the SHA-256 of its bytes: arrays with type and shape, functions with
+source and closure, other objects with the contents of their pickle. Not included: what a function reads from a file or a
+global value.
 """
 
 from __future__ import annotations
@@ -22,31 +22,31 @@ from armill import _armill
 from armill.scale.errors import refused
 from armill.scale.sweep import Sweep
 
-#: A text up to this length stands in a manifest as it is.
+#: A text up to this length is written to the manifest as it is.
 SHORT = 60
-#: Objects in objects, at the most.
+#: Largest depth of nested objects.
 DEEPEST = 20
 
 
-def asked(sweep: Sweep) -> dict[str, str]:
-    """sweep -> what was asked, by name."""
-    # Machines that round otherwise give other bits.
-    told = {"armill": armill.__version__, "arithmetic": _armill.arithmetic()}
-    told |= {f"axis {name}": str(length) for name, length in sweep.axes.items()}
-    told |= {"evaluations_per_item": str(sweep.evaluations_per_item), "seed": str(sweep.seed)}
+def request_of(sweep: Sweep) -> dict[str, str]:
+    """sweep -> its request: texts by name."""
+    # Machines that round differently give different bits.
+    request = {"armill": armill.__version__, "arithmetic": _armill.arithmetic()}
+    request |= {f"axis {name}": str(length) for name, length in sweep.axes.items()}
+    request |= {"evaluations_per_item": str(sweep.evaluations_per_item), "seed": str(sweep.seed)}
     work = sweep.work
     if dataclasses.is_dataclass(work) and not isinstance(work, type):
-        told["work"] = _words(type(work), 0)
+        request["work"] = _words(type(work), 0)
         for part in dataclasses.fields(work):
-            told[f"work.{part.name}"] = _words(getattr(work, part.name), 0)
+            request[f"work.{part.name}"] = _words(getattr(work, part.name), 0)
     else:
-        told["work"] = _words(work, 0)
-    return told
+        request["work"] = _words(work, 0)
+    return request
 
 
-def fingerprint(told: Mapping[str, str]) -> str:
-    """What was asked -> SHA-256 of it."""
-    lines = "".join(f"{name}\0{told[name]}\0" for name in sorted(told))
+def fingerprint(request: Mapping[str, str]) -> str:
+    """request -> its SHA-256."""
+    lines = "".join(f"{name}\0{request[name]}\0" for name in sorted(request))
     return hashlib.sha256(lines.encode()).hexdigest()
 
 
@@ -61,7 +61,7 @@ def _hashed(*parts: str | bytes) -> str:
 
 def _words(value: Any, depth: int) -> str:
     if depth > DEEPEST:
-        raise refused("what the work holds goes round in a circle", "let it hold arrays, numbers and texts")
+        raise refused("work: its objects contain each other", "use arrays, numbers and texts in it")
     if value is None or isinstance(value, (bool, int, float, complex)):
         return repr(value)
     if isinstance(value, np.generic):
@@ -95,13 +95,13 @@ def _array_words(array: np.ndarray[Any, Any], depth: int) -> str:
 
 def _function_words(function: types.FunctionType, depth: int) -> str:
     enclosed = [cell.cell_contents for cell in function.__closure__ or ()]
-    held = _words([enclosed, function.__defaults__, function.__kwdefaults__], depth + 1)
-    return f"{function.__module__}.{function.__qualname__}, {_hashed(_source(function), held)}"
+    content = _words([enclosed, function.__defaults__, function.__kwdefaults__], depth + 1)
+    return f"{function.__module__}.{function.__qualname__}, {_hashed(_source(function), content)}"
 
 
 def _named(value: Any) -> str:
     name = f"{value.__module__}.{value.__qualname__}"
-    # The version of armill stands for the source of all that is in it.
+    # The version of armill represents all of its source.
     own = name.startswith(("armill.", "builtins."))
     return name if own or not isinstance(value, type) else f"{name}, {_hashed(_source(value))}"
 
@@ -115,9 +115,9 @@ def _source(value: Any) -> str | bytes:
 
 
 def _code_words(code: types.CodeType) -> bytes:
-    """Of what was typed in and has no source: what it does."""
-    held = [_code_words(part) if isinstance(part, types.CodeType) else repr(part).encode() for part in code.co_consts]
-    return _hashed(code.co_code, repr(code.co_names), *held).encode()
+    """The bytecode of code without source, such as interactive input."""
+    content = [_code_words(part) if isinstance(part, types.CodeType) else repr(part).encode() for part in code.co_consts]
+    return _hashed(code.co_code, repr(code.co_names), *content).encode()
 
 
 def _object_words(value: Any, depth: int) -> str:
@@ -128,9 +128,9 @@ def _object_words(value: Any, depth: int) -> str:
     try:
         reduced: Any = value.__reduce_ex__(4)
     except TypeError as error:
-        raise refused(f"work holds a {type(value).__name__}, which cannot travel: {error}", "let it hold what pickles") from error
+        raise refused(f"work contains a {type(value).__name__}, which cannot be pickled: {error}", "use objects that can be pickled") from error
     if isinstance(reduced, str):
         return reduced
-    # Iterators of items, if there are any, are looked at as lists.
+    # Iterators of items are treated as lists.
     parts = [list(part) if hasattr(part, "__next__") else part for part in reduced]
     return f"{type(value).__module__}.{type(value).__qualname__}, {_words(parts, depth + 1)}"

@@ -1,15 +1,15 @@
-"""``manifest.json``: what was asked, into which parts it goes, and which of them are done.
+"""``manifest.json``: the request, its parts, and which of them are finished.
 
 ====================  ==================================================================================
 ``format``            1
-``fingerprint``       SHA-256 of what was asked
-``asked``             what was asked, by name (``fingerprint.py``)
+``fingerprint``       SHA-256 of the request
+``request``             the request: texts by name (``fingerprint.py``)
 ``item_count``,       the sweep and its parts
 ``items_per_part``
 ``evaluation_count``
-``columns``           name and type of each; empty before the first part is done
-``complete``          whether all parts are done
-``parts``             of each part that is done: number, rows, size in bytes, SHA-256 of the file
+``columns``           name and type of each; empty before the first part is finished
+``complete``          whether all parts are finished
+``parts``             of each finished part: number, rows, size in bytes, SHA-256 of the file
 ====================  ==================================================================================
 """
 
@@ -22,7 +22,7 @@ from typing import Any
 
 from armill.scale.errors import refused
 from armill.scale.files import write_whole
-from armill.scale.fingerprint import asked, fingerprint
+from armill.scale.fingerprint import fingerprint, request_of
 from armill.scale.planning import Plan
 
 NAME = "manifest.json"
@@ -32,13 +32,13 @@ PARTS = "parts"
 
 
 def part_path(folder: Path, part: int) -> Path:
-    """The file of a part. Names of the same length sort as numbers do."""
+    """The file of a part. Names of equal length sort like numbers."""
     return folder / PARTS / f"part-{part:06d}.parquet"
 
 
 @dataclass(frozen=True)
 class Done:
-    """A part that is written: what a worker tells of it."""
+    """A finished part, as reported by a worker."""
 
     part: int
     rows: int
@@ -50,9 +50,9 @@ class Done:
 
 @dataclass
 class Manifest:
-    """What a folder holds."""
+    """The contents of a folder."""
 
-    asked: dict[str, str]
+    request: dict[str, str]
     item_count: int
     items_per_part: int
     evaluation_count: int
@@ -61,31 +61,31 @@ class Manifest:
 
     @staticmethod
     def of(plan: Plan) -> Manifest:
-        """Of a plan of which nothing is done."""
+        """Of a plan without finished parts."""
         sweep = plan.sweep
-        return Manifest(asked(sweep), sweep.item_count, plan.items_per_part, sweep.evaluation_count)
+        return Manifest(request_of(sweep), sweep.item_count, plan.items_per_part, sweep.evaluation_count)
 
     @property
     def fingerprint(self) -> str:
-        """SHA-256 of what was asked."""
-        return fingerprint(self.asked)
+        """SHA-256 of the request."""
+        return fingerprint(self.request)
 
     @property
     def part_count(self) -> int:
-        """How many parts there are to be."""
+        """Number of parts of the sweep."""
         return -(-self.item_count // self.items_per_part)
 
     @property
     def is_complete(self) -> bool:
-        """Whether all of them are done."""
+        """Whether all parts are finished."""
         return len(self.done) == self.part_count
 
     def write(self, folder: Path) -> None:
-        """Writes it into the folder, whole."""
+        """Writes it into the folder, atomically."""
         head: dict[str, Any] = {
             "format": FORMAT,
             "fingerprint": self.fingerprint,
-            "asked": self.asked,
+            "request": self.request,
             "item_count": self.item_count,
             "items_per_part": self.items_per_part,
             "evaluation_count": self.evaluation_count,
@@ -96,13 +96,13 @@ class Manifest:
             json.dumps({"part": done.part, "rows": done.rows, "size": done.size, "sha256": done.sha256})
             for _, done in sorted(self.done.items())
         ]
-        # A line a part: whoever reads it finds one, and so does `diff`.
+        # One line per part, for readers and for `diff`.
         text = json.dumps(head, indent=1)[:-2] + ',\n "parts": [' + ",".join(f"\n  {row}" for row in rows) + "\n ]\n}\n"
         write_whole(folder / NAME, text.encode())
 
     @staticmethod
     def read(folder: Path) -> Manifest | None:
-        """That of the folder; None where there is none. Raises InputError for one that cannot be read."""
+        """The manifest of the folder; None if there is none. Raises InputError if it cannot be read."""
         path = folder / NAME
         try:
             data = path.read_bytes()
@@ -113,36 +113,36 @@ class Manifest:
         try:
             return _manifest(json.loads(data))
         except (ValueError, KeyError, TypeError, AttributeError) as error:
-            hint = "it was changed by another program; take the folder away, or give another"
-            raise refused(f"{path} is no manifest of a sweep: {type(error).__name__} {error}", hint) from error
+            hint = "it was changed by another program; delete the folder, or give another"
+            raise refused(f"{path} is not the manifest of a sweep: {type(error).__name__} {error}", hint) from error
 
 
-def _manifest(told: dict[str, Any]) -> Manifest:
-    if told["format"] != FORMAT:
-        raise ValueError(f"format {told['format']!r}, this version reads {FORMAT}")
+def _manifest(data: dict[str, Any]) -> Manifest:
+    if data["format"] != FORMAT:
+        raise ValueError(f"format {data['format']!r}, this version reads {FORMAT}")
     manifest = Manifest(
-        {str(name): str(words) for name, words in told["asked"].items()},
-        int(told["item_count"]),
-        int(told["items_per_part"]),
-        int(told["evaluation_count"]),
-        tuple((str(name), str(kind)) for name, kind in told["columns"]),
+        {str(name): str(words) for name, words in data["request"].items()},
+        int(data["item_count"]),
+        int(data["items_per_part"]),
+        int(data["evaluation_count"]),
+        tuple((str(name), str(kind)) for name, kind in data["columns"]),
     )
     if min(manifest.item_count, manifest.items_per_part) < 1:
-        raise ValueError("a sweep has an item at least, and so has a part")
-    if manifest.fingerprint != told["fingerprint"]:
-        raise ValueError("`asked` and `fingerprint` do not belong together")
-    for row in told["parts"]:
+        raise ValueError("a sweep and a part have at least one item")
+    if manifest.fingerprint != data["fingerprint"]:
+        raise ValueError("`request` and `fingerprint` do not match")
+    for row in data["parts"]:
         done = Done(int(row["part"]), int(row["rows"]), int(row["size"]), str(row["sha256"]))
         if not 0 <= done.part < manifest.part_count:
-            raise ValueError(f"there is no part {done.part}")
+            raise ValueError(f"part {done.part} does not exist")
         manifest.done[done.part] = done
     return manifest
 
 
 def same_sweep(there: Manifest, here: dict[str, str], folder: Path) -> None:
-    """Raises InputError where the manifest is of another sweep than what is asked here, naming what differs."""
-    if there.asked == here:
+    """Raises InputError with the differences if the manifest is of another sweep."""
+    if there.request == here:
         return
-    names = [name for name in {**there.asked, **here} if there.asked.get(name) != here.get(name)]
-    told = "; ".join(f"{name}: {there.asked.get(name, 'nothing')} there, {here.get(name, 'nothing')} here" for name in names)
-    raise refused(f"{folder} holds another sweep: {told}", "give another folder, or ask the same as there")
+    names = [name for name in {**there.request, **here} if there.request.get(name) != here.get(name)]
+    differences = "; ".join(f"{name}: {there.request.get(name, 'nothing')} there, {here.get(name, 'nothing')} here" for name in names)
+    raise refused(f"{folder} contains another sweep: {differences}", "give another folder, or the same sweep as there")

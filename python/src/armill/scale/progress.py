@@ -1,51 +1,51 @@
-"""A bar on stderr: how far, how fast, how long still. A line now and then where stderr is no terminal and it is asked for."""
+"""A progress bar on stderr: progress, rate, remaining time. If requested without a terminal, a line at intervals."""
 
 from __future__ import annotations
 
 import sys
 import time
 
-#: A bar moves so often, s; without a terminal there is a line so often.
+#: Interval of a bar, and of a line without a terminal, s.
 BEAT_S = 0.1
 LINE_S = 10.0
 WIDTH = 24
 
 
 class Progress:
-    """Told of parts as they are done. ``wanted``: always, never, or (None) where stderr is a terminal."""
+    """Shows finished parts. ``show``: always, never, or (None) if stderr is a terminal."""
 
-    def __init__(self, wanted: bool | None, evaluations: int, done: int) -> None:
+    def __init__(self, show: bool | None, evaluations: int, done: int) -> None:
         self._all, self._done, self._before = evaluations, done, done
         self._terminal = sys.stderr.isatty()
-        self._shown = self._terminal if wanted is None else wanted
+        self._shown = self._terminal if show is None else show
         self._any = False
         self.begin()
 
     def begin(self) -> None:
-        """The clock starts: workers are there."""
-        self._began = self._told = time.monotonic()
+        """Starts the clock when the workers are available."""
+        self._began = self._reported = time.monotonic()
 
     def note(self, text: str) -> None:
-        """A line of its own."""
+        """A separate line."""
         if self._shown:
             print(f"{self._clear()}{text}", file=sys.stderr, flush=True)
 
     def add(self, evaluations: int) -> None:
-        """So many more are done."""
+        """Adds finished evaluations."""
         self._done += evaluations
         now = time.monotonic()
-        if self._shown and now - self._told > (BEAT_S if self._terminal else LINE_S):
-            self._told = now
-            self._tell(now)
+        if self._shown and now - self._reported > (BEAT_S if self._terminal else LINE_S):
+            self._reported = now
+            self._report(now)
 
     def end(self) -> None:
         """The last word."""
         if self._shown:
-            self._tell(time.monotonic())
+            self._report(time.monotonic())
             if self._terminal:
                 print(file=sys.stderr, flush=True)
 
-    def _tell(self, now: float) -> None:
+    def _report(self, now: float) -> None:
         self._any = True
         print(f"{self._clear()}{self.line(now)}", end="" if self._terminal else "\n", file=sys.stderr, flush=True)
 

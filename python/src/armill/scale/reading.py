@@ -1,4 +1,4 @@
-"""The rows of a sweep, part after part, as they would have come on one machine."""
+"""The rows of a sweep, part after part, in the order of the items."""
 
 from __future__ import annotations
 
@@ -14,29 +14,29 @@ from armill.scale.manifest import Manifest, part_path
 def read(folder: str | os.PathLike[str], *, partial: bool = False, verify: bool = False) -> Any:
     """folder -> pyarrow.dataset.Dataset: the rows of all parts in the order of the items.
 
-    ``.to_table().to_pandas()`` makes one frame of them. A sweep that is not done is refused, unless ``partial`` asks for
-    the parts that are. ``verify`` reads every file once to see that it is as it was written.
+    ``.to_table().to_pandas()`` makes one frame of them. An unfinished sweep is refused, unless ``partial`` is given: then the
+    finished parts are read. ``verify`` reads every file once and compares its hash.
     """
     place = Path(folder)
     manifest = Manifest.read(place)
     if manifest is None:
-        raise refused(f"{place} holds no sweep: it has no manifest.json", "give the folder of a run")
+        raise refused(f"{place} contains no sweep: it has no manifest.json", "give the folder of a run")
     if not manifest.is_complete and not partial:
-        message = f"{place} holds {len(manifest.done)} of {manifest.part_count} parts"
-        raise refused(message, "run the same sweep into it again to go on, or read it with partial=True")
+        message = f"{place} contains {len(manifest.done)} of {manifest.part_count} parts"
+        raise refused(message, "run the same sweep into it again to continue, or read it with partial=True")
     if not manifest.done:
-        raise refused(f"{place} holds no part yet", "run the sweep first")
+        raise refused(f"{place} contains no finished part", "run the sweep first")
     damaged = [part for part in sorted(manifest.done) if not is_whole(place, manifest, part, verify)]
     if damaged:
-        told = ", ".join(map(str, damaged[:10]))
-        hint = "run the same sweep into it again: they are done anew"
-        raise refused(f"{place}: {len(damaged)} parts are not as they were written: {told}", hint)
+        numbers = ", ".join(map(str, damaged[:10]))
+        hint = "run the same sweep into it again to repeat them"
+        raise refused(f"{place}: {len(damaged)} parts are not as they were written: {numbers}", hint)
     dataset = needed("pyarrow.dataset", "scale")
     return dataset.dataset([str(part_path(place, part)) for part in sorted(manifest.done)], format="parquet")
 
 
 def is_whole(folder: Path, manifest: Manifest, part: int, verify: bool) -> bool:
-    """Whether the file of a part that is done is there, as long as it was; with ``verify`` whether it holds the same bytes."""
+    """Whether the file of a finished part has its size; with ``verify``, whether it has the same bytes."""
     path, done = part_path(folder, part), manifest.done[part]
     try:
         return path.stat().st_size == done.size and (not verify or sha256_of(path) == done.sha256)

@@ -1,11 +1,11 @@
-"""Does what is not done yet of a sweep, and keeps the manifest of its folder.
+"""Runs the unfinished parts of a sweep, and writes the manifest of its folder.
 
 ::
 
-    manifest of the folder -> parts that are whole -> the others to workers -> files, and the manifest now and then -> complete
+    manifest of the folder -> valid parts -> the others to workers -> files, and the manifest at intervals -> complete
 
-The manifest is written about once a second: a process that is killed loses from it what was done since, and those parts are
-done again, to the same bytes.
+The manifest is written about once a second. If the process is killed, parts finished since then are repeated, with the same
+bytes.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ from typing import Any
 
 from armill import Cancelled
 from armill.scale import files
-from armill.scale.backends import Wanted, opened
+from armill.scale.backends import BackendOptions, opened
 from armill.scale.errors import SweepFailed, needed, refused
-from armill.scale.fingerprint import asked
+from armill.scale.fingerprint import request_of
 from armill.scale.manifest import PARTS, Done, Manifest, same_sweep
 from armill.scale.planning import Plan, plan
 from armill.scale.progress import Progress
@@ -32,19 +32,19 @@ from armill.scale.sweep import Sweep
 from armill.scale.task import forgotten, task
 from armill.scale.window import worked
 
-#: The manifest is written so often, s, and takes this part of the time at the most.
+#: Interval at which the manifest is written, s, and the largest fraction of the time for it.
 KEPT_S = 1.0
 KEPT_PART = 0.05
-#: Files are checked on so many threads.
+#: Number of threads that check files.
 CHECKERS = 4
 
 
 @dataclass(frozen=True)
 class Finished:
-    """A sweep that is done: its folder, what it holds, and what this run did for it.
+    """A finished sweep: its folder, its contents, and the work of this run.
 
-    ``done_before`` parts were there already; ``redone`` are those of them that were damaged and made anew. ``seconds`` is
-    how long this run took, ``task_seconds`` how long its tasks took in all.
+    ``done_before`` is the number of parts that were valid before; ``redone`` are the damaged parts that were repeated.
+    ``seconds`` is the duration of this run, ``task_seconds`` the total duration of its tasks.
     """
 
     folder: Path
@@ -57,7 +57,7 @@ class Finished:
     task_seconds: float
 
     def read(self) -> Any:
-        """-> pyarrow.dataset.Dataset: its rows, as ``armill.scale.read`` gives them."""
+        """-> pyarrow.dataset.Dataset: its rows, as ``armill.scale.read`` returns them."""
         return read(self.folder)
 
 
@@ -72,7 +72,7 @@ def run(
     progress: bool | None = None,
     timeout: float = 30.0,
 ) -> Finished:
-    """sweep, folder -> Finished: works out the parts that the folder has not got yet.
+    """sweep, folder -> Finished: computes the missing parts of the folder.
 
     ``backend`` is ``"local"`` (threads of this process), ``"dask"`` (processes of this machine), the address of a scheduler
     of Dask (``"tcp://HOST:8786"``), a ``dask.distributed.Client``, ``"ray"``, or the address of a cluster of Ray
@@ -84,7 +84,7 @@ def run(
     began = time.monotonic()
     for name, value in (("workers", workers), ("threads_per_worker", threads_per_worker), ("items_per_part", items_per_part)):
         if value is not None and (isinstance(value, bool) or value < 1):
-            raise refused(f"{name} is {value!r}", "a whole number from 1 on")
+            raise refused(f"{name} is {value!r}", "an integer of at least 1")
     needed("pyarrow.parquet", "scale")
     place = Path(folder).absolute()
     files.made(place)
@@ -101,9 +101,9 @@ def run(
         if not manifest.is_complete:
             shown = Progress(progress, manifest.evaluation_count, _evaluations(ready, manifest))
             if damaged:
-                shown.note(f"{len(damaged)} parts are not as they were written and are done again")
-            wanted = Wanted(backend, workers, threads_per_worker, timeout)
-            task_seconds = _work(ready, place, manifest, wanted, shown)
+                shown.note(f"{len(damaged)} parts are not as they were written and are repeated")
+            options = BackendOptions(backend, workers, threads_per_worker, timeout)
+            task_seconds = _work(ready, place, manifest, options, shown)
         return Finished(
             place,
             sum(done.rows for done in manifest.done.values()),
@@ -117,21 +117,21 @@ def run(
 
 
 def _begun(sweep: Sweep | Plan, place: Path, items_per_part: int | None, threads: int) -> tuple[Plan, Manifest]:
-    """The plan of the folder and its manifest; a new one where there is none."""
-    told = sweep if isinstance(sweep, Plan) else None
-    if told and items_per_part is not None:
-        raise refused("items_per_part is told twice", "a plan has its parts")
+    """The plan of the folder and its manifest; new if there is none."""
+    given = sweep if isinstance(sweep, Plan) else None
+    if given and items_per_part is not None:
+        raise refused("items_per_part is given twice", "a plan has its parts")
     what = sweep.sweep if isinstance(sweep, Plan) else sweep
-    wanted = told.items_per_part if told else items_per_part
+    requested = given.items_per_part if given else items_per_part
     manifest = Manifest.read(place)
     if manifest is None:
-        ready = told or plan(what, items_per_part=wanted, threads=threads)
+        ready = given or plan(what, items_per_part=requested, threads=threads)
         return ready, Manifest.of(ready)
-    same_sweep(manifest, asked(what), place)
-    ready = plan(what, items_per_part=wanted or manifest.items_per_part)
+    same_sweep(manifest, request_of(what), place)
+    ready = plan(what, items_per_part=requested or manifest.items_per_part)
     if ready.items_per_part != manifest.items_per_part:
-        message = f"{place} has parts of {manifest.items_per_part} items, asked for are {ready.items_per_part}"
-        raise refused(message, "the parts of a sweep stay as they were begun; leave items_per_part out, or give another folder")
+        message = f"{place} has parts of {manifest.items_per_part} items, not {ready.items_per_part}"
+        raise refused(message, "the parts of a sweep cannot be changed; omit items_per_part, or give another folder")
     return ready, manifest
 
 
@@ -147,11 +147,11 @@ def _evaluations(ready: Plan, manifest: Manifest) -> int:
     return sum(last - first for first, last in spans) * ready.sweep.evaluations_per_item
 
 
-def _work(ready: Plan, place: Path, manifest: Manifest, wanted: Wanted, shown: Progress) -> float:
-    """Everything that is not done, the manifest kept meanwhile and in the end; gives how long the tasks took."""
+def _work(ready: Plan, place: Path, manifest: Manifest, options: BackendOptions, shown: Progress) -> float:
+    """Runs all unfinished parts and writes the manifest; returns the duration of the tasks."""
     keeper = _Keeper(place, manifest)
     try:
-        seconds = _parts(ready, place, keeper, wanted, shown)
+        seconds = _parts(ready, place, keeper, options, shown)
         keeper.write()
         return seconds
     except KeyboardInterrupt as error:
@@ -166,15 +166,15 @@ def _work(ready: Plan, place: Path, manifest: Manifest, wanted: Wanted, shown: P
         shown.end()
 
 
-def _parts(ready: Plan, place: Path, keeper: _Keeper, wanted: Wanted, shown: Progress) -> float:
-    """All parts that are not done; gives how long their tasks took."""
+def _parts(ready: Plan, place: Path, keeper: _Keeper, options: BackendOptions, shown: Progress) -> float:
+    """Runs all unfinished parts; returns the duration of their tasks."""
     seconds = 0.0
     manifest = keeper.manifest
     keeper.write()
     run_name = uuid.uuid4().hex
     to_do = [part for part in range(manifest.part_count) if part not in manifest.done]
     try:
-        backend = opened(wanted, task(ready, place, manifest.fingerprint, wanted.threads_per_worker, run_name))
+        backend = opened(options, task(ready, place, manifest.fingerprint, options.threads_per_worker, run_name))
         shown.begin()
         try:
             for done in worked(backend, to_do):
@@ -186,13 +186,13 @@ def _parts(ready: Plan, place: Path, keeper: _Keeper, wanted: Wanted, shown: Pro
             backend.close()
     finally:
         forgotten(place)
-        # A worker that was killed while it wrote.
+        # Left by a worker that was killed while it wrote.
         files.remove_unfinished(place / PARTS, run_name)
     return seconds
 
 
 class _Keeper:
-    """Writes the manifest: not after each part, for it grows with them."""
+    """Writes the manifest at intervals, since its size grows with the parts."""
 
     def __init__(self, place: Path, manifest: Manifest) -> None:
         self.manifest = manifest
@@ -205,8 +205,8 @@ class _Keeper:
         if not manifest.columns:
             manifest.columns = done.columns
         elif manifest.columns != done.columns:
-            told = [" ".join(column) for column in set(manifest.columns) ^ set(done.columns)]
-            raise SweepFailed(f"part {done.part} has other columns than those before: {', '.join(sorted(told))}")
+            differing = [" ".join(column) for column in set(manifest.columns) ^ set(done.columns)]
+            raise SweepFailed(f"part {done.part} has other columns than the parts before: {', '.join(sorted(differing))}")
         manifest.done[done.part] = done
         if time.monotonic() >= self._next:
             self.write()
@@ -219,10 +219,10 @@ class _Keeper:
         self._next = ended + max(KEPT_S, (ended - began) / KEPT_PART)
 
     def last(self) -> str:
-        """Writes it after something went wrong, if there is room, and tells how much is kept."""
+        """Writes it after an error, if there is room; returns the number of kept parts as text."""
         try:
             self.write()
         except OSError as error:
             if error.errno not in files.FULL:
                 raise
-        return f"{self._kept} of {self.manifest.part_count} parts are kept in {self._place}: the same call goes on from there"
+        return f"{self._kept} of {self.manifest.part_count} parts are kept in {self._place}: repeat the call to continue"

@@ -1,6 +1,6 @@
-"""The rows of a part: the axes, then the columns that the work gives.
+"""The rows of a part: the axes, then the columns of the work.
 
-Numbers are finite; what is missing is masked (``numpy.ma``) and null in the file.
+Numbers are finite; missing values are masked (``numpy.ma``), and null in the file.
 """
 
 from __future__ import annotations
@@ -12,23 +12,23 @@ import numpy as np
 from armill.scale.errors import needed
 from armill.scale.sweep import Block, Sweep
 
-#: Kinds of numpy that a column may have: yes or no, whole numbers, numbers, texts.
+#: Kinds of numpy for columns: booleans, integers, floats, texts.
 KINDS = "biufU"
 
 
 def table_of(sweep: Sweep, first: int, last: int, threads: int) -> Any:
-    """items -> pyarrow.Table: what the work makes of them. Raises what the work raises; ValueError for columns that cannot be."""
+    """items -> pyarrow.Table: the columns of the work. Raises what the work raises; ValueError for invalid columns."""
     arrow = needed("pyarrow", "scale")
     block = sweep.block(first, last, threads)
     given = sweep.work(block)
     columns = {name: _column(name, values, block) for name, values in given.items()}
     lengths = {len(values) for values in columns.values()}
     if not columns or len(lengths) != 1:
-        told = ", ".join(f"{name} {len(values)}" for name, values in columns.items())
-        raise ValueError(f"columns of one length are wanted, given {told or 'none'}")
+        given_lengths = ", ".join(f"{name} {len(values)}" for name, values in columns.items())
+        raise ValueError(f"expected columns of one length, given {given_lengths or 'none'}")
     rows = lengths.pop()
     if rows == 0 or rows % len(block):
-        raise ValueError(f"{rows} rows are not so many for each of {len(block)} items")
+        raise ValueError(f"{rows} rows are not a multiple of {len(block)} items")
     own = set(columns) & set(sweep.axes)
     if own:
         raise ValueError(f"columns have the names of axes: {', '.join(sorted(own))}")
@@ -47,9 +47,9 @@ def _index_kind(length: int) -> str:
 def _column(name: str, values: Any, block: Block) -> Any:
     column = np.asanyarray(values)
     if column.ndim != 1:
-        raise ValueError(f"column `{name}` has the shape {column.shape}, a number or text a row is wanted")
+        raise ValueError(f"column `{name}` has the shape {column.shape}: expected one number or text per row")
     if column.dtype.kind not in KINDS:
-        raise ValueError(f"column `{name}` holds {column.dtype}: numbers, texts, yes or no are wanted")
+        raise ValueError(f"column `{name}` has the type {column.dtype}: expected numbers, texts or booleans")
     if column.dtype.kind == "f":
         bad = ~np.isfinite(np.ma.getdata(column)) & ~np.ma.getmaskarray(column)
         if bad.any():

@@ -1,7 +1,7 @@
-"""One part, on whatever machine: work it out, write its file, tell a few numbers of it.
+"""One part on any machine: compute it, write its file, return a few numbers.
 
-The sweep itself lies in the folder as a pickle, so that a task is small and any worker that sees the folder can take it.
-What goes wrong is told as a value: the same error would come again anywhere.
+The sweep is in the folder as a pickle: a task is small, and any worker with access to the folder can run it. Errors are
+returned as values: they would occur on any worker.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from armill.scale.table import table_of
 
 @dataclass(frozen=True)
 class Failed:
-    """A part that cannot be worked out or written, and why."""
+    """A part that cannot be computed or written, and why."""
 
     part: int
     why: str
@@ -34,7 +34,7 @@ class Failed:
 
 @dataclass(frozen=True)
 class Task:
-    """Works out a part when it is called with its number."""
+    """Computes a part when called with its number."""
 
     folder: str
     pickle_name: str
@@ -56,7 +56,7 @@ class Task:
             return Failed(part, f"part {part}{self._items(part)} failed: {type(error).__name__}: {error}")
 
     def _items(self, part: int) -> str:
-        """Which items they are, where that can be told."""
+        """The items of the part, if known."""
         try:
             first, last = self._plan().span(part)
         except Exception:
@@ -68,9 +68,9 @@ class Task:
 
     def _done(self, part: int) -> Done:
         if armill.__version__ != self.version:
-            raise RuntimeError(f"this worker has armill {armill.__version__}, the sweep was begun with {self.version}")
+            raise RuntimeError(f"this worker has armill {armill.__version__}, the sweep was started with {self.version}")
         if _armill.arithmetic() != self.arithmetic:
-            raise RuntimeError(f"this worker rounds {_armill.arithmetic()}, the sweep was begun on one that rounds {self.arithmetic}")
+            raise RuntimeError(f"this worker rounds {_armill.arithmetic()}, the sweep was started on one that rounds {self.arithmetic}")
         plan = self._plan()
         before = time.perf_counter()
         table = table_of(plan.sweep, *plan.span(part), self.threads)
@@ -91,11 +91,11 @@ def _parquet(table: Any) -> memoryview:
 
 @functools.lru_cache(maxsize=2)
 def _plan(folder: str, name: str) -> Plan:
-    """The plan in this file, which is named after what it holds."""
+    """The plan in this file, whose name is the hash of its contents."""
     try:
         data = (Path(folder) / name).read_bytes()
     except FileNotFoundError as error:
-        raise RuntimeError(f"this worker does not see {folder}: a folder is wanted that all machines share") from error
+        raise RuntimeError(f"this worker has no access to {folder}: use a folder that all machines share") from error
     if pickle_name(data) != name:
         raise RuntimeError(f"{folder}/{name} is damaged")
     plan: Plan = pickle.loads(data)
@@ -103,7 +103,7 @@ def _plan(folder: str, name: str) -> Plan:
 
 
 def pickle_name(data: bytes) -> str:
-    """What the file with this pickle is called."""
+    """The name of the file with this pickle."""
     return f".sweep-{hashlib.sha256(data).hexdigest()[:32]}.pickle"
 
 
@@ -117,14 +117,14 @@ def task(plan: Plan, folder: Path, fingerprint: str, threads: int, run: str) -> 
 
 
 def forgotten(folder: Path) -> None:
-    """Takes the pickle away: nobody is at work."""
+    """Removes the pickle after the run."""
     for old in folder.glob(".sweep-*.pickle"):
         old.unlink(missing_ok=True)
 
 
 def _pickled(plan: Plan) -> bytes:
     try:
-        # It takes functions of a script and of a notebook too; it comes with both backends.
+        # It supports functions of scripts and notebooks too, and is installed with both backends.
         pickler: Any = importlib.import_module("cloudpickle")
     except ModuleNotFoundError:
         pickler = pickle

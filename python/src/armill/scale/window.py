@@ -1,6 +1,6 @@
-"""How many parts are under way: a few more than can be at work, however many there are.
+"""Limits the number of parts sent: a few more than can run at once.
 
-A part whose worker died is sent again, a few times: a part that brings down every worker should not bring down them all.
+A part whose worker died is sent again a limited number of times, since the part itself may kill its workers.
 """
 
 from __future__ import annotations
@@ -13,14 +13,14 @@ from armill.scale.errors import SweepFailed
 from armill.scale.manifest import Done
 from armill.scale.task import Failed
 
-#: Parts sent for each that can be at work: the next waits at the worker while the answer of the last travels.
+#: Parts sent per part that can run: the next waits at the worker while the last outcome is sent.
 AHEAD = 2
-#: A part may lose so many workers before it counts as the reason.
+#: Number of lost workers after which a part is regarded as the cause.
 MOST_LOST = 3
 
 
 def worked(backend: Backend, parts: Iterable[int]) -> Iterator[Done]:
-    """Sends all parts, never too many at once, and gives what is done as it comes. Raises SweepFailed for one that fails."""
+    """Sends all parts, a limited number at once, and yields finished ones. Raises SweepFailed if a part fails."""
     waiting = iter(parts)
     lost: Counter[int] = Counter()
     under_way = 0
@@ -44,7 +44,7 @@ def worked(backend: Backend, parts: Iterable[int]) -> Iterator[Done]:
                     if lost[part] == MOST_LOST:
                         failed = Failed(part, f"part {part} did not come back from {MOST_LOST} workers, the last time by {why}")
                     again.append(part)
-        # What else has arrived is kept.
+        # Other outcomes that have arrived are kept.
         if failed:
             raise SweepFailed(failed.why)
         for part in again:

@@ -1,9 +1,10 @@
-//! `armill robots check`: a robot file beside poses read from its pendant.
+//! `armill robots check`: compares a robot file with poses read from its pendant.
 //!
-//! Each `--pose` is a reading of the pendant in the angles of `--convention`, with the tool `--tool-mm` active, counted from
-//! `--base`; `--within-mm` and `--within-deg` say when they agree. The verdict is data: it goes to stdout.
+//! Each `--pose` is a reading of the pendant in the angles of `--convention`, with the tool `--tool-mm` active,
+//! relative to
+//! `--base`; `--within-mm` and `--within-deg` are the limits of agreement. The verdict is data: it goes to stdout.
 
-use armill_core::robot::convention::Apart;
+use armill_core::robot::convention::PoseDifference;
 use armill_core::watch::Watch;
 use armill_formats::convention::Convention;
 use armill_formats::robot::pendant::reading;
@@ -16,10 +17,10 @@ use crate::arguments::RobotsCheckArguments;
 use crate::command::numbers::{above_zero, three_or_six};
 use crate::terminal::print;
 
-/// Compares the file with the readings and prints the verdict, whichever it is.
+/// Compares the file with the readings and prints the verdict.
 ///
 /// # Errors
-/// A convention that is not known; a reading that is none; a number that cannot be; no such robot or frame.
+/// An unknown convention; an invalid reading; an invalid number; no such robot or frame.
 pub(super) fn run(arguments: &RobotsCheckArguments) -> Result<Outcome, StudyError> {
     let convention = convention(&arguments.convention)?;
     let readings = arguments.pose.iter().map(|text| {
@@ -31,7 +32,7 @@ pub(super) fn run(arguments: &RobotsCheckArguments) -> Result<Outcome, StudyErro
             StudyError::value(format!("--pose \"{text}\": {error}"), hint)
         })
     });
-    let within = Apart {
+    let within = PoseDifference {
         metres: above_zero("--within-mm", arguments.within_mm)? * 1e-3,
         radians: above_zero("--within-deg", arguments.within_deg)?.to_radians(),
     };
@@ -65,7 +66,7 @@ fn convention(name: &str) -> Result<Convention, StudyError> {
     })
 }
 
-/// How far each reading is from the file, the verdict, what explains it, and what these readings would not
+/// The distance of each reading from the file, the verdict, the explanations, and changes that these readings would not
 /// show.
 fn as_text(answer: &PendantAnswer, arguments: &RobotsCheckArguments) -> String {
     let mut lines = vec![format!("{}, positions in {}", answer.robot, answer.base)];
@@ -95,9 +96,9 @@ fn as_text(answer: &PendantAnswer, arguments: &RobotsCheckArguments) -> String {
         lines.extend(explanation.changes.iter().map(|change| format!("  {change}")));
     }
     if !answer.unseen.is_empty() {
-        lines.push("These readings would not show it if".to_owned());
+        lines.push("These readings do not show whether".to_owned());
         lines.extend(answer.unseen.iter().map(|change| format!("  {change}")));
-        lines.push("Read another pose to be sure.".to_owned());
+        lines.push("Read another pose to check this.".to_owned());
     }
     lines.join("\n")
 }

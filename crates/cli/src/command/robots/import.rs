@@ -1,13 +1,14 @@
-//! `armill robots import`: a robot file of ours from one of another format, or from the library, to be changed.
+//! `armill robots import`: converts a robot file of another format, or copies one of the library for editing.
 //!
-//! The file goes to `--out`, or to stdout; with `--json` stdout holds an [`ImportedRobot`]. Stderr says what was assumed and
-//! what is missing. What cannot be read again is not written.
+//! The file goes to `--out`, or to stdout; with `--json` stdout has an [`ImportedRobot`]. Stderr reports what was
+//! assumed and
+//! what is missing. A file that could not be read again is not written.
 
 use std::path::Path;
 
 use armill_formats::robot::RobotDescription;
 use armill_formats::robot::armill;
-use armill_formats::robot::format::Wanted;
+use armill_formats::robot::format::RobotReadOptions;
 use armill_study::robot_answers::ImportedRobot;
 use armill_study::{StudyError, library, robots};
 
@@ -15,11 +16,11 @@ use crate::Outcome;
 use crate::arguments::ImportArguments;
 use crate::terminal::{print, say};
 
-/// Reads the foreign file, writes it as ours, and reads that again before it is kept.
+/// Reads the foreign file, writes it in the format of armill, and reads the result again as a check.
 ///
 /// # Errors
-/// A file that may not be replaced; a format that is not known; the problems of the file; a place where
-/// nothing can be written.
+/// A file that must not be replaced; an unknown format; the problems of the file; a file that
+/// cannot be written.
 pub(super) fn run(arguments: &ImportArguments) -> Result<Outcome, StudyError> {
     let out = arguments.out.as_deref();
     let (found, text) = source(arguments)?;
@@ -47,7 +48,7 @@ pub(super) fn run(arguments: &ImportArguments) -> Result<Outcome, StudyError> {
     Ok(Outcome::Fine)
 }
 
-/// The robot, and the text of its file: of the library as it stands there, with its comments.
+/// The robot, and the text of its file: for a library robot its own text, with its comments.
 fn source(arguments: &ImportArguments) -> Result<(RobotDescription, String), StudyError> {
     let file = &arguments.file;
     let name = file.to_string_lossy();
@@ -56,7 +57,7 @@ fn source(arguments: &ImportArguments) -> Result<(RobotDescription, String), Stu
         let [_, text] = robots::text_of(&name, &found)?;
         return Ok((found, text));
     }
-    let requested = Wanted {
+    let requested = RobotReadOptions {
         format: arguments.format,
         tip: arguments.tip.clone(),
     };
@@ -65,7 +66,7 @@ fn source(arguments: &ImportArguments) -> Result<(RobotDescription, String), Stu
     Ok((found, text))
 }
 
-/// What a user should know of the robot that was made.
+/// Notes on the imported robot.
 fn summary(found: &RobotDescription, file: Option<&str>) -> Vec<String> {
     let count = found.robot.joints().len();
     let mut lines = vec![format!(
@@ -78,7 +79,7 @@ fn summary(found: &RobotDescription, file: Option<&str>) -> Vec<String> {
         lines.push("missing: joint compliances; see the comments in the file".to_owned());
     }
     lines.extend(file.map(|file| {
-        format!("made {file}; compare it with the pendant: armill pose {file} --joints-deg ...")
+        format!("created {file}; compare it with the pendant: armill pose {file} --joints-deg ...")
     }));
     lines
 }

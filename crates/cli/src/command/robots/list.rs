@@ -1,4 +1,4 @@
-//! `armill robots` without a name: the library, one line a robot, or a list of [`RobotRow`].
+//! `armill robots` without a name: the library, one line per robot, or a list of [`RobotRow`].
 
 use armill_study::StudyError;
 use armill_study::robot_answers::{RobotRow, library_rows};
@@ -7,10 +7,10 @@ use crate::Outcome;
 use crate::arguments::RobotsArguments;
 use crate::terminal::{Align, columns, print};
 
-/// Prints the library; every robot of it is read for this.
+/// Prints the library; all its robots are read for this.
 ///
 /// # Errors
-/// Stdout takes no more.
+/// Stdout cannot be written.
 pub(super) fn run(arguments: &RobotsArguments) -> Result<Outcome, StudyError> {
     let rows = library_rows()?;
     print(&if arguments.json {
@@ -21,7 +21,7 @@ pub(super) fn run(arguments: &RobotsArguments) -> Result<Outcome, StudyError> {
     Ok(Outcome::Fine)
 }
 
-/// One line a robot; a dash for a payload or a reach that is not known.
+/// One line per robot; a dash for an unknown payload or reach.
 fn table(rows: &[RobotRow]) -> String {
     let cells = |row: &RobotRow| {
         let known = if row.compliance_known {

@@ -1,7 +1,9 @@
-//! `armill robots`: what is known of robots.
+//! `armill robots`: information on robots.
 //!
-//! Without a name `list` prints the library, one line a robot; with one `show` prints everything, with `structure` for what
-//! yields beside the drives. `import` makes a robot file of ours from another, `check` compares one with its pendant.
+//! Without a name `list` prints the library, one line per robot; with a name `show` prints everything, with
+//! `structure` for
+//! springs and masses apart from the drives. `import` converts other formats, `check` compares a robot with its
+//! pendant.
 
 mod check;
 mod import;
@@ -14,7 +16,7 @@ use armill_study::StudyError;
 use crate::Outcome;
 use crate::arguments::{RobotsAction, RobotsArguments};
 
-/// Goes by the subcommand, else by whether a name is given.
+/// Selects by the subcommand, otherwise by whether a name is given.
 pub(crate) fn run(arguments: &RobotsArguments) -> Result<Outcome, StudyError> {
     match (&arguments.action, &arguments.name) {
         (Some(RobotsAction::Import(file)), _) => import::run(file),

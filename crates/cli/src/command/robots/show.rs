@@ -1,11 +1,11 @@
-//! `armill robots NAME`: one robot with everything that is known of it, in words or as [`KnownRobot`]; `--drawing` draws it.
+//! `armill robots NAME`: all data of one robot, as text or as [`RobotDetails`]; `--drawing` draws it.
 
 use armill_core::robot::reach;
 use armill_formats::robot::RobotDescription;
 use armill_study::joint_unit::JointUnit;
 use armill_study::number::without_rounding;
 use armill_study::output::arm_drawing;
-use armill_study::robot_answers::{KnownRobot, chain};
+use armill_study::robot_answers::{RobotDetails, chain};
 use armill_study::{StudyError, robots};
 
 use super::structure;
@@ -14,7 +14,7 @@ use crate::arguments::RobotsArguments;
 use crate::command::drawing;
 use crate::terminal::print;
 
-/// Prints everything that is known of the robot `name`; the drawing, if any, comes first.
+/// Prints all data of the robot `name`; the drawing, if any, is written first.
 ///
 /// # Errors
 /// No such robot; a drawing that cannot be written.
@@ -28,27 +28,27 @@ pub(super) fn run(name: &str, arguments: &RobotsArguments) -> Result<Outcome, St
         )?;
     }
     print(&if arguments.json {
-        serde_json::to_string(&KnownRobot::of(&found))?
+        serde_json::to_string(&RobotDetails::of(&found))?
     } else {
         as_text(&found)
     })?;
     Ok(Outcome::Fine)
 }
 
-/// Chain, joints, what yields beside the drives, inverse, frames, assumptions and sources, each under its
-/// heading. Numbers are told as the file has them.
+/// Chain, joints, compliance apart from the drives, inverse kinematics, frames, assumptions and sources, each with a
+/// heading. Numbers are those of the file.
 fn as_text(found: &RobotDescription) -> String {
     let robot = &found.robot;
     let mut lines = vec![format!("{} ({})", found.title, robot.name())];
     lines.extend(found.note.iter().cloned());
     lines.push(String::new());
     lines.push(
-        "Chain of elementary motions, base to flange (right hand; joints in the chain's own sense):"
+        "Chain of elementary motions, base to flange (right-handed; joints in the sense of the chain):"
             .to_owned(),
     );
     lines.extend(chain(found).iter().map(|motion| format!("  {motion}")));
     lines.push(String::new());
-    lines.push("Joints as their controller counts them:".to_owned());
+    lines.push("Joints with the signs and zeros of the controller:".to_owned());
     lines.extend((0..robot.joints().len()).flat_map(|index| joint_text(found, index)));
     lines.extend(structure::as_text(robot));
     lines.push(String::new());
@@ -80,7 +80,7 @@ fn as_text(found: &RobotDescription) -> String {
     lines.join("\n")
 }
 
-/// A line for the joint, and one for each other source of its limits.
+/// One line for the joint, and one for each other source of its limits.
 fn joint_text(found: &RobotDescription, index: usize) -> Vec<String> {
     let robot = &found.robot;
     let (joint, unit) = (&robot.joints()[index], JointUnit::of(robot, index));

@@ -1,22 +1,22 @@
-//! What a robot has beside its drives, for `armill robots NAME`.
+//! Compliance, masses and uncertainty of a robot apart from its drives, for `armill robots NAME`.
 //!
 //! ```text
-//! Beside the drives:
-//!   spring at SEAT: about AXIS, ... rad/(N m)       or: along AXIS, ... µm/N; or both, of a screw
-//!   mass at SEAT: ... kg, centre (x, y, z) mm
-//!   torque curve of JOINT: ... pairs, both ways
+//! Apart from the drives:
+//!   spring at ATTACHMENT: about AXIS, ... rad/(N m)       or: along AXIS, ... µm/N; or both, of a screw
+//!   mass at ATTACHMENT: ... kg, centre (x, y, z) mm
+//!   torque curve of JOINT: ... pairs, both directions
 //!   gravity compensator of JOINT: ... N/mm
 //!   covariance of the compliances: known
 //! ```
 //!
-//! A seat is the body that something belongs to; axes and centres are in its frame.
+//! An attachment is the body to which a spring or mass belongs; axes and centres are in its frame.
 
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::{JointCompliance, Robot};
 use armill_study::joint_unit::JointUnit;
 use armill_study::robot_answers::attachment_name;
 
-/// Lines for people; none where drives alone are known.
+/// Lines of text; none if only drives are known.
 pub(super) fn as_text(robot: &Robot) -> Vec<String> {
     let structure = robot.structure();
     let mut lines = Vec::new();
@@ -37,13 +37,16 @@ pub(super) fn as_text(robot: &Robot) -> Vec<String> {
             )
         } else {
             format!(
-                "{:.2e} m/N along {} with a turn of {} rad/m",
+                "{:.2e} m/N along {} with a rotation of {} rad/m",
                 c.value,
                 axis(&linear),
                 axis(&angular)
             )
         };
-        lines.push(format!("  spring at {}: {what}", attachment_name(robot, spring.attachment)));
+        lines.push(format!(
+            "  spring at {}: {what}",
+            attachment_name(robot, spring.attachment)
+        ));
     }
     for mass in &structure.masses {
         let centre = mass.centre.coords * 1e3;
@@ -59,7 +62,7 @@ pub(super) fn as_text(robot: &Robot) -> Vec<String> {
     for joint in 0..robot.joints().len() {
         let name = &robot.joints()[joint].name;
         lines.extend(structure.curve(joint).map(|curve| {
-            let sides = if curve.falling.is_some() { "rising and falling" } else { "both ways" };
+            let sides = if curve.falling.is_some() { "rising and falling" } else { "both directions" };
             let pairs = curve.rising.points().len();
             format!("  torque curve of {name}: {pairs} pairs, {sides}; the compliance above is its slope without load")
         }));
@@ -87,13 +90,13 @@ pub(super) fn as_text(robot: &Robot) -> Vec<String> {
         ));
     }
     if !lines.is_empty() {
-        lines.insert(0, "Beside the drives:".to_owned());
+        lines.insert(0, "Apart from the drives:".to_owned());
         lines.insert(0, String::new());
     }
     lines
 }
 
-/// A direction by its letter where it is one of the three, else by its components.
+/// A direction by its letter if it is an axis, otherwise by its components.
 fn axis(v: &Vector3<f64>) -> String {
     match [v.x, v.y, v.z] {
         [1.0, 0.0, 0.0] => "x".to_owned(),
@@ -103,8 +106,8 @@ fn axis(v: &Vector3<f64>) -> String {
     }
 }
 
-/// A compliance with its standard uncertainty, in the unit of its kind: of a joint that turns or one that
-/// slides.
+/// A compliance with its standard uncertainty, in the unit of its joint: revolute or
+/// prismatic.
 pub(super) fn compliance_text(c: JointCompliance, unit: JointUnit) -> String {
     let (value, u) = (
         c.value * unit.compliance_scale,

@@ -37,7 +37,7 @@ fn the_mh12_regression_point_has_the_printed_joints_and_compliance() {
 }
 
 #[test]
-fn all_eight_branches_of_a_reachable_pose_are_told_once_each() {
+fn all_eight_branches_of_a_reachable_pose_are_reported_once_each() {
     let all = mh12(&["--at-mm", "1000,0,800"]);
     let mut names: Vec<&str> = all
         .iter()
@@ -49,7 +49,7 @@ fn all_eight_branches_of_a_reachable_pose_are_told_once_each() {
 }
 
 #[test]
-fn joints_outside_their_limits_are_answered_and_told() {
+fn joints_outside_their_limits_are_answered_and_reported() {
     let posture = mh12(&["--joints-deg", "175,0,0,0,0,0"]).remove(0);
     assert_eq!(posture["within_limits"], false);
     assert_eq!(posture["limit_joint"], "S");
@@ -80,7 +80,7 @@ fn a_point_beyond_the_arm_is_a_result_with_its_reason() {
 }
 
 #[test]
-fn reachable_poses_say_null_for_unreachable() {
+fn reachable_poses_have_null_for_unreachable() {
     let answer = Cell::new()
         .armill(&["pose", "yaskawa/mh12", "--at-mm", "1000,0,800", "--json"])
         .fine()
@@ -103,9 +103,9 @@ fn a_chain_without_named_branches_answers_its_joints_with_branch_null() {
     assert!(apart(&numbers(&posture["tool"]["xyz_mm"]), &[0.0, 600.0, 300.0]) < 1e-9);
     let j = rows(&posture["jacobian"]);
     assert_eq!((j.len(), j[0].len()), (6, 2));
-    // 10 N across a lever of 0.6 m on 2e-6 rad/(N m): 7.2 um; the slide lies across the force.
+    // 10 N across a lever of 0.6 m on 2e-6 rad/(N m): 7.2 um; the slide is perpendicular to the force.
     assert!(apart(&numbers(&posture["deviation_um"]), &[7.2, 0.0, 0.0]) < 1e-9);
-    // Two joints hold few poses: this one they miss.
+    // Two joints reach few poses: not this one.
     let answer = cell
         .armill(&["pose", "lever.toml", "--at-mm", "0,600,300", "--json"])
         .fine()
@@ -115,7 +115,7 @@ fn a_chain_without_named_branches_answers_its_joints_with_branch_null() {
 }
 
 #[test]
-fn without_joint_compliance_there_is_no_deviation_and_a_note_says_what_to_do() {
+fn without_joint_compliance_there_is_no_deviation_but_a_note_with_a_hint() {
     let cell = Cell::new();
     cell.file("arm.urdf", MH12_URDF);
     let flags = [
@@ -141,7 +141,7 @@ fn without_joint_compliance_there_is_no_deviation_and_a_note_says_what_to_do() {
 }
 
 #[test]
-fn postures_are_told_in_words_without_json() {
+fn postures_are_reported_as_text_without_json() {
     let said = Cell::new()
         .armill(&[
             "pose",

@@ -134,7 +134,7 @@ fn a_urdf_of_the_same_arm_gives_the_postures_of_the_library() {
 }
 
 #[test]
-fn joints_of_a_posture_bring_the_tool_back_where_it_was_asked() {
+fn joints_of_a_posture_return_the_tool_to_the_requested_pose() {
     let tool = ["--tool-mm", "15,-25,180,0,30,0"];
     for posture in mh12(&[&["--at-mm", "900,250,700", "--tilt-deg", "60"], &tool[..]].concat()) {
         let joints = numbers(&posture["joints_deg"])

@@ -5,7 +5,7 @@ use serde_json::Value;
 use super::postures;
 use crate::cell::{Cell, apart_deg, numbers};
 
-/// Robots that others published, read where they lie.
+/// Robots published by others, read from their folder.
 #[test]
 fn every_sample_urdf_answers_and_its_inverse_leads_back_to_the_joints() {
     let Some(samples) = std::env::var_os("ARMILL_SAMPLES") else {

@@ -4,13 +4,13 @@ use super::pose;
 use crate::cell::Cell;
 
 #[test]
-fn a_wrong_number_of_joints_is_told_with_their_names() {
+fn a_wrong_number_of_joints_is_reported_with_their_names() {
     pose(&["--joints-deg", "1,2,3"]).refused(&["3 joint positions for the 6 joints", "S, L, U, R, B, T"]);
     pose(&["--joints-deg", "1,2,3,4,5,6,7"]).refused(&["7 joint positions for the 6 joints"]);
 }
 
 #[test]
-fn a_wrong_count_of_numbers_in_a_flag_is_told() {
+fn a_wrong_count_of_numbers_in_a_flag_is_reported() {
     pose(&["--at-mm", "1,2"]).refused(&["--at-mm: 2 numbers", "three"]);
     pose(&["--at-mm", "1,2,3,4"]).refused(&["--at-mm: 4 numbers"]);
     pose(&["--at-mm", "900,0,800", "--axis", "1,0"]).refused(&["--axis: 2 numbers"]);
@@ -22,7 +22,7 @@ fn a_wrong_count_of_numbers_in_a_flag_is_told() {
 }
 
 #[test]
-fn numbers_that_are_none_are_refused_in_every_flag() {
+fn numbers_that_are_not_finite_are_refused_in_every_flag() {
     for none in ["nan", "inf", "-inf"] {
         let three = format!("{none},0,0");
         let six = format!("{none},0,0,0,0,0");
@@ -49,14 +49,14 @@ fn numbers_beyond_all_reason_are_refused_in_every_flag() {
 }
 
 #[test]
-fn what_is_no_number_is_refused() {
+fn refuses_text_in_place_of_a_number() {
     pose(&["--joints-deg", "1,2,three,4,5,6"]).refused(&["three", "--joints-deg"]);
     pose(&["--joints-deg", ""]).refused(&["--joints-deg"]);
     pose(&["--at-mm", "1,,3"]).refused(&["--at-mm"]);
 }
 
 #[test]
-fn a_negative_compliance_in_a_flag_is_told() {
+fn a_negative_compliance_in_a_flag_is_reported() {
     let flags = [
         "--at-mm",
         "900,0,800",
@@ -76,7 +76,7 @@ fn flags_that_contradict_each_other_are_refused() {
 }
 
 #[test]
-fn an_axis_of_no_length_and_an_unknown_frame_are_told() {
+fn an_axis_without_length_and_an_unknown_frame_are_reported() {
     pose(&["--at-mm", "900,0,800", "--axis", "0,0,0"]).refused(&["--axis", "points nowhere"]);
     pose(&["--at-mm", "900,0,800", "--base", "flor"]).refused(&["no frame `flor`", "base_link, controller"]);
 }

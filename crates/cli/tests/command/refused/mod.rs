@@ -9,7 +9,7 @@ mod study;
 
 use crate::cell::{Cell, LEVER, SMALL, Said};
 
-/// What `armill check` says to [`SMALL`] with one thing changed; `run` must refuse it alike and write nothing.
+/// Output of `armill check` for [`SMALL`] with one change; `run` must refuse it too and write nothing.
 fn check(from: &str, to: &str) -> Said {
     assert!(SMALL.contains(from), "the sample has no `{from}`");
     check_text(SMALL.replacen(from, to, 1))

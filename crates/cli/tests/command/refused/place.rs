@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use crate::cell::{Cell, SMALL};
 
 #[test]
-fn a_folder_that_cannot_be_written_is_told_before_any_work() {
+fn a_folder_that_cannot_be_written_is_reported_before_any_work() {
     let cell = Cell::with_study(&SMALL.replace("step_mm = 50", "step_mm = 0.2"));
     cell.file("in the way", "a file");
     let start = Instant::now();

@@ -4,7 +4,7 @@ use super::lever;
 use crate::cell::{Cell, LEVER, MH12_URDF};
 
 #[test]
-fn reversed_limits_of_a_joint_are_told_with_both() {
+fn reversed_limits_of_a_joint_are_reported_with_both() {
     let words = [
         "lever.toml:14:14",
         "joint A: lower limit 120 deg is not below upper limit -100 deg",
@@ -14,12 +14,12 @@ fn reversed_limits_of_a_joint_are_told_with_both() {
 }
 
 #[test]
-fn a_negative_compliance_of_a_joint_is_told() {
+fn a_negative_compliance_of_a_joint_is_reported() {
     lever("= 2e-6", "= -2e-6").refused(&["lever.toml:16:", "compliance_rad_per_n_m", "-2e-6", "at least 0"]);
 }
 
 #[test]
-fn a_chain_with_no_joint_is_told() {
+fn a_chain_without_joints_is_reported() {
     let start = LEVER.find("[[joint]]").unwrap();
     let end = LEVER.find("[sources").unwrap();
     let text = format!("{}{}", &LEVER[..start], &LEVER[end..])
@@ -41,7 +41,7 @@ fn a_length_beyond_all_reason_is_refused_in_a_robot_file() {
 }
 
 #[test]
-fn a_broken_urdf_is_told_with_its_file() {
+fn a_broken_urdf_is_reported_with_its_file() {
     let cell = Cell::new();
     let half = &MH12_URDF[..MH12_URDF.len() / 2];
     let loop_of_joints = MH12_URDF.replace("<child link=\"tool0\"/>", "<child link=\"l2\"/>");
@@ -71,7 +71,7 @@ fn a_broken_urdf_is_told_with_its_file() {
 }
 
 #[test]
-fn what_is_neither_library_name_nor_robot_file_is_told() {
+fn an_unknown_robot_name_is_reported() {
     Cell::new()
         .armill(&["pose", "lathe", "--joints-deg", "0"])
         .refused(&["`lathe`", "`armill robots`"]);

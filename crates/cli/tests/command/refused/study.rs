@@ -11,8 +11,40 @@ fn an_unknown_field_is_named_with_its_place() {
 }
 
 #[test]
-fn a_slip_in_a_field_is_told_with_the_field_meant() {
+fn a_slip_in_a_field_is_reported_with_the_field_meant() {
     check("half_size_mm", "halfsize_mm").refused(&["study.toml:9:1", "half_size_mm"]);
+}
+
+#[test]
+fn a_renamed_field_is_refused_with_its_present_name() {
+    let is_refused = |text: String, old: &str, new: &str| {
+        check_text(text).refused(&[&format!("unknown field `{old}`"), &format!("write `{new}`")]);
+    };
+    is_refused(
+        SMALL.replace("tolerance_um", "limit_um"),
+        "limit_um",
+        "tolerance_um",
+    );
+    is_refused(format!("{SMALL}[[ask]]\nkind = \"map\"\n"), "ask", "analysis");
+    is_refused(
+        format!("actual_robot = \"measured.toml\"\n{SMALL}"),
+        "actual_robot",
+        "calibrated_robot",
+    );
+    for (table, old, value, new) in [
+        ("posture.search", "counts", "in-plane", "component"),
+        ("posture.search", "goal", "worst", "objective"),
+        ("place", "counts", "in-plane", "component"),
+        ("place", "goal", "worst", "objective"),
+        ("place", "sure", "likely", "rank_by"),
+    ] {
+        let text = format!("{SMALL}[{table}]\n{old} = \"{value}\"\n");
+        is_refused(text, &format!("{table}.{old}"), new);
+    }
+    for table in ["posture.search", "place"] {
+        check_text(format!("{SMALL}[{table}]\nobjective = \"above-limit\"\n"))
+            .refused(&["must be one of", "did you mean \"above-tolerance\"?"]);
+    }
 }
 
 #[test]
@@ -22,12 +54,12 @@ fn a_missing_unit_suffix_is_named() {
         "`plane.step`",
         "lengths carry their unit: write `step_mm`",
     ]);
-    check("tolerance_um", "limit").refused(&["study.toml:4:1", "tolerance_um"]);
+    check("tolerance_um", "tolerance").refused(&["study.toml:4:1", "tolerance_um"]);
     check("cases_n", "cases").refused(&["study.toml:13:1", "cases_n"]);
 }
 
 #[test]
-fn a_number_that_is_none_is_told_with_its_line() {
+fn an_invalid_number_is_reported_with_its_line() {
     for none in ["nan", "-nan", "inf", "-inf", "1e400"] {
         check("step_mm = 50", &format!("step_mm = {none}")).refused(&[
             "study.toml:10:11",
@@ -39,7 +71,7 @@ fn a_number_that_is_none_is_told_with_its_line() {
 }
 
 #[test]
-fn a_number_beyond_all_reason_is_told_with_its_limit_and_unit() {
+fn an_implausible_number_is_reported_with_its_limit_and_unit() {
     check("[[3, 5, 5]", "[[1e308, 1e308, 5]").refused(&[
         "study.toml:13:13",
         "1e308 N",
@@ -53,7 +85,7 @@ fn a_number_beyond_all_reason_is_told_with_its_limit_and_unit() {
 }
 
 #[test]
-fn lengths_that_must_be_above_0_say_so() {
+fn lengths_that_must_be_above_0_are_refused_otherwise() {
     check("step_mm = 50", "step_mm = 0").refused(&[
         "study.toml:10:11",
         "`plane.step_mm` is 0 mm",
@@ -74,19 +106,19 @@ fn lengths_that_must_be_above_0_say_so() {
 }
 
 #[test]
-fn a_negative_compliance_is_told_with_its_place_and_unit() {
+fn a_negative_compliance_is_reported_with_its_place_and_unit() {
     let own = "\n[compliance]\nrad_per_n_m = [1e-6, 1e-6, -2e-6, 1e-6, 1e-6, 1e-6]\nsource = \"a guess\"\n";
     check_text(format!("{SMALL}{own}")).refused(&["study.toml:16:28", "-2e-6", "at least 0"]);
 }
 
 #[test]
-fn a_wrong_number_of_compliances_is_told_with_the_right_one() {
+fn a_wrong_number_of_compliances_is_reported_with_the_right_one() {
     let own = "\n[compliance]\nrad_per_n_m = [1e-6, 1e-6]\nsource = \"a guess\"\n";
     check_text(format!("{SMALL}{own}")).refused(&["study.toml:16", "2 values for the 6 joints"]);
 }
 
 #[test]
-fn an_empty_load_is_told() {
+fn an_empty_load_is_reported() {
     check("[[3, 5, 5], [3, -5, 5]]", "[]").refused(&[
         "study.toml:13:11",
         "the load has no case",
@@ -101,7 +133,7 @@ fn moments_are_one_a_case() {
 }
 
 #[test]
-fn an_unknown_robot_is_told_with_the_one_meant() {
+fn an_unknown_robot_is_reported_with_the_one_meant() {
     check("yaskawa/mh12", "yaskawa/mh21").refused(&[
         "study.toml:3:9",
         "`yaskawa/mh21`",
@@ -113,7 +145,7 @@ fn an_unknown_robot_is_told_with_the_one_meant() {
 }
 
 #[test]
-fn a_robot_without_compliance_is_told_what_to_add() {
+fn a_robot_without_compliance_is_refused_with_what_to_add() {
     let words = [
         "study.toml:3:9",
         "no joint compliance is known",
@@ -126,7 +158,7 @@ fn a_robot_without_compliance_is_told_what_to_add() {
 }
 
 #[test]
-fn a_robot_of_too_few_joints_is_told_in_a_study() {
+fn a_robot_of_too_few_joints_is_reported_in_a_study() {
     let cell = Cell::with_study(&SMALL.replace("yaskawa/mh12", "lever.toml"));
     cell.file("lever.toml", LEVER);
     cell.armill(&["run", "."])
@@ -134,7 +166,7 @@ fn a_robot_of_too_few_joints_is_told_in_a_study() {
 }
 
 #[test]
-fn a_missing_robot_file_is_told_with_the_path_that_was_tried() {
+fn a_missing_robot_file_is_reported_with_the_path_that_was_tried() {
     let cell = Cell::new();
     cell.file("deep/study.toml", SMALL.replace("yaskawa/mh12", "arm.urdf"));
     cell.armill(&["check", "deep"])
@@ -142,7 +174,7 @@ fn a_missing_robot_file_is_told_with_the_path_that_was_tried() {
 }
 
 #[test]
-fn problems_of_a_robot_file_are_told_at_the_robot_file() {
+fn problems_of_a_robot_file_are_reported_at_the_robot_file() {
     let cell = Cell::with_study(&SMALL.replace("yaskawa/mh12", "lever.toml"));
     cell.file("lever.toml", LEVER.replace("[-100, 120]", "[120, -100]"));
     cell.armill(&["check", "."]).refused(&[
@@ -152,7 +184,7 @@ fn problems_of_a_robot_file_are_told_at_the_robot_file() {
 }
 
 #[test]
-fn a_frame_or_branch_that_is_none_is_told_with_those_that_are() {
+fn an_unknown_frame_or_branch_is_reported_with_the_valid_ones() {
     check("tolerance_um", "base = \"flor\"\ntolerance_um").refused(&[
         "study.toml:4:8",
         "no frame `flor`",
@@ -197,7 +229,9 @@ fn a_grid_of_a_billion_points_is_refused_at_once_with_its_memory() {
 
 #[test]
 fn boxes_paths_and_sections_are_measured_before_they_are_made() {
-    let analysis = |analysis: &str, words: &[&str]| check_text(format!("{SMALL}[[analysis]]\n{analysis}\n")).refused(words);
+    let analysis = |analysis: &str, words: &[&str]| {
+        check_text(format!("{SMALL}[[analysis]]\n{analysis}\n")).refused(words)
+    };
     let memory = ["points under 2 load cases would take", "GiB", "study.toml:"];
     analysis(
         "kind = \"volume\"\nbox = { half_size_mm = [500, 500, 500], step_mm = 1 }",
@@ -228,10 +262,11 @@ fn boxes_paths_and_sections_are_measured_before_they_are_made() {
 }
 
 #[test]
-fn asks_that_fit_one_by_one_but_not_together_are_refused() {
-    // 2.4 million points a section, some 2.1 GiB; three of them are held at once.
-    let sections = "[[analysis]]\nkind = \"sections\"\ndistances_mm = [900, 1000, 1100]\nplane.step_mm = 0.13\n";
-    check_text(format!("{SMALL}{sections}")).refused(&["all asks together", "GiB", "more than 4 GiB"]);
+fn analyses_that_fit_individually_but_not_together_are_refused() {
+    // 2.4 million points a section, some 2.1 GiB; three of them are in memory at once.
+    let sections =
+        "[[analysis]]\nkind = \"sections\"\ndistances_mm = [900, 1000, 1100]\nplane.step_mm = 0.13\n";
+    check_text(format!("{SMALL}{sections}")).refused(&["all analyses together", "GiB", "more than 4 GiB"]);
 }
 
 #[test]
@@ -249,7 +284,7 @@ fn load_cases_are_part_of_the_memory_that_is_bounded() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn what_a_study_takes_is_no_more_than_was_estimated() {
+fn the_memory_of_a_study_is_at_most_the_estimate() {
     let study = |step: f64| {
         let cases = ["[3, 5, 5]"; 8].join(", ");
         let small = SMALL.replace("[3, 5, 5], [3, -5, 5]", &cases);
@@ -257,7 +292,7 @@ fn what_a_study_takes_is_no_more_than_was_estimated() {
             "{small}[[analysis]]\nkind = \"volume\"\nbox = {{ half_size_mm = [100, 100, 100], step_mm = {step} }}\n"
         )
     };
-    // Too many points tell what one of them takes.
+    // Too many points: the message has the memory of one of them.
     let refused = check_text(study(0.5)).err;
     let number = |before: &str| -> f64 {
         let (text, _) = refused.split_once(before).unwrap();
@@ -266,7 +301,7 @@ fn what_a_study_takes_is_no_more_than_was_estimated() {
     let bytes_per_point = number(" GiB of memory") * f64::from(1 << 30) / number(" points under 8");
     let points = f64::from(61_u32.pow(3));
     let cell = Cell::with_study(&study(3.33));
-    // One thread, one arena: what the program takes beside is some 100 MB of addresses.
+    // One thread, one arena: the program itself uses some 100 MB of addresses.
     let fits_in = |bytes: f64| {
         let kib = (bytes / 1024.0) as u64;
         let run = format!(
@@ -316,7 +351,7 @@ fn a_grid_too_large_is_refused_without_allocating_it() {
 }
 
 #[test]
-fn every_problem_of_a_file_is_told_at_once() {
+fn every_problem_of_a_file_is_reported_at_once() {
     let broken = SMALL
         .replace("yaskawa/mh12", "yaskawa/mh21")
         .replace("step_mm = 50", "step_mm = 0")
@@ -333,7 +368,7 @@ fn every_problem_of_a_file_is_told_at_once() {
         "a volume needs its `box`",
         "a path has exactly one shape",
         "sections vary either",
-        "`circle` means nothing to a map",
+        "`circle` is not valid for a map",
     ]);
     let fields = SMALL
         .replace("step_mm", "step")
@@ -343,7 +378,7 @@ fn every_problem_of_a_file_is_told_at_once() {
 }
 
 #[test]
-fn a_value_that_several_asks_take_is_wrong_once() {
+fn a_value_used_by_several_analyses_is_reported_once() {
     let said = check_text(format!(
         "{}{EVERY_KIND}",
         SMALL.replace("[[3, 5, 5], [3, -5, 5]]", "[]")
@@ -380,7 +415,7 @@ fn problems_as_json_have_file_line_and_hint() {
 }
 
 #[test]
-fn windows_line_ends_and_a_byte_order_mark_are_taken() {
+fn windows_line_ends_and_a_byte_order_mark_are_accepted() {
     for text in [
         SMALL.replace('\n', "\r\n"),
         format!("\u{feff}{SMALL}"),
@@ -388,14 +423,14 @@ fn windows_line_ends_and_a_byte_order_mark_are_taken() {
     ] {
         Cell::with_study(&text).armill(&["check", "study.toml"]).fine();
     }
-    // Lines are counted alike.
+    // Lines are counted in the same way.
     check_text(SMALL.replace("step_mm", "step").replace('\n', "\r\n")).refused(&["study.toml:10:1"]);
     check_text(format!("\u{feff}{}", SMALL.replace("format = 1", "formt = 1")))
         .refused(&["study.toml:1:1", "`format`"]);
 }
 
 #[test]
-fn bytes_that_are_no_text_are_told_with_their_place() {
+fn bytes_that_are_not_text_are_reported_with_their_position() {
     check_text([SMALL.as_bytes(), b"# \xff\n"].concat()).refused(&["study.toml:14:3", "0xff", "UTF-8"]);
     let cell = Cell::new();
     cell.file("arm.toml", [LEVER.as_bytes(), b"# \xff\n"].concat());
@@ -404,7 +439,7 @@ fn bytes_that_are_no_text_are_told_with_their_place() {
 }
 
 #[test]
-fn what_is_no_toml_is_told_with_its_line() {
+fn a_file_that_is_not_toml_is_reported_with_its_line() {
     for text in [
         "",
         "format = 1",
@@ -422,7 +457,7 @@ fn what_is_no_toml_is_told_with_its_line() {
 }
 
 #[test]
-fn a_missing_study_is_told_with_what_to_do() {
+fn a_missing_study_is_reported_with_a_hint() {
     let cell = Cell::new();
     std::fs::create_dir(cell.at("empty")).unwrap();
     cell.armill(&["run", "nowhere"])
@@ -436,7 +471,7 @@ fn a_missing_study_is_told_with_what_to_do() {
 }
 
 #[test]
-fn two_asks_never_write_the_same_files() {
+fn two_analyses_never_write_the_same_files() {
     let named = |names: &[&str]| {
         let analyses: String = names
             .iter()
@@ -453,12 +488,12 @@ fn two_asks_never_write_the_same_files() {
 }
 
 #[test]
-fn a_statement_of_nothing_that_was_asked_is_told() {
+fn a_statement_without_an_analysis_is_reported() {
     let of = |name: &str| {
         let statement = "[[statement]]\ntext = \"t\"\nsource = \"s\"\nat_most_um = 70\n";
         check_text(format!("{SMALL}{EVERY_KIND}{statement}of = [\"{name}\"]\n"))
     };
-    of("plat").refused(&["no ask is called `plat`"]);
+    of("plat").refused(&["no analysis is called `plat`"]);
     of("distances").refused(&["`distances` is a series of sections", "`distances: x = 900 mm`"]);
     of("space").refused(&["`space` is a volume"]);
 }

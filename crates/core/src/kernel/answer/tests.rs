@@ -1,15 +1,15 @@
-//! Envelopes over load cases, places of blocks, and the points that are told of all.
+//! Envelopes over load cases, slots of blocks, and statistics of all points.
 
 use super::*;
 use crate::robot::{Sides, Unreachable};
 
-fn evaluation(in_plane: f64) -> Held {
-    Held {
+fn evaluation(in_plane: f64) -> Evaluation {
+    Evaluation {
         name: PostureName::Sides(Sides::default()),
         limit_margin: 0.5,
         limit_joint: 0,
         singularity: None,
-        deciding_case: 9,
+        worst_case: 9,
         in_plane,
         in_plane_uncertainty: 0.0,
         normal: 7.0,
@@ -17,7 +17,7 @@ fn evaluation(in_plane: f64) -> Held {
     }
 }
 
-fn answers(points: Vec<Result<Held, Unreachable>>) -> Answers {
+fn answers(points: Vec<Result<Evaluation, Unreachable>>) -> Answers {
     let count = points.len();
     Answers {
         points,
@@ -39,21 +39,21 @@ fn the_envelope_takes_the_largest_of_each_and_the_first_of_equals() {
     ];
     let mut one = evaluation(0.0);
     one.take_envelope(&deviations, Vector3::z_axis());
-    assert_eq!((one.in_plane, one.deciding_case), (3.0, 1));
-    // Along the normal the one that is largest in size, with its sign.
+    assert_eq!((one.in_plane, one.worst_case), (3.0, 1));
+    // Along the normal the one with the largest magnitude, with its sign.
     assert_eq!(one.normal, -5.0);
     assert_eq!(one.full, 34_f64.sqrt());
-    // What was there before is gone; what has nothing to do with deviations stays.
+    // Previous values are replaced; fields other than deviations stay.
     one.take_envelope(&[Vector3::zeros()], Vector3::z_axis());
     assert_eq!(
-        (one.in_plane, one.deciding_case, one.normal, one.full),
+        (one.in_plane, one.worst_case, one.normal, one.full),
         (0.0, 0, 0.0, 0.0)
     );
     assert_eq!((one.limit_margin, one.limit_joint), (0.5, 0));
 }
 
 #[test]
-fn turning_the_normal_round_turns_the_sign_alone() {
+fn reversing_the_normal_changes_only_the_sign() {
     let deviations = [Vector3::new(0.3, -0.2, 0.9), Vector3::new(-0.1, 0.8, 0.05)];
     let normal = Unit::new_normalize(Vector3::new(0.3, 0.5, -0.8));
     let (mut one, mut other) = (evaluation(0.0), evaluation(0.0));
@@ -61,13 +61,13 @@ fn turning_the_normal_round_turns_the_sign_alone() {
     other.take_envelope(&deviations, -normal);
     assert_eq!(one.normal, -other.normal);
     assert_eq!(
-        (one.in_plane, one.full, one.deciding_case),
-        (other.in_plane, other.full, other.deciding_case)
+        (one.in_plane, one.full, one.worst_case),
+        (other.in_plane, other.full, other.worst_case)
     );
 }
 
 #[test]
-fn blocks_part_every_value_once_and_in_order() {
+fn blocks_contain_every_value_once_and_in_order() {
     for size in [1, 2, 5, 7, 100] {
         let mut all = answers(vec![Ok(evaluation(1.0)); 7]);
         let (joints, shares) = (all.joints.clone(), all.shares.clone());
@@ -96,18 +96,21 @@ fn blocks_part_every_value_once_and_in_order() {
 }
 
 #[test]
-fn values_of_a_point_stand_at_its_index() {
+fn values_of_a_point_are_at_its_index() {
     let all = answers(vec![Ok(evaluation(1.0)); 3]);
     assert_eq!(all.joints_at(2), [4.0, 5.0]);
     assert_eq!(all.shares_at(1), [4.0, 5.0, 6.0, 7.0]);
     assert_eq!(all.deviations_at(1)[0], Vector3::repeat(3.0));
-    // A point's worth of each, and the state.
+    // The values of one point, and the state.
     let bytes = Answers::bytes_per_point(2, 4, 3);
-    assert_eq!(bytes, size_of::<Result<Held, Unreachable>>() + 8 * 6 + 24 * 3);
+    assert_eq!(
+        bytes,
+        size_of::<Result<Evaluation, Unreachable>>() + 8 * 6 + 24 * 3
+    );
 }
 
 #[test]
-fn worst_and_best_are_the_first_of_those_that_differ_by_rounding_alone() {
+fn worst_and_best_are_the_first_of_those_that_differ_only_by_rounding() {
     let missed = Err(Unreachable::OtherBranch);
     let all = answers(vec![
         missed,
@@ -120,14 +123,17 @@ fn worst_and_best_are_the_first_of_those_that_differ_by_rounding_alone() {
     ]);
     assert_eq!(all.worst().unwrap().0, 2);
     assert_eq!(all.best().unwrap().0, 1);
-    assert_eq!(all.evaluation().map(|(i, _)| i).collect::<Vec<_>>(), [1, 2, 3, 4, 6]);
+    assert_eq!(
+        all.evaluations().map(|(i, _)| i).collect::<Vec<_>>(),
+        [1, 2, 3, 4, 6]
+    );
     let none = answers(vec![missed; 4]);
     assert!(none.worst().is_none() && none.best().is_none());
 }
 
 #[test]
 fn a_joint_at_its_limit_is_inside_up_to_rounding() {
-    let with = |limit_margin| Held {
+    let with = |limit_margin| Evaluation {
         limit_margin,
         ..evaluation(0.0)
     };

@@ -29,7 +29,7 @@ fn push(random: &mut Stream) -> (Vec<Wrench>, [Vector3<f64>; 2]) {
 }
 
 #[test]
-fn lanes_tell_what_one_pose_after_the_other_tells() {
+fn lanes_agree_with_one_pose_after_the_other() {
     let mut random = Stream(41);
     let tool = Isometry::from_parts(
         nalgebra::Translation3::new(0.03, -0.02, 0.25),
@@ -39,7 +39,7 @@ fn lanes_tell_what_one_pose_after_the_other_tells() {
     for robot in arms::all() {
         let arm = arm(&robot, &tool);
         let mut lanes = Columns::new(arm, None, WRIST);
-        assert!(matches!(lanes.way, Way::Lanes(_)));
+        assert!(matches!(lanes.method, ColumnMethod::Lanes(_)));
         let mut plain = Columns::one_by_one(arm, None, [WRIST, 0.0]);
         let (mut one, mut other) = (Column::default(), Column::default());
         for round in 0..40 {
@@ -50,21 +50,21 @@ fn lanes_tell_what_one_pose_after_the_other_tells() {
                 base.translation,
                 UnitQuaternion::from_rotation_matrix(&base.rotation),
             ) * tool;
-            // More turns than a block holds.
+            // More turns than a block has.
             let poses: Vec<Isometry> = (0..100)
                 .map(|turn| {
                     base * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), 0.0628 * f64::from(turn))
                 })
                 .collect();
-            let push = Push { cases: &cases, along };
+            let push = ColumnLoad { cases: &cases, along };
             lanes.fill(&poses, &push, &mut one);
             plain.fill(&poses, &push, &mut other);
             for slot in 0..poses.len() * SLOTS {
-                let stands = [one.stands[slot], other.stands[slot]];
-                counts[stands[0] as usize] += 1;
-                // Where two reasons hold, lanes and the plain way look in another order at the edge of reach alone.
-                assert_eq!(stands[0], stands[1], "{} {round} slot {slot}", robot.name());
-                if stands[0] != Stand::Holds {
+                let statuses = [one.statuses[slot], other.statuses[slot]];
+                counts[statuses[0] as usize] += 1;
+                // If two reasons apply, lanes and the plain method test in another order only at the edge of reach.
+                assert_eq!(statuses[0], statuses[1], "{} {round} slot {slot}", robot.name());
+                if statuses[0] != PostureStatus::Usable {
                     assert!(one.deviations[slot].is_infinite());
                     continue;
                 }
@@ -80,13 +80,13 @@ fn lanes_tell_what_one_pose_after_the_other_tells() {
             }
         }
     }
-    for stand in [
-        Stand::Holds,
-        Stand::OutsideLimits,
-        Stand::Singular,
-        Stand::OutOfReach,
+    for status in [
+        PostureStatus::Usable,
+        PostureStatus::OutsideLimits,
+        PostureStatus::Singular,
+        PostureStatus::OutOfReach,
     ] {
-        assert!(counts[stand as usize] > 100, "{counts:?}");
+        assert!(counts[status as usize] > 100, "{counts:?}");
     }
 }
 
@@ -102,18 +102,18 @@ fn a_posture_of_a_column_is_one_of_the_postures_of_its_pose_and_deviates_as_pred
         nalgebra::Translation3::new(0.9, 0.1, 0.8),
         tool_orientation(Vector3::x_axis(), 0.3),
     );
-    columns.fill(&[pose], &Push { cases: &cases, along }, &mut column);
+    columns.fill(&[pose], &ColumnLoad { cases: &cases, along }, &mut column);
     let all = postures(&robot, &pose, ToolAt::on(&tool)).unwrap();
-    let mut evaluation = 0;
+    let mut usable = 0;
     for posture in &all {
         let PostureName::Branch(branch) = posture.name else {
             panic!("named")
         };
         let slot = Branch::ALL.iter().position(|other| *other == branch).unwrap();
-        if column.stands[slot] != Stand::Holds {
+        if column.statuses[slot] != PostureStatus::Usable {
             continue;
         }
-        evaluation += 1;
+        usable += 1;
         let deviates = |wrench: &Wrench| {
             let delta = crate::source::elastic::predict(posture, robot.compliance().unwrap(), wrench)
                 .twist
@@ -123,5 +123,5 @@ fn a_posture_of_a_column_is_one_of_the_postures_of_its_pose_and_deviates_as_pred
         let most = cases.iter().map(deviates).fold(0.0, f64::max);
         assert!((most - column.deviations[slot]).abs() < 1e-11 * most, "{most}");
     }
-    assert!(evaluation >= 2, "{evaluation}");
+    assert!(usable >= 2, "{usable}");
 }

@@ -1,4 +1,4 @@
-//! Many stands are the stands of one after the other.
+//! Many points give the same as one point after the other.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -19,7 +19,7 @@ fn joints(robot: &Robot, count: usize) -> Vec<f64> {
 }
 
 #[test]
-fn every_chain_is_told_as_predicted_at_each_point() {
+fn every_chain_agrees_with_predict_at_each_point() {
     let tool = arms::bent_tool();
     for robot in [
         arms::hung(),
@@ -34,7 +34,7 @@ fn every_chain_is_told_as_predicted_at_each_point() {
                 model: &model,
                 flange_from_tool: &tool,
             };
-            let tell = |arm_state: &mut ArmState<'_>, out: &mut [f64]| {
+            let write = |arm_state: &mut ArmState<'_>, out: &mut [f64]| {
                 for (wrench, out) in cases().iter().zip(out.chunks_mut(3)) {
                     out.copy_from_slice(
                         deviation_of(arm_state, wrench, &mut Links::Neglected)?
@@ -45,7 +45,7 @@ fn every_chain_is_told_as_predicted_at_each_point() {
                 Ok(())
             };
             let mut given = vec![0.0; 300 * 9];
-            evaluate_at_joints(&arm, &q, (&mut given, 9), tell, Watch::NONE).unwrap();
+            evaluate_at_joints(&arm, &q, (&mut given, 9), write, Watch::NONE).unwrap();
             for (q, given) in q.chunks(dof).zip(given.chunks(9)).step_by(7) {
                 for (wrench, given) in cases().iter().zip(given.chunks(3)) {
                     let predicted = arms::predicted(&arm, q, wrench).unwrap().twist.linear;
@@ -60,18 +60,18 @@ fn every_chain_is_told_as_predicted_at_each_point() {
 
 #[test]
 #[should_panic(expected = "joint positions for a whole number of points")]
-fn half_a_point_is_refused() {
-    stood(&[0.0; 9], 6);
+fn an_incomplete_point_is_refused() {
+    evaluated(&[0.0; 9], 6);
 }
 
 #[test]
-#[should_panic(expected = "one compliance a joint")]
+#[should_panic(expected = "one compliance per joint")]
 fn a_joint_without_compliance_is_refused() {
-    stood(&[0.0; 6], 5);
+    evaluated(&[0.0; 6], 5);
 }
 
-/// An arm of which so many compliances are known.
-fn stood(joints: &[f64], known: usize) {
+/// An arm with this number of known compliances.
+fn evaluated(joints: &[f64], known: usize) {
     let (robot, tool) = (&arms::ALL[0], arms::bent_tool());
     let arm = Arm {
         robot,
@@ -83,7 +83,7 @@ fn stood(joints: &[f64], known: usize) {
 }
 
 #[test]
-fn the_tool_stands_where_the_posture_of_the_joints_has_it_in_one_block_and_in_many() {
+fn the_tool_pose_agrees_with_forward_kinematics_in_one_block_and_in_many() {
     let tool = arms::bent_tool();
     for robot in [arms::hung(), arms::other::iiwa14()] {
         let (model, compliance) = (springy(), robot.compliance().unwrap());
@@ -95,14 +95,14 @@ fn the_tool_stands_where_the_posture_of_the_joints_has_it_in_one_block_and_in_ma
         };
         let dof = robot.joints().len();
         let q = joints(&robot, 2 * AT_ONCE + 9);
-        let tell = |arm_state: &mut ArmState<'_>, out: &mut [f64]| {
+        let write = |arm_state: &mut ArmState<'_>, out: &mut [f64]| {
             out.copy_from_slice(arm_state.base_from_tool().translation.vector.as_slice());
             Ok(())
         };
         let mut many = vec![0.0; q.len() / dof * 3];
-        evaluate_at_joints(&arm, &q, (&mut many, 3), tell, Watch::NONE).unwrap();
+        evaluate_at_joints(&arm, &q, (&mut many, 3), write, Watch::NONE).unwrap();
         let mut few = vec![0.0; 15];
-        evaluate_at_joints(&arm, &q[..5 * dof], (&mut few, 3), tell, Watch::NONE).unwrap();
+        evaluate_at_joints(&arm, &q[..5 * dof], (&mut few, 3), write, Watch::NONE).unwrap();
         assert_eq!(few, many[..15]);
         for (q, tip) in q.chunks(dof).zip(many.chunks(3)).step_by(11) {
             let posture = posture_at(&robot, q, &tool);
@@ -114,7 +114,7 @@ fn the_tool_stands_where_the_posture_of_the_joints_has_it_in_one_block_and_in_ma
 }
 
 #[test]
-fn the_first_point_without_rest_is_told_whatever_the_block() {
+fn the_first_point_without_equilibrium_is_reported_in_every_block() {
     let (robot, tool) = (&arms::ALL[0], arms::bent_tool());
     let model = StiffnessModel {
         load_dependent: true,
@@ -128,7 +128,7 @@ fn the_first_point_without_rest_is_told_whatever_the_block() {
     };
     let q = joints(robot, 3 * AT_ONCE);
     let wrench = Wrench::from_force(Vector3::new(7e5, -4e5, 6e5));
-    let tell = |arm_state: &mut ArmState<'_>, out: &mut [f64]| {
+    let write = |arm_state: &mut ArmState<'_>, out: &mut [f64]| {
         out[0] = arm_state.elastic(&wrench)?.linear.norm();
         Ok(())
     };
@@ -138,15 +138,15 @@ fn the_first_point_without_rest_is_told_whatever_the_block() {
         arm_state.elastic(&wrench).is_err()
     });
     let mut out = vec![0.0; 3 * AT_ONCE];
-    let given = evaluate_at_joints(&arm, &q, (&mut out, 1), tell, Watch::NONE).unwrap_err();
+    let given = evaluate_at_joints(&arm, &q, (&mut out, 1), write, Watch::NONE).unwrap_err();
     match given {
         EvaluateError::Unstable { point, .. } => assert_eq!(Some(point), witness),
-        EvaluateError::Cancelled(_) => panic!("nobody cancelled"),
+        EvaluateError::Cancelled(_) => panic!("not cancelled"),
     }
 }
 
 #[test]
-fn a_cancelled_watch_stops_and_no_points_are_no_work() {
+fn a_cancelled_watch_stops_and_zero_points_need_no_work() {
     let (robot, tool) = (&arms::ALL[0], arms::bent_tool());
     let arm = Arm {
         robot,
@@ -159,14 +159,14 @@ fn a_cancelled_watch_stops_and_no_points_are_no_work() {
         finished: &|_| cancel.store(true, Ordering::Relaxed),
         cancel: &cancel,
     };
-    let tell = |_: &mut ArmState<'_>, out: &mut [f64]| {
+    let write = |_: &mut ArmState<'_>, out: &mut [f64]| {
         out[0] = 1.0;
         Ok(())
     };
     let q = joints(robot, 64 * AT_ONCE);
     let mut out = vec![0.0; 64 * AT_ONCE];
-    let stopped = evaluate_at_joints(&arm, &q, (&mut out, 1), tell, watch);
+    let stopped = evaluate_at_joints(&arm, &q, (&mut out, 1), write, watch);
     assert_eq!(stopped, Err(EvaluateError::Cancelled(Cancelled)));
     assert!(out.contains(&0.0));
-    assert_eq!(evaluate_at_joints(&arm, &[], (&mut [], 1), tell, watch), Ok(()));
+    assert_eq!(evaluate_at_joints(&arm, &[], (&mut [], 1), write, watch), Ok(()));
 }

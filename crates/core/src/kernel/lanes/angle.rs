@@ -64,7 +64,7 @@ pub(super) fn atan2<R: Real>(y: R, x: R) -> R {
     let zero = R::of(0.0);
     let (ax, ay) = (x.abs(), y.abs());
     let (greater, lesser) = (ax.max(ay), ax.min(ay));
-    // Above pi/8 the angle is told from pi/4.
+    // Above pi/8 the angle is computed from pi/4.
     let from_diagonal = lesser > greater * R::of(TAN_PI_8);
     let top = R::either(from_diagonal, lesser - greater, lesser);
     let bottom = R::either(from_diagonal, lesser + greater, greater);
@@ -87,7 +87,7 @@ pub(super) fn sin_cos<R: Real>(angle: R) -> (R, R) {
     let x2 = x * x;
     let sin = (x * x2).mul_add(polynomial(x2, SIN), x);
     let cos = (x2 * x2).mul_add(polynomial(x2, COS), x2.mul_add(R::of(-0.5), R::of(1.0)));
-    // quarters modulo 4 is 0, 1, 2 or 3, told by halves: odd swaps the two, and each has its sign.
+    // quarters modulo 4 is 0, 1, 2 or 3, decoded by halves: odd swaps the two, and each has its sign.
     let half = quarters * R::of(0.5);
     let odd = half.round() != half;
     let left = quarters - R::of(4.0) * (quarters * R::of(0.25)).round();
@@ -132,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn atan2_of_axes_and_of_nothing() {
+    fn atan2_on_the_axes_and_at_zero() {
         use std::f64::consts::{FRAC_PI_2, PI};
         let angle = |y: f64, x: f64| atan2(Plain::<f64>::load(y), Plain::load(x)).store();
         assert_eq!(angle(0.0, 2.0), 0.0);

@@ -1,6 +1,6 @@
-//! The arm as lanes see it: numbers worked out once for a question.
+//! The arm for the lanes: numbers computed once per question.
 //!
-//! Everything is told in the arm's axes: origin on axis 1 at the height of axis 2, x to the front, y along
+//! All values are in the arm's axes: origin on axis 1 at the height of axis 2, x to the front, y along
 //! axis 2, z along axis 1; `phi` are angles about axes turned to the common sense (see
 //! `robot::inverse::ortho_parallel`).
 
@@ -14,15 +14,15 @@ use crate::robot::inverse::two_links::NEAR_SINGULAR;
 /// Half a range that no joint leaves: joints without limits have it.
 pub(super) const UNLIMITED: f64 = 1e6;
 
-/// Geometry, joint counting, limits, tool.
+/// Geometry, coupling of joints, limits, tool.
 #[derive(Clone, Debug)]
 pub(super) struct Arm {
     pub a1: f64,
     pub b: f64,
     pub l2: f64,
     pub l3: f64,
-    /// Axis 4, then axis 5 with joint 4 at chain zero, then their cross product; seen from a forearm that stands
-    /// upright (along +z).
+    /// Axis 4, then axis 5 with joint 4 at chain zero, then their cross product; for a forearm that is upright (along
+    /// +z).
     pub forearm: [Vector3<f64>; 3],
     pub joints: [JointRow; 6],
     /// Sense of each axis of the chain against the common one, 1 or -1.
@@ -36,13 +36,13 @@ pub(super) struct Arm {
     pub tool_from_axis_5: Vector3<f64>,
     /// From the wrist centre to the TCP, tool axes.
     pub lever: Vector3<f64>,
-    /// Sine of the elbow's bend below which the arm counts as near its stretched or folded pose.
+    /// Sine of the elbow's bend below which the arm is near its stretched or folded pose.
     pub near_elbow: f64,
-    /// Distance of the wrist centre from axis 1, as a share of the stretched arm, below which it counts as near it.
+    /// Distance of the wrist centre from axis 1, relative to the stretched arm, below which it is near it.
     pub near_shoulder: f64,
 }
 
-/// How a joint counts and how far it goes: `q = gain phi + start - coupling`.
+/// Zero, sense and range of a joint: `q = gain phi + start - coupling`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct JointRow {
     pub gain: f64,
@@ -102,7 +102,8 @@ impl Arm {
         }
     }
 
-    /// Ends every joint's range this much (rad) before its limits, and calls the elbow stretched or folded so much sooner.
+    /// Ends every joint's range this much (rad) before its limits, and calls the elbow stretched or folded so much
+    /// sooner.
     pub fn keep_away(&mut self, margin: f64) {
         for joint in &mut self.joints {
             joint.half = (joint.half - margin).max(0.0);
@@ -110,7 +111,7 @@ impl Arm {
         self.near_elbow = NEAR_SINGULAR.max(margin.sin());
     }
 
-    /// Lets postures stand that are by `slack` (rad, and as a share) closer than they may to where they may not.
+    /// Widens limits and margins by `slack` (rad, and relative).
     pub fn allow(&mut self, slack: f64) {
         for joint in &mut self.joints {
             joint.half += slack;
@@ -129,8 +130,8 @@ impl Arm {
         *self.arm_from_base.rotation.to_rotation_matrix().matrix()
     }
 
-    /// Where the cosine of joint `index` from the middle of its range leaves it, told as
-    /// `(cos, sin)` of the middle in `phi` (without the zero of the arm's angle) and the least cosine allowed; `None` if it never does.
+    /// Limit of joint `index` as a cosine about the middle of its range: `(cos, sin)` of the middle in `phi` (without
+    /// the zero of the arm's angle) and the smallest cosine allowed; `None` if there is no such limit.
     pub fn cosine_limit(&self, index: usize) -> Option<[f64; 3]> {
         let row = self.joints[index];
         let half = row.half + crate::kernel::AT_LIMIT;

@@ -1,4 +1,4 @@
-//! What goes into a batch and what comes out: one array a number, the points running along it.
+//! Input and output of a batch: one array per number, indexed by point.
 
 use nalgebra::Rotation3;
 
@@ -56,7 +56,7 @@ pub(super) fn length<T>(arrays: &[&[T]]) -> usize {
     count
 }
 
-/// Several numbers a point, an array each.
+/// Several numbers per point, one array each.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Arrays<T> {
     values: Vec<T>,
@@ -64,12 +64,12 @@ pub struct Arrays<T> {
 }
 
 impl<T: Precision> Arrays<T> {
-    /// Array number `index`, one value a point.
+    /// Array number `index`, one value per point.
     pub fn array(&self, index: usize) -> &[T] {
         &self.values[index * self.count..][..self.count]
     }
 
-    /// Room for `arrays` of `count` values.
+    /// Allocates `arrays` of `count` values.
     pub(super) fn resize(&mut self, arrays: usize, count: usize) {
         self.count = count;
         self.values.resize(arrays * count, T::default());
@@ -84,10 +84,10 @@ impl<T: Precision> Arrays<T> {
     }
 }
 
-/// Largest in-plane deviation of each pose, and what may be said of it.
+/// Largest in-plane deviation of each pose, and its flags.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Envelopes<T> {
-    /// Whole blocks: the last may have room to spare.
+    /// Whole blocks: the last one may not be full.
     in_plane: Vec<T>,
     state: Vec<T>,
     count: usize,
@@ -106,7 +106,7 @@ impl<T: Precision> Envelopes<T> {
     }
 
     /// The load case that gives the largest deviation at point `index`.
-    pub fn deciding_case(&self, index: usize) -> usize {
+    pub fn worst_case(&self, index: usize) -> usize {
         (self.state[index].to_f64() / f64::from(CASE)) as usize
     }
 
@@ -117,7 +117,7 @@ impl<T: Precision> Envelopes<T> {
         self.state.resize(room, T::default());
     }
 
-    /// Where the block from point `first` on goes: deviation and state.
+    /// Output of the block from point `first` on: deviation and state.
     pub(super) fn block(&mut self, first: usize) -> Option<[&mut Plane<T>; 2]> {
         let in_plane = self.in_plane.get_mut(first..)?.first_chunk_mut()?;
         let state = self.state.get_mut(first..)?.first_chunk_mut()?;

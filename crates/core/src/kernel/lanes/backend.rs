@@ -6,7 +6,8 @@ use super::real::{Alone, Float, Fused, Plain, Real};
 
 /// A set of instructions that this machine has.
 ///
-/// All back ends that fuse a product and a sum (AVX2, AVX-512, NEON) give the same bits; so do the others among themselves.
+/// All back ends that fuse a product and a sum (AVX2, AVX-512, NEON) give the same bits; so do the others among
+/// themselves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Backend(Instructions);
 
@@ -34,7 +35,7 @@ pub(super) trait Work<T: Float> {
 pub trait Precision: Float {
     /// Rounds product and sum one after the other.
     type Plain: Real<Float = Self>;
-    /// Likewise, one lane at a time.
+    /// The same, one lane at a time.
     type Alone: Real<Float = Self>;
     /// Rounds product and sum once.
     type Fused: Real<Float = Self>;
@@ -93,10 +94,10 @@ impl Backend {
         match self.0 {
             Instructions::Scalar => work.run::<T::Alone>(),
             Instructions::Baseline => work.run::<T::Plain>(),
-            // SAFETY: `available` alone makes this value, after finding AVX2 and FMA on this machine.
+            // SAFETY: only `available` makes this value, after finding AVX2 and FMA on this machine.
             #[cfg(target_arch = "x86_64")]
             Instructions::Avx2 => unsafe { on_avx2(work) },
-            // SAFETY: likewise, after finding AVX-512 F, DQ, VL and FMA.
+            // SAFETY: the same, after finding AVX-512 F, DQ, VL and FMA.
             #[cfg(target_arch = "x86_64")]
             Instructions::Avx512 => unsafe { on_avx512(work) },
             #[cfg(target_arch = "aarch64")]

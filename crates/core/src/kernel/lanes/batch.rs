@@ -14,17 +14,17 @@ use crate::robot::inverse::OrthoParallel;
 
 /// A question prepared for many poses; `T` is `f64` or `f32`.
 ///
-/// All answers are for ortho-parallel arms with spherical wrist. Scratch is reused from call to call and takes
-/// less than 64 KiB: one batch a thread. What the question chooses as branch is not looked at.
+/// Only for ortho-parallel arms with spherical wrist. Scratch is reused from call to call and takes less than 64 KiB:
+/// one batch per thread. The branch choice of the question is not used.
 ///
 /// Compliances and joint positions are finite everywhere; the flags (bits of [`super::flag`], stored as a number)
-/// tell where they mean something.
+/// report where they are valid.
 #[derive(Clone, Debug)]
 pub struct Batch<T> {
     pub(super) prepared: Prepared,
     pub(super) backend: Backend,
     pub(super) scratch: Box<Scratch<T>>,
-    /// Joint positions in; poses and screws out. Made when first asked for.
+    /// Joint positions in; poses and screws out. Allocated at first use.
     forward: Option<Box<(Planes<T, 6>, Planes<T, { POSE + SCREWS }>)>>,
 }
 
@@ -42,7 +42,7 @@ pub(super) struct Scratch<T> {
     pub out: Planes<T, 21>,
 }
 
-/// Scratch that leaves room in the second cache, and fits the first of many machines with what is worked on.
+/// Size of the scratch: it fits the second-level cache, and on many machines the first, together with the data in use.
 const _: () = assert!(size_of::<Scratch<f64>>() <= 64 * 1024);
 
 impl<T: Precision> Batch<T> {

@@ -1,4 +1,4 @@
-//! Every posture of a block of poses under one load: a batch as searches along a path use it.
+//! Every posture of a block of poses under one load: a batch for searches along a path.
 
 use nalgebra::Vector3;
 
@@ -16,12 +16,12 @@ pub(in crate::kernel) struct EachPosture<'a> {
     pub joints: &'a [Planes<f64, 6>; 2],
     /// Squared sine of the wrist's bend.
     pub bend2: &'a Plane<f64>,
-    /// What counts of the deviation, m; the same of both.
+    /// Selected component of the deviation, m; the same for both.
     pub deviation: &'a Plane<f64>,
 }
 
 impl Batch<f64> {
-    /// What pushes from here on, and along which directions deviations count, base.
+    /// Sets the load and the directions of the deviation, base.
     pub(in crate::kernel) fn push(&mut self, cases: &[Wrench], along: &[Vector3<f64>; 2]) {
         let prepared = &mut self.prepared;
         let turn = prepared.arm.arm_from_base_rotation();
@@ -32,12 +32,12 @@ impl Batch<f64> {
                 .map(|wrench| [turn * wrench.force, turn * wrench.moment]),
         );
         prepared.moments = cases.iter().any(|wrench| wrench.moment != Vector3::zeros());
-        // What lies across both does not count, so nobody asks for it.
+        // The component across both directions is not used, so it is not computed.
         prepared.plane = [turn * along[0], turn * along[1], Vector3::zeros()];
     }
 
-    /// Gives `visit` the postures of these poses, at most a block: front elbow-up, front elbow-down, back elbow-up, back
-    /// elbow-down, each with its flip.
+    /// Gives `visit` the postures of these poses, at most a block: front elbow-up, front elbow-down, back elbow-up,
+    /// back elbow-down, each with its flip.
     pub(in crate::kernel) fn each_posture(
         &mut self,
         poses: &[Isometry],

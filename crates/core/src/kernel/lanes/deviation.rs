@@ -1,4 +1,4 @@
-//! Deviation of each load case in known postures, the largest of them and what it is made of.
+//! Deviation of each load case in known postures, the largest of them and its contributions.
 //!
 //! `delta = sum_i c_i v_i (v_i . F + z_i . M)`; the share of joint i is its term along the in-plane deviation of the deciding case.
 
@@ -104,7 +104,7 @@ fn choose<R: Real>(condition: bool, yes: Vector<R>, no: Vector<R>) -> Vector<R> 
     )
 }
 
-/// Share of each joint in the deciding case's in-plane deviation, and its standard uncertainty.
+/// Share of each joint in the in-plane deviation of the worst case, and its standard uncertainty.
 pub(super) struct Shares<'a, T, const MOMENTS: bool> {
     pub prepared: &'a Prepared,
     pub stances: &'a Stances<T>,
@@ -140,8 +140,8 @@ impl<T: Float, const MOMENTS: bool> Work<T> for Shares<'_, T, MOMENTS> {
                 }
                 let sensitivity = torque * v.dot(along);
                 self.shares[k][i] = (sensitivity * compliance[k]).store();
-                let strays = sensitivity * uncertainty[k];
-                variance = strays.mul_add(strays, variance);
+                let contribution = sensitivity * uncertainty[k];
+                variance = contribution.mul_add(contribution, variance);
                 k += 1;
             }
             self.uncertainty[i] = variance.sqrt().store();

@@ -1,4 +1,4 @@
-//! Largest in-plane deviation of all load cases, a posture: what maps and placement searches need at least.
+//! Largest in-plane deviation of all load cases for a posture: the minimum for maps and placement searches.
 //!
 //! First every point's 2 x 3 (with moments 2 x 6) compliance in the plane, then the cases one after the other.
 

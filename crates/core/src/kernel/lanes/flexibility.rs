@@ -4,7 +4,7 @@ use super::real::Real;
 use super::screws::Screws;
 use super::vector::Vector;
 
-/// Displacement per force (symmetric: xx, xy, xz, yy, yz, zz) and, where asked, per moment (rows).
+/// Displacement per force (symmetric: xx, xy, xz, yy, yz, zz) and, if requested, per moment (rows).
 #[derive(Clone, Copy)]
 pub(super) struct Flexibility<R> {
     pub a: [R; 6],

@@ -11,7 +11,7 @@ use super::screws::Screws;
 use super::solve::{Aim, Links, Solved};
 use super::vector::Vector;
 
-/// Planes of a pose: rotation row by row, then place.
+/// Planes of a pose: rotation row by row, then position.
 pub(super) const POSE: usize = 12;
 /// Planes of the six screws: linear part, then axis, of each.
 pub(super) const SCREWS: usize = 36;

@@ -1,4 +1,4 @@
-//! Which joint limits a posture leaves, told without its angles: `cos(phi - middle) >= cos(half range)`.
+//! Joint limits of a posture, tested without its angles: `cos(phi - middle) >= cos(half range)`.
 
 use nalgebra::Vector3;
 
@@ -9,15 +9,15 @@ use super::real::{Float, Real};
 use super::solve::{Aim, Postures, Solved, flag, flagged, turned};
 use super::vector::Vector;
 
-/// Limits told by cosines of the arm's angles.
+/// Limits as cosines of the arm's angles.
 #[derive(Clone, Debug)]
 pub(super) struct CosineLimits {
     rows: [[f64; 3]; 6],
-    /// Joint 3 counts from the vertical (its coupling to joint 2 takes that one's turn away).
+    /// Joint 3 is measured from the vertical (its coupling to joint 2 removes the turn of joint 2).
     third_from_vertical: bool,
     /// Across axis 4 in the upright forearm: where axis 6 points with joint 4 in the middle of its range.
     forearm_middle: Vector3<f64>,
-    /// Across axis 6 in the tool's axes: where axis 5 lies with joint 6 in the middle of its range.
+    /// Across axis 6 in the tool's axes: direction of axis 5 with joint 6 in the middle of its range.
     pub tool_middle: Vector3<f64>,
     /// Whether joint 4 or 6 has less than a turn.
     pub swivels: bool,
@@ -122,7 +122,7 @@ impl<R: Real> Cosines<R> {
     }
 }
 
-/// Adds the flags of the joint limits, told by cosines. Not checked: the aims' axis 5 must be
+/// Adds the flags of the joint limits, tested by cosines. Not checked: the aims' axis 5 must be
 /// [`CosineLimits::tool_middle`].
 pub(super) struct LimitsByCosines<'a, T, const STILL: bool, const SWIVELS: bool, const ASKEW: bool> {
     pub limits: &'a CosineLimits,

@@ -1,15 +1,15 @@
-//! How does one instruction answer for many poses? Ortho-parallel arms with spherical wrist.
+//! Many poses in one instruction, for ortho-parallel arms with spherical wrist.
 //!
-//! Planes of numbers, one value a point, go through short loops without branches; the compiler makes vectors of them,
-//! once for each set of instructions. In reading order: `real` (a number of one lane), [`Backend`] (which instructions),
-//! `block` (planes); `arm`, `prepared` (a question made ready); `aims` (poses in the arm's axes), `solve` (postures
+//! Planes of numbers, one value per point, go through short loops without branches; the compiler vectorises them, once
+//! for each instruction set. In reading order: `real` (a number of one lane), [`Backend`] (the instruction set),
+//! `block` (planes); `arm`, `prepared` (a prepared question); `aims` (poses in the arm's axes), `solve` (postures
 //! without angles), `limits`, `angle`, `positions` (joint positions); `screws`, `flexibility`, `envelope`,
-//! `compliance`, `forward`; [`Batch`] (the door for those with many poses) and its `steps`, `stance`, `deviation`, `points` (whole
-//! answers, for [`super::evaluate`]).
+//! `compliance`, `forward`; [`Batch`] (entry point for many poses) and its `steps`, `stance`, `deviation`, `points`
+//! (whole answers, for [`super::evaluate`]).
 //!
-//! Beside them: `vector` (three numbers of a lane), `backend`, `arrays` (what goes in and comes out), `aimed` (a batch
-//! as whole answers use it), `column` (every posture of a block under one load), `placed` (a path judged where its part
-//! lies), with `laid`, `weighed` and `tally`.
+//! Further modules: `vector` (three numbers of a lane), `backend`, `arrays` (input and output), `aimed` (a batch for
+//! whole answers), `column` (every posture of a block under one load), `placed` (a path at a placement of its part),
+//! with `placement_points`, `weighed` and `tally`.
 //!
 //! Theory and accuracy: `docs/theory/lanes.md`.
 //!
@@ -34,9 +34,10 @@
 //! #         robot: &robot, compliance: robot.compliance().unwrap(), flange_from_tool: &tool,
 //! #         model: armill_core::source::StiffnessModel::DRIVES,
 //! #     },
-//! #     home: None, doubt: armill_core::load::InputUncertainty::NONE, cases: &cases, normal: -Vector3::x_axis(), choice: BranchChoice::Best,
+//! #     home: None, uncertainty: armill_core::load::InputUncertainty::NONE, cases: &cases, normal: -Vector3::x_axis(),
+//! #     choice: BranchChoice::Best,
 //! # };
-//! // Three points of a vertical plate, the tool held along base x.
+//! // Three points of a vertical plate, the tool along base x.
 //! let (x, y, z) = ([0.9, 0.9, 3.0], [0.0, 0.1, 0.0], [0.8, 0.8, 0.8]);
 //! let poses = Poses::Still {
 //!     base_from_tool: tool_orientation(Vector3::x_axis(), 0.0).to_rotation_matrix(),
@@ -64,9 +65,9 @@ mod deviation;
 mod envelope;
 mod flexibility;
 mod forward;
-mod laid;
 mod limits;
 mod placed;
+mod placement_points;
 mod points;
 mod positions;
 mod prepared;
@@ -83,8 +84,8 @@ pub use arrays::{Arrays, Envelopes, Poses};
 pub use backend::{Backend, Precision};
 pub use batch::Batch;
 
-pub(super) use laid::Laid;
 pub(super) use placed::Placer;
+pub(super) use placement_points::PlacementPoints;
 pub(super) use points::{POINTS, Points};
 pub use real::{Float, Real};
 pub use solve::flag;

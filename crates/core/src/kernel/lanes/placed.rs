@@ -1,17 +1,17 @@
-//! A path that lies on a part, judged in many places of the part: what a search for a placement asks.
+//! A path on a part, evaluated at many placements of the part: the inner loop of a placement search.
 //!
-//! The points are held in the part's axes, a plane a number, and stay as they are; what changes from place to place is where
-//! the arm stands as the part sees it. So a place costs the kernels alone.
+//! The points are stored in the part's axes, one plane per number, and do not change. Only the pose of the arm relative
+//! to the part differs from placement to placement. A placement therefore costs only the kernels.
 //!
-//! | of the points | shared by all | of each |
+//! | of the points | same for all | different |
 //! |---|---|---|
-//! | orientation of the tool | solved once a place | a rotation a point |
-//! | directions that count | turned once a place | turned into the arm's axes a point |
-//! | wrenches | turned once a place | the rows of the compliance are turned to them |
+//! | orientation of the tool | solved once per placement | one rotation per point |
+//! | directions of the deviation | rotated once per placement | rotated into the arm's axes at each point |
+//! | wrenches | rotated once per placement | the rows of the compliance are rotated to them |
 //!
-//! In `f32` a place costs half as much and is told less well: [`Placer::generous`] counts points as held that are by
-//! [`GENEROUS`] nearer than allowed to where the arm may not stand, and deviations stray by [`Placer::strays`] at most. So it can
-//! prove that a place is not worth a second look, and nothing else.
+//! In `f32` a placement takes half the time and is less accurate. [`Placer::generous`] widens limits and margins by
+//! [`GENEROUS`], and deviations have an error of at most [`Placer::rounding_error`]. It can therefore prove that a
+//! placement is not good enough, and nothing else.
 
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
@@ -20,69 +20,69 @@ use super::arm::Arm;
 use super::backend::{Backend, Precision};
 use super::batch::{Batch, Scratch};
 use super::block::{BLOCK, Planes, planes};
-use super::laid::{Laid, filled, six};
 use super::limits::CosineLimits;
+use super::placement_points::{PlacementPoints, filled, six};
 use super::steps::{FOUR, Second};
 use super::tally::{Lesser, Tallied, Tally};
 use super::weighed::{LargestOfEach, RowsOfEach};
-use crate::kernel::placed::{Keeping, PartPlacement, ToldIn};
+use crate::kernel::placed::{PartPlacement, PostureMargins, WrenchAxes};
 use crate::kernel::question::Question;
 use crate::robot::inverse::OrthoParallel;
 use crate::spatial::Wrench;
 
-/// How much nearer (rad, and as a share) to limits and singular postures than they may come points still count as held
-/// in single precision. There, two degrees off a singular posture, angles stray by `1e-7 / sin 1 deg`, cosines by 1e-7; ends of
-/// ranges are told by cosines, which this turns by 5e-5 at the least.
+/// By how much (rad, and relative) limits and margins are widened in single precision. At two degrees from a singular
+/// posture, angles have an error of `1e-7 / sin 1 deg`, cosines of 1e-7. Ends of ranges are tested by cosines, which
+/// this changes by at least 5e-5.
 const GENEROUS: f64 = 0.01;
 
-/// What deviations stray by in single precision, as a share of [`Placer::longest`]: rounding of 6e-8 in some ten sums, over the
-/// least sine of a bend, `sin 1 deg`.
-const STRAYS: f64 = 3.5e-5;
+/// Relative error of deviations in single precision, of the longest lever: rounding of 6e-8 in some ten sums, over the
+/// smallest sine of a bend, `sin 1 deg`.
+const ROUNDING: f64 = 3.5e-5;
 
-/// Judges places of a path; one a thread.
+/// Evaluates placements of a path; one per thread.
 #[derive(Clone, Debug)]
 pub(in crate::kernel) struct Placer<T> {
     batch: Batch<T>,
-    /// The arm as the robot's base sees it.
-    arm_state: Arm,
-    /// Where the limits told by cosines want axis 5, tool axes.
+    /// The arm relative to the robot's base.
+    arm: Arm,
+    /// Middle of the range of axis 5 for limits tested by cosines, tool axes.
     middle: Option<Vector3<f64>>,
     rows: Box<Planes<T, 12>>,
-    /// Least squared sine of the wrist's bend.
+    /// Smallest squared sine of the wrist's bend.
     bend2: f64,
-    /// Deviations above it are summed, m.
-    limit: f64,
+    /// The excess of deviations over it is summed, m.
+    tolerance: f64,
 }
 
 impl Placer<f64> {
-    /// For an arm of this form, which keeps away from its limits as `keeping` says.
-    pub fn new(question: &Question<'_>, form: &OrthoParallel, keeping: &Keeping) -> Placer<f64> {
-        Placer::with_slack(question, form, keeping, 0.0)
+    /// For an arm of this form with these margins.
+    pub fn new(question: &Question<'_>, form: &OrthoParallel, margins: &PostureMargins) -> Placer<f64> {
+        Placer::with_slack(question, form, margins, 0.0)
     }
 
-    /// The least deviation at each point, of all turns of the tool and all branches that are open, into `least`; infinite where
-    /// none stands.
+    /// The smallest deviation at each point, over all spins of the tool and all open branches, into `least`; infinite
+    /// where no posture can be used.
     pub fn least_of_each(
         &mut self,
-        laid: &Laid<f64>,
+        points: &PlacementPoints<f64>,
         (placement, spins): (&PartPlacement, &[f64]),
         open: [bool; 8],
         least: &mut Vec<f64>,
     ) {
         least.clear();
-        for block in 0..laid.at.len() {
+        for block in 0..points.at.len() {
             let mut best = [f64::INFINITY; BLOCK];
             for spin in spins {
                 let turned = PartPlacement {
                     spin: placement.spin + spin,
                     ..*placement
                 };
-                self.set_joints(laid, &turned);
+                self.set_pose(points, &turned);
                 let (bend2, fours) = (
                     self.bend2,
                     [0, 1, 2, 3].map(|four| [open[2 * four], open[2 * four + 1]]),
                 );
-                self.each_posture(laid, block, fours.map(|two| two[0] || two[1]), |four, batch| {
+                self.each_posture(points, block, fours.map(|two| two[0] || two[1]), |four, batch| {
                     batch.backend.run(Lesser {
                         postures: &batch.scratch.postures,
                         deviation: &batch.scratch.in_plane,
@@ -92,88 +92,93 @@ impl Placer<f64> {
                     });
                 });
             }
-            let used = BLOCK.min(laid.count - block * BLOCK);
+            let used = BLOCK.min(points.count - block * BLOCK);
             least.extend_from_slice(&best[..used]);
         }
     }
 }
 
 impl Placer<f32> {
-    /// The same, which holds a little more than the arm may: see [`GENEROUS`].
-    pub fn generous(question: &Question<'_>, form: &OrthoParallel, keeping: &Keeping) -> Placer<f32> {
-        Placer::with_slack(question, form, keeping, GENEROUS)
+    /// The same with widened limits: see [`GENEROUS`].
+    pub fn generous(question: &Question<'_>, form: &OrthoParallel, margins: &PostureMargins) -> Placer<f32> {
+        Placer::with_slack(question, form, margins, GENEROUS)
     }
 
-    /// Deviations that it tells stray from the true ones by this at most, m.
-    pub fn strays(&self, laid: &Laid<f32>) -> f64 {
+    /// Largest error of its deviations, m.
+    pub fn rounding_error(&self, points: &PlacementPoints<f32>) -> f64 {
         let prepared = &self.batch.prepared;
         let lever = prepared.arm.longest_lever();
         let sum: f64 = prepared.compliance.iter().sum();
-        STRAYS * sum * lever * (lever * laid.strongest[0] + laid.strongest[1])
+        ROUNDING * sum * lever * (lever * points.strongest[0] + points.strongest[1])
     }
 }
 
 impl<T: Precision> Placer<T> {
-    fn with_slack(question: &Question<'_>, form: &OrthoParallel, keeping: &Keeping, slack: f64) -> Placer<T> {
+    fn with_slack(
+        question: &Question<'_>,
+        form: &OrthoParallel,
+        margins: &PostureMargins,
+        slack: f64,
+    ) -> Placer<T> {
         let mut batch = Batch::new(question, form, Backend::fastest());
         let prepared = &mut batch.prepared;
-        prepared.arm.keep_away(keeping.margin);
+        prepared.arm.keep_away(margins.margin);
         prepared.arm.allow(slack);
         prepared.cosines = CosineLimits::new(&prepared.arm);
-        // The part is seldom turned as the arm is.
+        // The part is seldom oriented like the arm.
         prepared.turned = true;
         Placer {
-            arm_state: prepared.arm.clone(),
+            arm: prepared.arm.clone(),
             middle: prepared.cosines.as_ref().map(|cosines| cosines.tool_middle),
             batch,
             rows: Box::new(planes()),
-            bend2: (keeping.wrist.max(keeping.margin).sin() * (1.0 - slack)).powi(2),
-            limit: keeping.limit,
+            bend2: (margins.wrist.max(margins.margin).sin() * (1.0 - slack)).powi(2),
+            tolerance: margins.tolerance,
         }
     }
 
-    /// What each of front elbow-up, front elbow-down, back elbow-up and back elbow-down makes of the points where the part
-    /// lies so; goes on after a block with those that `worth` says yes to.
-    pub fn judge(
+    /// Totals of front elbow-up, front elbow-down, back elbow-up and back elbow-down over the points at this placement.
+    /// Continues after each block with the postures for which `keep` returns true.
+    pub fn evaluate(
         &mut self,
-        laid: &Laid<T>,
+        points: &PlacementPoints<T>,
         placement: &PartPlacement,
-        mut worth: impl FnMut(usize, &Tallied) -> bool,
+        mut keep: impl FnMut(usize, &Tallied) -> bool,
     ) -> [Tallied; 4] {
-        self.set_joints(laid, placement);
+        self.set_pose(points, placement);
         let mut tallied = [Tallied::default(); 4];
-        let mut open = std::array::from_fn(|four| worth(four, &tallied[four]));
-        for block in 0..laid.at.len() {
+        let mut open = std::array::from_fn(|four| keep(four, &tallied[four]));
+        for block in 0..points.at.len() {
             if open == [false; 4] {
                 break;
             }
-            let (bend2, limit) = (self.bend2, self.limit);
-            self.each_posture(laid, block, open, |four, batch| {
+            let (bend2, tolerance) = (self.bend2, self.tolerance);
+            self.each_posture(points, block, open, |four, batch| {
                 batch.backend.run(Tally {
                     postures: &batch.scratch.postures,
                     deviation: &batch.scratch.in_plane,
-                    used: BLOCK.min(laid.count - block * BLOCK),
+                    used: BLOCK.min(points.count - block * BLOCK),
                     bend2,
-                    limit,
+                    tolerance,
                     out: &mut tallied[four],
                 });
             });
-            open = std::array::from_fn(|four| open[four] && worth(four, &tallied[four]));
+            open = std::array::from_fn(|four| open[four] && keep(four, &tallied[four]));
         }
         tallied
     }
 
-    /// Gives `told` each posture of the block that is open, solved, with its limits flagged and its deviations weighed.
+    /// Calls `use_posture` with each open posture of the block, solved, with limit flags and deviations.
     fn each_posture(
         &mut self,
-        laid: &Laid<T>,
+        points: &PlacementPoints<T>,
         block: usize,
         open: [bool; 4],
-        mut given: impl FnMut(usize, &Batch<T>),
+        mut use_posture: impl FnMut(usize, &Batch<T>),
     ) {
-        let still = laid.rotations.is_empty();
-        self.batch.place(laid.at[block].each_ref());
-        if let Some(rotations) = laid.rotations.get(block) {
+        let still = points.rotations.is_empty();
+        self.batch.place(points.at[block].each_ref());
+        if let Some(rotations) = points.rotations.get(block) {
             self.batch.scratch.rotations = *rotations;
             self.batch.orient(Second::InTheMiddle);
         }
@@ -183,44 +188,44 @@ impl<T: Precision> Placer<T> {
             self.batch.solve_after(reached == Some(signs[0]), signs, still);
             reached = Some(signs[0]);
             self.batch.limit(still);
-            self.weigh(laid, block);
-            given(four, &self.batch);
+            self.weigh(points, block);
+            use_posture(four, &self.batch);
         }
     }
 
-    /// Lets the arm stand as a part that lies so sees it.
-    fn stand(&mut self, laid: &Laid<T>, placement: &PartPlacement) {
+    /// Sets the arm as seen from the part at this placement.
+    fn set_pose(&mut self, points: &PlacementPoints<T>, placement: &PartPlacement) {
         let prepared = &mut self.batch.prepared;
         let spin = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), placement.spin);
-        prepared.arm.arm_from_base = self.arm_state.arm_from_base * placement.base_from_part;
-        prepared.arm.lever = spin * self.arm_state.lever;
-        prepared.arm.tool_from_axis_6 = spin * self.arm_state.tool_from_axis_6;
-        prepared.arm.tool_from_axis_5 = spin * self.arm_state.tool_from_axis_5;
+        prepared.arm.arm_from_base = self.arm.arm_from_base * placement.base_from_part;
+        prepared.arm.lever = spin * self.arm.lever;
+        prepared.arm.tool_from_axis_6 = spin * self.arm.tool_from_axis_6;
+        prepared.arm.tool_from_axis_5 = spin * self.arm.tool_from_axis_5;
         if let (Some(cosines), Some(middle)) = (&mut prepared.cosines, self.middle) {
             cosines.tool_middle = spin * middle;
         }
         let from_part = prepared.arm.arm_from_base_rotation();
-        let from_told = told_axes(laid.told_in, &from_part, &self.arm_state);
+        let from_wrench = axes_of(points.wrench_axes, &from_part, &self.arm);
         prepared.cases.clear();
-        let turned = |w: &Wrench| [from_told * w.force, from_told * w.moment];
-        prepared.cases.extend(laid.cases_of_all.iter().map(turned));
-        prepared.moments = laid.moments;
-        let [first, second] = laid.steady.map(|along| from_part * along);
+        let turned = |w: &Wrench| [from_wrench * w.force, from_wrench * w.moment];
+        prepared.cases.extend(points.cases_of_all.iter().map(turned));
+        prepared.moments = points.moments;
+        let [first, second] = points.steady.map(|along| from_part * along);
         prepared.plane = [first, second, Vector3::zeros()];
-        if laid.rotations.is_empty() {
+        if points.rotations.is_empty() {
             let second = match &prepared.cosines {
                 Some(cosines) => cosines.tool_middle,
                 None => prepared.arm.tool_from_axis_5,
             };
-            aims::still(prepared, &laid.still, &second, &mut self.batch.scratch.aims);
+            aims::still(prepared, &points.still, &second, &mut self.batch.scratch.aims);
         }
     }
 
-    /// Deviation that counts at the points of the solved block, into the scratch.
-    fn weigh(&mut self, laid: &Laid<T>, block: usize) {
-        let still = laid.rotations.is_empty();
+    /// Selected component of the deviation at the points of the solved block, into the scratch.
+    fn weigh(&mut self, points: &PlacementPoints<T>, block: usize) {
+        let still = points.rotations.is_empty();
         let batch = &mut self.batch;
-        if laid.along.is_empty() && laid.wrenches.is_empty() {
+        if points.along.is_empty() && points.wrenches.is_empty() {
             batch.largest(still, None);
             return;
         }
@@ -232,10 +237,10 @@ impl<T: Precision> Placer<T> {
             ..
         } = &mut *batch.scratch;
         let steady;
-        let along = match laid.along.get(block) {
+        let along = match points.along.get(block) {
             Some(along) => along,
             None => {
-                steady = filled(|_| six(laid.steady));
+                steady = filled(|_| six(points.steady));
                 &steady
             }
         };
@@ -260,16 +265,16 @@ impl<T: Precision> Placer<T> {
             (false, true) => rows_of_each!(false, true),
         }
         let shared: Vec<Planes<T, 6>>;
-        let wrenches = match laid.wrenches.is_empty() {
-            false => &laid.wrenches[block * laid.cases..][..laid.cases],
+        let wrenches = match points.wrenches.is_empty() {
+            false => &points.wrenches[block * points.cases..][..points.cases],
             true => {
                 let planes_of = |w: &Wrench| filled(|_| six([w.force, w.moment]));
-                shared = laid.cases_of_all.iter().map(planes_of).collect();
+                shared = points.cases_of_all.iter().map(planes_of).collect();
                 &shared
             }
         };
         batch.backend.run(LargestOfEach {
-            told_from_arm: &told_axes(laid.told_in, &arm_from_part, &self.arm_state).transpose(),
+            wrench_from_arm: &axes_of(points.wrench_axes, &arm_from_part, &self.arm).transpose(),
             moments: prepared.moments,
             wrenches,
             rows,
@@ -278,10 +283,10 @@ impl<T: Precision> Placer<T> {
     }
 }
 
-/// Axes that wrenches are told in, in the arm's.
-fn told_axes(given: ToldIn, arm_from_part: &Matrix3<f64>, arm_state: &Arm) -> Matrix3<f64> {
-    match given {
-        ToldIn::Part => *arm_from_part,
-        ToldIn::Base => arm_state.arm_from_base_rotation(),
+/// Axes of the wrenches, in the arm's axes.
+fn axes_of(axes: WrenchAxes, arm_from_part: &Matrix3<f64>, arm: &Arm) -> Matrix3<f64> {
+    match axes {
+        WrenchAxes::Part => *arm_from_part,
+        WrenchAxes::Base => arm.arm_from_base_rotation(),
     }
 }

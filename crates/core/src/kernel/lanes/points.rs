@@ -1,4 +1,4 @@
-//! Whole answers, a block of points at a time: what maps, volumes and paths are made of.
+//! Whole answers, a block of points at a time, for maps, volumes and paths.
 
 use nalgebra::Vector3;
 
@@ -7,18 +7,18 @@ use super::batch::Batch;
 use super::block::{BLOCK, Plane, Planes, planes};
 use super::deviation::{OneCase, Shares, Worst};
 use super::solve::flag;
-use super::stance::{Preference, Stances, Stand};
+use super::stance::{FindStances, Preference, Stances};
 use super::steps::{FOUR, Second};
 use crate::frame::Isometry;
-use crate::kernel::answer::{AT_LIMIT, Held};
+use crate::kernel::answer::{AT_LIMIT, Evaluation};
 use crate::kernel::question::{BranchChoice, Question};
 use crate::robot::inverse::OrthoParallel;
 use crate::robot::{Branch, BranchPattern, Elbow, PostureName, Shoulder, Singularity, Wrist};
 
-/// Points that are answered at once.
+/// Points in a block.
 pub(in crate::kernel) const POINTS: usize = BLOCK;
 
-/// Answers a block of points; made once a thread.
+/// Answers a block of points; one per thread.
 pub(in crate::kernel) struct Points<'q> {
     question: &'q Question<'q>,
     batch: Batch<f64>,
@@ -28,13 +28,13 @@ pub(in crate::kernel) struct Points<'q> {
 #[repr(C, align(64))]
 struct Room {
     stances: Stances<f64>,
-    /// Signs of the best posture so far and what it is judged by; infinite where there is none.
+    /// Signs of the best posture so far and its score; infinite where there is none.
     chosen: Planes<f64, 2>,
     score: Plane<f64>,
     worst: Worst<f64>,
     shares: Planes<f64, 6>,
     uncertainty: Plane<f64>,
-    /// Of each load case; last, because its size is no multiple of a cache line.
+    /// Of each load case; last, because its size is not a multiple of a cache line.
     deviations: Vec<Planes<f64, 3>>,
 }
 
@@ -69,7 +69,7 @@ impl<'q> Points<'q> {
         }
     }
 
-    /// Works out the answers at these poses, at most [`POINTS`]; ask for them with [`Points::held`].
+    /// Computes the answers at these poses, at most [`POINTS`]; read them with [`Points::evaluation`].
     pub fn solve(&mut self, poses: &[Isometry]) {
         self.batch.aim_at(poses);
         let preference = match self.question.choice {
@@ -87,12 +87,12 @@ impl<'q> Points<'q> {
             }
         };
         self.batch.solve_each(&self.room.chosen);
-        self.set_joints(preference);
+        self.set_stance(preference);
         self.deviate();
     }
 
     /// The answer at point `index` of the block; `None` where lanes cannot decide.
-    pub fn evaluation(&self, index: usize) -> Option<Held> {
+    pub fn evaluation(&self, index: usize) -> Option<Evaluation> {
         let Room {
             stances,
             chosen,
@@ -105,17 +105,17 @@ impl<'q> Points<'q> {
         let flags = postures.flags[index] as u32;
         let undecided =
             flags & (flag::UNREACHABLE | flag::WRIST_UNDECIDED) != 0 || score[index].is_infinite();
-        // The envelope told limits by cosines; at the very edge the angles may say otherwise.
+        // The envelope tested the limits by cosines; exactly at a limit the angles may differ.
         let at_the_edge = self.question.choice == BranchChoice::Best && stances.room[index] < -AT_LIMIT;
         if undecided || at_the_edge {
             return None;
         }
         let structure = &self.question.arm.model.structure;
-        let beside = structure
+        let common = structure
             .repeatability
             .hypot(structure.model_error * worst.in_plane[index]);
         let limited = stances.room[index] < 0.5 * super::arm::UNLIMITED;
-        Some(Held {
+        Some(Evaluation {
             name: PostureName::Branch(branch(chosen, &stances.flip, index)),
             limit_margin: if limited {
                 stances.room[index]
@@ -124,9 +124,9 @@ impl<'q> Points<'q> {
             },
             limit_joint: if limited { stances.joint[index] as usize } else { 0 },
             singularity: singularity(flags),
-            deciding_case: worst.case[index] as usize,
+            worst_case: worst.case[index] as usize,
             in_plane: worst.in_plane[index],
-            in_plane_uncertainty: uncertainty[index].hypot(beside),
+            in_plane_uncertainty: uncertainty[index].hypot(common),
             normal: worst.normal[index],
             full: worst.full[index],
         })
@@ -151,7 +151,7 @@ impl<'q> Points<'q> {
         }
     }
 
-    /// Chooses, of the postures inside limits, the one with the least envelope.
+    /// Selects, of the postures inside limits, the one with the smallest envelope.
     fn choose_least_envelope(&mut self) {
         let Room { chosen, score, .. } = &mut *self.room;
         score.fill(f64::INFINITY);
@@ -161,8 +161,8 @@ impl<'q> Points<'q> {
             for i in 0..BLOCK {
                 let flags = flags[i] as u32;
                 let outside = flag::OUTSIDE_LIMITS | flag::OUTSIDE_LIMITS_FLIPPED;
-                let stands = flags & flag::UNREACHABLE == 0 && flags & outside != outside;
-                if stands && in_plane[i] < score[i] {
+                let usable = flags & flag::UNREACHABLE == 0 && flags & outside != outside;
+                if usable && in_plane[i] < score[i] {
                     score[i] = in_plane[i];
                     (chosen[0][i], chosen[1][i]) = (signs[0], signs[1]);
                 }
@@ -171,7 +171,7 @@ impl<'q> Points<'q> {
         self.batch.orient(Second::AtZero);
     }
 
-    /// Chooses, of the postures that match, the one with most room to its limits.
+    /// Selects, of the postures that match, the one with the largest margin to its limits.
     fn choose_most_room(&mut self, pattern: BranchPattern, preference: Preference) {
         let matching: Vec<[f64; 2]> = FOUR
             .into_iter()
@@ -188,7 +188,7 @@ impl<'q> Points<'q> {
         self.room.score.fill(f64::INFINITY);
         for signs in matching {
             self.batch.solve(signs, false);
-            self.set_joints(preference);
+            self.set_stance(preference);
             let Solved { postures, .. } = self.batch.solved();
             let Room {
                 stances,
@@ -206,7 +206,7 @@ impl<'q> Points<'q> {
         }
     }
 
-    fn stand(&mut self, preference: Preference) {
+    fn set_stance(&mut self, preference: Preference) {
         self.batch.position(false);
         let Solved {
             prepared,
@@ -217,7 +217,7 @@ impl<'q> Points<'q> {
         } = self.batch.solved();
         let stances = &mut self.room.stances;
         if prepared.moments {
-            backend.run(Stand::<f64, true> {
+            backend.run(FindStances::<f64, true> {
                 prepared,
                 aims,
                 postures,
@@ -226,7 +226,7 @@ impl<'q> Points<'q> {
                 stances,
             });
         } else {
-            backend.run(Stand::<f64, false> {
+            backend.run(FindStances::<f64, false> {
                 prepared,
                 aims,
                 postures,
@@ -288,7 +288,7 @@ impl<'q> Points<'q> {
     }
 }
 
-/// More room than any joint has: what is preferred by it is always taken.
+/// Larger than the margin of any joint: a posture preferred by it is always selected.
 const ALWAYS: f64 = 1e9;
 
 fn preference(pattern: BranchPattern) -> Preference {

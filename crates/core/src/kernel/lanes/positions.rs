@@ -1,4 +1,4 @@
-//! Joint positions of the postures of a block, flipped and not, and how far they are from their limits.
+//! Joint positions of the postures of a block, flipped and not, and their margins to the limits.
 //!
 //! Loop after loop over one joint: few numbers at a time stay in registers.
 
@@ -9,7 +9,7 @@ use super::prepared::Prepared;
 use super::real::{Float, Real};
 use super::solve::{Links, Postures, Solved, flag, flagged};
 
-/// Joint positions and what limits leave of them; of each pair first the posture not flipped, then the flipped one.
+/// Joint positions and their margins to the limits; of each pair first the posture not flipped, then the flipped one.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub(super) struct Positions<T> {
@@ -27,7 +27,7 @@ pub(super) struct Positions<T> {
 }
 
 impl<T: Float> Positions<T> {
-    /// Room for a block.
+    /// Allocates a block.
     pub fn new() -> Positions<T> {
         Positions {
             tangents: planes(),
@@ -87,11 +87,11 @@ impl<T: Float> Work<T> for Position<'_, T> {
             R::step();
             fore[i] = (R::load(fore[i]) - R::load(upper[i])).store();
         }
-        // Arm first: its joints stand alike whether the wrist is flipped or not.
+        // First the joints of the arm: they are the same whether the wrist is flipped or not.
         let [plain, flipped] = joints;
         for joint in 0..3 {
             let row = Counting::<R>::new(self.prepared, joint, false);
-            row.set_joints(&phi[joint], &mut plain[..=joint], [&mut room[0], &mut nearest[0]]);
+            row.set(&phi[joint], &mut plain[..=joint], [&mut room[0], &mut nearest[0]]);
         }
         flipped[..3].copy_from_slice(&plain[..3]);
         (room[1], nearest[1]) = (room[0], nearest[0]);
@@ -100,7 +100,7 @@ impl<T: Float> Work<T> for Position<'_, T> {
             let (room, nearest) = (&mut room[flip], &mut nearest[flip]);
             for joint in 3..6 {
                 let row = Counting::<R>::new(self.prepared, joint, flip == 1);
-                row.set_joints(&phi[joint], &mut joints[..=joint], [room, nearest]);
+                row.set(&phi[joint], &mut joints[..=joint], [room, nearest]);
             }
             for i in 0..BLOCK {
                 R::step();
@@ -120,7 +120,7 @@ fn angle_of<R: Real>(y: &Plane<R::Float>, x: &Plane<R::Float>, to: &mut Plane<R:
     }
 }
 
-/// Takes what another joint adds to this one's count away.
+/// Subtracts the coupling of another joint.
 #[inline(always)]
 fn uncouple<R: Real>(factor: f64, other: &Plane<R::Float>, joint: &mut Plane<R::Float>) {
     let factor = R::of(-factor);
@@ -130,7 +130,7 @@ fn uncouple<R: Real>(factor: f64, other: &Plane<R::Float>, joint: &mut Plane<R::
     }
 }
 
-/// How one joint counts and how far it goes, in every lane.
+/// Coupling and range of one joint, in every lane.
 #[derive(Clone, Copy)]
 struct Counting<'a, R> {
     /// What earlier joints add.
@@ -145,7 +145,7 @@ struct Counting<'a, R> {
 }
 
 impl<'a, R: Real> Counting<'a, R> {
-    /// Joint `index`; with the wrist flipped joints 4 and 6 stand half a turn away, and joint 5 bends the other way.
+    /// Joint `index`; with the wrist flipped joints 4 and 6 differ by half a turn, and joint 5 bends the other way.
     #[inline(always)]
     fn new(prepared: &'a Prepared, index: usize, flipped: bool) -> Self {
         use std::f64::consts::{PI, TAU};
@@ -169,7 +169,7 @@ impl<'a, R: Real> Counting<'a, R> {
 
     /// Positions of the last of `joints` from its angle; keeps the least room of the joints so far and whose it is.
     #[inline(always)]
-    fn stand(
+    fn set(
         &self,
         phi: &Plane<R::Float>,
         joints: &mut [Plane<R::Float>],
@@ -223,7 +223,7 @@ impl<'a, R: Real> Counting<'a, R> {
     }
 }
 
-/// Adds to the postures' flags the joint limits told by joint positions: for arms whose coupling cosines do not see.
+/// Adds the flags of the joint limits from joint positions: for arms with a coupling that the cosines do not support.
 pub(super) struct LimitsByPositions<'a, T> {
     pub positions: &'a Positions<T>,
     pub postures: &'a mut Postures<T>,

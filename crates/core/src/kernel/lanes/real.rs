@@ -21,15 +21,15 @@ use crate::robot::inverse::two_links::WRIST_SINGULAR;
 pub trait Float: Copy + Debug + Default + PartialOrd + Send + Sync + 'static {
     /// 1.5 times 2 to the mantissa's bits: adding and taking it away rounds to a whole number.
     const ROUNDER: f64;
-    /// Below this a squared length (m^2, or sine squared) counts as zero.
+    /// A squared length (m^2, or sine squared) below this is zero.
     const NOTHING: f64;
     /// The least length that anything is divided by.
     const LEAST: f64;
-    /// How far lengths and directions of a verified posture may stray, relative.
+    /// Largest relative error of lengths and directions of a verified posture.
     const VERIFIED: f64;
     /// Share of a turn by which half a turn is missed and still is half a turn.
     const HALF_TURN_SLACK: f64;
-    /// How far (rad) outside a limit still counts as at it.
+    /// Tolerance (rad) at a limit.
     const AT_LIMIT: f64;
 
     /// The nearest value.
@@ -103,7 +103,7 @@ pub trait Real:
     fn sqrt(self) -> Self;
     /// Its size.
     fn abs(self) -> Self;
-    /// Stands at the head of every loop over a block; keeps the scalar back end from being vectorised.
+    /// Marks the start of every loop over a block; keeps the scalar back end from being vectorised.
     fn step() {}
 
     /// A constant.

@@ -1,5 +1,5 @@
-//! One posture of one lane without any angle: the closed form of `robot::inverse::ortho_parallel`, told in
-//! cosines, sines and points.
+//! One posture of one lane without any angle: the closed form of `robot::inverse::ortho_parallel` with cosines, sines
+//! and points.
 //!
 //! ```text
 //! phi1:  (c1, s1) = (r px + b py, r py - b px) / h^2       h^2 = px^2 + py^2, r = +-sqrt(h^2 - b^2)
@@ -31,7 +31,7 @@ pub(super) struct Aim<R> {
     pub second: Vector<R>,
 }
 
-/// A posture. Finite whatever the aim; trust it where the flags allow.
+/// A posture. Finite for every aim; valid only where the flags allow it.
 #[derive(Clone, Copy)]
 pub(super) struct Solved<R> {
     pub c1: R,
@@ -79,7 +79,7 @@ impl<T: Float> Postures<T> {
         &self.solved[12]
     }
 
-    /// Room for a block.
+    /// Allocates a block.
     pub fn new() -> Postures<T> {
         Postures {
             signs: planes(),
@@ -93,7 +93,7 @@ impl<T: Float> Postures<T> {
 }
 
 impl<R: Real> Solved<R> {
-    /// Arm and forearm turned so; the wrist's bend counts as a right angle, its axis must follow.
+    /// Arm and forearm in this posture; the wrist's bend is a right angle, its axis must follow.
     #[inline(always)]
     pub fn turned(links: &Links<R>, [c1, s1]: [R; 2], [cp, sp]: [R; 2], [cc, sc]: [R; 2]) -> Self {
         let z4 = turned(links.forearm[0], cc, sc, c1, s1);
@@ -130,7 +130,7 @@ impl<R: Real> Solved<R> {
     }
 }
 
-/// What may be said of a lane, as bits.
+/// Flags of a lane, as bits.
 pub mod flag {
     /// The wrist centre is beyond the stretched arm.
     pub const TOO_FAR: u32 = 1;
@@ -150,7 +150,7 @@ pub mod flag {
     pub const NEAR_SHOULDER: u32 = 128;
     /// A joint leaves its range.
     pub const OUTSIDE_LIMITS: u32 = 256;
-    /// The same posture with the wrist flipped leaves the range of a joint.
+    /// The same posture with the wrist flipped exceeds the range of a joint.
     pub const OUTSIDE_LIMITS_FLIPPED: u32 = 512;
 
     /// No posture at all.
@@ -239,7 +239,7 @@ pub(super) fn turned<R: Real>(v: Vector<R>, cc: R, sc: R, c1: R, s1: R) -> Vecto
     Vector::new(c1.mul_add(x, -(s1 * v.y)), s1.mul_add(x, c1 * v.y), z)
 }
 
-/// Finds how far before or behind axis 1 the wrist stands: the same for either elbow.
+/// Finds how far before or behind axis 1 the wrist is: the same for either elbow.
 pub(super) struct Reach<'a, T, const STILL: bool> {
     pub prepared: &'a Prepared,
     pub aims: &'a Aims<T>,
@@ -257,7 +257,7 @@ impl<T: Float, const STILL: bool> Work<T> for Reach<'_, T, STILL> {
     }
 }
 
-/// Solves every posture of a block, told by its signs, after [`Reach`].
+/// Solves every posture of a block, given by its signs, after [`Reach`].
 pub(super) struct Solve<'a, T, const STILL: bool> {
     pub prepared: &'a Prepared,
     pub aims: &'a Aims<T>,
@@ -348,8 +348,8 @@ impl<R: Real> Links<R> {
 
         let off = |c: R, s: R| c.mul_add(c, s.mul_add(s, -one));
         let (arm, upper, fore) = (off(c1, s1), off(cp, sp), off(cc, sc));
-        let strays = arm.mul_add(arm, upper.mul_add(upper, fore * fore));
-        let unverified = strays > R::of(<R::Float as Float>::VERIFIED * <R::Float as Float>::VERIFIED);
+        let error = arm.mul_add(arm, upper.mul_add(upper, fore * fore));
+        let unverified = error > R::of(<R::Float as Float>::VERIFIED * <R::Float as Float>::VERIFIED);
         postures.flags[i] = flagged(R::load(postures.flags[i]), unverified, flag::UNVERIFIED).store();
     }
 
@@ -371,14 +371,14 @@ impl<R: Real> Links<R> {
     }
 }
 
-/// The wrist centre asked for.
+/// The required wrist centre.
 #[inline(always)]
 fn wrist_of<R: Real, const STILL: bool>(aims: &Aims<R::Float>, i: usize) -> Vector<R> {
     let aim = aim::<R, STILL>(aims, i);
     aim.tcp - aim.lever
 }
 
-/// `flags` with `bit` where the condition holds.
+/// `flags` with `bit` where the condition is true.
 #[inline(always)]
 pub(super) fn flagged<R: Real>(flags: R, condition: bool, bit: u32) -> R {
     R::either(condition, flags + R::of(f64::from(bit)), flags)

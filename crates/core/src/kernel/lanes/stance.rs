@@ -1,4 +1,4 @@
-//! How each point's posture stands: joint positions, room to the limits, screws.
+//! Posture of each point in detail: joint positions, margins to the limits, screws.
 
 use super::backend::Work;
 use super::block::{Aims, BLOCK, Plane, Planes, aim, put};
@@ -8,13 +8,13 @@ use super::real::{Float, Real};
 use super::screws::Screws;
 use super::solve::{Links, Postures, Solved};
 
-/// How the postures of a block stand.
+/// Details of the postures of a block.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub(super) struct Stances<T> {
     /// Joint positions, rad.
     pub joints: Planes<T, 6>,
-    /// Least distance to a joint limit, and whose.
+    /// Smallest distance to a joint limit, and the joint.
     pub room: Plane<T>,
     pub joint: Plane<T>,
     /// 1 where the wrist is flipped, otherwise 0.
@@ -32,7 +32,7 @@ pub(super) struct Preference {
 }
 
 /// Fills [`Stances`].
-pub(super) struct Stand<'a, T, const MOMENTS: bool> {
+pub(super) struct FindStances<'a, T, const MOMENTS: bool> {
     pub prepared: &'a Prepared,
     pub aims: &'a Aims<T>,
     pub postures: &'a Postures<T>,
@@ -41,7 +41,7 @@ pub(super) struct Stand<'a, T, const MOMENTS: bool> {
     pub stances: &'a mut Stances<T>,
 }
 
-impl<T: Float, const MOMENTS: bool> Work<T> for Stand<'_, T, MOMENTS> {
+impl<T: Float, const MOMENTS: bool> Work<T> for FindStances<'_, T, MOMENTS> {
     #[inline(always)]
     fn run<R: Real<Float = T>>(self) {
         let (plain, flipped) = (R::of(self.preference.plain), R::of(self.preference.flipped));

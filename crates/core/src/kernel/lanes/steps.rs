@@ -1,4 +1,4 @@
-//! The steps of a batch, each on the block it holds: aim, solve, bend, judge, tell.
+//! The steps of a batch, each on its current block: aim, solve, bend, evaluate, report.
 //!
 //! Each hands planes of the scratch to one compiled loop; which one follows from the question.
 
@@ -16,12 +16,12 @@ use super::positions::{LimitsByPositions, Position};
 use super::solve::{Postures, Reach, Solve};
 use crate::robot::{Branch, Elbow, Shoulder};
 
-/// Which axis 5 an aim holds.
+/// Which axis 5 an aim contains.
 #[derive(Clone, Copy)]
 pub(super) enum Second {
     /// With joint 6 at zero: positions want it.
     AtZero,
-    /// With joint 6 in the middle of its range: limits told by cosines want it.
+    /// With joint 6 in the middle of its range: required for limits as cosines.
     InTheMiddle,
 }
 
@@ -42,7 +42,7 @@ pub(super) fn signs(branch: Branch) -> [f64; 2] {
 pub(super) const FOUR: [[f64; 2]; 4] = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
 
 impl<T: Precision> Batch<T> {
-    /// Fills the block's aims with the poses from `first` on and gives how many there are; the rest repeats the
+    /// Fills the block's aims with the poses from `first` on and returns their number; the remaining lanes repeat the
     /// last.
     pub(super) fn aim(&mut self, poses: &Poses<'_, T>, first: usize, second: Second) -> usize {
         let (Poses::Still { at, .. } | Poses::Free { at, .. }) = poses;
@@ -295,7 +295,7 @@ impl<T: Precision> Batch<T> {
         }
     }
 
-    /// Joint positions of the solved block; joint 1 stands as it did for the same shoulder.
+    /// Joint positions of the solved block; joint 1 is reused for the same shoulder.
     pub(super) fn position(&mut self, same_shoulder: bool) {
         let Scratch {
             aims,
@@ -314,7 +314,7 @@ impl<T: Precision> Batch<T> {
     }
 }
 
-/// Flags the joint limits, told by cosines.
+/// Flags the joint limits, tested by cosines.
 fn limit_by_cosines<T: Precision, const STILL: bool>(
     backend: Backend,
     limits: &CosineLimits,
@@ -349,7 +349,7 @@ pub(super) fn is_still<T>(poses: &Poses<'_, T>) -> bool {
     matches!(poses, Poses::Still { .. })
 }
 
-/// Copies the first values into a plane; where there are fewer the rest repeats the last.
+/// Copies the first values into a plane; the remaining lanes repeat the last one.
 pub(super) fn fill<T: Copy>(plane: &mut Plane<T>, from: &[T]) {
     let used = from.len().min(BLOCK);
     plane[..used].copy_from_slice(&from[..used]);

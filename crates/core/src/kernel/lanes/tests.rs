@@ -1,4 +1,4 @@
-//! Each stage of the lanes against the same formula in plain `f64`, and lanes beside each other.
+//! Each stage of the lanes against the same formula in plain `f64`, and lanes against each other.
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
@@ -45,7 +45,7 @@ fn aimed(count: usize, mut then: impl FnMut(&Robot, &[Isometry], &mut Batch<f64>
 }
 
 #[test]
-fn aims_are_the_poses_in_the_axes_of_the_arm_and_the_last_is_repeated() {
+fn aims_are_the_poses_in_the_axes_of_the_arm_and_the_last_one_is_repeated() {
     aimed(77, |robot, poses, batch| {
         let SolvedBlock { prepared, aims, .. } = batch.solved();
         let arm = &prepared.arm;
@@ -69,7 +69,7 @@ fn aims_are_the_poses_in_the_axes_of_the_arm_and_the_last_is_repeated() {
 }
 
 #[test]
-fn solved_turns_are_those_of_the_closed_form_and_so_are_the_reasons() {
+fn solved_angles_and_flags_agree_with_the_closed_form() {
     aimed(BLOCK, |robot, poses, batch| {
         let geometry = robot.ortho_parallel().unwrap();
         let (mut compared, mut missed) = (0, 0);
@@ -112,7 +112,8 @@ fn solved_turns_are_those_of_the_closed_form_and_so_are_the_reasons() {
     });
 }
 
-/// Calls with the screws of a lane, and the same from the joint positions of the posture, in the axes of the arm.
+/// Calls `then` with the screws of a lane, and the same from the joint positions of the posture, in the axes of the
+/// arm.
 fn screws(mut then: impl FnMut(&Robot, &Screws<Lane>, [[Vector3<f64>; 2]; 6])) {
     aimed(BLOCK, |robot, poses, batch| {
         let geometry = robot.ortho_parallel().unwrap();
@@ -147,14 +148,14 @@ fn screws(mut then: impl FnMut(&Robot, &Screws<Lane>, [[Vector3<f64>; 2]; 6])) {
 }
 
 #[test]
-fn screws_are_those_of_the_posture_with_joint_5_by_the_sine_of_its_bend() {
+fn screws_agree_with_the_posture_with_joint_5_scaled_by_the_sine_of_its_bend() {
     let mut compared = 0;
     screws(|robot, screws, expected| {
         for (k, [linear, axis]) in expected.into_iter().enumerate() {
             let (found, along) = (plain(screws.linear[k]), plain(screws.axes[k]));
             let (found, along) = if k == 4 {
                 let per_bent = screws.per_n2.store().sqrt();
-                // The sine of the bend is known but for its sign.
+                // The sine of the bend is known except for its sign.
                 let sign = along.dot(&axis).signum();
                 (found * (per_bent * sign), along * (per_bent * sign))
             } else {
@@ -199,14 +200,14 @@ fn the_flexibility_is_the_sum_over_the_screws() {
         }
         assert!((plain(both.times(lane_v)) - a * v).norm() < within);
         assert!((plain(both.transposed_d_times(lane_v)) - d.transpose() * v).norm() < within);
-        // Without moments the same for forces, and nothing for moments.
+        // Without moments the same for forces, and zero for moments.
         let forces = Flexibility::new::<false>(screws, &lanes);
         assert_eq!(forces.a.map(Real::store), both.a.map(Real::store));
         assert!(forces.d.iter().all(|row| plain(*row) == Vector3::zeros()));
     });
 }
 
-/// Arrays of the poses: nine numbers of rotation, three of place.
+/// Arrays of the poses: nine numbers of rotation, three of position.
 fn arrays(poses: &[Isometry]) -> [Vec<f64>; 12] {
     std::array::from_fn(|k| {
         let number = |pose: &Isometry| {
@@ -228,7 +229,7 @@ fn free(arrays: &[Vec<f64>; 12]) -> Poses<'_, f64> {
 }
 
 #[test]
-fn a_pose_that_is_none_leaves_every_bit_of_its_neighbours() {
+fn an_invalid_pose_does_not_change_its_neighbours() {
     let robot = &arms::ALL[2];
     let sound = arrays(&poses(robot, 100, 82));
     analysis(robot, StiffnessModel::DRIVES, NOMINAL, |question| {
@@ -261,14 +262,14 @@ fn a_pose_that_is_none_leaves_every_bit_of_its_neighbours() {
                     }
                 }
             }
-            // Nothing of it stays in the scratch either.
+            // It does not remain in the scratch either.
             assert_eq!(given(&sound), whole);
         }
     });
 }
 
 #[test]
-fn all_four_postures_at_once_are_those_of_each_by_itself() {
+fn all_four_postures_at_once_agree_with_each_alone() {
     for robot in arms::all() {
         let arrays = arrays(&poses(&robot, 130, 83));
         analysis(&robot, StiffnessModel::DRIVES, NOMINAL, |question| {
@@ -296,7 +297,7 @@ fn a_plane_is_filled_with_the_last_value() {
 }
 
 #[test]
-fn cosines_tell_limits_where_coupling_lets_them() {
+fn cosines_and_positions_agree_on_limits_where_coupling_allows_cosines() {
     for (robot, given) in [
         (arms::mh12(), true),
         (arms::r2000ic(), true),
@@ -308,7 +309,7 @@ fn cosines_tell_limits_where_coupling_lets_them() {
 }
 
 #[test]
-fn a_cosine_is_least_at_the_limits_and_a_whole_turn_has_none() {
+fn a_cosine_is_smallest_at_the_limits_and_a_whole_turn_has_no_limit() {
     let robot = arms::mh12();
     let arm = Arm::new(&robot, robot.ortho_parallel().unwrap(), &Isometry::identity());
     // Joints 4 and 6 turn all the way round.
@@ -318,7 +319,7 @@ fn a_cosine_is_least_at_the_limits_and_a_whole_turn_has_none() {
         let [to_cos, to_sin, least] = arm.cosine_limit(joint).unwrap();
         let limits = robot.joints()[joint].limits.unwrap();
         for step in 0..200 {
-            // From a limit to half a turn from the middle, either way.
+            // From a limit to half a turn from the middle, in both directions.
             let part = f64::from(step) / 200.0 - 0.5;
             let q = limits.middle() + 2.0 * std::f64::consts::PI * part;
             let row = arm.joints[joint];
@@ -341,11 +342,11 @@ fn vectors_of_lanes_multiply_like_vectors() {
     assert!((plain(la.mul_add(Lane::of(0.7), lb)) - (a * 0.7 + b)).norm() < 1e-15);
 }
 
-/// What numbers of any kind do without a branch.
+/// Branch-free selection of every number type.
 fn chooses<R: Real<Float = f64>>() {
     let [nan, one, two] = [f64::NAN, 1.0, 2.0].map(R::load);
     assert_eq!((one.max(two).store(), one.min(two).store()), (2.0, 1.0));
-    // Of a number that is none the other is taken.
+    // If one is NaN the other is selected.
     assert_eq!((nan.max(two).store(), nan.min(two).store()), (2.0, 2.0));
     assert_eq!(
         (R::load(0.0).sign().store(), R::load(-0.5).sign().store()),
@@ -358,7 +359,7 @@ fn chooses<R: Real<Float = f64>>() {
         ),
         (1.0, 2.0)
     );
-    // Of two whole numbers the even one; right up to 2^51.
+    // Of two whole numbers the even one; correct up to 2^51.
     for (x, rounded) in [
         (0.5, 0.0),
         (1.5, 2.0),
@@ -377,7 +378,7 @@ fn chooses<R: Real<Float = f64>>() {
 }
 
 #[test]
-fn numbers_of_every_kind_choose_alike() {
+fn all_number_types_select_the_same_value() {
     chooses::<Plain<f64>>();
     chooses::<Alone<f64>>();
     chooses::<Fused<f64>>();
@@ -413,7 +414,7 @@ fn the_fastest_back_end_is_there_and_the_scalar_one_everywhere() {
 
 #[test]
 #[should_panic(expected = "as many rotations as places")]
-fn poses_with_more_places_than_rotations_are_refused() {
+fn poses_with_more_positions_than_rotations_are_refused() {
     let mut arrays = arrays(&[Isometry::identity(); 3]);
     for at in &mut arrays[9..] {
         at.push(0.0);
@@ -423,14 +424,14 @@ fn poses_with_more_places_than_rotations_are_refused() {
 
 #[test]
 #[should_panic(expected = "arrays of points differ in length")]
-fn places_of_different_count_are_refused() {
+fn position_arrays_of_different_length_are_refused() {
     let mut arrays = arrays(&[Isometry::identity(); 3]);
     arrays[10].push(0.0);
     free(&arrays).len();
 }
 
 #[test]
-fn poses_know_how_many_they_are() {
+fn poses_report_their_number() {
     let three = arrays(&[Isometry::identity(); 3]);
     assert!(free(&three).len() == 3 && !free(&three).is_empty());
     let none: [f64; 0] = [];

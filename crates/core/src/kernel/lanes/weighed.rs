@@ -1,7 +1,7 @@
-//! Deviation of points that each have directions or wrenches of their own, told in the part's axes.
+//! Deviation of points with separate directions or wrenches, given in the part's axes.
 //!
-//! First the compliance along the directions of each point, then the cases one after the other; as `envelope` does for points
-//! that share both.
+//! First the compliance along the directions of each point, then the cases one after the other; as `envelope` does for
+//! points that share both.
 
 use nalgebra::Matrix3;
 
@@ -52,7 +52,7 @@ impl<T: Float, const STILL: bool, const MOMENTS: bool> Work<T> for RowsOfEach<'_
 
 /// The largest deviation of the wrenches of each point.
 pub(super) struct LargestOfEach<'a, T> {
-    pub told_from_arm: &'a Matrix3<f64>,
+    pub wrench_from_arm: &'a Matrix3<f64>,
     pub moments: bool,
     /// Case after case.
     pub wrenches: &'a [Planes<T, 6>],
@@ -64,7 +64,7 @@ pub(super) struct LargestOfEach<'a, T> {
 impl<T: Float> Work<T> for LargestOfEach<'_, T> {
     #[inline(always)]
     fn run<R: Real<Float = T>>(self) {
-        let turn = Turn::<R>::new(self.told_from_arm);
+        let turn = Turn::<R>::new(self.wrench_from_arm);
         let used = if self.moments { 4 } else { 2 };
         let mut row = 0;
         while row < used {

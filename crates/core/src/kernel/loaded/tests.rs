@@ -1,14 +1,14 @@
-//! Loads of their own at every point: by unit loads as one by one.
+//! Separate loads at every point: by unit loads and one by one.
 
 use super::super::tests::{NOMINAL, analysis, cancelled_after, poses, springy};
 use super::*;
 use crate::arms::{self, Stream};
 use crate::frame::Isometry;
-use crate::robot::{Mass, Robot, Attachment};
+use crate::robot::{Attachment, Mass, Robot};
 use crate::source::{Gravity, StiffnessModel};
 use nalgebra::Unit;
 
-/// Wrenches of point `i`, three a point.
+/// Wrenches of point `i`, three per point.
 fn load(i: usize, wrenches: &mut [Wrench]) {
     let mut stream = Stream(i as u64);
     for wrench in wrenches {
@@ -33,7 +33,7 @@ fn rows<'a>(answers: &'a mut Answers, question: &Question<'_>) -> Rows<'a> {
     }
 }
 
-/// Springs, and masses under gravity: affine still.
+/// Springs, and masses under gravity: still affine.
 fn weighing() -> StiffnessModel {
     let mut model = springy();
     model.structure.masses = vec![Mass {
@@ -49,7 +49,7 @@ fn weighing() -> StiffnessModel {
 }
 
 #[test]
-fn unit_loads_say_what_each_load_says_by_itself() {
+fn unit_loads_agree_with_each_load_alone() {
     for (robot, model) in [
         (&arms::ALL[0], StiffnessModel::DRIVES.clone()),
         (&arms::ALL[4], springy()),
@@ -58,7 +58,7 @@ fn unit_loads_say_what_each_load_says_by_itself() {
         let poses = poses(robot, 100, 21);
         analysis(robot, &model, NOMINAL, |question| {
             assert!(model.is_affine());
-            let mut by_units = Answers::new(question, 100, Told::DeviationsAlone);
+            let mut by_units = Answers::new(question, 100, AnswerDetail::DeviationsAlone);
             let mut one_by_one = by_units.clone();
             let stop = |i: usize| stop(&poses, i);
             rows(&mut by_units, question)
@@ -67,7 +67,7 @@ fn unit_loads_say_what_each_load_says_by_itself() {
             rows(&mut one_by_one, question)
                 .one_by_one(question, stop, |i, _, w| load(i, w), Watch::NONE)
                 .unwrap();
-            assert!(by_units.evaluation().count() > 20);
+            assert!(by_units.evaluations().count() > 20);
             for i in 0..100 {
                 let (Ok(a), Ok(b)) = (by_units.points[i], one_by_one.points[i]) else {
                     assert_eq!(by_units.points[i], one_by_one.points[i]);
@@ -76,13 +76,13 @@ fn unit_loads_say_what_each_load_says_by_itself() {
                 if a.name != b.name || a.singularity.is_some() {
                     continue;
                 }
-                // A moment of 20 N m is told by one newton metre: some digits more are lost than in one product.
+                // 20 N m are scaled from one newton metre: a few more digits are lost than in one product.
                 let within = 1e-10 * b.full;
                 for (a, b) in by_units.deviations_at(i).iter().zip(one_by_one.deviations_at(i)) {
                     assert!((a - b).norm() < within, "{i}: {a} {b}");
                 }
                 assert!((a.in_plane - b.in_plane).abs() < within && (a.full - b.full).abs() < within);
-                assert_eq!(a.deciding_case, b.deciding_case);
+                assert_eq!(a.worst_case, b.worst_case);
                 assert_eq!((a.in_plane_uncertainty, b.in_plane_uncertainty), (0.0, 0.0));
             }
         });
@@ -90,7 +90,7 @@ fn unit_loads_say_what_each_load_says_by_itself() {
 }
 
 #[test]
-fn the_tip_that_a_load_is_asked_with_is_that_of_the_posture() {
+fn the_tip_compliance_given_to_the_load_is_that_of_the_posture() {
     let (robot, model) = (&arms::ALL[2], weighing());
     let poses = poses(robot, 40, 22);
     analysis(robot, &model, NOMINAL, |question| {
@@ -106,8 +106,8 @@ fn the_tip_that_a_load_is_asked_with_is_that_of_the_posture() {
             Watch::NONE,
         )
         .unwrap();
-        // In order, and only where the arm holds the tool.
-        let reached: Vec<usize> = answers.evaluation().map(|(i, _)| i).collect();
+        // In order, and only at reachable points.
+        let reached: Vec<usize> = answers.evaluations().map(|(i, _)| i).collect();
         assert_eq!(given.iter().map(|(i, _)| *i).collect::<Vec<_>>(), reached);
         let mut arm_state = crate::source::ArmState::new(question.arm);
         for (i, tip) in given {
@@ -120,7 +120,7 @@ fn the_tip_that_a_load_is_asked_with_is_that_of_the_posture() {
 }
 
 #[test]
-fn a_model_that_the_load_changes_is_asked_without_a_tip_and_cancelled_between_points() {
+fn a_load_dependent_model_gives_no_tip_compliance_and_cancels_between_points() {
     let model = StiffnessModel {
         load_dependent: true,
         ..springy()
@@ -147,7 +147,7 @@ fn a_model_that_the_load_changes_is_asked_without_a_tip_and_cancelled_between_po
 }
 
 #[test]
-#[should_panic(expected = "a question has a load case at least")]
+#[should_panic(expected = "a question needs at least one load case")]
 fn a_path_without_load_is_refused() {
     analysis(&arms::ALL[0], StiffnessModel::DRIVES, NOMINAL, |question| {
         let without = Question {
@@ -164,7 +164,7 @@ fn a_path_without_load_is_refused() {
 }
 
 #[test]
-fn neither_normal_nor_cases_of_the_question_count_on_a_path() {
+fn normal_and_cases_of_the_question_are_not_used_on_a_path() {
     let robot: &Robot = &arms::ALL[1];
     let poses = poses(robot, 90, 24);
     analysis(robot, StiffnessModel::DRIVES, NOMINAL, |question| {

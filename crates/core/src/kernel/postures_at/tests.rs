@@ -10,7 +10,7 @@ fn postures_of_many_poses_are_those_of_each_pose_alone() {
     let flange = Isometry::identity();
     for (robot, count) in [
         (arms::mh12(), 3 * AT_ONCE + 5),
-        // A searched arm takes its time.
+        // An arm without a closed form takes longer.
         (arms::other::iiwa14(), 3),
     ] {
         let mut requested = poses(&robot, count, 5);
@@ -31,7 +31,7 @@ fn postures_of_many_poses_are_those_of_each_pose_alone() {
             }
             first += given.unwrap_or(0);
         }
-        assert!(found.poses[1].is_err(), "a pose 90 m away is held by nobody");
+        assert!(found.poses[1].is_err(), "a pose 90 m away is out of reach");
         assert_eq!(first, found.names.len());
     }
 }

@@ -1,4 +1,4 @@
-//! What lanes answer and what comes of the same points one after the other.
+//! Results of the lanes against the same points one after the other.
 
 use super::super::tests::{NOMINAL, analysis, poses};
 use super::*;
@@ -6,10 +6,10 @@ use crate::arms;
 use crate::kernel::Answers;
 use crate::source::StiffnessModel;
 
-/// The answers at these poses, through lanes or without them.
+/// The answers at these poses, with or without lanes.
 fn answered(question: &Question<'_>, poses: &[Isometry], lanes: bool) -> Answers {
-    let mut answers = Answers::new(question, poses.len(), Told::Shares);
-    let mut solver = Solver::new(question, Order::Any, Told::Shares);
+    let mut answers = Answers::new(question, poses.len(), AnswerDetail::Shares);
+    let mut solver = Solver::new(question, Order::Any, AnswerDetail::Shares);
     assert!(solver.lanes.is_some());
     if !lanes {
         solver.lanes = None;
@@ -23,7 +23,7 @@ fn answered(question: &Question<'_>, poses: &[Isometry], lanes: bool) -> Answers
 }
 
 #[test]
-fn lanes_and_single_points_say_the_same_of_every_arm() {
+fn lanes_and_single_points_agree_for_every_arm() {
     for robot in arms::all() {
         let poses = poses(&robot, 190, 11);
         for choice in [NOMINAL, BranchChoice::Best] {
@@ -38,8 +38,8 @@ fn lanes_and_single_points_say_the_same_of_every_arm() {
                         assert_eq!(lanes.points[i], single.points[i]);
                         continue;
                     };
-                    // Beside a singularity a posture is known to the root of rounding; of two that are as good as each
-                    // other either may stand.
+                    // Near a singularity a posture is accurate to the square root of rounding; of two equally good
+                    // postures either may be selected.
                     if a.singularity.is_some() || a.name != b.name {
                         assert!(
                             (a.in_plane / b.in_plane - 1.0).abs() < 1e-5,
@@ -59,7 +59,7 @@ fn lanes_and_single_points_say_the_same_of_every_arm() {
                         assert!((a - b).abs() < 1e-11 * size, "{}: {a} {b}", robot.name());
                     }
                     assert!((a.limit_margin - b.limit_margin).abs() < 1e-9);
-                    assert_eq!((a.limit_joint, a.deciding_case), (b.limit_joint, b.deciding_case));
+                    assert_eq!((a.limit_joint, a.worst_case), (b.limit_joint, b.worst_case));
                     for (a, b) in lanes.joints_at(i).iter().zip(single.joints_at(i)) {
                         assert!((a - b).abs() < 1e-9);
                     }
@@ -77,23 +77,35 @@ fn lanes_and_single_points_say_the_same_of_every_arm() {
 }
 
 #[test]
-fn only_drives_without_doubt_go_through_lanes() {
+fn only_drives_without_uncertainty_go_through_lanes() {
     let springy = super::super::tests::springy();
     analysis(&arms::ALL[0], &springy, NOMINAL, |question| {
-        assert!(Solver::new(question, Order::Any, Told::Shares).lanes.is_none());
+        assert!(
+            Solver::new(question, Order::Any, AnswerDetail::Shares)
+                .lanes
+                .is_none()
+        );
     });
     analysis(&arms::ALL[0], StiffnessModel::DRIVES, NOMINAL, |question| {
-        let doubted = Question {
+        let uncertain = Question {
             uncertainty: crate::load::InputUncertainty {
                 relative: 0.1,
                 ..question.uncertainty
             },
             ..*question
         };
-        assert!(Solver::new(&doubted, Order::Any, Told::Shares).lanes.is_none());
+        assert!(
+            Solver::new(&uncertain, Order::Any, AnswerDetail::Shares)
+                .lanes
+                .is_none()
+        );
     });
     let railed = arms::other::on_rail(&arms::ALL[0]);
     analysis(&railed, StiffnessModel::DRIVES, NOMINAL, |question| {
-        assert!(Solver::new(question, Order::Any, Told::Shares).lanes.is_none());
+        assert!(
+            Solver::new(question, Order::Any, AnswerDetail::Shares)
+                .lanes
+                .is_none()
+        );
     });
 }

@@ -22,12 +22,12 @@ fn nominal_force(cutter: Cutter, cut: Cut) -> Vector3<f64> {
 
 fn settled(rest: Rest) -> Vector3<f64> {
     let Rest::Settled(force) = rest else {
-        panic!("drawn in")
+        panic!("pulled in")
     };
     force
 }
 
-/// A tip that yields by `um_n` along each axis, and a little across them.
+/// A tip with the compliance `um_n` along each axis, and a little across them.
 fn tip(um_n: f64) -> TipCompliance {
     let a = Matrix3::new(1.0, 0.2, -0.1, 0.2, 0.8, 0.15, -0.1, 0.15, 1.3);
     TipCompliance {
@@ -36,7 +36,7 @@ fn tip(um_n: f64) -> TipCompliance {
     }
 }
 
-/// By halves: the force that is met when the deviation grows from nothing, in steps so small that it cannot run away.
+/// The offset by relaxation from zero, in steps so small that they cannot diverge.
 fn relaxed(cutter: Cutter, cut: &Cut, tip: &TipCompliance) -> Vector2<f64> {
     let mut s = Vector2::zeros();
     for _ in 0..200_000 {
@@ -49,7 +49,7 @@ fn relaxed(cutter: Cutter, cut: &Cut, tip: &TipCompliance) -> Vector2<f64> {
 }
 
 #[test]
-fn at_rest_the_deviation_is_that_of_the_force_and_the_force_that_of_the_cut() {
+fn at_equilibrium_deviation_and_force_are_consistent() {
     for cutter in [Cutter::flat(10e-3, 2), Cutter::ball(10e-3, 2)].map(Result::unwrap) {
         for immersion in [
             Immersion::Up(3e-3),
@@ -63,7 +63,9 @@ fn at_rest_the_deviation_is_that_of_the_force_and_the_force_that_of_the_cut() {
                 let tip = tip(um_n);
                 let mut equilibrium = ForceEquilibrium::new(cutter, law());
                 let s = offset_under(&tip, settled(equilibrium.rest(&cut, force, &tip)));
-                let met = cut.deflected(s, cutter.radius()).map(|cut| nominal_force(cutter, cut));
+                let met = cut
+                    .deflected(s, cutter.radius())
+                    .map(|cut| nominal_force(cutter, cut));
                 let again = offset_under(&tip, met.unwrap());
                 let size = (tip.by_force * force).norm();
                 assert!(
@@ -76,7 +78,7 @@ fn at_rest_the_deviation_is_that_of_the_force_and_the_force_that_of_the_cut() {
 }
 
 #[test]
-fn creeping_there_ends_at_the_same_place() {
+fn relaxation_finds_the_same_equilibrium() {
     let cutter = Cutter::flat(10e-3, 2).unwrap();
     for immersion in [Immersion::Up(3e-3), Immersion::Slot] {
         let cut = cut(&cutter, immersion);
@@ -84,14 +86,17 @@ fn creeping_there_ends_at_the_same_place() {
         let rest = ForceEquilibrium::new(cutter, law()).rest(&cut, nominal_force(cutter, cut), &tip);
         let relaxed = relaxed(cutter, &cut, &tip);
         let found = offset_under(&tip, settled(rest));
-        assert!((found - relaxed).norm() < 1e-4 * relaxed.norm(), "{found} {relaxed}");
+        assert!(
+            (found - relaxed).norm() < 1e-4 * relaxed.norm(),
+            "{found} {relaxed}"
+        );
     }
 }
 
 #[test]
-fn a_tip_that_yields_along_the_tool_alone_rests_where_a_straight_line_says() {
-    // A flat end mill: the force goes with the depth, so d = a F0 (1 - d/ap), d = a F0/(1 + a F0/ap). A left-hand helix
-    // lifts the tool out.
+fn a_tip_compliant_along_the_tool_axis_only_has_a_closed_form_equilibrium() {
+    // A flat end mill: the force is proportional to the depth, so d = a F0 (1 - d/ap), d = a F0/(1 + a F0/ap). A
+    // left-hand helix lifts the tool out.
     let cutter = Cutter::flat(10e-3, 2).unwrap();
     let cutter = cutter.with_helix(0.6, Hand::Left).unwrap();
     let cut = cut(&cutter, Immersion::Slot);
@@ -112,7 +117,7 @@ fn a_tip_that_yields_along_the_tool_alone_rests_where_a_straight_line_says() {
 }
 
 #[test]
-fn a_stiff_tip_feels_the_force_of_the_drawing() {
+fn a_stiff_tip_has_the_nominal_force() {
     let cutter = Cutter::flat(10e-3, 2).unwrap();
     let cut = cut(&cutter, Immersion::Down(3e-3));
     let force = nominal_force(cutter, cut);
@@ -125,8 +130,8 @@ fn a_stiff_tip_feels_the_force_of_the_drawing() {
 }
 
 #[test]
-fn a_tool_that_is_drawn_in_deeper_than_it_went_does_not_rest() {
-    // A right-hand helix draws the tool to the part: soft enough, and every depth draws it deeper still.
+fn a_tool_that_is_pulled_in_without_end_has_no_equilibrium() {
+    // A right-hand helix pulls the tool towards the part: with enough compliance every depth pulls it deeper still.
     let cutter = Cutter::flat(10e-3, 2).unwrap();
     let cutter = cutter.with_helix(0.6, Hand::Right).unwrap();
     let cut = cut(&cutter, Immersion::Slot);
@@ -138,7 +143,7 @@ fn a_tool_that_is_drawn_in_deeper_than_it_went_does_not_rest() {
     };
     let rest = ForceEquilibrium::new(cutter, law()).rest(&cut, force, &soft(2.0));
     assert_eq!(rest, Rest::PulledIn);
-    // At half of that it goes twice as deep as drawn, and stays there.
+    // At half of that it cuts twice the nominal depth, and stays there.
     let rest = ForceEquilibrium::new(cutter, law()).rest(&cut, force, &soft(0.5));
     assert!((settled(rest).z / force.z - 2.0).abs() < 1e-4);
 }

@@ -172,7 +172,7 @@ fn known_integrals_of_a_slot() {
 }
 
 #[test]
-fn force_goes_with_depth_teeth_and_coefficients() {
+fn force_is_proportional_to_depth_teeth_and_coefficients() {
     let one = cut(Immersion::Up(5.0 * MM));
     let force = mean(flat(), mechanistic(WITH_EDGE), one);
     let deep = Cut {
@@ -222,7 +222,7 @@ fn up_and_down_milling_mirror_each_other() {
 }
 
 #[test]
-fn ball_and_bull_nose_meet_vectors_summed_in_steps() {
+fn ball_and_bull_nose_match_vectors_summed_in_steps() {
     let ball = Cutter::ball(16.0 * MM, 4).unwrap();
     let nose = Cutter::bull_nose(16.0 * MM, 3.0 * MM, 4).unwrap();
     for (cutter, depth) in [(ball, 2.0), (ball, 11.0), (nose, 1.5), (nose, 5.0)] {
@@ -247,7 +247,7 @@ fn ball_and_bull_nose_meet_vectors_summed_in_steps() {
 }
 
 #[test]
-fn ramps_of_a_ball_meet_vectors_summed_in_steps_and_a_flat_end_mill_feels_the_level_feed() {
+fn ramps_of_a_ball_match_vectors_summed_in_steps_and_a_flat_end_mill_has_the_level_feed() {
     let ball = Cutter::ball(16.0 * MM, 4).unwrap();
     for rise in [-0.03 * MM, 0.03 * MM, 0.1 * MM] {
         let cut = Cut {
@@ -280,7 +280,7 @@ fn ramps_of_a_ball_meet_vectors_summed_in_steps_and_a_flat_end_mill_feels_the_le
 }
 
 #[test]
-fn a_corner_of_no_radius_is_a_flat_end_mill() {
+fn a_corner_radius_of_zero_is_a_flat_end_mill() {
     let sharp = Cutter::bull_nose(16.0 * MM, 1e-9, 4).unwrap();
     let cut = cut(Immersion::Up(5.0 * MM));
     let law = mechanistic(WITH_EDGE);
@@ -294,7 +294,7 @@ fn off_centre(offset: f64) -> Cutter {
 }
 
 #[test]
-fn runout_leaves_the_mean_while_every_tooth_cuts() {
+fn runout_does_not_change_the_mean_while_every_tooth_cuts() {
     // From 60 to 120 deg the chip is at least 0.156 mm; teeth 90 deg apart differ by 1.41 times 20 um.
     let cut = cut(Immersion::Centred(8.0 * MM));
     let law = mechanistic(WITH_EDGE);
@@ -305,7 +305,7 @@ fn runout_leaves_the_mean_while_every_tooth_cuts() {
 }
 
 #[test]
-fn a_tooth_that_cuts_nothing_takes_its_edge_force_along_but_not_its_chip() {
+fn a_tooth_that_cuts_nothing_loses_its_edge_force_but_not_its_chip() {
     let cut = cut(Immersion::Centred(8.0 * MM));
     let shear = mechanistic(PUBLISHED);
     // The slightest edge force has every tooth looked at.
@@ -323,7 +323,7 @@ fn a_tooth_that_cuts_nothing_takes_its_edge_force_along_but_not_its_chip() {
 }
 
 #[test]
-fn runout_takes_less_force_under_kienzles_law() {
+fn runout_reduces_the_force_of_kienzles_law() {
     // The same metal in fewer, thicker chips: a lower specific force.
     let cut = cut(Immersion::Centred(8.0 * MM));
     let law = kienzle(800e6, 0.25, [0.0; 4]);
@@ -351,7 +351,7 @@ fn kienzle_without_exponent_is_a_linear_law() {
 }
 
 #[test]
-fn kienzles_mean_matches_a_substitution_of_its_own() {
+fn kienzles_mean_matches_an_independent_substitution() {
     // Up-milling: phi = t^4 makes phi^0.75 a cube; then Simpson's rule.
     let cut = cut(Immersion::Up(5.0 * MM));
     let exit = (3.0_f64 / 8.0).acos();
@@ -432,7 +432,7 @@ fn uncertainty_of_kc1_is_a_fraction_of_the_force_and_of_mc_a_difference() {
 }
 
 #[test]
-fn a_covariance_is_the_same_for_each_tooth_by_itself() {
+fn a_covariance_is_the_same_for_each_tooth_separately() {
     let law = Mechanistic::new(Vector3::new(631e6, 99e6, 273e6), Vector3::new(13e3, 10e3, 2.8e3)).unwrap();
     let law = CuttingLaw::Mechanistic(law.with_relative_uncertainty(0.2).unwrap());
     let cut = cut(Immersion::Centred(8.0 * MM));

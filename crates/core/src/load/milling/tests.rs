@@ -29,7 +29,7 @@ fn milling(cutter: Cutter, cut: Cut) -> Milling {
     Milling::new(cutter, law(K), cut).unwrap()
 }
 
-/// Force of one edge of the flat end mill at the height `z`, told by vectors: where the tooth is, where it goes.
+/// Force of one edge of the flat end mill at the height `z`, by vectors: position and direction of the tooth.
 fn edge_force(k: [f64; 6], phi: f64, c: f64, hand: Hand) -> Vector3<f64> {
     let outward = Vector3::new(phi.sin(), phi.cos(), 0.0);
     // The spindle turns about -z.
@@ -141,14 +141,14 @@ fn a_straight_tooth_ahead_in_a_slot_is_pushed_back_and_to_the_left() {
 }
 
 #[test]
-fn the_hand_of_the_helix_turns_the_axial_force_alone_where_the_edge_is_straight() {
+fn the_hand_of_the_helix_changes_only_the_axial_force_where_the_edge_is_straight() {
     let cut = cut(Immersion::Up(5.0 * MM), MM);
     let with = |hand| {
         let tool = Cutter::flat(16.0 * MM, 4).unwrap().with_helix(0.0, hand).unwrap();
         milling(tool, cut).force_at(0.5)
     };
     let (right, left) = (with(Hand::Right), with(Hand::Left));
-    assert!(right.z < 0.0, "a right-hand helix is drawn to the part");
+    assert!(right.z < 0.0, "a right-hand helix is pulled towards the part");
     assert_eq!((right.x, right.y, right.z), (left.x, left.y, -left.z));
 }
 
@@ -172,7 +172,7 @@ fn forces_repeat_each_pitch_and_with_runout_each_turn() {
 
 #[test]
 fn a_tooth_that_cuts_nothing_leaves_its_chip_to_the_next() {
-    // Two teeth, one standing out by 0.2 mm more than the other at a feed of 0.18 mm.
+    // Two teeth, one with 0.2 mm more radial runout than the other at a feed of 0.18 mm.
     let tool = Cutter::flat(16.0 * MM, 2).unwrap().with_runout(Runout {
         offset: 0.1 * MM,
         angle: 0.0,
@@ -211,7 +211,7 @@ fn the_peak_is_longer_than_every_force_and_than_their_mean() {
     let forces = milling.revolution(360);
     assert_eq!(forces.len(), 360);
     for force in &forces {
-        // The same angles, told by sums of other roundings.
+        // The same angles, from sums with other rounding.
         assert!(force.norm() <= peak.norm() + 1e-9);
     }
     assert!(peak.norm() > milling.mean().force.norm());
@@ -219,7 +219,7 @@ fn the_peak_is_longer_than_every_force_and_than_their_mean() {
 }
 
 #[test]
-fn a_chip_by_kienzle_pushes_as_its_power_law_tells() {
+fn a_chip_by_kienzle_has_the_force_of_its_power_law() {
     let kienzle = KienzleValues {
         specific_force: Estimate {
             value: 800e6,
@@ -254,7 +254,7 @@ fn a_chip_by_kienzle_pushes_as_its_power_law_tells() {
 }
 
 #[test]
-fn edges_of_a_ball_push_up_at_the_tip_and_aside_at_the_equator() {
+fn edges_of_a_ball_push_up_at_the_tip_and_sideways_at_the_equator() {
     let ball = Cutter::ball(16.0 * MM, 2).unwrap();
     let radial = Milling::new(
         ball,
@@ -268,7 +268,7 @@ fn edges_of_a_ball_push_up_at_the_tip_and_aside_at_the_equator() {
 }
 
 #[test]
-fn cuts_that_cannot_be_are_refused() {
+fn refuses_invalid_cuts() {
     let good = cut(Immersion::Slot, MM);
     for wrong in [
         Cut { depth: 0.0, ..good },

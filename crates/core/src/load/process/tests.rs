@@ -42,7 +42,7 @@ fn the_published_cut_has_its_published_mean() {
 }
 
 #[test]
-fn a_feed_across_the_tool_is_level_and_any_other_rises_or_dives() {
+fn a_feed_across_the_tool_is_level_and_any_other_ascends_or_descends() {
     let spindle = unit(0.2, -0.1, 0.9);
     let across = Unit::new_normalize(spindle.cross(&Vector3::x()));
     assert_eq!(Advance::of(&across, &spindle), Advance::Level);
@@ -55,13 +55,13 @@ fn a_feed_across_the_tool_is_level_and_any_other_rises_or_dives() {
 }
 
 #[test]
-fn straight_along_the_axis_is_a_plunge_or_a_withdrawal_and_neither_mills() {
+fn a_feed_along_the_axis_is_a_plunge_or_a_withdrawal_and_is_refused() {
     let spindle = unit(0.1, 0.2, 1.0);
     assert_eq!(Advance::of(&-spindle, &spindle), Advance::Plunge);
     assert_eq!(Advance::of(&spindle, &spindle), Advance::Withdrawal);
     let error = mean(process(), Advance::Plunge).unwrap_err().to_string();
     assert!(
-        error.contains("dives 90.0 deg") && error.contains("30 deg"),
+        error.contains("descends 90.0 deg") && error.contains("30 deg"),
         "{error}"
     );
     assert_eq!(
@@ -71,12 +71,12 @@ fn straight_along_the_axis_is_a_plunge_or_a_withdrawal_and_neither_mills() {
 }
 
 #[test]
-fn ramps_up_to_30_deg_feel_the_level_part_of_the_feed() {
+fn ramps_up_to_30_deg_use_the_level_part_of_the_feed() {
     let level = mean(process(), Advance::Level).unwrap().force;
     let ramp = mean(process(), Advance::Ramp(-20_f64.to_radians()))
         .unwrap()
         .force;
-    // No edge terms: the force goes with the chip.
+    // No edge terms: the force is proportional to the chip.
     assert!((ramp - level * 20_f64.to_radians().cos()).norm() < 1e-11);
     assert!(mean(process(), Advance::Ramp(-31_f64.to_radians())).is_err());
     assert!(mean(process(), Advance::Ramp(f64::NAN)).is_err());
@@ -84,7 +84,7 @@ fn ramps_up_to_30_deg_feel_the_level_part_of_the_feed() {
 }
 
 #[test]
-fn a_process_that_cannot_be_is_refused() {
+fn refuses_an_invalid_process() {
     for wrong in [
         Process {
             spindle: 0.0,
@@ -104,7 +104,7 @@ fn a_process_that_cannot_be_is_refused() {
 }
 
 #[test]
-fn cuts_that_are_rounded_move_by_half_a_step_at_most_and_are_alike_then() {
+fn rounded_cuts_move_by_at_most_half_a_step_and_are_equal_then() {
     let part = 0.02;
     let step = part * 16.0 * MM;
     for k in 0..60 {
@@ -113,12 +113,12 @@ fn cuts_that_are_rounded_move_by_half_a_step_at_most_and_are_alike_then() {
             MM * (0.5 + 0.23 * f64::from(k)),
         );
         let engagement = Engagement::of(Immersion::Up(width), 16.0 * MM).unwrap();
-        let drawn = Process {
+        let exact = Process {
             depth,
             engagement,
             ..process()
         };
-        let rounded = drawn.rounded(part);
+        let rounded = exact.rounded(part);
         assert!((rounded.depth - depth).abs() <= 0.5 * step + 1e-15, "{depth}");
         let moved = rounded.engagement.edges().into_iter().zip(engagement.edges());
         assert!(
@@ -140,14 +140,14 @@ fn cuts_that_are_rounded_move_by_half_a_step_at_most_and_are_alike_then() {
 }
 
 #[test]
-fn turning_the_tool_faster_or_with_more_teeth_thins_the_chip() {
+fn more_speed_or_more_teeth_thin_the_chip() {
     let size = |process: Process| mean(process, Advance::Level).unwrap().force.norm();
     let here = size(process());
     let faster = Process {
         spindle: 2.0 * process().spindle,
         ..process()
     };
-    // No edge terms: the force goes with the feed per tooth; teeth share the same feed.
+    // No edge terms: the force is proportional to the feed per tooth; teeth share the same feed.
     assert!((size(faster) / here - 0.5).abs() < 1e-12);
     let toothed = Process {
         cutter: Cutter::flat(16.0 * MM, 8).unwrap(),

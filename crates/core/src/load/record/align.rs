@@ -1,9 +1,9 @@
 //! The lag of a prediction anywhere in a long record: coarse first, then finer.
 //!
 //! Both are thinned to means of `k` samples, so that a search over the whole range takes a bounded number of products;
-//! around the best lag the search goes on with means of `k / 8`, `k / 64`, ... down to single samples.
+//! around the best lag the search continues with means of `k / 8`, `k / 64`, ... down to single samples.
 //!
-//! How sure the lag is, the first search tells: it alone has seen the whole range.
+//! The confidence of the lag is that of the first search, which alone covers the whole range.
 
 use nalgebra::Vector3;
 
@@ -14,7 +14,7 @@ use super::{Record, RecordError};
 const FIRST_PRODUCTS: f64 = 2e7;
 /// From one search to the next.
 const FINER: usize = 8;
-/// A search reaches so many steps of the one before to either side.
+/// Range of a search to either side, in steps of the one before.
 const REACH: f64 = 2.0;
 
 /// The lag of `measured` behind `predicted` (s), searched from the first to the last of a range of seconds.
@@ -47,7 +47,7 @@ fn thinned(measured: &Record, predicted: &Record, many: usize, range: [f64; 2]) 
     }
 }
 
-/// Means of so many samples each; what is left at the end is dropped.
+/// Means of this many samples each; the remainder is dropped.
 fn means(record: &Record, many: usize) -> Result<Record, RecordError> {
     let time = record.time.chunks_exact(many);
     let force = record.force.chunks_exact(many);
@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn two_equal_cuts_leave_the_lag_unsure() {
+    fn two_equal_cuts_give_a_lag_of_low_confidence() {
         let predicted = cut([-1.0, 5.0], 0.0, 0.0);
         let (one, two) = (cut([0.0, 20.0], 3.0, 0.0), cut([0.0, 20.0], 12.0, 0.0));
         let both = one.force().iter().zip(two.force()).map(|(a, b)| a + b).collect();

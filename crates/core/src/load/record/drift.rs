@@ -1,13 +1,13 @@
-//! Drift: what the charge amplifier adds, as a line in time through the air cuts, where no force acts.
+//! Drift of the charge amplifier: a straight line in time through the air cuts, where no force acts.
 //!
-//! `drift(t) = offset + rate (t - t0)`, by least squares through the samples of all air cuts, each channel for itself.
+//! `drift(t) = offset + rate (t - t0)`, by least squares through the samples of all air cuts, each channel separately.
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | `offset`, `rate` | drift at the first instant, and its growth | N, N/s (N m, N m/s) |
 //! | `t0` | the first instant | s |
 //!
-//! Air cuts that nobody told are found: the record is cut into blocks; the quietest block of the first half and the
+//! Air cuts that are not given are found: the record is cut into blocks; the quietest block of the first half and the
 //! quietest of the second half, each with its neighbours that are as quiet. Quiet is a small scatter about the mean of
 //! the block, all axes of the force together.
 
@@ -15,16 +15,16 @@ use nalgebra::Vector3;
 
 use super::{Record, RecordError};
 
-/// Where no force acts.
+/// Selection of the air cuts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AirCut<'a> {
-    /// From when to when, s, as told by who knows.
+    /// Start and end times given by the user, s.
     Given(&'a [[f64; 2]]),
     /// The quietest stretches of both halves.
     Found,
 }
 
-/// What was taken off, and where it was measured.
+/// The drift removed, and the air cuts used.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drift {
     /// Of the force at the first instant, N.
@@ -39,19 +39,19 @@ pub struct Drift {
 
 /// Blocks of a record that is searched for air cuts: a few revolutions each in a record of some seconds.
 const BLOCKS: usize = 64;
-/// No block has fewer samples: less tell no scatter.
+/// No block has fewer samples: fewer give no scatter.
 const LEAST_SAMPLES: usize = 8;
 /// Two blocks in each half, so that one can be quieter than the other.
 const LEAST_BLOCKS: usize = 4;
-/// A neighbour up to so many times as loud belongs to the air cut.
+/// A neighbour with up to this multiple of the scatter belongs to the air cut.
 const AS_QUIET: f64 = 2.0;
-/// Air cut is at least so many times quieter than half of all blocks.
+/// The median scatter of all blocks is at least this multiple of the scatter of an air cut.
 const QUIETER: f64 = 3.0;
 
 /// The record without its drift, and the drift.
 ///
 /// # Errors
-/// Told air cuts without two samples at different times; no stretch that is quiet enough.
+/// Given air cuts without two samples at different times; no stretch that is quiet enough.
 pub fn remove(record: &Record, air_cut: AirCut) -> Result<(Record, Drift), RecordError> {
     let through = match air_cut {
         AirCut::Given(ranges) => ranges.to_vec(),
@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn a_known_drift_is_found_through_told_air_cuts() {
+    fn a_known_drift_is_found_from_given_air_cuts() {
         let (record, pure) = record(0.0);
         let (freed, drift) = remove(&record, AirCut::Given(&[[0.0, 0.9], [3.1, 4.0]])).unwrap();
         // Rounding of sums of some thousand numbers of some newtons.
@@ -240,7 +240,7 @@ mod tests {
     }
 
     #[test]
-    fn drift_of_the_moment_goes_too() {
+    fn drift_of_the_moment_is_removed_too() {
         let time = vec![0.0, 1.0, 2.0, 3.0];
         let ramp: Vec<Vector3<f64>> = time.iter().map(|t| Vector3::new(1.0 + t, 0.0, 2.0 * t)).collect();
         let record = Record::new(time, ramp.clone(), Some(ramp), ActsOn::Tool).unwrap();
@@ -256,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn records_without_air_cut_are_refused() {
+    fn refuses_records_without_air_cut() {
         let (record, _) = record(0.0);
         assert_eq!(
             remove(&record, AirCut::Given(&[[9.0, 10.0]])).unwrap_err(),

@@ -1,4 +1,4 @@
-//! By how much a measured force runs behind a predicted one: `measured(t) = predicted(t - lag)`.
+//! Lag of a measured force behind a predicted one: `measured(t) = predicted(t - lag)`.
 //!
 //! By start: both cross a threshold of force for the first time. By correlation: the lag `k` at which
 //!
@@ -10,28 +10,28 @@
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | `m`, `p` | measured and predicted force | N |
-//! | `r` | likeness, from -1 to 1 | 1 |
+//! | `r` | correlation, from -1 to 1 | 1 |
 //!
-//! A force that repeats with each tooth fits again one tooth later: the second best peak tells how sure the best is. Peaks
-//! of noise beside the best are none: between two peaks the likeness falls.
+//! A force that repeats with each tooth fits again one tooth later: the second best peak gives the confidence in the
+//! best. Noise peaks next to the best one are ignored: the correlation must fall between two peaks.
 
 use nalgebra::Vector3;
 
 use super::{Record, RecordError};
 
-/// A lag, and how much it can be trusted.
+/// A lag and its confidence.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lag {
-    /// By how much the measured force is later than the predicted one, s.
+    /// Lag of the measured force behind the predicted one, s.
     pub seconds: f64,
-    /// Likeness there: 1 for the same shape.
+    /// Correlation there: 1 for the same shape.
     pub likeness: f64,
-    /// Likeness of the second best peak; as high as the first where the force repeats. `None` if there is no other.
+    /// Correlation of the second best peak; as high as the first where the force repeats. `None` if there is no other.
     pub runner_up: Option<f64>,
 }
 
 impl Lag {
-    /// From 0 to 1: how far the best lag stands out from the second best, times its likeness.
+    /// From 0 to 1: lead of the best lag over the second best, times its correlation.
     pub fn confidence(&self) -> f64 {
         let likeness = self.likeness.clamp(0.0, 1.0);
         let other = self.runner_up.unwrap_or(0.0).clamp(0.0, 1.0);
@@ -39,11 +39,11 @@ impl Lag {
     }
 }
 
-/// A search may take so many products of two forces: some seconds.
+/// Maximum number of products of two forces in a search: some seconds.
 const MOST_PRODUCTS: f64 = 2e9;
 /// The parts that overlap are at least this share of the shorter record.
 const LEAST_OVERLAP: f64 = 0.5;
-/// Likeness falls by so much between two peaks; noise makes smaller waves on the flanks of one.
+/// Fall of the correlation between two peaks; noise makes smaller waves on the slopes of one.
 const LEAST_FALL: f64 = 0.01;
 /// Steps of both records are equal within this.
 const STEP_SLACK: f64 = 1e-4;
@@ -80,7 +80,7 @@ pub fn lag_within(measured: &Record, predicted: &Record, [from, to]: [f64; 2]) -
     }
     let (m, p) = (without_mean(&measured.force), without_mean(&predicted.force));
     let shorter = m.len().min(p.len()) as f64;
-    // Lags count from equal times, shifts from equal samples.
+    // Lags are relative to equal times, shifts to equal samples.
     let ahead = (predicted.time[0] - measured.time[0]) / step;
     let (low, high) = ((ahead + from / step).ceil(), (ahead + to / step).floor());
     let products = (high - low + 1.0) * shorter;
@@ -214,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn a_force_that_repeats_leaves_the_lag_unsure() {
+    fn a_force_that_repeats_gives_a_lag_of_low_confidence() {
         let wave = |late: f64| {
             let time: Vec<f64> = (0..5000).map(|k| f64::from(k) / 5000.0).collect();
             let force = time
@@ -252,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_compared_is_refused() {
+    fn refuses_records_that_cannot_be_compared() {
         let predicted = record(0.0, 3000, 0.0);
         let slow = Record::new(vec![0.0, 1.0], vec![Vector3::x(); 2], None, ActsOn::Tool).unwrap();
         assert!(matches!(

@@ -17,17 +17,17 @@ use nalgebra::Vector3;
 
 use super::{Record, RecordError};
 
-/// The ends are continued by so many periods of the cutoff: what the filter remembers fades to e^-13 in that.
+/// The ends are extended by this many periods of the cutoff: the memory of the filter fades to e^-13 over them.
 const CONTINUED_PERIODS: f64 = 3.0;
 
-/// The record with only what is slower than `cutoff_hz`.
+/// The record without components above `cutoff_hz`.
 ///
 /// # Errors
 /// Steps that are not equal; a cutoff that is not between 0 and half the sampling rate.
 pub fn low_pass(record: &Record, cutoff_hz: f64) -> Result<Record, RecordError> {
     let rate_hz = record.step()?.recip();
     let half_rate_hz = rate_hz / 2.0;
-    // Not `>=`: a cutoff that is no number is refused too.
+    // Not `>=`: a cutoff that is not a number is refused too.
     if !(cutoff_hz > 0.0 && cutoff_hz < half_rate_hz) {
         return Err(RecordError::Cutoff {
             cutoff_hz,
@@ -85,7 +85,7 @@ impl Butterworth {
         all[continued..continued + values.len()].to_vec()
     }
 
-    /// One pass in place, begun as if the first value had stood for ever.
+    /// One pass in place, started in the steady state of the first value.
     fn pass(&self, values: &mut [Vector3<f64>]) {
         let Some(first) = values.first().copied() else {
             return;
@@ -158,7 +158,8 @@ mod tests {
                 .zip(after.force())
                 .map(|(a, b)| (a - b).norm())
                 .fold(0.0, f64::max);
-            // A line starts the filter as if it had stood before: that fades by e^-13 in the continued part.
+            // A line starts the filter in the steady state of its first value: that fades by e^-13 in the continued
+            // part.
             assert!(worst < 1e-4, "{worst} with slope {slope}");
         }
     }
@@ -179,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn cutoffs_and_steps_that_cannot_be_are_refused() {
+    fn refuses_invalid_cutoffs_and_steps() {
         let record = record(|t| t);
         for cutoff in [0.0, -1.0, 500.0, f64::NAN, f64::INFINITY] {
             assert!(

@@ -1,14 +1,14 @@
-//! A force that was measured over time.
+//! A measured force over time.
 //!
-//! [`drift`]: what the amplifier adds while nothing is cut. [`low_pass`]: only what is slower than a frequency.
-//! [`revolutions`]: mean and extremes of each turn of the spindle. [`lag`]: by how much it runs behind a prediction;
+//! [`drift`]: removal of the drift of the amplifier. [`low_pass`]: low-pass filter.
+//! [`revolutions`]: mean and extremes of each turn of the spindle. [`lag`]: its lag behind a prediction;
 //! [`align`]: the same for long records, coarse first and then finer.
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | `time` | instants, ever later | s |
+//! | `time` | instants, increasing | s |
 //! | `force` | at each instant, axes of the sensor until they are turned | N |
-//! | `moment` | likewise, about the origin of the sensor | N m |
+//! | `moment` | the same for the moment, about the origin of the sensor | N m |
 
 pub mod align;
 pub mod drift;
@@ -21,9 +21,9 @@ use nalgebra::{UnitQuaternion, Vector3};
 /// What the measured force acts on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ActsOn {
-    /// The tool: the sign that armill's loads have.
+    /// The tool: the sign of the loads in armill.
     Tool,
-    /// The workpiece, as a dynamometer under it feels it.
+    /// The workpiece: the sign of a dynamometer under it.
     Part,
 }
 
@@ -36,15 +36,15 @@ pub struct Record {
     acts_on: ActsOn,
 }
 
-/// Why a record is none, or cannot be treated as asked.
+/// Why a record is not valid, or cannot be treated as requested.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RecordError {
-    /// Too few instants: two make a record, and to find air cut in it takes more.
+    /// Too few instants: a record needs two, the search for air cuts needs more.
     #[error("a record of {count} instants is too short: at least {least} are needed")]
     TooShort {
-        /// How many there are.
+        /// Number given.
         count: usize,
-        /// How many are needed.
+        /// Number needed.
         least: usize,
     },
     /// Lists of different lengths.
@@ -56,10 +56,10 @@ pub enum RecordError {
         force: usize,
     },
     /// A number that is not finite.
-    #[error("sample {0} holds a number that is not finite")]
+    #[error("sample {0} contains a number that is not finite")]
     NotFinite(usize),
-    /// Time that does not go on.
-    #[error("time does not go on at sample {0}")]
+    /// Time that does not increase.
+    #[error("time does not increase at sample {0}")]
     TimeNotIncreasing(usize),
     /// Steps of different length where equal ones are needed.
     #[error(
@@ -83,8 +83,8 @@ pub enum RecordError {
         /// s
         predicted_s: f64,
     },
-    /// Air cut whose times the record does not have enough samples in.
-    #[error("the told air cuts hold {0} samples: a line needs at least 2 at different times")]
+    /// The given air cuts contain too few samples of the record.
+    #[error("the given air cuts contain {0} samples: a line needs at least 2 at different times")]
     NoSamplesOfAirCut(usize),
     /// No stretch that is quiet enough to be air cut.
     #[error(
@@ -96,7 +96,7 @@ pub enum RecordError {
         /// Median scatter, N.
         median_n: f64,
     },
-    /// A cutoff that the sampling cannot hold.
+    /// A cutoff that is not valid at this sampling rate.
     #[error("a cutoff of {cutoff_hz} Hz is not above 0 and below half the sampling rate, {half_rate_hz} Hz")]
     Cutoff {
         /// Hz
@@ -104,37 +104,33 @@ pub enum RecordError {
         /// Hz
         half_rate_hz: f64,
     },
-    /// A spindle speed that the record cannot show.
-    #[error(
-        "{samples:.1} samples a revolution are fewer than the {least} it needs, or the record holds no whole revolution"
-    )]
+    /// A spindle speed that the record cannot resolve.
+    #[error("a revolution has {samples:.1} samples: at least {least} and a whole revolution are needed")]
     Revolution {
         /// Samples in one revolution.
         samples: f64,
-        /// How many it needs.
+        /// Number needed.
         least: usize,
     },
-    /// No lag can be told: no force crosses the threshold, or one of both does not change.
-    #[error("no lag can be told: {0}")]
+    /// The lag cannot be determined: no force crosses the threshold, or one of the two is constant.
+    #[error("the lag cannot be determined: {0}")]
     NoLag(&'static str),
-    /// More instants than are kept.
-    #[error(
-        "a record of {count:.1e} instants is longer than the {most:.0e} that are kept: take longer steps"
-    )]
+    /// More instants than the maximum.
+    #[error("a record of {count:.1e} instants exceeds the maximum of {most:.0e}: increase the time step")]
     TooManySamples {
-        /// As asked for.
+        /// As requested.
         count: f64,
-        /// What is kept.
+        /// Maximum.
         most: f64,
     },
     /// A search that takes too long.
     #[error(
-        "{products:.1e} products are more than {most:.0e}: shorten the records, or look for a smaller lag"
+        "the search needs {products:.1e} products, the maximum is {most:.0e}: shorten the records or the range of lags"
     )]
     TooMuchWork {
         /// Products that the search needs.
         products: f64,
-        /// How many it may take.
+        /// Maximum.
         most: f64,
     },
 }
@@ -199,7 +195,7 @@ impl Record {
         self.moment.as_deref()
     }
 
-    /// The force at an instant, on a line between samples; before the first sample and after the last what it is there.
+    /// The force at an instant, linear between samples and constant before the first and after the last.
     pub fn force_at(&self, time: f64) -> Vector3<f64> {
         let last = self.time.len() - 1;
         let after = self.time.partition_point(|t| *t <= time);
@@ -225,7 +221,7 @@ impl Record {
         self.acts_on
     }
 
-    /// The record as the tool feels it: against that of the part.
+    /// The record with the sign of the force on the tool: opposite to that on the part.
     #[must_use]
     pub fn on_tool(self) -> Record {
         let acts_on = self.acts_on;
@@ -239,7 +235,7 @@ impl Record {
         }
     }
 
-    /// The record in other axes: `turn` takes the sensor's into them.
+    /// The record in other axes: `turn` takes the axes of the sensor into them.
     #[must_use]
     pub fn turned(self, turn: &UnitQuaternion<f64>) -> Record {
         self.mapped(|vector| turn * vector)
@@ -285,7 +281,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_record_is_refused() {
+    fn refuses_invalid_records() {
         assert_eq!(plain(&[0.0]), Err(RecordError::TooShort { count: 1, least: 2 }));
         assert_eq!(plain(&[0.0, 1.0, 1.0]), Err(RecordError::TimeNotIncreasing(2)));
         assert_eq!(plain(&[0.0, f64::NAN]), Err(RecordError::NotFinite(1)));
@@ -305,7 +301,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_part_feels_is_against_what_the_tool_feels() {
+    fn forces_on_part_and_tool_are_opposite() {
         let on_tool = plain(&[0.0, 1.0]).unwrap().on_tool();
         assert_eq!(on_tool.force()[1], Vector3::new(-1.0, -2.0, -3.0));
         assert_eq!(on_tool.acts_on(), ActsOn::Tool);
@@ -313,14 +309,14 @@ mod tests {
     }
 
     #[test]
-    fn other_axes_keep_the_size() {
+    fn rotated_axes_keep_the_magnitude() {
         let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), std::f64::consts::FRAC_PI_2);
         let turned = plain(&[0.0, 1.0]).unwrap().turned(&turn);
         assert!((turned.force()[0] - Vector3::new(-2.0, 1.0, 3.0)).norm() < 1e-15);
     }
 
     #[test]
-    fn between_samples_the_force_lies_on_a_line() {
+    fn the_force_is_linear_between_samples() {
         let force = [1.0, 3.0, 0.0].map(|x| Vector3::new(x, 0.0, -x));
         let record = Record::new(vec![0.0, 1.0, 3.0], force.to_vec(), None, ActsOn::Tool).unwrap();
         for (time, x) in [
@@ -337,7 +333,7 @@ mod tests {
     }
 
     #[test]
-    fn steps_are_equal_but_for_rounding() {
+    fn steps_are_equal_within_rounding() {
         assert_eq!(plain(&[0.0, 0.33, 0.67, 1.0]).unwrap().step(), Ok(1.0 / 3.0));
         let uneven = plain(&[0.0, 0.1, 0.2, 0.5]).unwrap().step();
         assert!(
@@ -347,7 +343,7 @@ mod tests {
     }
 
     #[test]
-    fn every_refusal_tells_what_is_wrong_with_the_record() {
+    fn every_message_states_what_is_wrong_with_the_record() {
         let given = [
             (
                 RecordError::TooShort { count: 1, least: 2 },
@@ -359,26 +355,29 @@ mod tests {
             ),
             (
                 RecordError::NotFinite(7),
-                "sample 7 holds a number that is not finite",
+                "sample 7 contains a number that is not finite",
             ),
-            (RecordError::TimeNotIncreasing(4), "time does not go on at sample 4"),
+            (
+                RecordError::TimeNotIncreasing(4),
+                "time does not increase at sample 4",
+            ),
             (
                 RecordError::NoLag("a force never crosses the threshold"),
-                "no lag can be told: a force never crosses the threshold",
+                "the lag cannot be determined: a force never crosses the threshold",
             ),
             (
                 RecordError::TooMuchWork {
                     products: 3.2e10,
                     most: 2e9,
                 },
-                "3.2e10 products are more than 2e9: shorten the records, or look for a smaller lag",
+                "the search needs 3.2e10 products, the maximum is 2e9: shorten the records or the range of lags",
             ),
             (
                 RecordError::Revolution {
                     samples: 4.25,
                     least: 8,
                 },
-                "4.2 samples a revolution are fewer than the 8 it needs, or the record holds no whole revolution",
+                "a revolution has 4.2 samples: at least 8 and a whole revolution are needed",
             ),
         ];
         for (error, text) in given {
@@ -387,7 +386,7 @@ mod tests {
     }
 
     #[test]
-    fn turning_there_and_back_leaves_forces_and_moments_as_they_were() {
+    fn rotation_and_its_inverse_restore_forces_and_moments() {
         let vectors = |size: f64| vec![Vector3::new(size, -2.0, 0.3), Vector3::new(4.0, size, -1.0)];
         let record = Record::new(vec![0.5, 1.0], vectors(3.0), Some(vectors(7.0)), ActsOn::Part).unwrap();
         let turn = UnitQuaternion::from_scaled_axis(Vector3::new(0.3, -0.8, 2.0));

@@ -1,7 +1,7 @@
 //! Mean and extremes of the force over each turn of the spindle.
 //!
 //! `mean = 1/T integral of F dt` over `T = 2 pi / omega`, by trapezia with the force between samples on a line: a turn
-//! need not hold a whole number of samples.
+//! need not contain a whole number of samples.
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
@@ -14,7 +14,8 @@ use nalgebra::Vector3;
 
 use super::{Record, RecordError};
 
-/// A revolution with fewer samples tells no extreme: with 8 a single wave a turn is met within 8 percent of its height.
+/// The extremes of a revolution with fewer samples are not reported: with 8, one wave a turn is met within 8 percent of
+/// its height.
 const LEAST_SAMPLES: usize = 8;
 
 /// One turn of the spindle.
@@ -95,7 +96,7 @@ pub fn revolutions(record: &Record, spindle: f64) -> Result<Vec<Revolution>, Rec
 }
 
 /// The mean force at an instant, on a line between the middles of the turns; before the first middle and after the last
-/// what it is there. `None` without turns.
+/// constant. `None` without turns.
 pub fn mean_at(turns: &[Revolution], time: f64) -> Option<Vector3<f64>> {
     let after = turns.partition_point(|turn| turn.middle <= time);
     let Some((before, next)) = after.checked_sub(1).map(|k| &turns[k]).zip(turns.get(after)) else {
@@ -105,7 +106,7 @@ pub fn mean_at(turns: &[Revolution], time: f64) -> Option<Vector3<f64>> {
     Some(before.mean + (next.mean - before.mean) * part)
 }
 
-/// The turn that an instant lies in, the nearest one beyond the ends; `None` without turns.
+/// The turn that contains an instant, the nearest one beyond the ends; `None` without turns.
 pub fn turn_at(turns: &[Revolution], time: f64) -> Option<&Revolution> {
     let after = turns.partition_point(|turn| turn.start <= time);
     turns.get(after.saturating_sub(1))
@@ -123,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn means_and_extremes_of_a_wave_are_its_own_even_with_a_broken_number_of_samples() {
+    fn means_and_extremes_of_a_wave_are_exact_even_with_a_fractional_number_of_samples() {
         // 97.3 samples a turn.
         let spindle = TAU * 10_000.0 / 97.3;
         let wave = |t: f64| {
@@ -161,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn a_record_of_exactly_some_turns_has_them_all() {
+    fn a_record_of_whole_turns_has_all_of_them() {
         let turns = revolutions(&record(1001, 1000.0, |_| Vector3::x()), -TAU / 0.1).unwrap();
         assert_eq!(turns.len(), 10);
         assert!(turns.iter().all(|turn| (turn.mean - Vector3::x()).norm() < 1e-12));
@@ -194,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn speeds_that_the_record_cannot_show_are_refused() {
+    fn refuses_speeds_that_the_record_cannot_resolve() {
         let record = record(100, 1000.0, |_| Vector3::zeros());
         for spindle in [TAU * 200.0, TAU * 5.0, 0.0, f64::NAN, f64::INFINITY] {
             let found = revolutions(&record, spindle);

@@ -40,7 +40,7 @@ fn push(forces: &[[f64; 3]]) -> PathLoad {
     })
 }
 
-/// Uncertain by a tenth.
+/// With an uncertainty of a tenth.
 fn compliance(robot: &Robot) -> Vec<JointCompliance> {
     let uncertain = |c: &JointCompliance| JointCompliance {
         standard_uncertainty: 0.1 * c.value,
@@ -49,7 +49,7 @@ fn compliance(robot: &Robot) -> Vec<JointCompliance> {
     robot.compliance().unwrap().iter().map(uncertain).collect()
 }
 
-/// The outward deviation of the first case, what it has without load, and the curves of its unknowns.
+/// The outward deviation of the first case, its part without load, and the curves of its uncertain inputs.
 fn reported(
     robot: &Robot,
     (compliance, model, uncertainty): (&[JointCompliance], &StiffnessModel, InputUncertainty),
@@ -74,7 +74,7 @@ fn reported(
         .outward
         .clone();
     let without = radial_without_load(&question, (&track, &along), centre, Watch::NONE).unwrap();
-    let uncertainties = radial_doubts(&question, (&track, &along), centre, load.case_count());
+    let uncertainties = radial_uncertainties(&question, (&track, &along), centre, load.case_count());
     (outward, without, uncertainties)
 }
 
@@ -89,7 +89,7 @@ fn farthest_apart(one: &[f64], other: &[f64]) -> f64 {
 const FORCE: [f64; 3] = [40.0, 25.0, -60.0];
 
 #[test]
-fn what_the_load_makes_is_left_when_backlash_and_geometry_come_off() {
+fn without_backlash_and_geometry_the_effect_of_the_load_remains() {
     let robot = arms::mh12();
     let springs = compliance(&robot);
     let plain = reported(
@@ -114,13 +114,17 @@ fn what_the_load_makes_is_left_when_backlash_and_geometry_come_off() {
         side: BacklashSide::Motion,
     };
     model.structure.backlash = vec![Some(gap); 6];
-    let (loaded, without, _) = reported(&robot, (&springs, &model, InputUncertainty::NONE), &push(&[FORCE]));
+    let (loaded, without, _) = reported(
+        &robot,
+        (&springs, &model, InputUncertainty::NONE),
+        &push(&[FORCE]),
+    );
     let without = without.unwrap().outward;
     let load: Vec<f64> = loaded.iter().zip(&without).map(|(all, own)| all - own).collect();
     assert!(farthest_apart(&load, &plain.0) < 1e-15);
-    // They are no little thing: a good part of what the load does, and more.
+    // They are not negligible: a good part of the effect of the load, and more.
     assert!(farthest_apart(&loaded, &plain.0) > 5e-5);
-    // The load does not matter to them.
+    // They do not depend on the load.
     let other = reported(
         &robot,
         (&springs, &model, InputUncertainty::NONE),
@@ -130,7 +134,7 @@ fn what_the_load_makes_is_left_when_backlash_and_geometry_come_off() {
 }
 
 #[test]
-fn a_gap_that_is_off_moves_the_unloaded_circle_as_its_curve_says() {
+fn a_change_of_the_backlash_moves_the_unloaded_circle_as_its_curve_predicts() {
     let robot = arms::mh12();
     let springs = compliance(&robot);
     let play = |gap: f64, standard_uncertainty| Backlash {
@@ -141,17 +145,21 @@ fn a_gap_that_is_off_moves_the_unloaded_circle_as_its_curve_says() {
     let of = |gaps: [Backlash; 2]| {
         let mut model = StiffnessModel::DRIVES.clone();
         model.structure.backlash = vec![Some(gaps[0]), None, Some(gaps[1])];
-        let reported = reported(&robot, (&springs, &model, InputUncertainty::NONE), &push(&[FORCE]));
+        let reported = reported(
+            &robot,
+            (&springs, &model, InputUncertainty::NONE),
+            &push(&[FORCE]),
+        );
         reported.1.unwrap()
     };
     let as_is = of([play(2e-4, 3e-5), play(4e-4, 0.0)]);
-    // A gap that is known has no curve.
+    // A backlash without uncertainty has no curve.
     assert_eq!(as_is.uncertainties.len(), 1);
     let off = of([play(2.3e-4, 0.0), play(4e-4, 0.0)]);
     let change: Vec<f64> = (off.outward.iter().zip(&as_is.outward))
         .map(|(off, is)| off - is)
         .collect();
-    // Where the link crosses its gap it is not in proportion: a few points at the reversals.
+    // Where the link crosses its backlash the effect is not proportional: a few points at the reversals.
     let apart = |(a, b): (&f64, &f64)| (a - b).abs() > 1e-12;
     let crossing = (change.iter().zip(&as_is.uncertainties[0]))
         .filter(|pair| apart(*pair))
@@ -165,14 +173,25 @@ fn a_gap_that_is_off_moves_the_unloaded_circle_as_its_curve_says() {
 }
 
 #[test]
-fn a_curve_is_the_change_when_its_compliance_is_off_by_its_uncertainty() {
+fn a_curve_is_the_change_by_one_standard_uncertainty_of_its_compliance() {
     let robot = arms::mh12();
     let springs = compliance(&robot);
     let load = push(&[FORCE]);
-    let of =
-        |springs: &[JointCompliance]| reported(&robot, (springs, StiffnessModel::DRIVES, InputUncertainty::NONE), &load).0;
+    let of = |springs: &[JointCompliance]| {
+        reported(
+            &robot,
+            (springs, StiffnessModel::DRIVES, InputUncertainty::NONE),
+            &load,
+        )
+        .0
+    };
     let as_is = of(&springs);
-    let curves = reported(&robot, (&springs, StiffnessModel::DRIVES, InputUncertainty::NONE), &load).2;
+    let curves = reported(
+        &robot,
+        (&springs, StiffnessModel::DRIVES, InputUncertainty::NONE),
+        &load,
+    )
+    .2;
     assert_eq!(curves.len(), 6);
     for (joint, curve) in curves.iter().enumerate() {
         let mut off = springs.clone();
@@ -184,7 +203,7 @@ fn a_curve_is_the_change_when_its_compliance_is_off_by_its_uncertainty() {
 }
 
 #[test]
-fn of_several_cases_the_mean_counts_and_opposite_ones_leave_nothing() {
+fn of_several_cases_the_mean_is_used_and_opposite_ones_cancel() {
     let robot = arms::mh12();
     let springs = compliance(&robot);
     let of = |forces: &[[f64; 3]]| {
@@ -205,12 +224,17 @@ fn of_several_cases_the_mean_counts_and_opposite_ones_leave_nothing() {
 }
 
 #[test]
-fn compliances_that_go_together_move_the_circle_as_their_covariance_says() {
+fn correlated_compliances_move_the_circle_as_their_covariance_predicts() {
     let robot = arms::mh12();
     let springs = compliance(&robot);
     let load = push(&[FORCE]);
-    let alone = reported(&robot, (&springs, StiffnessModel::DRIVES, InputUncertainty::NONE), &load).2;
-    // All six off together by their uncertainties: one unknown, the sum of the curves.
+    let alone = reported(
+        &robot,
+        (&springs, StiffnessModel::DRIVES, InputUncertainty::NONE),
+        &load,
+    )
+    .2;
+    // All six change together by their uncertainties: one input, the sum of the curves.
     let u: Vec<f64> = springs.iter().map(|c| c.standard_uncertainty).collect();
     let mut model = StiffnessModel::DRIVES.clone();
     model.structure.covariance = Some(DMatrix::from_fn(6, 6, |i, j| u[i] * u[j]));
@@ -227,9 +251,9 @@ fn compliances_that_go_together_move_the_circle_as_their_covariance_says() {
 }
 
 #[test]
-fn a_load_of_uncertain_size_and_a_model_that_misses_scale_the_whole_curve() {
+fn an_uncertain_load_and_a_model_error_scale_the_whole_curve() {
     let robot = arms::mh12();
-    let sure: Vec<JointCompliance> = compliance(&robot)
+    let exact: Vec<JointCompliance> = compliance(&robot)
         .iter()
         .map(|c| JointCompliance {
             standard_uncertainty: 0.0,
@@ -242,8 +266,11 @@ fn a_load_of_uncertain_size_and_a_model_that_misses_scale_the_whole_curve() {
     };
     let mut missing = StiffnessModel::DRIVES.clone();
     missing.structure.model_error = 0.05;
-    for (model, uncertainty) in [(StiffnessModel::DRIVES, uncertainty), (&missing, InputUncertainty::NONE)] {
-        let (outward, _, curves) = reported(&robot, (&sure, model, uncertainty), &push(&[FORCE]));
+    for (model, uncertainty) in [
+        (StiffnessModel::DRIVES, uncertainty),
+        (&missing, InputUncertainty::NONE),
+    ] {
+        let (outward, _, curves) = reported(&robot, (&exact, model, uncertainty), &push(&[FORCE]));
         assert_eq!(curves.len(), 1);
         let scaled: Vec<f64> = outward.iter().map(|by| 0.05 * by).collect();
         assert!(farthest_apart(&curves[0], &scaled) < 1e-16);

@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 const MM: f64 = 1e-3;
 const DIAMETER: f64 = 10.0 * MM;
 
-/// A law without edge forces: the force goes with the section of the chip.
+/// A law without edge forces: the force is proportional to the section of the chip.
 fn law() -> CuttingLaw {
     let shear = Vector3::new(800e6, 80e6, 100e6);
     CuttingLaw::Mechanistic(Mechanistic::new(shear, Vector3::zeros()).unwrap())
@@ -24,7 +24,7 @@ fn mean(cutter: Cutter, cut: Cut) -> Vector3<f64> {
     Milling::new(cutter, law(), cut).unwrap().mean_force()
 }
 
-/// A tip that yields by `a` (m/N) along the feed alone: nothing of the cut changes as it gives way.
+/// A tip with compliance `a` (m/N) only along the feed: the deflection does not change the cut.
 fn along_feed(a: f64) -> TipCompliance {
     TipCompliance {
         by_force: Matrix3::from_diagonal(&Vector3::new(a, 0.0, 0.0)),
@@ -37,7 +37,7 @@ fn varied(cutter: Cutter, cut: Cut, tip: TipCompliance, limit: f64) -> Varied {
     let cuts = CutsAlong {
         cutters: vec![Cutter::flat(1.0 * MM, 1).unwrap(), cutter],
         law: law(),
-        greatest: Greatest::LeftOut,
+        greatest: GreatestForce::LeftOut,
         points: vec![
             CutHere::NOTHING,
             CutHere {
@@ -50,7 +50,7 @@ fn varied(cutter: Cutter, cut: Cut, tip: TipCompliance, limit: f64) -> Varied {
     };
     assert!(
         Varied::of(&cuts, 0, tip, limit).is_none(),
-        "the air permits nothing"
+        "in air nothing is permitted"
     );
     Varied::of(&cuts, 1, tip, limit).unwrap()
 }
@@ -66,7 +66,7 @@ fn up_to(permitted: Permitted) -> f64 {
     value
 }
 
-/// The stretch of a scan is 0.7 of where it begins, and is halved ten times.
+/// The interval of the scan is 0.7 of its start, and is halved ten times.
 const RESOLUTION: f64 = 0.7 / 1024.0;
 
 fn just_below(found: f64, exact: f64) -> bool {
@@ -74,7 +74,7 @@ fn just_below(found: f64, exact: f64) -> bool {
 }
 
 #[test]
-fn depth_and_feed_go_with_the_limit_where_the_force_goes_with_them() {
+fn depth_and_feed_are_proportional_to_the_tolerance_where_the_force_is_proportional_to_them() {
     let (a, drawn) = (2e-7, cut(Immersion::Up(3.0 * MM)));
     let force = mean(flat(), drawn).x.abs();
     for limit in [3e-6, 10e-6, 47e-6] {
@@ -98,7 +98,7 @@ fn depth_and_feed_go_with_the_limit_where_the_force_goes_with_them() {
 }
 
 #[test]
-fn on_a_ramp_the_feed_is_told_along_the_path_and_keeps_its_slope() {
+fn on_a_ramp_the_feed_is_reported_along_the_path_and_keeps_its_slope() {
     let (a, level) = (2e-7, cut(Immersion::Up(3.0 * MM)));
     let ramp = Cut {
         feed: level.feed * 0.8,
@@ -115,7 +115,7 @@ fn on_a_ramp_the_feed_is_told_along_the_path_and_keeps_its_slope() {
 }
 
 #[test]
-fn a_stiff_tip_permits_all_that_is_looked_at_and_one_that_hangs_too_low_nothing() {
+fn a_stiff_tip_permits_all_examined_values_and_a_tip_with_too_much_sag_permits_none() {
     let drawn = cut(Immersion::Up(3.0 * MM));
     let stiff = varied(flat(), drawn, along_feed(1e-12), 10e-6).limits();
     assert_eq!(stiff.depth, Permitted::AtLeast(3.0 * DIAMETER));
@@ -133,7 +133,7 @@ fn a_stiff_tip_permits_all_that_is_looked_at_and_one_that_hangs_too_low_nothing(
 }
 
 #[test]
-fn weight_along_the_tool_does_not_count_and_weight_against_the_force_makes_room() {
+fn weight_along_the_tool_is_not_included_and_weight_against_the_force_increases_the_limit() {
     let (a, limit, drawn) = (2e-7, 10e-6, cut(Immersion::Up(3.0 * MM)));
     let per_depth = a * mean(flat(), drawn).x.abs() / drawn.depth;
     let hanging = |unloaded: Vector3<f64>| TipCompliance {
@@ -141,7 +141,7 @@ fn weight_along_the_tool_does_not_count_and_weight_against_the_force_makes_room(
         ..along_feed(a)
     };
     let depth = |unloaded| up_to(varied(flat(), drawn, hanging(unloaded), limit).limits().depth);
-    // A tip that hangs away from the part by less than it is deep cuts that much less: none of the limit.
+    // A tip that sags away from the part by less than the depth cuts that much less: none of the tolerance is used.
     let lifted = depth(Vector3::new(0.0, 0.0, 4e-6));
     assert!(just_below(lifted - 4e-6, limit / per_depth), "{lifted}");
     // The cut pushes back (-x): from 6 um ahead through zero to 10 um behind.
@@ -152,7 +152,7 @@ fn weight_along_the_tool_does_not_count_and_weight_against_the_force_makes_room(
 }
 
 #[test]
-fn where_deviation_grows_and_falls_again_the_first_width_counts() {
+fn where_deviation_rises_and_falls_the_first_width_is_used() {
     // Fx of up-milling is greatest about a half of the diameter and much less in a slot where radial forces are small.
     let (a, drawn) = (2e-7, cut(Immersion::Up(2.0 * MM)));
     let deviation = |width: f64| {
@@ -162,7 +162,10 @@ fn where_deviation_grows_and_falls_again_the_first_width_counts() {
     let widths: Vec<f64> = (1..=100).map(|k| DIAMETER * f64::from(k) / 100.0).collect();
     let peak = widths.iter().map(|width| deviation(*width)).fold(0.0, f64::max);
     let limit = 0.9 * peak;
-    assert!(deviation(DIAMETER) < 0.5 * limit, "a slot would hold");
+    assert!(
+        deviation(DIAMETER) < 0.5 * limit,
+        "a slot would be within the tolerance"
+    );
     let found = up_to(
         varied(flat(), drawn, along_feed(a), limit)
             .limits()
@@ -180,24 +183,24 @@ fn where_deviation_grows_and_falls_again_the_first_width_counts() {
 }
 
 #[test]
-fn a_slot_has_no_width_to_be_asked_for() {
+fn a_slot_has_no_permitted_width() {
     let found = varied(flat(), cut(Immersion::Slot), along_feed(2e-7), 10e-6).limits();
     assert_eq!(found.width, None);
 }
 
 #[test]
-fn the_greatest_force_permits_as_many_times_less_as_it_is_the_mean() {
+fn the_greatest_force_reduces_the_limit_by_its_ratio_to_the_mean() {
     let drawn = cut(Immersion::Down(3.0 * MM));
     let mut requested = varied(flat(), drawn, along_feed(2e-7), 10e-6);
     let mean_alone = requested.limits();
-    requested.greatest = Greatest::SecondCase;
+    requested.greatest = GreatestForce::SecondCase;
     let both = requested.limits();
     // Three times the mean, in its direction.
     assert!((up_to(mean_alone.depth) / up_to(both.depth) / 3.0 - 1.0).abs() < 2.0 * RESOLUTION);
 }
 
 #[test]
-fn a_wider_or_deeper_cut_of_a_shallow_ball_begins_at_the_circle_that_cuts() {
+fn a_wider_or_deeper_cut_of_a_shallow_ball_begins_at_the_engaged_circle() {
     let ball = Cutter::ball(DIAMETER, 2).unwrap();
     let depth = 0.2 * MM;
     let engagement = Engagement::at_depth(Immersion::Up(0.5 * MM), &ball, depth).unwrap();
@@ -228,7 +231,7 @@ fn a_wider_or_deeper_cut_of_a_shallow_ball_begins_at_the_circle_that_cuts() {
 }
 
 #[test]
-fn a_tool_that_is_drawn_in_deviates_without_end() {
+fn a_tool_that_is_pulled_in_deviates_without_bound() {
     let cutter = flat().with_helix(0.6, crate::load::Hand::Right).unwrap();
     let drawn = cut(Immersion::Slot);
     let force = mean(cutter, drawn);
@@ -238,7 +241,7 @@ fn a_tool_that_is_drawn_in_deviates_without_end() {
     };
     let mut requested = varied(cutter, drawn, soft, 10e-6);
     assert_eq!(requested.deviation(&drawn), f64::INFINITY);
-    // No feed, no such cut; too deep, none either.
+    // No feed, no such cut; the same if too deep.
     let none = Cut { depth: 1e9, ..drawn };
     assert_eq!(requested.deviation(&none), f64::INFINITY);
     assert_eq!(fed(&drawn, 2.0).feed, 2.0 * drawn.feed);

@@ -1,8 +1,9 @@
-//! Where the measured circle lies: the pivot is never set up where the path has its centre.
+//! Centre of the measured circle: the pivot is never exactly at the centre of the path.
 //!
 //! Least over `e` and `rho`: `sum of w (|p - e| - rho)^2` over the samples of all runs, as
-//! [`least_squares`](mod@crate::roundness::least_squares) finds it. One centre for all runs, since the pivot stands still between them: what the two directions differ by stays.
-//! Each direction weighs the same, however many runs and samples it has.
+//! [`least_squares`](mod@crate::roundness::least_squares) finds it. One centre for all runs, since the pivot is fixed
+//! between them: differences between the two directions stay. Each direction has the same weight, whatever the number
+//! of its runs and samples.
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
@@ -25,7 +26,7 @@ pub struct Centre {
     pub radius: f64,
 }
 
-/// Least arc that tells a centre, rad: of a shorter one centre and radius go together.
+/// Least arc from which a centre is determined, rad: on a shorter one centre and radius are strongly correlated.
 pub const LEAST_ARC: f64 = std::f64::consts::TAU / 3.0;
 
 /// The least-squares circle of all runs; `None` where no direction has an arc of [`LEAST_ARC`].
@@ -52,7 +53,7 @@ pub fn least_squares_centre(test: &CircularTest) -> Option<Centre> {
     })
 }
 
-/// The same runs as they are seen from a centre at `offset` (m) from that of the set-up.
+/// The same runs relative to a centre at `offset` (m) from that of the set-up.
 ///
 /// # Errors
 /// A centre so far off that a sample leaves half the radius.
@@ -60,7 +61,7 @@ pub fn seen_from(test: &CircularTest, offset: Vector2<f64>) -> Result<CircularTe
     let seen = |run: &Run| -> Result<Run, RunError> {
         let samples = run.samples().map(|(a, dr)| {
             let place = Vector2::new(a.cos(), a.sin()) * (test.radius() + dr) - offset;
-            // The turn of a sample is kept: only its direction changes, by a little.
+            // The turn of a sample is kept: only its direction changes slightly.
             let plain = Vector2::new(a.cos(), a.sin());
             let turn = plain.perp(&place).atan2(plain.dot(&place));
             (a + turn, place.norm() - test.radius())
@@ -89,11 +90,12 @@ mod tests {
     }
 
     #[test]
-    fn the_centre_of_a_shifted_circle_is_where_it_was_put_and_nothing_is_left_about_it() {
+    fn the_centre_of_a_shifted_circle_is_found_and_nothing_is_left_about_it() {
         for arc in [360.0, 220.0, 130.0] {
             let test = CircularTest::new(0.1, vec![shifted(Direction::Clockwise, arc, 720)]).unwrap();
             let centre = least_squares_centre(&test).unwrap();
-            // Two samples in one cell of a profile become one, off the circle by 50 um times half the square of their angle.
+            // Two samples in one cell of a profile become one, off the circle by 50 um times half the square of their
+            // angle.
             assert!(
                 (centre.offset - Vector2::new(30e-6, -50e-6)).norm() < 1e-10,
                 "{centre:?}"
@@ -108,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn directions_weigh_the_same_however_many_runs_they_have() {
+    fn directions_have_equal_weight_whatever_the_number_of_runs() {
         let flat = |direction, e: f64| {
             let angle: Vec<f64> = (0..360).map(|deg| f64::from(deg).to_radians()).collect();
             let deviation = angle.iter().map(|a| e * a.cos()).collect();
@@ -124,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn samples_keep_their_turn_seen_from_elsewhere() {
+    fn samples_keep_their_turn_relative_to_another_centre() {
         let angle: Vec<f64> = (0..24).map(|k| 7.0 + f64::from(k)).collect();
         let run = Run::new(Direction::Anticlockwise, angle.clone(), vec![0.0; 24]).unwrap();
         let test = CircularTest::new(0.1, vec![run]).unwrap();

@@ -1,7 +1,7 @@
-//! What two runs differ by along the angle, and what the two directions differ by.
+//! Differences between two runs over the angle, and between the two directions.
 //!
-//! Two runs the same way should be alike: what they differ by is repeatability. Clockwise and anticlockwise differ by
-//! what depends on the direction: backlash, lag, friction.
+//! Two runs in one direction should be equal: their difference is repeatability. Clockwise and anticlockwise differ by
+//! effects of the direction: backlash, lag, friction.
 
 use super::profile::{Profile, mean, station};
 use super::run::{CircularTest, Direction};
@@ -9,11 +9,11 @@ use super::run::{CircularTest, Direction};
 /// A difference of radii at every station of a turn, m; `None` within a gap of one of both.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difference {
-    /// One a station.
+    /// One per station.
     pub stations: Vec<Option<f64>>,
 }
 
-/// How large a difference is.
+/// Size of a difference.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
     /// The one that is largest by size, m.
@@ -49,7 +49,7 @@ impl Difference {
     }
 }
 
-/// Every pair of runs of one direction by their places, with what the first has more than the second.
+/// Every pair of runs of one direction by their indices, with the first minus the second.
 pub fn repeats(test: &CircularTest) -> Vec<([usize; 2], Difference)> {
     let runs = test.runs();
     let stations: Vec<_> = runs.iter().map(|run| Profile::of(run).stations()).collect();
@@ -60,7 +60,7 @@ pub fn repeats(test: &CircularTest) -> Vec<([usize; 2], Difference)> {
         .collect()
 }
 
-/// What the mean of the clockwise runs has more than that of the anticlockwise ones.
+/// Mean of the clockwise runs minus mean of the anticlockwise ones.
 pub fn between_directions(test: &CircularTest) -> Difference {
     let [clockwise, anticlockwise] = Direction::BOTH.map(|direction| mean_of(test, direction));
     Difference::of(&clockwise, &anticlockwise)
@@ -84,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn a_difference_tells_its_sign_its_place_and_its_root_mean_square() {
+    fn a_difference_reports_its_largest_value_with_sign_its_angle_and_its_root_mean_square() {
         let flat = || run(Direction::Clockwise, |_| 3e-6);
         let wave = || run(Direction::Clockwise, |a| 3e-6 - 5e-6 * a.sin());
         let back = run(Direction::Anticlockwise, |_| 0.0);
@@ -96,7 +96,7 @@ mod tests {
         let span = of(vec![wave(), back.clone(), flat()]);
         assert!((span.largest.abs() - 5e-6).abs() < 1e-12);
         assert!((span.largest + 5e-6 * span.angle.sin()).abs() < 1e-12);
-        // Straight lines between samples lie within the wave by (1 deg)^2/12 of it.
+        // Straight lines between samples are within (1 deg)^2/12 of the wave.
         assert!((span.rms - 5e-6 / 2_f64.sqrt()).abs() < 1e-9);
         let back = of(vec![flat(), back, wave()]);
         assert_eq!((back.largest.abs(), back.rms), (span.largest.abs(), span.rms));

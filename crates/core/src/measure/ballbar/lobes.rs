@@ -1,11 +1,11 @@
-//! The lobes of a profile: how much of it goes round once, twice, n times a turn.
+//! The lobes of a profile: its waves of once, twice, n times a turn.
 //!
 //! ```text
 //! dr(a) = mean + sum over n of  A_n cos(n a - phi_n)
 //! ```
 //!
-//! The first is where the circle lies, not how round it is; the second is the ellipse of scale and squareness; three
-//! lobes are what bent guideways make.
+//! The first is the position of the circle, not its roundness; the second is the ellipse of scale and squareness; three
+//! lobes are caused by bent guideways.
 
 use std::f64::consts::PI;
 
@@ -25,18 +25,18 @@ pub struct Lobes {
 }
 
 impl Lobes {
-    /// What all of them make of the radius at an angle, m.
+    /// Sum of all of them at an angle, m.
     pub fn at(&self, angle: f64) -> f64 {
         let lobe = |lobe: &Harmonic| lobe.amplitude * (lobe.waves as f64 * angle - lobe.phase).cos();
         self.mean + self.harmonics.iter().map(lobe).sum::<f64>()
     }
 }
 
-/// Most lobes that the samples of every run tell: more than two samples a lobe at the widest step.
+/// Maximum number of lobes that the samples of every run resolve: more than two samples a lobe at the widest step.
 pub fn most_lobes(test: &CircularTest) -> usize {
     let steps = test.runs().iter().map(|run| Profile::of(run).widest_step());
     let widest = steps.fold(0.0, f64::max);
-    // Of 36 even samples 17, however they are rounded.
+    // With 36 even samples 17, whatever the rounding.
     if widest > 0.0 {
         (PI / widest * (1.0 - 1e-6)) as usize
     } else {
@@ -44,10 +44,10 @@ pub fn most_lobes(test: &CircularTest) -> usize {
     }
 }
 
-/// The mean and the lobes 1 to `most` of what both directions have in common, the mean of their means; of one direction,
-/// of its mean. No more lobes than [`most_lobes`]; `None` where a run has a gap.
+/// The mean and the lobes 1 to `most` of the common part of both directions, the mean of their means; with one
+/// direction, of its mean. No more lobes than [`most_lobes`]; `None` where a run has a gap.
 ///
-/// By least squares over the samples of each run: straight lines between them would flatten a lobe of few samples.
+/// By least squares over the samples of each run: straight lines between them would flatten a lobe with few samples.
 pub fn lobes(test: &CircularTest, most: usize) -> Option<Lobes> {
     let most = most.min(most_lobes(test));
     let directions = Direction::BOTH.map(|direction| test.of(direction).collect::<Vec<&Run>>());
@@ -80,8 +80,12 @@ fn of_run(profile: &Profile, most: usize) -> Option<Vec<Complex<f64>>> {
     let (angle, deviation): (Vec<f64>, Vec<f64>) = profile.samples().unzip();
     let harmonics = Polar::of_deviations(&angle, &deviation).harmonics(most);
     let given = Lobes { mean: 0.0, harmonics };
-    // What they leave has the mean of the fit.
-    let left: f64 = angle.iter().zip(&deviation).map(|(a, dr)| dr - given.at(*a)).sum();
+    // The remainder has the mean of the fit.
+    let left: f64 = angle
+        .iter()
+        .zip(&deviation)
+        .map(|(a, dr)| dr - given.at(*a))
+        .sum();
     let mean = Complex::new(left / angle.len() as f64, 0.0);
     let lobes = given
         .harmonics
@@ -104,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn lobes_come_out_with_their_height_and_crest() {
+    fn lobes_are_found_with_their_height_and_crest() {
         let wave = |a: f64| 4e-6 + 3e-6 * (2.0 * (a - 0.3)).cos() + 1e-6 * (5.0 * (a - 1.0)).cos();
         // Three runs one way and one the other: the lag of each way cancels.
         let runs = [-1.0, -1.0, -1.0, 1.0].map(|sign| {
@@ -127,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn few_samples_tell_few_lobes_and_these_in_full() {
+    fn few_samples_resolve_few_lobes_and_these_completely() {
         let of = |a: f64| 2e-6 * (10.0 * a).cos();
         let test = CircularTest::new(0.1, vec![run(Direction::Clockwise, 36, of)]).unwrap();
         let found = lobes(&test, 100).unwrap();

@@ -1,11 +1,12 @@
-//! How round does the tool go, and why not rounder? Circular tests with a ball-bar.
+//! Circular tests with a ball-bar.
 //!
-//! In reading order: [`run`] (what was measured), [`profile`] (a run as radii over the angle), [`centre`] (where the circle
-//! lies), [`quantities`](mod@quantities) (G, F, D and H of ISO 230-4), [`difference`] (between runs, between directions), [`lobes`](mod@lobes)
-//! (how much goes round n times a turn), [`outlier`] (dirt), [`parts`] (scale, squareness, steps at reversals: each with its uncertainty),
-//! [`taught`](mod@taught) (the circle to teach instead), [`joints`] (which joints of an arm turn back where, and with how much play).
+//! In reading order: [`run`] (the measured radii), [`profile`] (a run as radii over the angle), [`centre`] (centre of
+//! the circle), [`quantities`](mod@quantities) (G, F, D and H of ISO 230-4), [`difference`] (between runs, between
+//! directions), [`lobes`](mod@lobes) (waves of n times a turn), [`outlier`] (dirt), [`parts`] (scale, squareness, steps
+//! at reversals: each with its uncertainty), [`taught`](mod@taught) (the circle to teach instead), [`joints`]
+//! (reversals and backlash of the joints of an arm).
 //!
-//! Theory, signs and what the numbers leave out: `docs/theory/ballbar.md`.
+//! Theory, signs and limits of the method: `docs/theory/ballbar.md`.
 
 pub mod centre;
 pub mod difference;

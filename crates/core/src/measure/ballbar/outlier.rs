@@ -1,24 +1,25 @@
-//! Samples that are not of the path: dirt on a ball, a cable that pulled.
+//! Samples that do not belong to the path: dirt on a ball, a pulling cable.
 //!
-//! The rule is that of [`crate::roundness::outlier`], for the samples of a run and once more for the profile of what is left,
-//! so that dirt of some samples is seen in a dense run as well.
+//! The rule is that of [`crate::roundness::outlier`], for the samples of a run and again for the profile of the rest,
+//! so that dirt over several samples is also found in a dense run.
 //!
-//! A spike where an axis reverses is real: friction holds the axis for a moment. Such samples are told as what they are.
+//! A spike where an axis reverses is real: friction stops the axis for a moment. Such samples are reported as
+//! reversals.
 
 use super::profile::{Profile, wrapped};
 use super::run::Run;
-use crate::roundness::outlier::{Ends, strange};
+use crate::roundness::outlier::{Ends, outlying};
 
 /// A spike within this of a reversal belongs to it, rad: 3 degrees.
 const NEAR: f64 = std::f64::consts::TAU / 120.0;
-/// A sample that its neighbours contradict.
+/// A sample that deviates from its neighbours.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outlier {
-    /// Place in its run, from 0.
+    /// Index in its run, from 0.
     pub sample: usize,
     /// rad, from 0 to below a turn.
     pub angle: f64,
-    /// From what its neighbours foretell, m.
+    /// Deviation from the prediction by its neighbours, m.
     pub off: f64,
     /// Whether an axis reverses there.
     pub at_reversal: bool,
@@ -26,12 +27,12 @@ pub struct Outlier {
 
 /// The outliers of a run in the order of its samples; `reversals` are angles where an axis reverses, rad.
 pub fn outliers(run: &Run, reversals: &[f64]) -> Vec<Outlier> {
-    let mut off: Vec<Option<f64>> = strange(run.deviation(), Ends::Open);
+    let mut off: Vec<Option<f64>> = outlying(run.deviation(), Ends::Open);
     let alone: Vec<usize> = (0..off.len()).filter(|at| off[*at].is_some()).collect();
     let profile = run.without(&alone).map(|run| Profile::of(&run));
     let (angles, deviations): (Vec<f64>, Vec<f64>) = profile.iter().flat_map(Profile::samples).unzip();
-    let cells = strange(&deviations, Ends::Open);
-    // In a run that is no denser than its profile, the cells are the samples.
+    let cells = outlying(&deviations, Ends::Open);
+    // In a run that is not denser than its profile, the cells are the samples.
     if run.angle().len() > 2 * angles.len() && cells.iter().any(Option::is_some) {
         for (at, angle) in run.angle().iter().enumerate() {
             let angle = wrapped(*angle);
@@ -72,7 +73,7 @@ mod tests {
             .map(|k| std::f64::consts::TAU * k as f64 / count as f64)
             .collect();
         let deviation = angle.iter().enumerate().map(|(k, a)| {
-            // Hashed, so that neighbours have nothing to do with each other.
+            // Hashed, so that neighbours are independent.
             let hashed = (k as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
             let hashed = (hashed ^ (hashed >> 29)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
             let noise = ((hashed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5) * 2e-6;
@@ -106,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn a_spike_at_a_reversal_is_told_as_one() {
+    fn a_spike_at_a_reversal_is_reported_as_a_reversal() {
         let found = outliers(&dirty(360, 91..92), &[std::f64::consts::FRAC_PI_2, 0.0]);
         assert!(found.len() == 1 && found[0].at_reversal, "{found:?}");
         let found = outliers(&dirty(360, 96..97), &[std::f64::consts::FRAC_PI_2, 0.0]);
@@ -116,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_without_any_noise_has_no_outliers_of_rounding() {
+    fn rounding_of_a_run_without_noise_is_not_an_outlier() {
         let angle: Vec<f64> = (0..360).map(|deg| f64::from(deg).to_radians()).collect();
         let run = Run::new(Direction::Clockwise, angle, vec![0.1; 360]).unwrap();
         assert!(outliers(&run, &[]).is_empty());

@@ -1,24 +1,25 @@
-//! A run as radial deviations over one turn: samples by angle, dense ones taken together.
+//! A run as radial deviations over one turn: samples by angle, dense ones averaged.
 //!
-//! Samples within a cell of a quarter of a degree become one, the mean of their angles and of their deviations: what is
-//! straight there stays as it is. So a bar that stood still for a while has no more weight than one that went on, and a
-//! million samples cost what a thousand do. Between samples a profile is straight; where they leave a gap between them
-//! ([`is_gap`]) it is unknown.
+//! Samples within a cell of a quarter of a degree become one, the mean of their angles and of their deviations:
+//! straight parts do not change. A bar that was at rest for a while has no more weight than a moving one, and a million
+//! samples cost as much as a thousand. Between samples a profile is linear; where they leave a gap ([`is_gap`]) it is
+//! unknown.
 
 use std::f64::consts::TAU;
 
 use super::run::Run;
 
-/// Cells of a turn: their edges lie at multiples of a quarter of a degree, so that no reversal of an axis falls into one.
+/// Cells of a turn: their edges are at multiples of a quarter of a degree, so that no reversal of an axis falls into
+/// one.
 const CELLS: usize = 1440;
 
 /// Samples farther apart than this leave a gap, rad: 15 degrees.
 pub const GAP: f64 = TAU / 24.0;
 
-/// Steps of just [`GAP`] leave none, rad: half a degree for rounding, and for being seen from another centre.
+/// Tolerance so that steps of just [`GAP`] leave none, rad: half a degree for rounding, and for a change of the centre.
 const SLACK: f64 = TAU / 720.0;
 
-/// Whether neighbours so far apart (rad) leave a gap between them.
+/// Whether neighbours with this distance (rad) leave a gap between them.
 pub fn is_gap(apart: f64) -> bool {
     apart > GAP + SLACK
 }
@@ -60,7 +61,7 @@ impl Profile {
         Profile { angle, deviation }
     }
 
-    /// Angle (rad, rising within a turn) and radial deviation (m) of each sample that is left.
+    /// Angle (rad, rising within a turn) and radial deviation (m) of each remaining sample.
     pub fn samples(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         self.angle.iter().copied().zip(self.deviation.iter().copied())
     }
@@ -92,12 +93,12 @@ impl Profile {
         (0..STATIONS).map(|index| self.at(station(index))).collect()
     }
 
-    /// Where no samples are: from which angle to which, rad, the second beyond the first and perhaps beyond a turn.
+    /// Gaps without samples: first and last angle, rad, the second beyond the first and perhaps beyond a turn.
     pub fn gaps(&self) -> Vec<[f64; 2]> {
         self.steps().filter(|[from, to]| is_gap(to - from)).collect()
     }
 
-    /// The widest step from one sample to the next that is no gap, rad; 0 of none.
+    /// The widest step from one sample to the next that is not a gap, rad; 0 of none.
     pub fn widest_step(&self) -> f64 {
         let widths = self.steps().map(|[from, to]| to - from);
         widths.filter(|width| !is_gap(*width)).fold(0.0, f64::max)
@@ -112,7 +113,7 @@ impl Profile {
         })
     }
 
-    /// How much of a turn has samples, rad.
+    /// Part of a turn that has samples, rad.
     pub fn arc(&self) -> f64 {
         TAU - self.gaps().iter().map(|[from, to]| to - from).sum::<f64>()
     }
@@ -147,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn a_profile_does_not_ask_where_its_run_began_nor_which_way_it_went() {
+    fn a_profile_does_not_depend_on_the_start_and_direction_of_its_run() {
         let wave = |deg: i32| {
             let a = f64::from(deg).to_radians();
             (a, 1e-5 * (3.0 * a).cos())
@@ -162,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn dense_samples_are_taken_together_without_moving_what_is_straight() {
+    fn dense_samples_are_averaged_without_a_change_of_straight_parts() {
         let dense = of((0..100_000).map(|k| {
             let a = TAU * f64::from(k) / 1e5;
             (a, 1e-6 * a)

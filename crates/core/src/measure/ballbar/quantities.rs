@@ -1,14 +1,15 @@
 //! The quantities of ISO 230-4: circular deviation, radial deviation, mean bidirectional radial deviation, hysteresis.
 //!
-//! | symbol | what it is | centre |
+//! | symbol | definition | centre |
 //! |---|---|---|
 //! | `G` | least radial distance of two concentric circles with all samples between them | its own: minimum zone |
-//! | `F` | greatest and least `r - R`, outwards positive | the one that samples are counted from |
+//! | `F` | greatest and least `r - R`, outwards positive | the reference centre of the samples |
 //! | `D` | radius of the least-squares circle of both directions, minus `R` | its own |
 //! | `H` | largest difference of the radius between the directions at one angle; older editions | that of the samples |
 //!
-//! The standard means one run of a full turn each way. Of several runs of a direction `G` and `F` hold all samples at
-//! once, `D` and `H` are of their mean. Of a part of a turn `G` and `F` are told of that arc, `D` is not.
+//! The standard requires one run of a full turn in each direction. With several runs of a direction `G` and `F` include
+//! all samples, `D` and `H` are of their mean. With a part of a turn `G` and `F` refer to that arc, `D` is not
+//! reported.
 //!
 //! Source: scope of ISO 230-4:2005 for the list; definitions \[recalled\].
 
@@ -22,7 +23,7 @@ use super::profile::{self, wrapped};
 use super::run::{CircularTest, Run};
 use crate::roundness::{Profile, RoundnessError};
 
-/// A radial deviation, and where it is.
+/// A radial deviation with its angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extreme {
     /// m, outwards positive.
@@ -31,17 +32,17 @@ pub struct Extreme {
     pub angle: f64,
 }
 
-/// What some runs show together.
+/// Quantities of several runs together.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quantities {
     /// Circular deviation G (minimum zone), m.
     ///
     /// # Errors
-    /// Samples that no ring is narrowest about: at one place, or on an arc too short for its form.
+    /// Samples without a narrowest ring: at one point, or on an arc too short for its form.
     pub circular: Result<f64, RoundnessError>,
     /// Radial deviation F: least, greatest.
     pub radial: [Extreme; 2],
-    /// The least part of a turn that one of the runs has samples on, rad: a whole one if it has no gap.
+    /// The least measured part of a turn among the runs, rad: a whole one if there is no gap.
     pub arc: f64,
 }
 
@@ -85,8 +86,8 @@ pub fn mean_bidirectional(test: &CircularTest) -> Option<f64> {
     centre.map(|centre| centre.radius - test.radius())
 }
 
-/// Hysteresis H, m: the largest difference of the mean radius between the directions; `None` where only one was measured,
-/// or no angle was both ways.
+/// Hysteresis H, m: the largest difference of the mean radius between the directions; `None` where only one was
+/// measured, or no angle in both directions.
 pub fn hysteresis(test: &CircularTest) -> Option<f64> {
     between_directions(test).span().map(|span| span.largest.abs())
 }

@@ -1,4 +1,4 @@
-//! What a ball-bar measured: the radius along a circle, one run after the other.
+//! Measurement of a ball-bar: the radius along a circle, one run after the other.
 //!
 //! ```text
 //! r(a) = R + dr(a)      a from the first axis of the plane towards the second, dr outwards positive
@@ -7,22 +7,22 @@
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | `R` | nominal radius | m |
-//! | `a` | angle of a sample, of any size: turns do not count | rad |
+//! | `a` | angle of a sample, of any size: whole turns have no effect | rad |
 //! | `dr` | radial deviation there | m |
 //!
-//! Anticlockwise is the way in which `a` grows.
+//! Anticlockwise is the direction in which `a` increases.
 
-/// Which way round the circle.
+/// Direction round the circle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Direction {
-    /// Clockwise: the angle falls.
+    /// Clockwise: the angle decreases.
     Clockwise,
-    /// Anticlockwise: the angle grows.
+    /// Anticlockwise: the angle increases.
     Anticlockwise,
 }
 
 impl Direction {
-    /// Both, in the order in which results tell them.
+    /// Both, in the order of the results.
     pub const BOTH: [Direction; 2] = [Direction::Clockwise, Direction::Anticlockwise];
 
     /// -1 clockwise, +1 anticlockwise.
@@ -38,7 +38,7 @@ impl Direction {
         usize::from(self == Direction::Anticlockwise)
     }
 
-    /// As drawings and files call it.
+    /// Its name in programs and files.
     pub fn name(self) -> &'static str {
         match self {
             Direction::Clockwise => "CW",
@@ -57,7 +57,7 @@ pub struct Run {
     deviation: Vec<f64>,
 }
 
-/// Why samples are no run, or runs no test.
+/// Why samples are not a valid run, or runs not a valid test.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RunError {
     /// Too few samples.
@@ -72,33 +72,33 @@ pub enum RunError {
         deviations: usize,
     },
     /// A number that is not finite.
-    #[error("sample {0} holds a number that is not finite")]
+    #[error("sample {0} contains a number that is not finite")]
     NotFinite(usize),
-    /// A nominal radius that no ball-bar has.
+    /// A nominal radius out of range.
     #[error("a nominal radius of {} mm is not above 0 and at most {} mm", .0 * 1e3, CircularTest::LARGEST_RADIUS * 1e3)]
     Radius(f64),
-    /// A deviation that no circular test has.
+    /// A deviation out of range.
     #[error("run {}, sample {}: {}", run + 1, sample + 1, CircularTest::too_far(*radius, *deviation).unwrap_or_default())]
     TooFar {
-        /// Which run, from 0.
+        /// Index of the run, from 0.
         run: usize,
-        /// Which sample, from 0.
+        /// Index of the sample, from 0.
         sample: usize,
         /// m
         deviation: f64,
         /// m
         radius: f64,
     },
-    /// More runs than anybody drives.
-    #[error("{0} runs are more than the {most} that are taken together", most = CircularTest::MOST_RUNS)]
+    /// More runs than the maximum.
+    #[error("{0} runs exceed the maximum of {most} of one test", most = CircularTest::MOST_RUNS)]
     TooMany(usize),
     /// A test without runs.
-    #[error("a test of no runs tells nothing")]
+    #[error("a test needs at least one run")]
     NoRuns,
 }
 
 impl Run {
-    /// Fewest samples of a run: a turn of them leaves no gap.
+    /// Minimum number of samples of a run: a turn of them leaves no gap.
     pub const LEAST: usize = 24;
 
     /// A run of these angles (rad) and radial deviations (m).
@@ -126,7 +126,7 @@ impl Run {
         }
     }
 
-    /// Which way round.
+    /// Its direction.
     pub fn direction(&self) -> Direction {
         self.direction
     }
@@ -146,7 +146,7 @@ impl Run {
         self.angle.iter().copied().zip(self.deviation.iter().copied())
     }
 
-    /// The same run without the samples at these places, which rise; `None` where too few are left.
+    /// The same run without the samples with these indices, which increase; `None` where too few remain.
     pub fn without(&self, places: &[usize]) -> Option<Run> {
         let kept = |list: &[f64]| -> Vec<f64> {
             let kept = list.iter().enumerate();
@@ -166,17 +166,17 @@ pub struct CircularTest {
 }
 
 impl CircularTest {
-    /// Longest bar, m: a longer radius is a wrong unit.
+    /// Longest bar, m: a longer radius has a wrong unit.
     pub const LARGEST_RADIUS: f64 = 10.0;
-    /// Most runs: every two of one direction are compared.
+    /// Maximum number of runs: every two of one direction are compared.
     pub const MOST_RUNS: usize = 100;
 
     /// Runs round a circle of this nominal radius (m).
     ///
     /// # Errors
-    /// A radius that no bar has, no runs or too many, a deviation of more than half the radius.
+    /// A radius out of range, no runs or too many, a deviation of more than half the radius.
     pub fn new(radius: f64, runs: Vec<Run>) -> Result<CircularTest, RunError> {
-        // Not a number is no radius either.
+        // NaN is refused too.
         if !(radius > 0.0 && radius <= CircularTest::LARGEST_RADIUS) {
             return Err(RunError::Radius(radius));
         }
@@ -200,7 +200,7 @@ impl CircularTest {
         Ok(CircularTest { radius, runs })
     }
 
-    /// What to say of a deviation (m) that no test of this radius (m) has; none of one that it may have.
+    /// The message for a deviation (m) that is out of range for a test of this radius (m); none for a valid one.
     pub fn too_far(radius: f64, deviation: f64) -> Option<String> {
         (deviation.abs() > 0.5 * radius).then(|| {
             let [off, nominal] = [deviation, radius].map(|metres| metres * 1e3);
@@ -223,7 +223,7 @@ impl CircularTest {
         self.runs.iter().filter(move |run| run.direction == direction)
     }
 
-    /// Whether there are runs both ways round.
+    /// Whether there are runs in both directions.
     pub fn is_bidirectional(&self) -> bool {
         Direction::BOTH
             .iter()
@@ -240,7 +240,7 @@ mod tests {
     }
 
     #[test]
-    fn samples_that_are_no_run_are_refused() {
+    fn refuses_invalid_runs() {
         assert_eq!(run(23).unwrap_err(), RunError::TooShort(23));
         assert!(run(24).is_ok());
         let odd = Run::new(Direction::Clockwise, vec![0.0; 24], vec![0.0; 25]);
@@ -252,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn runs_that_are_no_test_are_refused() {
+    fn refuses_invalid_tests() {
         let runs = || vec![run(24).unwrap()];
         assert!(CircularTest::new(0.1, runs()).is_ok());
         for radius in [0.0, -0.1, 10.1, f64::NAN] {
@@ -272,7 +272,7 @@ mod tests {
     }
 
     #[test]
-    fn samples_are_left_out_by_their_places() {
+    fn samples_are_removed_by_their_indices() {
         let run = Run::new(
             Direction::Anticlockwise,
             (0..26).map(f64::from).collect(),

@@ -1,12 +1,12 @@
-//! The circle to teach so that the tool goes round: two-step teaching.
+//! Two-step teaching: the circle to teach so that the tool path is round.
 //!
 //! ```text
-//! r_taught(a) = R - c(a)        c(a): what both directions have in common, about its own centre, smooth
+//! r_taught(a) = R - c(a)        c(a): common part of both directions, about its own centre, smooth
 //! ```
 //!
-//! One set of points corrects what is the same in both directions. By what these differ, half stays on either side of
-//! the middle: no taught circle takes it off. `c` is the mean of the directions in lobes up to a told number, without
-//! the first, which is the place of the pivot; so neither noise nor a step of a reversal gets into the points.
+//! One set of points corrects the common part of both directions. Half of their difference remains on either side of
+//! the middle: no taught circle removes it. `c` is the mean of the directions in lobes up to a given number, without
+//! the first, which is the position of the pivot; therefore neither noise nor a step of a reversal affects the points.
 //!
 //! Source: step B.2 of Shneor and Chapsky, Error prediction in industrial robot machining (the two-step procedure; the
 //! formula is ours).
@@ -18,27 +18,28 @@ use super::profile::Profile;
 use super::quantities::{Quantities, quantities};
 use super::run::{CircularTest, Run};
 
-/// A circle to teach, and what is expected of it.
+/// A circle to teach, and the expected result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Taught {
-    /// What is taken off: the mean and lobes 2, 3, ...
+    /// The correction: the mean and lobes 2, 3, ...
     pub lobes: Lobes,
-    /// Half of the largest difference between the directions, m: stays; `None` of one direction alone.
+    /// Half of the largest difference between the directions, m: it remains; `None` of one direction only.
     pub stays: Option<f64>,
-    /// G and F of all runs about their centre before, m.
+    /// G and F of all runs about their centre without the correction, m.
     pub before: Quantities,
-    /// And as expected with the taught circle.
+    /// And as expected with the correction.
     pub expected: Quantities,
 }
 
 impl Taught {
-    /// What is added to the taught radius at an angle (rad), m.
+    /// The change of the taught radius at an angle (rad), m.
     pub fn correction(&self, angle: f64) -> f64 {
         -self.lobes.at(angle)
     }
 }
 
-/// The circle to teach with lobes up to `most`, or as many as the samples tell; `None` where the runs are no full turns.
+/// The circle to teach with lobes up to `most`, or as many as the samples resolve; `None` where the runs are not full
+/// turns.
 pub fn taught(test: &CircularTest, most: usize) -> Option<Taught> {
     if test.runs().iter().any(|run| !Profile::of(run).gaps().is_empty()) {
         return None;
@@ -76,7 +77,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_common_is_taken_off_and_what_goes_with_the_direction_stays() {
+    fn the_common_part_is_removed_and_the_part_of_the_direction_remains() {
         let of = |a: f64, sign: f64| {
             20e-6
                 + 300e-6 * (a - 1.0).cos()
@@ -94,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn lobes_beyond_the_told_number_stay() {
+    fn lobes_beyond_the_given_number_remain() {
         let runs = Direction::BOTH.map(|direction| run(direction, |a, _| 5e-6 * (9.0 * a).cos()));
         let test = CircularTest::new(0.1, runs.to_vec()).unwrap();
         let coarse = taught(&test, 8).unwrap();

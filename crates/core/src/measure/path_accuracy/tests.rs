@@ -11,7 +11,7 @@ fn line() -> Vec<Vector3<f64>> {
         .collect()
 }
 
-/// A run along x from before the line to behind it, sampled every `step`, with this offset.
+/// A run along x from before the line to after it, sampled every `step`, with this offset.
 fn run(step: f64, offset: impl Fn(f64) -> [f64; 2]) -> Vec<Vector3<f64>> {
     let count = (1.1 / step) as usize;
     (0..=count)
@@ -24,8 +24,8 @@ fn run(step: f64, offset: impl Fn(f64) -> [f64; 2]) -> Vec<Vector3<f64>> {
 }
 
 #[test]
-fn runs_beside_a_line_are_off_by_what_they_are_beside_it() {
-    // Sampled each in its own way: 3, 7 and 11 mm. Offsets 1, 2 and 6 um in y: mean 3, distances 2, 1, 3.
+fn runs_with_an_offset_from_a_line_deviate_by_the_offset() {
+    // Sampled each with its own step: 3, 7 and 11 mm. Offsets 1, 2 and 6 um in y: mean 3, distances 2, 1, 3.
     let runs = [(3e-3, 1e-6), (7e-3, 2e-6), (11e-3, 6e-6)].map(|(step, y)| run(step, |_| [y, 0.0]));
     let found = path_accuracy(&line(), &runs).unwrap();
     assert_eq!((found.points.len(), found.not_passed, found.cycles), (101, 0, 3));
@@ -52,8 +52,8 @@ fn the_largest_is_found_where_it_is() {
 }
 
 #[test]
-fn where_along_the_path_a_run_was_sampled_does_not_matter() {
-    // What a run has along the path is no error of it: in the plane across the path it is on it.
+fn the_sampling_of_a_run_along_the_path_has_no_effect() {
+    // An offset along the path is not an error: in the plane across the path the run is on it.
     let dense = run(0.5e-3, |x| [1e-5 * x, 2e-5 * x]);
     let sparse = run(20e-3, |x| [1e-5 * x, 2e-5 * x]);
     let [a, b] = [dense, sparse].map(|run| path_accuracy(&line(), &[run]).unwrap());
@@ -79,13 +79,13 @@ fn helix(count: usize, [wider, higher]: [f64; 2], from: f64) -> Vec<Vector3<f64>
 #[test]
 fn a_helix_that_is_wider_is_off_by_that_on_every_turn() {
     let commanded = helix(720, [0.0, 0.0], 0.0);
-    // Runs begin a little before and end a little behind.
+    // Runs begin a little before and end a little after.
     let runs = [helix(5000, [30e-6, 0.0], -0.1), helix(7001, [50e-6, 0.0], -0.1)];
     let found = path_accuracy(&commanded, &runs).unwrap();
     assert_eq!(found.not_passed, 0);
     for point in &found.points {
-        // Chords of 5000 points of two turns are 0.08 um inside the curve. The tangent of an end is that of its piece, off by
-        // half a degree: 0.4 um of 40.
+        // Chords of 5000 points of two turns are 0.08 um inside the curve. The tangent of an end is that of its piece,
+        // off by half a degree: 0.4 um of 40.
         let off = if point.index % 720 == 0 { 0.5e-6 } else { 0.2e-6 };
         let outward = Vector3::new(point.commanded.x, point.commanded.y, 0.0).normalize();
         assert!((point.offset - outward * 40e-6).norm() < off, "{}", point.index);
@@ -94,7 +94,7 @@ fn a_helix_that_is_wider_is_off_by_that_on_every_turn() {
 }
 
 #[test]
-fn turned_and_shifted_all_stays_as_it_is() {
+fn rotation_and_shift_have_no_effect() {
     let turn = UnitQuaternion::from_euler_angles(0.3, -1.1, 2.0);
     let moved = |all: Vec<Vector3<f64>>| -> Vec<Vector3<f64>> {
         all.into_iter()
@@ -115,7 +115,7 @@ fn turned_and_shifted_all_stays_as_it_is() {
 }
 
 #[test]
-fn a_path_round_again_is_not_mistaken_for_its_first_lap() {
+fn a_second_lap_is_not_mistaken_for_the_first() {
     // Two laps of a circle; the second lap of the run is 100 um wider.
     let lap = |count: usize, wider: f64, from: f64, to: f64| -> Vec<Vector3<f64>> {
         (0..=count)
@@ -141,7 +141,7 @@ fn a_path_round_again_is_not_mistaken_for_its_first_lap() {
 }
 
 #[test]
-fn ends_that_a_run_does_not_pass_are_not_told_and_nothing_is_refused_by_its_name() {
+fn ends_that_a_run_does_not_pass_are_not_reported_and_errors_name_their_reason() {
     let short: Vec<Vector3<f64>> = run(1e-3, |_| [1e-6, 0.0])
         .into_iter()
         .filter(|x| x.x > 0.105 && x.x < 0.895)
@@ -172,7 +172,7 @@ fn noise(k: usize, size: f64) -> Vector3<f64> {
 }
 
 #[test]
-fn a_run_sampled_so_fast_that_noise_goes_back_and_forth_is_followed() {
+fn a_densely_sampled_run_with_noise_along_the_path_is_followed() {
     // Steps of 10 um with noise of 15 um, along the path too.
     let noisy: Vec<Vector3<f64>> = run(10e-6, |_| [50e-6, 0.0])
         .iter()
@@ -187,7 +187,7 @@ fn a_run_sampled_so_fast_that_noise_goes_back_and_forth_is_followed() {
 }
 
 #[test]
-fn a_point_told_twice_keeps_the_count_of_the_others() {
+fn a_point_given_twice_keeps_the_index_of_the_others() {
     let mut twice = line();
     twice.insert(40, twice[40]);
     let found = path_accuracy(&twice, &[run(1e-3, |_| [1e-6, 0.0])]).unwrap();

@@ -1,12 +1,12 @@
 use super::*;
 use crate::arms::Stream;
 
-/// A small lattice with anything in it.
+/// A small random lattice.
 struct Made {
     turns: Turns,
     costs: Vec<Vec<f64>>,
     beginnings: Vec<Beginning>,
-    /// Of each column: what goes on, and what turns, by turn, slots and neighbour.
+    /// For each column: the transitions on, and the turns, by turn, slots and neighbour.
     seed: u64,
 }
 
@@ -16,8 +16,8 @@ struct MadeLinks {
 }
 
 impl MadeLinks {
-    /// Two of three links are there, the same whenever asked.
-    fn holds(&self, numbers: [usize; 5]) -> bool {
+    /// Two of three transitions exist, the same for every call.
+    fn exists(&self, numbers: [usize; 5]) -> bool {
         let mixed = numbers.iter().fold(self.seed ^ self.column as u64, |sum, n| {
             sum.wrapping_mul(1_000_003) ^ *n as u64
         });
@@ -27,11 +27,11 @@ impl MadeLinks {
 
 impl Links for MadeLinks {
     fn goes_on(&self, turn: usize, from: usize, to: usize) -> bool {
-        self.holds([0, turn, from, to, 0])
+        self.exists([0, turn, from, to, 0])
     }
     fn moves_on(&self, turn: usize, from: usize, to: usize) -> Heading {
         let up = |joint| {
-            if self.holds([2, turn, from, to, joint]) {
+            if self.exists([2, turn, from, to, joint]) {
                 1.0
             } else {
                 -1.0
@@ -40,10 +40,10 @@ impl Links for MadeLinks {
         Heading::of((0..3).map(up))
     }
     fn turns(&self, turn: usize, next: usize, from: usize, to: usize) -> bool {
-        self.holds([1, turn, next, from, to])
+        self.exists([1, turn, next, from, to])
     }
     fn moves_by_turn(&self, _: usize, _: usize, _: usize, _: usize) -> Heading {
-        unreachable!("the tool keeps its turn wherever turning back has a price")
+        unreachable!("the tool keeps its turn wherever reversals have a price")
     }
 }
 
@@ -64,10 +64,10 @@ fn made(seed: u64, kept_slots: bool) -> Made {
     };
     let costs: Vec<Vec<f64>> = (0..columns)
         .map(|_| {
-            let lost = random.next() < 0.1;
+            let unreachable = random.next() < 0.1;
             (0..turns.count * SLOTS)
                 .map(|state| {
-                    if lost || state % SLOTS > 1 {
+                    if unreachable || state % SLOTS > 1 {
                         f64::INFINITY
                     } else {
                         cost(&mut random)
@@ -78,8 +78,8 @@ fn made(seed: u64, kept_slots: bool) -> Made {
         .collect();
     let beginnings = (0..columns)
         .map(|i| match (i, random.next()) {
-            (0, _) => Beginning::Anew,
-            (_, part) if part < 0.1 => Beginning::Anew,
+            (0, _) => Beginning::Restart,
+            (_, part) if part < 0.1 => Beginning::Restart,
             (_, part) => Beginning::Follows((part * 3.0) as usize),
         })
         .collect();
@@ -106,7 +106,7 @@ fn found(made: &Made, together: Together) -> Cheapest {
     chain.cheapest()
 }
 
-/// Steps of the cheapest turn in column `column` from one state to another; `None` where none leads there.
+/// Steps of the cheapest turn in column `column` from one state to another; `None` where there is none.
 fn steps(made: &Made, column: usize, from: usize, to: usize, most: usize) -> Option<usize> {
     let links = MadeLinks {
         seed: made.seed,
@@ -138,7 +138,7 @@ fn steps(made: &Made, column: usize, from: usize, to: usize, most: usize) -> Opt
     None
 }
 
-/// What it costs to come from a state of the column before to one of this column; `None` where that cannot be.
+/// Cost from a state of the column before to one of this column; `None` where there is no transition.
 fn price(made: &Made, column: usize, from: usize, to: usize) -> Option<f64> {
     let Beginning::Follows(most) = made.beginnings[column] else {
         return Some(0.0);
@@ -158,7 +158,7 @@ fn price(made: &Made, column: usize, from: usize, to: usize) -> Option<f64> {
         .map(|by| by as f64 * made.turns.price)
 }
 
-/// The least of all chains, one after the other: lattices without gaps or breaks alone.
+/// The smallest of all chains, one after the other: only lattices without gaps or breaks.
 fn least_of_all(made: &Made, together: Together) -> f64 {
     let mut values = made.costs[0].clone();
     for column in 1..made.costs.len() {
@@ -179,17 +179,17 @@ fn least_of_all(made: &Made, together: Together) -> f64 {
 }
 
 #[test]
-fn no_chain_is_cheaper_and_the_chain_told_costs_what_is_told() {
+fn no_chain_is_cheaper_and_the_chain_has_the_reported_cost() {
     let mut whole = 0;
     for seed in 0..6000 {
         let mut made = made(seed, seed % 3 != 0);
         let together = [Together::Sum, Together::Worst][(seed / 3 % 2) as usize];
         if together == Together::Worst {
-            // A price has no place among maxima.
+            // For maxima no price is defined.
             made.turns.price = 0.0;
         }
         let cheapest = found(&made, together);
-        let lost = made
+        let unreachable = made
             .costs
             .iter()
             .any(|costs| costs.iter().all(|cost| cost.is_infinite()));
@@ -204,15 +204,15 @@ fn no_chain_is_cheaper_and_the_chain_told_costs_what_is_told() {
                 continue;
             };
             let paid = match before {
-                Some(from) if !cheapest.breaks.contains(&column) && !lost => {
-                    price(&made, column, from, state).expect("the chain keeps to the links")
+                Some(from) if !cheapest.breaks.contains(&column) && !unreachable => {
+                    price(&made, column, from, state).expect("the chain uses the transitions")
                 }
                 _ => 0.0,
             };
             sum = together.of(sum + paid, made.costs[column][state]);
             before = Some(state);
         }
-        if lost {
+        if unreachable {
             continue;
         }
         assert!(
@@ -221,7 +221,7 @@ fn no_chain_is_cheaper_and_the_chain_told_costs_what_is_told() {
             cheapest.cost
         );
         let least = least_of_all(&made, together);
-        // A break comes where, and only where, no chain leads on.
+        // A break occurs where, and only where, no chain continues.
         assert_eq!(least.is_infinite(), !cheapest.breaks.is_empty(), "seed {seed}");
         if least.is_finite() {
             whole += 1;
@@ -235,7 +235,7 @@ fn no_chain_is_cheaper_and_the_chain_told_costs_what_is_told() {
     assert!(whole > 1500, "{whole} lattices have a chain");
 }
 
-/// Times that joints turn back along the states of `chain`, which begin nowhere but at the first.
+/// Number of reversals of the joints along the states of `chain`, which starts only at the first.
 fn backs(made: &Made, chain: &[usize]) -> u32 {
     let (mut heading, mut backs) = (Heading::default(), 0);
     for (column, pair) in chain.windows(2).enumerate() {
@@ -251,7 +251,7 @@ fn backs(made: &Made, chain: &[usize]) -> u32 {
 }
 
 #[test]
-fn joints_turn_back_less_where_that_has_a_price_and_a_tool_that_keeps_its_turn_has_the_cheapest_chain() {
+fn a_price_reduces_reversals_and_with_a_fixed_turn_the_chain_is_the_cheapest() {
     let mut fewer = 0;
     for seed in 0..20_000 {
         let mut made = made(seed, true);
@@ -277,12 +277,12 @@ fn joints_turn_back_less_where_that_has_a_price_and_a_tool_that_keeps_its_turn_h
             with.cost
         );
         assert!(given(&with) <= given(&without) + 1e-12, "seed {seed}");
-        // Each turn and slot is a chain of its own.
+        // Each turn and slot is a separate chain.
         let all = (0..made.turns.count * SLOTS).filter_map(|state| {
             let chain = vec![state; made.costs.len()];
             let links = |column| MadeLinks { seed, column };
-            let holds = |column: usize| links(column).goes_on(state / SLOTS, state % SLOTS, state % SLOTS);
-            let whole = (1..made.costs.len()).all(holds);
+            let goes_on = |column: usize| links(column).goes_on(state / SLOTS, state % SLOTS, state % SLOTS);
+            let whole = (1..made.costs.len()).all(goes_on);
             let cost: f64 = made.costs.iter().map(|costs| costs[state]).sum();
             (whole && cost.is_finite()).then(|| cost + 0.4 * f64::from(backs(&made, &chain)))
         });
@@ -298,7 +298,7 @@ fn joints_turn_back_less_where_that_has_a_price_and_a_tool_that_keeps_its_turn_h
 }
 
 #[test]
-fn the_tool_may_turn_the_short_way_round_and_no_faster_than_allowed() {
+fn the_tool_turns_in_the_shorter_direction_and_no_faster_than_allowed() {
     struct All;
     impl Links for All {
         fn goes_on(&self, _: usize, _: usize, _: usize) -> bool {
@@ -330,21 +330,21 @@ fn the_tool_may_turn_the_short_way_round_and_no_faster_than_allowed() {
         };
         let mut first = vec![f64::INFINITY; 72 * SLOTS];
         first[70 * SLOTS] = 1.0;
-        chain.take(&first, Beginning::Anew, &All);
+        chain.take(&first, Beginning::Restart, &All);
         chain.take(&[1.0; 72 * SLOTS], Beginning::Follows(steps), &All);
         chain.take(&dear_but(3), Beginning::Follows(steps), &All);
         let cheapest = chain.cheapest();
         assert_eq!(cheapest.breaks, []);
         cheapest.cost
     };
-    // From 70 to 3 are five steps over the end, three and two; the other way round 67.
+    // From 70 to 3 are five steps over the end, three and two; in the other direction 67.
     assert_eq!(lattice(true, 3), 3.0);
     assert_eq!(lattice(true, 2), 102.0);
     assert_eq!(lattice(false, MOST_STEPS), 102.0);
 }
 
 #[test]
-fn a_way_back_fits_a_byte() {
+fn a_back_pointer_fits_a_byte() {
     let most = MOST_STEPS as isize;
     for steps in -most..=most {
         for slot in 0..SLOTS {

@@ -3,7 +3,7 @@ use nalgebra::{Point2, Point3};
 use super::*;
 use crate::arms;
 use crate::frame::Isometry;
-use crate::load::{CutHere, CutsAlong, Cutter, CuttingLaw, Greatest, LoadCases, Mechanistic};
+use crate::load::{CutHere, CutsAlong, Cutter, CuttingLaw, GreatestForce, LoadCases, Mechanistic};
 use crate::path::{Placing, Shape};
 use crate::robot::{BranchPattern, JointCompliance, Robot};
 use crate::source::{Arm, StiffnessModel};
@@ -49,7 +49,7 @@ impl Cell {
         }
     }
 
-    /// The question of an arm whose compliances are these parts of the cell's.
+    /// The question for an arm with compliances scaled by these factors.
     fn with<T>(&self, parts: [f64; 6], analysis: impl FnOnce(&Question<'_>) -> T) -> T {
         let known = self.robot.compliance().unwrap();
         let compliance: Vec<JointCompliance> = known
@@ -82,7 +82,7 @@ impl Cell {
         })
     }
 
-    /// Deviations of an arm with these parts of the compliances along a path, m, base.
+    /// Deviations along a path of an arm with compliances scaled by these factors, m, base.
     fn deviations(&self, parts: [f64; 6], track: &Track, load: &PathLoad) -> Vec<Vector3<f64>> {
         self.with(parts, |question| {
             along_postures(question, (track, load.clone()), CHOICES.to_vec(), Watch::NONE)
@@ -102,13 +102,13 @@ fn rms(vectors: &[Vector3<f64>]) -> f64 {
 }
 
 #[test]
-fn what_a_command_leaves_is_the_residual_of_its_compensation_and_all_of_the_deviation_without_one() {
+fn the_residual_of_a_command_is_that_of_its_compensation_and_the_whole_deviation_without_one() {
     let load = feed_load(&[[-60.0, 40.0, 25.0], [-20.0, 40.0, 5.0]]);
     let cell = Cell::new();
     let found = cell.compensated(&load);
     let left = |commanded: &Track| {
         cell.with([1.0; 6], |question| {
-            left_by(question, (&track(), commanded), (&load, &CHOICES), Watch::NONE).unwrap()
+            residual_of(question, (&track(), commanded), (&load, &CHOICES), Watch::NONE).unwrap()
         })
     };
     assert_eq!(left(&found.track).1, found.residual);
@@ -118,13 +118,13 @@ fn what_a_command_leaves_is_the_residual_of_its_compensation_and_all_of_the_devi
 }
 
 #[test]
-fn the_tool_goes_where_the_path_is_drawn() {
+fn the_compensated_tool_follows_the_nominal_path() {
     let cell = Cell::new();
     let load = feed_load(&[[-60.0, 40.0, 25.0]]);
     let before = largest(&cell.deviations([1.0; 6], &track(), &load));
     let found = cell.compensated(&load);
     assert!(before > 300e-6, "{before}");
-    // It rests when a round moves no point by a tenth of a micrometre; what is left is that times the contraction.
+    // Converged when no point moves by a tenth of a micrometre in an iteration; the rest is that times the contraction.
     assert!(
         found.last_move < 1e-7 && found.rounds <= 3,
         "{} {}",
@@ -139,7 +139,7 @@ fn the_tool_goes_where_the_path_is_drawn() {
         largest(&found.residual)
     );
     assert_eq!((found.unmoved, found.track.len()), (0, track().len()));
-    // The commanded path deviates onto the drawn one: told again by the arm itself.
+    // The commanded path deviates onto the nominal one: predicted again by the arm model itself.
     let again = cell.deviations([1.0; 6], &found.track, &load);
     let plate = track().placing.base_from_path;
     for (i, deviation) in again.iter().enumerate() {
@@ -150,7 +150,7 @@ fn the_tool_goes_where_the_path_is_drawn() {
 }
 
 #[test]
-fn an_arm_whose_joints_yield_otherwise_by_a_fifth_still_gains_a_factor_of_three() {
+fn an_arm_with_compliances_off_by_a_fifth_still_gains_a_factor_of_three() {
     let cell = Cell::new();
     let load = feed_load(&[[-60.0, 40.0, 25.0]]);
     let found = cell.compensated(&load);
@@ -174,20 +174,20 @@ fn an_arm_whose_joints_yield_otherwise_by_a_fifth_still_gains_a_factor_of_three(
 }
 
 #[test]
-fn of_several_cases_their_mean_is_met_and_the_rest_is_told() {
+fn of_several_cases_the_mean_is_compensated_and_the_residual_is_reported() {
     let cell = Cell::new();
     let forces = [[-60.0, 40.0, 25.0], [-20.0, -40.0, 10.0]];
     let found = cell.compensated(&feed_load(&forces));
     let pairs = found.residual.chunks(2);
     assert_eq!(pairs.len(), track().len());
-    // Half the difference to either side, and largest by as much.
+    // Half the difference to either side, and the largest by as much.
     for pair in pairs {
         assert!((pair[0] + pair[1]).norm() < 1e-8 && pair[0].norm() > 1e-6);
     }
 }
 
 #[test]
-fn a_cut_is_met_by_its_force_as_drawn() {
+fn a_cut_is_compensated_under_its_nominal_force() {
     let cell = Cell::new();
     let force = Vector3::new(-60.0, 40.0, 25.0);
     let law = Mechanistic::new(Vector3::new(8e8, 2e8, 2e8), Vector3::zeros()).unwrap();
@@ -199,7 +199,7 @@ fn a_cut_is_met_by_its_force_as_drawn() {
     let cut = PathLoad::Cuts(CutsAlong {
         cutters: vec![Cutter::flat(0.01, 2).unwrap()],
         law: CuttingLaw::Mechanistic(law),
-        greatest: Greatest::SecondCase,
+        greatest: GreatestForce::SecondCase,
         points: vec![here; track().len()],
     });
     let (of_cut, given) = (
@@ -211,7 +211,7 @@ fn a_cut_is_met_by_its_force_as_drawn() {
 }
 
 #[test]
-fn points_out_of_reach_stay_and_are_counted() {
+fn unreachable_points_stay_and_are_reported() {
     let cell = Cell::new();
     let load = feed_load(&[[-60.0, 40.0, 25.0]]);
     let mut far = track();

@@ -48,7 +48,7 @@ fn track(holes: &[Hole]) -> Track {
     }
 }
 
-/// Thrust with a little to its side, in the axes of the hole.
+/// Thrust with a small lateral part, in the axes of the hole.
 fn load() -> PathLoad {
     PathLoad::Cases(LoadCases {
         frame: LoadFrame::Feed,
@@ -84,7 +84,7 @@ fn found(holes: &[Hole], search: &PostureSearch) -> HolesFound {
 fn found_by(model: &StiffnessModel, holes: &[Hole], search: &PostureSearch) -> HolesFound {
     let (robot, tool) = (arms::mh12(), tool());
     let question = question(&robot, &tool, model);
-    holes_held(&question, (&track(holes), &load()), search, Watch::NONE).unwrap()
+    hole_postures(&question, (&track(holes), &load()), search, Watch::NONE).unwrap()
 }
 
 fn question<'a>(robot: &'a Robot, tool: &'a Isometry, model: &'a StiffnessModel) -> Question<'a> {
@@ -97,7 +97,7 @@ fn question<'a>(robot: &'a Robot, tool: &'a Isometry, model: &'a StiffnessModel)
     Question::unloaded(arm, None)
 }
 
-/// Play of some joints, links longer than the controller has them: each moves the tool more than the thrust does.
+/// Backlash of some joints, links longer than in the controller: each moves the tool more than the thrust does.
 fn worn() -> StiffnessModel {
     let mut model = StiffnessModel::DRIVES.clone();
     let gap = |side| {
@@ -107,7 +107,12 @@ fn worn() -> StiffnessModel {
             side,
         })
     };
-    model.structure.backlash = vec![gap(BacklashSide::Motion), gap(BacklashSide::Torque), None, gap(BacklashSide::Motion)];
+    model.structure.backlash = vec![
+        gap(BacklashSide::Motion),
+        gap(BacklashSide::Torque),
+        None,
+        gap(BacklashSide::Motion),
+    ];
     let robot = arms::mh12();
     let mut motions = robot.chain().motions().to_vec();
     for motion in &mut motions {
@@ -134,7 +139,7 @@ fn no_turn_and_branch_of_a_worn_arm_is_better() {
     assert!(in_plane(found_by(&worn(), &holes(), &SEARCH)) > 2.0 * least);
 }
 
-/// Witness: every turn in every branch, each asked by itself.
+/// Reference: every turn in every branch, each evaluated separately.
 fn by_every_turn_and_branch(model: &StiffnessModel) {
     let (robot, tool) = (arms::mh12(), tool());
     let (holes, track) = (holes(), track(&holes()));
@@ -160,8 +165,8 @@ fn by_every_turn_and_branch(model: &StiffnessModel) {
             }
         }
         let evaluation = found.answers.points[index].as_ref().unwrap();
-        assert!(found.stands[index] == Stand::Holds && evaluation.within_limits());
-        // Postures near a singularity are no choice of the search; lanes and the general way differ by rounding.
+        assert!(found.statuses[index] == PostureStatus::Usable && evaluation.within_limits());
+        // Postures near a singularity are not used by the search; lanes and the general computation differ by rounding.
         assert!(
             evaluation.in_plane >= least * (1.0 - 1e-9) && evaluation.in_plane <= least * 1.02,
             "{index}: {} m where {least} m is",
@@ -171,12 +176,12 @@ fn by_every_turn_and_branch(model: &StiffnessModel) {
 }
 
 #[test]
-fn the_order_of_the_holes_is_of_no_consequence() {
+fn the_order_of_the_holes_changes_nothing() {
     let forwards = holes();
     let backwards: Vec<Hole> = forwards.iter().rev().copied().collect();
     let (a, b) = (found(&forwards, &SEARCH), found(&backwards, &SEARCH));
     for (i, j) in (0..5).zip((0..5).rev()) {
-        assert_eq!((a.spins[i], a.stands[i]), (b.spins[j], b.stands[j]));
+        assert_eq!((a.spins[i], a.statuses[i]), (b.spins[j], b.statuses[j]));
         assert_eq!(a.answers.joints_at(i), b.answers.joints_at(j));
         assert_eq!(a.answers.deviations_at(i), b.answers.deviations_at(j));
         assert_eq!(
@@ -187,16 +192,16 @@ fn the_order_of_the_holes_is_of_no_consequence() {
 }
 
 #[test]
-fn a_hole_out_of_reach_is_told_and_hinders_no_other() {
+fn a_hole_out_of_reach_is_reported_and_does_not_affect_the_others() {
     let found_all = found(&holes(), &SEARCH);
-    assert_eq!(found_all.stands[4], Stand::OutOfReach);
+    assert_eq!(found_all.statuses[4], PostureStatus::OutOfReach);
     assert!(found_all.answers.points[4].is_err());
     let some = found(&holes()[..4], &SEARCH);
     assert_eq!(some.spins, found_all.spins[..4]);
 }
 
 #[test]
-fn turning_gains_and_a_bounded_search_keeps_its_branch() {
+fn turning_improves_and_a_restricted_search_keeps_its_branch() {
     let still = PostureSearch {
         spins: Spins {
             first: 0.0,
@@ -206,11 +211,11 @@ fn turning_gains_and_a_bounded_search_keeps_its_branch() {
         branches: BranchPattern::FRONT_ELBOW_UP,
         ..SEARCH
     };
-    let (free, evaluation) = (found(&holes()[..4], &SEARCH), found(&holes()[..4], &still));
+    let (free, fixed) = (found(&holes()[..4], &SEARCH), found(&holes()[..4], &still));
     let in_plane = |found: &HolesFound, i: usize| found.answers.points[i].as_ref().unwrap().in_plane;
-    assert!((0..4).all(|i| in_plane(&free, i) <= in_plane(&evaluation, i) * (1.0 + 1e-9)));
-    assert!((0..4).any(|i| in_plane(&free, i) < 0.9 * in_plane(&evaluation, i)));
-    for point in evaluation.answers.points.iter().flatten() {
+    assert!((0..4).all(|i| in_plane(&free, i) <= in_plane(&fixed, i) * (1.0 + 1e-9)));
+    assert!((0..4).any(|i| in_plane(&free, i) < 0.9 * in_plane(&fixed, i)));
+    for point in fixed.answers.points.iter().flatten() {
         let crate::robot::PostureName::Branch(branch) = point.name else {
             panic!("a named branch");
         };
@@ -219,7 +224,7 @@ fn turning_gains_and_a_bounded_search_keeps_its_branch() {
 }
 
 #[test]
-fn the_tool_looks_into_each_hole_and_its_thrust_comes_out_of_it() {
+fn the_tool_points_into_each_hole_and_its_thrust_out_of_it() {
     let holes = holes();
     let (track, load) = (track(&holes), load());
     assert_eq!(track.len(), holes.len());
@@ -242,6 +247,6 @@ fn a_cancelled_search_stops() {
         cancel: &cancel,
     };
     let question = question(&robot, &tool, StiffnessModel::DRIVES);
-    let gave = holes_held(&question, (&track(&holes()), &load()), &SEARCH, watch);
+    let gave = hole_postures(&question, (&track(&holes()), &load()), &SEARCH, watch);
     assert!(gave.is_err());
 }

@@ -46,7 +46,7 @@ fn load(frame: LoadFrame) -> PathLoad {
     })
 }
 
-/// A rectangle on a plate; with `lean` the tool leans another way at each point.
+/// A rectangle on a plate; with `lean` the tool axis differs from point to point.
 fn track(base_from_part: Isometry, spin: Spin, lean: f64) -> Track {
     let mut path = Shape::rectangle(Point2::origin(), Vector2::new(0.12, 0.08)).sampled(0.01);
     for (index, point) in path.points.iter_mut().enumerate() {
@@ -70,7 +70,7 @@ fn track(base_from_part: Isometry, spin: Spin, lean: f64) -> Track {
     }
 }
 
-/// The same track with its part elsewhere.
+/// The same track with its part at another pose.
 fn moved(track: &Track, base_from_part: Isometry) -> Track {
     let part_from_path = track.base_from_part.inverse() * track.placing.base_from_path;
     Track {
@@ -91,7 +91,7 @@ fn objective(objective: Objective) -> PlacementObjective {
         margin: 0.0,
         wrist: 0.05,
         rank_by: RankBy::Nominal,
-        holding: Holding::InOneBranch,
+        selection: PostureSelection::ForPath,
     }
 }
 
@@ -105,14 +105,14 @@ fn place(random: &mut Stream) -> Isometry {
     drawn() * step
 }
 
-/// What a place is worth is what the path comes to when it is answered there, point by point: the same physics through the
-/// door that paths take.
+/// The score of a placement agrees with the path answered at this placement, point by point: the same physics by the
+/// path analysis.
 #[test]
-fn a_place_is_worth_what_the_path_comes_to_there() {
+fn the_score_of_a_placement_agrees_with_the_answered_path() {
     let cell = Cell::new();
     let question = cell.question();
     let mut random = Stream(3);
-    let mut evaluation = 0;
+    let mut reached = 0;
     for (frame, spin, lean) in [
         (LoadFrame::Base, Spin::Fixed(0.4), 0.0),
         (LoadFrame::Part, Spin::AlongFeed(0.2), 0.0),
@@ -130,7 +130,10 @@ fn a_place_is_worth_what_the_path_comes_to_there() {
                 let placement = turn.placement(base_from_part, 0.0);
                 let there = moved(&track, base_from_part);
                 let scores = [Objective::Worst, Objective::Mean, Objective::Above(1e-4)].map(|of| {
-                    let objective = PlacementObjective { component, ..objective(of) };
+                    let objective = PlacementObjective {
+                        component,
+                        ..objective(of)
+                    };
                     let placeable = Placeable {
                         question: &question,
                         path: &path,
@@ -139,10 +142,10 @@ fn a_place_is_worth_what_the_path_comes_to_there() {
                     placeable.scores(&[placement], None, Watch::NONE).unwrap()[0].unwrap()
                 });
                 let [worst, mean, above] = scores;
-                if worst.lost > 0 {
+                if worst.unreachable > 0 {
                     continue;
                 }
-                evaluation += 1;
+                reached += 1;
                 let deviations = |branch: Branch| -> Vec<f64> {
                     let choice = vec![(0, BranchChoice::Of(branch.into()))];
                     let along =
@@ -179,12 +182,13 @@ fn a_place_is_worth_what_the_path_comes_to_there() {
             }
         }
     }
-    assert!(evaluation > 40, "{evaluation}");
+    assert!(reached > 40, "{reached}");
 }
 
-/// The tool is judged as the path holds it at the place, whether its turn goes with the part or with the base.
+/// The tool in the evaluation is that of the path at the placement, whether its spin is relative to the part or to
+/// base.
 #[test]
-fn the_tool_is_turned_as_the_path_at_the_place_turns_it() {
+fn the_tool_turn_agrees_with_the_path_at_the_placement() {
     let mut random = Stream(12);
     for spin in [Spin::Fixed(0.4), Spin::Given(-2.0), Spin::AlongFeed(1.0)] {
         let track = track(drawn(), spin, 0.0);
@@ -195,13 +199,13 @@ fn the_tool_is_turned_as_the_path_at_the_place_turns_it() {
             let about = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), placement.spin);
             let there = moved(&track, base_from_part);
             for index in [0, track.len() / 2] {
-                let judged = base_from_part
+                let expected = base_from_part
                     * (track.base_from_part.inverse() * track.stop(index).base_from_tool)
                     * about;
                 let more = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), 0.3);
-                let evaluation = there.stop(index).base_from_tool * more;
+                let actual = there.stop(index).base_from_tool * more;
                 assert!(
-                    (judged.to_homogeneous() - evaluation.to_homogeneous()).norm() < 1e-12,
+                    (expected.to_homogeneous() - actual.to_homogeneous()).norm() < 1e-12,
                     "{spin:?}"
                 );
             }
@@ -210,7 +214,7 @@ fn the_tool_is_turned_as_the_path_at_the_place_turns_it() {
 }
 
 #[test]
-fn a_bar_hides_no_better_place() {
+fn a_bar_rejects_no_better_placement() {
     let cell = Cell::new();
     let question = cell.question();
     let mut random = Stream(7);
@@ -228,14 +232,14 @@ fn a_bar_hides_no_better_place() {
         };
         let scores = placeable.scores(&places, None, Watch::NONE).unwrap();
         let mut sorted: Vec<Score> = scores.iter().flatten().copied().collect();
-        sorted.sort_by(|a, b| a.lost.cmp(&b.lost).then(a.cost.total_cmp(&b.cost)));
-        assert!(sorted[0].lost == 0 && sorted[199].lost > 0);
+        sorted.sort_by(|a, b| a.unreachable.cmp(&b.unreachable).then(a.cost.total_cmp(&b.cost)));
+        assert!(sorted[0].unreachable == 0 && sorted[199].unreachable > 0);
         for bar in [sorted[20], sorted[60], sorted[199]] {
-            let judged = placeable.scores(&places, Some(&bar), Watch::NONE).unwrap();
-            for (judged, score) in judged.iter().zip(&scores) {
+            let pruned = placeable.scores(&places, Some(&bar), Watch::NONE).unwrap();
+            for (pruned, score) in pruned.iter().zip(&scores) {
                 let score = score.unwrap();
                 assert_eq!(
-                    judged.filter(|judged| judged.beats(&bar)),
+                    pruned.filter(|pruned| pruned.beats(&bar)),
                     Some(score).filter(|m| m.beats(&bar))
                 );
             }
@@ -244,9 +248,9 @@ fn a_bar_hides_no_better_place() {
 }
 
 #[test]
-fn a_place_that_loses_fewer_points_is_better_whatever_it_costs() {
-    let score = |lost, cost| Score {
-        lost,
+fn a_placement_with_fewer_unreachable_points_is_better_at_any_cost() {
+    let score = |unreachable, cost| Score {
+        unreachable,
         cost,
         branch: None,
     };
@@ -256,7 +260,7 @@ fn a_place_that_loses_fewer_points_is_better_whatever_it_costs() {
 }
 
 #[test]
-fn a_watch_stops_the_judging() {
+fn a_cancelled_watch_stops_the_evaluation() {
     let cell = Cell::new();
     let question = cell.question();
     let (track, load) = (track(drawn(), Spin::Fixed(0.0), 0.0), load(LoadFrame::Part));
@@ -275,10 +279,9 @@ fn a_watch_stops_the_judging() {
     assert_eq!(placeable.scores(&[placement], None, watch), Err(Cancelled));
 }
 
-/// The differences that the uncertainty is made of against those of arms whose compliances are drawn at random: the spread of
-/// the cost of 4000 such arms.
+/// The differences used for the uncertainty against the spread of the cost of 4000 arms with random compliances.
 #[test]
-fn a_cost_is_as_unsure_as_the_costs_of_arms_drawn_at_random_differ() {
+fn the_uncertainty_of_a_cost_agrees_with_the_scatter_of_random_arms() {
     let cell = Cell::new();
     let mut joints = cell.robot.compliance().unwrap().to_vec();
     for (k, joint) in joints.iter_mut().enumerate() {
@@ -298,10 +301,10 @@ fn a_cost_is_as_unsure_as_the_costs_of_arms_drawn_at_random_differ() {
         },
     };
     let placement = ToolTurn::of(&track).placement(drawn(), 0.0);
-    let given = placeable(RankBy::Nominal).appraised(&placement);
+    let given = placeable(RankBy::Nominal).evaluated(&placement);
     let branch = given.score.branch.unwrap();
     let mut random = Stream(99);
-    // Twelve evenly drawn numbers less six are near to normal; so the sum of twelve from -1 to 1 halved.
+    // Twelve uniform numbers minus six are nearly normal; so the sum of twelve from -1 to 1, halved.
     let mut normal = || (0..4).map(|_| random.vector(0.5).sum()).sum::<f64>();
     let costs: Vec<f64> = (0..4000)
         .map(|_| {
@@ -319,33 +322,36 @@ fn a_cost_is_as_unsure_as_the_costs_of_arms_drawn_at_random_differ() {
                     ..objective(Objective::Worst)
                 },
             };
-            one.appraised(&placement).score.cost * (1.0 + 0.03 * normal())
+            one.evaluated(&placement).score.cost * (1.0 + 0.03 * normal())
         })
         .collect();
     let mean = costs.iter().sum::<f64>() / costs.len() as f64;
     let spread = (costs.iter().map(|c| (c - mean).powi(2)).sum::<f64>() / costs.len() as f64).sqrt();
-    // A standard deviation of 4000 is known to 1.1 %; the largest of some points bends the propagation a little.
+    // A standard deviation of 4000 has an uncertainty of 1.1 %; the largest of some points bends the propagation a
+    // little.
     assert!(
         (given.uncertainty - spread).abs() < 0.05 * spread,
         "{} {spread}",
         given.uncertainty
     );
     let compared = |rank_by| {
-        let all = placeable(rank_by).scores(&[placement], None, Watch::NONE).unwrap();
+        let all = placeable(rank_by)
+            .scores(&[placement], None, Watch::NONE)
+            .unwrap();
         all[0].unwrap().cost
     };
     let (cost, u) = (given.score.cost, given.uncertainty);
     assert!((compared(RankBy::PlusTwoSigma) - (cost + 2.0 * u)).abs() < 1e-15);
-    assert!((compared(RankBy::WithinLimit(2.0 * cost)) + cost / u).abs() < 1e-9 * cost / u);
+    assert!((compared(RankBy::WithinTolerance(2.0 * cost)) + cost / u).abs() < 1e-9 * cost / u);
     assert_eq!(compared(RankBy::Nominal), cost);
     // Phi(-1) and Phi(1.96) of tables of the normal distribution.
     let above = |z: f64| given.probability_above(cost - z * u).unwrap();
     assert!((above(-1.0) - 0.158_655_3).abs() < 1e-7 && (above(1.96) - 0.975_002_1).abs() < 1e-7);
 }
 
-/// Held each for itself, a point deviates as the best of its postures does when it is a path of its own.
+/// With one posture per point, a point deviates as the best of its postures does when it is a path of one point.
 #[test]
-fn points_held_for_themselves_come_to_the_best_of_each() {
+fn points_with_separate_postures_use_the_best_of_each() {
     let cell = Cell::new();
     let question = cell.question();
     let (track, load) = (track(drawn(), Spin::AlongFeed(0.0), 0.2), load(LoadFrame::Feed));
@@ -369,12 +375,12 @@ fn points_held_for_themselves_come_to_the_best_of_each() {
                 question: &question,
                 path: &whole,
                 objective: PlacementObjective {
-                    holding: Holding::EachForItself(spins),
+                    selection: PostureSelection::PerPoint(spins),
                     ..objective
                 },
             };
-            let evaluation = each.scores(&[placement], None, Watch::NONE).unwrap()[0].unwrap();
-            let (mut lost, mut sum) = (0, 0.0);
+            let score = each.scores(&[placement], None, Watch::NONE).unwrap()[0].unwrap();
+            let (mut unreachable, mut sum) = (0, 0.0);
             for index in &all {
                 let single = of(&[*index]);
                 let one = Placeable {
@@ -394,15 +400,15 @@ fn points_held_for_themselves_come_to_the_best_of_each() {
                     .flatten()
                     .reduce(|a, b| if b.beats(&a) { b } else { a });
                 let best = best.unwrap();
-                lost += best.lost;
-                sum += if best.lost == 0 { best.cost } else { 0.0 };
+                unreachable += best.unreachable;
+                sum += if best.unreachable == 0 { best.cost } else { 0.0 };
             }
-            assert_eq!((evaluation.lost, evaluation.branch), (lost, None));
+            assert_eq!((score.unreachable, score.branch), (unreachable, None));
             let mean = sum / all.len() as f64;
             assert!(
-                (evaluation.cost - mean).abs() < 1e-12 * mean + 1e-18,
+                (score.cost - mean).abs() < 1e-12 * mean + 1e-18,
                 "{} {mean}",
-                evaluation.cost
+                score.cost
             );
         }
     }

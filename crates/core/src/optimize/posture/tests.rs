@@ -14,7 +14,7 @@ use crate::source::{Arm, StiffnessModel};
 use crate::spatial::Wrench;
 use crate::workpiece::Plane;
 
-/// An arm with limits of speed, that machines a plate before it.
+/// An arm with speed limits that machines a plate in front of it.
 struct Cell {
     robot: Robot,
     tool: Isometry,
@@ -56,7 +56,7 @@ impl Cell {
         postures_along(&self.question(), (track, &load()), search, Watch::NONE).unwrap()
     }
 
-    /// The path answered with the tool turned so, in these branches.
+    /// The answers along the path with these spins, in these branches.
     fn answered(&self, track: &Track, spins: Vec<f64>, choices: Vec<(usize, BranchChoice)>) -> AlongPath {
         let track = Track {
             spins: Some(spins),
@@ -114,9 +114,13 @@ fn search(objective: Objective) -> PostureSearch {
     }
 }
 
-/// In-plane deviations at the points that are held.
+/// In-plane deviations at the reachable points.
 fn in_plane(along: &AlongPath) -> Vec<f64> {
-    along.answers.evaluation().map(|(_, evaluation)| evaluation.in_plane).collect()
+    along
+        .answers
+        .evaluations()
+        .map(|(_, evaluation)| evaluation.in_plane)
+        .collect()
 }
 
 fn largest(values: &[f64]) -> f64 {
@@ -128,16 +132,16 @@ fn mean(values: &[f64]) -> f64 {
 }
 
 #[test]
-fn no_turn_and_branch_held_throughout_is_better_than_the_chain() {
+fn no_constant_turn_and_branch_is_better_than_the_chain() {
     let (cell, track) = (Cell::new(), square());
     let found = cell.found(&track, &search(Objective::Worst));
     assert!(
-        found.lost.is_empty() && found.breaks.is_empty(),
+        found.unreachable.is_empty() && found.breaks.is_empty(),
         "{:?} {:?}",
-        found.lost,
+        found.unreachable,
         found.breaks
     );
-    let mut evaluation = 0;
+    let mut usable = 0;
     for turn in 0..36 {
         let spin = search(Objective::Worst).spins.at(turn);
         for branch in Branch::ALL {
@@ -146,11 +150,19 @@ fn no_turn_and_branch_held_throughout_is_better_than_the_chain() {
                 vec![spin; track.len()],
                 vec![(0, BranchChoice::Of(branch.into()))],
             );
-            let fine = |evaluation: &crate::kernel::Held| evaluation.within_limits() && evaluation.singularity.is_none();
-            if along.answers.evaluation().filter(|(_, evaluation)| fine(evaluation)).count() < track.len() {
+            let fine = |evaluation: &crate::kernel::Evaluation| {
+                evaluation.within_limits() && evaluation.singularity.is_none()
+            };
+            if along
+                .answers
+                .evaluations()
+                .filter(|(_, evaluation)| fine(evaluation))
+                .count()
+                < track.len()
+            {
                 continue;
             }
-            evaluation += 1;
+            usable += 1;
             let worst = largest(&in_plane(&along));
             assert!(
                 found.reached <= worst * (1.0 + 1e-9),
@@ -159,11 +171,11 @@ fn no_turn_and_branch_held_throughout_is_better_than_the_chain() {
             );
         }
     }
-    assert!(evaluation > 10, "{evaluation} turns and branches hold the whole path");
+    assert!(usable > 10, "{usable} turns and branches reach the whole path");
 }
 
 #[test]
-fn the_path_answered_with_what_was_found_deviates_as_told_and_keeps_the_limits() {
+fn the_path_answered_with_the_result_deviates_as_reported_and_keeps_the_limits() {
     let (cell, track) = (Cell::new(), square());
     for objective in [Objective::Worst, Objective::Mean] {
         let search = search(objective);
@@ -176,7 +188,7 @@ fn the_path_answered_with_what_was_found_deviates_as_told_and_keeps_the_limits()
         } else {
             mean(&deviations)
         };
-        // Turns are smoothed between the steps of the lattice, 10 deg apart: that changes a deviation by some percent.
+        // Spins are smoothed between the steps of the lattice, 10 deg apart: that changes a deviation by a few percent.
         assert!(
             (reached / found.reached - 1.0).abs() < 0.05,
             "{objective:?}: {reached} {}",
@@ -187,7 +199,7 @@ fn the_path_answered_with_what_was_found_deviates_as_told_and_keeps_the_limits()
             by / (track.path.points[i].along - track.path.points[i - 1].along)
         };
         let fastest = (1..track.len()).map(rate).fold(0.0, f64::max);
-        // Steps that the rate allows stand a point nearer or farther than its length: 10 mm of some 9.
+        // Steps allowed by the rate are a point earlier or later than its length: 10 mm of some 9.
         assert!(fastest < search.turn_rate * 2.0, "{fastest} rad/m");
         for i in 1..track.len() {
             let joints = along
@@ -204,12 +216,17 @@ fn the_path_answered_with_what_was_found_deviates_as_told_and_keeps_the_limits()
                 );
             }
         }
-        assert!(along.answers.evaluation().all(|(_, evaluation)| evaluation.within_limits()));
+        assert!(
+            along
+                .answers
+                .evaluations()
+                .all(|(_, evaluation)| evaluation.within_limits())
+        );
     }
 }
 
 #[test]
-fn each_goal_is_the_best_at_its_own() {
+fn each_objective_gives_the_best_result_for_itself() {
     let (cell, track) = (Cell::new(), square());
     let limit = 60e-6;
     let goals = [Objective::Worst, Objective::Mean, Objective::Above(limit)];
@@ -233,14 +250,14 @@ fn each_goal_is_the_best_at_its_own() {
     for other in &given {
         assert!(largest(&given[0]) <= largest(other) * rounding);
         assert!(mean(&given[1]) <= mean(other) * rounding);
-        // What is within the limit counts a thousandth.
+        // Deviations within the tolerance have a weight of a thousandth.
         let within = WITHIN * given[2].iter().sum::<f64>();
         assert!(above(&given[2]) <= above(other) + within);
     }
 }
 
 #[test]
-fn joints_turn_back_less_often_for_a_price_and_the_worst_point_gets_no_worse() {
+fn a_price_reduces_reversals_without_a_worse_worst_point() {
     let (cell, track) = (Cell::new(), square());
     for objective in [Objective::Worst, Objective::Mean] {
         let with = |back_price: f64| {
@@ -254,14 +271,14 @@ fn joints_turn_back_less_often_for_a_price_and_the_worst_point_gets_no_worse() {
             (found.reached, mean(&in_plane(&along)), backs)
         };
         let (reached, before, backs) = with(0.0);
-        // A micrometre over a tenth of the path, and so much that nothing else counts.
+        // A micrometre over a tenth of the path, and a price so high that nothing else matters.
         for price in [1e-6 * 0.12, 1e-3] {
             let (dear, after, fewer) = with(price);
             assert!(fewer <= backs, "{objective:?}: {fewer} {backs}");
-            let worth = |mean: f64, backs: usize| mean + price / track.path.length() * backs as f64;
-            // The lattice is compared by its steps, the path here without them: within the price of a turn or two.
+            let total = |mean: f64, backs: usize| mean + price / track.path.length() * backs as f64;
+            // The lattice is compared with its steps, the path here without them: within the price of a turn or two.
             assert!(
-                worth(after, fewer) <= worth(before, backs) * 1.02,
+                total(after, fewer) <= total(before, backs) * 1.02,
                 "{objective:?} {price}"
             );
             if objective == Objective::Worst {
@@ -274,35 +291,44 @@ fn joints_turn_back_less_often_for_a_price_and_the_worst_point_gets_no_worse() {
 }
 
 #[test]
-fn points_without_posture_are_told_with_what_stands_in_the_way() {
+fn points_without_posture_are_reported_with_the_reason() {
     let cell = Cell::new();
     let far = Shape::Polyline(vec![Point2::new(0.0, -0.3), Point2::new(0.0, 0.9)]).sampled(0.05);
     let found = cell.found(&track(far, Point3::new(0.9, 0.0, 0.3)), &search(Objective::Mean));
-    let (index, stand) = found.lost[0];
-    assert!(index > 3 && stand == Stand::OutOfReach, "{:?}", found.lost);
+    let (index, status) = found.unreachable[0];
+    assert!(
+        index > 3 && status == PostureStatus::OutOfReach,
+        "{:?}",
+        found.unreachable
+    );
     let last = found.branches.len();
     assert_eq!(
-        found.lost.iter().map(|(i, _)| *i).collect::<Vec<_>>(),
+        found.unreachable.iter().map(|(i, _)| *i).collect::<Vec<_>>(),
         (index..last).collect::<Vec<_>>()
     );
     assert!(
         found.branches[..index].iter().all(Option::is_some)
             && found.branches[index..].iter().all(Option::is_none)
     );
-    // A joint that must not move holds nothing.
+    // A joint that must not move has no posture.
     let mut joints = cell.robot.joints().to_vec();
     joints[1].limits = Some(Limits {
         lower: 2.6,
         upper: 2.61,
     });
     let found = Cell::with(joints).found(&square(), &search(Objective::Mean));
-    assert_eq!(found.lost.len(), square().len());
-    assert!(found.lost.iter().all(|(_, stand)| *stand == Stand::OutsideLimits));
+    assert_eq!(found.unreachable.len(), square().len());
+    assert!(
+        found
+            .unreachable
+            .iter()
+            .all(|(_, status)| *status == PostureStatus::OutsideLimits)
+    );
     assert!(found.reached == 0.0 && found.breaks.is_empty());
 }
 
 #[test]
-fn an_arm_too_slow_for_the_feed_breaks_off() {
+fn an_arm_too_slow_for_the_feed_has_breaks() {
     let mut joints = arms::mh12().joints().to_vec();
     for joint in &mut joints {
         joint.max_speed = Some(1e-3);
@@ -310,14 +336,14 @@ fn an_arm_too_slow_for_the_feed_breaks_off() {
     let track = square();
     let found = Cell::with(joints).found(&track, &search(Objective::Mean));
     assert_eq!(found.breaks, (1..track.len()).collect::<Vec<_>>());
-    assert!(found.lost.is_empty());
+    assert!(found.unreachable.is_empty());
 }
 
 #[test]
 fn a_rapid_may_change_turn_and_branch() {
     let cell = Cell::new();
     let mut path = square().path;
-    // The same square again behind a rapid, far to the side.
+    // The same square again after a rapid, far to the side.
     let second: Vec<_> = path
         .points
         .iter()
@@ -334,7 +360,7 @@ fn a_rapid_may_change_turn_and_branch() {
         ..search(Objective::Worst)
     };
     let found = cell.found(&track, &slow);
-    assert!(found.lost.is_empty() && found.breaks.is_empty());
+    assert!(found.unreachable.is_empty() && found.breaks.is_empty());
     let half = track.len() / 2;
     let turned = |range: std::ops::Range<usize>| {
         let spins = &found.spins[range];
@@ -347,7 +373,7 @@ fn a_rapid_may_change_turn_and_branch() {
 }
 
 #[test]
-fn any_number_of_threads_finds_the_same_and_it_stops_when_told() {
+fn any_number_of_threads_finds_the_same_and_it_stops_when_cancelled() {
     let (cell, track) = (Cell::new(), square());
     let with = |threads| {
         let pool = rayon::ThreadPoolBuilder::new()
@@ -365,6 +391,11 @@ fn any_number_of_threads_finds_the_same_and_it_stops_when_told() {
         finished: &|_| (),
         cancel: &cancel,
     };
-    let stopped = postures_along(&cell.question(), (&track, &load()), &search(Objective::Mean), watch);
+    let stopped = postures_along(
+        &cell.question(),
+        (&track, &load()),
+        &search(Objective::Mean),
+        watch,
+    );
     assert_eq!(stopped.unwrap_err(), Cancelled);
 }

@@ -17,7 +17,7 @@ fn cutting() -> Cutting {
         immersion: Immersion::Up(5e-3),
         feed: Some(40e-3),
         spindle: Some(3333.0 * TAU / 60.0),
-        greatest: Greatest::SecondCase,
+        greatest: GreatestForce::SecondCase,
     }
 }
 
@@ -62,7 +62,7 @@ fn along(
 fn forces(cutting: &Cutting, points: &[PathPoint], operations: &[(usize, Operation)]) -> Vec<Vector3<f64>> {
     let found = along(cutting, points, operations, None).unwrap();
     let of = |here: &CutHere| [here.mean, here.greatest];
-    let cases = if found.cuts.greatest == Greatest::SecondCase {
+    let cases = if found.cuts.greatest == GreatestForce::SecondCase {
         2
     } else {
         1
@@ -74,19 +74,19 @@ fn forces(cutting: &Cutting, points: &[PathPoint], operations: &[(usize, Operati
 #[test]
 fn the_mean_force_is_the_published_one_wherever_the_feed_goes() {
     for direction in [[1.0, 0.0, 0.0], [-0.3, 0.8, 0.0]] {
-        let both = forces(&cutting(), &[point(direction, Pace::EvaluateError)], &[]);
+        let both = forces(&cutting(), &[point(direction, Pace::Unknown)], &[]);
         assert!((both[0].norm() - 155.6207).abs() < 5e-5, "{}", both[0]);
         assert!(both[1].norm() > both[0].norm());
         let alone = Cutting {
-            greatest: Greatest::LeftOut,
+            greatest: GreatestForce::LeftOut,
             ..cutting()
         };
-        assert_eq!(forces(&alone, &[point(direction, Pace::EvaluateError)], &[]), both[..1]);
+        assert_eq!(forces(&alone, &[point(direction, Pace::Unknown)], &[]), both[..1]);
     }
 }
 
 #[test]
-fn feed_spindle_and_depths_are_those_of_the_program_where_it_tells_them() {
+fn feed_spindle_and_depths_of_the_program_are_used_where_given() {
     let slow = Operation {
         spindle: Some(3333.0 * TAU / 60.0 / 2.0),
         depths: Some(DepthOfCut {
@@ -105,27 +105,27 @@ fn feed_spindle_and_depths_are_those_of_the_program_where_it_tells_them() {
 }
 
 #[test]
-fn a_ramp_keeps_the_share_of_its_greatest_force_and_a_plunge_has_none() {
+fn a_ramp_keeps_the_ratio_of_its_greatest_force_and_a_plunge_has_no_force() {
     let points = [
-        point([1.0, 0.0, -0.2], Pace::EvaluateError),
-        point([0.0, 0.0, -1.0], Pace::EvaluateError),
+        point([1.0, 0.0, -0.2], Pace::Unknown),
+        point([0.0, 0.0, -1.0], Pace::Unknown),
     ];
     let found = along(&cutting(), &points, &[], None).unwrap();
-    assert_eq!(found.given.without_force, 1);
+    assert_eq!(found.summary.without_force, 1);
     let level = along(&cutting(), &points[..1], &[], None).unwrap();
-    assert!((level.given.relative_uncertainty - 0.2).abs() < 0.1);
+    assert!((level.summary.relative_uncertainty - 0.2).abs() < 0.1);
     let [ramp, plunge] = &found.cuts.points[..] else {
         panic!("two points")
     };
-    let flat = forces(&cutting(), &[point([1.0, 0.0, 0.0], Pace::EvaluateError)], &[]);
+    let flat = forces(&cutting(), &[point([1.0, 0.0, 0.0], Pace::Unknown)], &[]);
     let (mean, peak) = (ramp.mean.norm(), ramp.greatest.norm());
     assert!((peak / mean - flat[1].norm() / flat[0].norm()).abs() < 1e-12);
     assert_eq!(*plunge, CutHere::NOTHING);
 }
 
 #[test]
-fn what_nobody_tells_is_named_with_its_line() {
-    let points = [point([1.0, 0.0, 0.0], Pace::EvaluateError)];
+fn values_that_are_not_given_are_reported_with_their_line() {
+    let points = [point([1.0, 0.0, 0.0], Pace::Unknown)];
     let no_feed = Cutting {
         feed: None,
         ..cutting()
@@ -177,7 +177,7 @@ fn pocket() -> Vec<PathPoint> {
 }
 
 #[test]
-fn in_a_stock_the_cut_begins_in_the_air_is_a_slot_and_then_a_step_over() {
+fn in_a_stock_the_cut_starts_in_air_then_is_a_slot_and_then_a_step_over() {
     let corners = [
         Point3::new(-40e-3, -40e-3, -10e-3),
         Point3::new(40e-3, 40e-3, 0.0),
@@ -185,31 +185,36 @@ fn in_a_stock_the_cut_begins_in_the_air_is_a_slot_and_then_a_step_over() {
     let mut stock = Stock::new(corners, 0.25e-3).unwrap();
     let points = pocket();
     let found = along(&cutting(), &points, &[], Some(&mut stock)).unwrap();
-    let met = found.given.met.unwrap();
-    assert!(met.in_air > 10 && met.slots > 50 && met.leaning == 0, "{met:?}");
-    assert!((met.largest_depth - 1e-3).abs() < 1e-6 && (met.largest_width - 16e-3).abs() < 1e-9);
+    let engagement = found.summary.stock_engagement.unwrap();
+    assert!(
+        engagement.in_air > 10 && engagement.slots > 50 && engagement.leaning == 0,
+        "{engagement:?}"
+    );
+    assert!(
+        (engagement.largest_depth - 1e-3).abs() < 1e-6 && (engagement.largest_width - 16e-3).abs() < 1e-9
+    );
     assert_eq!(found.cuts.points[0], CutHere::NOTHING);
     let at = |x: f64, y: f64| {
         let near = |point: &PathPoint| (point.at.xy() - nalgebra::Point2::new(x, y)).norm() < 1e-6;
         found.cuts.points[points.iter().position(near).unwrap()]
     };
-    let as_told = |immersion| {
+    let constant = |immersion| {
         let alone = Cutting {
             immersion,
             ..cutting()
         };
-        forces(&alone, &[point([1.0, 0.0, 0.0], Pace::EvaluateError)], &[])
+        forces(&alone, &[point([1.0, 0.0, 0.0], Pace::Unknown)], &[])
     };
     let slot = at(-10e-3, 0.0);
-    // Heights are kept to 6e-8 of the box.
-    assert!((slot.mean - as_told(Immersion::Slot)[0]).norm() < 1e-6 * slot.mean.norm());
-    // Its greatest force is that of a cut alike to a fiftieth of the diameter, a tenth of the depth here.
-    let greatest = as_told(Immersion::Slot)[1];
+    // Heights are stored to 6e-8 of the box.
+    assert!((slot.mean - constant(Immersion::Slot)[0]).norm() < 1e-6 * slot.mean.norm());
+    // Its greatest force is that of a cut equal to a fiftieth of the diameter, a tenth of the depth here.
+    let greatest = constant(Immersion::Slot)[1];
     assert!((slot.greatest - greatest).norm() < 0.05 * greatest.norm());
-    // Back to -x the slot lies on the left, 5 mm of material on the right: down-milling.
+    // Back to -x the slot is on the left, 5 mm of material on the right: down-milling.
     let back = at(-10e-3, 5e-3);
-    let down = as_told(Immersion::Down(5e-3));
-    // Edges of a strip are right to a quarter of a millimetre here: 5 % of its width.
+    let down = constant(Immersion::Down(5e-3));
+    // Edges of a strip are accurate to a quarter of a millimetre here: 5 % of its width.
     assert!(
         (back.mean - down[0]).norm() < 0.06 * down[0].norm(),
         "{} {}",
@@ -217,12 +222,12 @@ fn in_a_stock_the_cut_begins_in_the_air_is_a_slot_and_then_a_step_over() {
         down[0]
     );
     let share = |mean: Vector3<f64>, greatest: Vector3<f64>| greatest.norm() / mean.norm();
-    // Both strips differ by as little, and cuts alike to a fiftieth of the diameter share their greatest force.
+    // Both strips differ by as little, and cuts equal to a fiftieth of the diameter share their greatest force.
     assert!((share(back.mean, back.greatest) / share(down[0], down[1]) - 1.0).abs() < 0.05);
 }
 
 #[test]
-fn a_leaning_tool_has_the_engagement_that_was_told() {
+fn a_tilted_tool_has_the_constant_engagement() {
     let corners = [
         Point3::new(-40e-3, -40e-3, -10e-3),
         Point3::new(40e-3, 40e-3, 0.0),
@@ -230,15 +235,15 @@ fn a_leaning_tool_has_the_engagement_that_was_told() {
     let mut stock = Stock::new(corners, 1e-3).unwrap();
     let leaning = PathPoint {
         axis: Some(Unit::new_normalize(Vector3::new(0.0, 0.3, 1.0))),
-        ..point([1.0, 0.0, 0.0], Pace::EvaluateError)
+        ..point([1.0, 0.0, 0.0], Pace::Unknown)
     };
     let found = along(&cutting(), &[leaning], &[], Some(&mut stock)).unwrap();
-    assert_eq!(found.given.met.unwrap().leaning, 1);
+    assert_eq!(found.summary.stock_engagement.unwrap().leaning, 1);
     assert_eq!(found.cuts, along(&cutting(), &[leaning], &[], None).unwrap().cuts);
 }
 
 #[test]
-fn long_work_can_be_stopped() {
+fn long_computations_can_be_cancelled() {
     let cancel = std::sync::atomic::AtomicBool::new(true);
     let watch = Watch {
         cancel: &cancel,
@@ -249,7 +254,7 @@ fn long_work_can_be_stopped() {
 }
 
 #[test]
-fn the_tool_of_the_program_cuts_in_its_own_size() {
+fn the_tool_of_the_program_cuts_with_its_size() {
     let feed = Pace::Feed(40e-3);
     let points = [point([1.0, 0.0, 0.0], feed), point([1.0, 0.0, 0.0], feed)];
     let wide = Operation {
@@ -280,8 +285,8 @@ fn the_tool_of_the_program_cuts_in_its_own_size() {
 }
 
 #[test]
-fn a_shallow_ball_cuts_with_the_force_of_the_strip_that_it_meets() {
-    // 0.2 mm deep a ball of 10 mm is 1.4 mm in radius: a strip told by the full diameter would lie beside it.
+fn a_shallow_ball_cuts_with_the_force_of_its_engaged_strip() {
+    // At 0.2 mm depth a ball of 10 mm has a radius of 1.4 mm: a strip based on the full diameter would be next to it.
     let ball = Cutting {
         cutter: Cutter::ball(10e-3, 2).unwrap(),
         depth: 0.2e-3,
@@ -290,21 +295,21 @@ fn a_shallow_ball_cuts_with_the_force_of_the_strip_that_it_meets() {
     let at = |immersion| {
         let given = along(
             &Cutting { immersion, ..ball },
-            &[point([1.0, 0.0, 0.0], Pace::EvaluateError)],
+            &[point([1.0, 0.0, 0.0], Pace::Unknown)],
             &[],
             None,
         )
         .unwrap();
-        assert_eq!(given.given.without_force, 0);
+        assert_eq!(given.summary.without_force, 0);
         given.cuts.points[0].mean
     };
     let shallow = at(Immersion::Up(0.5e-3));
     assert!(shallow.norm() > 1.0, "{shallow}");
-    // Wider is more, up to a groove of its own.
+    // Wider is more, up to the width of its own groove.
     let sizes = [0.1e-3, 0.5e-3, 1.4e-3, 2.7e-3].map(|ae| at(Immersion::Down(ae)).norm());
     assert!(sizes.windows(2).all(|pair| pair[0] < pair[1]), "{sizes:?}");
     assert_eq!(at(Immersion::Up(2.9e-3)), at(Immersion::Slot));
-    // What is met in a stock that has this strip: a groove beside one of its own.
+    // The engagement in a stock with this strip: a groove next to its own groove.
     let corners = [Point3::new(-0.04, -0.02, -0.01), Point3::new(0.04, 0.02, 0.0)];
     let mut stock = Stock::new(corners, 0.05e-3).unwrap();
     let grooves: Vec<PathPoint> = [
@@ -318,57 +323,60 @@ fn a_shallow_ball_cuts_with_the_force_of_the_strip_that_it_meets() {
     .enumerate()
     .map(|(k, (x, y))| PathPoint {
         at: Point3::new(x, y, -0.2e-3),
-        // Each groove begins anew.
+        // Each groove starts a new cut.
         along: if k == 2 { 0.0 } else { k as f64 },
-        ..point([1.0, 0.0, 0.0], Pace::EvaluateError)
+        ..point([1.0, 0.0, 0.0], Pace::Unknown)
     })
     .collect();
     let found = along(&ball, &grooves, &[], Some(&mut stock)).unwrap();
     let strip = found.cuts.points[4].cut.unwrap().engagement.edges();
-    // The ridge between both begins half a radial depth from the axis, not at the rim less the radial depth: deeper in the
-    // cut it is wider. Both go on beyond the rim on the left.
+    // The ridge between both begins half a radial depth from the axis, not at the rim less the radial depth: deeper in
+    // the cut it is wider. Both go on beyond the rim on the left.
     assert_eq!(strip[1], 5e-3);
     assert!((strip[0] + 0.25e-3).abs() < 0.3e-3, "{strip:?}");
 }
 
 #[test]
-fn a_tool_whose_edges_pass_beside_the_material_has_no_force_and_is_counted() {
+fn a_tool_whose_edges_pass_next_to_the_material_has_no_force_and_is_reported() {
     let soft = Mechanistic::new(Vector3::zeros(), Vector3::zeros()).unwrap();
     let nothing = Cutting {
         law: CuttingLaw::Mechanistic(soft),
         ..cutting()
     };
-    let found = along(&nothing, &[point([1.0, 0.0, 0.0], Pace::EvaluateError)], &[], None).unwrap();
-    assert_eq!((found.given.without_force, found.given.largest_mean), (1, 0.0));
+    let found = along(&nothing, &[point([1.0, 0.0, 0.0], Pace::Unknown)], &[], None).unwrap();
+    assert_eq!(
+        (found.summary.without_force, found.summary.largest_mean),
+        (1, 0.0)
+    );
     assert_eq!(found.cuts.points[0].greatest, Vector3::zeros());
 }
 
 #[test]
-fn what_was_met_in_a_stock_adds_up_to_what_is_gone() {
+fn the_engagement_in_a_stock_adds_up_to_the_removed_volume() {
     let corners = [
         Point3::new(-40e-3, -40e-3, -10e-3),
         Point3::new(40e-3, 40e-3, 0.0),
     ];
     let mut stock = Stock::new(corners, 0.5e-3).unwrap();
     let (full, points) = (stock.volume(), pocket());
-    let met = along(&cutting(), &points, &[], Some(&mut stock))
+    let engagement = along(&cutting(), &points, &[], Some(&mut stock))
         .unwrap()
-        .given
-        .met
+        .summary
+        .stock_engagement
         .unwrap();
-    assert!((full - stock.volume() - met.removed).abs() < 1e-7 * full);
-    // Once more there is nothing left.
+    assert!((full - stock.volume() - engagement.removed).abs() < 1e-7 * full);
+    // In a second pass there is nothing left.
     let again = along(&cutting(), &points, &[], Some(&mut stock)).unwrap();
-    let met = again.given.met.unwrap();
-    assert_eq!(met.removed, 0.0);
-    // Short steps see the wall ahead of a corner two pitches early, which is two points of this path.
-    assert!(met.in_air + 2 >= points.len(), "{met:?}");
+    let engagement = again.summary.stock_engagement.unwrap();
+    assert_eq!(engagement.removed, 0.0);
+    // Short steps detect the wall ahead of a corner two pitches early, which is two points of this path.
+    assert!(engagement.in_air + 2 >= points.len(), "{engagement:?}");
     let of_air = again.cuts.points.iter().filter(|here| **here == CutHere::NOTHING);
-    assert_eq!(of_air.count(), met.in_air);
+    assert_eq!(of_air.count(), engagement.in_air);
 }
 
 #[test]
-fn the_greatest_force_is_told_where_the_mean_is_largest_even_if_it_is_no_case() {
+fn the_greatest_force_is_reported_at_the_largest_mean_even_if_it_is_not_a_case() {
     let points = [
         point([1.0, 0.0, 0.0], Pace::Feed(20e-3)),
         point([1.0, 0.0, 0.0], Pace::Feed(40e-3)),
@@ -376,13 +384,13 @@ fn the_greatest_force_is_told_where_the_mean_is_largest_even_if_it_is_no_case() 
     ];
     let both = along(&cutting(), &points, &[], None).unwrap();
     let alone = Cutting {
-        greatest: Greatest::LeftOut,
+        greatest: GreatestForce::LeftOut,
         ..cutting()
     };
     let mean = along(&alone, &points, &[], None).unwrap();
-    assert_eq!(mean.given.largest_mean, both.given.largest_mean);
-    assert!((mean.given.greatest / both.given.greatest - 1.0).abs() < 1e-12);
-    assert_eq!(mean.given.largest_mean, mean.cuts.points[1].mean.norm());
+    assert_eq!(mean.summary.largest_mean, both.summary.largest_mean);
+    assert!((mean.summary.greatest / both.summary.greatest - 1.0).abs() < 1e-12);
+    assert_eq!(mean.summary.largest_mean, mean.cuts.points[1].mean.norm());
     assert!(
         mean.cuts
             .points
@@ -392,7 +400,7 @@ fn the_greatest_force_is_told_where_the_mean_is_largest_even_if_it_is_no_case() 
 }
 
 #[test]
-fn a_tool_that_comes_back_is_held_once() {
+fn a_tool_used_again_is_listed_once() {
     let feed = Pace::Feed(40e-3);
     let points = [point([1.0, 0.0, 0.0], feed); 4];
     let of = |diameter| Operation {
@@ -406,6 +414,6 @@ fn a_tool_that_comes_back_is_held_once() {
         (3, of(Some(-1.0))),
     ];
     let found = along(&cutting(), &points, &operations, None).unwrap();
-    let evaluation: Vec<usize> = found.cuts.points.iter().map(|here| here.cutter).collect();
-    assert_eq!((found.cuts.cutters.len(), evaluation), (2, vec![1, 0, 1, 0]));
+    let used: Vec<usize> = found.cuts.points.iter().map(|here| here.cutter).collect();
+    assert_eq!((found.cuts.cutters.len(), used), (2, vec![1, 0, 1, 0]));
 }

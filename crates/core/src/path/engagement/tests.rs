@@ -7,7 +7,7 @@ const RADIUS: f64 = 5.0 * MM;
 /// Depth of the floor below the top of the stock.
 const DEPTH: f64 = 3.0 * MM;
 
-/// What an edge of a strip may be off: half a pitch for its cells, a quarter for the strips.
+/// Largest error of an edge of a strip: half a pitch for its cells, a quarter for the strips.
 const EDGE: f64 = 0.75;
 
 fn stock(pitch: f64) -> Stock {
@@ -36,14 +36,20 @@ fn pass(from: Point3<f64>, to: Point3<f64>, direction: Vector3<f64>) -> Pass {
     }
 }
 
-/// Immersion angles of a bite where the cutter has the radius `rho`.
-fn arc_at(engagement: &Bite, rho: f64) -> [f64; 2] {
+/// Immersion angles of an engagement where the cutter has the radius `rho`.
+fn arc_at(engagement: &PassEngagement, rho: f64) -> [f64; 2] {
     let arc = engagement.strip.and_then(|strip| strip.arc_at(rho)).unwrap();
     [arc.entry, arc.exit]
 }
 
-/// Bites along a line in steps no longer than `step`, its start first.
-fn line(stock: &mut Stock, from: Point3<f64>, to: Point3<f64>, step: f64, cutter: &EndMillBody) -> Vec<Bite> {
+/// Engagements along a line in steps no longer than `step`, its start first.
+fn line(
+    stock: &mut Stock,
+    from: Point3<f64>,
+    to: Point3<f64>,
+    step: f64,
+    cutter: &EndMillBody,
+) -> Vec<PassEngagement> {
     let way = to - from;
     let pieces = (way.norm() / step).ceil();
     let mut before = from;
@@ -57,13 +63,13 @@ fn line(stock: &mut Stock, from: Point3<f64>, to: Point3<f64>, step: f64, cutter
         .collect()
 }
 
-/// A place told along a feed at `angle` from x through the origin, to its left and up.
+/// A position relative to a feed at `angle` from x through the origin, to its left and up.
 fn place(angle: f64, along: f64, left: f64, up: f64) -> Point3<f64> {
     let (sin, cos) = angle.sin_cos();
     Point3::new(along * cos - left * sin, along * sin + left * cos, up)
 }
 
-/// Whether `phi` is passed at the lateral place of `expected` to `pitches` pitches.
+/// Whether the rim at `phi` is within `pitches` pitches, laterally, of the rim at `expected`.
 fn is_at(phi: f64, expected: f64, pitches: f64) -> bool {
     RADIUS * (phi.cos() - expected.cos()).abs() <= pitches * PITCH
 }
@@ -87,7 +93,7 @@ fn a_first_pass_is_a_slot_from_0_to_180_deg_whatever_its_direction() {
 }
 
 #[test]
-fn a_pass_beside_another_has_the_closed_immersion_of_its_width() {
+fn a_pass_next_to_another_has_the_closed_form_immersion_of_its_width() {
     for angle in ANGLES {
         for ae in [0.8, 2.0, 5.0, 7.3].map(|ae| ae * MM) {
             for step in [0.05, 0.3, 1.0].map(|step| step * MM) {
@@ -95,10 +101,10 @@ fn a_pass_beside_another_has_the_closed_immersion_of_its_width() {
                     let mut stock = stock(PITCH);
                     let end = |along: f64, left: f64| place(angle, along * MM, left, -DEPTH);
                     line(&mut stock, end(-20.0, 0.0), end(20.0, 0.0), 40.0 * MM, &flat());
-                    let beside = end(-5.0, side * ae);
-                    // In the slot, still short of the start: it only clears the way.
-                    line(&mut stock, end(-8.0, side * ae), beside, MM, &flat());
-                    for engagement in line(&mut stock, beside, end(-3.0, side * ae), step, &flat()) {
+                    let next_to = end(-5.0, side * ae);
+                    // In the slot, still before the start of the tested pass.
+                    line(&mut stock, end(-8.0, side * ae), next_to, MM, &flat());
+                    for engagement in line(&mut stock, next_to, end(-3.0, side * ae), step, &flat()) {
                         let immersion = (1.0 - ae / RADIUS).acos();
                         let expected = if side > 0.0 {
                             [0.0, immersion]
@@ -114,7 +120,10 @@ fn a_pass_beside_another_has_the_closed_immersion_of_its_width() {
                         );
                         assert!((engagement.width - ae).abs() <= EDGE * PITCH, "{given}");
                         let away = if side > 0.0 { entry } else { PI - exit };
-                        assert!(away == 0.0 && engagement.width == engagement.strip.unwrap().width(), "{given}");
+                        assert!(
+                            away == 0.0 && engagement.width == engagement.strip.unwrap().width(),
+                            "{given}"
+                        );
                         assert!((engagement.depth - DEPTH).abs() < 1e-9, "{given}");
                     }
                 }
@@ -140,7 +149,7 @@ fn the_volume_of_a_step_is_its_section_times_its_length() {
 }
 
 #[test]
-fn a_pass_where_all_is_cut_already_is_air() {
+fn a_pass_where_all_is_removed_already_is_air() {
     for cutter in [flat(), ball(), EndMillBody::new(2.0 * RADIUS, 1.5 * MM).unwrap()] {
         for angle in ANGLES {
             for rise in [-2.0, 0.0, 2.0] {
@@ -149,16 +158,24 @@ fn a_pass_where_all_is_cut_already_is_air() {
                 let to = place(angle, 17.1 * MM, 1.07 * MM, -DEPTH + rise * MM);
                 line(&mut stock, from, to, 0.6 * MM, &cutter);
                 for engagement in line(&mut stock, from, to, 0.6 * MM, &cutter) {
-                    assert_eq!((engagement.kind, engagement.strip), (EngagementKind::Air, None), "{angle} {rise}");
-                    assert_eq!([engagement.width, engagement.depth, engagement.volume], [0.0; 3], "{angle} {rise}");
+                    assert_eq!(
+                        (engagement.kind, engagement.strip),
+                        (EngagementKind::Air, None),
+                        "{angle} {rise}"
+                    );
+                    assert_eq!(
+                        [engagement.width, engagement.depth, engagement.volume],
+                        [0.0; 3],
+                        "{angle} {rise}"
+                    );
                 }
             }
         }
     }
 }
 
-/// Bites round a circle about the origin, counterclockwise.
-fn round(stock: &mut Stock, radius: f64, steps: u32, cutter: &EndMillBody) -> Vec<Bite> {
+/// Engagements round a circle about the origin, counterclockwise.
+fn round(stock: &mut Stock, radius: f64, steps: u32, cutter: &EndMillBody) -> Vec<PassEngagement> {
     let at = |k: u32| place(f64::from(k) / f64::from(steps) * TAU, radius, 0.0, -DEPTH);
     (1..=steps)
         .map(|k| {
@@ -169,7 +186,7 @@ fn round(stock: &mut Stock, radius: f64, steps: u32, cutter: &EndMillBody) -> Ve
 }
 
 #[test]
-fn the_wall_of_a_round_pocket_is_met_on_the_closed_arc() {
+fn the_wall_of_a_round_pocket_has_the_closed_form_arc() {
     let mut stock = stock(PITCH);
     // A pocket of 15 mm radius, cleared from within; then rings of 1.5 mm outwards: part on the right.
     for ring in [1.0, 4.0, 8.0, 10.0] {
@@ -188,7 +205,7 @@ fn the_wall_of_a_round_pocket_is_met_on_the_closed_arc() {
             // The arc leaves its chord within the window by another part of a pitch.
             assert!(is_at(entry, PI - half, 1.2), "{} {engagement:?}", PI - half);
         }
-        // A straight wall would be met over less: the test can tell.
+        // A straight wall would have a smaller arc: the test can distinguish them.
         let straight = (1.0 - (ring + RADIUS - wall) / RADIUS).acos();
         assert!(!is_at(PI - straight, PI - half, 1.2));
         wall = ring + RADIUS;
@@ -215,7 +232,7 @@ fn entering_and_leaving_a_face_follow_the_rim() {
         }
         if (0.2 * RADIUS..0.9 * RADIUS).contains(&short) {
             let entry = (short / RADIUS).asin();
-            // The face lies across: a pitch along the feed is a pitch times tan(phi) along the rim's y.
+            // The face is across the feed: a pitch along the feed is a pitch times tan(phi) along the rim's y.
             let off = 1.5 * entry.tan() + EDGE;
             let [enters, leaves] = arc_at(engagement, RADIUS);
             assert!(is_at(enters, entry, off), "{k} {engagement:?}");
@@ -242,7 +259,7 @@ fn clear(stock: &mut Stock, low: [f64; 2], high: [f64; 2]) {
 fn engagement_rises_towards_an_inner_corner() {
     let mut stock = stock(PITCH);
     clear(&mut stock, [-60.0, -60.0], [20.0, 10.0]);
-    // The wall y = 10 mm is met with 2 mm, the wall x = 20 mm is ahead.
+    // The wall y = 10 mm is engaged with 2 mm, the wall x = 20 mm is ahead.
     let at = |x: f64| Point3::new(x * MM, 7.0 * MM, -DEPTH);
     let engagements = line(&mut stock, at(-30.0), at(20.0), 0.5 * MM, &flat());
     let side = (1.0 - 2.0 / 5.0_f64).acos();
@@ -251,14 +268,20 @@ fn engagement_rises_towards_an_inner_corner() {
         let away = (50.0 - 0.5 * k as f64) * MM;
         if away > RADIUS + 2.0 * PITCH {
             assert_eq!(engagement.kind, EngagementKind::Strip);
-            assert!(is_at(arc_at(engagement, RADIUS)[1], side, EDGE), "{k} {engagement:?}");
+            assert!(
+                is_at(arc_at(engagement, RADIUS)[1], side, EDGE),
+                "{k} {engagement:?}"
+            );
         } else if away < 0.75 * RADIUS {
             // The rim passes x = 20 mm at sin(phi) = away/R, on the side of the free part.
             let exit = PI - (away / RADIUS).asin();
             // A pitch along the feed and one of the corner that the thin cutter leaves.
             let off = 2.0 * (away / RADIUS).asin().tan() + EDGE;
             let [enters, leaves] = arc_at(engagement, RADIUS);
-            assert!(enters == 0.0 && is_at(leaves, exit, off), "{k} {exit} {engagement:?}");
+            assert!(
+                enters == 0.0 && is_at(leaves, exit, off),
+                "{k} {exit} {engagement:?}"
+            );
             exits.push(leaves);
         }
     }
@@ -270,7 +293,7 @@ fn engagement_rises_towards_an_inner_corner() {
 }
 
 #[test]
-fn of_two_strips_beside_a_channel_one_is_told_and_not_both() {
+fn of_two_strips_on_both_sides_of_a_channel_only_one_is_reported() {
     let mut stock = stock(PITCH);
     let at = |x: f64| Point3::new(x * MM, 0.0, -DEPTH);
     let channel = EndMillBody::new(5.0 * MM, 0.0).unwrap();
@@ -285,7 +308,7 @@ fn of_two_strips_beside_a_channel_one_is_told_and_not_both() {
 }
 
 #[test]
-fn a_rib_narrower_than_the_cutter_is_met_in_the_middle() {
+fn a_rib_narrower_than_the_cutter_is_engaged_in_the_middle() {
     let mut stock = stock(PITCH);
     clear(&mut stock, [-60.0, -20.0], [60.0, -2.0]);
     clear(&mut stock, [-60.0, 3.0], [60.0, 20.0]);
@@ -299,7 +322,7 @@ fn a_rib_narrower_than_the_cutter_is_met_in_the_middle() {
 }
 
 #[test]
-fn a_ramp_bites_deeper_step_by_step_and_a_plunge_all_round() {
+fn a_ramp_engages_deeper_step_by_step_and_a_plunge_all_round() {
     let mut stock = stock(PITCH);
     let (from, to) = (
         Point3::new(-20.0, 0.0, 0.0) * MM,
@@ -326,7 +349,10 @@ fn a_ramp_bites_deeper_step_by_step_and_a_plunge_all_round() {
     assert!((plunge[3].depth - MM).abs() < 1e-8);
     assert_eq!((plunge[3].strip, plunge[3].width), (None, 2.0 * RADIUS));
     let up = line(&mut stock, down[1], down[0], MM, &flat());
-    assert!(up.iter().all(|engagement| engagement.kind == air && engagement.volume == 0.0));
+    assert!(
+        up.iter()
+            .all(|engagement| engagement.kind == air && engagement.volume == 0.0)
+    );
 }
 
 #[test]
@@ -341,17 +367,20 @@ fn a_ball_is_engaged_up_to_the_height_of_the_material() {
         for engagement in line(&mut stock, from, to, MM, &ball()) {
             assert_eq!(engagement.kind, EngagementKind::Slot, "{depth}");
             assert_eq!(arc_at(&engagement, wide), [0.0, PI], "{depth}");
-            // It goes on beyond the circle that cuts.
+            // It continues beyond the circle that cuts.
             assert_eq!(engagement.strip.unwrap().edges(), [-RADIUS, RADIUS]);
             // Heights are rounded to 1e-9 m; a ball of 5 mm is 2.8 times as wide per height at 0.3 mm, on two sides.
-            assert!((engagement.width - 2.0 * wide).abs() < 1e-8, "{depth} {engagement:?}");
+            assert!(
+                (engagement.width - 2.0 * wide).abs() < 1e-8,
+                "{depth} {engagement:?}"
+            );
             assert!((engagement.depth - depth).abs() < 1e-8, "{depth} {engagement:?}");
         }
     }
 }
 
 #[test]
-fn a_ball_beside_its_own_groove_meets_the_ridge_between() {
+fn a_ball_next_to_its_own_groove_engages_the_ridge_between() {
     let (depth, apart) = (2.0 * MM, 1.5 * MM);
     let mut stock = stock(PITCH);
     let at = |x: f64, y: f64| Point3::new(x * MM, y, -depth);
@@ -362,9 +391,9 @@ fn a_ball_beside_its_own_groove_meets_the_ridge_between() {
     for engagement in line(&mut stock, at(-10.0, apart), at(10.0, apart), MM, &ball()) {
         assert_eq!(engagement.kind, EngagementKind::Strip);
         let off = engagement.width - (left - right);
-        // The stack has discs of a sixth of the engaged radius: the lowest that meets the ridge tells where it begins.
+        // The stack has discs of a sixth of the engaged radius: the lowest one at the ridge defines its start.
         assert!(off.abs() < left / 6.0 + EDGE * PITCH, "{off} {engagement:?}");
-        // The ridge goes on beyond where the ball is as high as it; the width is told at that height.
+        // The ridge continues beyond the point where the ball has its height; the width is reported at that height.
         let [right, beyond] = engagement.strip.unwrap().edges();
         assert!(
             beyond == RADIUS && (engagement.width - (left - right)).abs() < 1e-8,

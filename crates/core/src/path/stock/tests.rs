@@ -1,5 +1,5 @@
 use super::*;
-use crate::path::{Bite, EngagementKind, Pass};
+use crate::path::{EngagementKind, Pass, PassEngagement};
 use nalgebra::{Unit, Vector3};
 use std::f64::consts::PI;
 
@@ -22,13 +22,13 @@ fn pass(from: Point3<f64>, to: Point3<f64>) -> Pass {
     }
 }
 
-/// One step between two places in mm.
-fn step(stock: &mut Stock, from: [f64; 3], to: [f64; 3], cutter: &EndMillBody) -> Bite {
+/// One step between two positions in mm.
+fn step(stock: &mut Stock, from: [f64; 3], to: [f64; 3], cutter: &EndMillBody) -> PassEngagement {
     let (from, to) = (Point3::from(from) * MM, Point3::from(to) * MM);
     stock.cut(&pass(from, to), cutter).unwrap()
 }
 
-/// Half a pitch all along the walls that are cut: what a volume may be wrong by.
+/// Half a pitch along the walls that are cut: the largest error of a volume.
 fn wall_error(wall: f64, depth: f64, stock: &Stock) -> f64 {
     wall * depth * stock.pitch() / 2.0
 }
@@ -141,7 +141,7 @@ fn volumes_converge_with_the_pitch() {
 }
 
 #[test]
-fn a_cutter_larger_than_the_box_takes_all_of_it_above_its_tip_and_never_more() {
+fn a_cutter_larger_than_the_box_removes_all_above_its_tip_and_no_more() {
     let mut stock = stock_mm([0.0; 3], [10.0, 7.0, 5.0], 0.3);
     let cutter = cutter_mm(80.0, 0.0);
     let face = step(&mut stock, [-50.0, 3.0, 3.0], [60.0, 3.0, 3.0], &cutter);
@@ -158,7 +158,7 @@ fn a_cutter_larger_than_the_box_takes_all_of_it_above_its_tip_and_never_more() {
 }
 
 #[test]
-fn boxes_that_cannot_be_are_refused() {
+fn invalid_boxes_are_refused() {
     let boxed =
         |low: [f64; 3], high: [f64; 3], pitch: f64| Stock::new([low.into(), high.into()], pitch).unwrap_err();
     let one = [1.0; 3];
@@ -201,7 +201,7 @@ fn boxes_that_cannot_be_are_refused() {
 }
 
 #[test]
-fn points_that_cannot_be_and_tools_that_lean_are_refused_and_cut_nothing() {
+fn invalid_points_and_tilted_tools_are_refused_and_cut_nothing() {
     let mut stock = stock_mm([0.0; 3], [10.0, 10.0, 5.0], 0.5);
     let (full, cutter) = (stock.volume(), cutter_mm(4.0, 0.0));
     let (from, to) = (Point3::new(0.0, 5.0, 2.0) * MM, Point3::new(5.0, 5.0, 2.0) * MM);
@@ -246,7 +246,7 @@ fn points_that_cannot_be_and_tools_that_lean_are_refused_and_cut_nothing() {
 }
 
 #[test]
-fn places_and_cutters_at_the_ends_of_what_is_allowed_cut_without_fault() {
+fn positions_and_cutters_at_the_limits_cut_without_error() {
     let mut stock = stock_mm([0.0; 3], [10.0, 10.0, 5.0], 0.5);
     let places = [-FARTHEST, -1.0, 0.0, 0.005, FARTHEST];
     for (diameter, corner) in [(1e-5, 0.0), (1e-5, 5e-6), (1.0, 0.0), (1.0, 0.5)] {
@@ -266,7 +266,7 @@ fn places_and_cutters_at_the_ends_of_what_is_allowed_cut_without_fault() {
 }
 
 #[test]
-fn what_bites_take_is_what_the_stock_loses_on_any_way_of_any_cutter() {
+fn the_removed_volumes_equal_the_loss_of_the_stock_on_any_path_of_any_cutter() {
     for (diameter, corner) in [(10.0, 0.0), (8.0, 4.0), (12.0, 2.0)] {
         let cutter = cutter_mm(diameter, corner);
         let mut stock = stock_mm([0.0, 0.0, -12.0], [40.0, 30.0, 0.0], 0.3);
@@ -288,7 +288,7 @@ fn what_bites_take_is_what_the_stock_loses_on_any_way_of_any_cutter() {
                 "{k}: {} {lost}",
                 engagement.volume
             );
-            // It takes no more than the cutter sweeps: its widest section along its way, and itself.
+            // It removes no more than the cutter sweeps: its widest section along its path, and itself.
             let length = (Point3::from(at) - Point3::from(before)).norm() * MM;
             let swept = 2.0 * cutter.radius() * 13.0 * MM * length + PI * cutter.radius().powi(2) * 13.0 * MM;
             assert!(engagement.volume <= swept && engagement.depth <= 12.0 * MM * (1.0 + 1e-6));
@@ -302,7 +302,7 @@ fn what_bites_take_is_what_the_stock_loses_on_any_way_of_any_cutter() {
 }
 
 #[test]
-fn a_way_in_many_steps_leaves_what_one_step_leaves() {
+fn a_path_in_many_steps_removes_the_same_as_one_step() {
     let cutter = cutter_mm(10.0, 5.0);
     let cut_in = |pieces: u32| {
         let mut stock = stock_mm([0.0, 0.0, -10.0], [40.0, 30.0, 0.0], 0.25);
@@ -328,7 +328,7 @@ fn a_way_in_many_steps_leaves_what_one_step_leaves() {
 }
 
 #[test]
-fn the_highest_material_about_a_place_is_that_of_its_cells() {
+fn the_highest_material_about_a_position_is_that_of_its_cells() {
     let mut stock = stock_mm([0.0, 0.0, -10.0], [20.0, 20.0, 0.0], 0.5);
     step(
         &mut stock,
@@ -337,7 +337,7 @@ fn the_highest_material_about_a_place_is_that_of_its_cells() {
         &cutter_mm(10.0, 0.0),
     );
     let at = |y: f64| Point2::new(10.0, y) * MM;
-    // Inside the groove the floor, near its wall the top, beside the box its bottom.
+    // Inside the groove the floor, near its wall the top, outside the box its bottom.
     for (y, out, z) in [
         (10.0, 3.0, -4.0),
         (10.0, 6.0, 0.0),
@@ -350,7 +350,7 @@ fn the_highest_material_about_a_place_is_that_of_its_cells() {
 }
 
 #[test]
-fn every_refusal_tells_what_cannot_be_cut() {
+fn every_refusal_states_what_cannot_be_cut() {
     let given = [
         (
             StockError::Box {
@@ -362,7 +362,7 @@ fn every_refusal_tells_what_cannot_be_cut() {
         ),
         (
             StockError::Tilted { angle_deg: 12.345 },
-            "the tool leans 12.35 deg from the z axis of the path: the stock is cut by upright tools alone",
+            "the tool is tilted by 12.35 deg from the z axis of the path: a stock supports only upright tools",
         ),
         (
             StockError::NotFinite("a direction of the path"),
@@ -373,7 +373,7 @@ fn every_refusal_tells_what_cannot_be_cut() {
                 cells: 4e8,
                 most: 1e8,
             },
-            "the stock has 4.000e8 cells: at most 1e8 are kept; take a coarser pitch",
+            "the stock has 4.000e8 cells: the maximum is 1e8; use a coarser pitch",
         ),
     ];
     for (error, text) in given {

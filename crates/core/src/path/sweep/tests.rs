@@ -4,14 +4,14 @@ use proptest::prelude::*;
 
 const MM: f64 = 1e-3;
 
-/// The row of bottoms starts this far below all that is cut, m.
+/// The row of bottoms starts this far below all cuts, m.
 const FLOOR: f64 = -20.0 * MM;
 
 fn cutter_mm(diameter: f64, corner: f64) -> EndMillBody {
     EndMillBody::new(diameter * MM, corner * MM).unwrap()
 }
 
-/// Path z of the lowest point over one place, m; none where the cutter does not pass.
+/// Path z of the lowest point over one position, m; `None` where the cutter does not pass.
 fn bottom(sweep: &Sweep, at: Point2<f64>) -> Option<f64> {
     let mut row = [0.0];
     sweep.pass(Row {
@@ -47,9 +47,9 @@ fn the_lowest_point_of_a_step_is_that_of_many_stamps() {
                 });
                 let stamped = heights.fold(f64::INFINITY, f64::min);
                 let swept = bottom(&sweep, at).unwrap();
-                // Heights of up to 26 mm are rounded to 6e-8 of themselves. Half a space away from the lowest tip a flat
-                // one is higher by the slope, at most 9/7.6; rounded ones are as good unless the rim itself is there,
-                // whose wall is upright.
+                // Heights of up to 26 mm are rounded to 6e-8 of themselves. Half a space away from the lowest tip a
+                // flat one is higher by the slope, at most 9/7.6; rounded ones are as good unless the rim itself is
+                // there, whose wall is upright.
                 assert!(swept <= stamped + 2e-9, "{corner} {rise} {at}");
                 assert!(
                     stamped - swept < 2.0 * space,
@@ -74,7 +74,7 @@ fn searched(from: Point3<f64>, to: Point3<f64>, cutter: &EndMillBody, at: Point2
         return None;
     }
     let height = |t: f64| from.z + (to.z - from.z) * (t / chord.norm()) + cutter.height((a - t).hypot(b));
-    // Each round leaves two thirds, all of them 1e-16.
+    // Each iteration leaves two thirds, all of them 1e-16.
     for _ in 0..90 {
         let third = (last - first) / 3.0;
         if height(first + third) <= height(last - third) {
@@ -83,7 +83,7 @@ fn searched(from: Point3<f64>, to: Point3<f64>, cutter: &EndMillBody, at: Point2
             first += third;
         }
     }
-    // At the rim the bottom is upright: the ends of the stretch are tried themselves.
+    // At the rim the bottom is vertical: the ends of the interval are tried too.
     let places = [0.5 * (first + last), stretch[0], stretch[1]];
     places.into_iter().map(height).min_by(f64::total_cmp)
 }
@@ -101,7 +101,7 @@ proptest! {
         let (from, to) = (Point3::origin(), Point3::new(step.0, step.1, step.2) * MM);
         prop_assume!(to.xy().coords.norm() > 0.01 * MM);
         let at = Point2::new(at.0, at.1) * MM;
-        // Near the rim rounding of the place decides: 1e-9 of it is as much as the square root makes of that.
+        // Near the rim rounding of the position decides: 1e-9 of it is as much as the square root makes of that.
         let expected = searched(from, to, &cutter, at);
         let near = |way: f64| searched(from, to, &cutter, Point2::from(at.coords * (1.0 + way)));
         prop_assume!(near(1e-12).is_some() == near(-1e-12).is_some());
@@ -125,7 +125,7 @@ proptest! {
         let [left, right] = sweep.reach_along_x(y * MM);
         let [lower, upper] = sweep.reach_along_y();
         prop_assert_eq!(left <= right, (lower..=upper).contains(&(y * MM)));
-        // A nanometre to either side of each end: in and out.
+        // A nanometre to either side of each end: inside and outside.
         let passes = |x: f64| bottom(&sweep, Point2::new(x, y * MM)).is_some();
         if right - left > 3e-9 {
             prop_assert!(passes(left + 1e-9) && passes(right - 1e-9));

@@ -1,4 +1,4 @@
-//! What may differ between a robot file and its pendant, and the joint positions that follow.
+//! Possible differences between a robot file and its pendant, and the joint positions that follow.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -6,15 +6,15 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::robot::Robot;
 
-/// One difference between file and pendant: what the file would have to say in place of what it says.
+/// One difference between file and pendant: the change of the file that removes it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Change {
-    /// The joint counts the other way.
+    /// The joint has the opposite direction.
     Sign {
         /// Index of the joint.
         joint: usize,
     },
-    /// The joint's zero stands elsewhere: its chain position is `by` (rad) more at every count.
+    /// The joint has another zero: its chain position is `by` (rad) more at every joint position.
     Zero {
         /// Index of the joint.
         joint: usize,
@@ -23,7 +23,7 @@ pub enum Change {
         /// Whether the value was found from the readings, not taken from the quarter turns.
         free: bool,
     },
-    /// The joint counts an earlier joint in, by this factor more than the file says.
+    /// The joint is coupled to an earlier joint, with a factor higher than that of the file by `factor`.
     Coupling {
         /// Index of the joint.
         joint: usize,
@@ -32,14 +32,14 @@ pub enum Change {
         /// Factor on top of the file's.
         factor: f64,
     },
-    /// The pendant's base lies higher than the frame it was believed to be, by this, m.
+    /// The pendant's base is higher than the assumed frame by this, m.
     BaseHeight {
         /// How much, m.
         by: f64,
     },
-    /// The pendant's base lies elsewhere, m.
+    /// The pendant's base is elsewhere, m.
     BaseShift {
-        /// From the believed frame to the pendant's.
+        /// From the assumed frame to the pendant's.
         by: Vector3<f64>,
     },
     /// The pendant's flange frame is turned against the file's.
@@ -52,7 +52,7 @@ pub enum Change {
 }
 
 impl Change {
-    /// How much it counts against an explanation.
+    /// Its complexity.
     pub fn count(&self) -> usize {
         match self {
             Change::BaseShift { .. } | Change::Zero { free: true, .. } => 2,
@@ -60,7 +60,7 @@ impl Change {
         }
     }
 
-    /// Whether both are about the same thing of the same joint, so that no explanation needs both.
+    /// Whether both change the same property of the same joint, so that no explanation needs both.
     fn excludes(&self, other: &Change) -> bool {
         match (self, other) {
             (Change::Zero { joint: a, .. }, Change::Zero { joint: b, .. })
@@ -71,7 +71,7 @@ impl Change {
     }
 }
 
-/// Every change of a joint's counting that is tried without a free value.
+/// Every change of a joint that is tried without a free value.
 pub fn joint_changes(robot: &Robot) -> Vec<Change> {
     let turning: Vec<usize> = (0..robot.joints().len()).filter(|&i| !robot.slides(i)).collect();
     let mut changes = Vec::new();
@@ -90,10 +90,10 @@ pub fn joint_changes(robot: &Robot) -> Vec<Change> {
     changes
 }
 
-/// Visits every set of `count` of these changes that fits together, in the order of the list, until `visit` fails.
+/// Visits every compatible set of `count` of these changes, in the order of the list, until `visit` fails.
 ///
 /// # Errors
-/// What `visit` fails with.
+/// Errors of `visit`.
 pub fn visit_sets<E>(
     changes: &[Change],
     count: usize,
@@ -123,24 +123,24 @@ fn extend_set<E>(
     Ok(())
 }
 
-/// The positions at which the file's joints stand where the changed ones stand at `read` (rad, m).
+/// The joint positions of the file at which its chain is that of the changed joints at `read` (rad, m).
 pub fn positions_of_the_file(robot: &Robot, changes: &[Change], read: &[f64]) -> Vec<f64> {
     let mut positions: Vec<f64> = Vec::with_capacity(read.len());
     for index in 0..read.len() {
         let offset = robot.joints()[index].zero_offset;
-        let mut counted = robot.theta(index, read) - offset;
+        let mut position = robot.theta(index, read) - offset;
         let (mut turned, mut sign) = (0.0, 1.0);
         for change in changes {
             match *change {
                 Change::Coupling { joint, other, factor } if joint == index => {
-                    counted += robot.joints()[index].sign.factor() * factor * read[other];
+                    position += robot.joints()[index].sign.factor() * factor * read[other];
                 }
                 Change::Sign { joint } if joint == index => sign = -1.0,
                 Change::Zero { joint, by, .. } if joint == index => turned += by,
                 _ => {}
             }
         }
-        let theta = sign * counted + offset + turned;
+        let theta = sign * position + offset + turned;
         positions.push(robot.joint_position(index, theta, &positions));
     }
     positions

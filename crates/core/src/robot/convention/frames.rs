@@ -1,29 +1,29 @@
-//! Base height, turn of the flange and unit of length from the readings, with the joints taken for granted.
+//! Base height, flange rotation and unit of length from the readings, with given joints.
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
-use super::{Apart, Change, Comparison};
+use super::{Change, Comparison, PoseDifference};
 use crate::frame::Isometry;
 
 const MM_PER_INCH: f64 = 25.4;
 
-/// Which of the frames may differ.
+/// The frames that may differ.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Free {
-    /// Where the base lies.
+    /// Position of the base.
     pub base: FreeBase,
-    /// How the flange is turned.
+    /// Rotation of the flange.
     pub flange: bool,
     /// Whether lengths are in inches.
     pub inches: bool,
 }
 
-/// How the base may differ.
+/// Permitted difference of the base.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FreeBase {
     /// Not at all.
     #[default]
-    Held,
+    Fixed,
     /// In height.
     Height,
     /// Anywhere.
@@ -31,10 +31,10 @@ pub enum FreeBase {
 }
 
 impl Free {
-    /// Every combination that counts `count`.
+    /// Every combination of complexity `count`.
     pub fn counting(count: usize) -> Vec<Free> {
         let mut found = Vec::new();
-        for (base, of_base) in [(FreeBase::Held, 0), (FreeBase::Height, 1), (FreeBase::Shift, 2)] {
+        for (base, of_base) in [(FreeBase::Fixed, 0), (FreeBase::Height, 1), (FreeBase::Shift, 2)] {
             for flange in [false, true] {
                 for inches in [false, true] {
                     if of_base + usize::from(flange) + usize::from(inches) == count {
@@ -47,9 +47,13 @@ impl Free {
     }
 }
 
-/// The changes of these frames that fit best, and how far the readings then lie from `flanges` (file's flange in
-/// base, one a reading); `None` where no quarter turn of the flange fits, or a change would change nothing.
-pub fn fit(comparison: &Comparison<'_>, flanges: &[Isometry], free: Free) -> Option<(Vec<Change>, Apart)> {
+/// The changes of these frames that fit best, and how far the readings then are from `flanges` (file's flange in
+/// base, one per reading); `None` where no quarter turn of the flange fits, or a change would have no effect.
+pub fn fit(
+    comparison: &Comparison<'_>,
+    flanges: &[Isometry],
+    free: Free,
+) -> Option<(Vec<Change>, PoseDifference)> {
     let read: Vec<Isometry> = comparison
         .readings
         .iter()
@@ -68,7 +72,7 @@ pub fn fit(comparison: &Comparison<'_>, flanges: &[Isometry], free: Free) -> Opt
             * read.first()?.rotation
             * comparison.flange_from_tool.rotation.inverse();
         let turn = nearest_quarter_turns(&turned)?;
-        // A turn about the flange's own z is a zero of the last joint: told as that.
+        // A turn about the flange's own z is a zero of the last joint, and reported as that.
         if turn.angle() < comparison.within.radians || (turn * Vector3::z() - Vector3::z()).norm() < 1e-9 {
             return None;
         }
@@ -82,11 +86,11 @@ pub fn fit(comparison: &Comparison<'_>, flanges: &[Isometry], free: Free) -> Opt
         .sum::<Vector3<f64>>()
         / read.len() as f64;
     let shift = match free.base {
-        FreeBase::Held => Vector3::zeros(),
+        FreeBase::Fixed => Vector3::zeros(),
         FreeBase::Height => Vector3::new(0.0, 0.0, missing.z),
         FreeBase::Shift => missing,
     };
-    if free.base != FreeBase::Held {
+    if free.base != FreeBase::Fixed {
         if shift.norm() <= comparison.within.metres {
             return None;
         }
@@ -100,9 +104,12 @@ pub fn fit(comparison: &Comparison<'_>, flanges: &[Isometry], free: Free) -> Opt
     }
     let apart = pairs().map(|(predicted, read)| {
         let moved = Isometry::from_parts((read.translation.vector + shift).into(), read.rotation);
-        Apart::between(predicted, &moved)
+        PoseDifference::between(predicted, &moved)
     });
-    Some((changes, apart.fold(Apart::default(), Apart::or_worse)))
+    Some((
+        changes,
+        apart.fold(PoseDifference::default(), PoseDifference::or_worse),
+    ))
 }
 
 /// The rotation onto the axes themselves that is nearest to `turn`; `None` more than 20 deg away from any.

@@ -1,6 +1,6 @@
 //! Which sign, zero, coupling, base height or tool frame of a robot file disagrees with its pendant?
 //!
-//! Joint positions and tool poses read from the pendant are compared with what the file makes of the same joints. If
+//! Joint positions and tool poses read from the pendant are compared with the forward kinematics of the file. If
 //! they disagree, a closed list of [`Change`]s is searched for the simplest set that explains every reading:
 //!
 //! `theta_i = s_i sign_i (q_i + sum_j (k_ij + dk_ij) q_j) + offset_i + d_i`
@@ -14,10 +14,10 @@
 //! | flange | turn of the flange frame against the file's | quarter turns |
 //! | unit | positions read in inches | yes, no |
 //!
-//! A change counts 1, one with a free value of more than one number or of a joint's zero counts 2; the least count
-//! wins. Not tried: other lengths of links, other axes, calibrated arms, zeros of several joints off by any value.
+//! The complexity of a change is 1; with a free value of more than one number or of a joint's zero it is 2. The least
+//! total wins. Not tried: other lengths of links, other axes, calibrated arms, free zeros of several joints.
 //!
-//! In reading order: [`change`] (what may differ), [`frames`] (base, flange and unit from the readings), [`search`].
+//! In reading order: [`change`] (possible changes), [`frames`] (base, flange and unit from the readings), [`search`].
 
 pub mod change;
 pub mod frames;
@@ -29,58 +29,58 @@ pub use search::{Explanation, Inspection, NotInspected, Verdict, inspect};
 use super::model::Robot;
 use crate::frame::Isometry;
 
-/// What a pendant shows: joint positions as it counts them (rad, m) and the tool in the frame it counts from.
+/// A reading of a pendant: joint positions (rad, m) and the tool in the pendant's reference frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reading {
-    /// One a joint.
+    /// One per joint.
     pub joints: Vec<f64>,
     /// Pose of the tool.
     pub reference_from_tool: Isometry,
 }
 
-/// How far a position (m) and an orientation (rad) lie apart.
+/// Distance and angle between two poses.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Apart {
+pub struct PoseDifference {
     /// Distance, m.
     pub metres: f64,
     /// Angle, rad.
     pub radians: f64,
 }
 
-impl Apart {
-    /// How far two poses lie apart.
-    pub fn between(a: &Isometry, b: &Isometry) -> Apart {
-        Apart {
+impl PoseDifference {
+    /// Distance and angle between two poses.
+    pub fn between(a: &Isometry, b: &Isometry) -> PoseDifference {
+        PoseDifference {
             metres: (a.translation.vector - b.translation.vector).norm(),
             radians: a.rotation.angle_to(&b.rotation),
         }
     }
 
-    fn is_within(&self, bound: &Apart) -> bool {
+    fn is_within(&self, bound: &PoseDifference) -> bool {
         self.metres <= bound.metres && self.radians <= bound.radians
     }
 
-    fn or_worse(self, other: Apart) -> Apart {
-        Apart {
+    fn or_worse(self, other: PoseDifference) -> PoseDifference {
+        PoseDifference {
             metres: self.metres.max(other.metres),
             radians: self.radians.max(other.radians),
         }
     }
 }
 
-/// What is compared.
+/// The data of a comparison.
 #[derive(Clone, Copy, Debug)]
 pub struct Comparison<'a> {
-    /// The robot as its file has it.
+    /// The robot of the file.
     pub robot: &'a Robot,
-    /// The frame that the pendant is believed to count from, in base.
+    /// The assumed reference frame of the pendant, in base.
     pub base_from_reference: &'a Isometry,
     /// Flange to tool centre point of the readings.
     pub flange_from_tool: &'a Isometry,
-    /// What the pendant shows; each with as many joints as the robot.
+    /// The readings; each with as many joints as the robot.
     pub readings: &'a [Reading],
-    /// How far a reading may lie from its prediction and still agree.
-    pub within: Apart,
+    /// Tolerance of the agreement between a reading and its prediction.
+    pub within: PoseDifference,
 }
 
 #[cfg(test)]

@@ -6,34 +6,34 @@ use nalgebra::Translation3;
 
 use super::change::{Change, joint_changes, positions_of_the_file, visit_sets};
 use super::frames::{Free, FreeBase, fit};
-use super::{Apart, Comparison};
+use super::{Comparison, PoseDifference};
 use crate::frame::Isometry;
 use crate::robot::forward::{forward, joint_axis};
 use crate::robot::inverse::posture_at;
 use crate::watch::{Cancelled, Watch};
 
-/// Largest count of changes that is searched: beyond it a file is better typed anew than mended.
+/// Greatest complexity that is searched: beyond it, write the file again.
 const MOST: usize = 5;
-/// Turning joints at most: the sets of changes grow with the fifth power of their number.
+/// Maximum number of revolute joints: the number of sets of changes grows with its fifth power.
 pub const MOST_TURNING: usize = 12;
 
 /// A set of changes with which the readings agree.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Explanation {
-    /// What the file would have to say otherwise; empty if it is right.
+    /// The changes of the file; empty if it is right.
     pub changes: Vec<Change>,
-    /// How far the readings then lie away at the most.
-    pub apart: Apart,
+    /// Greatest difference of the readings then.
+    pub apart: PoseDifference,
 }
 
-/// What the readings say of the file.
+/// Result of the comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
-    /// One explanation is simpler than any other; without changes, the file agrees.
+    /// One explanation is simpler than all others; without changes, the file agrees.
     Explained {
         /// The changes.
         explanation: Explanation,
-        /// Single changes that would not show in these readings, such as the sign of a joint that stood at zero.
+        /// Single changes that have no effect on these readings, such as the sign of a joint at zero.
         unseen: Vec<Change>,
     },
     /// Several explanations are equally simple: more readings are needed.
@@ -42,24 +42,22 @@ pub enum Verdict {
     Unexplained,
 }
 
-/// What came out of a comparison.
+/// Result of a comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Inspection {
-    /// How far each reading lies from what the file makes of its joints.
-    pub as_the_file_has_it: Vec<Apart>,
-    /// What follows.
+    /// Difference of each reading from the forward kinematics of the file.
+    pub of_the_file: Vec<PoseDifference>,
+    /// The verdict.
     pub verdict: Verdict,
 }
 
 /// Why readings are not compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NotInspected {
-    /// More joints than [`MOST_TURNING`] turn.
-    #[error(
-        "{turning} joints turn, but what differs is searched for at {MOST_TURNING} at the most: the sets of changes grow with the fifth power of their number"
-    )]
+    /// More than [`MOST_TURNING`] revolute joints.
+    #[error("{turning} revolute joints exceed the maximum of {MOST_TURNING} for this search")]
     TooManyJoints {
-        /// Turning joints of the robot.
+        /// Revolute joints of the robot.
         turning: usize,
     },
     /// Stopped from outside.
@@ -67,7 +65,7 @@ pub enum NotInspected {
     Cancelled(#[from] Cancelled),
 }
 
-/// Compares readings with a file, and searches for what differs. The watch is told of every set of changes tried.
+/// Compares readings with a file, and searches for the difference. Every set of changes tried is reported to the watch.
 ///
 /// # Errors
 /// More joints than can be searched; [`Cancelled`] if the watch says so.
@@ -82,13 +80,13 @@ pub fn inspect(comparison: &Comparison<'_>, watch: Watch<'_>) -> Result<Inspecti
     if turning > MOST_TURNING {
         return Err(NotInspected::TooManyJoints { turning });
     }
-    let as_the_file_has_it = comparison.readings.iter().map(|reading| {
+    let of_the_file = comparison.readings.iter().map(|reading| {
         let found = posture_at(comparison.robot, &reading.joints, comparison.flange_from_tool);
         let read = comparison.base_from_reference * reading.reference_from_tool;
-        Apart::between(&found.base_from_tool, &read)
+        PoseDifference::between(&found.base_from_tool, &read)
     });
     Ok(Inspection {
-        as_the_file_has_it: as_the_file_has_it.collect(),
+        of_the_file: of_the_file.collect(),
         verdict: verdict(comparison, watch)?,
     })
 }
@@ -111,7 +109,7 @@ fn verdict(comparison: &Comparison<'_>, watch: Watch<'_>) -> Result<Verdict, Can
     Ok(Verdict::Unexplained)
 }
 
-/// Every explanation that counts `count`.
+/// Every explanation of complexity `count`.
 fn explanations(
     comparison: &Comparison<'_>,
     listed: &[Change],
@@ -137,7 +135,7 @@ fn explanations(
             found.extend(free.iter().filter_map(by));
             go_on()
         })?;
-        // A zero of any value counts 2; with a turned flange it could not be told from the turn.
+        // A free zero has complexity 2; with a rotated flange the two are not distinguishable.
         if let Some(others) = (count - of_frames).checked_sub(2) {
             visit_sets(listed, others, &mut |joints| {
                 for free in free.iter().filter(|free| !free.flange) {
@@ -160,7 +158,7 @@ fn explained_by(comparison: &Comparison<'_>, joints: &[Change], free: Free) -> O
     })
 }
 
-/// These changes and the zero of one more joint, off by the angle that the first reading's orientation asks for.
+/// These changes and the zero of one more joint, off by the angle required by the orientation of the first reading.
 fn with_one_zero_free(comparison: &Comparison<'_>, joints: &[Change], free: Free) -> Vec<Explanation> {
     let robot = comparison.robot;
     let Some(first) = comparison.readings.first() else {
@@ -176,7 +174,7 @@ fn with_one_zero_free(comparison: &Comparison<'_>, joints: &[Change], free: Free
         let has_zero = joints
             .iter()
             .any(|change| matches!(change, Change::Zero { joint: other, .. } if *other == joint));
-        // An angle below the tolerance is no change; a quarter turn is in the list.
+        // An angle below the tolerance is not a change; a quarter turn is in the list.
         let from_quarter = by - (by / FRAC_PI_2).round() * FRAC_PI_2;
         let free = from_quarter.abs() > comparison.within.radians;
         (free && !has_zero && !robot.slides(joint)).then_some(Change::Zero {
@@ -194,7 +192,7 @@ fn with_one_zero_free(comparison: &Comparison<'_>, joints: &[Change], free: Free
         .collect()
 }
 
-/// Single changes of joints that leave every reading explained.
+/// Single changes of joints with which every reading is still explained.
 fn unseen(comparison: &Comparison<'_>, listed: &[Change], explanation: &Explanation) -> Vec<Change> {
     let (joints, frames): (Vec<Change>, Vec<Change>) =
         explanation.changes.iter().copied().partition(|change| {
@@ -204,7 +202,7 @@ fn unseen(comparison: &Comparison<'_>, listed: &[Change], explanation: &Explanat
             )
         });
     let free = free_of(&frames);
-    // A turn of the flange that was found stays: fitted anew, it would hide any zero of the last joint.
+    // The rotation of the flange stays fixed: a new fit would hide any zero of the last joint.
     let turned = frames.iter().find_map(|change| match change {
         Change::FlangeTurn { turn } => Some(Isometry::from_parts(Translation3::identity(), *turn)),
         _ => None,
@@ -217,7 +215,7 @@ fn unseen(comparison: &Comparison<'_>, listed: &[Change], explanation: &Explanat
     let stays = |change: &&Change| {
         let mut more = joints.clone();
         match more.iter().position(|known| known == *change) {
-            // Its opposite: the same sign taken back.
+            // Its opposite: the same sign change reversed.
             Some(index) => {
                 more.remove(index);
             }
@@ -228,7 +226,7 @@ fn unseen(comparison: &Comparison<'_>, listed: &[Change], explanation: &Explanat
     listed.iter().filter(stays).copied().collect()
 }
 
-/// The base and unit of these changes, to be found anew.
+/// The base and unit of these changes, to be fitted again.
 fn free_of(frames: &[Change]) -> Free {
     let mut free = Free::default();
     for change in frames {
@@ -242,7 +240,7 @@ fn free_of(frames: &[Change]) -> Free {
     free
 }
 
-/// The file's flange at each reading, its joints standing where the changed ones stand.
+/// The file's flange at each reading, with the joint positions of the changed joints.
 fn flanges(comparison: &Comparison<'_>, joints: &[Change]) -> Vec<Isometry> {
     let at = |read: &[f64]| {
         let positions = positions_of_the_file(comparison.robot, joints, read);

@@ -1,4 +1,4 @@
-//! Each part by itself, on an arm of our own; library arms and whole distortions are tested with the library.
+//! Each part separately, on our own arm; library arms and whole distortions are tested with the library.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -64,7 +64,7 @@ fn compared<R>(robot: &Robot, read: &[Reading], use_it: impl Fn(&Comparison<'_>)
         base_from_reference: &Isometry::identity(),
         flange_from_tool: &Isometry::identity(),
         readings: read,
-        within: Apart {
+        within: PoseDifference {
             metres: 1e-6,
             radians: 1e-6,
         },
@@ -72,7 +72,7 @@ fn compared<R>(robot: &Robot, read: &[Reading], use_it: impl Fn(&Comparison<'_>)
 }
 
 #[test]
-fn changed_joints_stand_where_an_arm_with_these_joints_stands() {
+fn changed_joints_match_an_arm_with_these_joints() {
     let file = arm(|_| {});
     let pendant = arm(|joints| {
         joints[0].sign = Sign::Negative;
@@ -113,7 +113,7 @@ fn changed_joints_stand_where_an_arm_with_these_joints_stands() {
 }
 
 #[test]
-fn sets_hold_no_two_changes_of_one_zero() {
+fn sets_contain_no_two_changes_of_one_zero() {
     let listed = joint_changes(&arm(|_| {}));
     // Six signs, three zeros for each of six joints, two couplings.
     assert_eq!(listed.len(), 6 + 18 + 2);
@@ -133,7 +133,7 @@ fn sets_hold_no_two_changes_of_one_zero() {
 }
 
 #[test]
-fn height_turn_and_unit_are_found_from_the_readings() {
+fn height_rotation_and_unit_are_found_from_the_readings() {
     let file = arm(|_| {});
     let turn = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), FRAC_PI_2);
     let shown = |flange: &Isometry| {
@@ -163,7 +163,7 @@ fn height_turn_and_unit_are_found_from_the_readings() {
 }
 
 #[test]
-fn frames_that_would_change_nothing_are_no_explanation() {
+fn frames_without_effect_are_not_an_explanation() {
     let file = arm(|_| {});
     compared(&file, &readings(&flanges(&file)), |comparison| {
         for count in 1..=2 {
@@ -196,7 +196,7 @@ fn a_base_elsewhere_is_found_as_a_shift() {
 
 #[test]
 fn fewer_changes_are_preferred() {
-    // A turn of the wrist by half a turn at joints 4 and 6 with joint 5 counted the other way is no change at all.
+    // Half a turn of joints 4 and 6 with joint 5 reversed changes nothing.
     let file = arm(|_| {});
     let same = arm(|joints| {
         joints[3].zero_offset += PI;
@@ -212,7 +212,7 @@ fn fewer_changes_are_preferred() {
     assert_eq!(explanation.changes, []);
 }
 
-/// More postures than [`Q`], none of them special.
+/// More postures than [`Q`], all general.
 const MORE: [[f64; 6]; 4] = [
     Q[0],
     Q[1],
@@ -220,7 +220,7 @@ const MORE: [[f64; 6]; 4] = [
     [-1.3, -0.8, 0.6, -1.2, -1.4, 2.3],
 ];
 
-/// What a pendant shows of the file's arm, whose joints count with these changes.
+/// Readings of the file's arm, with these changes of its joints.
 fn shown(file: &Robot, changes: &[Change], at: &[[f64; 6]]) -> Vec<Reading> {
     let reading = |q: &[f64; 6]| {
         let positions = positions_of_the_file(file, changes, q);
@@ -247,7 +247,7 @@ fn explained(file: &Robot, read: &[Reading]) -> Vec<Change> {
 }
 
 #[test]
-fn a_zero_of_any_value_and_a_coupling_are_found() {
+fn a_free_zero_and_a_coupling_are_found() {
     let file = arm(|_| {});
     let off = arm(|joints| joints[1].zero_offset += 0.1234);
     let readings = |pendant: &Robot| -> Vec<Reading> {
@@ -265,7 +265,7 @@ fn a_zero_of_any_value_and_a_coupling_are_found() {
         },
     ] = explained(&file, &readings(&off))[..]
     else {
-        panic!("no zero of any value");
+        panic!("no free zero");
     };
     assert!((by - 0.1234).abs() < 1e-9, "{by}");
     for factor in [1.0, -1.0] {
@@ -280,8 +280,8 @@ fn a_zero_of_any_value_and_a_coupling_are_found() {
 }
 
 #[test]
-fn what_two_changes_explain_alike_is_undecided() {
-    // With joint 5 straight joints 4 and 6 turn about one axis: whose zero is off cannot be seen.
+fn two_equally_simple_explanations_are_undecided() {
+    // With joint 5 straight, joints 4 and 6 turn about one axis: their zeros are not distinguishable.
     let file = arm(|_| {});
     let straight = MORE.map(|mut q| {
         q[4] = 0.0;
@@ -306,7 +306,7 @@ fn what_two_changes_explain_alike_is_undecided() {
 }
 
 #[test]
-fn an_axis_that_is_tilted_is_unexplained() {
+fn a_tilted_axis_is_unexplained() {
     let file = arm(|_| {});
     let mut motions = file.chain().motions().to_vec();
     motions.insert(4, Motion::About(Axis::X, Amount::Constant(0.05)));
@@ -322,7 +322,7 @@ fn an_axis_that_is_tilted_is_unexplained() {
 }
 
 #[test]
-fn whatever_two_changes_made_is_explained_by_no_more() {
+fn two_changes_are_explained_by_at_most_two() {
     let file = arm(|_| {});
     let listed = joint_changes(&file);
     let mut stream = crate::arms::Stream(71);
@@ -347,14 +347,14 @@ fn whatever_two_changes_made_is_explained_by_no_more() {
                 count(&explanation.changes) <= count(&made),
                 "{made:?}: {explanation:?}"
             );
-            // Whatever it says, the readings agree with it.
+            // The readings agree with every explanation.
             assert!(explanation.apart.metres < 1e-6 && explanation.apart.radians < 1e-6);
         }
     }
 }
 
 #[test]
-fn a_joint_that_stood_at_zero_hides_its_sign() {
+fn a_joint_at_zero_hides_its_sign() {
     let file = arm(|_| {});
     let at_zero = MORE.map(|mut q| {
         q[0] = 0.0;
@@ -369,19 +369,19 @@ fn a_joint_that_stood_at_zero_hides_its_sign() {
 }
 
 #[test]
-fn readings_of_a_right_file_agree_and_others_tell_how_far_they_lie() {
+fn readings_of_a_right_file_agree_and_differences_are_reported() {
     let file = arm(|_| {});
     let mut read = shown(&file, &[], &MORE);
     read[2].reference_from_tool = Isometry::translation(0.0, 0.03, 0.04) * read[2].reference_from_tool;
     let apart = compared(&file, &read, |comparison| {
-        inspect(comparison, Watch::NONE).unwrap().as_the_file_has_it
+        inspect(comparison, Watch::NONE).unwrap().of_the_file
     });
     assert!((apart[2].metres - 0.05).abs() < 1e-12 && apart[2].radians < 1e-7);
     assert!([0, 1, 3].into_iter().all(|i| apart[i].metres < 1e-12));
 }
 
 #[test]
-fn too_many_turning_joints_are_refused_with_a_reason() {
+fn refuses_too_many_revolute_joints_with_a_reason() {
     let count = search::MOST_TURNING + 1;
     let motions = (0..count).flat_map(|joint| {
         let axis = if joint % 2 == 0 { Axis::Z } else { Axis::Y };
@@ -396,7 +396,7 @@ fn too_many_turning_joints_are_refused_with_a_reason() {
     });
     assert_eq!(refused, NotInspected::TooManyJoints { turning: 13 });
     assert!(
-        refused.to_string().starts_with("13 joints turn, but"),
+        refused.to_string().starts_with("13 revolute joints exceed"),
         "{refused}"
     );
 }
@@ -425,7 +425,7 @@ fn a_search_is_cancelled_between_two_sets() {
 }
 
 #[test]
-fn sets_come_in_the_order_of_the_list_and_a_failure_ends_them() {
+fn sets_are_in_the_order_of_the_list_and_an_error_ends_them() {
     let listed = [0, 1, 2, 3].map(|joint| Change::Sign { joint });
     let mut seen = Vec::new();
     let visited = visit_sets(&listed, 2, &mut |set| {
@@ -446,11 +446,11 @@ fn sets_come_in_the_order_of_the_list_and_a_failure_ends_them() {
 #[test]
 fn the_worse_of_two_distances_is_the_worse_of_each() {
     let (a, b) = (
-        Apart {
+        PoseDifference {
             metres: 1.0,
             radians: 0.1,
         },
-        Apart {
+        PoseDifference {
             metres: 0.5,
             radians: 0.2,
         },
@@ -459,6 +459,6 @@ fn the_worse_of_two_distances_is_the_worse_of_each() {
     assert_eq!((worse.metres, worse.radians), (1.0, 0.2));
     assert!(a.is_within(&worse) && b.is_within(&worse) && !worse.is_within(&a));
     let pose = Isometry::translation(0.3, 0.0, 0.4) * Isometry::rotation(Vector3::z() * 0.7);
-    let found = Apart::between(&Isometry::identity(), &pose);
+    let found = PoseDifference::between(&Isometry::identity(), &pose);
     assert!((found.metres - 0.5).abs() < 1e-15 && (found.radians - 0.7).abs() < 1e-12);
 }

@@ -8,7 +8,7 @@ use super::ortho_parallel::OrthoParallel;
 use super::three_parallel::ThreeParallel;
 use crate::frame::Isometry;
 
-/// A geometry whose postures follow in closed form.
+/// A geometry with closed-form postures.
 #[derive(Clone, Debug)]
 pub enum ClosedForm {
     /// Axes 2 and 3 parallel, axes 4 to 6 through one point: most industrial arms.
@@ -17,9 +17,9 @@ pub enum ClosedForm {
     ThreeParallel(ThreeParallel),
 }
 
-/// How far (m, rad) the axes of a calibrated arm may stray from a closed form that gives its branches their names.
+/// Greatest deviation (m, rad) of the axes of a calibrated arm from the closed form that names its branches.
 pub const CALIBRATED: f64 = 0.01;
-/// How far (m) beyond the ideal arm's reach the calibrated one may still get.
+/// How far (m) the reach of the calibrated arm may exceed that of the ideal one.
 pub(super) const SLACK: f64 = 0.03;
 
 impl ClosedForm {
@@ -30,15 +30,15 @@ impl ClosedForm {
             .or_else(|| ThreeParallel::recognise(chain).map(ClosedForm::ThreeParallel))
     }
 
-    /// The closed form of an ideal arm that this chain strays from by less than [`CALIBRATED`].
+    /// The closed form of an ideal arm from which this chain deviates by less than [`CALIBRATED`].
     pub(super) fn next_to(chain: &Chain) -> Option<ClosedForm> {
         OrthoParallel::next_to(chain, CALIBRATED, SLACK)
             .map(ClosedForm::OrthoParallel)
             .or_else(|| ThreeParallel::next_to(chain, CALIBRATED, SLACK).map(ClosedForm::ThreeParallel))
     }
 
-    /// Chain positions of one branch, whole turns anywhere, and near which singularity they stand; `near` are chain
-    /// positions, of which the joint keeps its place that a wrist singularity leaves free.
+    /// Chain positions of one branch, modulo whole turns, and the singularity that they are near; `near` are chain
+    /// positions, used for the joint that a wrist singularity leaves free.
     ///
     /// # Errors
     /// Why this branch does not reach, and by how much.
@@ -58,7 +58,7 @@ impl ClosedForm {
         }
     }
 
-    /// Branch of the chain positions `theta`, and the singularity they stand near, if any.
+    /// Branch of the chain positions `theta`, and the singularity that they are near, if any.
     pub(super) fn name(&self, theta: &[f64]) -> (Branch, Option<Singularity>) {
         match self {
             ClosedForm::OrthoParallel(arm) => arm.name(theta),
@@ -66,7 +66,7 @@ impl ClosedForm {
         }
     }
 
-    /// Whether flip and no-flip put every axis on the same line, and so give the same compliance.
+    /// Whether flip and no-flip have every axis on the same line, and therefore the same compliance.
     pub(super) fn flips_are_alike(&self) -> bool {
         matches!(self, ClosedForm::OrthoParallel(_))
     }

@@ -1,4 +1,4 @@
-//! From a start to a posture that holds the pose: damped least squares, and the pull of joints that are to spare.
+//! From a start to a posture of the pose: damped least squares, and the pull of redundant joints.
 //!
 //! ```text
 //! e = [(p* - p)/l; angle axis of R* R^T]        J: screws at the flange, linear rows over l
@@ -22,20 +22,20 @@ use super::super::unreachable::Unreachable;
 use crate::frame::{Isometry, turn_between};
 use crate::spatial::Twist;
 
-/// Error (l, rad) below which a pose counts as reached: a hundred times below what is checked afterwards.
+/// Error (l, rad) below which a pose is reached: a hundred times below the tolerance of the check that follows.
 const DONE: f64 = 1e-12;
-/// Steps of one descent at most: a Newton iteration that halves its error ends long before.
+/// Maximum number of steps of one descent: a Newton iteration that halves its error ends long before.
 const MOST_STEPS: usize = 60;
-/// Longest step of a joint, rad (l): beyond it the linear model says nothing.
+/// Longest step of a joint, rad (l): beyond it the linear model is not valid.
 const LONGEST_STEP: f64 = 0.7;
 /// Steps that gain less than a twentieth before a descent is given up.
 const PATIENCE: usize = 5;
 /// Damping beyond which no step helps.
 const STUCK: f64 = 1e9;
-/// Pulls of a redundant chain at most, and the step (rad, l) below which it has settled.
+/// Maximum number of pulls of a redundant chain, and the step (rad, l) below which it has converged.
 const MOST_PULLS: usize = 60;
 const SETTLED: f64 = 1e-6;
-/// Frobenius condition number of the Jacobian above which joints do nearly the same.
+/// Frobenius condition number of the Jacobian above which joints are nearly dependent.
 const DEPENDENT: f64 = 300.0;
 
 /// A pose to reach, as rotation matrix and point.
@@ -54,11 +54,11 @@ impl Goal {
     }
 }
 
-/// Room for descents of one chain.
+/// Working memory for descents of one chain.
 #[derive(Clone, Debug)]
 pub(super) struct Descent {
     length: f64,
-    /// Index of a joint that stands still.
+    /// Index of a fixed joint.
     still: Option<usize>,
     frames: Frames,
     screws: Vec<Twist>,
@@ -79,10 +79,10 @@ impl Descent {
         }
     }
 
-    /// Moves `theta` until the flange stands at `goal`.
+    /// Moves `theta` until the flange is at `goal`.
     ///
     /// # Errors
-    /// [`Unreachable::NotFound`] with what is left; `theta` then holds the best that was found.
+    /// [`Unreachable::NotFound`] with the remaining error; `theta` then is the best that was found.
     pub fn reach(&mut self, chain: &Chain, goal: &Goal, theta: &mut [f64]) -> Result<(), Unreachable> {
         let mut error = self.error(chain, goal, theta);
         let mut size = error.norm_squared();
@@ -110,7 +110,7 @@ impl Descent {
             }
         }
         let (by, turned) = (error.xyz().norm() * self.length, error.fixed_rows::<3>(3).norm());
-        // Rounding of a long chain may stop short of DONE; what is checked afterwards decides.
+        // Rounding of a long chain may stop short of DONE; the check that follows decides.
         if by < 1e-9 && turned < 1e-9 {
             Ok(())
         } else {
@@ -118,11 +118,11 @@ impl Descent {
         }
     }
 
-    /// [`Descent::reach`] with joint `still` where it is.
+    /// [`Descent::reach`] with joint `still` fixed.
     ///
     /// # Errors
     /// Those of [`Descent::reach`].
-    pub fn reach_beside(
+    pub fn reach_with_fixed(
         &mut self,
         chain: &Chain,
         goal: &Goal,
@@ -135,7 +135,7 @@ impl Descent {
         reached
     }
 
-    /// [`Descent::reach`], then as near to `home` (chain positions) as the joints to spare allow.
+    /// [`Descent::reach`], then as near to `home` (chain positions) as the redundant joints allow.
     ///
     /// # Errors
     /// Those of [`Descent::reach`].
@@ -174,7 +174,7 @@ impl Descent {
         self.reach(chain, goal, theta)
     }
 
-    /// Whether some joints do nearly the same at `theta`: the Jacobian is ill conditioned. False for fewer than six
+    /// Whether some joints are nearly dependent at `theta`: the Jacobian is ill conditioned. False for fewer than six
     /// joints, which never span all directions.
     pub fn dependent(&mut self, chain: &Chain, theta: &[f64]) -> bool {
         if theta.len() < 6 {
@@ -197,7 +197,7 @@ impl Descent {
         self.difference(goal)
     }
 
-    /// What the flange lacks to the goal, in units of `length` and rad.
+    /// Error of the flange relative to the goal, in units of `length` and rad.
     fn difference(&self, goal: &Goal) -> Vector6<f64> {
         let flange = &self.frames.base_from_flange;
         let away = (goal.point - flange.translation.vector) / self.length;
@@ -205,7 +205,7 @@ impl Descent {
         Vector6::new(away.x, away.y, away.z, turned.x, turned.y, turned.z)
     }
 
-    /// Fills the columns of the scaled Jacobian where the frames stand.
+    /// Fills the columns of the scaled Jacobian at the current frames.
     fn linearise(&mut self, chain: &Chain) {
         let flange = self.frames.base_from_flange.translation.vector.into();
         chain_screws_into(chain, &self.frames, &flange, &mut self.screws);
@@ -237,7 +237,7 @@ impl Descent {
             .map_or_else(Vector6::zeros, |factor| factor.solve(error))
     }
 
-    /// Fills the trial with `theta` and the step of each column, none longer than a linear model bears.
+    /// Fills the trial with `theta` and the step of each column, each limited to the range of the linear model.
     fn try_step(&mut self, theta: &[f64], step: impl Fn(&Vector6<f64>) -> f64) {
         let mut largest: f64 = 0.0;
         for (trial, column) in self.trial.iter_mut().zip(&self.columns) {

@@ -1,15 +1,15 @@
-//! Seven turning joints of which one stands still: the other six have a spherical wrist, wherever it stands.
+//! Seven revolute joints of which one is fixed: the other six have a spherical wrist at any position of it.
 //!
 //! ```text
 //! E1 ... Ek ... E7 M = T        becomes        E1 ... E'(k+1) ... E'7 (Ek M) = T
 //! ```
 //!
-//! `Ek` is the turn of the standing joint by its held angle; it carries the axes behind it, and the flange at zero `M`.
+//! `Ek` is the rotation of the fixed joint by its given angle; it carries the axes after it, and the flange at zero
+//! `M`.
 //!
-//! Which joint it is, is decided by trying: of those that leave a spherical wrist at every angle tried, the one with which
-//! most of some poses are reached that the arm has come to with all its joints. Of shoulder - elbow - wrist arms
-//! (KUKA iiwa) that is joint 3: it turns the elbow about the line from shoulder to
-//! wrist. Angles rad.
+//! The joint is chosen by trial: of those that leave a spherical wrist at every angle tried, the one that reaches most
+//! of some poses, which were made with all joints. Of shoulder - elbow - wrist arms
+//! (KUKA iiwa) that is joint 3: it turns the elbow about the line from shoulder to wrist. Angles rad.
 
 use std::cmp::Ordering;
 use std::f64::consts::PI;
@@ -23,25 +23,25 @@ use super::spherical_wrist::SphericalWrist;
 use super::starts::spread;
 use crate::frame::Isometry;
 
-/// Angles at which a joint is tried: to both sides of zero, none of them special.
+/// Angles at which a joint is tried: to both sides of zero, all of them general.
 const TRIED: [f64; 2] = [0.4, -0.7];
 /// Poses that are tried at each angle.
 const POSES: usize = 16;
-/// The order of joints where equally many poses are reached: those amidst the arm first.
+/// The order of joints where equally many poses are reached: those in the middle of the arm first.
 const AMIDST: [usize; 7] = [2, 3, 4, 1, 5, 0, 6];
 
-/// Seven turning joints, one of them standing.
+/// Seven revolute joints, one of them fixed.
 #[derive(Clone, Debug)]
 pub struct FixedJoint {
     lines: [Line; 7],
     at_zero: Isometry,
     within: f64,
-    /// Index of the joint that stands, in the chain.
+    /// Index of the fixed joint, in the chain.
     pub(super) joint: usize,
 }
 
 impl FixedJoint {
-    /// The joint of `chain` to stand still, if there is one; exact wrists first, then those of calibrated arms.
+    /// The joint of `chain` to be fixed, if there is one; exact wrists first, then those of calibrated arms.
     pub fn recognise(chain: &Chain) -> Option<FixedJoint> {
         let lines = lines_at_zero(chain)?;
         let at_zero = chain.base_from_flange(&[0.0; 7]);
@@ -55,24 +55,24 @@ impl FixedJoint {
         [IDEAL, CALIBRATED].into_iter().find_map(|within| {
             let mut most: Option<(usize, FixedJoint)> = None;
             for joint in AMIDST {
-                let arm_state = FixedJoint {
+                let fixed = FixedJoint {
                     lines,
                     at_zero,
                     within,
                     joint,
                 };
-                let Some(reached) = arm_state.reached(&poses) else {
+                let Some(reached) = fixed.reached(&poses) else {
                     continue;
                 };
                 if most.as_ref().is_none_or(|(most, _)| reached > *most) {
-                    most = Some((reached, arm_state));
+                    most = Some((reached, fixed));
                 }
             }
             Some(most?.1)
         })
     }
 
-    /// How many of these poses are reached; `None` without a spherical wrist.
+    /// Number of these poses that are reached; `None` without a spherical wrist.
     fn reached(&self, poses: &[Isometry]) -> Option<usize> {
         let mut reached = 0;
         for angle in TRIED {
@@ -85,24 +85,24 @@ impl FixedJoint {
         Some(reached)
     }
 
-    /// Whether the wrist axes meet as they are.
+    /// Whether the wrist axes meet exactly.
     pub fn is_exact(&self) -> bool {
         self.within == IDEAL
     }
 
-    /// The six joints that are left where the standing one has turned by `angle` (rad).
+    /// The six joints that remain with the fixed one at `angle` (rad).
     pub(super) fn at(&self, angle: f64) -> Option<SphericalWrist> {
-        let evaluation = self.lines[self.joint];
+        let axis = self.lines[self.joint];
         let six: [Line; 6] = std::array::from_fn(|i| {
             if i < self.joint {
                 self.lines[i]
             } else {
-                evaluation.carried(angle, &self.lines[i + 1])
+                axis.carried(angle, &self.lines[i + 1])
             }
         });
         let turn = Isometry::from_parts(
-            evaluation.turned(angle, &Point3::origin()).coords.into(),
-            UnitQuaternion::from_rotation_matrix(&evaluation.rotation(angle)),
+            axis.turned(angle, &Point3::origin()).coords.into(),
+            UnitQuaternion::from_rotation_matrix(&axis.rotation(angle)),
         );
         SphericalWrist::of(&six, &(turn * self.at_zero), self.within)
     }
@@ -116,7 +116,7 @@ impl FixedJoint {
         })
     }
 
-    /// The six chain positions beside that of the standing joint; `None` of another count than seven.
+    /// The six chain positions without that of the fixed joint; `None` for another number than seven.
     pub(super) fn without(&self, theta: &[f64]) -> Option<[f64; 6]> {
         let theta: &[f64; 7] = theta.try_into().ok()?;
         Some(std::array::from_fn(|i| theta[i + usize::from(i >= self.joint)]))

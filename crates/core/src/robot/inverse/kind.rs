@@ -1,21 +1,21 @@
-//! Which inverse an arm has: a closed list, read off the chain once.
+//! The kind of inverse of an arm: a closed list, determined once from the chain.
 //!
 //! | kind | arm | postures |
 //! |---|---|---|
-//! | [`Inverse::Closed`] | a [`ClosedForm`] holds exactly | up to eight, by name |
-//! | [`Inverse::Polished`] | within 10 mm and 10 mrad of a closed form: a calibrated arm | those of the ideal arm, by name, each brought to the true one by damped least squares |
+//! | [`Inverse::Closed`] | a [`ClosedForm`] is exact | up to eight, by name |
+//! | [`Inverse::Polished`] | within 10 mm and 10 mrad of a closed form: a calibrated arm | those of the ideal arm, by name, each refined by damped least squares |
 //! | [`Inverse::SphericalWrist`] | the axes of three joints at one end meet in a point, within 10 mm | up to eight, without names |
-//! | [`Inverse::OneStands`] | seven turning joints, one of which can stand still and leave a spherical wrist | those of the other six |
+//! | [`Inverse::OneFixed`] | seven revolute joints, one of which can be fixed so that a spherical wrist remains | those of the other six |
 //! | [`Inverse::Searched`] | any other chain | those that descents from many starts find |
-//! | [`Inverse::OnRail`] | more than six joints, sliding ones first | the sliding joints stand still, the rest has an inverse of its own |
+//! | [`Inverse::OnRail`] | more than six joints, prismatic ones first | the prismatic joints are fixed, the rest has its own inverse |
 
 use std::fmt;
 
 use super::super::chain::{Chain, Motion};
 use super::closed_form::ClosedForm;
+use super::fixed_joint::FixedJoint;
 use super::ortho_parallel::OrthoParallel;
 use super::spherical_wrist::SphericalWrist;
-use super::fixed_joint::FixedJoint;
 
 /// How the postures of a chain are found.
 #[derive(Clone, Debug)]
@@ -24,30 +24,30 @@ pub enum Inverse {
     Closed(ClosedForm),
     /// From the closed form of the ideal arm next to it.
     Polished(ClosedForm),
-    /// In closed form, or from the closed form of the arm whose wrist axes meet.
+    /// In closed form, or from the closed form of the arm with intersecting wrist axes.
     SphericalWrist(Box<SphericalWrist>),
-    /// One joint to spare stands still, the others have a spherical wrist.
-    OneStands(Box<FixedJoint>),
+    /// One redundant joint is fixed, the others have a spherical wrist.
+    OneFixed(Box<FixedJoint>),
     /// From many starts.
     Searched,
-    /// On sliding joints that stand still.
+    /// On fixed prismatic joints.
     OnRail(Box<Rail>),
 }
 
-/// Sliding joints that carry an arm.
+/// Prismatic joints that carry an arm.
 #[derive(Clone, Debug)]
 pub struct Rail {
-    /// How many slide.
+    /// Number of prismatic joints.
     pub(super) joints: usize,
     /// The motions of the rail, base to arm.
     pub(super) motions: Vec<Motion>,
-    /// The chain that it carries.
+    /// The chain on the rail.
     pub(super) chain: Chain,
-    /// The inverse of that chain; never a rail itself.
+    /// The inverse of that chain; never itself a rail.
     pub(super) inverse: Inverse,
 }
 
-/// Joints that hold any pose: more of them leave some to spare.
+/// Joints needed for any pose: further ones are redundant.
 pub(super) const ENOUGH: usize = 6;
 
 impl Inverse {
@@ -55,7 +55,7 @@ impl Inverse {
     pub fn recognise(chain: &Chain) -> Inverse {
         Inverse::on_rail(chain).unwrap_or_else(|| {
             let closed = ClosedForm::recognise(chain).map(Inverse::Closed);
-            // Names first: an arm that is nearly one with names keeps them, even where its wrist is exact.
+            // Names first: an arm close to one with named branches has the names, even where its wrist is exact.
             closed
                 .or_else(|| ClosedForm::next_to(chain).map(Inverse::Polished))
                 .or_else(|| Inverse::with_wrist(chain))
@@ -66,7 +66,7 @@ impl Inverse {
     fn with_wrist(chain: &Chain) -> Option<Inverse> {
         let wrist = SphericalWrist::recognise(chain).or_else(|| SphericalWrist::next_to(chain));
         let six = wrist.map(|wrist| Inverse::SphericalWrist(Box::new(wrist)));
-        six.or_else(|| Some(Inverse::OneStands(Box::new(FixedJoint::recognise(chain)?))))
+        six.or_else(|| Some(Inverse::OneFixed(Box::new(FixedJoint::recognise(chain)?))))
     }
 
     fn on_rail(chain: &Chain) -> Option<Inverse> {
@@ -104,7 +104,7 @@ impl Inverse {
         }
     }
 
-    /// Whether its postures are branches with names.
+    /// Whether its branches have names.
     pub fn has_branches(&self) -> bool {
         self.names().is_some()
     }
@@ -114,7 +114,7 @@ impl Inverse {
         matches!(self.of_arm(), Inverse::Closed(form) if form.flips_are_alike())
     }
 
-    /// The ortho-parallel geometry, of an arm that is nothing but it.
+    /// The ortho-parallel geometry, of an arm of exactly this kind.
     pub fn ortho_parallel(&self) -> Option<&OrthoParallel> {
         match self {
             Inverse::Closed(ClosedForm::OrthoParallel(arm)) => Some(arm),
@@ -122,13 +122,13 @@ impl Inverse {
         }
     }
 
-    /// One word for JSON: `closed_form`, `polished`, `searched`; of an arm on a rail that of the arm.
+    /// One word for JSON: `closed_form`, `polished`, `searched`; for an arm on a rail that of the arm.
     pub fn word(&self) -> &'static str {
         match self.of_arm() {
             Inverse::Closed(_) => "closed_form",
             Inverse::SphericalWrist(form) if form.is_exact() => "closed_form",
-            Inverse::OneStands(arm_state) if arm_state.is_exact() => "closed_form",
-            Inverse::Polished(_) | Inverse::SphericalWrist(_) | Inverse::OneStands(_) => "polished",
+            Inverse::OneFixed(fixed) if fixed.is_exact() => "closed_form",
+            Inverse::Polished(_) | Inverse::SphericalWrist(_) | Inverse::OneFixed(_) => "polished",
             _ => "searched",
         }
     }
@@ -153,27 +153,26 @@ impl fmt::Display for Inverse {
             Inverse::SphericalWrist(_) => f.write_str(
                 "numeric from a closed form, up to 8 postures without names (nearly a spherical wrist)",
             ),
-            Inverse::OneStands(arm_state) => write!(
+            Inverse::OneFixed(fixed) => write!(
                 f,
-                "{}, up to 8 postures without names (spherical wrist); joint {} stands still",
-                if arm_state.is_exact() {
+                "{}, up to 8 postures without names (spherical wrist); joint {} is fixed",
+                if fixed.is_exact() {
                     "closed form"
                 } else {
                     "numeric from a closed form"
                 },
-                arm_state.joint + 1
+                fixed.joint + 1
             ),
             Inverse::Searched => f.write_str("numeric from many starts: the postures that are found"),
             Inverse::OnRail(rail) => write!(
                 f,
-                "{}; the first {} stand{} still",
+                "{}; the first {} fixed",
                 rail.inverse,
                 if rail.joints == 1 {
-                    "joint".to_owned()
+                    "joint is".to_owned()
                 } else {
-                    format!("{} joints", rail.joints)
-                },
-                if rail.joints == 1 { "s" } else { "" }
+                    format!("{} joints are", rail.joints)
+                }
             ),
         }
     }

@@ -1,15 +1,15 @@
-//! Lines and turns: what closed forms read off a chain, and the angles they carry.
+//! Lines and rotations: the input of the closed forms, and angles as cosine and sine.
 //!
-//! An axis is a line: a point on it (m) and its unit direction, both told at chain zero in base.
+//! An axis is a line: a point on it (m) and its unit direction, both at chain zero in base.
 
 use nalgebra::{IsometryMatrix3, Matrix3, Point3, Rotation3, Unit, Vector3};
 
 use super::super::chain::{Chain, Motion};
 
-/// How far (rad, m) a geometry may stray from the ideal and still be solved in closed form.
+/// Greatest deviation (rad, m) of a geometry from the ideal that is still solved in closed form.
 pub(super) const IDEAL: f64 = 1e-9;
 
-/// The axis of a turning joint at chain zero.
+/// The axis of a revolute joint at chain zero.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Line {
     /// Any point on it, m.
@@ -19,8 +19,8 @@ pub(super) struct Line {
 }
 
 impl Line {
-    /// The same line told by its point nearest to `other`.
-    pub fn told_near(self, other: Point3<f64>) -> Line {
+    /// The same line, with its point nearest to `other`.
+    pub fn with_point_near(self, other: Point3<f64>) -> Line {
         Line {
             point: self.point + self.axis * (other - self.point).dot(&self.axis),
             axis: self.axis,
@@ -62,7 +62,7 @@ impl Line {
     }
 }
 
-/// The axes of a chain of `N` turning joints; `None` for any other.
+/// The axes of a chain of `N` revolute joints; `None` for any other.
 pub(super) fn lines_at_zero<const N: usize>(chain: &Chain) -> Option<[Line; N]> {
     let (mut axes, mut origin) = (Matrix3::identity(), Vector3::zeros());
     let mut lines = Vec::with_capacity(N);
@@ -79,8 +79,8 @@ pub(super) fn lines_at_zero<const N: usize>(chain: &Chain) -> Option<[Line; N]> 
     lines.try_into().ok()
 }
 
-/// An arm whose axis 2 is perpendicular to axis 1: x to the front, y along axis 2, z along axis 1 and up; origin on axis 1
-/// at the height of axis 2.
+/// An arm whose axis 2 is perpendicular to axis 1: x to the front, y along axis 2, z along axis 1 and up; origin on
+/// axis 1 at the height of axis 2.
 pub(super) fn base_from_arm(lines: &[Line; 6], wrist: Point3<f64>) -> IsometryMatrix3<f64> {
     let (z1, z2) = (lines[0].axis, lines[1].axis);
     let up = z1 * sense_of(z1.z);
@@ -103,7 +103,7 @@ pub(super) fn sense_of(value: f64) -> f64 {
     if value < 0.0 { -1.0 } else { 1.0 }
 }
 
-/// `value` if it is more than rounding.
+/// `value` if it is above rounding.
 pub(super) fn up_to_noise(value: f64) -> Option<f64> {
     (value.abs() > IDEAL).then_some(value)
 }
@@ -182,7 +182,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn skew_lines_are_nearest_where_their_common_normal_stands() {
+    fn skew_lines_are_nearest_at_their_common_normal() {
         let along_x = Line {
             point: Point3::new(-4.0, 0.0, 0.0),
             axis: Vector3::x(),
@@ -206,27 +206,27 @@ mod tests {
         assert!((quarter.less(turn).angle() + turn.angle() - quarter.angle()).abs() < 1e-15);
     }
 
-    /// Lines of some arm that hangs from a tilted beam.
+    /// Lines of an arm that hangs from a tilted beam.
     fn lines() -> [Line; 6] {
         lines_at_zero(crate::arms::hung().chain()).unwrap()
     }
 
     #[test]
-    fn points_on_a_line_stay_where_they_are_when_it_turns_them() {
+    fn points_on_a_line_are_not_moved_by_its_rotation() {
         for line in lines() {
             let on = line.point + line.axis * 0.7;
             assert!((line.turned(1.3, &on) - on).norm() < 1e-15);
-            let beside = Point3::new(0.3, 2.0, -0.4);
-            assert!((line.distance(line.turned(1.3, &beside)) - line.distance(beside)).abs() < 1e-14);
-            assert!((line.turned(-1.3, &line.turned(1.3, &beside)) - beside).norm() < 1e-14);
+            let point = Point3::new(0.3, 2.0, -0.4);
+            assert!((line.distance(line.turned(1.3, &point)) - line.distance(point)).abs() < 1e-14);
+            assert!((line.turned(-1.3, &line.turned(1.3, &point)) - point).norm() < 1e-14);
         }
     }
 
     #[test]
-    fn a_line_told_near_a_point_is_the_same_line() {
+    fn a_line_with_another_point_is_the_same_line() {
         let other = Point3::new(0.3, 2.0, -0.4);
         for line in lines() {
-            let given = line.told_near(other);
+            let given = line.with_point_near(other);
             assert!(line.distance(given.point) < 1e-14 && given.axis == line.axis);
             // No point of the line is nearer.
             assert!(((other - given.point).norm() - line.distance(other)).abs() < 1e-14);
@@ -234,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn a_carried_line_keeps_its_angle_and_distance_to_the_one_that_carries_it() {
+    fn a_carried_line_keeps_its_angle_and_distance_to_the_axis() {
         let [a, b, ..] = lines();
         let there = a.carried(0.9, &b);
         assert!((there.axis.dot(&a.axis) - b.axis.dot(&a.axis)).abs() < 1e-15);
@@ -244,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn the_arm_stands_on_axis_1_at_the_height_of_axis_2_with_y_along_it() {
+    fn the_arm_frame_is_on_axis_1_at_the_height_of_axis_2_with_y_along_it() {
         let lines = lines();
         let wrist = lines[3].nearest_to(&lines[4]).unwrap();
         let frame = base_from_arm(&lines, wrist);
@@ -259,7 +259,7 @@ mod tests {
     }
 
     #[test]
-    fn a_chain_that_slides_or_has_another_count_has_no_such_lines() {
+    fn a_chain_with_prismatic_joints_or_another_number_has_no_such_lines() {
         let railed = crate::arms::other::on_rail(&crate::arms::mh12());
         assert!(lines_at_zero::<7>(railed.chain()).is_none());
         assert!(lines_at_zero::<6>(crate::arms::other::iiwa14().chain()).is_none());
@@ -267,7 +267,7 @@ mod tests {
     }
 
     #[test]
-    fn small_things_count_as_none_and_zero_has_a_sense() {
+    fn small_values_are_none_and_zero_has_a_sense() {
         assert_eq!(
             (up_to_noise(0.9 * IDEAL), up_to_noise(-1.1 * IDEAL)),
             (None, Some(-1.1 * IDEAL))

@@ -1,7 +1,7 @@
 //! Closed-form inverse for ortho-parallel arms with spherical wrist.
 //!
-//! Any six turning joints qualify whose axis 2 is perpendicular to axis 1 and parallel to axis 3, and whose
-//! axes 4, 5, 6 meet in one point with 4 perpendicular to 5 and 5 to 6, wherever the zeros lie. All angles
+//! Any six revolute joints qualify whose axis 2 is perpendicular to axis 1 and parallel to axis 3, and whose
+//! axes 4, 5, 6 meet in one point with 4 perpendicular to 5 and 5 to 6, whatever the zeros. All angles
 //! below are about axes turned to a common sense: 1 up, 2 and 3 along the arm's +y, 4 out along the forearm,
 //! 5 along +y, 6 out of the flange.
 //!
@@ -15,7 +15,7 @@
 //! wrist: R4 R5 R6 = (R1 R2 R3)^T R, bend psi3 = +-atan2(|across|, along) of axis 6 seen from axis 4
 //! ```
 //!
-//! Everything is carried as (cos, sin); each joint costs one atan2 at the end.
+//! All angles are computed as (cos, sin); each joint needs one atan2 at the end.
 //!
 //! Lengths m, angles rad. Source: textbook geometry; compare Brandstoetter, Angerer, Hofbaur 2014 (OPW).
 
@@ -58,20 +58,20 @@ impl OrthoParallel {
     pub fn recognise(chain: &Chain) -> Option<OrthoParallel> {
         let lines = lines_at_zero(chain)?;
         let wrist = lines[3].nearest_to(&lines[4])?;
-        (stray(&lines, wrist) < IDEAL)
+        (deviation_from_ideal(&lines, wrist) < IDEAL)
             .then(|| OrthoParallel::of_lines(chain, &lines, wrist))
             .flatten()
     }
 
-    /// The ortho-parallel geometry next to that of `chain`, if it strays by less than `within` (m, rad) from one; it
-    /// answers up to `slack` (m) beyond its reach.
+    /// The ortho-parallel geometry next to that of `chain`, if that deviates from it by less than `within` (m, rad);
+    /// it answers up to `slack` (m) beyond its reach.
     pub(super) fn next_to(chain: &Chain, within: f64, slack: f64) -> Option<OrthoParallel> {
         let mut lines = lines_at_zero(chain)?;
         let wrist = lines[4].nearest_to(&lines[3])?;
-        if stray(&lines, wrist) >= within {
+        if deviation_from_ideal(&lines, wrist) >= within {
             return None;
         }
-        lines = lines.map(|line| line.told_near(wrist));
+        lines = lines.map(|line| line.with_point_near(wrist));
         lines[1].axis = across(lines[1].axis, &lines[0].axis);
         lines[2].axis = lines[1].axis * sense_of(lines[2].axis.dot(&lines[1].axis));
         lines[4].axis = across(lines[4].axis, &lines[3].axis);
@@ -127,11 +127,11 @@ impl OrthoParallel {
         .filter(|arm| arm.links.l2 > IDEAL && arm.links.l3 > IDEAL)
     }
 
-    /// Chain positions of one branch that bring the flange to `base_from_flange`, whole turns anywhere, and near which
-    /// singularity they stand.
+    /// Chain positions of one branch that bring the flange to `base_from_flange`, modulo whole turns, and the
+    /// singularity that they are near.
     ///
     /// At the wrist singularity joint 4 stays at `kept` (chain position, rad), or joints 4 and 6 share the turn evenly.
-    /// Not checked: forward kinematics (see [`super::holds`]).
+    /// Not checked: forward kinematics (see [`super::verify`]).
     ///
     /// # Errors
     /// The wrist centre is out of reach of this branch.
@@ -164,7 +164,7 @@ impl OrthoParallel {
         Ok((positions, self.links.singularity(bend.sin, sin_elbow, r)))
     }
 
-    /// Branch of the chain positions `theta`, and the singularity they stand near, if any.
+    /// Branch of the chain positions `theta`, and the singularity that they are near, if any.
     ///
     /// Not checked: that there are six.
     pub fn name(&self, theta: &[f64]) -> (Branch, Option<Singularity>) {
@@ -203,13 +203,13 @@ impl OrthoParallel {
         let bent = up.hypot(side);
         let flip = if wrist == Wrist::NoFlip { 1.0 } else { -1.0 };
         let bend = Turn::new(along, flip * bent);
-        // Joint 6 turns axis 5, as joint 4 left it, to where the flange has it.
+        // Joint 6 turns axis 5, as joint 4 left it, to its direction on the flange.
         let rest = |phi4: Turn| {
             let left = a5 * phi4.cos + a3 * phi4.sin;
             Turn::new(left.dot(&second), out.dot(&left.cross(&second)))
         };
         let phi4 = if bent < WRIST_SINGULAR {
-            // Only the sum (or difference) of joints 4 and 6 counts here.
+            // Only the sum (or difference) of joints 4 and 6 has an effect here.
             let even = 0.5 * rest(Turn::ZERO).angle() * along.signum();
             Turn::by(kept.unwrap_or(even))
         } else {
@@ -219,10 +219,10 @@ impl OrthoParallel {
     }
 }
 
-/// By how much (m, rad) these axes stray from an ortho-parallel arm with spherical wrist.
-fn stray(lines: &[Line; 6], wrist: Point3<f64>) -> f64 {
+/// Deviation (m, rad) of these axes from an ortho-parallel arm with spherical wrist.
+fn deviation_from_ideal(lines: &[Line; 6], wrist: Point3<f64>) -> f64 {
     let [z1, z2, z3, z4, z5, z6] = lines.map(|line| line.axis);
-    let strays = [
+    let deviations = [
         z1.dot(&z2).abs(),
         z2.cross(&z3).norm(),
         z4.dot(&z5).abs(),
@@ -231,5 +231,5 @@ fn stray(lines: &[Line; 6], wrist: Point3<f64>) -> f64 {
         lines[4].distance(wrist),
         lines[5].distance(wrist),
     ];
-    strays.into_iter().fold(0.0, f64::max)
+    deviations.into_iter().fold(0.0, f64::max)
 }

@@ -1,4 +1,4 @@
-//! Where a polynomial crosses zero, and where it touches it: all real roots up to degree four.
+//! All real roots of a polynomial up to degree four, double roots included.
 //!
 //! Between two neighbouring extrema there is one root or none, and it can be enclosed. Extrema are the roots of the
 //! derivative, found in the same way. A double root is an extremum whose value is zero but for rounding: to find it as
@@ -6,11 +6,12 @@
 //!
 //! `p(t) = p0 + p1 t + ... + pn t^n`. Source: Rolle's theorem; Newton's iteration kept inside the enclosure by halving.
 
-/// Steps of an enclosure at most: halving alone ends at rounding after some 60.
+/// Maximum number of steps of an enclosure: halving alone ends at rounding after some 60.
 const MOST_STEPS: usize = 100;
 
 /// Real roots of the polynomial with the coefficients `p` (rising powers), in rising order; also extrema whose value is
-/// below `touching` times the sum of the sizes of its terms, told at one where they are smaller nearer to zero.
+/// below `touching` times the sum of the sizes of its terms, with the terms at one where they are smaller nearer to
+/// zero.
 ///
 /// Not checked: that the highest coefficient is far from zero; where it is zero there are none.
 pub(super) fn real_roots(p: &[f64], touching: f64) -> Vec<f64> {
@@ -44,7 +45,7 @@ pub(super) fn real_roots(p: &[f64], touching: f64) -> Vec<f64> {
     roots
 }
 
-/// The root between two places of different sign.
+/// The root between two points of different sign.
 fn crossing(p: &[f64], derivative: &[f64], (mut from, mut to): (f64, f64)) -> f64 {
     let starts_below = value(p, from) < 0.0;
     let mut t = 0.5 * (from + to);
@@ -114,7 +115,7 @@ mod tests {
             let found = real_roots(&of_roots(&roots), 1e-9);
             for root in roots {
                 let nearest = found.iter().fold(f64::INFINITY, |d, t| d.min((t - root).abs()));
-                // As a crossing a double root is known to 1e-8 only; here rounding may still part it into two.
+                // As a crossing a double root is accurate to 1e-8 only; here rounding may still split it into two.
                 assert!(nearest < 3e-8, "{root}: {found:?}");
             }
         }
@@ -134,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_made_of_no_polynomial() {
+    fn an_empty_polynomial_has_no_roots() {
         assert!(real_roots(&[], 1e-9).is_empty());
         assert!(real_roots(&[1.0], 1e-9).is_empty());
         assert!(real_roots(&[1.0, 2.0, 0.0], 1e-9).is_empty());

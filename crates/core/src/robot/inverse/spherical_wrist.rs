@@ -1,22 +1,22 @@
-//! Inverse of any six turning joints of which the last three, or the first three, meet in one point.
+//! Inverse of any six revolute joints of which the last three, or the first three, meet in one point.
 //!
 //! ```text
 //! E1 ... E6 = X        X = base_from_flange (base_from_flange at zero)^-1
 //! ```
 //!
-//! `Ei` is the turn by `theta_i` about axis `i` as it lies at zero. Turns 4 to 6 leave the wrist centre `w` where it is:
-//! joints 1 to 3 bring `w` to `X w` (`three_turns`), and for the wrist the turn `Q = (R1 R2 R3)^T R_X` is left. Let
-//! `alpha` and `beta` be the angles from axis 4 to 5 and from 5 to 6, and `gamma` that from axis 4 to `Q z6`. On a sphere
-//! about `w` they are the sides of a triangle with the angle `psi` at axis 5:
+//! `Ei` is the rotation by `theta_i` about axis `i` at chain zero. Rotations 4 to 6 do not move the wrist centre `w`:
+//! joints 1 to 3 bring `w` to `X w` (`three_turns`), and for the wrist the rotation `Q = (R1 R2 R3)^T R_X` is left. Let
+//! `alpha` and `beta` be the angles from axis 4 to 5 and from 5 to 6, and `gamma` that from axis 4 to `Q z6`. On a
+//! sphere about `w` they are the sides of a triangle with the angle `psi` at axis 5:
 //!
 //! ```text
 //! tan(psi/2)^2 = sin((gamma + alpha - beta)/2) sin((gamma - alpha + beta)/2)
 //!              / sin((alpha + beta + gamma)/2) sin((alpha + beta - gamma)/2)
 //! ```
 //!
-//! Both signs of `psi` count; axes 4, 5 and 6 need not be perpendicular. Then joint 4 brings axis 6 to `Q z6`, and joint
-//! 6 makes the rest of the turn. An arm whose first three axes meet is the same seen from its flange: `E6^-1 ... E1^-1 =
-//! X^-1`.
+//! Both signs of `psi` are valid; axes 4, 5 and 6 need not be perpendicular. Then joint 4 brings axis 6 to `Q z6`, and
+//! joint 6 makes the rest of the turn. An arm whose first three axes meet is the same seen from its flange: `E6^-1 ...
+//! E1^-1 = X^-1`.
 //!
 //! Lengths m, angles rad. Source: Pieper 1968; J. J. Craig, "Introduction to Robotics", 4.6; the wrist by spherical
 //! trigonometry.
@@ -34,10 +34,10 @@ use crate::frame::Isometry;
 
 /// The least sine between neighbouring axes of a wrist: nearer to parallel it does not reach most directions.
 const PARALLEL: f64 = 0.05;
-/// How far (rad) the wrist of a calibrated arm may still answer beyond its range.
+/// How far (rad) beyond its range the wrist of a calibrated arm may still answer.
 const WRIST_SLACK: f64 = 0.02;
 
-/// Six turning joints with a spherical wrist at one end.
+/// Six revolute joints with a spherical wrist at one end.
 #[derive(Clone, Debug)]
 pub struct SphericalWrist {
     arm: ThreeTurns,
@@ -69,7 +69,8 @@ impl SphericalWrist {
         )
     }
 
-    /// The arm with these axes and this flange at zero, if three axes at one end miss a point by less than `within` (m).
+    /// The arm with these axes and this flange at zero, if three axes at one end miss a point by less than `within`
+    /// (m).
     pub(super) fn of(lines: &[Line; 6], at_zero: &Isometry, within: f64) -> Option<SphericalWrist> {
         let [a, b, c, d, e, f] = *lines;
         SphericalWrist::with_wrist_last([a, b, c, d, e, f], (at_zero, false), within)
@@ -82,11 +83,11 @@ impl SphericalWrist {
         within: f64,
     ) -> Option<SphericalWrist> {
         let wrist = meeting([&lines[3], &lines[4], &lines[5]])?;
-        let stray = lines[3..]
+        let deviation = lines[3..]
             .iter()
             .map(|line| line.distance(wrist))
             .fold(0.0, f64::max);
-        if stray >= within {
+        if deviation >= within {
             return None;
         }
         for line in &mut lines[3..] {
@@ -112,16 +113,16 @@ impl SphericalWrist {
         })
     }
 
-    /// Whether its wrist axes meet as they are.
+    /// Whether its wrist axes meet exactly.
     pub fn is_exact(&self) -> bool {
         self.slack == 0.0
     }
 
-    /// Chain positions that bring the flange to `base_from_flange`, whole turns anywhere: up to four of the arm with two
-    /// of the wrist each. Joints that a singularity leaves free keep their places in `kept` (chain positions, rad); without,
-    /// the first stands at zero and the outer two of the wrist share the turn evenly.
+    /// Chain positions that bring the flange to `base_from_flange`, modulo whole turns: up to four of the arm with
+    /// two of the wrist each. Joints that a singularity leaves free keep their positions in `kept` (chain positions,
+    /// rad); without, the first is at zero and the outer two of the wrist share the turn evenly.
     ///
-    /// Not checked: forward kinematics (see [`super::holds`]). Of an arm that is not exact they are starting values.
+    /// Not checked: forward kinematics (see [`super::verify`]). Of an arm that is not exact they are starting values.
     pub fn chain_positions(&self, base_from_flange: &Isometry, kept: Option<&[f64; 6]>) -> Vec<[f64; 6]> {
         let moved = base_from_flange * self.flange_from_base_at_zero;
         let x = if self.reversed { moved.inverse() } else { moved };
@@ -176,7 +177,7 @@ impl SphericalWrist {
                 turn_about(&out, &left, &(q * side))
             };
             let theta4 = if z4.cross(&tip).norm() < WRIST_SINGULAR {
-                // Only the sum (or difference) of joints 4 and 6 counts here.
+                // Only the sum (or difference) of joints 4 and 6 has an effect here.
                 kept.unwrap_or_else(|| 0.5 * rest(0.0) * z4.dot(&out).signum())
             } else {
                 turn_about(&z4, &tip, &out)
@@ -191,7 +192,7 @@ impl SphericalWrist {
     }
 }
 
-/// The angle about the unit vector `axis` from `from` to `to`, both seen along it; zero where one of them lies on it.
+/// The angle about the unit vector `axis` from `from` to `to`, both seen along it; zero where one of them is on it.
 fn turn_about(axis: &Vector3<f64>, from: &Vector3<f64>, to: &Vector3<f64>) -> f64 {
     let across = axis.cross(from);
     across.dot(to).atan2(across.dot(&axis.cross(to)))

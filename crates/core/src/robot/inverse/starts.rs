@@ -1,4 +1,4 @@
-//! Where a search starts: points spread evenly over the ranges of the joints, the same ones every time.
+//! Starts of a search: points spread evenly over the ranges of the joints, always the same.
 //!
 //! `x_k,j = frac(1/2 + k phi^-j)`, `phi` the root of `x^(d+1) = x + 1` for `d` joints: the sequence of least known
 //! discrepancy that needs no table. Source: M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences",
@@ -30,7 +30,7 @@ mod tests {
     }
 
     #[test]
-    fn every_octant_of_a_box_gets_its_share() {
+    fn every_octant_of_a_box_has_its_share() {
         let mut counts = [0; 8];
         let mut point = [0.0; 3];
         for k in 1..=800 {

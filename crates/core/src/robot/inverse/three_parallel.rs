@@ -1,14 +1,14 @@
 //! Closed-form inverse for arms whose axes 2, 3 and 4 are parallel (UR and other cobots).
 //!
-//! Six turning joints qualify whose axis 2 is perpendicular to axis 1 and parallel to axes 3 and 4, whose axis 5 is
+//! Six revolute joints qualify whose axis 2 is perpendicular to axis 1 and parallel to axes 3 and 4, whose axis 5 is
 //! perpendicular to axes 4 and 6 and meets axis 6 in the wrist centre. The arm's axes: z along axis 1 and up, y along
 //! axis 2, x to the front, origin on axis 1 at the height of axis 2. Joints 2 to 4 turn about y and move nothing
 //! along it, so that two subproblems split off:
 //!
 //! ```text
-//! joint 1: the wrist centre p stays b beside the arm's plane: r = +-sqrt(px^2 + py^2 - b^2)       + front, - back
+//! joint 1: the wrist centre p has the offset b from the arm plane: r = +-sqrt(px^2 + py^2 - b^2)    + front, - back
 //! joint 5: axis 6, seen from the turned base as s, has the angle beta to axis 4: cos beta = s a4  beta >= 0 no-flip
-//! joint 6: axis 5 = a4 x (s - cos beta a4) / sin beta, against where the flange has it
+//! joint 6: axis 5 = a4 x (s - cos beta a4) / sin beta, relative to its direction on the flange
 //! chi    : turn of joints 2 to 4 together, from axis 5; then axis 4 is a point in the plane
 //! joints 2, 3: triangle of `two_links`; joint 4 = chi less both
 //! ```
@@ -33,7 +33,7 @@ pub struct ThreeParallel {
     arm_from_base: Isometry,
     /// Axis 2 before axis 1.
     a1: f64,
-    /// The wrist centre beside the arm's plane, along y.
+    /// Offset of the wrist centre from the arm's plane, along y.
     b: f64,
     links: TwoLinks,
     /// From axis 4 to the wrist centre at chain zero, in the arm's plane.
@@ -43,7 +43,7 @@ pub struct ThreeParallel {
     upper_arm_at_zero: f64,
     forearm_at_zero: f64,
     bend_at_zero: f64,
-    /// Sense of axes 1 to 4 against the common one, 1 or -1; 5 and 6 count by their own right hand.
+    /// Sense of axes 1 to 4 against the common one, 1 or -1; 5 and 6 use their own right hand.
     sense: [f64; 6],
     /// Axes 5 and 6 at chain zero, and the wrist centre, in the flange's axes.
     flange_from_axis_5: Vector3<f64>,
@@ -56,20 +56,20 @@ impl ThreeParallel {
     pub fn recognise(chain: &Chain) -> Option<ThreeParallel> {
         let lines = lines_at_zero(chain)?;
         let wrist = lines[4].nearest_to(&lines[5])?;
-        (stray(&lines, wrist) < IDEAL)
+        (deviation_from_ideal(&lines, wrist) < IDEAL)
             .then(|| ThreeParallel::of_lines(chain, &lines, wrist))
             .flatten()
     }
 
-    /// The geometry with three parallel axes next to that of `chain`, if it strays by less than `within` (m, rad) from
-    /// one; it answers up to `slack` (m) beyond its reach.
+    /// The geometry with three parallel axes next to that of `chain`, if that deviates from it by less than `within`
+    /// (m, rad); it answers up to `slack` (m) beyond its reach.
     pub(super) fn next_to(chain: &Chain, within: f64, slack: f64) -> Option<ThreeParallel> {
         let mut lines = lines_at_zero(chain)?;
         let wrist = lines[4].nearest_to(&lines[5])?;
-        if stray(&lines, wrist) >= within {
+        if deviation_from_ideal(&lines, wrist) >= within {
             return None;
         }
-        lines = lines.map(|line| line.told_near(wrist));
+        lines = lines.map(|line| line.with_point_near(wrist));
         lines[1].axis = across(lines[1].axis, &lines[0].axis);
         for parallel in [2, 3] {
             lines[parallel].axis = lines[1].axis * sense_of(lines[parallel].axis.dot(&lines[1].axis));
@@ -122,12 +122,12 @@ impl ThreeParallel {
         .filter(|arm| arm.links.l2 > IDEAL && arm.links.l3 > IDEAL)
     }
 
-    /// Chain positions of one branch that bring the flange to `base_from_flange`, whole turns anywhere, and near which
-    /// singularity they stand.
+    /// Chain positions of one branch that bring the flange to `base_from_flange`, modulo whole turns, and the
+    /// singularity that they are near.
     ///
     /// Where axis 6 is parallel to axes 2, 3 and 4, joint 6 stays at `kept` (chain position, rad), or at zero; if the
-    /// arm cannot hold the pose so, where its hand points away from the shoulder, or towards it.
-    /// Not checked: forward kinematics (see [`super::holds`]).
+    /// arm cannot reach the pose then, where its hand points away from the shoulder, or towards it.
+    /// Not checked: forward kinematics (see [`super::verify`]).
     ///
     /// # Errors
     /// Axis 4 or the wrist centre is out of reach of this branch.
@@ -157,7 +157,8 @@ impl ThreeParallel {
             Ok::<_, Unreachable>((turned, links))
         };
         let (axis_5, (turned, (psi, chi))) = if bent < WRIST_SINGULAR {
-            // Joint 6 is free: as it was, or so that the hand points away from the shoulder, or towards it.
+            // Joint 6 is free: at its previous position, or with the hand pointing away from the shoulder, or towards
+            // it.
             let kept = across(
                 UnitQuaternion::new(out * -kept.unwrap_or(0.0)) * second,
                 &Vector3::y(),
@@ -188,7 +189,7 @@ impl ThreeParallel {
         Ok((positions, self.links.singularity(bend.sin, chi.less(psi).sin, r)))
     }
 
-    /// Branch of the chain positions `theta`, and the singularity they stand near, if any.
+    /// Branch of the chain positions `theta`, and the singularity that they are near, if any.
     ///
     /// Not checked: that there are six.
     pub fn name(&self, theta: &[f64]) -> (Branch, Option<Singularity>) {
@@ -208,10 +209,10 @@ impl ThreeParallel {
     }
 }
 
-/// By how much (m, rad) these axes stray from those of an arm with three parallel axes.
-fn stray(lines: &[Line; 6], wrist: Point3<f64>) -> f64 {
+/// Deviation (m, rad) of these axes from those of an arm with three parallel axes.
+fn deviation_from_ideal(lines: &[Line; 6], wrist: Point3<f64>) -> f64 {
     let [z1, z2, z3, z4, z5, z6] = lines.map(|line| line.axis);
-    let strays = [
+    let deviations = [
         z1.dot(&z2).abs(),
         z2.cross(&z3).norm(),
         z2.cross(&z4).norm(),
@@ -219,5 +220,5 @@ fn stray(lines: &[Line; 6], wrist: Point3<f64>) -> f64 {
         z5.dot(&z6).abs(),
         lines[5].distance(wrist),
     ];
-    strays.into_iter().fold(0.0, f64::max)
+    deviations.into_iter().fold(0.0, f64::max)
 }

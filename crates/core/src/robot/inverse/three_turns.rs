@@ -1,7 +1,7 @@
-//! Three turning joints: which positions of theirs bring a point to a point? Up to four, by a quartic.
+//! Positions of three revolute joints that bring a point to a given point: up to four, by a quartic.
 //!
 //! Joint 3 moves the point on a circle `f`, joint 1 takes its goal back on a circle `g`; joint 2 turns one into the
-//! other if both stand equally far along axis 2 and equally far from a point `o2` of it:
+//! other if both are equally far along axis 2 and equally far from a point `o2` of it:
 //!
 //! ```text
 //! z2 . (f - o2) = z2 . (g - o2)        |f - o2|^2 = |g - o2|^2
@@ -14,11 +14,11 @@
 //! F(theta3) = |adj(B) A u|^2 - det(B)^2 = 0
 //! ```
 //!
-//! It is of fourth degree in `tan((theta3 - tau)/2)`, `tau` chosen so that no root lies far out. Where axes 1 and 2
+//! It is of fourth degree in `tan((theta3 - tau)/2)`, `tau` chosen so that no root is large. Where axes 1 and 2
 //! meet or are parallel, `B` is singular and `F` a square: its roots are double, and are found as extrema. Joint 1 then
-//! has two positions for each. What comes out is followed by Newton's iteration on all three joints.
+//! has two positions for each. The result is refined by Newton's iteration on all three joints.
 //!
-//! Lengths m, angles rad; axes are told at chain zero. Source: D. L. Pieper, "The Kinematics of Manipulators under
+//! Lengths m, angles rad; axes are given at chain zero. Source: D. L. Pieper, "The Kinematics of Manipulators under
 //! Computer Control", Stanford 1968; as circles: A. J. Elias, J. T. Wen 2025 (subproblem 5).
 
 use std::f64::consts::TAU;
@@ -28,25 +28,26 @@ use nalgebra::{Matrix3, Point3, Vector3};
 use super::lines::Line;
 use super::roots::real_roots;
 
-/// Extrema of `F` this near to zero are roots: a pose a nanometre beyond the stretched arm still counts as held.
+/// Extrema of `F` this near to zero are roots: a pose a nanometre beyond the stretched arm is still reached.
 const TOUCHING: f64 = 1e-8;
-/// Determinant of the scaled `B` below which joint 1 is not read off it.
+/// Determinant of the scaled `B` below which joint 1 is not computed from it.
 const SINGULAR: f64 = 1e-2;
-/// The scaled circle of joint 1 below which the goal stands on axis 1, and joint 1 is free.
+/// The scaled circle of joint 1 below which the goal is on axis 1, and joint 1 is free.
 const ON_AXIS: f64 = 1e-9;
-/// Steps of Newton's iteration at most.
+/// Maximum number of steps of Newton's iteration.
 const MOST_STEPS: usize = 24;
-/// Miss (of the arm's length) that is rounding, and that which is no solution.
+/// Miss (relative to the arm's length) within rounding, and that which is not a solution.
 const ROUNDING: f64 = 1e-15;
 const MISSED: f64 = 1e-10;
-/// Determinant of the scaled Jacobian below which a position of an arm with slack stands near the end of a branch: there
-/// 10 mm may move a joint by a tenth of a radian. And how far (rad) to both sides the other postures are looked for.
+/// Determinant of the scaled Jacobian below which a position of an arm with slack is near the end of a branch:
+/// there 10 mm may move a joint by a tenth of a radian. And the distance (rad) to both sides at which other postures
+/// are searched.
 const END_OF_BRANCH: f64 = 0.02;
 const ASIDE: f64 = 0.15;
 /// Positions nearer than this (rad) are one.
 const SAME: f64 = 1e-7;
 
-/// Three turning joints and a point that they carry.
+/// Three revolute joints and a point that they carry.
 #[derive(Clone, Debug)]
 pub(super) struct ThreeTurns {
     lines: [Line; 3],
@@ -59,29 +60,29 @@ impl ThreeTurns {
     /// Joints about these axes that carry the point `end`, all at chain zero.
     pub fn new(mut lines: [Line; 3], end: Point3<f64>) -> ThreeTurns {
         // Points of the axes near to each other keep the squares small.
-        lines[2] = lines[2].told_near(end);
-        lines[1] = lines[1].told_near(lines[2].point);
-        lines[0] = lines[0].told_near(lines[1].point);
+        lines[2] = lines[2].with_point_near(end);
+        lines[1] = lines[1].with_point_near(lines[2].point);
+        lines[0] = lines[0].with_point_near(lines[1].point);
         let [o1, o2, o3] = lines.map(|line| line.point);
         let length = (o2 - o1).norm() + (o3 - o2).norm() + (end - o3).norm();
         ThreeTurns { lines, end, length }
     }
 
-    /// Whether the point can be brought to any place around it: some of these positions move it in three directions.
+    /// Whether the point can move in every direction: some of these positions move it in three directions.
     pub fn moves_freely(&self) -> bool {
         let spans = |k: i32| {
             let angle = |prime: f64| (f64::from(k) * prime).sin() * 3.0;
             let columns = self.place(&[angle(1.3), angle(1.7), angle(2.9)]).1;
             columns.determinant().abs() / self.length.powi(3)
         };
-        // Some hundredths for the arms of the field; rounding for axes that meet in one point.
+        // Some hundredths for common arms; rounding for axes that meet in one point.
         self.length > 0.0 && (1..8).map(spans).fold(0.0, f64::max) > 1e-6
     }
 
-    /// Positions that bring the point to `goal`. Where joint 1 is left free it stands at `kept`.
+    /// Positions that bring the point to `goal`. A free joint 1 stays at `kept`.
     ///
-    /// With `slack` (m) they are starting values for an arm that differs by as much: also of goals that are out of reach
-    /// by less, and near the end of a branch to both sides of it, since two postures may be there or none.
+    /// With `slack` (m) they are starting values for an arm that differs by as much: also of goals that are out of
+    /// reach by less, and near the end of a branch to both sides of it, since two postures may be there or none.
     pub fn bring_to(&self, goal: &Point3<f64>, slack: f64, kept: f64) -> Vec<[f64; 3]> {
         let pair = Circles::of(self, goal);
         let touching = TOUCHING + 4.0 * slack / self.length;
@@ -101,15 +102,16 @@ impl ThreeTurns {
                 }
                 found.push(theta);
                 if slack > 0.0 {
-                    found.extend(self.beside_end_of_branch(&theta).into_iter().flatten());
+                    found.extend(self.next_to_end_of_branch(&theta).into_iter().flatten());
                 }
             }
         }
         found
     }
 
-    /// Positions to both sides of `theta`, along what hardly moves the point, if it stands near the end of a branch.
-    fn beside_end_of_branch(&self, theta: &[f64; 3]) -> [Option<[f64; 3]>; 2] {
+    /// Positions to both sides of `theta`, along the direction that hardly moves the point, if it is near the end of a
+    /// branch.
+    fn next_to_end_of_branch(&self, theta: &[f64; 3]) -> [Option<[f64; 3]>; 2] {
         let columns = self.place(theta).1 / self.length;
         if columns.determinant().abs() > END_OF_BRANCH {
             return [None, None];
@@ -119,7 +121,7 @@ impl ThreeTurns {
         [ASIDE, -ASIDE].map(|aside| Some(std::array::from_fn(|i| theta[i] + aside * still[i])))
     }
 
-    /// Joint 2, where joints 1 and 3 stand.
+    /// Joint 2, for joints 1 and 3.
     fn second(&self, goal: &Point3<f64>, theta1: f64, theta3: f64) -> f64 {
         let axis = &self.lines[1];
         let f = self.lines[2].turned(theta3, &self.end) - axis.point;
@@ -130,7 +132,7 @@ impl ThreeTurns {
             .atan2(across.dot(&axis.axis.cross(&g)))
     }
 
-    /// Where the point stands, and how fast each joint moves it there.
+    /// Position of the point, and its velocity by each joint.
     fn place(&self, theta: &[f64; 3]) -> (Point3<f64>, Matrix3<f64>) {
         let mut columns = Matrix3::zeros();
         let mut end = self.end;
@@ -244,7 +246,7 @@ impl Circles {
             let turn = angle.sin_cos();
             at(&p, turn).powi(2) + at(&q, turn).powi(2) - det_squared
         };
-        // Opposite to tau, where the tangent has no value, F is as far from zero as at any of eight places.
+        // Opposite to tau, where the tangent has no value, F is as far from zero as at any of eight points.
         let eighth = |k: u8| TAU / 8.0 * f64::from(k);
         let far = (0..8)
             .map(eighth)
@@ -281,7 +283,7 @@ impl Circles {
             let sense = self.determinant().signum();
             return [Some((sense * x.1).atan2(sense * x.0)), None];
         }
-        // Only one combination of the rows says something sure: that of the longer row.
+        // Only one combination of the rows is well conditioned: that of the longer row.
         let longer = usize::from(b11.hypot(b12) < b21.hypot(b22));
         either_turn(self.b[longer], right[longer]).map(Some)
     }
@@ -373,7 +375,7 @@ mod tests {
     }
 
     #[test]
-    fn the_positions_that_made_a_place_are_among_those_found() {
+    fn the_positions_of_a_goal_are_among_those_found() {
         for (name, arm) in arms() {
             assert!(arm.moves_freely(), "{name}");
             let (mut most, mut returned) = (0, 0);
@@ -401,7 +403,7 @@ mod tests {
     }
 
     #[test]
-    fn a_stretched_arm_keeps_its_posture_and_one_beyond_has_none() {
+    fn a_stretched_arm_is_solved_and_a_goal_beyond_it_is_not() {
         let (_, arm) = arms().remove(1);
         // Elbow at (0, 1.0), end at (0.7, 1.1): 0.6 m and sqrt(0.5) m from the shoulder at 0.4 m height.
         let reach = 0.6 + 0.5_f64.sqrt();
@@ -420,7 +422,7 @@ mod tests {
     }
 
     #[test]
-    fn a_goal_on_axis_1_leaves_joint_1_where_it_was() {
+    fn a_goal_on_axis_1_does_not_move_joint_1() {
         let (_, arm) = arms().remove(1);
         let found = arm.bring_to(&Point3::new(0.0, 0.0, 1.2), 0.0, 0.7);
         assert!(

@@ -1,4 +1,4 @@
-//! The plane of an arm, and the triangle of upper arm and forearm in it: which angles bring its end to a point?
+//! The plane of an arm, and the triangle of upper arm and forearm in it: the angles that bring its end to a point.
 //!
 //! ```text
 //! eps:  cos = (d^2 - l2^2 - l3^2) / (2 l2 l3), sin = +-sqrt(...)           d^2 = u^2 + v^2
@@ -17,7 +17,7 @@ use super::lines::Turn;
 
 /// A posture nearer than this (sine of 1 deg) to a singularity is flagged.
 pub(crate) const NEAR_SINGULAR: f64 = 0.017_452_406;
-/// Below this sine of the wrist bend joints 4 and 6 cannot be told apart.
+/// Below this sine of the wrist bend joints 4 and 6 are not distinguishable.
 pub(crate) const WRIST_SINGULAR: f64 = 1e-9;
 
 /// Lengths of upper arm and forearm, m.
@@ -25,17 +25,17 @@ pub(crate) const WRIST_SINGULAR: f64 = 1e-9;
 pub(crate) struct TwoLinks {
     pub l2: f64,
     pub l3: f64,
-    /// How far (m) beyond its reach the arm still answers, with its elbow nearly straight: zero but for a starting
-    /// value.
+    /// How far (m) beyond its reach the arm still answers, with its elbow nearly straight: zero except for starting
+    /// values.
     pub slack: f64,
 }
 
-/// Bend of the elbow, as a part of the reach, that a point beyond it is answered with.
+/// Bend of the elbow, as a fraction of the reach, in the answer to a point beyond it.
 const NEARLY_STRAIGHT: f64 = 2e-3;
 
 impl TwoLinks {
-    /// Signed distance of `p` (m, arm axes) from axis 1 in the plane of the links, which runs at `b` (m) beside that axis;
-    /// and the turn that brings the plane there.
+    /// Signed distance of `p` (m, arm axes) from axis 1 in the plane of the links, which has the offset `b` (m) from
+    /// that axis; and the turn that brings the plane there.
     pub(super) fn reach(
         &self,
         p: &Point3<f64>,
@@ -92,8 +92,8 @@ impl TwoLinks {
         Ok((psi, chi))
     }
 
-    /// The singularity near which an arm stands with these sines of wrist bend and elbow bend, and its wrist centre at the
-    /// signed distance `r` (m) from axis 1.
+    /// The singularity that an arm is near with these sines of wrist bend and elbow bend, and its wrist centre at
+    /// the signed distance `r` (m) from axis 1.
     pub(super) fn singularity(&self, sin_bend: f64, sin_elbow: f64, r: f64) -> Option<Singularity> {
         if sin_bend.abs() < NEAR_SINGULAR {
             Some(Singularity::Wrist)
@@ -106,7 +106,7 @@ impl TwoLinks {
         }
     }
 
-    /// Up or down, from the bend (rad) and the place `u` of the end before the shoulder.
+    /// Up or down, from the bend (rad) and the coordinate `u` of the end, to the front of the shoulder.
     pub fn elbow(bend: f64, u: f64) -> Elbow {
         if (bend.sin() >= 0.0) == (u >= 0.0) {
             Elbow::Up
@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn slack_answers_a_little_beyond_the_reach_with_both_elbows() {
+    fn slack_answers_slightly_beyond_the_reach_with_both_elbows() {
         let miss = ARM.solve(1.11, 0.0, Elbow::Up).unwrap_err();
         assert!(matches!(miss, Unreachable::TooFar { by } if (by - 0.01).abs() < 1e-12));
         let slack = TwoLinks { slack: 0.02, ..ARM };
@@ -154,25 +154,25 @@ mod tests {
     }
 
     #[test]
-    fn what_is_missing_is_told_in_metres() {
+    fn the_miss_is_reported_in_metres() {
         for (u, v) in [(0.03, 0.04), (0.0, -0.05), (-0.05, 0.0)] {
-            // The folded arm keeps 0.6 - 0.5 m away.
+            // The folded arm stays 0.6 - 0.5 m away.
             let miss = ARM.solve(u, v, Elbow::Down).unwrap_err();
             assert!(
                 matches!(miss, Unreachable::TooNear { by } if (by - 0.05).abs() < 1e-15),
                 "{miss}"
             );
         }
-        let beside = Point3::new(0.03, -0.04, 1.0);
+        let point = Point3::new(0.03, -0.04, 1.0);
         for (b, missing) in [(0.08, 0.03), (-0.08, 0.03)] {
-            let miss = ARM.reach(&beside, b, Shoulder::Front).unwrap_err();
+            let miss = ARM.reach(&point, b, Shoulder::Front).unwrap_err();
             assert!(matches!(miss, Unreachable::InsideLateralOffset { by } if (by - missing).abs() < 1e-15));
         }
-        assert!(ARM.reach(&beside, 0.0499, Shoulder::Back).is_ok());
+        assert!(ARM.reach(&point, 0.0499, Shoulder::Back).is_ok());
     }
 
     #[test]
-    fn the_plane_of_the_arm_is_turned_until_the_point_lies_in_it() {
+    fn the_plane_of_the_arm_is_rotated_until_it_contains_the_point() {
         for b in [0.0, 0.05, -0.2] {
             for i in 0..12 {
                 let at = 0.5 * f64::from(i);
@@ -201,7 +201,7 @@ mod tests {
                 ARM.singularity(clear, side * in_line, 1.0),
                 Some(Singularity::Elbow)
             );
-            // The shoulder counts by the length of the arm: 1.1 m.
+            // The shoulder is scaled by the length of the arm: 1.1 m.
             assert_eq!(
                 ARM.singularity(clear, clear, side * 1.1 * in_line),
                 Some(Singularity::Shoulder)
@@ -217,7 +217,7 @@ mod tests {
         for (d, bend) in [(1.1, 0.0), (0.1, std::f64::consts::PI)] {
             for elbow in [Elbow::Up, Elbow::Down] {
                 let (psi, chi) = ARM.solve(0.6 * d, 0.8 * d, elbow).unwrap();
-                // The bend at the end of a branch is known to the root of rounding.
+                // The bend at the end of a branch is accurate to the root of rounding.
                 assert!((chi.less(psi).angle().abs() - bend).abs() < 1e-7);
                 let end = [0.6 * psi.sin + 0.5 * chi.sin, 0.6 * psi.cos + 0.5 * chi.cos];
                 assert!((end[0] - 0.6 * d).hypot(end[1] - 0.8 * d) < 1e-8);

@@ -1,13 +1,13 @@
-//! What a robot refuses, each by the smallest change of a sound one, and how it counts its joints.
+//! What a robot refuses, each by the smallest change of a valid one, and the coordinates of its joints.
 
 use std::f64::consts::PI;
 
 use super::*;
 use crate::arms;
 use crate::robot::joint::{Coupling, Limits, Sign};
-use crate::robot::{Axis, Mass, Attachment, Spring};
+use crate::robot::{Attachment, Axis, Mass, Spring};
 
-/// A turning joint, a slide and another turning joint.
+/// A revolute joint, a slide and another revolute joint.
 fn motions() -> Vec<Motion> {
     vec![
         Motion::About(Axis::Z, Amount::Joint(0)),
@@ -36,7 +36,7 @@ fn compliance(value: f64, standard_uncertainty: f64) -> JointCompliance {
     }
 }
 
-/// Why the sound robot is refused after one change of its joints.
+/// Why the valid robot is refused after one change of its joints.
 fn refused(change: impl FnOnce(&mut Vec<Joint>)) -> RobotError {
     let mut changed = joints();
     change(&mut changed);
@@ -44,7 +44,7 @@ fn refused(change: impl FnOnce(&mut Vec<Joint>)) -> RobotError {
 }
 
 #[test]
-fn a_chain_that_is_none_is_told_as_the_chain_tells_it() {
+fn the_error_of_an_invalid_chain_is_that_of_the_chain() {
     let error = Robot::new("rigid", motions()[3..].to_vec(), Vec::new()).unwrap_err();
     assert_eq!(error, RobotError::Chain(ChainError::NoJoint(1)));
     assert_eq!(
@@ -54,9 +54,9 @@ fn a_chain_that_is_none_is_told_as_the_chain_tells_it() {
 }
 
 #[test]
-fn joints_must_be_as_many_as_the_chain_moves() {
+fn the_number_of_joints_must_be_that_of_the_chain() {
     let error = refused(|joints| drop(joints.pop()));
-    assert_eq!(error.to_string(), "the chain moves 3 joints, but 2 are described");
+    assert_eq!(error.to_string(), "the chain has 3 joints, but 2 are described");
     assert!(matches!(
         refused(|joints| joints.push(Joint::plain("C"))),
         RobotError::JointCount {
@@ -97,7 +97,7 @@ fn every_number_of_a_joint_must_be_finite() {
 }
 
 #[test]
-fn a_range_needs_room() {
+fn a_range_must_not_be_empty() {
     for (lower, upper) in [(1.0, 1.0), (1.0, -1.0)] {
         let error = refused(|joints| joints[0].limits = Some(Limits { lower, upper }));
         assert_eq!(
@@ -105,7 +105,7 @@ fn a_range_needs_room() {
             format!("joint A: lower limit {lower} is not below upper limit {upper} (rad or m)")
         );
     }
-    // The least room there is is room.
+    // The smallest range is valid.
     let mut least = joints();
     least[0].limits = Some(Limits {
         lower: 1.0,
@@ -126,14 +126,14 @@ fn only_an_earlier_joint_can_be_coupled() {
         assert_eq!(
             error.to_string(),
             format!(
-                "joint rail is coupled to joint number {other}: only an earlier joint can add to its count"
+                "joint rail is coupled to joint number {other}: it can only be coupled to an earlier joint"
             )
         );
     }
 }
 
 #[test]
-fn compliances_are_one_a_joint_from_zero_to_the_softest() {
+fn compliances_are_one_per_joint_from_zero_to_the_softest() {
     let with = |list: &[JointCompliance]| robot().with_compliance(list.to_vec());
     let error = with(&[compliance(1e-6, 0.0); 2]).unwrap_err();
     assert_eq!(error.to_string(), "2 compliances for 3 joints");
@@ -158,7 +158,7 @@ fn compliances_are_one_a_joint_from_zero_to_the_softest() {
 }
 
 #[test]
-fn a_structure_is_checked_against_the_robot_that_gets_it() {
+fn a_structure_is_checked_against_its_robot() {
     let structure = Structure {
         masses: vec![Mass {
             attachment: Attachment::Joint(3),
@@ -170,11 +170,15 @@ fn a_structure_is_checked_against_the_robot_that_gets_it() {
     let error = robot().with_structure(structure.clone()).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "a mass names joint number 4, which does not exist or slides"
+        "a mass names joint number 4, which does not exist or is prismatic"
     );
     // The same structure fits an arm with a joint more.
     arms::mh12().with_structure(structure).unwrap();
-    let spring = Spring::about(Attachment::Joint(1), nalgebra::Vector3::x(), compliance(1e-7, 0.0));
+    let spring = Spring::about(
+        Attachment::Joint(1),
+        nalgebra::Vector3::x(),
+        compliance(1e-7, 0.0),
+    );
     let with_spring = Structure {
         springs: vec![spring],
         ..Structure::EMPTY
@@ -186,7 +190,7 @@ fn a_structure_is_checked_against_the_robot_that_gets_it() {
 }
 
 #[test]
-fn joint_positions_come_back_from_chain_positions() {
+fn joint_positions_are_recovered_from_chain_positions() {
     let mut stream = arms::Stream(1);
     for _ in 0..200 {
         let mut any = joints();
@@ -235,7 +239,7 @@ fn chain_positions_follow_the_sign_the_zero_and_the_coupling() {
 }
 
 #[test]
-fn a_joint_slides_where_its_motion_is_along_an_axis() {
+fn a_joint_is_prismatic_where_its_motion_is_along_an_axis() {
     let slides: Vec<bool> = (0..3).map(|joint| robot().slides(joint)).collect();
     assert_eq!(slides, [false, true, false]);
 }
@@ -258,14 +262,14 @@ fn the_margin_is_that_of_the_joint_nearest_to_its_limit() {
     assert_eq!(robot.limit_margin(&[0.0, 3.25, 1.0]), Some((1, -0.25)));
     // Outside at two joints: the one that is farther outside.
     assert_eq!(robot.limit_margin(&[2.5, 3.25, 1.0]), Some((0, -0.5)));
-    // Exactly at a limit there is no room, and it is not outside.
+    // Exactly at a limit the margin is zero, and the joint is not outside.
     assert_eq!(robot.limit_margin(&[2.0, 1.0, 1.0]), Some((0, 0.0)));
     let free = Robot::new("free", motions(), ["A", "r", "B"].map(Joint::plain).to_vec()).unwrap();
     assert_eq!(free.limit_margin(&[9.0, 9.0, 9.0]), None);
 }
 
 #[test]
-fn what_a_robot_is_given_it_tells() {
+fn a_robot_returns_what_it_was_given() {
     let frame = NamedFrame {
         name: "controller".to_owned(),
         base_from_frame: Isometry::translation(0.0, 0.0, 0.45),
@@ -293,7 +297,7 @@ const DRIVE: JointCompliance = JointCompliance {
 };
 
 #[test]
-fn other_compliances_take_curves_and_covariance_with_them() {
+fn replaced_compliances_remove_curves_and_covariance() {
     let joint = Joint::plain("A");
     let rising = crate::robot::TorqueCurve::new(vec![[-500.0, -1e-3], [500.0, 1e-3]]).unwrap();
     let curve = crate::robot::torque_curve::JointCurve {

@@ -1,4 +1,4 @@
-//! What no structure may hold, each by the smallest change of a sound one.
+//! Invalid structures, each by the smallest change of a valid one.
 
 use nalgebra::{Point3, Vector3};
 
@@ -42,7 +42,7 @@ fn mass(mass: f64) -> Mass {
     }
 }
 
-/// All parts, each sound.
+/// All parts, each valid.
 fn sound() -> Structure {
     Structure {
         springs: vec![spring(1e-7), spring(2e-7)],
@@ -65,7 +65,7 @@ fn backlash(gap: f64) -> Option<Backlash> {
 }
 
 #[test]
-fn a_model_error_is_a_fraction_of_ten_at_most() {
+fn a_model_error_is_a_fraction_of_at_most_ten() {
     for value in [-1e-9, 10.0_f64.next_up(), f64::NAN] {
         let given = refused(|s| s.model_error = value);
         assert_eq!(
@@ -84,7 +84,7 @@ fn repeatability_is_a_length() {
 }
 
 #[test]
-fn backlash_is_a_gap_that_a_joint_can_have() {
+fn backlash_is_within_its_range() {
     assert_eq!(
         refused(|s| s.backlash[1] = backlash(-1e-9)),
         "backlash of joint number 2: -0.000000001 is not a number from 0 to 0.1 rad (m)"
@@ -92,14 +92,19 @@ fn backlash_is_a_gap_that_a_joint_can_have() {
     assert!(refused(|s| s.backlash[1] = backlash(f64::NAN)).contains("NaN"));
     assert_eq!(
         refused(|s| s.backlash = vec![backlash(1e-4); 7]),
-        "backlash names joint number 7, which does not exist or slides"
+        "backlash names joint number 7, which does not exist or is prismatic"
     );
     let mut none = sound();
     none.backlash = vec![backlash(0.0), None, backlash(1e-4)];
-    assert_eq!(none.gaps().map(|(joint, _)| joint).collect::<Vec<_>>(), [2]);
+    assert_eq!(
+        none.joints_with_backlash()
+            .map(|(joint, _)| joint)
+            .collect::<Vec<_>>(),
+        [2]
+    );
 }
 
-/// Why an arm of six turning joints does not take the sound structure after a change.
+/// Why an arm of six revolute joints refuses the valid structure after a change.
 fn refused(change: impl FnOnce(&mut Structure)) -> String {
     let mut changed = sound();
     change(&mut changed);
@@ -107,14 +112,14 @@ fn refused(change: impl FnOnce(&mut Structure)) -> String {
 }
 
 #[test]
-fn a_sound_structure_is_taken_and_so_is_none() {
+fn a_valid_structure_is_accepted_and_so_is_an_empty_one() {
     assert_eq!(sound().check(&arms::ALL[0]), Ok(()));
     assert_eq!(Structure::default(), Structure::EMPTY);
     assert_eq!(Structure::EMPTY.check(&arms::ALL[0]), Ok(()));
 }
 
 #[test]
-fn curves_are_found_by_joint_and_a_list_may_end_early() {
+fn curves_are_found_by_joint_and_the_list_may_be_shorter() {
     let structure = sound();
     let has: Vec<bool> = (0..9).map(|joint| structure.curve(joint).is_some()).collect();
     assert_eq!(
@@ -124,26 +129,26 @@ fn curves_are_found_by_joint_and_a_list_may_end_early() {
 }
 
 #[test]
-fn parts_sit_at_joints_that_exist() {
+fn parts_are_attached_to_existing_joints() {
     let at = |joint| Attachment::Joint(joint);
     assert_eq!(
         refused(|s| s.springs[1].attachment = at(6)),
-        "a spring names joint number 7, which does not exist or slides"
+        "a spring names joint number 7, which does not exist or is prismatic"
     );
     assert_eq!(
         refused(|s| s.masses[0].attachment = at(9)),
-        "a mass names joint number 10, which does not exist or slides"
+        "a mass names joint number 10, which does not exist or is prismatic"
     );
     assert_eq!(
         refused(|s| s.curves = vec![None, None, None, None, None, None, curve()]),
-        "a torque curve names joint number 7, which does not exist or slides"
+        "a torque curve names joint number 7, which does not exist or is prismatic"
     );
     assert_eq!(
         refused(|s| s.compensator = Some(Compensator {
             joint: 6,
             ..compensator()
         })),
-        "the compensator names joint number 7, which does not exist or slides"
+        "the compensator names joint number 7, which does not exist or is prismatic"
     );
     let mut last = sound();
     (last.springs[0].attachment, last.masses[0].attachment) = (at(5), at(5));
@@ -151,7 +156,7 @@ fn parts_sit_at_joints_that_exist() {
 }
 
 #[test]
-fn a_rail_carries_springs_and_masses_but_no_torque_curve_and_no_compensator() {
+fn a_rail_has_springs_and_masses_but_no_torque_curve_and_no_compensator() {
     let railed = arms::other::on_rail(&arms::ALL[0]);
     let on = |change: fn(&mut Structure)| {
         let mut structure = Structure::EMPTY;
@@ -183,7 +188,7 @@ fn a_rail_carries_springs_and_masses_but_no_torque_curve_and_no_compensator() {
 }
 
 #[test]
-fn springs_yield_from_zero_to_the_softest_in_a_finite_direction() {
+fn spring_compliances_range_from_zero_to_the_softest_in_a_finite_direction() {
     for value in [-1e-300, SOFTEST.next_up(), f64::NAN] {
         assert_eq!(
             refused(|s| s.springs[1].compliance.value = value),
@@ -195,7 +200,7 @@ fn springs_yield_from_zero_to_the_softest_in_a_finite_direction() {
     }
     assert_eq!(
         refused(|s| s.springs[0].direction.linear.y = f64::INFINITY),
-        "a spring holds a number that is not finite"
+        "a spring contains a number that is not finite"
     );
     let mut ends = sound();
     (ends.springs[0].compliance.value, ends.springs[1].compliance.value) = (0.0, SOFTEST);
@@ -203,7 +208,7 @@ fn springs_yield_from_zero_to_the_softest_in_a_finite_direction() {
 }
 
 #[test]
-fn masses_weigh_from_nothing_to_a_thousand_tonnes() {
+fn masses_range_from_zero_to_a_thousand_tonnes() {
     for value in [-1e-9, 1e6_f64.next_up(), f64::NAN] {
         assert_eq!(
             refused(|s| s.masses[1].mass = value),
@@ -212,13 +217,13 @@ fn masses_weigh_from_nothing_to_a_thousand_tonnes() {
     }
     assert_eq!(
         refused(|s| s.masses[0].centre.z = f64::NAN),
-        "a centre of mass holds a number that is not finite"
+        "a centre of mass contains a number that is not finite"
     );
 }
 
 #[test]
-fn a_compensator_has_lengths_and_a_spring_that_never_shrinks_to_nothing() {
-    let message = "the compensator needs lengths above 0, and radii that differ by a millimetre or more";
+fn a_compensator_has_lengths_and_a_spring_that_never_shrinks_to_zero() {
+    let message = "the compensator needs lengths above 0, and radii that differ by 1 mm or more";
     type Break = fn(&mut Compensator);
     let broken: [Break; 8] = [
         |c| c.fixed_radius = 0.0,
@@ -253,15 +258,15 @@ fn a_covariance_is_symmetric_not_negative_and_of_compliances_that_exist() {
     assert_eq!(with(|c| c[(1, 2)] = 1e-14), "the covariance is not symmetric");
     assert_eq!(
         with(|c| c[(3, 3)] = f64::NAN),
-        "the covariance holds a number that is not finite"
+        "the covariance contains a number that is not finite"
     );
-    let negative = "the covariance has a negative eigenvalue, or is of 8 compliances where there are 8";
+    let negative = "the covariance has a negative eigenvalue, or 8 rows for 8 compliances";
     assert_eq!(with(|c| c[(3, 3)] = -1e-15), negative);
     // Correlated by more than one.
     assert_eq!(with(|c| (c[(0, 1)], c[(1, 0)]) = (1.1e-14, 1.1e-14)), negative);
-    assert!(with(|c| *c = DMatrix::identity(9, 9)).contains("is of 9 compliances where there are 8"));
-    assert!(with(|c| *c = DMatrix::zeros(2, 3)).contains("is of 2 compliances"));
-    // What printing rounds away is forgiven, and a covariance may reach fewer compliances than there are.
+    assert!(with(|c| *c = DMatrix::identity(9, 9)).contains("9 rows for 8 compliances"));
+    assert!(with(|c| *c = DMatrix::zeros(2, 3)).contains("2 rows for"));
+    // Rounding of printed numbers is tolerated, and a covariance may cover fewer compliances than there are.
     let mut printed = sound();
     let mut covariance = DMatrix::identity(3, 3) * 1e-14;
     covariance[(0, 1)] = 5e-21;

@@ -1,7 +1,7 @@
-//! What is not known of load and tool, told as a displacement.
+//! Uncertainty of the displacement by the uncertainties of load and tool.
 //!
-//! Each unknown is taken off by its standard uncertainty, and the change of the displacement is its part: the numerical
-//! form of the law of propagation (JCGM 100:2008, 5.1.3, note 2). It holds for every part of the model.
+//! Each input is changed by its standard uncertainty; its contribution is the change of the displacement: the numerical
+//! form of the law of propagation (JCGM 100:2008, 5.1.3, note 2). It is valid for every part of the model.
 
 use nalgebra::{Point3, Vector3};
 
@@ -11,7 +11,7 @@ use crate::robot::forward::Frames;
 use crate::source::Unstable;
 use crate::spatial::Wrench;
 
-/// Where an arm stands, and what it is loaded with there.
+/// An arm in one posture under one load.
 #[derive(Clone, Copy, Debug)]
 pub struct LoadedPosture<'a> {
     /// Joint positions, rad (m).
@@ -27,11 +27,11 @@ pub struct LoadedPosture<'a> {
 }
 
 impl ArmState<'_> {
-    /// Variance (m^2) of the elastic displacement along the unit vector `along` that `doubt` makes. The arm stands as
-    /// `standing` says, before and after; its last load is another one afterwards.
+    /// Variance (m^2) of the elastic displacement along the unit vector `along` by `uncertainty`. The posture is
+    /// `arm_state` before and after; the last load is a different one afterwards.
     ///
     /// # Errors
-    /// [`Unstable`] where the arm finds no rest under a load that is off.
+    /// [`Unstable`] where the arm has no equilibrium under a changed load.
     pub fn variance_of_inputs(
         &mut self,
         uncertainty: &InputUncertainty,
@@ -39,16 +39,17 @@ impl ArmState<'_> {
         along: &Vector3<f64>,
     ) -> Result<f64, Unstable> {
         let mut variance = 0.0;
-        self.moves_of_inputs(uncertainty, (arm_state, along), |by| variance += by * by)?;
+        self.displacements_by_inputs(uncertainty, (arm_state, along), |by| variance += by * by)?;
         Ok(variance)
     }
 
-    /// Tells how far (m) each unknown of `doubt`, off by its standard uncertainty, moves the tool along the unit vector
-    /// `along`: always the same unknowns in the same order. The arm stands as before, its last load is another one.
+    /// Reports the displacement (m) of the tool along the unit vector `along` by each input changed by its standard
+    /// uncertainty: always the same inputs in the same order. The posture is unchanged, the last load is a different
+    /// one.
     ///
     /// # Errors
-    /// [`Unstable`] where the arm finds no rest under a load that is off.
-    pub fn moves_of_inputs(
+    /// [`Unstable`] where the arm has no equilibrium under a changed load.
+    pub fn displacements_by_inputs(
         &mut self,
         uncertainty: &InputUncertainty,
         (arm_state, along): (&LoadedPosture<'_>, &Vector3<f64>),

@@ -1,29 +1,29 @@
-//! An arm that stands in one posture, ready to be loaded: screws of all that yields, gravity, and what a load does.
+//! An arm in one posture, ready to be loaded: screws of all compliant parts, gravity, and the effect of a load.
 //!
 //! ```text
-//! delta = sum_k s_k x_k(w)                     elastic: drives and springs give way to the load
-//!       + sum_k s_k x_k(tau_g)  -  the same where the tool was set          gravity
+//! delta = sum_k s_k x_k(w)                     elastic: drives and springs deflect under the load
+//!       + sum_k s_k x_k(tau_g)  -  the same at tool setting                 gravity
 //! ```
 //!
-//! A drive or spring gives way by `x = c tau`, a joint with a torque curve by `theta(tau_g + tau) - theta(tau_g)`, and
+//! A drive or spring deflects by `x = c tau`, a joint with a torque curve by `theta(tau_g + tau) - theta(tau_g)`, and
 //! one with a compensator as if its stiffness were `k - dM/dtheta`. Under a load-dependent model the elastic part comes
 //! from [`super::equilibrium`], and the shares `s_k x_k` add up to it in first order only.
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | `s_k` | screw of drive or spring k at the TCP, base basis | m/rad, rad/rad |
-//! | `x_k` | how far it gives way | rad (m) |
+//! | `x_k` | its deflection | rad (m) |
 //! | `tau_g` | torque of gravity on it, compensator included | N m (N) |
 //!
-//! Made once, used at any number of postures and loads without allocation. `shares`: who moves the tool by how much;
-//! `doubt`: how sure that is, of load and tool; `unloaded`: what moves the tool beside the load.
+//! Made once, used for any number of postures and loads without allocation. `shares`: contribution of each part;
+//! `input_uncertainty`: uncertainty by load and tool; `backlash_and_geometry`: deviations that no load causes.
 
+mod backlash_and_geometry;
 mod input_uncertainty;
 mod shares;
-mod backlash_and_geometry;
 
-pub use input_uncertainty::LoadedPosture;
 pub use backlash_and_geometry::Links;
+pub use input_uncertainty::LoadedPosture;
 
 use nalgebra::{IsometryMatrix3, Matrix3, Matrix6, Point3, Rotation3, Vector3};
 
@@ -31,11 +31,11 @@ use super::equilibrium::{Equilibrium, Unstable};
 use super::gravity::{Carried, carry_into, torque};
 use super::stiffness_model::{Arm, Gravity};
 use crate::load::TipCompliance;
+use crate::robot::deflected_arm::{attachment_frame, spring_screw};
 use crate::robot::forward::{Frames, forward_into};
 use crate::robot::inverse::tool_on;
 use crate::robot::jacobian::screws_into;
-use crate::robot::deflected_arm::{attachment_frame, spring_screw};
-use crate::robot::{JointCompliance, Attachment};
+use crate::robot::{Attachment, JointCompliance};
 use crate::spatial::{Twist, Wrench};
 
 /// An arm in one posture.
@@ -45,11 +45,12 @@ pub struct ArmState<'a> {
     compliances: Vec<JointCompliance>,
     attachments: Vec<Attachment>,
     flange_from_tool: Rotation3<f64>,
-    /// Whether every drive and spring gives way in proportion to its torque, whatever else stands on the arm.
+    /// Whether the deflection of every drive and spring is proportional to its torque, whatever the other loads on the
+    /// arm.
     in_proportion: bool,
-    /// Room for [`ArmState::set_joints`]; taken while it is in use.
+    /// Working memory of [`ArmState::set_joints`]; taken while it is in use.
     frames: Option<Frames>,
-    /// Joint positions where it stands, the controller's counting and the chain's.
+    /// Joint positions, in the coordinates of the controller and of the chain.
     joints: Vec<f64>,
     theta: Vec<f64>,
     base_from_tool: IsometryMatrix3<f64>,
@@ -57,28 +58,28 @@ pub struct ArmState<'a> {
     weight: Option<Weight<'a>>,
     /// Torque of gravity on each drive and spring; zeros without gravity.
     before: Vec<f64>,
-    /// What the load puts on each, and how far each gives way to it.
+    /// Torque of the load on each, and the deflection of each by it.
     torques: Vec<f64>,
     turns: Vec<f64>,
     equilibrium: Option<Box<Equilibrium>>,
 }
 
-/// What gravity does to the arm.
+/// Effect of gravity on the arm.
 #[derive(Clone, Debug)]
 struct Weight<'a> {
     gravity: &'a Gravity,
     carried: Vec<Carried>,
-    /// How far each drive and spring gives way to gravity alone; `None` where one does not hold.
+    /// Deflection of each drive and spring by gravity alone; `None` where one is unstable.
     sag: Option<Vec<f64>>,
-    /// Where the tool was set: displacement of the tool by each, and the same per unit of compliance.
+    /// At tool setting: displacement of the tool by each, and the same per unit of compliance.
     at_reference: Option<Vec<(Twist, Vector3<f64>)>>,
 }
 
 impl<'a> ArmState<'a> {
-    /// Room for this arm. Where gravity counts it has stood at the reference posture already.
+    /// Working memory for this arm. With gravity, the state at the reference posture is evaluated first.
     ///
     /// Not checked: that the structure of the model fits the robot ([`crate::robot::Structure::check`]), and that there
-    /// are as many compliances, and as many joint positions where the tool was set, as joints.
+    /// are as many compliances, and as many joint positions at tool setting, as joints.
     pub fn new(arm: Arm<'a>) -> ArmState<'a> {
         let (compliances, attachments) = (arm.compliances(), arm.attachments());
         let (joints, size) = (arm.robot.joints().len(), compliances.len());
@@ -118,7 +119,7 @@ impl<'a> ArmState<'a> {
         arm_state
     }
 
-    /// The arm that stands.
+    /// The arm.
     pub fn arm(&self) -> &Arm<'a> {
         &self.arm
     }
@@ -128,28 +129,28 @@ impl<'a> ArmState<'a> {
         &self.screws
     }
 
-    /// The tool where the arm stands, in base.
+    /// The tool at the current posture, in base.
     pub fn base_from_tool(&self) -> &IsometryMatrix3<f64> {
         &self.base_from_tool
     }
 
-    /// Torque of gravity on each drive, then each spring, N m (N); zeros where gravity does not count.
+    /// Torque of gravity on each drive, then each spring, N m (N); zeros where gravity is neglected.
     pub fn gravity_torques(&self) -> &[f64] {
         &self.before
     }
 
-    /// Stands the arm at joint positions `q`, rad (m).
+    /// Sets the joint positions to `q`, rad (m).
     pub fn set_joints(&mut self, q: &[f64]) {
         let room = self.frames.take();
         let mut frames = room.unwrap_or_else(|| Frames::for_robot(self.arm.robot));
         forward_into(self.arm.robot, q, &mut frames);
-        // As a posture has it, to the last bit.
+        // Identical to that of a posture, to the last bit.
         let tcp = tool_on(&frames, self.arm.flange_from_tool).translation.vector;
         self.set_frames(q, &frames, &tcp.into());
         self.frames = Some(frames);
     }
 
-    /// [`ArmState::set_joints`] where the frames at `q` and the TCP (m, base) are known already.
+    /// [`ArmState::set_joints`] where the frames at `q` and the TCP (m, base) are already known.
     pub fn set_frames(&mut self, q: &[f64], frames: &Frames, tcp: &Point3<f64>) {
         let Arm { robot, model, .. } = self.arm;
         let structure = &model.structure;
@@ -178,20 +179,20 @@ impl<'a> ArmState<'a> {
             self.before[c.joint] += c.torque(self.theta[c.joint]);
         }
         let mut sag = weight.sag.take().unwrap_or_else(|| vec![0.0; self.before.len()]);
-        let mut holds = true;
+        let mut stable = true;
         for (k, sag) in sag.iter_mut().enumerate() {
             let turned = self.turn(k, 0.0, self.before[k]);
-            holds &= turned.is_some();
+            stable &= turned.is_some();
             *sag = turned.unwrap_or_default();
         }
-        weight.sag = holds.then_some(sag);
+        weight.sag = stable.then_some(sag);
         self.weight = Some(weight);
     }
 
-    /// Displacement of the tool because drives and springs give way to `wrench` (at the TCP, base basis).
+    /// Displacement of the tool by the deflection of drives and springs under `wrench` (at the TCP, base basis).
     ///
     /// # Errors
-    /// [`Unstable`] where the arm finds no stable rest.
+    /// [`Unstable`] where the arm has no stable equilibrium.
     pub fn elastic(&mut self, wrench: &Wrench) -> Result<Twist, Unstable> {
         if let Some(mut equilibrium) = self.equilibrium.take() {
             let at = (&self.theta[..], &self.before[..]);
@@ -204,8 +205,8 @@ impl<'a> ArmState<'a> {
         let mut sum = Twist::ZERO;
         if self.in_proportion {
             let each = self.screws.iter().zip(&self.compliances);
-            let given_way = self.torques.iter_mut().zip(&mut self.turns);
-            for ((screw, compliance), (torque, turn)) in each.zip(given_way) {
+            let deflections = self.torques.iter_mut().zip(&mut self.turns);
+            for ((screw, compliance), (torque, turn)) in each.zip(deflections) {
                 *torque = screw.dot(wrench);
                 *turn = compliance.value * *torque;
                 sum = sum + *screw * *turn;
@@ -221,7 +222,7 @@ impl<'a> ArmState<'a> {
         Ok(sum)
     }
 
-    /// Displacement of the tool by gravity, less that where the tool was set; `None` where gravity does not count.
+    /// Displacement of the tool by gravity, relative to tool setting; `None` where gravity is neglected.
     ///
     /// # Errors
     /// [`Unstable`] where the compensator of the arm is stiffer than its joint.
@@ -239,11 +240,11 @@ impl<'a> ArmState<'a> {
         ))
     }
 
-    /// How the tip yields to a force where the arm stands: its displacement under one newton along each base axis, and by
+    /// Compliance of the tip at the current posture: its displacement under one newton along each base axis, and by
     /// gravity alone.
     ///
     /// # Errors
-    /// [`Unstable`] where the arm finds no stable rest under one of them.
+    /// [`Unstable`] where the arm has no stable equilibrium under one of them.
     pub fn tip_compliance(&mut self) -> Result<TipCompliance, Unstable> {
         let mut under = |axis| Ok(self.elastic(&Wrench::from_force(axis))?.linear);
         let columns = [under(Vector3::x())?, under(Vector3::y())?, under(Vector3::z())?];
@@ -255,7 +256,7 @@ impl<'a> ArmState<'a> {
         })
     }
 
-    /// The compliance of the unloaded arm at the TCP: 6 x 6, base, translation first; `None` where it does not hold.
+    /// The compliance of the unloaded arm at the TCP: 6 x 6, base, translation first; `None` where the arm is unstable.
     pub fn compliance(&self) -> Option<Matrix6<f64>> {
         let mut sum = Matrix6::zeros();
         for (k, screw) in self.screws.iter().enumerate() {
@@ -268,24 +269,24 @@ impl<'a> ArmState<'a> {
                 return None;
             }
             let s = screw.to_vector();
-            // A product by one keeps every bit of the simple model.
+            // A product by one keeps the bits of the simple model.
             sum += s * s.transpose() * (c / lost);
         }
         Some(sum)
     }
 
-    /// The compliance tangent to the last load, under a load-dependent model; 6 x 6 at the yielded TCP.
+    /// The tangent compliance under the last load, with a load-dependent model; 6 x 6 at the deflected TCP.
     pub fn loaded_compliance(&mut self) -> Option<Matrix6<f64>> {
         self.equilibrium.as_mut().and_then(|found| found.tangent())
     }
 
-    /// How far drive or spring `k` turns when the torque `change` comes on top of `before`.
+    /// Deflection of drive or spring `k` when the torque `change` is added to `before`.
     fn turn(&self, k: usize, before: f64, change: f64) -> Option<f64> {
         let Some(curve) = self.arm.model.structure.curve(k) else {
             let turn = self.compliances[k].value * change;
-            return match self.evaluation(k) {
+            return match self.stiffness_factor(k) {
                 None => Some(turn),
-                Some(evaluation) if evaluation > 0.0 => Some(turn / evaluation),
+                Some(factor) if factor > 0.0 => Some(turn / factor),
                 Some(_) => None,
             };
         };
@@ -294,7 +295,7 @@ impl<'a> ArmState<'a> {
         if slope == 0.0 {
             return Some(turn);
         }
-        // The compensator takes a few per cent of the joint's stiffness: each round leaves as much of the error.
+        // The compensator is a few per cent of the joint's stiffness: each round reduces the error by this factor.
         for _ in 0..MOST_ROUNDS {
             let next = curve.turn(before, change + slope * turn);
             if (next - turn).abs() <= SETTLED * next.abs() {
@@ -305,7 +306,7 @@ impl<'a> ArmState<'a> {
         None
     }
 
-    /// Turn and slope of drive or spring `k` where the equilibrium itself takes the compensator in.
+    /// Deflection and slope of drive or spring `k` where the equilibrium includes the compensator.
     fn law(&self, k: usize, torque: f64) -> (f64, f64) {
         match self.arm.model.structure.curve(k) {
             Some(curve) => (
@@ -316,8 +317,8 @@ impl<'a> ArmState<'a> {
         }
     }
 
-    /// `1 - c dM/dtheta`, where a compensator works on this drive.
-    fn evaluation(&self, k: usize) -> Option<f64> {
+    /// `1 - c dM/dtheta`, where a compensator acts on this drive.
+    fn stiffness_factor(&self, k: usize) -> Option<f64> {
         let slope = self.compensator_slope(k);
         (slope != 0.0).then(|| 1.0 - self.compliances[k].value * slope)
     }
@@ -337,7 +338,9 @@ impl<'a> ArmState<'a> {
     fn sagging(&self) -> Option<Vec<(Twist, Vector3<f64>)>> {
         let sag = self.weight.as_ref()?.sag.as_ref()?;
         let each = |(k, sag): (usize, &f64)| {
-            let grown = self.evaluation(k).map_or(1.0, |evaluation| 1.0 / (evaluation * evaluation));
+            let grown = self
+                .stiffness_factor(k)
+                .map_or(1.0, |factor| 1.0 / (factor * factor));
             let per_unit = self.screws[k].linear * (self.before[k] * grown);
             (self.screws[k] * *sag, per_unit)
         };
@@ -345,7 +348,7 @@ impl<'a> ArmState<'a> {
     }
 }
 
-/// Rounds of taking the compensator in at a torque curve, at most.
+/// Maximum number of rounds for the compensator at a torque curve.
 const MOST_ROUNDS: usize = 200;
 /// Rounding left after them, relative.
 const SETTLED: f64 = 1e-14;

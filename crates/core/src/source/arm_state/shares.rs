@@ -1,14 +1,14 @@
-//! Who made the displacement of an arm under its last load, and how sure it is.
+//! Contributions to the displacement of an arm under its last load, and their uncertainty.
 //!
-//! `cov(delta) = A S A^T + m^2 delta delta^T`, columns `a_k`: displacement per unit of compliance k. `S` is the covariance of
-//! the structure; compliances that it does not reach are independent. `m` is its model error: what no compliance explains,
-//! as a fraction of what all of them together make (a discrepancy as of Kennedy and O'Hagan, Bayesian calibration of
-//! computer models, J. R. Stat. Soc. B 63, 2001, that is in proportion to the prediction).
+//! `cov(delta) = A S A^T + m^2 delta delta^T`, columns `a_k`: displacement per unit of compliance k. `S` is the
+//! covariance of the structure; compliances outside it are independent. `m` is its model error: the part that no
+//! compliance explains, as a fraction of the displacement by all of them (a discrepancy as of Kennedy and O'Hagan,
+//! Bayesian calibration of computer models, J. R. Stat. Soc. B 63, 2001, in proportion to the prediction).
 
 use nalgebra::{Matrix3, Vector3};
 
 use super::ArmState;
-use crate::robot::Attachment;
+use crate::source::Contributor;
 use crate::spatial::Twist;
 
 impl ArmState<'_> {
@@ -23,7 +23,9 @@ impl ArmState<'_> {
 
     /// Displacement of the TCP per unit of compliance of drive or spring `k`, under the last load and gravity.
     pub fn sensitivity(&self, k: usize) -> Vector3<f64> {
-        let grown = self.evaluation(k).map_or(1.0, |evaluation| 1.0 / (evaluation * evaluation));
+        let grown = self
+            .stiffness_factor(k)
+            .map_or(1.0, |factor| 1.0 / (factor * factor));
         let elastic = self.screws[k].linear * self.torques[k];
         match self.sagged(k) {
             Some((_, (_, there))) => (elastic + self.screws[k].linear * self.before[k]) * grown - there,
@@ -31,21 +33,26 @@ impl ArmState<'_> {
         }
     }
 
-    /// Parts by contributor ([`crate::source::StiffnessModel::contributors`]): a joint's drive with the springs on its seat, then the others.
+    /// Parts by contributor ([`crate::source::StiffnessModel::contributors`]): the drive of a joint with the springs of
+    /// its attachment, then the others.
     pub fn shares(&self) -> Vec<Twist> {
         let contributors = self.arm.model.contributors(self.theta.len());
-        let of = |contributor: &Attachment| {
-            let own = (0..self.attachments.len()).filter(|k| self.attachments[*k] == *contributor);
+        let of = |contributor: &Contributor| {
+            let own =
+                (0..self.attachments.len()).filter(|k| Contributor::At(self.attachments[*k]) == *contributor);
             own.map(|k| self.part(k)).sum()
         };
         contributors.iter().map(of).collect()
     }
 
-    /// Puts the part of each contributor along the unit vector `along` (m) into `shares`, one a contributor.
-    pub fn share_along(&self, along: &Vector3<f64>, contributors: &[Attachment], shares: &mut [f64]) {
+    /// Writes the part of each contributor along the unit vector `along` (m) into `shares`, one per contributor.
+    pub fn share_along(&self, along: &Vector3<f64>, contributors: &[Contributor], shares: &mut [f64]) {
         shares.fill(0.0);
         for (k, attachment) in self.attachments.iter().enumerate() {
-            if let Some(share) = contributors.iter().position(|contributor| contributor == attachment) {
+            if let Some(share) = contributors
+                .iter()
+                .position(|contributor| *contributor == Contributor::At(*attachment))
+            {
                 shares[share] += self.part(k).linear.dot(along);
             }
         }
@@ -54,11 +61,11 @@ impl ArmState<'_> {
     /// Variance (m^2) of the displacement along the unit vector `along`, from the compliances and the model error.
     pub fn variance_along(&self, along: &Vector3<f64>) -> f64 {
         let a = |k: usize| self.sensitivity(k).dot(along);
-        self.variances(a, |a, b| a * b, self.missed().dot(along).powi(2))
+        self.variances(a, |a, b| a * b, self.model_error().dot(along).powi(2))
     }
 
-    /// What the model may miss of the displacement under the last load, one standard deviation along it, m.
-    pub fn missed(&self) -> Vector3<f64> {
+    /// Model error of the displacement under the last load, one standard deviation along it, m.
+    pub fn model_error(&self) -> Vector3<f64> {
         match self.arm.model.structure.model_error {
             0.0 => Vector3::zeros(),
             fraction => {
@@ -70,25 +77,25 @@ impl ArmState<'_> {
         }
     }
 
-    /// Standard deviation (m) of where the tool comes to rest, along any axis.
+    /// Standard deviation (m) of the attained tool position, along any axis.
     pub fn scatter(&self) -> f64 {
         self.arm.model.structure.repeatability
     }
 
     /// Covariance (m^2) of the displacement, from the compliances and the model error.
     pub fn covariance(&self) -> Matrix3<f64> {
-        let (a, missed) = (|k: usize| self.sensitivity(k), self.missed());
+        let (a, missed) = (|k: usize| self.sensitivity(k), self.model_error());
         self.variances(a, |a, b| a * b.transpose(), missed * missed.transpose())
     }
 
-    /// `beside + sum_kl S_kl a_k a_l`, with independent compliances where no covariance is known.
-    fn variances<A, S>(&self, a: impl Fn(usize) -> A, times: impl Fn(A, A) -> S, beside: S) -> S
+    /// `first + sum_kl S_kl a_k a_l`, with independent compliances where no covariance is known.
+    fn variances<A, S>(&self, a: impl Fn(usize) -> A, times: impl Fn(A, A) -> S, first: S) -> S
     where
         S: std::ops::Add<Output = S> + std::ops::Mul<f64, Output = S>,
     {
         let known = self.arm.model.structure.covariance.as_ref();
         let size = known.map_or(0, nalgebra::DMatrix::nrows);
-        let mut sum = beside;
+        let mut sum = first;
         if let Some(s) = known {
             for i in 0..size {
                 for j in 0..size {

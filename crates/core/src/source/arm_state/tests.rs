@@ -1,4 +1,4 @@
-//! One arm in one posture: what its parts answer, apart and together.
+//! One arm in one posture: its parts, separately and together.
 
 use super::*;
 use crate::arms::{self, Stream};
@@ -81,16 +81,16 @@ fn everything() -> StiffnessModel {
             reference: vec![0.1, -0.2, 0.3, 0.1, 0.4, 0.0],
         }),
         load_dependent: false,
-        actual: None,
+        ..StiffnessModel::DRIVES.clone()
     }
 }
 
-/// The FANUC, whose compliances have room for all parts.
+/// The FANUC, with compliances and all parts.
 fn robot() -> &'static Robot {
     &arms::ALL[3]
 }
 
-fn evaluation<'a>(model: &'a StiffnessModel, tool: &'a Isometry) -> Arm<'a> {
+fn arm<'a>(model: &'a StiffnessModel, tool: &'a Isometry) -> Arm<'a> {
     Arm {
         robot: robot(),
         compliance: robot().compliance().unwrap(),
@@ -112,12 +112,12 @@ fn sensitivities_match_differences_with_every_part_at_once() {
     let mut stream = Stream(61);
     for _ in 0..10 {
         let (q, w) = (stream.joints(robot()), wrench(&mut stream));
-        let arm = evaluation(&model, &tool);
+        let arm = arm(&model, &tool);
         let mut arm_state = ArmState::new(arm);
         arm_state.set_joints(&q);
         crate::predict::deviation_of(&mut arm_state, &w, &mut Links::Neglected).unwrap();
         for k in 0..10_usize {
-            // A curve stands in place of the compliance of joint 3.
+            // A curve replaces the compliance of joint 3.
             if k == 2 {
                 continue;
             }
@@ -139,7 +139,8 @@ fn sensitivities_match_differences_with_every_part_at_once() {
             let c = arm.compliances()[k].value;
             let witness = (changed(1.0 + step) - changed(1.0 - step)) / (2.0 * step * c);
             let found = arm_state.sensitivity(k);
-            // Only a compensator makes it curved: by the square of the step. Rounding of some mm over it.
+            // Only the compensator is not linear: error by the square of the step, and rounding of some mm over the
+            // step.
             let rounding = 1e-15 / (step * c);
             assert!(
                 (found - witness).norm() < 1e-6 * found.norm() + rounding,
@@ -152,19 +153,19 @@ fn sensitivities_match_differences_with_every_part_at_once() {
 #[test]
 fn shares_add_up_and_those_along_a_direction_are_their_projections() {
     let (tool, model) = (arms::bent_tool(), everything());
-    let mut arm_state = ArmState::new(evaluation(&model, &tool));
+    let mut arm_state = ArmState::new(arm(&model, &tool));
     let mut stream = Stream(62);
     let contributors = model.contributors(6);
     for _ in 0..20 {
         arm_state.set_joints(&stream.joints(robot()));
-        let whole =
-            crate::predict::deviation_of(&mut arm_state, &wrench(&mut stream), &mut Links::Neglected).unwrap();
+        let whole = crate::predict::deviation_of(&mut arm_state, &wrench(&mut stream), &mut Links::Neglected)
+            .unwrap();
         let shares = arm_state.shares();
         let sum: Twist = shares.iter().copied().sum();
         // Some ten parts of some mm.
         assert!((sum.to_vector() - whole.to_vector()).norm() < 1e-16);
         let along = stream.vector(1.0).normalize();
-        // What stood there before is gone.
+        // Earlier values are overwritten.
         let mut given = vec![7.0; contributors.len()];
         arm_state.share_along(&along, &contributors, &mut given);
         for (share, given) in shares.iter().zip(&given) {
@@ -184,7 +185,7 @@ fn the_variance_along_a_direction_is_that_of_the_covariance() {
             let root = nalgebra::DMatrix::from_fn(7, 7, |i, j| ((3 * i + 5 * j + i * j) % 7) as f64 - 2.5);
             &root * root.transpose() * 1e-15
         });
-        let mut arm_state = ArmState::new(evaluation(&model, &tool));
+        let mut arm_state = ArmState::new(arm(&model, &tool));
         arm_state.set_joints(&stream.joints(robot()));
         arm_state.elastic(&wrench(&mut stream)).unwrap();
         let covariance = arm_state.covariance();
@@ -199,13 +200,13 @@ fn the_variance_along_a_direction_is_that_of_the_covariance() {
 }
 
 #[test]
-fn the_order_in_which_springs_are_listed_does_not_count() {
+fn the_order_in_which_springs_are_listed_has_no_effect() {
     let (tool, model) = (arms::bent_tool(), everything());
     let mut listed_otherwise = model.clone();
     listed_otherwise.structure.springs.reverse();
     let mut stream = Stream(64);
     let (q, w) = (stream.joints(robot()), wrench(&mut stream));
-    let given = [&model, &listed_otherwise].map(|model| arms::predicted(&evaluation(model, &tool), &q, &w).unwrap());
+    let given = [&model, &listed_otherwise].map(|model| arms::predicted(&arm(model, &tool), &q, &w).unwrap());
     assert!((given[0].twist - given[1].twist).to_vector().norm() < 1e-16);
     assert!((given[0].covariance - given[1].covariance).norm() < 1e-13 * given[0].covariance.norm());
     for (a, b) in given[0].shares.iter().zip(&given[1].shares) {
@@ -214,11 +215,11 @@ fn the_order_in_which_springs_are_listed_does_not_count() {
 }
 
 #[test]
-fn the_tip_yields_as_any_force_says_where_the_deviation_is_affine() {
+fn the_tip_compliance_gives_the_deviation_of_any_force_where_it_is_affine() {
     let (tool, mut model) = (arms::bent_tool(), everything());
     model.structure.curves.clear();
     assert!(model.is_affine());
-    let mut arm_state = ArmState::new(evaluation(&model, &tool));
+    let mut arm_state = ArmState::new(arm(&model, &tool));
     let mut stream = Stream(65);
     for _ in 0..20 {
         arm_state.set_joints(&stream.joints(robot()));
@@ -238,17 +239,17 @@ fn the_tip_yields_as_any_force_says_where_the_deviation_is_affine() {
 }
 
 #[test]
-fn a_compensator_stiffer_than_its_joint_leaves_no_rest_under_weight_or_load() {
+fn a_compensator_stiffer_than_its_joint_has_no_equilibrium_under_weight_or_load() {
     let (tool, mut model) = (arms::bent_tool(), everything());
     model.structure.compensator = Some(Compensator {
         stiffness: 1e12,
         angle: 0.0,
         ..compensator()
     });
-    let mut arm_state = ArmState::new(evaluation(&model, &tool));
+    let mut arm_state = ArmState::new(arm(&model, &tool));
     let q = [0.1, 0.0, -0.3, 0.4, 0.5, -0.6];
     arm_state.set_joints(&q);
-    // The joint would turn on by itself: k - dM/dtheta is below zero.
+    // The joint would turn without any load: k - dM/dtheta is below zero.
     let slope = model.structure.compensator.unwrap().slope(robot().theta(1, &q));
     assert!(slope * robot().compliance().unwrap()[1].value > 1.0, "{slope}");
     assert_eq!(arm_state.gravity(), Err(Unstable::Buckles));
@@ -258,10 +259,10 @@ fn a_compensator_stiffer_than_its_joint_leaves_no_rest_under_weight_or_load() {
 }
 
 #[test]
-fn without_gravity_no_gravity_is_told() {
+fn without_gravity_no_gravity_is_reported() {
     let (tool, mut model) = (arms::bent_tool(), everything());
     model.gravity = None;
-    let mut arm_state = ArmState::new(evaluation(&model, &tool));
+    let mut arm_state = ArmState::new(arm(&model, &tool));
     arm_state.set_joints(&[0.1; 6]);
     assert_eq!(arm_state.gravity(), Ok(None));
     assert!(
@@ -272,39 +273,45 @@ fn without_gravity_no_gravity_is_told() {
 }
 
 #[test]
-fn standing_anew_leaves_nothing_of_the_posture_before() {
+fn setting_a_posture_leaves_nothing_of_the_one_before() {
     let (tool, model) = (arms::bent_tool(), everything());
     let mut stream = Stream(66);
-    let mut used = ArmState::new(evaluation(&model, &tool));
+    let mut used = ArmState::new(arm(&model, &tool));
     for _ in 0..5 {
         let (q, w) = (stream.joints(robot()), wrench(&mut stream));
         used.set_joints(&q);
         let again = crate::predict::predict(&mut used, &w, &mut Links::Neglected).unwrap();
-        let anew = arms::predicted(&evaluation(&model, &tool), &q, &w).unwrap();
-        assert_eq!(again.twist, anew.twist);
-        assert_eq!(again.shares, anew.shares);
-        assert_eq!(again.covariance, anew.covariance);
+        let fresh = arms::predicted(&arm(&model, &tool), &q, &w).unwrap();
+        assert_eq!(again.twist, fresh.twist);
+        assert_eq!(again.shares, fresh.shares);
+        assert_eq!(again.covariance, fresh.covariance);
         used.set_joints(&stream.joints(robot()));
     }
 }
 
-/// The variance that `doubt` makes along `along`, in one posture under one load.
-fn doubted(arm_state: &mut ArmState<'_>, uncertainty: &InputUncertainty, along: &Vector3<f64>) -> f64 {
+/// The variance by `uncertainty` along `along`, in one posture under one load.
+fn variance_by_inputs(
+    arm_state: &mut ArmState<'_>,
+    uncertainty: &InputUncertainty,
+    along: &Vector3<f64>,
+) -> f64 {
     let q = [0.1, 0.5, -0.5, 0.4, 0.5, -0.6];
     let frames = crate::robot::forward::forward(robot(), &q);
     let tool = tool_on(&frames, arm_state.arm().flange_from_tool);
     let wrench = Wrench::from_force(Vector3::new(100.0, 50.0, -300.0));
-    let stands = LoadedPosture {
+    let posture = LoadedPosture {
         joints: &q,
         frames: &frames,
         tcp: tool.translation.vector.into(),
         tool_axis: tool.rotation * Vector3::z(),
         wrench: &wrench,
     };
-    arm_state.set_frames(&q, &frames, &stands.tcp);
+    arm_state.set_frames(&q, &frames, &posture.tcp);
     let before = arm_state.elastic(&wrench).unwrap();
-    let variance = arm_state.variance_of_inputs(uncertainty, &stands, along).unwrap();
-    // The arm stands as it stood.
+    let variance = arm_state
+        .variance_of_inputs(uncertainty, &posture, along)
+        .unwrap();
+    // The posture is unchanged.
     assert_eq!(arm_state.elastic(&wrench).unwrap(), before);
     variance
 }
@@ -318,9 +325,9 @@ fn uncertainty() -> InputUncertainty {
 }
 
 #[test]
-fn twice_the_doubt_is_four_times_the_variance() {
+fn twice_the_uncertainty_is_four_times_the_variance() {
     let (tool, model) = (arms::bent_tool(), StiffnessModel::DRIVES);
-    let mut arm_state = ArmState::new(evaluation(model, &tool));
+    let mut arm_state = ArmState::new(arm(model, &tool));
     let along = Vector3::new(0.6, 0.0, -0.8);
     let one = uncertainty();
     let twice = InputUncertainty {
@@ -329,21 +336,24 @@ fn twice_the_doubt_is_four_times_the_variance() {
         tool_length: 2.0 * one.tool_length,
     };
     let (of_one, of_twice) = (
-        doubted(&mut arm_state, &one, &along),
-        doubted(&mut arm_state, &twice, &along),
+        variance_by_inputs(&mut arm_state, &one, &along),
+        variance_by_inputs(&mut arm_state, &twice, &along),
     );
-    // Linear in the load; a longer tool is a square more, of a lever of some metres by 0.1 mm.
+    // Linear in the load; a longer tool adds a square term, of a lever of some metres by 0.1 mm.
     assert!(
         of_one > 0.0 && (of_twice / of_one - 4.0).abs() < 1e-3,
         "{of_one} {of_twice}"
     );
-    assert_eq!(doubted(&mut arm_state, &InputUncertainty::NONE, &along), 0.0);
+    assert_eq!(
+        variance_by_inputs(&mut arm_state, &InputUncertainty::NONE, &along),
+        0.0
+    );
 }
 
 #[test]
-fn parts_of_a_doubt_are_independent_and_each_is_its_own_change() {
+fn input_uncertainties_are_independent_and_each_gives_its_own_change() {
     let (tool, model) = (arms::bent_tool(), StiffnessModel::DRIVES);
-    let mut arm_state = ArmState::new(evaluation(model, &tool));
+    let mut arm_state = ArmState::new(arm(model, &tool));
     let along = Vector3::new(0.6, 0.0, -0.8);
     let all = uncertainty();
     let relative = InputUncertainty {
@@ -361,8 +371,8 @@ fn parts_of_a_doubt_are_independent_and_each_is_its_own_change() {
         forces: [Vector3::zeros(); 3],
         ..all
     };
-    let [whole, of_relative, of_forces, of_length] =
-        [all, relative, forces, length].map(|uncertainty| doubted(&mut arm_state, &uncertainty, &along));
+    let [whole, of_relative, of_forces, of_length] = [all, relative, forces, length]
+        .map(|uncertainty| variance_by_inputs(&mut arm_state, &uncertainty, &along));
     assert!((of_relative + of_forces + of_length - whole).abs() < 1e-14 * whole);
     // The load a twentieth larger: the displacement a twentieth larger.
     let wrench = Wrench::from_force(Vector3::new(100.0, 50.0, -300.0));

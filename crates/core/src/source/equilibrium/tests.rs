@@ -1,4 +1,4 @@
-//! Arms under load against closed forms, potentials and their unloaded selves.
+//! Arms under load compared with closed forms, potentials and the unloaded arm.
 
 use nalgebra::{Matrix2, Point3, Vector2};
 
@@ -8,7 +8,7 @@ use crate::frame::Isometry;
 use crate::robot::{
     Amount, Axis, Compensator, Joint, JointCompliance, Mass, Motion, Robot, Spring, Structure,
 };
-use crate::source::{Gravity, ArmState, StiffnessModel};
+use crate::source::{ArmState, Gravity, StiffnessModel};
 
 const LINK: f64 = 0.5;
 
@@ -38,7 +38,7 @@ fn loaded() -> StiffnessModel {
     }
 }
 
-fn evaluation<'a>(robot: &'a Robot, model: &'a StiffnessModel, tool: &'a Isometry) -> Arm<'a> {
+fn arm_of<'a>(robot: &'a Robot, model: &'a StiffnessModel, tool: &'a Isometry) -> Arm<'a> {
     Arm {
         robot,
         compliance: robot.compliance().unwrap(),
@@ -57,7 +57,7 @@ fn links_in_a_row_buckle_under_the_force_of_the_closed_form() {
     // K - F L [[2, 1], [1, 1]] loses its sign at F = k / (L (3 + sqrt 5) / 2).
     let critical = 1e4 / (LINK * (3.0 + 5_f64.sqrt()) / 2.0);
     let (robot, model, tool) = (two_links(), loaded(), Isometry::identity());
-    let mut arm_state = ArmState::new(evaluation(&robot, &model, &tool));
+    let mut arm_state = ArmState::new(arm_of(&robot, &model, &tool));
     arm_state.set_joints(&[0.0; 2]);
     let mut press = |force: f64| arm_state.elastic(&Wrench::from_force(-Vector3::x() * force));
     assert_eq!(press(0.999 * critical).unwrap(), Twist::ZERO);
@@ -67,9 +67,9 @@ fn links_in_a_row_buckle_under_the_force_of_the_closed_form() {
 }
 
 #[test]
-fn the_tangent_of_pressed_links_is_that_of_the_closed_form() {
+fn the_tangent_of_links_under_compression_is_that_of_the_closed_form() {
     let (robot, model, tool) = (two_links(), loaded(), Isometry::identity());
-    let mut arm_state = ArmState::new(evaluation(&robot, &model, &tool));
+    let mut arm_state = ArmState::new(arm_of(&robot, &model, &tool));
     arm_state.set_joints(&[0.0; 2]);
     for force in [-5000.0, -100.0, 1000.0, 5000.0] {
         arm_state
@@ -89,13 +89,13 @@ fn the_tangent_of_pressed_links_is_that_of_the_closed_form() {
 #[test]
 fn an_arm_far_too_soft_has_no_equilibrium() {
     let (robot, model, tool) = (two_links(), loaded(), Isometry::identity());
-    let mut arm_state = ArmState::new(evaluation(&robot, &model, &tool));
+    let mut arm_state = ArmState::new(arm_of(&robot, &model, &tool));
     arm_state.set_joints(&[0.0; 2]);
     // 1e-4 rad/(N m) under 1e5 N m: ten radians by the linear law.
     let push = Wrench::from_force(Vector3::y() * 1e5);
     assert_eq!(arm_state.elastic(&push).unwrap_err(), Unstable::NoEquilibrium);
     assert!(arm_state.elastic(&(push * f64::NAN)).is_err());
-    // The arm is as it was: a load that it bears is borne.
+    // The arm state is unchanged: a smaller load has an equilibrium.
     assert!(arm_state.elastic(&(push * 1e-3)).is_ok());
     assert_eq!(
         Unstable::NoEquilibrium.to_string(),
@@ -119,7 +119,7 @@ fn the_load_stiffness_is_symmetric_but_for_the_moment() {
     let model = loaded();
     let mut stream = Stream(51);
     for robot in arms::all() {
-        let arm = evaluation(&robot, &model, &tool);
+        let arm = arm_of(&robot, &model, &tool);
         let mut equilibrium = Equilibrium::for_arm(&arm);
         for _ in 0..20 {
             let (q, wrench) = somewhere(&robot, &mut stream);
@@ -129,7 +129,7 @@ fn the_load_stiffness_is_symmetric_but_for_the_moment() {
                 .find(&arm, (&theta, &[0.0; 6]), &wrench, |_, _| (0.0, 0.0))
                 .unwrap();
             let axes: Vec<Vector3<f64>> = equilibrium
-                .yielded
+                .deflected
                 .screws
                 .iter()
                 .map(|screw| screw.angular)
@@ -188,18 +188,18 @@ fn with_everything() -> StiffnessModel {
             reference: vec![0.0; 6],
         }),
         load_dependent: true,
-        actual: None,
+        ..StiffnessModel::DRIVES.clone()
     }
 }
 
 #[test]
-fn the_potential_of_springs_load_weight_and_compensator_is_least_at_rest() {
+fn the_potential_of_springs_load_weight_and_compensator_is_least_at_equilibrium() {
     let (tool, model) = (arms::bent_tool(), with_everything());
     let structure = &model.structure;
     let mut stream = Stream(52);
     let mut rests = 0;
     for robot in [&arms::ALL[1], &arms::ALL[3]] {
-        let arm = evaluation(robot, &model, &tool);
+        let arm = arm_of(robot, &model, &tool);
         let (c, body) = (arm.compliances(), (robot, &structure.springs[..], &tool));
         let mut arm_state = ArmState::new(arm);
         for _ in 0..10 {
@@ -218,12 +218,14 @@ fn the_potential_of_springs_load_weight_and_compensator_is_least_at_rest() {
                 let mut there = DeflectedArm::for_robot(robot, 3);
                 deflect_into(body, &theta, x, &mut there);
                 let own: f64 = x.iter().zip(&c).map(|(x, c)| 0.5 * x * x / c.value).sum();
-                // What gravity and compensator did before the load came is taken off: springs are told from there.
+                // The torque of gravity and compensator at rest is subtracted: spring deflections are relative to rest.
                 let taken_off: f64 = x.iter().zip(&before).map(|(x, before)| x * before).sum();
                 let weight: f64 = structure
                     .masses
                     .iter()
-                    .map(|mass| 9.81 * mass.mass * (there.attachments[mass.attachment.rank(6)] * mass.centre).z)
+                    .map(|mass| {
+                        9.81 * mass.mass * (there.attachments[mass.attachment.rank(6)] * mass.centre).z
+                    })
                     .sum();
                 let compensator = structure.compensator.unwrap();
                 let spring = compensator.energy(theta[1] + x[1]);
@@ -250,7 +252,7 @@ fn the_potential_of_springs_load_weight_and_compensator_is_least_at_rest() {
 }
 
 #[test]
-fn the_tangent_becomes_the_compliance_of_the_unloaded_arm_as_the_load_goes() {
+fn the_tangent_becomes_the_compliance_of_the_unloaded_arm_as_the_load_vanishes() {
     let tool = arms::bent_tool();
     let model = StiffnessModel {
         structure: Structure {
@@ -261,7 +263,7 @@ fn the_tangent_becomes_the_compliance_of_the_unloaded_arm_as_the_load_goes() {
     };
     let mut stream = Stream(53);
     for robot in arms::all() {
-        let mut arm_state = ArmState::new(evaluation(&robot, &model, &tool));
+        let mut arm_state = ArmState::new(arm_of(&robot, &model, &tool));
         let (q, wrench) = somewhere(&robot, &mut stream);
         arm_state.set_joints(&q);
         let unloaded = arm_state.compliance().unwrap();
@@ -281,10 +283,10 @@ fn the_tangent_becomes_the_compliance_of_the_unloaded_arm_as_the_load_goes() {
 }
 
 #[test]
-fn drives_come_before_the_springs_of_their_seat_and_those_in_their_order() {
+fn drives_come_before_the_springs_of_their_attachment_in_their_order() {
     let (tool, model) = (Isometry::identity(), with_everything());
     let robot = &arms::ALL[0];
-    let equilibrium = Equilibrium::for_arm(&evaluation(robot, &model, &tool));
+    let equilibrium = Equilibrium::for_arm(&arm_of(robot, &model, &tool));
     // Base spring, drives 1 and 2, spring of joint 2, drives 3 to 6, spring of the tool.
     assert_eq!(equilibrium.place, [1, 2, 4, 5, 6, 7, 3, 0, 8]);
     assert_eq!(equilibrium.rank, [1, 2, 3, 4, 5, 6, 2, 0, 8]);

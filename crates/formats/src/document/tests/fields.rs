@@ -24,7 +24,7 @@ fn all_problems_are_reported_at_once_in_the_order_of_the_text() {
 }
 
 #[test]
-fn an_unknown_field_comes_with_the_one_that_was_meant() {
+fn an_unknown_field_is_reported_with_a_suggestion() {
     assert_hint("cooled", "coled", "did you mean `cooled`?");
     assert_hint(
         "step_mm = 5",

@@ -143,7 +143,10 @@ fn reported(old: &str, new: &str) -> Vec<(String, Option<String>)> {
 
 #[track_caller]
 fn assert_problems(old: &str, new: &str, expected: &[&str]) {
-    let messages: Vec<String> = reported(old, new).into_iter().map(|(message, _)| message).collect();
+    let messages: Vec<String> = reported(old, new)
+        .into_iter()
+        .map(|(message, _)| message)
+        .collect();
     assert_eq!(messages, expected);
 }
 

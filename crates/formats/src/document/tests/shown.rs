@@ -4,7 +4,7 @@ use super::super::{Document, Problems, Source, schema_json};
 use super::{GOOD, Study, read};
 
 #[test]
-fn a_problem_of_the_caller_stands_at_its_value_or_the_nearest_parent() {
+fn a_problem_of_the_caller_is_at_its_value_or_the_nearest_parent() {
     let document = Document::parse("study.toml", GOOD).unwrap();
     let place = |path: &str| {
         let problem = document.problem(path, "m", Some("h"));
@@ -141,7 +141,7 @@ fn characters_that_control_a_terminal_are_escaped_in_message_excerpt_and_hint_an
         coloured.contains("\u{1b}[") && !coloured.contains("\u{1b}[2J"),
         "{coloured:?}"
     );
-    // The caret stands under the name as it is shown.
+    // The caret is under the name as it is shown.
     let shown = read(&GOOD.replace("step_mm = 5", &format!("\"{name}\" = 5")))
         .unwrap_err()
         .to_string();

@@ -17,7 +17,7 @@ fn a_byte_order_mark_and_windows_line_ends_change_nothing() {
 }
 
 #[test]
-fn what_is_not_toml_is_reported_line_by_line() {
+fn invalid_toml_is_reported_line_by_line() {
     let problems = Document::parse("a.toml", "x = 3 mm\ny = \nz = 1\nz = 2\n").unwrap_err();
     let lines: Vec<usize> = problems.as_slice().iter().map(Problem::line).collect();
     assert_eq!(lines, [1, 2, 4]);
@@ -89,7 +89,7 @@ fn nesting_that_would_exhaust_the_stack_is_refused() {
 }
 
 #[test]
-fn megabytes_of_garbage_are_refused_with_few_words() {
+fn megabytes_of_invalid_input_are_refused_with_a_short_message() {
     for text in [
         "a = \n".repeat(400_000),
         "[a\n".repeat(400_000),

@@ -7,12 +7,14 @@ use super::super::Document;
 use super::{Analysis, Axis, GOOD, Speed, assert_hint, assert_problems, read};
 
 #[test]
-fn a_correct_file_is_read_and_whole_numbers_do_for_any_number() {
+fn reads_a_correct_file_and_accepts_integers_as_numbers() {
     let study = read(GOOD).unwrap();
     assert_eq!(study.plane.step_mm, 5.0);
     assert_eq!(study.plane.origin_mm, Some([0.0, 1.5, -20.0]));
     assert!(matches!(study.axis, Axis::ToolTip));
-    assert!(matches!(&study.analysis[1], Analysis::Path { points_mm, .. } if points_mm[1] == [1.0, 2.0, 3.0]));
+    assert!(
+        matches!(&study.analysis[1], Analysis::Path { points_mm, .. } if points_mm[1] == [1.0, 2.0, 3.0])
+    );
     assert!(matches!(&study.analysis[2], Analysis::Again(plane) if plane.step_mm == 1.0));
     assert!(matches!(study.speed, Some(Speed::Fixed(3.0))));
     assert_eq!(study.limits_um["EN AW-6082"], 100.0);
@@ -79,7 +81,7 @@ fn a_wrong_type_is_reported_with_what_was_expected_and_found() {
 
 #[test]
 fn a_single_table_where_many_are_wanted_is_explained() {
-    let text = "name = 'x'\nversion = 1\n[plane]\nstep_mm = 1\n[ask]\nkind = 'map'\n";
+    let text = "name = 'x'\nversion = 1\n[plane]\nstep_mm = 1\n[analysis]\nkind = 'map'\n";
     let problems = read(text).unwrap_err();
     assert_eq!(
         problems.as_slice()[0].message(),
@@ -206,7 +208,7 @@ fn a_text_of_the_wrong_length_is_reported() {
 }
 
 #[test]
-fn what_only_serde_refuses_is_a_problem_with_its_place() {
+fn values_that_only_serde_refuses_are_reported_with_their_place() {
     #[derive(Debug, Deserialize, JsonSchema)]
     #[allow(dead_code, reason = "never built")]
     struct Strict {

@@ -1,53 +1,54 @@
-//! Results of a Renishaw QC20-W ball-bar, `.b5r`: XML with what Renishaw's program made of a test, without radii.
+//! Results of a Renishaw QC20-W ball-bar, `.b5r`: XML with the results that Renishaw's software computed, without
+//! radii.
 //!
 //! | element | attribute | meaning |
 //! |---|---|---|
-//! | `TEST_SPEC` | `NAME` | what was planned |
-//! | `DATE_STARTED` | (text) | when |
+//! | `TEST_SPEC` | `NAME` | name of the test plan |
+//! | `DATE_STARTED` | (text) | date |
 //! | `MACHINE_TESTED` | `NAME` | the machine |
 //! | `PLANE` | `TEST_PLANE` | `XY`, `YZ` or `ZX` |
 //! | `FEATURE` | `NAME`, `DT`, (text) | a result: `AF_CIRCULARITY`, its unit, its value |
 //!
-//! Elements may nest in any way. A unit that is not known is kept as it is called; a feature without a number is
+//! Elements may be nested in any way. An unknown unit is reported under its own name. A feature without a number is
 //! listed by its name.
 //!
-//! Names and units as they stand in a public reader of such files, and as remembered from it \[recalled\]; no file was at
-//! hand: see `docs/theory/ballbar.md`.
+//! Names and units follow a public reader of such files, recalled from memory \[recalled\]; no file was available:
+//! see `docs/theory/ballbar.md`.
 
 use roxmltree::Node;
 
 use crate::document::{Problems, Source};
 use crate::xml::{children, parse, tag};
 
-/// What Renishaw's program made of a test.
+/// Results that Renishaw's software computed from a test.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Results {
-    /// What was planned.
+    /// Name of the test plan.
     pub test: Option<String>,
-    /// When.
+    /// Date.
     pub date: Option<String>,
-    /// On which machine.
+    /// Machine.
     pub machine: Option<String>,
-    /// In which plane.
+    /// Plane.
     pub plane: Option<String>,
     /// In the order of the file.
     pub features: Vec<Feature>,
-    /// Features whose text is no number, as they are called.
+    /// Names of the features whose text is not a number.
     pub without_number: Vec<String>,
 }
 
 /// One result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Feature {
-    /// As the file calls it: `AF_BACKLASH_A_POS`.
+    /// Name in the file: `AF_BACKLASH_A_POS`.
     pub name: String,
-    /// As the file has it.
+    /// Value in the file.
     pub value: f64,
-    /// The unit in words; as the file calls it where it is not known.
+    /// Name of the unit; the file's own name if the unit is unknown.
     pub unit: String,
 }
 
-/// Units by the name that the attribute `DT` has.
+/// Units by the value of the attribute `DT`.
 const UNITS: [(&str, &str); 9] = [
     ("UT_LENGTH_UM", "um"),
     ("UT_LENGTH_MM", "mm"),
@@ -60,10 +61,10 @@ const UNITS: [(&str, &str); 9] = [
     ("UT_SCALE_ERROR", "ppm"),
 ];
 
-/// Reads the results in `text`; `path` is what problems show.
+/// Reads the results in `text`. `path` is the file name shown in problems.
 ///
 /// # Errors
-/// What is no XML; a file without results; features without name, and numbers beyond 1e12.
+/// Text that is not XML; a file without results; features without a name, and numbers beyond 1e12.
 pub fn read(path: &str, text: &str) -> Result<Results, Problems> {
     let source = Source::new(path, text);
     let document = parse(&source)?;
@@ -92,9 +93,9 @@ pub fn read(path: &str, text: &str) -> Result<Results, Problems> {
     }
     if results.features.is_empty() && problems.is_empty() {
         let root = document.root_element();
-        let hint = "a result file of Renishaw's Ballbar 20 is wanted, .b5r; radii come as CSV";
+        let hint = "a result file of Renishaw Ballbar 20 (.b5r) is required; radii are read from CSV";
         let message = format!(
-            "<{}> holds no FEATURE: no results of a ball-bar",
+            "<{}> has no FEATURE: not a ball-bar result file",
             root.tag_name().name()
         );
         problems.push(source.problem(tag(root), message, Some(hint.to_owned())));
@@ -103,13 +104,13 @@ pub fn read(path: &str, text: &str) -> Result<Results, Problems> {
     Ok(results)
 }
 
-/// A feature, or the name of one without number.
+/// A feature, or only its name if it has no number.
 fn feature(source: &Source, node: Node<'_, '_>) -> Result<Result<Feature, String>, Problems> {
     let Some(name) = node.attribute("NAME") else {
         let message = "<FEATURE> has no attribute `NAME`";
         return Err(source.problem(tag(node), message, None).into());
     };
-    // The value stands in the element, or in one inside it.
+    // The value is in the element or in one inside it.
     let inner = children(node, "VALUE").next().and_then(|value| value.text());
     let text = node.text().map(str::trim).filter(|text| !text.is_empty());
     let text = text.or(inner.map(str::trim)).unwrap_or_default();
@@ -118,7 +119,7 @@ fn feature(source: &Source, node: Node<'_, '_>) -> Result<Result<Feature, String
         return Ok(Err(name.to_owned()));
     };
     if !value.is_finite() || value.abs() > 1e12 {
-        let message = format!("{name} is {text}: no result of a ball-bar");
+        let message = format!("{name} is {text}: not a valid ball-bar result");
         return Err(source.problem(tag(node), message, None).into());
     }
     let called = node.attribute("DT").unwrap_or_default().trim();

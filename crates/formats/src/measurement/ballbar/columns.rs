@@ -1,6 +1,6 @@
-//! What each column of a table of radii holds.
+//! Meaning of each column in a table of radii.
 //!
-//! Names and units: the header of [`super::csv`]. Capitals do not count.
+//! Names and units: see [`super::csv`]. Names are not case-sensitive.
 
 use crate::document::Problem;
 use crate::document::lines::Line;
@@ -12,21 +12,21 @@ use crate::table::sheet::cells;
 pub(super) enum Column {
     /// Angle of the sample.
     Angle(f64),
-    /// Number of the sample, in place of its angle.
+    /// Number of the sample, instead of its angle.
     Index,
-    /// Radius minus the nominal one.
+    /// Radius minus the nominal radius.
     Deviation(f64),
-    /// The radius itself.
+    /// Radius.
     Radius(f64),
-    /// Which way round.
+    /// Direction.
     Direction,
-    /// What the run is called.
+    /// Name of the run.
     Run,
-    /// Notes; passed over.
+    /// Notes; ignored.
     ForPeople,
 }
 
-/// Every name that means something, the usual unit of each first.
+/// All known names. The usual unit of each quantity comes first.
 const KNOWN: [(&str, Column); 12] = [
     ("angle_deg", Column::Angle(std::f64::consts::PI / 180.0)),
     ("angle_rad", Column::Angle(1.0)),
@@ -45,22 +45,22 @@ const KNOWN: [(&str, Column); 12] = [
 /// The columns of a table.
 #[derive(Clone, Debug)]
 pub(super) struct Columns {
-    /// As many as the header has names; `None` is passed over.
+    /// One entry per name in the header; `None` is ignored.
     pub columns: Vec<Option<Column>>,
-    /// Names that were passed over.
+    /// Names of ignored columns.
     pub unused: Vec<String>,
 }
 
 impl Columns {
-    /// Whether a column is one of these.
+    /// Whether a column satisfies `of`.
     pub fn have(&self, of: impl Fn(Column) -> bool) -> bool {
         self.columns.iter().flatten().any(|column| of(*column))
     }
 
-    /// The columns under a line of names in the file `path`.
+    /// The columns of a header line in the file `path`.
     ///
     /// # Errors
-    /// Double columns, no angle, no radius; names that come close to what is missing, at their place.
+    /// Duplicate columns; no angle; no radius. A name that resembles a missing column is reported at its position.
     pub fn of(path: &str, header: &Line, separator: char) -> Result<Columns, Vec<Problem>> {
         let heads = cells(&header.text, separator);
         let known = |name: &str| {
@@ -75,8 +75,13 @@ impl Columns {
         for (at, cell) in heads.iter().enumerate() {
             let before = columns[..at].iter().flatten();
             if columns[at].is_some_and(|column| before.clone().any(|other| same(*other, column))) {
-                let message = format!("`{}` tells what a column before it tells", cell.text);
-                problems.push(header.problem(path, cell.span.clone(), message, "keep one of the two"));
+                let message = format!("`{}` repeats an earlier column", cell.text);
+                problems.push(header.problem(
+                    path,
+                    cell.span.clone(),
+                    message,
+                    "remove one of the two columns",
+                ));
             }
         }
         let found = Columns {
@@ -90,8 +95,8 @@ impl Columns {
         let radius = found.have(|column| matches!(column, Column::Deviation(_) | Column::Radius(_)));
         let whole = 0..header.text.len();
         for (there, what, usual) in [
-            (angle, "no column tells the angle", "angle_deg"),
-            (radius, "no column tells the radius", "radius_dev_um"),
+            (angle, "no column gives the angle", "angle_deg"),
+            (radius, "no column gives the radius", "radius_dev_um"),
         ] {
             if there {
                 continue;
@@ -116,7 +121,7 @@ impl Columns {
     }
 }
 
-/// Whether two columns tell the same, whatever their units.
+/// Whether two columns have the same quantity, in any unit.
 fn same(one: Column, other: Column) -> bool {
     let angle = |column| matches!(column, Column::Angle(_) | Column::Index);
     let radius = |column| matches!(column, Column::Deviation(_) | Column::Radius(_));
@@ -125,6 +130,6 @@ fn same(one: Column, other: Column) -> bool {
         || (one == other && one != Column::ForPeople)
 }
 
-/// How a table begins.
+/// Form of the header.
 pub(super) const HEADER_HINT: &str = "the first line names the columns with their units, such as \
                                       `angle_deg,radius_dev_um,direction,run`; see docs/guide/ballbar.md";

@@ -1,17 +1,18 @@
-//! Radii along a circle as a table: one row a sample, the unit of each column in its name.
+//! Radii along a circle as a table: one row per sample. The name of each column states its unit.
 //!
 //! | column | meaning | unit |
 //! |---|---|---|
 //! | `angle_deg` | from the first axis of the plane towards the second, any turn | `_deg`, `_rad` |
-//! | `index` | in place of it: number of the sample, one by one, even along one turn from `start_deg` on | |
-//! | `radius_dev_um` | radius minus the nominal one, outwards positive | `_um`, `_mm`, `_m` |
-//! | `radius_mm` | in place of it: the radius; the nominal one must be told | `_mm`, `_um`, `_m` |
-//! | `direction` | `CW` or `CCW`; or a remark, or told beside | |
-//! | `run` | which run of its direction; or a remark | |
+//! | `index` | instead of an angle: number of the sample, consecutive, evenly spaced over one turn from `start_deg` | |
+//! | `radius_dev_um` | radius minus the nominal radius, positive outwards | `_um`, `_mm`, `_m` |
+//! | `radius_mm` | instead of a deviation: the radius; the nominal radius must be given | `_mm`, `_um`, `_m` |
+//! | `direction` | `CW` or `CCW`; may also be given in a comment line or as an option | |
+//! | `run` | number or name of the run; may also be given in a comment line | |
 //!
-//! Columns with other names are passed over and listed. Cells are separated by `;`, tab or `,`; with the first two a decimal comma is read
-//! too. Lines that begin with `#` may tell the nominal radius, the feed and the plane, see `remarks`. Rows of one run
-//! and direction are one run, wherever they stand; without names of runs one begins where the direction changes.
+//! Columns with other names are ignored and listed. Cells are separated by `;`, tab or `,`. With `;` or tab, decimal
+//! commas are read too. Lines that begin with `#` may give the nominal radius, the feed and the plane; see `remarks`.
+//! Rows with the same run and direction form one run, in any order. Without run names, a change of direction begins a
+//! new run.
 //!
 //! ```text
 //! # radius_mm: 100                         # Radius_mm: 100
@@ -27,27 +28,27 @@ use armill_core::measure::ballbar::{CircularTest, Direction, Run};
 
 use super::columns::{Column, Columns, HEADER_HINT};
 use super::remarks::Remarks;
-use super::{BallbarRuns, BallbarReadOptions, direction_of};
+use super::{BallbarReadOptions, BallbarRuns, direction_of};
 use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
 use crate::measurement::columns::measured;
 use crate::table::sheet::{Cell, cells, is_blank_row, is_remark, separator_of};
 
-/// More samples than this are not read: an hour at 1 kHz.
+/// Maximum number of samples: one hour at 1 kHz.
 const MOST_SAMPLES: usize = 5_000_000;
-/// A run that turns further than this without a name is likely several.
+/// An unnamed run that turns further than this is probably several runs.
 const MORE_THAN_ONE_TURN: f64 = 1.6 * TAU;
-/// Angles in degrees that never leave this are likely radians.
+/// Angles in degrees that never exceed this value are probably radians.
 const RADIANS: f64 = 6.5;
 
-/// Reads the runs in `reader`; `path` is what problems show.
+/// Reads the runs in `reader`. `path` is the file name shown in problems.
 ///
 /// # Errors
-/// Every problem of the file, at most 200: missing and double columns, cells that are no numbers or directions, rows of
-/// another length, a direction, a nominal radius or a start that nothing tells, runs that are too short or too many.
-pub fn read(path: &str, reader: impl BufRead, given: &BallbarReadOptions) -> Result<BallbarRuns, Problems> {
+/// All problems of the file, at most 200: missing and duplicate columns, cells that are not numbers or directions, rows
+/// of another length, no direction, no nominal radius, no start angle, runs that are too short or too many.
+pub fn read(path: &str, reader: impl BufRead, options: &BallbarReadOptions) -> Result<BallbarRuns, Problems> {
     let mut lines = Lines::new(path, reader);
-    let mut remarks = Remarks::beside(given);
+    let mut remarks = Remarks::with_options(options);
     let mut problems = Vec::new();
     let mut table: Option<Table> = None;
     while problems.len() < MOST_PROBLEMS {
@@ -83,7 +84,7 @@ pub fn read(path: &str, reader: impl BufRead, given: &BallbarReadOptions) -> Res
     }
     let Some(table) = table else {
         if problems.is_empty() {
-            problems.push(Problem::of_file(path, "no radii in this file", HEADER_HINT));
+            problems.push(Problem::of_file(path, "the file has no radii", HEADER_HINT));
         }
         return Err(problems.into());
     };
@@ -92,40 +93,40 @@ pub fn read(path: &str, reader: impl BufRead, given: &BallbarReadOptions) -> Res
     Ok(recorded)
 }
 
-/// Why a row is not taken.
+/// Why a row is refused.
 enum Refused {
-    /// What is wrong with it.
+    /// The problem.
     Row(Vec<Problem>),
-    /// Too much for one file: nothing behind it is read.
+    /// The file exceeds a maximum: reading stops.
     File(Vec<Problem>),
 }
 
-/// A run as far as it was read.
+/// A run as far as it has been read.
 struct Group {
-    /// As the file calls it; of runs without names how many parts were told before.
+    /// Name in the file; for unnamed runs the number of changes so far.
     key: (String, Direction, usize),
-    /// The line that it begins on.
+    /// First line of the run.
     first: Line,
-    /// Where a run without angles begins, rad.
+    /// Start angle of a run without angles, rad.
     start: Option<f64>,
-    /// Whether its numbers were told to be out of order.
-    given: bool,
-    /// rad, or the number of the sample.
+    /// Whether a sample number out of order has been reported.
+    is_reported: bool,
+    /// rad, or number of the sample.
     angle: Vec<f64>,
     /// m: deviations, or radii.
     radius: Vec<f64>,
 }
 
-/// The table under its names.
+/// Table below the header.
 struct Table {
     path: String,
     separator: char,
     header: Line,
     columns: Columns,
     groups: Vec<Group>,
-    /// The group of the row before.
+    /// Group of the previous row.
     current: usize,
-    /// How often the direction has changed.
+    /// Number of changes of direction so far.
     changes: usize,
     samples: usize,
 }
@@ -145,20 +146,24 @@ impl Table {
         })
     }
 
-    /// Takes a row.
+    /// Reads one row.
     ///
     /// # Errors
-    /// Another count of cells than names; cells that are no numbers or directions; no direction; too many rows.
+    /// Wrong number of cells; cells that are not numbers or directions; no direction; too many rows.
     fn row(&mut self, line: &Line, remarks: &Remarks) -> Result<(), Refused> {
         if is_blank_row(&line.text, self.separator) {
             return Ok(());
         }
         let found = cells(&line.text, self.separator);
         if found.len() != self.columns.columns.len() {
-            let message = format!("{} cells under {} names", found.len(), self.columns.columns.len());
+            let message = format!(
+                "{} cells, but the header has {} names",
+                found.len(),
+                self.columns.columns.len()
+            );
             let hint = match self.separator {
-                ',' => "decimal commas need `;` or a tab between cells",
-                _ => "every row has a cell for each column",
+                ',' => "separate cells with `;` or a tab to use decimal commas",
+                _ => "every row needs one cell per column",
             };
             return Err(Refused::Row(vec![self.at(line, message, hint)]));
         }
@@ -182,9 +187,9 @@ impl Table {
                         Ok(())
                     }
                     None => {
-                        let message = format!("`{}` is no direction", cell.text);
+                        let message = format!("`{}` is not a direction", cell.text);
                         Err(line
-                            .problem(&self.path, cell.span.clone(), message, "CW or CCW")
+                            .problem(&self.path, cell.span.clone(), message, "use CW or CCW")
                             .into())
                     }
                 },
@@ -201,12 +206,12 @@ impl Table {
             return Err(Refused::Row(problems));
         }
         let Some(direction) = direction else {
-            let hint = "a column `direction`, a line `# direction: CW` above, or the option --direction";
+            let hint = "add a column `direction`, a line `# direction: CW` above the rows, or the option --direction";
             return match self.groups.is_empty() && self.samples == 0 {
-                // BallbarReadOptions once, not for every row.
+                // Reported once, not for every row.
                 true => {
                     self.samples = 1;
-                    let message = "nothing tells which way round this was".to_owned();
+                    let message = "the direction of this run is not given".to_owned();
                     Err(Refused::Row(vec![self.at(line, message, hint)]))
                 }
                 false => Ok(()),
@@ -218,14 +223,14 @@ impl Table {
             return Err(Refused::File(vec![self.at(
                 line,
                 message,
-                "cut the file into its runs",
+                "split the file into its runs",
             )]));
         }
         let name = run.or(remarks.run.as_deref());
         self.push((name, direction), (line, remarks), [angle, radius])
     }
 
-    /// A radius (m, or its deviation) that no circular test has, if the nominal one is told above.
+    /// Refuses a radius (m, or its deviation) that no circular test has, if the nominal radius is given above.
     fn too_far(&self, line: &Line, (row, radius): (&[Cell<'_>], f64), remarks: &Remarks) -> Option<Problem> {
         let nominal = remarks.radius?;
         let is_radius = |column: &Option<Column>| matches!(column, Some(Column::Radius(_)));
@@ -237,14 +242,14 @@ impl Table {
             false => radius,
         };
         let error = CircularTest::too_far(nominal, off)?;
-        let hint = "is the nominal radius right, and the unit of the radii?";
+        let hint = "check the nominal radius and the unit of the radii";
         Some(line.problem(&self.path, row[at].span.clone(), error, hint))
     }
 
-    /// Puts a sample into its run.
+    /// Adds a sample to its run.
     ///
     /// # Errors
-    /// One run too many; a number of a sample that does not follow the one before, a second start of a run.
+    /// Too many runs; a sample number that does not follow the previous one; a second start angle in the same run.
     fn push(
         &mut self,
         (name, direction): (Option<&str>, Direction),
@@ -255,7 +260,7 @@ impl Table {
         if before.is_some_and(|group| group.key.1 != direction) {
             self.changes += 1;
         }
-        // Rows of a named run belong together wherever they stand.
+        // Rows of a named run belong together, in any order.
         let part = match name {
             Some(_) => 0,
             None => remarks.parts + self.changes,
@@ -266,7 +271,7 @@ impl Table {
             let known = self.groups.iter().position(is_of);
             if known.is_none() && self.groups.len() == CircularTest::MOST_RUNS {
                 let message = format!("more than {} runs", CircularTest::MOST_RUNS);
-                let hint = "`run` tells which run of its direction a row is of, not which row";
+                let hint = "`run` is the number of the run, not of the row";
                 return Err(Refused::File(vec![self.at(line, message, hint)]));
             }
             self.current = known.unwrap_or_else(|| {
@@ -274,7 +279,7 @@ impl Table {
                     key: (name.to_owned(), direction, part),
                     first: line.clone(),
                     start: remarks.start,
-                    given: false,
+                    is_reported: false,
                     angle: Vec::new(),
                     radius: Vec::new(),
                 });
@@ -289,25 +294,25 @@ impl Table {
         group.angle.push(angle);
         group.radius.push(radius);
         match wrong {
-            // Once a run.
-            Some((message, hint)) if !group.given => {
-                group.given = true;
+            // Once per run.
+            Some((message, hint)) if !group.is_reported => {
+                group.is_reported = true;
                 Err(Refused::Row(vec![self.at(line, message, hint)]))
             }
             _ => Ok(()),
         }
     }
 
-    /// What keeps the number of a sample from telling its angle, with a hint.
+    /// Problem of a sample number and a hint, if the number is out of order.
     fn out_of_order(&self, number: f64, remarks: &Remarks) -> Option<(String, &'static str)> {
         let group = &self.groups[self.current];
         if group.start != remarks.start {
             return Some((
                 "a second `start_deg` of the same run".to_owned(),
-                "name another run",
+                "use another run name",
             ));
         }
-        let hint = "samples are numbered one by one; others carry their angle, in a column `angle_deg`";
+        let hint = "number samples consecutively; otherwise give their angles in a column `angle_deg`";
         match group.angle.last() {
             Some(before) if number != before + 1.0 => {
                 Some((format!("sample {number} follows sample {before}"), hint))
@@ -317,7 +322,7 @@ impl Table {
         }
     }
 
-    /// The runs, now that all rows are read; what they lack goes to `problems`.
+    /// The runs after the last row. Missing data are added to `problems`.
     fn finish(self, remarks: &Remarks, problems: &mut Vec<Problem>) -> BallbarRuns {
         let mut recorded = BallbarRuns {
             radius: remarks.radius,
@@ -329,17 +334,17 @@ impl Table {
             notes: Vec::new(),
         };
         if self.groups.is_empty() && problems.is_empty() {
-            problems.push(self.at(&self.header, "no radii below these names".to_owned(), HEADER_HINT));
+            problems.push(self.at(&self.header, "no radii below the header".to_owned(), HEADER_HINT));
         }
         let is_radius = self.columns.have(|column| matches!(column, Column::Radius(_)));
         if is_radius && remarks.radius.is_none() {
-            let hint = "a line `# radius_mm: 100` above, or the option --radius-mm";
-            problems.push(self.at(&self.header, "nothing tells the nominal radius".to_owned(), hint));
+            let hint = "add a line `# radius_mm: 100` above, or the option --radius-mm";
+            problems.push(self.at(&self.header, "the nominal radius is not given".to_owned(), hint));
         }
         let by_index = self.columns.have(|column| column == Column::Index);
         if let Some(group) = self.groups.iter().find(|group| by_index && group.start.is_none()) {
-            let hint = "a line `# start_deg: 0` above, or the option --start-deg";
-            let message = "nothing tells the angle of the first sample".to_owned();
+            let hint = "add a line `# start_deg: 0` above, or the option --start-deg";
+            let message = "the angle of the first sample is not given".to_owned();
             problems.push(self.at(&group.first, message, hint));
         }
         let degrees = self
@@ -369,15 +374,16 @@ impl Table {
             };
             let far = |most: f64| angle.iter().any(|a| a.abs() > most);
             if degrees && !far(RADIANS.to_radians()) && angle.len() >= Run::LEAST {
-                let message = format!("no angle of this run is beyond {RADIANS} deg");
-                let hint = "are they radians? call the column `angle_rad`";
+                let message = format!("no angle of this run exceeds {RADIANS} deg");
+                let hint = "if the angles are radians, name the column `angle_rad`";
                 problems.push(first.problem(&self.path, 0..first.text.len(), message, hint));
                 continue;
             }
             let turned = travel(&angle);
             if key.0.is_empty() && turned > MORE_THAN_ONE_TURN {
                 recorded.notes.push(format!(
-                    "the {} run that begins on line {} turns {:.1} times: if it is several runs, name them in a column `run`",
+                    "the {} run that begins on line {} turns {:.1} times; if it is several runs, name them in a \
+                     column `run`",
                     key.1.name(), first.number, turned / TAU
                 ));
             }
@@ -392,22 +398,23 @@ impl Table {
                     &self.path,
                     0..first.text.len(),
                     error.to_string(),
-                    "is it cut off, or are rows named as different runs?",
+                    "check whether the file is cut off or rows have wrong run names",
                 )),
             }
         }
         if small && !recorded.runs.is_empty() {
             recorded
                 .notes
-                .push("no deviation is beyond 0.3 um: is its unit that of the column?".to_owned());
+                .push("no deviation exceeds 0.3 um: check the unit in the column name".to_owned());
         }
         recorded
     }
 
-    /// A problem of a cell.
+    /// A problem of a cell that is not a number.
     fn no_number(&self, line: &Line, cell: &Cell<'_>) -> Problem {
         let message = format!("`{}` is not a number", cell.text);
-        let hint = "numbers without unit; `;` or tab between cells where the decimal mark is a comma";
+        let hint =
+            "write numbers without a unit; separate cells with `;` or tab if the decimal mark is a comma";
         line.problem(&self.path, cell.span.clone(), message, hint)
     }
 
@@ -417,15 +424,15 @@ impl Table {
     }
 }
 
-/// Angles of samples that are even along one turn, by their numbers.
+/// Angles of samples that are evenly spaced over one turn, from their numbers.
 fn of_indices(numbers: &[f64], start: f64, direction: Direction) -> Vec<f64> {
-    // The sample behind the last would be the first again.
+    // The sample after the last one would be at the first angle again.
     let step = TAU / numbers.len() as f64;
     let angle = |k: usize| start + direction.sign() * step * k as f64;
     (0..numbers.len()).map(angle).collect()
 }
 
-/// How far a run turns altogether, rad; jumps by a turn are none.
+/// Total angle of a run, rad, with jumps of a full turn removed.
 fn travel(angle: &[f64]) -> f64 {
     let step = |pair: &[f64]| {
         let step = (pair[1] - pair[0]).rem_euclid(TAU);

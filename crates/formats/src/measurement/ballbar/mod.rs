@@ -1,9 +1,9 @@
-//! Circular tests: the radii that a ball-bar measured, or what its own program made of them.
+//! Circular tests: radii measured with a ball-bar, or the results of the ball-bar's own software.
 //!
-//! In reading order: [`csv`] (radii along the circle, of one run or several), `columns` (what its columns hold), `remarks`
-//! (what its lines with `#` tell), [`b5r`] (results of a Renishaw QC20-W: no radii).
+//! In reading order: [`csv`] (radii along the circle, one or several runs), `columns` (their meaning), `remarks`
+//! (comment lines with `#`), [`b5r`] (results of a Renishaw QC20-W, without radii).
 //!
-//! [`read`] takes either: a file that begins with `<` is XML.
+//! [`read`] reads both: a file that begins with `<` is XML.
 
 pub mod b5r;
 mod columns;
@@ -21,46 +21,46 @@ use crate::xml;
 
 pub use b5r::{Feature, Results};
 
-/// What a file does not tell, or what is told beside it.
+/// Values that the file does not give, or that are given as options.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BallbarReadOptions {
     /// Nominal radius, m.
     pub radius: Option<f64>,
-    /// Which way all runs went.
+    /// Direction of all runs.
     pub direction: Option<Direction>,
-    /// Where a run without angles begins, rad.
+    /// Start angle of runs without angles, rad.
     pub start: Option<f64>,
 }
 
-/// Runs that a file holds.
+/// The runs of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BallbarRuns {
-    /// Nominal radius, m; none where only deviations are told.
+    /// Nominal radius, m; `None` if the file has only deviations.
     pub radius: Option<f64>,
     /// Speed along the circle, m/s.
     pub feed: Option<f64>,
-    /// The plane as the file calls it: `XY`.
+    /// Name of the plane in the file: `XY`.
     pub plane: Option<String>,
     /// In the order of the file.
     pub runs: Vec<Run>,
-    /// What the file calls each run; empty where it does not.
+    /// Name of each run in the file; empty if it has none.
     pub names: Vec<String>,
-    /// Columns that were passed over.
+    /// Ignored columns.
     pub unused: Vec<String>,
-    /// What a user must know, each a sentence.
+    /// Warnings, one sentence each.
     pub notes: Vec<String>,
 }
 
-/// What a file holds.
+/// Content of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum BallbarFile {
     /// Radii.
     Runs(BallbarRuns),
-    /// Results of another program.
+    /// Results of other software.
     Results(Results),
 }
 
-/// A direction by its name in a file; `None` for another word.
+/// The direction that a word in a file names; `None` for other words.
 pub fn direction_of(word: &str) -> Option<Direction> {
     match word.trim().to_lowercase().as_str() {
         "cw" | "clockwise" | "g2" | "g02" => Some(Direction::Clockwise),
@@ -70,16 +70,20 @@ pub fn direction_of(word: &str) -> Option<Direction> {
     }
 }
 
-/// Reads what `reader` holds; `path` is what problems show.
+/// Reads the file in `reader`. `path` is the file name shown in problems.
 ///
 /// # Errors
 /// The problems of the file, those of [`csv::read`] or [`b5r::read`].
-pub fn read(path: &str, mut reader: impl BufRead, given: &BallbarReadOptions) -> Result<BallbarFile, Problems> {
+pub fn read(
+    path: &str,
+    mut reader: impl BufRead,
+    options: &BallbarReadOptions,
+) -> Result<BallbarFile, Problems> {
     let head = reader.fill_buf().map_err(|error| unreadable(path, &error))?;
     let head = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head);
     let first = head.iter().find(|byte| !byte.is_ascii_whitespace());
     if first != Some(&b'<') {
-        return csv::read(path, reader, given).map(BallbarFile::Runs);
+        return csv::read(path, reader, options).map(BallbarFile::Runs);
     }
     b5r::read(path, &xml::text_of(path, reader)?).map(BallbarFile::Results)
 }

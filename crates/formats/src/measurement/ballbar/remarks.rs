@@ -1,15 +1,15 @@
-//! What the remarks of a table of radii tell: `# radius_mm: 100`.
+//! Comment lines of a table of radii: `# radius_mm: 100`.
 //!
 //! | key | meaning |
 //! |---|---|
-//! | `radius_mm` | nominal radius, one for the whole file |
-//! | `feed_mm_per_min` | speed along the circle, likewise |
-//! | `plane` | `XY`, `YZ`, `ZX`, or any word; likewise |
+//! | `radius_mm` | nominal radius, one per file |
+//! | `feed_mm_per_min` | speed along the circle, one per file |
+//! | `plane` | `XY`, `YZ`, `ZX`, or any word; one per file |
 //! | `direction` | `CW` or `CCW`, of the rows below |
-//! | `run` | what the rows below are called |
-//! | `start_deg` | where a run without angles begins, of the rows below |
+//! | `run` | name of the run in the rows below |
+//! | `start_deg` | start angle of a run without angles, for the rows below |
 //!
-//! Other remarks are for people.
+//! Other comment lines are ignored.
 
 use super::{BallbarReadOptions, direction_of};
 use armill_core::measure::ballbar::Direction;
@@ -18,14 +18,14 @@ use crate::document::Problems;
 use crate::document::lines::Line;
 use crate::table::sheet::number;
 
-/// What the remarks so far tell, and what was told beside the file.
+/// Values from the comment lines so far, and from the options.
 #[derive(Clone, Debug)]
 pub(super) struct Remarks {
     /// Nominal radius, m.
     pub radius: Option<f64>,
     /// m/s
     pub feed: Option<f64>,
-    /// As it is called.
+    /// Name of the plane.
     pub plane: Option<String>,
     /// Of the rows below.
     pub direction: Option<Direction>,
@@ -33,55 +33,59 @@ pub(super) struct Remarks {
     pub run: Option<String>,
     /// Of the rows below, rad.
     pub start: Option<f64>,
-    /// As it was told beside the file, rad.
-    start_beside: Option<f64>,
-    /// How often a run, a direction or a start was told: rows on either side are not of one run.
+    /// Start angle from the options, rad.
+    option_start: Option<f64>,
+    /// Number of comment lines so far that gave a run, direction or start. Rows on different sides of such a line
+    /// belong to different runs.
     pub parts: usize,
 }
 
 impl Remarks {
-    /// What is told beside the file.
-    pub fn beside(given: &BallbarReadOptions) -> Remarks {
+    /// Starts with the values from the options.
+    pub fn with_options(options: &BallbarReadOptions) -> Remarks {
         Remarks {
-            radius: given.radius,
+            radius: options.radius,
             feed: None,
             plane: None,
-            direction: given.direction,
+            direction: options.direction,
             run: None,
-            start: given.start,
-            start_beside: given.start,
+            start: options.start,
+            option_start: options.start,
             parts: 0,
         }
     }
 
-    /// Takes a remark of the file `path`; one for people changes nothing.
+    /// Reads one comment line of the file `path`; other comments change nothing.
     ///
     /// # Errors
-    /// A value that its key cannot have, or another one than was told before.
+    /// A value that is not valid for its key, or that differs from the one given before.
     pub fn take(&mut self, path: &str, line: &Line) -> Result<(), Problems> {
         let plain = line.text.trim_start().trim_start_matches('#');
         let Some((key, value)) = plain.split_once([':', '=']) else {
             return Ok(());
         };
-        // Spreadsheets fill a line up with separators.
+        // Spreadsheets pad a line with separators.
         let value = value.trim().trim_end_matches([';', ',']).trim();
         let refused = |message: String, hint: &str| -> Problems {
             line.problem(path, 0..line.text.len(), message, hint).into()
         };
         let quantity = |[least, most]: [f64; 2], unit: &str, example: &str| {
-            // A single number needs no separator: a comma is a decimal one.
+            // A single number needs no separator: a comma is the decimal mark.
             let value = number(value, ';').filter(|value| *value > least && *value <= most);
             value.ok_or_else(|| {
                 let message = format!(
                     "`{}` is not a number above {least} and up to {most} {unit}",
                     line.text.trim()
                 );
-                refused(message, &format!("such as `# {example}`"))
+                refused(message, &format!("write it as `# {example}`"))
             })
         };
         let twice = |what: &str| {
-            let message = format!("another {what} was told before");
-            refused(message, "one file is one circle: split it, or drop the option")
+            let message = format!("another {what} was given before");
+            refused(
+                message,
+                "one file is one circle: split the file, or leave out the option",
+            )
         };
         match key.trim().to_lowercase().as_str() {
             "radius_mm" | "nominal_radius_mm" => {
@@ -106,8 +110,8 @@ impl Remarks {
                 let start = quantity([-1e4, 1e4], "deg", "start_deg: 0")?.to_radians();
                 self.parts += 1;
                 self.start = Some(start);
-                match self.start_beside {
-                    Some(beside) if (beside - start).abs() > 1e-9 => Err(twice("start")),
+                match self.option_start {
+                    Some(given) if (given - start).abs() > 1e-9 => Err(twice("start")),
                     _ => Ok(()),
                 }
             }
@@ -116,7 +120,7 @@ impl Remarks {
                 self.direction = direction_of(value);
                 match self.direction {
                     Some(_) => Ok(()),
-                    None => Err(refused(format!("`{value}` is no direction"), "CW or CCW")),
+                    None => Err(refused(format!("`{value}` is not a direction"), "use CW or CCW")),
                 }
             }
             "run" => {

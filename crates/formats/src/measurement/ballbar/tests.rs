@@ -3,7 +3,7 @@ use std::fmt::Write;
 
 use super::*;
 
-/// Rows of a turn, every 5 degrees: `12.5 + k` um out.
+/// Rows of a turn, every 5 degrees, with deviations of `12.5 + k` um.
 fn rows(separator: char, direction: &str, run: &str) -> String {
     let mut text = String::new();
     for k in 0..72 {
@@ -27,7 +27,7 @@ const NAMES: &str = "angle_deg,radius_dev_um,direction,run\n";
 fn read_as(text: &str, given: &BallbarReadOptions) -> Result<BallbarRuns, String> {
     match read("bar.csv", text.as_bytes(), given) {
         Ok(BallbarFile::Runs(recorded)) => Ok(recorded),
-        Ok(BallbarFile::Results(_)) => panic!("no results here"),
+        Ok(BallbarFile::Results(_)) => panic!("expected radii"),
         Err(problems) => Err(problems.to_string()),
     }
 }
@@ -41,7 +41,7 @@ fn problems(text: &str) -> String {
 }
 
 #[test]
-fn runs_are_told_apart_by_direction_and_name_wherever_their_rows_stand() {
+fn runs_are_separated_by_direction_and_name_in_any_row_order() {
     let [one, two, back] = [("CW", "1"), ("cw", "2"), ("CCW", "1")].map(|(way, run)| rows(',', way, run));
     let halves = |text: &str| text.split_at(text.len() / 2).0.rfind('\n').unwrap() + 1;
     let (early, late) = one.split_at(halves(&one));
@@ -88,7 +88,7 @@ fn the_same_runs_in_other_units_and_separators_are_the_same() {
 }
 
 #[test]
-fn remarks_and_changes_of_direction_part_runs_without_names() {
+fn remarks_and_changes_of_direction_separate_unnamed_runs() {
     let plain = |way: &str| rows(',', way, "").replace(",\n", "\n");
     let names = "angle_deg,radius_dev_um,direction\n";
     let found = recorded(&format!("{names}{}{}{}", plain("CW"), plain("CCW"), plain("CW")));
@@ -108,7 +108,7 @@ fn remarks_and_changes_of_direction_part_runs_without_names() {
 }
 
 #[test]
-fn numbers_of_samples_are_angles_along_the_way_round() {
+fn sample_numbers_become_angles_in_the_direction_of_the_run() {
     let bare: String = (1..=36).fold(String::new(), |text, k| text + &format!("{k},2\n"));
     let given = BallbarReadOptions {
         direction: Some(Direction::Clockwise),
@@ -120,12 +120,12 @@ fn numbers_of_samples_are_angles_along_the_way_round() {
     assert!((angle[0] - 1.0).abs() < 1e-12 && (angle[1] - 1.0 + TAU / 36.0).abs() < 1e-12);
     let unknown = problems(&format!("# direction: CW\nindex,radius_dev_um\n{bare}"));
     assert!(
-        unknown.contains("nothing tells the angle of the first sample") && unknown.contains("--start-deg")
+        unknown.contains("the angle of the first sample is not given") && unknown.contains("--start-deg")
     );
 }
 
 #[test]
-fn each_run_of_numbered_samples_begins_where_the_line_above_it_says() {
+fn each_run_of_numbered_samples_begins_at_the_start_above_it() {
     let bare: String = (0..36).fold(String::new(), |text, k| text + &format!("{k},2\n"));
     let parted = format!(
         "index,radius_dev_um\n# direction: CW\n# start_deg: 0\n{bare}# direction: CCW\n# start_deg: 180\n{bare}\
@@ -139,23 +139,26 @@ fn each_run_of_numbered_samples_begins_where_the_line_above_it_says() {
         .collect();
     assert_eq!(starts, [0.0, 180.0, 90.0]);
     assert!((found.runs[0].angle()[1] + TAU / 36.0).abs() < 1e-12);
-    // BallbarReadOptions beside, it is that of all runs.
-    let beside = BallbarReadOptions {
+    // Given as an option, it applies to all runs.
+    let options = BallbarReadOptions {
         start: Some(0.0),
         direction: Some(Direction::Clockwise),
         radius: None,
     };
-    let given = read_as(&format!("# start_deg: 90\nindex,radius_dev_um\n{bare}"), &beside).unwrap_err();
-    assert!(given.contains("another start was told before"), "{given}");
-    assert!(read_as(&format!("# start_deg: 0\nindex,radius_dev_um\n{bare}"), &beside).is_ok());
+    let given = read_as(&format!("# start_deg: 90\nindex,radius_dev_um\n{bare}"), &options).unwrap_err();
+    assert!(given.contains("another start was given before"), "{given}");
+    assert!(read_as(&format!("# start_deg: 0\nindex,radius_dev_um\n{bare}"), &options).is_ok());
 }
 
 #[test]
-fn samples_that_are_not_numbered_one_by_one_are_refused() {
+fn refuses_samples_that_are_not_numbered_consecutively() {
     let head = "# start_deg: 0\n# direction: CW\nindex,radius_dev_um\n";
     let tens: String = (0..36).fold(String::new(), |text, k| text + &format!("{},2\n", 10 * k));
     let given = problems(&format!("{head}{tens}"));
-    assert!(given.contains("bar.csv:5:1: sample 10 follows sample 0"), "{given}");
+    assert!(
+        given.contains("bar.csv:5:1: sample 10 follows sample 0"),
+        "{given}"
+    );
     assert_eq!(given.matches("follows sample").count(), 1, "once a run");
     let halves: String = (0..36).fold(String::new(), |text, k| text + &format!("{k}.5,2\n"));
     assert!(problems(&format!("{head}{halves}")).contains("sample 0.5 is not a whole number"));
@@ -164,7 +167,7 @@ fn samples_that_are_not_numbered_one_by_one_are_refused() {
 }
 
 #[test]
-fn a_run_for_each_row_is_told_once() {
+fn a_run_for_each_row_is_reported_once() {
     let rows: String = (0..100_000).fold(String::new(), |text, k| text + &format!("{},1,CW,{k}\n", k % 360));
     let given = problems(&format!("{NAMES}{rows}"));
     assert!(given.contains("bar.csv:102:1: more than 100 runs"), "{given}");
@@ -172,7 +175,7 @@ fn a_run_for_each_row_is_told_once() {
 }
 
 #[test]
-fn a_radius_that_no_test_has_is_told_at_its_cell() {
+fn a_radius_that_no_test_has_is_reported_at_its_cell() {
     let text = format!("# radius_mm: 100\n{NAMES}{}7,51000,CW,1\n", rows(',', "CW", "1"));
     let given = problems(&text);
     assert!(
@@ -182,28 +185,28 @@ fn a_radius_that_no_test_has_is_told_at_its_cell() {
 }
 
 #[test]
-fn everything_that_is_wrong_is_told_at_once_with_its_place() {
+fn all_problems_are_reported_together_with_their_positions() {
     let text = format!("{NAMES}{}5,x,CW,1\n6,7,left,1\n7,8,CW\n", rows(',', "CW", "1"));
     let given = problems(&text);
     for part in [
         "bar.csv:74:3: `x` is not a number",
-        "bar.csv:75:5: `left` is no direction",
-        "bar.csv:76:1: 3 cells under 4 names",
-        "decimal commas need `;`",
+        "bar.csv:75:5: `left` is not a direction",
+        "bar.csv:76:1: 3 cells, but the header has 4 names",
+        "separate cells with `;`",
     ] {
         assert!(given.contains(part), "no `{part}` in\n{given}");
     }
 }
 
 #[test]
-fn what_is_wrong_is_told_with_what_to_do() {
+fn problems_are_reported_with_a_hint() {
     let bare: String = (0..72).fold(String::new(), |text, k| text + &format!("{},1\n", 5 * k));
     let small: String = (0..63).fold(String::new(), |text, k| {
         text + &format!("{},1\n", f64::from(k) / 10.0)
     });
     for (text, part) in [
-        (String::new(), "no radii in this file"),
-        ("a,b\n1,2\n".to_owned(), "no column tells the angle"),
+        (String::new(), "the file has no radii"),
+        ("a,b\n1,2\n".to_owned(), "no column gives the angle"),
         (
             "angle,radius_dev_um\n1,2\n".to_owned(),
             "angles carry their unit: write `angle_deg`",
@@ -214,23 +217,23 @@ fn what_is_wrong_is_told_with_what_to_do() {
         ),
         (
             "angle_deg,radius_dev_um,radius_mm\n1,2,3\n".to_owned(),
-            "`radius_mm` tells what a column before it tells",
+            "`radius_mm` repeats an earlier column",
         ),
         (
             format!("angle_deg,radius_dev_um\n{bare}"),
-            "nothing tells which way round",
+            "the direction of this run is not given",
         ),
         (
             format!("# direction: CW\nangle_deg,radius_mm\n{bare}"),
-            "nothing tells the nominal radius",
+            "the nominal radius is not given",
         ),
         (
             format!("# direction: CW\nangle_deg,radius_dev_um\n{small}"),
-            "are they radians?",
+            "if the angles are radians",
         ),
         (
             "# direction: up\nangle_deg,radius_dev_um\n".to_owned(),
-            "`up` is no direction",
+            "`up` is not a direction",
         ),
         (
             "# radius_mm: -3\nangle_deg,radius_dev_um\n".to_owned(),
@@ -238,11 +241,11 @@ fn what_is_wrong_is_told_with_what_to_do() {
         ),
         (
             "# start_deg: here\nindex,radius_dev_um\n".to_owned(),
-            "such as `# start_deg: 0`",
+            "write it as `# start_deg: 0`",
         ),
         (
             "# feed_mm_per_min: 0\nangle_deg,radius_dev_um\n".to_owned(),
-            "such as `# feed_mm_per_min: 1000`",
+            "write it as `# feed_mm_per_min: 1000`",
         ),
         (
             "# radius_mm: 100\n# radius_mm: 150\nangle_deg,radius_dev_um\n".to_owned(),
@@ -254,7 +257,7 @@ fn what_is_wrong_is_told_with_what_to_do() {
         ),
         (
             "# direction: CW\nangle_deg,radius_dev_um\n".to_owned(),
-            "no radii below these names",
+            "no radii below the header",
         ),
         (
             format!("# direction: CW\nangle_deg,radius_dev_um\n{bare}0,nan\n"),
@@ -265,24 +268,27 @@ fn what_is_wrong_is_told_with_what_to_do() {
         assert!(given.contains(part), "no `{part}` in\n{given}");
         assert!(given.contains("help: "), "{given}");
     }
-    let beside = BallbarReadOptions {
+    let options = BallbarReadOptions {
         radius: Some(0.15),
         direction: Some(Direction::Clockwise),
         start: None,
     };
     let given = read_as(
         &format!("# radius_mm: 100\nangle_deg,radius_dev_um\n{bare}"),
-        &beside,
+        &options,
     )
     .unwrap_err();
-    assert!(given.contains("another nominal radius was told before"), "{given}");
+    assert!(
+        given.contains("another nominal radius was given before"),
+        "{given}"
+    );
 }
 
 #[test]
-fn deviations_in_the_wrong_unit_are_doubted() {
+fn warns_of_deviations_in_the_wrong_unit() {
     let small: String = (0..72).fold(String::new(), |text, k| text + &format!("{},0.0{k}\n", 5 * k));
     let found = recorded(&format!("# direction: CW\nangle_deg,radius_dev_um\n{small}"));
-    assert!(found.notes[0].contains("is its unit that of the column?"));
+    assert!(found.notes[0].contains("check the unit in the column name"));
 }
 
 const RESULTS: &str = "<?xml version='1.0'?><BALLBAR><TEST_SPEC NAME='XY 100mm'/><OPERATOR>me</OPERATOR>\
@@ -292,9 +298,10 @@ const RESULTS: &str = "<?xml version='1.0'?><BALLBAR><TEST_SPEC NAME='XY 100mm'/
     <FEATURE NAME='AF_NEW' DT='UT_NEW'>1</FEATURE><FEATURE NAME='AF_NOTE'>none</FEATURE></BALLBAR>";
 
 #[test]
-fn results_of_a_bar_are_read_with_their_units() {
-    let Ok(BallbarFile::Results(found)) = read("a.b5r", RESULTS.as_bytes(), &BallbarReadOptions::default()) else {
-        panic!("results are wanted");
+fn results_of_a_ball_bar_are_read_with_their_units() {
+    let Ok(BallbarFile::Results(found)) = read("a.b5r", RESULTS.as_bytes(), &BallbarReadOptions::default())
+    else {
+        panic!("expected results");
     };
     assert_eq!(found.machine.as_deref(), Some("MH12"));
     assert_eq!(found.plane.as_deref(), Some("XY"));
@@ -315,10 +322,10 @@ fn results_of_a_bar_are_read_with_their_units() {
 }
 
 #[test]
-fn xml_that_is_no_result_is_refused_at_its_place() {
+fn refuses_xml_that_is_not_a_result_file_at_its_position() {
     for (text, part) in [
         ("<a><b></a>", "not XML"),
-        ("<robot/>", "<robot> holds no FEATURE"),
+        ("<robot/>", "<robot> has no FEATURE"),
         ("<r><FEATURE DT='x'>1</FEATURE></r>", "has no attribute `NAME`"),
         ("<r><FEATURE NAME='x'>1e300</FEATURE></r>", "x is 1e300"),
     ] {

@@ -1,10 +1,10 @@
-//! Exports of our own after the described form, and those that must be refused.
+//! Our own exports in the described form, and exports that must be refused.
 
 use armill_core::nalgebra::Vector3;
 
 use super::*;
 
-/// Eighteen lines, in either language, with this separator.
+/// Eighteen header lines with this separator.
 fn header(separator: &str, samples: usize) -> String {
     [
         "Program and version:|Ours 1.0",
@@ -31,7 +31,12 @@ fn header(separator: &str, samples: usize) -> String {
 }
 
 fn export(text: &str) -> Result<ForceRecords, Problems> {
-    read("a.txt", text.as_bytes(), ActsOn::Part, &ForceReadOptions::default())
+    read(
+        "a.txt",
+        text.as_bytes(),
+        ActsOn::Part,
+        &ForceReadOptions::default(),
+    )
 }
 
 fn problems(text: &str) -> String {
@@ -42,7 +47,7 @@ const COMMAS: &str =
     "Time,Fx,Fy,Fz\r\ns,N,N,N\r\n0,000000,-0,0435965,1,5,0,25\r\n0,000010,-0,05,12,0,-3,125E-02\r\n";
 
 #[test]
-fn commas_that_are_decimal_marks_too_are_joined_where_every_row_has_the_count() {
+fn decimal_commas_are_joined_if_every_row_has_the_same_number_of_pieces() {
     let found = export(&(header(",", 2) + COMMAS)).unwrap();
     let [cycle] = &found.records[..] else {
         panic!("{found:?}")
@@ -83,7 +88,7 @@ fn the_same_samples_with_every_separator_and_mark_are_the_same() {
 }
 
 #[test]
-fn a_value_without_fraction_makes_commas_ambiguous() {
+fn refuses_commas_as_ambiguous_if_a_value_has_no_fraction() {
     let head = header(",", 2);
     for rows in [
         // The first row, a later one, and one that could be read in two ways with the same count as another.
@@ -101,7 +106,7 @@ fn a_value_without_fraction_makes_commas_ambiguous() {
 }
 
 #[test]
-fn any_numbers_written_with_commas_come_back_or_are_refused_but_never_become_others() {
+fn numbers_written_with_commas_are_read_correctly_or_refused() {
     // Every pattern of which of three channels have a fraction, in two rows.
     for pattern in 0..64_u32 {
         let value = |row: u32, axis: u32| f64::from(10 * row + axis) + 0.5;
@@ -118,7 +123,7 @@ fn any_numbers_written_with_commas_come_back_or_are_refused_but_never_become_oth
         ));
         match found {
             Ok(found) => {
-                assert_eq!(pattern, 63, "only where every number has its fraction");
+                assert_eq!(pattern, 63, "only if every number has a fraction");
                 assert_eq!(found.records[0].force()[1], Vector3::new(10.5, 11.5, 12.5));
             }
             Err(given) => assert!(pattern != 63, "{given}"),
@@ -127,7 +132,7 @@ fn any_numbers_written_with_commas_come_back_or_are_refused_but_never_become_oth
 }
 
 #[test]
-fn further_cycles_are_records_of_their_own() {
+fn further_cycles_become_separate_records() {
     let rows = "0\t1\t2\t3\n0,1\t4\t5\t6\n";
     let text = header("\t", 2) + "Time\tFx\tFy\tFz\ns\tN\tN\tN\n" + rows;
     let again = "Cycle No:\t2\nTime\tFx\tFy\tFz\ns\tN\tN\tN\n0\t7\t8\t9\n0,1\t4\t5\t6\n";
@@ -137,11 +142,13 @@ fn further_cycles_are_records_of_their_own() {
     assert_eq!(found.records[1].force()[0], Vector3::new(7.0, 8.0, 9.0));
     assert_eq!(found.records[2], found.records[0]);
     let other = "Cycle No:\t2\nTime\tFx\tFy\tFz\ns\tkN\tN\tN\n0\t7\t8\t9\n";
-    assert!(problems(&format!("{text}{other}")).contains("other channels than those of the cycle before"));
+    assert!(
+        problems(&format!("{text}{other}")).contains("the channels differ from those of the previous cycle")
+    );
 }
 
 #[test]
-fn channels_may_have_other_names_and_more_of_them_are_listed() {
+fn channels_may_be_renamed_and_further_channels_are_listed() {
     let text = header(";", 2)
         + "Time;Kraft1;Kraft2;Kraft3;AE;Mx;My;Mz\ns;N;N;N;V;Nm;Nm;N.m\n0;1;2;3;9;4;5;6\n1;1;2;3;9;4;5;6\n";
     let given = problems(&text);
@@ -159,22 +166,25 @@ fn channels_may_have_other_names_and_more_of_them_are_listed() {
 }
 
 #[test]
-fn what_is_wrong_is_told_with_its_place() {
+fn problems_are_reported_with_their_positions() {
     let head = header("\t", 2);
     for (table, part) in [
-        ("", "no samples in this file"),
-        ("Time\tFx\tFy\tFz\n", "19:1: the file ends behind its channels"),
+        ("", "the file has no samples"),
+        (
+            "Time\tFx\tFy\tFz\n",
+            "19:1: the file ends after the line of channels",
+        ),
         (
             "Time\tFx\tFy\tFz\n0\t1\t2\t3\n1\t1\t2\t3\n",
-            "20:1: a line of 4 units is wanted",
+            "20:1: a line of 4 units is required",
         ),
-        ("Time\tFx\tFy\tFz\ns\tN\tN\n", "a line of 4 units is wanted"),
-        ("Time\tFx\tFy\tFz\ns\tV\tN\tN\n", "`V` is no unit of `Fx`"),
+        ("Time\tFx\tFy\tFz\ns\tN\tN\n", "a line of 4 units is required"),
+        ("Time\tFx\tFy\tFz\ns\tV\tN\tN\n", "`V` is not a unit of `Fx`"),
         ("Time\tFx\tFx\tFz\ns\tN\tN\tN\n", "two channels are called `Fx`"),
         ("Time\tFx\tFz\ns\tN\tN\n", "missing channels: `Fy`"),
         (
             "Time\tFx\tFy\tFz\ns\tN\tN\tN\n0\t1\t2\n",
-            "21:1: 3 cells below 4 channels",
+            "21:1: 3 cells, but there are 4 channels",
         ),
         (
             "Time\tFx\tFy\tFz\ns\tN\tN\tN\n0\t1\tx\t3\n",
@@ -182,11 +192,11 @@ fn what_is_wrong_is_told_with_its_place() {
         ),
         (
             "Time\tFx\tFy\tFz\ns\tN\tN\tN\n0\t1\t2\t3\n0\t1\t2\t3\n",
-            "time does not go on",
+            "time does not increase",
         ),
         (
             "Time\tFx\tFy\tFz\ns\tN\tN\tN\n0\t1\t2\t3\n",
-            "ends after 1 samples, but its header tells 2",
+            "ends after 1 samples, but its header specifies 2",
         ),
     ] {
         let given = problems(&format!("{head}{table}"));
@@ -196,11 +206,11 @@ fn what_is_wrong_is_told_with_its_place() {
     let three = header("\t", 3) + "Time\tFx\tFy\tFz\ns\tN\tN\tN\n0\t1\t2\t3\n1\t1\t2\t3\n5\t1\t2\t3\n";
     assert!(problems(&three).contains("equal steps are needed"));
     assert!(problems(&"key:,value\n".repeat(500)).contains("no line of channels in 200 lines"));
-    assert!(problems("").contains("no samples"));
+    assert!(problems("").contains("the file has no samples"));
 }
 
 #[test]
-fn all_problems_are_told_at_once_and_a_cycle_with_one_is_not_judged_further() {
+fn all_problems_are_reported_together_and_a_wrong_cycle_gets_no_further_messages() {
     let rows = "0\t1\t2\t3\n1\tx\t2\t3\n2\t1\t2\n3\t1\t2\t3\n";
     let text = header("\t", 4) + "Time\tFx\tFy\tFz\ns\tN\tN\tN\n" + rows;
     let again = "Cycle No:\t2\n0\t1\t2\t3\n1\t1\t2\t3\n";
@@ -217,14 +227,14 @@ fn all_problems_are_told_at_once_and_a_cycle_with_one_is_not_judged_further() {
 }
 
 #[test]
-fn remarks_end_no_cycle() {
+fn comment_lines_do_not_end_a_cycle() {
     let rows = "0\t1\t2\t3\n# pause\n1\t4\t5\t6\n";
     let found = export(&(header("\t", 2) + "Time\tFx\tFy\tFz\n# units\ns\tN\tN\tN\n" + rows)).unwrap();
     assert_eq!(found.records.len(), 1);
 }
 
 #[test]
-fn no_text_makes_it_panic() {
+fn no_text_causes_a_panic() {
     let text = header(",", 2) + COMMAS;
     for cut in (0..text.len()).rev().take(120) {
         let _ = export(&text[..cut]);

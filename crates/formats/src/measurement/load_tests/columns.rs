@@ -1,7 +1,7 @@
-//! What each column of a table of load tests means.
+//! Meaning of each column in a table of load tests.
 //!
-//! Names and units: the header of `load_tests`. Capitals do not count. The usual unit of each quantity stands first in
-//! the lists below, so that a name with a slip is led to it.
+//! Names and units: see `load_tests`. Names are not case-sensitive. The usual unit of each quantity comes first in the
+//! lists below, so that a misspelled name gets it as a suggestion.
 
 use armill_core::robot::Robot;
 
@@ -9,45 +9,45 @@ use super::sheet::Sheet;
 use crate::document::Problem;
 use crate::document::unit::suggestion;
 
-/// The meaning of a column; numbers are axis or joint, then the factor to SI.
+/// The meaning of a column. Numbers are the axis or joint, then the factor to SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Column {
-    /// What people call the test.
+    /// Name of the test.
     Name,
-    /// Notes, and what a plan expects; passed over.
+    /// Notes and expected values of a plan; ignored.
     ForPeople,
     /// Position of a joint.
     Joint(usize, f64),
-    /// On the tool, base axes.
+    /// Force on the tool, base axes.
     Force(usize, f64),
-    /// About the force point, base axes, N m.
+    /// Moment about the force point, base axes, N m.
     Moment(usize),
-    /// Of the gauge point, base axes.
+    /// Displacement of the gauge point, base axes.
     Displacement(usize, f64),
     /// Its standard uncertainty.
     DisplacementU(f64),
-    /// Where the force acts, flange frame.
+    /// Force point, flange frame.
     ForcePoint(usize, f64),
-    /// Where the displacement is measured, flange frame.
+    /// Gauge point, flange frame.
     GaugePoint(usize, f64),
-    /// Name of the joint that turned.
+    /// Name of the joint that rotated.
     TurnedJoint,
-    /// How far it turned.
+    /// Its rotation.
     Turn(f64),
     /// Its standard uncertainty.
     TurnU(f64),
-    /// How many ordinary tests it counts for.
+    /// Number of ordinary tests that it is equivalent to.
     Weight,
 }
 
-/// The columns of a sheet; `None` where a name means nothing.
+/// The columns of a sheet; `None` where a name is unknown.
 #[derive(Clone, Debug)]
 pub(super) struct Columns {
-    /// As many as the header has names.
+    /// One entry per name in the header.
     pub columns: Vec<Option<Column>>,
 }
 
-/// Units of lengths by the ending of a name, with their factor to m.
+/// Units of length by the ending of a name, with their factor to m.
 const LENGTHS: [(&str, f64); 3] = [("mm", 1e-3), ("um", 1e-6), ("m", 1.0)];
 /// Units of forces, with their factor to N.
 const FORCES: [(&str, f64); 2] = [("n", 1.0), ("kn", 1e3)];
@@ -55,12 +55,12 @@ const FORCES: [(&str, f64); 2] = [("n", 1.0), ("kn", 1e3)];
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 /// Units of joint positions, with their factor to rad.
 const ANGLES: [(&str, f64); 2] = [("deg", DEGREE), ("rad", 1.0)];
-/// Units of turns, which are small, with their factor to rad.
+/// Units of rotations, which are small, with their factor to rad.
 const TURNS: [(&str, f64); 4] = [("urad", 1e-6), ("mrad", 1e-3), ("rad", 1.0), ("deg", DEGREE)];
 
-/// Every name that means something, the usual unit of each first.
+/// All known names. The usual unit of each quantity comes first.
 ///
-/// A joint goes by its own name and as `q1`, `q2`, ...; in degrees or radians if it turns, in lengths if it slides.
+/// A joint is known by its own name and as `q1`, `q2`, ...; in degrees or radians if revolute, in lengths if prismatic.
 fn known(robot: &Robot) -> Vec<(String, Column)> {
     let mut known = vec![
         ("test".to_owned(), Column::Name),
@@ -98,9 +98,9 @@ fn known(robot: &Robot) -> Vec<(String, Column)> {
 }
 
 impl Columns {
-    /// The columns of `sheet`; what is unknown, double or missing goes to `problems`.
+    /// The columns of `sheet`. Unknown, duplicate and missing columns are added to `problems`.
     ///
-    /// Every problem stands at the header: an unknown name with the nearest known one, a double one with the first.
+    /// Every problem is reported at the header: an unknown name with the nearest known one, a duplicate with the first.
     pub fn of(sheet: &Sheet, robot: &Robot, problems: &mut Vec<Problem>) -> Columns {
         let known = known(robot);
         let mut columns: Vec<Option<Column>> = Vec::new();
@@ -118,7 +118,11 @@ impl Columns {
             if found.is_none() {
                 let names: Vec<&str> = known.iter().map(|(known, _)| known.as_str()).collect();
                 let hint = suggestion(&name, &names).map_or_else(
-                    || "remove it, or call it `note`; the guide lists the columns: docs/guide/measure-stiffness.md".to_owned(),
+                    || {
+                        "remove it, or name it `note`; the columns are listed in \
+                        docs/guide/measure-stiffness.md"
+                            .to_owned()
+                    },
                     |(_, advice)| advice,
                 );
                 let message = format!("unknown column `{}`", cell.text);
@@ -126,8 +130,8 @@ impl Columns {
             } else if let Some(first) =
                 found.and_then(|column| columns.iter().position(|c| c.is_some_and(|c| c.same(column))))
             {
-                let message = format!("`{}` tells what `{}` tells", cell.text, heads[first].text);
-                problems.push(sheet.problem(&sheet.header, cell, message, "keep one of the two"));
+                let message = format!("`{}` repeats `{}`", cell.text, heads[first].text);
+                problems.push(sheet.problem(&sheet.header, cell, message, "remove one of the two columns"));
             }
             columns.push(found);
         }
@@ -144,9 +148,9 @@ impl Columns {
         self.columns.iter().flatten().any(|column| requested(*column))
     }
 
-    /// What no column tells, and what to add.
+    /// Missing columns, and hints.
     ///
-    /// A table needs every joint, a force or moment, a displacement or turn; a turn needs its joint.
+    /// A table needs every joint, a force or moment, and a displacement or rotation; a rotation needs its joint.
     fn missing(&self, robot: &Robot) -> Vec<(String, String)> {
         let mut missing = Vec::new();
         let without: Vec<String> = robot
@@ -160,15 +164,16 @@ impl Columns {
             })
             .collect();
         if !without.is_empty() {
-            let hint = "every test needs its whole posture: one column a joint, in degrees (`_deg`) or radians (`_rad`)";
+            let hint = "every test needs all joint positions: one column per joint, in degrees (`_deg`) or radians \
+                (`_rad`)";
             missing.push((
                 format!("joint positions: {}", without.join(", ")),
                 hint.to_owned(),
             ));
         }
         if !self.has(|column| matches!(column, Column::Force(..) | Column::Moment(_))) {
-            let hint =
-                "what pulled the tool, base axes: `fx_n`, `fy_n`, `fz_n`; a weight of 10 kg is fz_n = -98.1";
+            let hint = "add the load on the tool in base axes: `fx_n`, `fy_n`, `fz_n`; a weight of 10 kg is fz_n = \
+                -98.1";
             missing.push(("forces".to_owned(), hint.to_owned()));
         }
         let turned = [
@@ -179,11 +184,12 @@ impl Columns {
             let name = if turned[0] { "`turn_urad`" } else { "`joint`" };
             missing.push((
                 name.to_owned(),
-                "a turn and the joint that turned belong together".to_owned(),
+                "a rotation and its joint must be given together".to_owned(),
             ));
         }
         if !self.has(|column| matches!(column, Column::Displacement(..) | Column::Turn(_))) {
-            let hint = "what moved: `dx_mm`, `dy_mm`, `dz_mm` in base axes, or `joint` and `turn_urad`";
+            let hint =
+                "add the measured values: `dx_mm`, `dy_mm`, `dz_mm` in base axes, or `joint` and `turn_urad`";
             missing.push(("readings".to_owned(), hint.to_owned()));
         }
         missing
@@ -191,7 +197,7 @@ impl Columns {
 }
 
 impl Column {
-    /// Whether both tell the same thing, whatever their units.
+    /// Whether both columns have the same quantity, in any unit.
     fn same(self, other: Column) -> bool {
         use Column::{
             Displacement, DisplacementU, ForPeople, Force, ForcePoint, GaugePoint, Joint, Turn, TurnU,

@@ -1,7 +1,7 @@
-//! A table as lines: the names, and the rows below them.
+//! A table as lines: the header and the rows below it.
 //!
-//! The first line that is no remark names the columns; blank rows and remarks are left out. Cells are cut from a line
-//! when they are asked for, so that a table is kept as its text alone.
+//! The first line that is not a comment names the columns. Blank rows and comments are left out. Lines are split into
+//! cells on demand, so that a table is stored only as its text.
 
 use std::io::BufRead;
 
@@ -9,24 +9,24 @@ use crate::document::lines::{Line, Lines};
 use crate::document::{Problem, Problems};
 use crate::table::sheet::{Cell, cells, is_blank_row, is_remark, separator_of};
 
-/// A header and rows, not yet of equal length.
+/// A header and rows that may differ in length.
 #[derive(Clone, Debug)]
 pub(super) struct Sheet {
-    /// The path that problems show.
+    /// The file name shown in problems.
     name: String,
-    /// As the header has it.
+    /// Separator in the header.
     pub separator: char,
     /// The names.
     pub header: Line,
-    /// Those that hold something.
+    /// Rows that are not blank.
     pub rows: Vec<Line>,
 }
 
 impl Sheet {
-    /// The table in this text; `None` if it has no line that is not a remark.
+    /// The table in this text; `None` if it has only comments.
     ///
     /// # Errors
-    /// What is no text.
+    /// A file that is not text.
     pub fn read(name: &str, reader: impl BufRead) -> Result<Option<Sheet>, Problems> {
         let mut lines = Lines::new(name, reader);
         let mut sheet: Option<Sheet> = None;

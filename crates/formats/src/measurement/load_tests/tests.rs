@@ -1,9 +1,9 @@
-//! Tables that are right, and every way in which they can be wrong.
+//! Correct tables, and all ways in which they can be wrong.
 
 use super::*;
 use armill_core::robot::{Amount, Joint, Limits, Motion};
 
-/// Two turning joints with limits of 170 degrees and a sliding one.
+/// Two revolute joints with limits of 170 degrees and a prismatic one.
 fn arm() -> Robot {
     let motions = vec![
         Motion::About(Axis::Z, Amount::Joint(0)),
@@ -36,7 +36,7 @@ fn problems(text: &str) -> String {
 }
 
 #[test]
-fn units_of_the_names_become_si() {
+fn units_in_the_names_are_converted_to_si() {
     let text = "test,A1_deg,q2_rad,z_mm,fz_kN,mx_n_m,dx_um,dz_mm,d_u_um,gauge_z_mm\n\
                 first,90,0.5,250,-0.1,3,120,,5,80\n";
     let found = table(text).unwrap();
@@ -55,7 +55,7 @@ fn units_of_the_names_become_si() {
 }
 
 #[test]
-fn semicolons_take_decimal_commas_and_rows_without_reading_are_passed_over() {
+fn semicolons_allow_decimal_commas_and_rows_without_reading_are_skipped() {
     let text = "\u{feff}# my tests\r\nA1_deg;A2_deg;Z_mm;fz_n;dz_mm;expected_dz_mm\r\n\
                 10,5;-20;0;-98,1;-0,25;-0,3\r\n;;;;;\r\n30;-20;0;-98,1;;-0,3\r\n";
     let found = table(text).unwrap();
@@ -68,7 +68,7 @@ fn semicolons_take_decimal_commas_and_rows_without_reading_are_passed_over() {
 }
 
 #[test]
-fn a_turn_of_one_link_is_read_with_its_joint() {
+fn a_rotation_of_one_link_is_read_with_its_joint() {
     let text = "A1_deg,A2_deg,Z_mm,fz_n,joint,turn_mrad\n10,20,0,-50,a2,0.4\n";
     let found = table(text).unwrap();
     assert_eq!(found.tests[0].readings[0].what, Measured::Turn(1));
@@ -76,7 +76,7 @@ fn a_turn_of_one_link_is_read_with_its_joint() {
 }
 
 #[test]
-fn missing_columns_are_named_all_at_once() {
+fn missing_columns_are_reported_together() {
     let given = problems("A1_deg,note\n10,x\n");
     for part in [
         "tests.csv:1:1: missing joint positions: `A2_deg`, `Z_mm`",
@@ -88,41 +88,42 @@ fn missing_columns_are_named_all_at_once() {
 }
 
 #[test]
-fn unknown_and_double_columns_are_told_with_what_was_meant() {
+fn unknown_and_duplicate_columns_are_reported_with_a_suggestion() {
     let given = problems("A1,A2_deg,q2_rad,Z_mm,fz_n,dz_mm,colour\n1,2,3,4,5,6,7\n");
     assert!(
-        given.contains("1:1: unknown column `A1`") && given.contains("angles carry their unit: write `a1_deg`"),
+        given.contains("1:1: unknown column `A1`")
+            && given.contains("angles carry their unit: write `a1_deg`"),
         "{given}"
     );
-    assert!(
-        given.contains("1:11: `q2_rad` tells what `A2_deg` tells"),
-        "{given}"
-    );
+    assert!(given.contains("1:11: `q2_rad` repeats `A2_deg`"), "{given}");
     assert!(given.contains("unknown column `colour`"), "{given}");
 }
 
 #[test]
-fn cells_that_are_no_numbers_are_told_with_line_and_column() {
+fn cells_that_are_not_numbers_are_reported_with_line_and_column() {
     let given =
         problems("A1_deg,A2_deg,Z_mm,fz_n,dz_mm\n10,20,0,-98.1 N,0.1\n,20,0,nan,0.1\n10,20,0,-98,1,0,2\n");
     assert!(
         given.contains("tests.csv:2:9: `-98.1 N` is not a number"),
         "{given}"
     );
-    assert!(given.contains("tests.csv:3:1: no position of joint A1"), "{given}");
+    assert!(
+        given.contains("tests.csv:3:1: no position of joint A1"),
+        "{given}"
+    );
     assert!(
         given.contains("tests.csv:3:7: `nan` is not a number from"),
         "{given}"
     );
     assert!(
-        given.contains("tests.csv:4:1: 7 cells in a table of 5 columns"),
+        given.contains("tests.csv:4:1: 7 cells, but the table has 5 columns"),
         "{given}"
     );
-    assert!(given.contains("decimal commas need `;`"), "{given}");
+    assert!(given.contains("separate cells with `;`"), "{given}");
 }
 
 #[test]
-fn uncertainties_and_weights_that_cannot_be_are_told() {
+fn reports_uncertainties_and_weights_out_of_range() {
     let given = problems(
         "A1_deg,A2_deg,Z_mm,fz_n,dz_mm,d_u_mm,weight\n10,20,0,-98,0.1,1e-10,1\n10,20,0,-98,0.1,2000,1e7\n\
          10,20,0,-98,0.1,-1,0\n",
@@ -146,21 +147,21 @@ fn latin_letters_and_lone_carriage_returns_are_read() {
 }
 
 #[test]
-fn degrees_called_radians_and_radians_called_degrees_are_seen() {
+fn detects_degrees_named_radians_and_radians_named_degrees() {
     let given = problems("A1_rad,A2_rad,Z_mm,fz_n,dz_mm\n90,20,0,-98,0.1\n-45,30,0,-98,0.1\n");
     assert!(
-        given.contains("`A1_rad` holds 90 rad") && given.contains("call the column `A1_deg`"),
+        given.contains("`A1_rad` contains 90 rad") && given.contains("name the column `A1_deg`"),
         "{given}"
     );
     let given = problems("A1_deg,A2_deg,Z_mm,fz_n,dz_mm\n1.57,0.3,0,-98,0.1\n-0.7,0.5,0,-98,0.1\n");
     assert!(
-        given.contains("no joint is further than 1.57 deg") && given.contains("radians?"),
+        given.contains("no joint exceeds 1.57 deg") && given.contains("radians"),
         "{given}"
     );
 }
 
 #[test]
-fn a_posture_outside_the_limits_is_told_with_value_limit_and_unit() {
+fn a_posture_outside_the_limits_is_reported_with_value_limit_and_unit() {
     let given = problems("A1_deg,A2_deg,Z_mm,fz_n,dz_mm\n175,20,900,-98,0.1\n");
     assert!(
         given.contains("joint A1 at 175.0 deg is outside its limits -170.0 to 170.0 deg"),
@@ -173,14 +174,14 @@ fn a_posture_outside_the_limits_is_told_with_value_limit_and_unit() {
 }
 
 #[test]
-fn files_without_a_table_or_a_reading_are_refused() {
-    assert!(problems("# nothing\n\n").contains("no table in this file"));
+fn refuses_files_without_a_table_or_a_reading() {
+    assert!(problems("# nothing\n\n").contains("the file has no table"));
     let given = problems("A1_deg,A2_deg,Z_mm,fz_n,dz_mm\n10,20,0,-98,\n");
-    assert!(given.contains("none of the 1 rows holds a reading"), "{given}");
+    assert!(given.contains("none of the 1 rows has a reading"), "{given}");
 }
 
 #[test]
-fn no_text_makes_it_panic() {
+fn no_text_causes_a_panic() {
     for text in [
         "",
         ",",
@@ -196,7 +197,7 @@ fn no_text_makes_it_panic() {
 }
 
 #[test]
-fn a_table_that_is_wrong_everywhere_is_not_told_in_full() {
+fn a_table_that_is_wrong_everywhere_is_not_reported_in_full() {
     let wide = "x,".repeat(200) + "x\n1\n";
     assert!(problems(&wide).contains("more than 200 columns"));
     let long = format!("A1_deg,A2_deg,Z_mm,fz_n,dz_mm\n{}", "a,b,c,d,e\n".repeat(5000));

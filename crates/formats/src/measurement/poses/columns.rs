@@ -1,15 +1,16 @@
-//! What a column of measured poses is, in which unit.
+//! Quantity and unit of a column of measured poses.
 //!
 //! | column | meaning | units |
 //! |---|---|---|
-//! | `q1_deg` ..., `j1_deg` ..., or a joint's own name such as `A1_deg` | joint positions, as the controller counts | `_deg`, `_rad`; `_mm`, `_um`, `_m`, `_in` where a joint slides |
+//! | `q1_deg` ..., `j1_deg` ..., or a joint's own name such as `A1_deg` | joint positions as the controller reports them | `_deg`, `_rad`; `_mm`, `_um`, `_m`, `_in` for prismatic joints |
 //! | `x_mm`, `y_mm`, `z_mm` | the measured point, axes of the tracker | `_mm`, `_um`, `_m`, `_in` |
-//! | `rx_deg`, `ry_deg`, `rz_deg` | how the measured body is turned | `_deg`, `_rad` |
-//! | `commanded_x_mm` ..., `commanded_rx_deg` ... | the pose that was commanded | likewise |
+//! | `rx_deg`, `ry_deg`, `rz_deg` | orientation of the measured body | `_deg`, `_rad` |
+//! | `commanded_x_mm` ..., `commanded_rx_deg` ... | the commanded pose | as for measured |
 //! | `pose`, `direction` | names, any text | |
 //!
-//! Names and units in any case. A table with the names of Landgraf et al. 2021 (`shoulder_pan_joint`, `measurement_x`,
-//! `Goal x`, ...) is read as it is: joints in rad, measured lengths in mm and angles in deg, goals in m and rad.
+//! Names and units are not case-sensitive. A table with the names of Landgraf et al. 2021 (`shoulder_pan_joint`,
+//! `measurement_x`, `Goal x`, ...) is read directly: joints in rad, measured lengths in mm and angles in deg, goals in
+//! m and rad.
 
 use std::str::FromStr;
 
@@ -17,18 +18,18 @@ use armill_core::robot::{Motion, Robot};
 
 use crate::measurement::profile::LengthUnit;
 
-/// A name of ours that a column of the file has under another.
+/// Maps a column name of the file to one of armill's names.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mapping {
-    /// Ours, with its unit, such as `x_mm`.
+    /// armill's name with its unit, such as `x_mm`.
     pub ours: String,
-    /// That of the file.
+    /// The name in the file.
     pub theirs: String,
 }
 
-/// A text that is no mapping.
+/// A text that is not a mapping.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("a column is mapped by OURS=THEIRS, such as x_mm=MeasuredPoses X")]
+#[error("write a mapping as OURS=THEIRS, such as x_mm=Measured X")]
 pub struct NoMapping;
 
 impl FromStr for Mapping {
@@ -46,22 +47,22 @@ impl FromStr for Mapping {
     }
 }
 
-/// What a column holds.
+/// Quantity of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Quantity {
-    /// Of the joint with this index, turning or sliding.
+    /// Position of the joint with this index, revolute or prismatic.
     Joint(usize),
-    /// Measured along x, y, z: 0, 1, 2; turned: 3, 4, 5.
+    /// Measured position along x, y, z: 0, 1, 2; measured orientation: 3, 4, 5.
     MeasuredPoses(usize),
-    /// Commanded, likewise.
+    /// Commanded, with the same numbers.
     Commanded(usize),
     /// Name of the commanded pose.
     Pose,
-    /// Name of the direction from which it was reached.
+    /// Name of the approach direction.
     Direction,
 }
 
-/// A column: what it holds, and the factor from its unit to m or rad.
+/// A column: its quantity, and the factor from its unit to m or rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Column {
     pub quantity: Quantity,
@@ -69,12 +70,12 @@ pub(super) struct Column {
 }
 
 impl Quantity {
-    /// Whether it is text.
+    /// Whether it contains text.
     pub fn is_name(self) -> bool {
         matches!(self, Quantity::Pose | Quantity::Direction)
     }
 
-    /// Whether it is an angle of this robot's poses.
+    /// Whether it is an angle, for this robot.
     pub fn turns(self, robot: &Robot) -> bool {
         match self {
             Quantity::Joint(joint) => matches!(robot.chain().links()[joint].motion, Motion::About(..)),
@@ -83,7 +84,7 @@ impl Quantity {
         }
     }
 
-    /// Its name without unit, for people.
+    /// Its name without unit, for messages.
     pub fn name(self, robot: &Robot) -> String {
         match self {
             Quantity::Joint(joint) => robot.joints()[joint].name.clone(),
@@ -118,7 +119,7 @@ impl Quantity {
 
 const COMPONENTS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
-/// Names of the data set of Landgraf et al. 2021, with what they are called here.
+/// Names in the data set of Landgraf et al. 2021, with armill's names.
 const LANDGRAF: [(&str, &str); 18] = [
     ("shoulder_pan_joint", "q1_rad"),
     ("shoulder_lift_joint", "q2_rad"),
@@ -140,17 +141,17 @@ const LANDGRAF: [(&str, &str); 18] = [
     ("goal yaw", "commanded_rz_rad"),
 ];
 
-/// What a table of Landgraf et al. calls this name here; `None` where it is none of theirs.
+/// armill's name for a column of Landgraf et al.; `None` if it is not one of theirs.
 pub(super) fn of_data_set(name: &str) -> Option<&'static str> {
     let name = name.trim().to_lowercase();
     let found = LANDGRAF.iter().find(|(theirs, _)| *theirs == name);
     found.map(|(_, ours)| *ours)
 }
 
-/// The column of a name that ends in its unit; `None` for one that means nothing here.
+/// The column of a name that ends in its unit; `None` for an unknown name.
 ///
 /// # Errors
-/// A name of ours without unit, or with one that is none of its own: what is wrong, and what to do.
+/// A known name without a unit, or with a unit of another quantity: problem and hint.
 pub(super) fn named(name: &str, robot: &Robot) -> Result<Option<Column>, (String, String)> {
     let lower = name.trim().to_lowercase();
     let plain = |quantity| Column {
@@ -168,7 +169,7 @@ pub(super) fn named(name: &str, robot: &Robot) -> Result<Option<Column>, (String
     };
     if let Some(quantity) = Quantity::of_name(&lower, robot) {
         return Err((
-            format!("nothing tells the unit of `{name}`"),
+            format!("no unit is given for `{name}`"),
             format!("end the name with its unit: {}", units(quantity)),
         ));
     }
@@ -187,13 +188,13 @@ pub(super) fn named(name: &str, robot: &Robot) -> Result<Option<Column>, (String
     match factor {
         Some(factor) => Ok(Some(Column { quantity, factor })),
         None => Err((
-            format!("`{unit}` is no unit of `{plain}`"),
-            format!("understood are {}", units(quantity)),
+            format!("`{unit}` is not a unit of `{plain}`"),
+            format!("known units are {}", units(quantity)),
         )),
     }
 }
 
-/// Columns that are missing, by name; nothing if poses can be made of them.
+/// Names of missing columns; empty if the columns make poses.
 pub(super) fn missing(columns: &[Option<Column>], robot: &Robot) -> Vec<String> {
     let has = |quantity: Quantity| columns.iter().flatten().any(|column| column.quantity == quantity);
     let mut requested: Vec<Quantity> = (0..robot.joints().len()).map(Quantity::Joint).collect();

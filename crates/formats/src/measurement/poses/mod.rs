@@ -1,9 +1,9 @@
-//! Where was the arm when it stood still? Joint positions and measured places, as laser trackers write them.
+//! Measured poses of an arm at rest: joint positions and measured positions, as laser trackers write them.
 //!
-//! - `columns`: what a column is, in which unit; names of a public data set; names that the caller maps.
-//! - [`table`]: rows to poses.
+//! - `columns`: quantity and unit of each column; names of a public data set; mapped names.
+//! - [`table`]: rows as poses.
 //!
-//! All lengths come out in m, all angles in rad, in the axes of the tracker.
+//! All lengths are in m, all angles in rad, in the axes of the tracker.
 
 mod columns;
 pub mod table;

@@ -1,8 +1,8 @@
-//! Measured poses as a table: one row a pose, the unit of each column in its name.
+//! Measured poses as a table: one row per pose. The name of each column states its unit.
 //!
-//! Columns: see `columns`. Others are passed over and listed, so that a spoiled time stamp spoils nothing else. Cells are
-//! separated by `;`, tab or `,`; with the first two a decimal comma is read too. Lines that begin with `#`, empty ones and
-//! zero bytes at line ends are passed over; rows whose measured cells are all empty are counted as not measured.
+//! Columns: see `columns`. Others are ignored and listed, so that an invalid time stamp has no effect. Cells are
+//! separated by `;`, tab or `,`. With `;` or tab, decimal commas are read too. Lines that begin with `#`, empty lines
+//! and zero bytes at line ends are ignored. Rows without any measured value are counted as not measured.
 //!
 //! ```text
 //! q1_deg,q2_deg,...,q6_deg,x_mm,y_mm,z_mm          pose;direction;A1_deg;...;x_mm;y_mm;z_mm;rx_deg;ry_deg;rz_deg
@@ -21,50 +21,52 @@ use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
 use crate::table::sheet::{cells, is_blank_row, number, separator_of};
 
-/// No tracker measures farther, m.
+/// Maximum length that a tracker measures, m.
 const FARTHEST: f64 = 1e4;
-/// No joint or body turns farther, rad: beyond it degrees were meant.
+/// Maximum angle of a joint or body, rad. A larger value must be in degrees.
 const MOST_TURN: f64 = 4.0 * std::f64::consts::PI;
-/// No table has more poses.
+/// Maximum number of poses.
 const MOST_POSES: usize = 1_000_000;
-const COLUMNS_HINT: &str = "one row a pose: joint positions (`q1_deg` ...), the measured point (`x_mm,y_mm,z_mm`), and its \
-                            turn if it was measured (`rx_deg,ry_deg,rz_deg`); columns of other names can be mapped";
+const COLUMNS_HINT: &str = "use one row per pose: joint positions (`q1_deg` ...), the measured point \
+    (`x_mm,y_mm,z_mm`), and its \
+                            orientation if it was measured (`rx_deg,ry_deg,rz_deg`); columns with other names can be \
+                            mapped";
 
-/// How the angles of a measured body follow each other.
+/// Order of the angles of a measured body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TurnOrder {
     /// About the fixed axes x, then y, then z: `Rz Ry Rx`.
     FixedXyz,
-    /// About the axes that move with it, x, then y, then z: `Rx Ry Rz`.
+    /// About the moving axes x, then y, then z: `Rx Ry Rz`.
     MovingXyz,
 }
 
-/// What a file does not tell.
+/// Values that the file does not give.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PoseReadOptions {
-    /// Columns of other names.
+    /// Names of columns in the file.
     pub columns: Vec<Mapping>,
-    /// Of measured angles; without it they are about fixed axes, and in the data set of Landgraf et al. about moving ones.
-    /// Commanded ones are always about fixed axes.
+    /// Order of measured angles. Default: fixed axes, and moving axes for the data set of Landgraf et al.
+    /// Commanded angles are always about fixed axes.
     pub turns: Option<TurnOrder>,
 }
 
-/// What a file held.
+/// Content of a file of poses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredPoses {
     /// In the order of the file.
     pub poses: Vec<MeasuredPose>,
-    /// Line of each, from 1.
+    /// Line of each pose, from 1.
     pub lines: Vec<usize>,
-    /// Commanded x, y, z (m) and rx, ry, rz (rad) of each; turns that were not told are 0.
+    /// Commanded x, y, z (m) and rx, ry, rz (rad) of each pose; angles that are not given are 0.
     pub commanded: Option<Vec<[f64; 6]>>,
     /// The name of each pose.
     pub names: Option<Vec<String>>,
-    /// The direction from which each was reached.
+    /// Name of the approach direction of each pose.
     pub directions: Option<Vec<String>>,
-    /// Columns that were passed over.
+    /// Ignored columns.
     pub unused: Vec<String>,
-    /// Rows without a measured point.
+    /// Number of rows without a measured point.
     pub not_measured: usize,
 }
 
@@ -82,15 +84,20 @@ impl TurnOrder {
     }
 }
 
-/// Reads the poses of `robot` in `reader`; `path` is what problems show.
+/// Reads the poses of `robot` in `reader`. `path` is the file name shown in problems.
 ///
 /// # Errors
-/// Every problem of the file, at most 200: columns that are missing, double or mapped in vain, units that are missing or
-/// unknown, cells that are no numbers, rows of another length, angles and lengths that no arm has.
-pub fn read(path: &str, reader: impl BufRead, robot: &Robot, given: &PoseReadOptions) -> Result<MeasuredPoses, Problems> {
+/// All problems of the file, at most 200: missing or duplicate columns, mappings of missing columns, units that are
+/// missing or unknown, cells that are not numbers, rows of another length, implausible angles and lengths.
+pub fn read(
+    path: &str,
+    reader: impl BufRead,
+    robot: &Robot,
+    given: &PoseReadOptions,
+) -> Result<MeasuredPoses, Problems> {
     let mut lines = Lines::new(path, reader);
     let Some(first) = lines.next_row()? else {
-        return Err(Problem::of_file(path, "no poses in this file", COLUMNS_HINT).into());
+        return Err(Problem::of_file(path, "the file has no poses", COLUMNS_HINT).into());
     };
     let table = Table::of(path, &first, robot, given)?;
     let mut measured = MeasuredPoses {
@@ -114,7 +121,7 @@ pub fn read(path: &str, reader: impl BufRead, robot: &Robot, given: &PoseReadOpt
             Ok(Some(line)) if measured.poses.len() == MOST_POSES => {
                 let message = format!("more than {MOST_POSES} poses");
                 let whole = 0..line.text.len();
-                problems.push(line.problem(path, whole, message, "some hundred are enough for any arm"));
+                problems.push(line.problem(path, whole, message, "a few hundred poses are sufficient"));
                 break;
             }
             Ok(Some(line)) => {
@@ -126,29 +133,34 @@ pub fn read(path: &str, reader: impl BufRead, robot: &Robot, given: &PoseReadOpt
     }
     Problems::from(problems).into_result()?;
     if measured.poses.is_empty() {
-        return Err(Problem::of_file(path, "no poses in this file", COLUMNS_HINT).into());
+        return Err(Problem::of_file(path, "the file has no poses", COLUMNS_HINT).into());
     }
     Ok(measured)
 }
 
-/// What the columns of a file are.
+/// Meaning of the columns of a file.
 struct Table<'a> {
     path: &'a str,
     robot: &'a Robot,
     turns: TurnOrder,
     separator: char,
-    /// `None` is passed over.
+    /// `None` is ignored.
     columns: Vec<Option<Column>>,
     unused: Vec<String>,
 }
 
 impl<'a> Table<'a> {
-    /// From the line of names.
-    fn of(path: &'a str, line: &Line, robot: &'a Robot, given: &PoseReadOptions) -> Result<Table<'a>, Problems> {
+    /// From the header line.
+    fn of(
+        path: &'a str,
+        line: &Line,
+        robot: &'a Robot,
+        given: &PoseReadOptions,
+    ) -> Result<Table<'a>, Problems> {
         let separator = separator_of(&line.text);
         let whole = 0..line.text.len();
         let found = cells(&line.text, separator);
-        // Single names of the data set could mean anything; both together do not.
+        // A single name of the data set could mean anything; both together cannot.
         let is_data_set = ["shoulder_pan_joint", "measurement_x"].iter().all(|name| {
             found
                 .iter()
@@ -166,7 +178,10 @@ impl<'a> Table<'a> {
             };
             let column: Option<Column> = match named(name, robot) {
                 Ok(None) if mapped.is_some() => {
-                    let message = format!("`{name}`, which `{}` is mapped to, means nothing here", cell.text);
+                    let message = format!(
+                        "`{}` is mapped to `{name}`, which is not a known column",
+                        cell.text
+                    );
                     problems.push(line.problem(path, cell.span.clone(), message, COLUMNS_HINT));
                     None
                 }
@@ -176,12 +191,17 @@ impl<'a> Table<'a> {
                     None
                 }
             };
-            let held = |before: &Option<Column>| {
+            let is_same = |before: &Option<Column>| {
                 column.is_some_and(|c| before.is_some_and(|b| b.quantity == c.quantity))
             };
-            if columns.iter().any(held) {
-                let message = format!("`{}` tells what a column before it tells", cell.text);
-                problems.push(line.problem(path, cell.span.clone(), message, "keep one of the two"));
+            if columns.iter().any(is_same) {
+                let message = format!("`{}` repeats an earlier column", cell.text);
+                problems.push(line.problem(
+                    path,
+                    cell.span.clone(),
+                    message,
+                    "remove one of the two columns",
+                ));
             }
             if column.is_none() {
                 unused.push(cell.text.to_string());
@@ -191,11 +211,11 @@ impl<'a> Table<'a> {
         for mapping in &given.columns {
             if found.iter().all(|cell| cell.text != mapping.theirs) {
                 let message = format!("no column is called `{}`", mapping.theirs);
-                let hint = format!("it was mapped to `{}`", mapping.ours);
+                let hint = format!("it is mapped to `{}`", mapping.ours);
                 problems.push(line.problem(path, whole.clone(), message, &hint));
             }
         }
-        // What is wrong with a name is missing, too.
+        // A name with a problem is also missing.
         Problems::from(problems).into_result()?;
         let missing = missing(&columns, robot);
         if !missing.is_empty() {
@@ -222,18 +242,18 @@ impl<'a> Table<'a> {
             .any(|column| column.quantity == quantity)
     }
 
-    /// Takes a row; nothing of one with a problem.
+    /// Adds a row; a row with a problem adds nothing.
     fn row(&self, line: &Line, measured: &mut MeasuredPoses) -> Result<(), Problems> {
         let found = cells(&line.text, self.separator);
         if found.len() != self.columns.len() {
             let message = format!(
-                "{} cells in a table of {} columns",
+                "{} cells, but the table has {} columns",
                 found.len(),
                 self.columns.len()
             );
             let hint = match self.separator {
-                ',' => "decimal commas need `;` or a tab between cells",
-                _ => "every row has a cell for each column",
+                ',' => "separate cells with `;` or a tab to use decimal commas",
+                _ => "every row needs one cell per column",
             };
             return Err(line.problem(self.path, 0..line.text.len(), message, hint).into());
         }
@@ -290,23 +310,26 @@ impl<'a> Table<'a> {
         Ok(())
     }
 
-    /// The value of a cell in SI.
+    /// The value of a cell in SI units.
     fn value(&self, text: &str, column: Column) -> Result<f64, (String, &'static str)> {
         let Some(number) = number(text, self.separator).filter(|number| number.is_finite()) else {
             return Err((
                 format!("`{text}` is not a number"),
-                "units stand in the column's name; leave out rows that were not measured",
+                "give the unit in the column name; remove rows that were not measured",
             ));
         };
         let value = number * column.factor;
         if column.quantity.turns(self.robot) {
             if value.abs() > MOST_TURN {
-                let message = format!("an angle of {:.1} deg is beyond two turns", value.to_degrees());
-                return Err((message, "does the column's name say rad where degrees stand?"));
+                let message = format!("an angle of {:.1} deg exceeds two turns", value.to_degrees());
+                return Err((
+                    message,
+                    "if the values are degrees, use `_deg` in the column name",
+                ));
             }
         } else if value.abs() > FARTHEST {
-            let message = format!("a length of {value} m is beyond {FARTHEST} m");
-            return Err((message, "is the unit in the column's name the one meant?"));
+            let message = format!("a length of {value} m exceeds {FARTHEST} m");
+            return Err((message, "check the unit in the column name"));
         }
         Ok(value)
     }

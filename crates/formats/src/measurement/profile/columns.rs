@@ -1,22 +1,22 @@
-//! What a column of a profile is, in which unit; and the point that a row tells.
+//! Quantity and unit of a column of a profile, and the point of a row.
 //!
 //! | column | meaning | units |
 //! |---|---|---|
 //! | `x_mm`, `y_mm`; `z_mm` too | coordinates, of any axes | `_mm`, `_um`, `_m`, `_in` |
-//! | `angle_deg` or `theta_deg` | angle about the centre of the instrument, counter-clockwise | `_deg`, `_rad` |
-//! | `radius_mm` or `r_mm` | distance from it | `_mm`, `_um`, `_m`, `_in` |
-//! | `deviation_um` or `radius_dev_um` | the same, less a radius that is told beside the file | `_mm`, `_um`, `_m`, `_in` |
+//! | `angle_deg` or `theta_deg` | angle about the instrument's centre, counter-clockwise | `_deg`, `_rad` |
+//! | `radius_mm` or `r_mm` | distance from the centre | `_mm`, `_um`, `_m`, `_in` |
+//! | `deviation_um` or `radius_dev_um` | distance from the centre minus a radius given as an option | `_mm`, `_um`, `_m`, `_in` |
 //!
-//! Names and units in any case.
+//! Names and units are not case-sensitive.
 
 use std::fmt;
 use std::str::FromStr;
 
 use super::ProfileReadOptions;
 
-/// No coordinate is larger, m: what [`armill_core::roundness::Profile`] takes.
+/// Maximum coordinate, m: that of [`armill_core::roundness::Profile`].
 const FARTHEST: f64 = 1e6;
-/// No angle is larger: a thousand turns of an instrument, rad.
+/// Maximum angle: a thousand turns of an instrument, rad.
 const MOST_TURNS: f64 = 1e3 * std::f64::consts::TAU;
 
 /// A unit of length.
@@ -33,7 +33,7 @@ pub enum LengthUnit {
 }
 
 impl LengthUnit {
-    /// What one of it is in m.
+    /// Its length in m.
     pub fn factor(self) -> f64 {
         match self {
             LengthUnit::Millimetre => 1e-3,
@@ -44,9 +44,9 @@ impl LengthUnit {
     }
 }
 
-/// No unit of length that is understood.
+/// The text is not a known unit of length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("units of length are mm, um, m and in")]
+#[error("known units of length are mm, um, m and in")]
 pub struct NoUnit;
 
 impl FromStr for LengthUnit {
@@ -74,20 +74,20 @@ impl fmt::Display for LengthUnit {
     }
 }
 
-/// What a column holds.
+/// Quantity of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Quantity {
-    /// Along x, y or z: 0, 1, 2.
+    /// Coordinate x, y or z: 0, 1, 2.
     Coordinate(usize),
-    /// About the centre of the instrument.
+    /// Angle about the instrument's centre.
     Angle,
-    /// From it.
+    /// Distance from the centre.
     Radius,
-    /// From it, less the radius that is told.
+    /// Distance from the centre minus the given radius.
     Deviation,
 }
 
-/// A column: what it holds, and the factor from its unit to m or rad.
+/// A column: its quantity, and the factor from its unit to m or rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Column {
     pub quantity: Quantity,
@@ -108,7 +108,7 @@ impl Quantity {
         })
     }
 
-    /// Units that it may have, for people.
+    /// Its units, for messages.
     fn units(self) -> &'static str {
         match self {
             Quantity::Angle => "deg or rad",
@@ -127,15 +127,15 @@ impl Quantity {
     }
 }
 
-/// The column of a name that ends in its unit; `None` for one that means nothing here.
+/// The column of a name that ends in its unit; `None` for an unknown name.
 ///
 /// # Errors
-/// A name of ours without unit, or with one that is none of its own: what is wrong, and what to do.
+/// A known name without a unit, or with a unit of another quantity: problem and hint.
 pub(super) fn named(name: &str) -> Result<Option<Column>, (String, String)> {
     let lower = name.trim().to_lowercase();
     if let Some(quantity) = Quantity::of_name(&lower) {
         return Err((
-            format!("nothing tells the unit of `{name}`"),
+            format!("no unit is given for `{name}`"),
             format!("end the name with its unit: {}", quantity.units()),
         ));
     }
@@ -148,13 +148,13 @@ pub(super) fn named(name: &str) -> Result<Option<Column>, (String, String)> {
     match quantity.factor(unit) {
         Some(factor) => Ok(Some(Column { quantity, factor })),
         None => Err((
-            format!("`{unit}` is no unit of `{plain}`"),
-            format!("understood are {}", quantity.units()),
+            format!("`{unit}` is not a unit of `{plain}`"),
+            format!("known units are {}", quantity.units()),
         )),
     }
 }
 
-/// How a row becomes a point.
+/// How a row gives a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Layout {
     /// From x and y.
@@ -167,7 +167,7 @@ pub(super) enum Layout {
     Deviation(f64),
 }
 
-/// The quantities in the order in which [`Layout::point`] takes their values.
+/// The quantities in the order in which [`Layout::point`] uses their values.
 const IN_ORDER: [Quantity; 6] = [
     Quantity::Coordinate(0),
     Quantity::Coordinate(1),
@@ -178,12 +178,15 @@ const IN_ORDER: [Quantity; 6] = [
 ];
 
 impl Layout {
-    /// How rows with these columns become points; `wanted` tells the radius that deviations count from.
+    /// The layout of rows with these columns; `requested` gives the radius to which deviations refer.
     ///
     /// # Errors
-    /// Columns that make no point, or more than one; a radius that is missing, idle or not above 0: what is wrong, and
-    /// what to do.
-    pub fn of(columns: &[Quantity], requested: &ProfileReadOptions) -> Result<Layout, (String, &'static str)> {
+    /// Columns that give no point, or more than one; a radius that is missing, unused or not above 0: problem and
+    /// hint.
+    pub fn of(
+        columns: &[Quantity],
+        requested: &ProfileReadOptions,
+    ) -> Result<Layout, (String, &'static str)> {
         let has = IN_ORDER.map(|quantity| columns.contains(&quantity));
         let layout = match has {
             [true, true, false, false, false, false] => Layout::Plane,
@@ -191,51 +194,52 @@ impl Layout {
             [false, false, false, true, true, false] => Layout::Polar,
             [false, false, false, true, false, true] => {
                 let Some(radius_mm) = requested.radius_mm.or(requested.else_radius_mm) else {
-                    let message = "deviations need the radius that they are told from".to_owned();
-                    return Err((message, "tell it (option `radius_mm`)"));
+                    let message = "deviations need the radius to which they refer".to_owned();
+                    return Err((message, "give it (option `radius_mm`)"));
                 };
                 if !(radius_mm > 0.0 && radius_mm * 1e-3 <= FARTHEST) {
-                    let message = format!("a radius of {radius_mm} mm is not above 0 mm, or beyond 1e9 mm");
-                    return Err((message, "the radius at a deviation of 0"));
+                    let message = format!("a radius of {radius_mm} mm is not above 0 mm, or exceeds 1e9 mm");
+                    return Err((message, "give the radius at which the deviation is 0"));
                 }
                 return Ok(Layout::Deviation(radius_mm * 1e-3));
             }
             _ => {
-                let message = "these columns do not make points of a profile".to_owned();
+                let message = "these columns do not give points of a profile".to_owned();
                 return Err((message, COLUMNS_HINT));
             }
         };
         match requested.radius_mm {
             Some(radius_mm) => {
-                let message =
-                    format!("a radius of {radius_mm} mm was told, but no column holds deviations from it");
-                Err((message, "leave the radius out"))
+                let message = format!(
+                    "a radius of {radius_mm} mm was specified, but no column contains deviations from it"
+                );
+                Err((message, "leave out the radius"))
             }
             None => Ok(layout),
         }
     }
 
-    /// The point of a row with these values in SI, by [`Quantity`]; z is 0 in a plane.
+    /// The point of a row from its values in SI units, by [`Quantity`]; z is 0 in a plane.
     ///
     /// # Errors
-    /// A value that no profile has, with its quantity: what is wrong, and what it may be.
+    /// A value outside its range, with its quantity: problem and range.
     pub fn point(self, value: impl Fn(Quantity) -> f64) -> Result<[f64; 3], (Quantity, String)> {
         let coordinate = |axis: usize| {
             let quantity = Quantity::Coordinate(axis);
             match value(quantity) {
                 at if at.abs() <= FARTHEST => Ok(at),
-                at => Err((quantity, format!("a coordinate of {at} m is beyond {FARTHEST} m"))),
+                at => Err((quantity, format!("a coordinate of {at} m exceeds {FARTHEST} m"))),
             }
         };
         let around = |quantity: Quantity, radius: f64| {
             let angle = value(Quantity::Angle);
             if angle.abs() > MOST_TURNS {
-                let message = format!("an angle of {} deg is beyond 1000 turns", angle.to_degrees());
+                let message = format!("an angle of {} deg exceeds 1000 turns", angle.to_degrees());
                 return Err((Quantity::Angle, message));
             }
             if !(radius > 0.0 && radius <= FARTHEST) {
                 let message = format!(
-                    "a radius of {} mm is not above 0 mm, or beyond 1e9 mm",
+                    "a radius of {} mm is not above 0 mm, or exceeds 1e9 mm",
                     radius * 1e3
                 );
                 return Err((quantity, message));
@@ -251,12 +255,12 @@ impl Layout {
         }
     }
 
-    /// Whether its points lie in space.
+    /// Whether its points are in space.
     pub fn is_space(self) -> bool {
         self == Layout::Space
     }
 }
 
-/// What columns make points.
+/// Columns that give points.
 pub(super) const COLUMNS_HINT: &str = "name the columns `x_mm,y_mm`, `x_mm,y_mm,z_mm`, `angle_deg,radius_mm`, or \
-                                       `angle_deg,deviation_um` with a radius beside the file";
+                                       `angle_deg,deviation_um` together with the option `radius_mm`";

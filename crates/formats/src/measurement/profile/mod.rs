@@ -1,12 +1,12 @@
-//! Where do the points of a round profile lie? Points as measuring machines and roundness instruments write them.
+//! Points of a round profile, as coordinate measuring machines and roundness instruments write them.
 //!
-//! - [`columns`](mod@columns): what a column is, in which unit, and the point of a row.
-//! - `table`: tables whose columns name their units.
-//! - `plain`: points in rows without names, such as those of NIST.
-//! - `qif`: results of coordinate measuring machines, which hold no points.
+//! - [`columns`](mod@columns): quantity and unit of a column, and the point of a row.
+//! - `table`: tables whose column names state their units.
+//! - `plain`: points in rows without a header, such as those of NIST.
+//! - `qif`: results of coordinate measuring machines, which contain no points.
 //!
-//! Which of the three a file is in is seen in how it begins: `<` begins QIF; else a number in the first line that is no
-//! remark a file without names. All lengths come out in m.
+//! The format is recognised from the beginning: `<` begins QIF; otherwise a number in the first line that is not a
+//! comment begins a file without a header. All lengths are returned in m.
 
 pub mod columns;
 mod plain;
@@ -22,33 +22,33 @@ pub use self::columns::LengthUnit;
 use crate::document::lines::Lines;
 use crate::document::{Problem, Problems, unreadable};
 
-/// A kind of file of points.
+/// Format of a file of points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// A table with named columns.
     Table,
-    /// Rows of numbers without names.
+    /// Rows of numbers without a header.
     Plain,
 }
 
 impl Format {
-    /// Its name, for people.
+    /// Its name, for messages.
     pub fn name(self) -> &'static str {
         match self {
             Format::Table => "table",
-            Format::Plain => "rows without names",
+            Format::Plain => "rows without header",
         }
     }
 }
 
-/// What a file does not tell.
+/// Values that the file does not give.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ProfileReadOptions {
-    /// The radius that deviations are told from, mm.
+    /// The radius to which deviations refer, mm.
     pub radius_mm: Option<f64>,
-    /// The same where deviations are told and nothing else is known, mm.
+    /// The radius to use if the file has deviations and no other radius is known, mm.
     pub else_radius_mm: Option<f64>,
-    /// The unit of rows without names.
+    /// The unit of rows without a header.
     pub unit: Option<LengthUnit>,
 }
 
@@ -61,24 +61,24 @@ pub enum Points {
     Space(Vec<Point3<f64>>),
 }
 
-/// What a file held.
+/// Content of a file of points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredProfile {
     /// Its format.
     pub format: Format,
     /// The points, in order.
     pub points: Points,
-    /// The line that each point stands on, from 1.
+    /// Line of each point, from 1.
     pub lines: Vec<usize>,
-    /// Columns that were passed over.
+    /// Ignored columns.
     pub unused: Vec<String>,
 }
 
-/// A profile has no more points: an hour of an instrument that takes 10 000 a second.
+/// Maximum number of points: an hour of an instrument that takes 10 000 per second.
 const MOST_POINTS: usize = 20_000_000;
 
 impl Points {
-    /// How many.
+    /// Number of points.
     pub fn count(&self) -> usize {
         match self {
             Points::Plane(points) => points.len(),
@@ -86,7 +86,7 @@ impl Points {
         }
     }
 
-    /// Takes a point of as many coordinates as the others have.
+    /// Adds a point with as many coordinates as the others.
     fn push(&mut self, [x, y, z]: [f64; 3]) {
         match self {
             Points::Plane(points) => points.push(Point2::new(x, y)),
@@ -95,12 +95,16 @@ impl Points {
     }
 }
 
-/// Reads the profile in `reader`; `path` is what problems show.
+/// Reads the profile in `reader`. `path` is the file name shown in problems.
 ///
 /// # Errors
-/// Every problem of the file, at most 200. Of a QIF file: the circles that it holds in place of points, for it tells no
-/// points that were measured.
-pub fn read(path: &str, mut reader: impl BufRead, requested: &ProfileReadOptions) -> Result<MeasuredProfile, Problems> {
+/// All problems of the file, at most 200. For a QIF file: the circles that it contains, because it has no measured
+/// points.
+pub fn read(
+    path: &str,
+    mut reader: impl BufRead,
+    requested: &ProfileReadOptions,
+) -> Result<MeasuredProfile, Problems> {
     let head = reader.fill_buf().map_err(|error| unreadable(path, &error))?;
     let head = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head);
     if head.iter().find(|byte| !byte.is_ascii_whitespace()) == Some(&b'<') {
@@ -108,13 +112,13 @@ pub fn read(path: &str, mut reader: impl BufRead, requested: &ProfileReadOptions
     }
     let mut lines = Lines::new(path, reader);
     match lines.next_row()? {
-        None => Err(Problem::of_file(path, "no points in this file", COLUMNS_HINT).into()),
+        None => Err(Problem::of_file(path, "the file has no points", COLUMNS_HINT).into()),
         Some(first) if begins_with_number(&first.text) => plain::read((first, lines), requested),
         Some(first) => table::read((first, lines), requested),
     }
 }
 
-/// Whether a first line is one of numbers, not of names.
+/// Whether a first line contains numbers, not names.
 fn begins_with_number(line: &str) -> bool {
     let word = line.split_whitespace().next().unwrap_or_default();
     let word = word.split([',', ';']).next().unwrap_or_default();
@@ -126,7 +130,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_format_is_seen_in_the_first_line_that_is_no_remark() {
+    fn the_format_is_recognised_from_the_first_line_that_is_not_a_comment() {
         let requested = ProfileReadOptions {
             unit: Some(LengthUnit::Millimetre),
             ..ProfileReadOptions::default()
@@ -153,6 +157,6 @@ mod tests {
             }
         }
         let empty = read("f", "# nothing\n".as_bytes(), &requested).unwrap_err();
-        assert!(empty.to_string().contains("no points in this file"));
+        assert!(empty.to_string().contains("the file has no points"));
     }
 }

@@ -1,7 +1,7 @@
-//! Points in rows without names: two or three coordinates a row, the unit told beside the file.
+//! Points in rows without a header: two or three coordinates per row; the unit is an option.
 //!
-//! The first line may hold how many points follow, as in the files of NIST's Algorithm Testing System. Numbers are
-//! separated by blanks, tabs, `;` or `,`; a decimal comma is read where a row has no other commas to part its numbers.
+//! The first line may give the number of points, as in the files of NIST's Algorithm Testing System. Numbers are
+//! separated by blanks, tabs, `;` or `,`. A decimal comma is read if the numbers of a row are not separated by commas.
 //!
 //! ```text
 //! 5
@@ -21,8 +21,8 @@ use crate::table::sheet::number;
 /// Reads the rows from `line` on.
 ///
 /// # Errors
-/// Every problem of the file, at most 200: no unit told, cells that are no numbers, rows of another length, another
-/// count of rows than the first line tells, coordinates that no part has.
+/// All problems of the file, at most 200: no unit given, cells that are not numbers, rows of another length, a number
+/// of rows that differs from the first line, coordinates out of range.
 pub(super) fn read(
     (mut line, mut lines): (Line, Lines<impl BufRead>),
     requested: &ProfileReadOptions,
@@ -31,12 +31,12 @@ pub(super) fn read(
     let mut problems = Vec::new();
     let factor = requested.unit.map_or(1.0, super::LengthUnit::factor);
     if requested.unit.is_none() {
-        let message = "nothing tells the unit of these numbers";
+        let message = "the unit of these numbers is not given";
         problems.push(line.problem(path, 0..line.text.len(), message, UNIT_HINT));
     }
     if let Some(radius_mm) = requested.radius_mm {
-        let message = format!("a radius of {radius_mm} mm was told, but these are coordinates");
-        problems.push(line.problem(path, 0..line.text.len(), message, "leave the radius out"));
+        let message = format!("a radius of {radius_mm} mm was specified, but these are coordinates");
+        problems.push(line.problem(path, 0..line.text.len(), message, "leave out the radius"));
     }
     let count: Option<(usize, Line)> = match line.text.trim().parse() {
         Ok(count) => Some((count, line.clone())),
@@ -44,7 +44,7 @@ pub(super) fn read(
     };
     if count.is_some() {
         let Some(second) = lines.next_row()? else {
-            return Err(Problem::of_file(path, "no points in this file", ROWS_HINT).into());
+            return Err(Problem::of_file(path, "the file has no points", ROWS_HINT).into());
         };
         line = second;
     }
@@ -53,7 +53,7 @@ pub(super) fn read(
         2 => Layout::Plane,
         3 => Layout::Space,
         _ => {
-            let message = format!("{width} numbers in a row: points have 2 or 3 coordinates");
+            let message = format!("{width} numbers in a row, but points have 2 or 3 coordinates");
             problems.push(line.problem(path, 0..line.text.len(), message, ROWS_HINT));
             return Err(problems.into());
         }
@@ -93,16 +93,21 @@ pub(super) fn read(
         && count != rows
         && problems.len() < MOST_PROBLEMS
     {
-        let message = format!("{count} points are announced, but {rows} follow");
-        problems.push(line.problem(path, 0..line.text.len(), message, "is the file whole?"));
+        let message = format!("the first line specifies {count} points, but {rows} follow");
+        problems.push(line.problem(
+            path,
+            0..line.text.len(),
+            message,
+            "check whether the file is complete",
+        ));
     }
     Problems::from(problems).into_result()?;
     Ok(measured)
 }
 
-/// The numbers of a row, each with where it begins.
+/// The numbers of a row with their positions.
 fn pieces(text: &str) -> impl Iterator<Item = (usize, &str)> {
-    // A comma parts numbers only where blanks and semicolons part none.
+    // Commas separate numbers only if blanks and semicolons do not.
     let is_parted = text.trim().contains([' ', '\t', ';']);
     let parts = move |c: char| c.is_whitespace() || c == ';' || (c == ',' && !is_parted);
     text.split(parts)
@@ -124,9 +129,14 @@ fn point(
     let found: Vec<(usize, &str)> = pieces(&line.text).collect();
     let whole = || 0..line.text.len();
     if found.len() != width {
-        let message = format!("{} numbers in a row, {width} in the first", found.len());
+        let message = format!("{} numbers in a row, but {width} in the first row", found.len());
         return Err(line
-            .problem(path, whole(), message, "every row has as many")
+            .problem(
+                path,
+                whole(),
+                message,
+                "all rows need the same number of coordinates",
+            )
             .into());
     }
     let mut values = [0.0; 3];
@@ -145,14 +155,14 @@ fn point(
         super::columns::Quantity::Coordinate(axis) => values[axis],
         _ => 0.0,
     };
-    layout.point(value).map_err(|(_, message)| {
-        line.problem(path, whole(), message, "is the unit the one meant?")
-            .into()
-    })
+    layout
+        .point(value)
+        .map_err(|(_, message)| line.problem(path, whole(), message, "check the unit").into())
 }
 
-const UNIT_HINT: &str = "tell it (option `unit`: mm, um, m or in), or name the columns, such as `x_mm,y_mm`";
-const ROWS_HINT: &str = "a row holds x and y, or x, y and z; the first line may hold the count of points";
+const UNIT_HINT: &str = "give it (option `unit`: mm, um, m or in), or name the columns, such as `x_mm,y_mm`";
+const ROWS_HINT: &str =
+    "a row contains x and y, or x, y and z; the first line may contain the number of points";
 
 #[cfg(test)]
 mod tests {
@@ -171,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_with_and_without_a_count_are_points() {
+    fn rows_with_and_without_a_number_of_points_are_read() {
         let three = [Point3::new(1e-3, 2e-3, 3e-3), Point3::new(4.5e-3, -5e-3, 6e-3)];
         for text in [
             "2\n1\t2\t3\n4.5 -5  6\n",
@@ -200,29 +210,40 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_is_told_with_its_place() {
+    fn problems_are_reported_with_their_positions() {
         let mm = Some(LengthUnit::Millimetre);
         for (unit, text, part) in [
-            (None, "2\n1 2 3\n4 5 6\n", "1:1: nothing tells the unit"),
+            (
+                None,
+                "2\n1 2 3\n4 5 6\n",
+                "1:1: the unit of these numbers is not given",
+            ),
             (
                 mm,
                 "3\n1 2 3\n4 5 6\n",
-                "1:1: 3 points are announced, but 2 follow",
+                "1:1: the first line specifies 3 points, but 2 follow",
             ),
-            (mm, "3\n", "no points in this file"),
+            (mm, "3\n", "the file has no points"),
             (mm, "1 2 3 4\n", "4 numbers in a row"),
-            (mm, "1 2 3\n1 2\n", "2:1: 2 numbers in a row, 3 in the first"),
+            (
+                mm,
+                "1 2 3\n1 2\n",
+                "2:1: 2 numbers in a row, but 3 in the first row",
+            ),
             (mm, "1 2 3\n1 x 3\n", "2:3: `x` is not a number"),
             (mm, "1 2 3\n1 2 inf\n", "2:5: `inf` is not a number"),
             (mm, "1 2 3\n1 2 1e300\n", "2:1: a coordinate of"),
         ] {
             let given = read_in(unit, text).unwrap_err();
-            assert!(given.contains(part) && given.contains("help: "), "{text}: {given}");
+            assert!(
+                given.contains(part) && given.contains("help: "),
+                "{text}: {given}"
+            );
         }
         let given = read_in(None, "9\n1 2 3\n1 x 3\n1 2\n").unwrap_err();
         for part in [
-            "nothing tells the unit",
-            "9 points are announced, but 3",
+            "the unit of these numbers is not given",
+            "the first line specifies 9 points, but 3",
             "3:3",
             "4:1",
         ] {

@@ -1,19 +1,18 @@
-//! Results of coordinate measuring machines in QIF 2.1 or 3: the circles that the machine made of its points.
+//! Results of coordinate measuring machines in QIF 2.1 or 3: the circles that the machine fitted to its points.
 //!
-//! Of a feature QIF tells what was found, not what was touched: `CircleFeatureActual` and `CylinderFeatureActual` hold a
-//! centre (or a point of the axis), a direction and a diameter, and a form error only where one was asked for. From
-//! these no circle can be put to points again. So a QIF file is read for what it tells, and refused as a profile:
-//! the refusal lists its circles. Points that were touched stand in a `MeasurePointSets` of QIF 3; no public file with one
-//! is known, and it is not read.
+//! QIF contains fitted features, not measured points: `CircleFeatureActual` and `CylinderFeatureActual` give a centre
+//! (or a point of the axis), a direction, a diameter, and a form error if it was requested. No circle can be fitted
+//! again to these data. A QIF file is therefore read, but refused as a profile; the message lists its circles. Measured
+//! points are stored in a `MeasurePointSets` of QIF 3. No public file with such a set is known, and it is not read.
 //!
-//! | element | here |
+//! | element | use |
 //! |---|---|
-//! | `CircleFeatureActual`, `CylinderFeatureActual` | one circle each |
+//! | `CircleFeatureActual`, `CylinderFeatureActual` | one circle |
 //! | `FeatureItemId`, then `FeatureName` of the item with that id | its name |
-//! | `Location`, or `Axis/AxisPoint` | its place |
+//! | `Location`, or `Axis/AxisPoint` | its position |
 //! | `Diameter` | its diameter |
 //! | `Form` | its form error |
-//! | `FileUnits/PrimaryUnits/LinearUnit/UnitConversion/Factor` | what one of the file's unit is in m |
+//! | `FileUnits/PrimaryUnits/LinearUnit/UnitConversion/Factor` | length of the file's unit in m |
 //!
 //! Source: QIF 2.1 and 3.0, Part 3, Features (ANSI/DMSC) as used in the samples of the standard.
 
@@ -25,10 +24,10 @@ use roxmltree::{Document, Node};
 use crate::document::{Problem, Problems, Source};
 use crate::xml::{self, children};
 
-/// A circle that a machine found. m.
+/// A circle that a machine fitted. m.
 #[derive(Clone, Debug, PartialEq)]
 struct ActualCircle {
-    /// What the file calls the feature.
+    /// Name of the feature in the file.
     name: String,
     /// Its centre, or a point of its axis.
     centre: Option<[f64; 3]>,
@@ -38,30 +37,30 @@ struct ActualCircle {
     form: Option<f64>,
 }
 
-/// Circles that a refusal lists.
+/// Maximum number of circles listed in a message.
 const MOST_LISTED: usize = 20;
 
-/// What is wrong with the file, or what it holds in place of the points of a profile: its circles.
+/// Why the file is not a profile: its problems, or the circles that it contains instead of points.
 pub(super) fn refusal(path: &str, reader: impl Read) -> Problems {
     let found = match xml::text_of(path, reader).and_then(|text| circles(path, &text)) {
         Ok(found) => found,
         Err(wrong) => return wrong,
     };
     let message = match found.len() {
-        0 => "this QIF file holds neither points nor circles".to_owned(),
+        0 => "this QIF file contains neither points nor circles".to_owned(),
         1 => format!(
-            "this QIF file holds a circle, but no points of it: {}",
+            "this QIF file contains a circle, but not its points: {}",
             reported(&found)
         ),
         count => format!(
-            "this QIF file holds {count} circles, but no points of them: {}",
+            "this QIF file contains {count} circles, but not their points: {}",
             reported(&found)
         ),
     };
     Problem::of_file(
         path,
         message,
-        "roundness needs the points that were touched: export them as a table with `x_mm,y_mm,z_mm`",
+        "roundness needs the measured points: export them as a table with `x_mm,y_mm,z_mm`",
     )
     .into()
 }
@@ -69,14 +68,14 @@ pub(super) fn refusal(path: &str, reader: impl Read) -> Problems {
 /// The circles of a QIF text.
 ///
 /// # Errors
-/// What is not XML, or not QIF; a unit that is none.
+/// Text that is not XML or not QIF; an invalid unit.
 fn circles(path: &str, text: &str) -> Result<Vec<ActualCircle>, Problems> {
     let source = Source::new(path, text);
     let document = xml::parse(&source)?;
     let root = document.root_element();
     if root.tag_name().name() != "QIFDocument" {
-        let message = format!("`{}` is no QIF document", root.tag_name().name());
-        let hint = "a profile is a table, or rows of numbers".to_owned();
+        let message = format!("`{}` is not a QIF document", root.tag_name().name());
+        let hint = "a profile is a table or rows of numbers".to_owned();
         return Err(source.problem(xml::tag(root), message, Some(hint)).into());
     }
     let factor = unit(&source, &document)?;
@@ -103,7 +102,7 @@ fn circles(path: &str, text: &str) -> Result<Vec<ActualCircle>, Problems> {
     Ok(document.descendants().filter(is_actual).map(circle).collect())
 }
 
-/// What one of the file's unit is in m; 1 where nothing tells it, for QIF is then in SI.
+/// Length of the file's unit in m; 1 if it is not given, because QIF then uses SI units.
 fn unit(source: &Source, document: &Document<'_>) -> Result<f64, Problems> {
     let units = document
         .descendants()
@@ -115,14 +114,14 @@ fn unit(source: &Source, document: &Document<'_>) -> Result<f64, Problems> {
     match numbers::<1>(factor) {
         Some([reported]) if reported > 0.0 => Ok(reported),
         _ => {
-            let message = "the factor of the unit of length is no number above 0";
-            let hint = "0.001 for mm".to_owned();
+            let message = "the factor of the length unit is not a number above 0";
+            let hint = "use 0.001 for mm".to_owned();
             Err(source.problem(factor.range(), message, Some(hint)).into())
         }
     }
 }
 
-/// What the items of features are called, by their ids.
+/// Names of the feature items, by their ids.
 fn names<'a>(document: &'a Document<'_>) -> BTreeMap<&'a str, &'a str> {
     let items = document.descendants().filter_map(|node| {
         let name = children(node, "FeatureName").next()?.text()?;
@@ -135,7 +134,7 @@ fn names<'a>(document: &'a Document<'_>) -> BTreeMap<&'a str, &'a str> {
     names
 }
 
-/// The `N` finite numbers in an element, and no more.
+/// The `N` finite numbers in an element, if there are exactly `N`.
 fn numbers<const N: usize>(node: Node<'_, '_>) -> Option<[f64; N]> {
     let words: Option<Vec<f64>> = node
         .text()?
@@ -145,7 +144,7 @@ fn numbers<const N: usize>(node: Node<'_, '_>) -> Option<[f64; N]> {
     words?.try_into().ok()
 }
 
-/// Circles in words.
+/// The circles as text.
 fn reported(circles: &[ActualCircle]) -> String {
     let one = |circle: &ActualCircle| {
         let mut words = vec![circle.name.clone()];
@@ -181,7 +180,7 @@ mod tests {
 </QIFDocument>"#;
 
     #[test]
-    fn circles_are_told_in_metres_with_their_names() {
+    fn circles_are_read_in_metres_with_their_names() {
         let [bore, other] = circles("r.qif", RESULTS).unwrap().try_into().unwrap();
         assert_eq!(bore.name, "BORE");
         let centre = bore.centre.unwrap();
@@ -196,20 +195,20 @@ mod tests {
     }
 
     #[test]
-    fn results_without_points_are_refused_with_what_they_hold() {
+    fn refuses_results_without_points_and_lists_their_circles() {
         let reported = refusal("r.qif", RESULTS.as_bytes()).to_string();
-        assert!(reported.contains("2 circles, but no points of them: BORE diameter 19.0070 mm at (1.0000, 2.5000, -3.0000) mm form 12.00 um"), "{reported}");
+        assert!(reported.contains("2 circles, but not their points: BORE diameter 19.0070 mm at (1.0000, 2.5000, -3.0000) mm form 12.00 um"), "{reported}");
         assert!(reported.contains("export them as a table"));
         let reported = refusal("r.qif", "<QIFDocument/>".as_bytes()).to_string();
         assert!(reported.contains("neither points nor circles"));
     }
 
     #[test]
-    fn what_is_no_qif_is_told() {
+    fn refuses_files_that_are_not_qif() {
         for (text, part) in [
-            ("<html></html>", "1:1: `html` is no QIF document"),
+            ("<html></html>", "1:1: `html` is not a QIF document"),
             ("<QIFDocument>", "not XML"),
-            (&RESULTS.replace(">0.001<", ">-1<"), "no number above 0"),
+            (&RESULTS.replace(">0.001<", ">-1<"), "not a number above 0"),
         ] {
             let reported = refusal("r.qif", text.as_bytes()).to_string();
             assert!(reported.contains(part), "{reported}");

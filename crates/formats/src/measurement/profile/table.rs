@@ -1,7 +1,7 @@
-//! A profile as a table: one row a point, the unit of each column in its name.
+//! A profile as a table: one row per point. The name of each column states its unit.
 //!
-//! Columns: see [`columns`](super::columns). Others are passed over and listed. Cells are separated by `;`, tab or `,`;
-//! with the first two a decimal comma is read too. Lines that begin with `#` and empty ones are passed over.
+//! Columns: see [`columns`](super::columns). Others are ignored and listed. Cells are separated by `;`, tab or `,`.
+//! With `;` or tab, decimal commas are read too. Lines that begin with `#` and empty lines are ignored.
 //!
 //! ```text
 //! angle_deg,radius_mm             # bore 3            x_mm;y_mm;z_mm
@@ -17,11 +17,11 @@ use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
 use crate::table::sheet::{cells, is_blank_row, number, separator_of};
 
-/// Reads the table under the line of names `first`.
+/// Reads the table below the header line `first`.
 ///
 /// # Errors
-/// Every problem of the file, at most 200: columns that make no points, double ones, units that are missing or unknown,
-/// cells that are no numbers, rows of another length, points that no profile has.
+/// All problems of the file, at most 200: columns that give no points, duplicate columns, units that are missing or
+/// unknown, cells that are not numbers, rows of another length, points out of range.
 pub(super) fn read(
     (first, mut lines): (Line, Lines<impl BufRead>),
     requested: &ProfileReadOptions,
@@ -61,29 +61,34 @@ pub(super) fn read(
     }
     Problems::from(problems).into_result()?;
     if measured.points.count() == 0 {
-        return Err(Problem::of_file(path, "no points in this file", COLUMNS_HINT).into());
+        return Err(Problem::of_file(path, "the file has no points", COLUMNS_HINT).into());
     }
     Ok(measured)
 }
 
-/// A line beyond the last that is read.
+/// A problem of the first line beyond the maximum.
 pub(super) fn too_many(path: &str, line: &Line) -> Problem {
     let message = format!("more than {MOST_POINTS} points");
-    line.problem(path, 0..line.text.len(), message, "every tenth or so will do")
+    line.problem(
+        path,
+        0..line.text.len(),
+        message,
+        "keep every tenth point, for example",
+    )
 }
 
-/// What the columns of a file are.
+/// Meaning of the columns of a file.
 struct Table<'a> {
     path: &'a str,
     separator: char,
-    /// `None` is passed over.
+    /// `None` is ignored.
     columns: Vec<Option<Column>>,
     layout: Layout,
     unused: Vec<String>,
 }
 
 impl<'a> Table<'a> {
-    /// From the line of names.
+    /// From the header line.
     fn of(path: &'a str, line: &Line, requested: &ProfileReadOptions) -> Result<Table<'a>, Problems> {
         let whole = 0..line.text.len();
         let separator = separator_of(&line.text);
@@ -93,12 +98,17 @@ impl<'a> Table<'a> {
                 problems.push(line.problem(path, cell.span.clone(), message, &hint));
                 None
             });
-            let held = |before: &Option<Column>| {
+            let is_same = |before: &Option<Column>| {
                 column.is_some_and(|c| before.is_some_and(|b| b.quantity == c.quantity))
             };
-            if columns.iter().any(held) {
-                let message = format!("`{}` tells what a column before it tells", cell.text);
-                problems.push(line.problem(path, cell.span.clone(), message, "keep one of the two"));
+            if columns.iter().any(is_same) {
+                let message = format!("`{}` repeats an earlier column", cell.text);
+                problems.push(line.problem(
+                    path,
+                    cell.span.clone(),
+                    message,
+                    "remove one of the two columns",
+                ));
             }
             if column.is_none() {
                 unused.push(cell.text.to_string());
@@ -106,10 +116,10 @@ impl<'a> Table<'a> {
             columns.push(column);
         }
         if let Some(unit) = requested.unit {
-            let message = format!("the unit {unit} was told, but columns name theirs");
-            problems.push(line.problem(path, whole.clone(), message, "leave the unit out"));
+            let message = format!("the unit {unit} was specified, but the columns state their units");
+            problems.push(line.problem(path, whole.clone(), message, "leave out the unit"));
         }
-        // What is wrong with a name is wrong with what its columns make, too.
+        // A name with a problem also makes the layout wrong.
         Problems::from(problems).into_result()?;
         let quantities: Vec<Quantity> = columns.iter().flatten().map(|c: &Column| c.quantity).collect();
         let layout = Layout::of(&quantities, requested)
@@ -128,13 +138,13 @@ impl<'a> Table<'a> {
         let found = cells(&line.text, self.separator);
         if found.len() != self.columns.len() {
             let message = format!(
-                "{} cells in a table of {} columns",
+                "{} cells, but the table has {} columns",
                 found.len(),
                 self.columns.len()
             );
             let hint = match self.separator {
-                ',' => "decimal commas need `;` or a tab between cells",
-                _ => "every row has a cell for each column",
+                ',' => "separate cells with `;` or a tab to use decimal commas",
+                _ => "every row needs one cell per column",
             };
             return Err(line.problem(self.path, 0..line.text.len(), message, hint).into());
         }
@@ -149,7 +159,7 @@ impl<'a> Table<'a> {
                 Some(number) => *value = (column.quantity, number * column.factor),
                 None => {
                     let message = format!("`{}` is not a number", cell.text);
-                    let hint = "units stand in the column's name; leave out rows that were not measured";
+                    let hint = "give the unit in the column name; remove rows that were not measured";
                     problems.push(line.problem(self.path, cell.span.clone(), message, hint));
                 }
             }
@@ -162,13 +172,8 @@ impl<'a> Table<'a> {
         self.layout.point(value).map_err(|(quantity, message)| {
             let cell = meant.clone().find(|(_, column)| column.quantity == quantity);
             let span = cell.map_or(0..line.text.len(), |(cell, _)| cell.span.clone());
-            line.problem(
-                self.path,
-                span,
-                message,
-                "is the unit in the column's name the one meant?",
-            )
-            .into()
+            line.problem(self.path, span, message, "check the unit in the column name")
+                .into()
         })
     }
 }
@@ -219,7 +224,7 @@ mod tests {
     }
 
     #[test]
-    fn points_in_space_lines_and_columns_without_meaning_are_told() {
+    fn points_in_space_lines_and_unknown_columns_are_returned() {
         let found = read_with("x_mm,y_mm,z_mm,probe\n1,2,3,a\n# b\n4,5,6,c\n", None).unwrap();
         assert_eq!(
             found.points,
@@ -232,35 +237,35 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_is_told_with_its_place() {
+    fn problems_are_reported_with_their_positions() {
         for (text, radius_mm, part) in [
-            ("", None, "no points in this file"),
-            ("x_mm,y_mm\n", None, "no points in this file"),
-            ("a,b\n1,2\n", None, "these columns do not make points"),
-            ("x_mm,radius_mm\n1,2\n", None, "these columns do not make points"),
+            ("", None, "the file has no points"),
+            ("x_mm,y_mm\n", None, "the file has no points"),
+            ("a,b\n1,2\n", None, "these columns do not give points"),
+            ("x_mm,radius_mm\n1,2\n", None, "these columns do not give points"),
             (
                 "x_mm,y_mm,angle_deg,radius_mm\n1,2,3,4\n",
                 None,
-                "these columns do not make points",
+                "these columns do not give points",
             ),
-            ("x,y_mm\n1,2\n", None, "1:1: nothing tells the unit of `x`"),
-            ("x_mm,y_kg\n1,2\n", None, "1:6: `kg` is no unit of `y`"),
+            ("x,y_mm\n1,2\n", None, "1:1: no unit is given for `x`"),
+            ("x_mm,y_kg\n1,2\n", None, "1:6: `kg` is not a unit of `y`"),
             (
                 "angle_mm,radius_mm\n1,2\n",
                 None,
-                "1:1: `mm` is no unit of `angle`",
+                "1:1: `mm` is not a unit of `angle`",
             ),
             (
                 "x_mm,y_mm,X_um\n1,2,3\n",
                 None,
-                "1:11: `X_um` tells what a column before it tells",
+                "1:11: `X_um` repeats an earlier column",
             ),
             (
                 "x_mm,y_mm\n1,2\n3\n",
                 None,
-                "3:1: 1 cells in a table of 2 columns",
+                "3:1: 1 cells, but the table has 2 columns",
             ),
-            ("x_mm,y_mm\n1,5,2,5\n", None, "decimal commas need `;`"),
+            ("x_mm,y_mm\n1,5,2,5\n", None, "separate cells with `;`"),
             ("x_mm,y_mm\n1,two\n", None, "2:3: `two` is not a number"),
             ("x_mm,y_mm\n1,nan\n", None, "2:3: `nan` is not a number"),
             ("x_mm,y_mm\n1,1e300\n", None, "2:3: a coordinate of 1"),
@@ -269,7 +274,7 @@ mod tests {
                 None,
                 "2:3: a radius of -2 mm is not above 0 mm",
             ),
-            ("angle_deg,radius_mm\n1e9,2\n", None, "beyond 1000 turns"),
+            ("angle_deg,radius_mm\n1e9,2\n", None, "exceeds 1000 turns"),
             (
                 "angle_deg,deviation_um\n1,2\n",
                 None,
@@ -288,11 +293,14 @@ mod tests {
             (
                 "x_mm,y_mm\n1,2\n",
                 Some(5.0),
-                "no column holds deviations from it",
+                "no column contains deviations from it",
             ),
         ] {
             let given = read_with(text, radius_mm).unwrap_err();
-            assert!(given.contains(part) && given.contains("help: "), "{text}: {given}");
+            assert!(
+                given.contains(part) && given.contains("help: "),
+                "{text}: {given}"
+            );
         }
         let unit = ProfileReadOptions {
             radius_mm: None,
@@ -302,11 +310,11 @@ mod tests {
         let given = super::super::read("f", "x_mm,y_mm\n1,2\n".as_bytes(), &unit)
             .unwrap_err()
             .to_string();
-        assert!(given.contains("the unit in was told"), "{given}");
+        assert!(given.contains("the unit in was specified"), "{given}");
     }
 
     #[test]
-    fn all_problems_are_told_at_once() {
+    fn all_problems_are_reported_together() {
         let given = read_with("x_mm,y_mm\na,b\n1,2\n3\n4,c\n", None).unwrap_err();
         for place in ["2:1", "2:3", "4:1", "5:3"] {
             assert!(given.contains(&format!("bore.csv:{place}:")), "{given}");

@@ -1,7 +1,7 @@
 //! A robot file with the small motions that a calibration found in its chain.
 //!
-//! They stand right behind the joint that they follow, marked `calibrated`; all else stays as it is. The source of the chain
-//! becomes one that tells both: where the nominal lengths are from, and where the small motions are.
+//! They are directly behind the joint that they follow, marked `calibrated`; all else is unchanged. The source of the
+//! chain becomes one that names both: the source of the nominal lengths and the source of the small motions.
 
 use armill_core::robot::{Amount, Axis, Motion};
 use toml_edit::{Array, DocumentMut, InlineTable, Item, Value, value};
@@ -27,7 +27,7 @@ const PLACES: usize = 8;
 
 /// The robot file `text` (at `path`) with these small motions in its chain.
 ///
-/// The file that comes out has been read once more, so that it is one that `read` takes.
+/// The resulting file has been read once more, so that `read` accepts it.
 ///
 /// # Errors
 /// A text that is not TOML, or no robot file once the motions are in it.
@@ -70,7 +70,7 @@ fn nominal_source(document: &DocumentMut) -> Option<String> {
     let source = document.get("sources")?.get(key)?;
     let given = |field| source.get(field).and_then(Item::as_str);
     match key {
-        // Calibrated once more: what was reported then tells the nominal lengths too.
+        // Calibrated again: the previous source names the nominal lengths too.
         KEY => given("what").map(str::to_owned),
         _ => Some(format!(
             "lengths and angles: {} ({})",
@@ -142,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn small_motions_stand_behind_their_joint_and_the_source_tells_both() {
+    fn small_motions_are_behind_their_joint_and_the_source_names_both() {
         let text = with_geometry("lever.toml", FILE, &geometry()).unwrap();
         assert!(text.contains("# arm"), "{text}");
         let read = super::super::read("lever.toml", "lever", &text).unwrap();
@@ -163,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn a_list_of_tables_is_taken_too_and_a_second_calibration_keeps_the_first_source() {
+    fn accepts_a_list_of_tables_and_a_second_calibration_keeps_the_first_source() {
         let tables = FILE.replace(
             "motions = [\n  { about = \"z\", joint = \"A\" },\n  { along = \"x\", length_mm = 300 }, # arm\n  { about = \"y\", joint = \"B\" },\n]\n",
             "[[chain.motions]]\nabout = \"z\"\njoint = \"A\"\n[[chain.motions]]\nabout = \"y\"\njoint = \"B\"\n",
@@ -180,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_robot_file_is_refused() {
+    fn refuses_files_that_are_not_robot_files() {
         for text in ["format = ", "format = 1\nname = \"x\"\n"] {
             assert!(with_geometry("lever.toml", text, &geometry()).is_err());
         }

@@ -1,12 +1,12 @@
 //! What no schema can say of a robot file, and its numbers in SI.
 //!
-//! Each part of the file becomes its part of the robot; what is wrong goes into the problems, and the part is then as
-//! if it had not been told, so that the rest is still looked at. Nothing is used of a file with problems. That every
+//! Each part of the file becomes its part of the robot; what is wrong is added to the problems, and the part is then
+//! treated as not given, so that the rest is still checked. Nothing is used of a file with problems. That every
 //! source is named and known is checked for all parts at once, by [`sources`](crate::sources).
 //!
 //! - The chain names every joint once, in the order of `[[joint]]`; names differ.
 //! - A motion is `along` or `about` an axis, by exactly one of length, angle and joint.
-//! - What turns is reported in degrees, what slides in mm; a coupling names an earlier joint.
+//! - Rotations are given in degrees, translations in mm; a coupling names an earlier joint.
 //! - All joints have a compliance, or none has: one left out is not taken for rigid. A compliance has a source.
 //!
 //! In SI: m, rad, rad/(N m), m/N; speeds in m/s and rad/s.
@@ -34,8 +34,8 @@ impl Checks<'_> {
 
     /// The chain, base to flange; every joint moves once, in the order of the tables.
     ///
-    /// That a joint never moves is reported only where nothing else is wrong: a motion that was refused may have been its
-    /// own.
+    /// That a joint never moves is reported only where nothing else is wrong: a motion that was refused may have been
+    /// its own.
     pub(super) fn motions(&mut self, file: &RobotFile) -> Vec<Motion> {
         let mut motions = Vec::new();
         let mut used = 0;
@@ -81,7 +81,7 @@ impl Checks<'_> {
                 let hint = "`along` takes `length_mm` or `joint`, `about` takes `angle_deg` or `joint`";
                 self.problem(
                     path,
-                    "an elementary motion goes by exactly one of length, angle and joint",
+                    "an elementary motion has exactly one of length, angle and joint",
                     hint,
                 );
                 return None;
@@ -103,7 +103,7 @@ impl Checks<'_> {
             return Some(*used - 1);
         }
         let message = match expected {
-            Some(expected) => format!("joint `{name}` stands where `{expected}` comes next"),
+            Some(expected) => format!("joint `{name}` is where `{expected}` is expected"),
             None => format!("joint `{name}` has no table [[joint]] of its own"),
         };
         self.problem(
@@ -114,9 +114,9 @@ impl Checks<'_> {
         None
     }
 
-    /// The joints as their controller counts them.
+    /// The joints as the controller shows their positions.
     ///
-    /// Always as many as there are tables, so that indices stay right: a joint whose part is wrong stands there without
+    /// Always as many as there are tables, so that indices stay right: a joint whose part is wrong is kept without
     /// it.
     pub(super) fn joints(&mut self, file: &RobotFile) -> Vec<Joint> {
         if file.joint.is_empty() {
@@ -178,7 +178,7 @@ impl Checks<'_> {
         let Some(slides) = motion.map(|motion| motion.along.is_some()) else {
             return;
         };
-        // In degrees beside in millimetres, for each quantity.
+        // In degrees or in millimetres, for each quantity.
         let quantities = [
             [
                 ("zero_offset_deg", entry.zero_offset_deg.is_some()),
@@ -242,8 +242,8 @@ impl Checks<'_> {
                     factor: c.factor,
                 }),
                 None => {
-                    let message = format!("joint {}: `{}` is no earlier joint", entry.name, c.joint);
-                    let hint = "only an earlier joint can add to a joint's count";
+                    let message = format!("joint {}: `{}` is not an earlier joint", entry.name, c.joint);
+                    let hint = "only an earlier joint can add to a joint's position";
                     self.problem(&format!("{path}.coupling[{index}].joint"), message, hint);
                 }
             }
@@ -280,9 +280,9 @@ impl Checks<'_> {
         })
     }
 
-    /// The compliance of every joint's drive, or `None` where the file tells none at all.
+    /// The compliance of every joint's drive, or `None` where the file gives none at all.
     ///
-    /// rad/(N m), or m/N for a joint that slides. Standard uncertainties that are not told are zero. `None` also where
+    /// rad/(N m), or m/N for a prismatic joint. Standard uncertainties that are not given are zero. `None` also where
     /// some joints have one and others have none, which is a problem of its own.
     pub(super) fn compliance(&mut self, file: &RobotFile) -> Option<Vec<JointCompliance>> {
         let mut known = Vec::new();

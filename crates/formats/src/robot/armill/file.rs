@@ -1,4 +1,4 @@
-//! The robot file unchanged: its tables and keys.
+//! The robot file as written: its tables and keys.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -14,40 +14,40 @@ pub(super) struct RobotFile {
     #[schemars(range(min = 1, max = 1))]
     #[serde(rename = "format")]
     pub _format: u32,
-    /// Maker and type, for people.
+    /// Manufacturer and type.
     pub name: String,
-    /// What a user should know before trusting the numbers.
+    /// Note on the reliability of the numbers.
     pub note: Option<String>,
-    /// Branch that represents the robot where none is requested, such as `front elbow-up`.
+    /// Default branch of the robot, such as `front elbow-up`.
     pub nominal_branch: Option<String>,
     /// Elementary motions from base to flange.
     pub chain: ChainTable,
     /// Joints, in the order of the chain.
     #[schemars(length(max = 64))]
     pub joint: Vec<JointEntry>,
-    /// Frames that positions may be counted from, beside base_link.
+    /// Frames that positions may be relative to, other than base_link.
     #[schemars(length(max = 1000))]
     #[serde(default)]
     pub frame: Vec<FrameEntry>,
-    /// What yields beside the drives.
+    /// Springs in addition to the drives.
     #[schemars(length(max = 1000))]
     #[serde(default)]
     pub spring: Vec<SpringTable>,
-    /// What gravity pulls on.
+    /// Masses of the arm.
     #[schemars(length(max = 1000))]
     #[serde(default)]
     pub mass: Vec<MassTable>,
-    /// The spring that contains a joint against gravity.
+    /// Spring that compensates gravity at a joint.
     pub compensator: Option<CompensatorTable>,
     /// Covariance of compliances that were identified together.
     pub covariance: Option<CovarianceTable>,
-    /// How much the arm scatters from time to time.
+    /// Pose repeatability of the arm.
     pub repeatability: Option<RepeatabilityTable>,
-    /// How much of what it predicts the model misses.
+    /// Standard uncertainty of the model itself.
     pub model_error: Option<ModelErrorTable>,
     /// Greatest load at the flange.
     pub payload: Option<PayloadTable>,
-    /// Where the numbers come from, by key.
+    /// Sources of the numbers, by key.
     pub sources: SourceTable,
 }
 
@@ -68,43 +68,43 @@ pub(super) struct ChainTable {
 pub(super) struct MotionEntry {
     /// Translation along this axis.
     pub along: Option<AxisName>,
-    /// Rotation about this axis, by the right hand.
+    /// Rotation about this axis, right-hand rule.
     pub about: Option<AxisName>,
-    /// How far along.
+    /// Length of the translation.
     #[schemars(range(min = -1e6, max = 1e6))]
     pub length_mm: Option<f64>,
-    /// How far about.
+    /// Angle of the rotation.
     #[schemars(range(min = -360.0, max = 360.0))]
     pub angle_deg: Option<f64>,
     /// Name of the joint that makes the motion.
     pub joint: Option<String>,
-    /// Symbol in the source, for people.
+    /// Symbol in the source, as a note.
     pub symbol: Option<String>,
 }
 
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct JointEntry {
-    /// The maker's name.
+    /// Name of the joint, as the manufacturer writes it.
     pub name: String,
-    /// 1 if the controller counts by the right hand about the chain's axis, -1 if against it.
+    /// 1 if the controller's positive direction follows the right-hand rule about the chain's axis, else -1.
     #[schemars(range(min = -1, max = 1))]
     pub sign: i8,
     /// Chain angle at the controller's zero.
     pub zero_offset_deg: Option<f64>,
-    /// Chain position at the controller's zero, sliding joints.
+    /// Chain position at the controller's zero, prismatic joints.
     pub zero_offset_mm: Option<f64>,
-    /// Earlier joints that add to this one's count.
+    /// Earlier joints whose positions add to that of this joint.
     #[serde(default)]
     pub coupling: Vec<CouplingEntry>,
-    /// Lower and upper limit in the controller's counting.
+    /// Lower and upper limit, as the controller shows positions.
     pub limits_deg: Option<[f64; 2]>,
-    /// Lower and upper limit, sliding joints.
+    /// Lower and upper limit, prismatic joints.
     pub limits_mm: Option<[f64; 2]>,
     /// Greatest speed.
     #[schemars(range(min = 0.0))]
     pub max_speed_deg_per_s: Option<f64>,
-    /// Greatest speed, sliding joints.
+    /// Greatest speed, prismatic joints.
     #[schemars(range(min = 0.0))]
     pub max_speed_mm_per_s: Option<f64>,
     /// Key of the source of sign, zero, limits and speed.
@@ -115,44 +115,44 @@ pub(super) struct JointEntry {
     /// Standard uncertainty of the compliance.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub compliance_u_rad_per_n_m: Option<f64>,
-    /// Compliance along the axis, sliding joints.
+    /// Compliance along the axis, prismatic joints.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub compliance_um_per_n: Option<f64>,
-    /// Standard uncertainty of the compliance, sliding joints.
+    /// Standard uncertainty of the compliance, prismatic joints.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub compliance_u_um_per_n: Option<f64>,
     /// Torque and angle, pair by pair, in place of one compliance; where the load raises the torque.
     #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
     pub torque_curve_n_m_rad: Option<Vec<[f64; 2]>>,
-    /// The same where the load lowers the torque; the other one holds both ways if this is left out.
+    /// The same where the load lowers the torque; if left out, the other curve is used for both.
     #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
     pub torque_curve_falling_n_m_rad: Option<Vec<[f64; 2]>>,
     /// Key of the source of the compliance.
     pub compliance_source: Option<String>,
     /// Key of the source of its standard uncertainty; that of the compliance if left out.
     pub compliance_u_source: Option<String>,
-    /// Backlash: the whole gap between motor and link.
+    /// Backlash: the total backlash between motor and link.
     #[schemars(range(min = 0.0, max = 5.0))]
     pub backlash_deg: Option<f64>,
     /// Standard uncertainty of the backlash.
     #[schemars(range(min = 0.0, max = 5.0))]
     pub backlash_u_deg: Option<f64>,
-    /// Backlash, sliding joints.
+    /// Backlash, prismatic joints.
     #[schemars(range(min = 0.0, max = 100.0))]
     pub backlash_mm: Option<f64>,
-    /// Standard uncertainty of the backlash, sliding joints.
+    /// Standard uncertainty of the backlash, prismatic joints.
     #[schemars(range(min = 0.0, max = 100.0))]
     pub backlash_u_mm: Option<f64>,
-    /// What decides on which flank the link lies; `motion` if left out.
+    /// What decides on which side of the backlash the link is; `motion` if left out.
     pub backlash_side: Option<BacklashSideName>,
     /// Key of the source of the backlash.
     pub backlash_source: Option<String>,
-    /// Limits by other sources; told to the user, never enforced.
+    /// Limits by other sources; reported, never enforced.
     #[serde(default)]
     pub other_limits: Vec<OtherLimitsEntry>,
 }
 
-/// What decides on which flank of its gap a link lies.
+/// What decides on which side of its backlash a link is.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum BacklashSideName {
@@ -169,7 +169,7 @@ impl JointEntry {
         self.compliance_rad_per_n_m.or(sliding)
     }
 
-    /// Its standard uncertainty, same unit; zero where none is reported.
+    /// Its standard uncertainty, same unit; zero where none is given.
     pub(super) fn compliance_uncertainty(&self) -> f64 {
         let sliding = self.compliance_u_um_per_n.map(|um| um * 1e-6);
         self.compliance_u_rad_per_n_m.or(sliding).unwrap_or(0.0)
@@ -190,7 +190,7 @@ impl JointEntry {
 pub(super) struct CouplingEntry {
     /// Name of the earlier joint.
     pub joint: String,
-    /// What part of its position adds to this joint's count.
+    /// Factor of its position in that of this joint.
     pub factor: f64,
 }
 
@@ -201,7 +201,7 @@ pub(super) struct OtherLimitsEntry {
     pub limits_deg: [f64; 2],
     /// Key of the source.
     pub source: String,
-    /// What to make of it.
+    /// Remark on the difference.
     pub note: Option<String>,
 }
 
@@ -213,24 +213,24 @@ pub(super) struct FrameEntry {
     /// Its origin in base_link.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub origin_mm: [f64; 3],
-    /// Turn about the fixed axes x, y, z of base_link.
+    /// Rotation about the fixed axes x, y, z of base_link.
     #[serde(default)]
     pub rotation_deg: [f64; 3],
     /// Key of the source.
     #[serde(rename = "source")]
     pub _source: String,
-    /// What it is.
+    /// Its description.
     #[serde(rename = "note")]
     pub _note: Option<String>,
 }
 
-/// A spring between a point that stands still and a point of the arm.
+/// A spring between a fixed point and a point of the arm.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CompensatorTable {
-    /// Name of the joint that it holds.
+    /// Name of the joint that it supports.
     pub joint: String,
-    /// From the joint's axis to the point that stands still (a).
+    /// From the joint's axis to the fixed point (a).
     #[schemars(range(min = 1.0, max = 1e6))]
     pub fixed_radius_mm: f64,
     /// From the joint's axis to the point of the arm (L).
@@ -242,7 +242,7 @@ pub(super) struct CompensatorTable {
     /// Stiffness of the spring.
     #[schemars(range(min = 0.0, max = 1e9))]
     pub stiffness_n_per_mm: f64,
-    /// Chain position of the joint, sign turned, where the spring is longest (alpha).
+    /// Chain position of the joint, sign reversed, where the spring is longest (alpha).
     #[schemars(range(min = -360.0, max = 360.0))]
     pub angle_deg: f64,
     /// Key of the source.
@@ -254,9 +254,9 @@ pub(super) struct CompensatorTable {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CovarianceTable {
-    /// Which: joints, and springs as `A2 about x`.
+    /// Names of the compliances: joints, and springs as `A2 about x`.
     pub of: Vec<String>,
-    /// Row by row, in that order.
+    /// The matrix row by row, in the order of `of`.
     #[schemars(inner(inner(range(min = -1.0, max = 1.0))))]
     pub matrix_rad2_per_n2_m2: Vec<Vec<f64>>,
     /// Key of the source.
@@ -267,7 +267,7 @@ pub(super) struct CovarianceTable {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RepeatabilityTable {
-    /// Pose repeatability RP of ISO 9283, as data sheets tell it after a plus-minus.
+    /// Pose repeatability RP of ISO 9283, as data sheets state it after a plus-minus.
     #[schemars(range(min = 0.0, max = 30.0))]
     pub pose_mm: f64,
     /// Key of the source.
@@ -278,7 +278,8 @@ pub(super) struct RepeatabilityTable {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ModelErrorTable {
-    /// Standard uncertainty of a predicted deviation beside that of the compliances: what tests that were left out miss by.
+    /// Standard uncertainty of a predicted deviation in addition to that of the compliances: the error at validation
+    /// tests.
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub percent: f64,
     /// Key of the source.

@@ -1,7 +1,7 @@
 //! A robot file with compliances that were identified in place of its own.
 //!
-//! Everything else stays as it is: order, remarks, spelling. Springs, covariance and model error of the file go, since they
-//! belong to the compliances that are replaced; sources that no number names any more go with them.
+//! Everything else stays as it is: order, remarks, spelling. Springs, covariance and model error of the file go, since
+//! they belong to the compliances that are replaced; sources that no number names any more go with them.
 
 use std::collections::BTreeSet;
 
@@ -32,7 +32,7 @@ pub struct Identified {
 pub struct IdentifiedSpring {
     /// `base`, a joint's name, or `flange`.
     pub at: String,
-    /// How it yields there.
+    /// Its direction.
     pub kind: SpringKind,
     /// rad/(N m), or m/N where it slides.
     pub compliance: f64,
@@ -47,24 +47,24 @@ impl IdentifiedSpring {
     }
 }
 
-/// Key of the source of identified numbers, in `[sources]` and wherever they stand.
+/// Key of the source of identified numbers, in `[sources]` and in the tables.
 const KEY: &str = "identified";
-/// Model errors of more are not told apart.
+/// Larger model errors are not distinguished.
 const MOST_PERCENT: f64 = 1000.0;
-/// What is said after a note of the file that was there before.
-const BEFORE_TESTS: &str = "This was said before its compliances were identified from load tests.";
+/// Heading of the note of the file that was there before.
+const BEFORE_TESTS: &str = "Written before its compliances were identified from load tests.";
 /// Digits kept of a compliance: far more than any test gives.
 const DIGITS: usize = 7;
 
 /// The robot file `text` (at `path`) with these compliances in place of its own.
 ///
 /// A drive goes into the table of its joint and takes the place of a torque curve as well; a drive that is not among
-/// `identified` keeps what the file has. All other springs become tables `[[spring]]`. The file that comes out has been
+/// `identified` keeps what the file has. All other springs become tables `[[spring]]`. The resulting file has been
 /// read once more, so that it is one that `read` takes.
 ///
 /// # Errors
 /// A text that is not TOML; what no robot file may say once the compliances are in it, as when some joints have one
-/// and others have none: such problems are at their place in the new text, told as that of `path (identified)`.
+/// and others have none: such problems are at their place in the new text, reported as those of `path (identified)`.
 pub fn with_springs(path: &str, text: &str, identified: &Identified) -> Result<String, Problems> {
     let Identified {
         springs,
@@ -94,7 +94,7 @@ pub fn with_springs(path: &str, text: &str, identified: &Identified) -> Result<S
     }
     let mut others = ArrayOfTables::new();
     for spring in springs {
-        match spring.yields {
+        match spring.kind {
             SpringKind::About(axis) => others.push(spring_table(spring, "about", axis)),
             SpringKind::Along(axis) => others.push(spring_table(spring, "along", axis)),
             SpringKind::Drive | SpringKind::PrismaticDrive => {}
@@ -231,6 +231,58 @@ fn number(of: f64) -> Value {
     text.parse().unwrap_or_else(|_| Value::from(of))
 }
 
+/// [`with_springs`] for compliances given by a user: their source is `given`, with `what` in the words of the user.
+///
+/// # Errors
+/// As [`with_springs`].
+pub fn with_given_springs(
+    path: &str,
+    text: &str,
+    springs: Vec<IdentifiedSpring>,
+    what: &str,
+) -> Result<String, Problems> {
+    let identified = Identified {
+        springs,
+        covariance: Vec::new(),
+        model_error: None,
+        what: what.to_owned(),
+        place: NOT_STATED.to_owned(),
+    };
+    let written = with_springs(path, text, &identified)?;
+    let checked = Document::parse(path, &written)?;
+    let mut document: DocumentMut = written
+        .parse()
+        .map_err(|error: toml_edit::TomlError| Problems::from(checked.problem("", error.message(), None)))?;
+    let note = document.get("note").and_then(Item::as_str);
+    let before = note.and_then(|note| note.strip_suffix(BEFORE_TESTS));
+    if let Some(before) = before.map(|before| before.trim_end().to_owned()) {
+        document.insert("note", value(before));
+    }
+    if let Some(joints) = document.get_mut("joint").and_then(Item::as_array_of_tables_mut) {
+        for joint in joints.iter_mut() {
+            if joint.get("compliance_source").and_then(Item::as_str) == Some(KEY) {
+                joint.insert("compliance_source", value(GIVEN_KEY));
+            }
+        }
+    }
+    if let Some(sources) = document.get_mut("sources").and_then(Item::as_table_like_mut)
+        && let Some(mut entry) = sources.remove(KEY)
+    {
+        if let Some(entry) = entry.as_table_like_mut() {
+            entry.insert("licence", value(NOT_STATED));
+        }
+        sources.insert(GIVEN_KEY, entry);
+    }
+    let text = document.to_string();
+    super::read(&format!("{path} (given)"), "", &text)?;
+    Ok(text)
+}
+
+/// Key of the source of compliances given by a user.
+const GIVEN_KEY: &str = "given";
+/// Place and licence of such a source.
+const NOT_STATED: &str = "not stated";
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -290,7 +342,7 @@ mod tests {
     }
 
     #[test]
-    fn a_model_error_replaces_the_one_before_and_goes_where_none_is_known() {
+    fn a_model_error_replaces_the_previous_one_and_is_removed_where_none_is_known() {
         let drives = [
             spring("A", SpringKind::Drive, 2.5e-6),
             spring("B", SpringKind::PrismaticDrive, 3e-8),
@@ -339,7 +391,7 @@ mod tests {
     }
 
     #[test]
-    fn other_springs_stand_in_tables_of_their_own_with_their_covariance() {
+    fn other_springs_are_in_separate_tables_with_their_covariance() {
         let springs = [
             spring("A", SpringKind::Drive, 2.5e-6),
             spring("A", SpringKind::About(Axis::X), 1e-7),
@@ -376,7 +428,7 @@ mod tests {
     }
 
     #[test]
-    fn a_torque_curve_goes_with_the_compliance_that_it_stood_for() {
+    fn a_torque_curve_is_removed_with_the_compliance_that_it_replaced() {
         let curves = "torque_curve_n_m_rad = [[0, 0], [10, 1e-5]]\ntorque_curve_falling_n_m_rad = [[0, 0], [10, 2e-5]]";
         let curved = FILE.replace("compliance_rad_per_n_m = 1e-3", curves);
         let springs = [spring("A", SpringKind::Drive, 2.5e-6)];
@@ -410,7 +462,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_reader_would_refuse_is_refused() {
+    fn refuses_what_the_reader_would_refuse() {
         let bare = FILE
             .replace(
                 "compliance_rad_per_n_m = 1e-3\ncompliance_source = \"guess\"\n",

@@ -1,7 +1,8 @@
 //! armill's own robot file, format 1: TOML, the chain as ordered elementary motions, a source for every number.
 //!
-//! Lengths in mm, angles in degrees, compliances in rad/(N m); a sliding joint uses mm and um/N instead. What yields
-//! and weighs beside the drives (springs, masses, compensator, torque curves, covariance) is read by `structure`.
+//! Lengths in mm, angles in degrees, compliances in rad/(N m); a prismatic joint uses mm and um/N instead. What
+//! deflects and has mass in addition to the drives (springs, masses, compensator, torque curves, covariance) is read by
+//! `structure`.
 //!
 //! In reading order: `file` (the file unchanged), `checks` (what no schema can say, and SI), `structure`; `write` (a
 //! robot of another format as such a file), `identified` (such a file with compliances that were identified),
@@ -38,7 +39,7 @@ use crate::document::{Document, Problems};
 use crate::sources;
 
 pub use self::calibrated::{Geometry, with_geometry};
-pub use self::identified::{Identified, IdentifiedSpring, with_springs};
+pub use self::identified::{Identified, IdentifiedSpring, with_given_springs, with_springs};
 
 /// The robot of this file; `path` is what errors show, `id` the robot's name in results.
 ///
@@ -102,7 +103,7 @@ fn named_frame(entry: &FrameEntry) -> NamedFrame {
     }
 }
 
-/// What a joint's table says beside numbers; its uncertainty has the source of its compliance where it names none.
+/// What a joint's table says apart from numbers; its uncertainty has the source of its compliance where it names none.
 fn joint_note(entry: JointEntry) -> JointNote {
     JointNote {
         source: Some(entry.source),

@@ -1,17 +1,17 @@
-//! What a robot file says of an arm beside its drives: springs, masses, compensator, torque curves, covariance, backlash,
-//! repeatability, model error.
+//! What a robot file specifies of an arm in addition to its drives: springs, masses, compensator, torque curves,
+//! covariance, backlash, repeatability, model error.
 //!
-//! Compliances are counted as the core counts them: the drives in the order of the joints, then the springs in the
-//! order of their tables, of which one with a whole matrix makes up to six. A covariance names those it is of; all
+//! Compliances have the order of the core: the drives in the order of the joints, then the springs in the
+//! order of their tables, of which one with a whole matrix gives up to six. A covariance names its compliances; all
 //! others stay independent, with their own standard uncertainty.
 
 use armill_core::nalgebra::DMatrix;
-use armill_core::robot::{Backlash, Compensator, BacklashSide, JointCurve, Structure, TorqueCurve};
+use armill_core::robot::{Backlash, BacklashSide, Compensator, JointCurve, Structure, TorqueCurve};
 use armill_core::source::repeatability;
 
 use super::checks::Checks;
-use super::file::{CovarianceTable, BacklashSideName, JointEntry, RobotFile};
-use crate::robot::spring_tables::Fault;
+use super::file::{BacklashSideName, CovarianceTable, JointEntry, RobotFile};
+use crate::robot::spring_tables::SpringTableError;
 
 impl Checks<'_> {
     /// The structure of the arm; what is wrong goes into the problems.
@@ -56,14 +56,14 @@ impl Checks<'_> {
     }
 
     /// Keeps what is wrong with a spring or mass that is at `table`.
-    fn fault(&mut self, table: &str, fault: &Fault) {
+    fn fault(&mut self, table: &str, fault: &SpringTableError) {
         self.problem(&fault.path_in(table), &fault.message, &fault.hint);
     }
 
-    /// Angle over torque (rad, N m) of a joint, if the file tells it.
+    /// Angle over torque (rad, N m) of a joint, if the file gives it.
     ///
-    /// A curve alone holds while the load raises the torque and while it lowers it; with a second one the two make a
-    /// loop.
+    /// A single curve is valid while the load raises the torque and while it lowers it; with a second one the two make
+    /// a loop.
     fn curve(&mut self, file: &RobotFile, joint: usize) -> Option<JointCurve> {
         let entry = &file.joint[joint];
         let falling = "torque_curve_falling_n_m_rad";
@@ -90,7 +90,7 @@ impl Checks<'_> {
         })
     }
 
-    /// Backlash of a joint, rad or m, if the file tells it.
+    /// Backlash of a joint, rad or m, if the file gives it.
     fn backlash(&mut self, file: &RobotFile, joint: usize) -> Option<Backlash> {
         let entry = &file.joint[joint];
         let path = format!("joint[{joint}]");
@@ -98,10 +98,10 @@ impl Checks<'_> {
         let Some([gap, standard_uncertainty]) = entry.backlash() else {
             if uncertainty.is_some() || entry.backlash_side.is_some() || entry.backlash_source.is_some() {
                 let message = format!(
-                    "joint {}: something is said of a backlash that is not there",
+                    "joint {}: backlash details are given without a backlash",
                     entry.name
                 );
-                self.problem(&path, message, "add backlash_deg = 0.01, the whole gap");
+                self.problem(&path, message, "add backlash_deg = 0.01, the total backlash");
             }
             return None;
         };
@@ -125,7 +125,7 @@ impl Checks<'_> {
     fn compensator(&mut self, file: &RobotFile, joints: &[&str]) -> Option<Compensator> {
         let table = file.compensator.as_ref()?;
         let Some(joint) = joints.iter().position(|name| *name == table.joint) else {
-            let message = format!("`{}` is no joint of the arm", table.joint);
+            let message = format!("`{}` is not a joint of the arm", table.joint);
             self.problem(
                 "compensator.joint",
                 message,
@@ -135,7 +135,7 @@ impl Checks<'_> {
         };
         if (table.fixed_radius_mm - table.arm_radius_mm).abs() < 1.0 {
             let message = format!(
-                "the radii {} mm and {} mm of the compensator differ by less than 1 mm: its spring could shrink to nothing",
+                "the radii {} mm and {} mm of the compensator differ by less than 1 mm: its spring could reach length zero",
                 table.fixed_radius_mm, table.arm_radius_mm
             );
             self.problem(
@@ -183,18 +183,18 @@ impl Checks<'_> {
             let known = names.iter().position(|known| known.as_ref() == Some(name));
             match known {
                 Some(place) if !places.contains(&place) => places.push(place),
-                Some(_) => self.problem(&path, format!("`{name}` stands here twice"), "name each once"),
+                Some(_) => self.problem(&path, format!("`{name}` is given twice"), "name each once"),
                 None => {
                     let known: Vec<&str> = names.iter().flatten().map(String::as_str).collect();
                     let hint = format!("a joint, or a spring as `A2 about x`: {}", known.join(", "));
-                    self.problem(&path, format!("`{name}` is no compliance of this file"), &hint);
+                    self.problem(&path, format!("`{name}` is not a compliance of this file"), &hint);
                 }
             }
             if name.contains(" along ") || slides(file, name) {
-                let hint = "the matrix has one unit: give those that slide their own uncertainty";
+                let hint = "the matrix has one unit: give prismatic joints and springs along an axis their own uncertainty";
                 self.problem(
                     &path,
-                    format!("`{name}` slides: only what turns has this unit"),
+                    format!("`{name}` is a translation: the matrix is valid for rotations only"),
                     hint,
                 );
             }

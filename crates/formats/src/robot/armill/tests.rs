@@ -63,7 +63,7 @@ fn every_problem_is_reported_at_once_with_its_place() {
     for part in [
         "lever.toml:16:",
         "lower limit 120 deg is not below upper limit -100 deg",
-        "joint `C` stands where `B` comes next",
+        "joint `C` is where `B` is expected",
         "source `hearsay` is not among the sources",
     ] {
         assert!(text.contains(part), "no `{part}` in:\n{text}");
@@ -154,7 +154,7 @@ fn two_joints_of_one_name_are_refused() {
     assert!(text.contains("another joint is called `A`"), "{text}");
 }
 
-/// What yields and weighs beside the drives of the sample.
+/// Springs and masses of the sample in addition to the drives.
 const STRUCTURE: &str = r#"
 [[spring]]
 at = "A"
@@ -201,13 +201,17 @@ fn springs_masses_compensator_and_covariance_arrive_in_si() {
     use armill_core::robot::Attachment;
     let robot = structured("", "").unwrap().robot;
     let s = robot.structure();
-    // One about, one along, and the four directions in which the matrix yields.
+    // One about, one along, and the four directions in which the matrix is compliant.
     assert_eq!(s.springs.len(), 6);
     assert_eq!(s.springs[0].attachment, Attachment::Joint(0));
     assert_eq!(s.springs[0].direction.angular, Vector3::x());
     assert_eq!(s.springs[0].compliance.standard_uncertainty, 1e-8);
     assert_eq!(s.springs[1].compliance.value, 0.02 * 1e-6);
-    assert!(s.springs[2..].iter().all(|spring| spring.attachment == Attachment::Base));
+    assert!(
+        s.springs[2..]
+            .iter()
+            .all(|spring| spring.attachment == Attachment::Base)
+    );
     assert_eq!(s.masses[0].mass, 12.5);
     assert!((s.masses[0].centre.z + 0.05).abs() < 1e-17);
     let compensator = s.compensator.unwrap();
@@ -223,7 +227,7 @@ fn springs_masses_compensator_and_covariance_arrive_in_si() {
 }
 
 #[test]
-fn a_torque_curve_stands_in_place_of_a_compliance() {
+fn a_torque_curve_replaces_a_compliance() {
     let curve = "torque_curve_n_m_rad = [[-100, -2e-4], [100, 2e-4], [300, 3e-4]]";
     let text = SMALL.replace("compliance_rad_per_n_m = 2e-6", curve);
     let robot = read("lever.toml", "lever", &text).unwrap().robot;
@@ -231,7 +235,7 @@ fn a_torque_curve_stands_in_place_of_a_compliance() {
     assert_eq!(robot.structure().curve(0).unwrap().rising.points().len(), 3);
     assert!(robot.structure().curve(1).is_none());
     for (wrong, said) in [
-        ("torque_curve_n_m_rad = [[0, 0]]", "two make a line"),
+        ("torque_curve_n_m_rad = [[0, 0]]", "at least 2 are needed"),
         ("torque_curve_n_m_rad = [[0, 0], [10, -1e-5]]", "does not rise"),
         (
             "torque_curve_falling_n_m_rad = [[0, 0], [10, 1e-5]]",
@@ -269,9 +273,13 @@ fn backlash_is_read_in_the_unit_of_its_joint_and_needs_a_source() {
         read("lever.toml", "lever", &text)
     };
     let sourced = |backlash: &str| format!("{backlash}\nbacklash_source = \"made-up\"");
-    let of_a = sourced("backlash_deg = 0.018\nbacklash_u_deg = 0.0018\nbacklash_flank = \"torque\"");
+    let of_a = sourced("backlash_deg = 0.018\nbacklash_u_deg = 0.0018\nbacklash_side = \"torque\"");
     let robot = with(&of_a, &sourced("backlash_mm = 0.05")).unwrap().robot;
-    let gaps: Vec<_> = robot.structure().gaps().map(|(_, backlash)| *backlash).collect();
+    let gaps: Vec<_> = robot
+        .structure()
+        .joints_with_backlash()
+        .map(|(_, backlash)| *backlash)
+        .collect();
     assert_eq!(gaps[0].side, armill_core::robot::BacklashSide::Torque);
     assert_eq!(gaps[1].side, armill_core::robot::BacklashSide::Motion);
     let given = [
@@ -291,7 +299,7 @@ fn backlash_is_read_in_the_unit_of_its_joint_and_needs_a_source() {
             .unwrap()
             .robot
             .structure()
-            .gaps()
+            .joints_with_backlash()
             .next()
             .is_none()
     );
@@ -310,11 +318,15 @@ fn backlash_is_read_in_the_unit_of_its_joint_and_needs_a_source() {
         ("backlash_u_deg = 0.01", "", "a backlash that is not there"),
         (&sourced("backlash_deg = -0.01")[..], "", "-0.01"),
         (
-            &sourced("backlash_deg = 0.01\nbacklash_flank = \"gravity\"")[..],
+            &sourced("backlash_deg = 0.01\nbacklash_side = \"gravity\"")[..],
             "",
             "gravity",
         ),
-        ("backlash_deg = 0.01\nbacklash_source = \"nobody\"", "", "nobody"),
+        (
+            "backlash_deg = 0.01\nbacklash_source = \"missing\"",
+            "",
+            "missing",
+        ),
     ] {
         let problems = with(of_a, of_b).unwrap_err().to_string();
         assert!(problems.contains(said), "no `{said}` in:\n{problems}");
@@ -327,7 +339,7 @@ fn a_wrong_structure_is_refused_with_place_and_hint() {
         (
             "at = \"A\"\nabout",
             "at = \"C\"\nabout",
-            "`C` is no part of the arm",
+            "`C` is not a part of the arm",
         ),
         (
             "about = \"x\"\n",
@@ -351,7 +363,7 @@ fn a_wrong_structure_is_refused_with_place_and_hint() {
         (
             "joint = \"A\"\nfixed",
             "joint = \"Z\"\nfixed",
-            "`Z` is no joint of the arm",
+            "`Z` is not a joint of the arm",
         ),
         (
             "arm_radius_mm = 185",
@@ -361,12 +373,12 @@ fn a_wrong_structure_is_refused_with_place_and_hint() {
         (
             "of = [\"A about x\", \"A\"]",
             "of = [\"A about x\", \"A about z\"]",
-            "`A about z` is no compliance",
+            "`A about z` is not a compliance",
         ),
         (
             "of = [\"A about x\", \"A\"]",
             "of = [\"A\", \"A\"]",
-            "stands here twice",
+            "is given twice",
         ),
         ("of = [\"A about x\", \"A\"]", "of = [\"B\", \"A\"]", "`B` slides"),
         (

@@ -82,7 +82,7 @@ fn head(text: &mut String, found: &RobotDescription) {
     for (missing, what) in [
         (
             without(|joint| joint.limits.is_some()),
-            "limits: postures are not checked against any there",
+            "limits: postures are not checked against limits there",
         ),
         (without(|joint| joint.max_speed.is_some()), "greatest speeds"),
     ] {
@@ -102,7 +102,7 @@ fn head(text: &mut String, found: &RobotDescription) {
         "# Remove this note when two poses of the pendant, all joints away from zero, agree with `armill pose`.",
     );
     let note = format!(
-        "imported from {}: signs and zeros of its joints were not compared with the pendant yet",
+        "imported from {}: signs and zeros of its joints have not been compared with the pendant",
         one_line(place)
     );
     line(text, &format!("note = {}", quoted(&note)));
@@ -180,7 +180,7 @@ fn joint(text: &mut String, found: &RobotDescription, index: usize) {
     match joint.limits {
         Some(limits) => {
             let ends = |within| [limits.lower, limits.upper].map(|end| number(end, within));
-            // Limits that lie closer together than what is kept are written in full.
+            // Limits that are closer together than the rounding are written in full.
             let [lower, upper] = match ends(RANGE) {
                 [lower, upper] if lower == upper => ends(0.0),
                 given => given,
@@ -230,8 +230,8 @@ fn degrees(rad: f64, within: f64) -> String {
 
 /// The shortest decimal of `shown` that `to_si` takes back to `si`.
 ///
-/// Up to 15 digits behind the point; where none of these is near enough, all digits that tell the number from its
-/// neighbours.
+/// Up to 15 digits behind the point; where none of these is near enough, all digits that distinguish the number from
+/// its neighbours.
 fn shortest(si: f64, shown: f64, within: f64, to_si: fn(f64) -> f64) -> String {
     // Of the decimals that come back near enough the shortest has the fewest digits.
     let decimals = (0..=15).map(|digits| format!("{shown:.digits$}"));

@@ -1,7 +1,7 @@
 //! Walks over a text character by character and knows where it is.
 //!
 //! Offsets are bytes of the whole text, so that a range between two of them is the place of a problem. It never passes
-//! the end of its range, and whoever finds nothing leaves it where it was.
+//! the end of its range, and a search without result does not move it.
 
 use std::ops::Range;
 
@@ -29,7 +29,7 @@ impl<'a> Cursor<'a> {
         self.at
     }
 
-    /// What lies before it.
+    /// The text before it.
     fn rest(&self) -> &'a str {
         self.text.get(self.at..self.end).unwrap_or_default()
     }
@@ -39,7 +39,7 @@ impl<'a> Cursor<'a> {
         self.rest().chars().next()
     }
 
-    /// Steps over `wanted` if it stands here.
+    /// Steps over `requested` if it is next.
     pub fn take(&mut self, requested: char) -> bool {
         let here = self.peek() == Some(requested);
         if here {
@@ -63,7 +63,7 @@ impl<'a> Cursor<'a> {
 
     /// A number without sign: digits, point, exponent.
     ///
-    /// `None` if none stands here, or one that is not finite.
+    /// `None` if none is next, or one that is not finite.
     pub fn number(&mut self) -> Option<f64> {
         let rest = self.rest();
         let mut length = 0;

@@ -7,7 +7,7 @@
 //! argument = [ sign ] term { sign term }                   term: number, symbol, joint (one at most)
 //! ```
 //!
-//! Definitions count for the whole text, wherever they stand; of two of one symbol the last holds.
+//! Definitions apply to the whole text, also before their own line; of two of one symbol the last is used.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -70,13 +70,13 @@ pub(super) struct Factor {
 pub(super) struct Argument {
     /// mm or deg.
     pub constant: f64,
-    /// Name of the joint, and whether it counts with the chain.
+    /// Name of the joint, and whether it has the sign of the chain.
     pub joint: Option<(String, Sign)>,
     /// The symbol, where the argument is one alone.
     pub symbol: Option<String>,
 }
 
-/// More problems than this are not told: what is not a chain at all has one in every word.
+/// More problems than this are not reported: what is not a chain at all has one in every word.
 const MOST_PROBLEMS: usize = 20;
 
 /// How a chain is written.
@@ -158,12 +158,12 @@ fn definition<'a>(name: &'a str, value: &str) -> Option<(&'a str, f64)> {
     whole.then_some((name, value))
 }
 
-/// The factor that begins where the cursor stands, which then follows it.
+/// The factor that begins at the cursor, which then follows it.
 fn factor(file: &Source, cursor: &mut Cursor<'_>, symbols: &Symbols<'_>) -> Result<Factor, Problems> {
     let start = cursor.at();
     let word = cursor.while_of(|c| !c.is_whitespace() && c != '(' && c != ')');
     let Some(kind) = kind(word) else {
-        let message = format!("`{word}` is no elementary motion");
+        let message = format!("`{word}` is not an elementary motion");
         return Err(file
             .problem(start..cursor.at(), message, Some(SHAPE.to_owned()))
             .into());
@@ -208,7 +208,7 @@ fn kind(word: &str) -> Option<Kind> {
 
 /// A sum of numbers, symbols and at most one joint.
 ///
-/// A name with a value is a symbol. Any other is a joint: about an axis whatever it is called, along one only `q1`,
+/// A name with a value is a symbol. Any other is a joint: about an axis any name, along one only `q1`,
 /// `q2`, ... The constant is then the chain position at the joint's zero.
 ///
 /// # Errors
@@ -224,7 +224,7 @@ fn argument(
     let mut terms = 0;
     loop {
         cursor.skip_blanks();
-        // One sign: `q1--90` is a slip of the pen, and nobody can say which.
+        // One sign: `q1--90` is a typing error, and its meaning is ambiguous.
         let sign = if cursor.take('-') || cursor.take('−') {
             Sign::Negative
         } else if cursor.take('+') || terms == 0 {
@@ -257,7 +257,7 @@ fn argument(
             }
         } else {
             cursor.while_of(|c| !c.is_whitespace() && c != ')');
-            let message = "no number, joint or symbol stands here".to_owned();
+            let message = "a number, joint or symbol is missing here".to_owned();
             return Err(file
                 .problem(at..cursor.at(), message, Some(SHAPE.to_owned()))
                 .into());

@@ -5,8 +5,8 @@
 //! | `Tx Ty Tz`, or `A1 A2 A3` as in the paper | along x, y, z |
 //! | `Rx Ry Rz`, or `A4 A5 A6` | about x, y, z by the right hand |
 //! | `(450)`, `(-90)` | a constant: mm, deg |
-//! | `(q1)`, `(phi)` | a joint, counted with the chain |
-//! | `(-q3)`, `(q3-90)`, `(90-q3)` | a joint that counts the other way, and chain position at its zero |
+//! | `(q1)`, `(phi)` | a joint with the sign of the chain |
+//! | `(-q3)`, `(q3-90)`, `(90-q3)` | a joint with the opposite sign, and chain position at its zero |
 //! | `H = 450` on a line of its own | a symbol for a constant |
 //!
 //! Factors are separated by blanks, `*` or line ends; `#` starts a comment. Inside a translation only `q1`, `q2`, ...
@@ -28,7 +28,8 @@ use crate::document::{Problems, Source};
 
 /// The robot of this chain; `path` is what errors show, `id` the robot's name in results.
 ///
-/// Joints are in the order of the chain; they have no limits, no speeds and no compliance, which no chain tells.
+/// Joints are in the order of the chain; they have no limits, no speeds and no compliance: a chain does not contain
+/// them.
 ///
 /// # Errors
 /// What is not a factor, a length without value, a joint that moves twice, no joint at all.

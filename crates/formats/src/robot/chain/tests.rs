@@ -38,7 +38,7 @@ fn refusal(text: &str) -> String {
 }
 
 #[test]
-fn the_flange_at_zero_is_where_the_urdf_puts_it() {
+fn the_flange_at_zero_matches_the_urdf() {
     let at = flange(MH12, &[0.0; 6]).translation.vector;
     assert!((at - Vector3::new(0.895, 0.0, 1.264)).norm() < 1e-15, "{at}");
 }
@@ -87,13 +87,13 @@ fn a_length_without_value_is_no_slide() {
 }
 
 #[test]
-fn every_word_that_is_no_factor_is_reported() {
+fn every_word_that_is_not_a_factor_is_reported() {
     let text = refusal("Tz(450) Rw(q1) Tx 155 Ry(q2 Tz(q2*3) A7(1) Rz(q1+q2) Rz() Rz(q9) Rx(q9) Tx(1e9)");
     for words in [
-        "`Rw` is no elementary motion",
+        "`Rw` is not an elementary motion",
         "`Tx` has no bracket",
         "the bracket of `Ry` is not closed",
-        "`A7` is no elementary motion",
+        "`A7` is not an elementary motion",
         "`q2` is a second joint in one factor",
         "no number, joint or symbol",
         "1000000000 mm is beyond 1000000 mm",
@@ -114,7 +114,7 @@ fn a_second_sign_is_reported_rather_than_dropped() {
     ] {
         let given = refusal(text);
         assert!(
-            given.contains(place) && given.contains("no number, joint or symbol stands here"),
+            given.contains(place) && given.contains("a number, joint or symbol is missing here"),
             "{given}"
         );
     }

@@ -12,7 +12,7 @@
 //! | `standard` | `Rz(theta) Tz(d) Tx(a) Rx(alpha)`: a and alpha lead to the next axis |
 //! | `modified` (Craig) | `Rx(alpha) Tx(a) Rz(theta) Tz(d)`: a and alpha lead from the axis before |
 //!
-//! A joint adds to `theta` (a sliding one to `d`): the column holds the value at the controller's zero. The two
+//! A joint adds to `theta` (a prismatic one to `d`): the column contains the value at the controller's zero. The two
 //! conventions look alike and mean different arms, so the label is demanded; so are units.
 //!
 //! Columns: `a_mm` or `a_m`, `alpha_deg` or `alpha_rad`, `d_mm` or `d_m`, `theta_deg` or `theta_rad`; optional `joint`

@@ -58,7 +58,7 @@ enum Kind {
     OfJoint,
 }
 
-/// What a column holds.
+/// What a column contains.
 const QUANTITIES: [(&str, Kind); 6] = [
     ("a", Kind::Length),
     ("alpha", Kind::Angle),
@@ -67,7 +67,7 @@ const QUANTITIES: [(&str, Kind); 6] = [
     ("lower", Kind::OfJoint),
     ("upper", Kind::OfJoint),
 ];
-/// Columns that hold words.
+/// Columns of text.
 const WORDS: [&str; 3] = ["joint", "type", "sign"];
 
 /// A unit by its ending, with the kind that it measures.
@@ -97,14 +97,14 @@ pub(super) fn read(file: &Source, table: &Table) -> Result<Vec<Row>, Problems> {
             problems.push(file.problem(cell.place.clone(), message, Some(hint)));
         }
         if !seen.insert(quantity(&name).to_owned()) {
-            let message = format!("two columns hold `{}`", quantity(&name));
+            let message = format!("two columns contain `{}`", quantity(&name));
             problems.push(file.problem(cell.place.clone(), message, None));
         }
     }
     for needed in ["a", "alpha", "d", "theta"] {
         if !seen.contains(needed) {
             let place = table.header.first().map_or(0..0, |cell| cell.place.clone());
-            let message = format!("no column holds `{needed}`");
+            let message = format!("no column contains `{needed}`");
             problems.push(file.problem(place, message, Some(COLUMNS.to_owned())));
         }
     }
@@ -207,7 +207,7 @@ impl RowReader<'_> {
         };
         let joint = match self.cell("joint") {
             Some((_, cell)) if moves != Moves::Not && cell.text.is_empty() => {
-                return Err(self.refused(cell, "is no name of a joint"));
+                return Err(self.refused(cell, "is not a valid joint name"));
             }
             Some((_, cell)) => cell.text.clone(),
             None => format!("joint_{}", index + 1),

@@ -1,6 +1,6 @@
 //! The lines of a table: settings, header, cells; each with its place.
 //!
-//! Cells are separated by the first of `;`, `,` and tab that the header holds, else by blanks; with `;` a comma is a
+//! Cells are separated by the first of `;`, `,` and tab that the header contains, else by blanks; with `;` a comma is a
 //! decimal sign. Quotes round a cell are taken off. Settings may be anywhere, also below the header.
 
 use std::ops::Range;
@@ -16,7 +16,7 @@ pub(super) enum Convention {
     Modified,
 }
 
-/// A piece of the text and where it stands.
+/// A piece of the text and its position.
 #[derive(Clone, Debug)]
 pub(super) struct Cell {
     /// Without blanks and quotes around it.
@@ -63,7 +63,7 @@ pub(super) fn read(file: &Source) -> Result<Table, Problems> {
                             let message =
                                 format!("convention `{value}` is neither `standard` nor `modified`");
                             problems.push(file.problem(line.place, message, Some(CONVENTIONS.to_owned())));
-                            // Told already: not missing as well.
+                            // Already reported: not missing as well.
                             convention = Some(Convention::Standard);
                         }
                     },
@@ -115,8 +115,8 @@ pub(super) fn read(file: &Source) -> Result<Table, Problems> {
 }
 
 /// A row with more or fewer cells than the header.
-fn uneven(file: &Source, line: &Cell, found: usize, wanted: usize) -> Problem {
-    let message = format!("the row has {found} cells where the header has {requested}");
+fn uneven(file: &Source, line: &Cell, found: usize, expected: usize) -> Problem {
+    let message = format!("the row has {found} cells where the header has {expected}");
     let hint = "write 0 where nothing is; with decimal commas separate cells by `;`".to_owned();
     file.problem(line.place.clone(), message, Some(hint))
 }
@@ -130,7 +130,7 @@ fn convention_of(word: &str) -> Option<Convention> {
     }
 }
 
-/// The lines that hold something, without comments.
+/// The lines with content, without comments.
 fn lines_of(text: &str) -> Vec<Cell> {
     let mut start = 0;
     let mut lines = Vec::new();
@@ -156,7 +156,7 @@ enum Separator {
     Blanks,
 }
 
-/// The first of `;`, `,` and tab that the header holds, else blanks.
+/// The first of `;`, `,` and tab that the header contains, else blanks.
 fn separator(header: &str) -> Separator {
     match [';', ',', '\t'].into_iter().find(|c| header.contains(*c)) {
         Some(c) => Separator::Char(c),

@@ -46,7 +46,7 @@ fn refusal(text: &str) -> String {
 }
 
 #[test]
-fn the_puma_stands_where_its_toolbox_puts_it() {
+fn the_puma_matches_the_pose_of_its_toolbox() {
     // `p560.fkine(p560.qz)` and `p560.fkine(p560.qn)`, printed to four decimals.
     let zero = flange(PUMA, &[0.0; 6]);
     let expected = [0.4521, -0.15005, 0.4318];
@@ -164,12 +164,12 @@ fn columns_need_their_units_and_all_four_are_needed() {
         ("a", "a.dh:3:19: column `a` names no unit"),
         ("a_deg", "column `a_deg` has a unit that does not fit `a`"),
         ("a_inch", "unknown column `a_inch`"),
-        ("d_m", "two columns hold `d`"),
+        ("d_m", "two columns contain `d`"),
     ] {
         let text = refusal(&MH12.replace("a_mm;", &format!("{column};")));
         assert!(text.contains(words), "no `{words}` in {text}");
     }
-    assert!(refusal(&MH12.replace("a_mm", "type")).contains("no column holds `a`"));
+    assert!(refusal(&MH12.replace("a_mm", "type")).contains("no column contains `a`"));
 }
 
 #[test]
@@ -192,7 +192,7 @@ fn every_cell_that_is_wrong_is_reported() {
     ] {
         assert!(text.contains(words), "no `{words}` in {text}");
     }
-    // A robot file could not hold it.
+    // A robot file could not contain it.
     let turned = refusal(&MH12.replace("T; -90", "T; -690"));
     assert!(turned.contains("`-690` is an angle beyond a turn"), "{turned}");
     assert!(refusal(&MH12.replace("S; 0; 0; 0;", "S; 0; 0;")).contains("7 cells where the header has 8"));

@@ -4,7 +4,7 @@ const URDF: &str = "<robot name=\"r\"><link name=\"a\"/><link name=\"b\"/>\
      <joint name=\"j\" type=\"continuous\"><parent link=\"a\"/><child link=\"b\"/><axis xyz=\"0 0 1\"/></joint></robot>";
 
 fn read_as(path: &str, bytes: &[u8]) -> Result<RobotDescription, String> {
-    read(Path::new(path), "r", bytes, &Wanted::default()).map_err(|problems| problems.to_string())
+    read(Path::new(path), "r", bytes, &RobotReadOptions::default()).map_err(|problems| problems.to_string())
 }
 
 #[test]
@@ -33,7 +33,7 @@ fn the_format_follows_from_ending_and_content() {
 }
 
 #[test]
-fn an_unknown_ending_says_what_is_understood() {
+fn an_unknown_ending_is_reported_with_the_supported_ones() {
     let text = read_as("a.step", b"ISO-10303-21;").unwrap_err();
     assert!(
         text.contains("`.step`") && text.contains(".urdf, .xacro"),
@@ -44,7 +44,7 @@ fn an_unknown_ending_says_what_is_understood() {
 }
 
 #[test]
-fn what_is_no_text_is_refused() {
+fn refuses_binary_files() {
     assert!(read_as("a.urdf", b"").unwrap_err().contains("the file is empty"));
     assert!(
         read_as("a.urdf", b"\xef\xbb\xbf \n\0\0")
@@ -53,7 +53,7 @@ fn what_is_no_text_is_refused() {
     );
     let text = read_as("a.urdf", b"<robot>\n\0\x01</robot>").unwrap_err();
     assert!(
-        text.contains("a.urdf:2:1: not a text: it holds the byte 0x00"),
+        text.contains("a.urdf:2:1: not a text: it contains the byte 0x00"),
         "{text}"
     );
     let text = read_as("a.urdf", b"\xff\xfe<\0r\0").unwrap_err();
@@ -87,13 +87,13 @@ fn marks_line_ends_and_foreign_letters_in_comments_are_tolerated() {
 }
 
 #[test]
-fn a_format_that_is_said_goes_before_the_ending_and_tips_are_for_links() {
-    let expected = Wanted {
+fn a_given_format_takes_precedence_and_tips_require_links() {
+    let expected = RobotReadOptions {
         format: Some(Format::Urdf),
         tip: Some("b".to_owned()),
     };
     assert!(read(Path::new("robot"), "r", URDF.as_bytes(), &expected).is_ok());
-    let expected = Wanted {
+    let expected = RobotReadOptions {
         format: Some(Format::Chain),
         tip: Some("b".to_owned()),
     };
@@ -113,7 +113,7 @@ fn elements_that_nest_without_end_are_refused_before_anything_walks_them() {
         )
     };
     for path in ["a.urdf", "/nowhere/a.xacro"] {
-        // Far more than any stack holds.
+        // Far more than any stack has room for.
         let text = read_as(path, deep(300_000).as_bytes()).unwrap_err();
         assert!(text.contains("nest deeper than 64 levels"), "{text}");
         let text = read_as(path, deep(63).as_bytes()).unwrap_err();

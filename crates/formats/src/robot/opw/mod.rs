@@ -4,13 +4,13 @@
 //! Tz(c1) Rz(1) Tx(a1) Ty(b) Ry(2) Tz(c2) Ry(3) Tx(a2) Tz(c3) Rz(4) Ry(5) Rz(6) Tz(c4)     theta = sign q - offset
 //! ```
 //!
-//! | key | holds |
+//! | key | meaning |
 //! |---|---|
 //! | `opw_kinematics_geometric_parameters` | a1 a2 b c1 c2 c3 c4, m |
 //! | `opw_kinematics_joint_offsets` | six angles, rad or `deg(-90.0)` |
 //! | `opw_kinematics_joint_sign_corrections` | six times 1 or -1 |
 //!
-//! At chain zero the arm stands upright; the flange has z out of it and at chain zero the axes of the base. The
+//! At chain zero the arm is upright; the flange has z out of it and at chain zero the axes of the base. The
 //! file names no joints, limits or speeds.
 //!
 //! `yaml` finds keys and values, each with its place; here they become an arm.
@@ -112,7 +112,7 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
         .collect();
     found.remarks = vec![
         "the file names no joints: they are called joint_1 to joint_6".to_owned(),
-        "the base lies c1 below axis 2, on axis 1; the flange has z out of it, and may be turned about z against the maker's".to_owned(),
+        "the base is c1 below axis 2, on axis 1; the flange has z out of it, and may be rotated about z relative to the maker's".to_owned(),
     ];
     Ok(found)
 }
@@ -143,7 +143,7 @@ impl<'a> Keys<'a> {
             });
         }
         let hint = if has(|key| key.ends_with("joint_names")) {
-            "it lists joint names: no chain can be made of them"
+            "it lists joint names only: they do not define a chain"
         } else {
             "an OPW file has the keys opw_kinematics_geometric_parameters, opw_kinematics_joint_offsets and opw_kinematics_joint_sign_corrections"
         };
@@ -151,9 +151,9 @@ impl<'a> Keys<'a> {
         Err(file.problem(0..0, message, Some(hint.to_owned())).into())
     }
 
-    /// The values of a key, each judged by `of`; where there are not `N`, or one is refused, a problem is kept.
+    /// The values of a key, each checked by `of`; where there are not `N`, or one is refused, a problem is kept.
     ///
-    /// Where the key stands does not matter: below which other key, or how far indented.
+    /// The position of the key does not matter: below which other key, or how far indented.
     fn values<T, const N: usize>(
         &mut self,
         key: &str,
@@ -173,12 +173,16 @@ impl<'a> Keys<'a> {
         };
         if let Some(second) = named.next() {
             let hint = "one arm a file".to_owned();
-            refuse(second.place.clone(), format!("`{key}` stands twice"), Some(hint));
+            refuse(
+                second.place.clone(),
+                format!("`{key}` is given twice"),
+                Some(hint),
+            );
             return None;
         }
         if entry.values.len() != N {
             let count = entry.values.len();
-            let message = format!("`{key}` has {count} values where {N} are wanted");
+            let message = format!("`{key}` has {count} values: {N} required");
             refuse(entry.place.clone(), message, None);
             return None;
         }

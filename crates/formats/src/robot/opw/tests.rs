@@ -26,7 +26,7 @@ fn refusal(text: &str) -> String {
 }
 
 #[test]
-fn the_flange_at_zero_is_where_its_maker_puts_it() {
+fn the_flange_at_zero_matches_the_pose_of_the_manufacturer() {
     let robot = read("a.yaml", "a", MH12).unwrap().robot;
     let flange = posture_at(&robot, &[0.0; 6], &Isometry::identity()).base_from_tool;
     let expected = Vector3::new(0.895, 0.0, 1.264);
@@ -69,7 +69,7 @@ fn forward_kinematics_is_that_of_another_opw_solver() {
 }
 
 #[test]
-fn lists_may_stand_on_lines_of_their_own_and_under_other_keys() {
+fn lists_may_be_on_separate_lines_and_under_other_keys() {
     let nested = MH12
         .replace(
             "[1, 1, -1, -1, -1, -1]",
@@ -97,7 +97,7 @@ fn every_problem_is_reported_at_its_place() {
     let text = refusal(&broken);
     for words in [
         "a.yaml:3:7: `155.0` of `a1` is not a length within 100 m",
-        "a.yaml:7:3: `c2` has 2 values where 1 are wanted",
+        "a.yaml:7:3: `c2` has 2 values: 1 required",
         "a.yaml:9:7: `far` of `c4`",
         "a.yaml:10:42: `-90`",
         "is not 1 or -1",
@@ -110,8 +110,8 @@ fn every_problem_is_reported_at_its_place() {
 #[test]
 fn missing_and_double_keys_are_reported() {
     assert!(refusal(&MH12.replace("  b: 0.000\n", "")).contains("`b` is missing"));
-    assert!(refusal(&format!("{MH12}a1: 0.2\n")).contains("a.yaml:12:1: `a1` stands twice"));
-    assert!(refusal(&MH12.replace(", deg(180.0)]", "]")).contains("has 5 values where 6 are wanted"));
+    assert!(refusal(&format!("{MH12}a1: 0.2\n")).contains("a.yaml:12:1: `a1` is given twice"));
+    assert!(refusal(&MH12.replace(", deg(180.0)]", "]")).contains("has 5 values: 6 required"));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The little of YAML that parameter files use: keys with a scalar, a list in brackets, or a list of lines.
 //!
 //! No YAML reader would do: `deg(-90.0)` is text to them, and its place is lost. Indentation, and keys that only
-//! hold other keys, do not matter here.
+//! contain other keys, do not matter here.
 //!
 //! ```text
 //! key: 1.5                      one value
@@ -22,7 +22,7 @@ pub(super) struct Entry<'a> {
     pub key: &'a str,
     /// Of the key, in bytes of the text.
     pub place: Range<usize>,
-    /// In order; empty for a key that only holds others.
+    /// In order; empty for a key that only contains others.
     pub values: Vec<Scalar<'a>>,
 }
 
@@ -37,7 +37,7 @@ pub(super) struct Scalar<'a> {
 
 /// Every key of the text, in order.
 ///
-/// Nothing is refused: a text of another kind has no key that anybody asks for. A key that stands twice is there twice.
+/// Nothing is refused: a text of another kind has none of the requested keys. A key that is given twice is there twice.
 pub(super) fn entries(text: &str) -> Vec<Entry<'_>> {
     let mut entries: Vec<Entry<'_>> = Vec::new();
     let mut in_brackets = false;
@@ -66,7 +66,7 @@ pub(super) fn entries(text: &str) -> Vec<Entry<'_>> {
             _ => rest,
         };
         let item_start = rest_start + rest.len() - item.len();
-        // A line that is neither key nor list item holds nothing that anybody requested.
+        // A line that is neither key nor list item contains nothing that is needed.
         if key.is_some() || in_brackets || item.len() < rest.len() {
             entry.values.extend(scalars(item, item_start));
         }

@@ -8,7 +8,7 @@
 //! | `<axis>` | `1 0 0` |
 //! | `lower`, `upper` | 0; both 0 means no limits |
 //! | `velocity`, or `velocity="0"` | not known |
-//! | `<limit>` of a `continuous` joint | whatever it says, none |
+//! | `<limit>` of a `continuous` joint | always none |
 //!
 //! `inf`, and numbers beyond 1000, represent an open end.
 
@@ -72,7 +72,7 @@ const MOST_ELEMENTS: usize = 10_000;
 /// Every `<joint>` below the root.
 ///
 /// # Errors
-/// All that lack a name, a type or their links, or hold what is not a number.
+/// All that lack a name, a type or their links, or contain a text where a number is required.
 pub(super) fn read(file: &Source, root: Node<'_, '_>) -> Result<Vec<JointElement>, Problems> {
     let mut problems = Vec::new();
     let mut joints = Vec::new();
@@ -198,7 +198,7 @@ pub(super) fn origin_of(file: &Source, origin: Node<'_, '_>) -> Result<([f64; 3]
     }
     let rpy = numbers(file, origin, "rpy", [0.0; 3])?;
     if let Some(far) = rpy.iter().find(|value| value.abs() > TWO_TURNS) {
-        let message = format!("a turn by {far} rad is beyond two turns");
+        let message = format!("a rotation by {far} rad exceeds two turns");
         let hint = "angles of a URDF are in rad".to_owned();
         return Err(file
             .problem(value_place(origin, "rpy"), message, Some(hint))
@@ -210,7 +210,7 @@ pub(super) fn origin_of(file: &Source, origin: Node<'_, '_>) -> Result<([f64; 3]
     // Since URDF 1.1 a quaternion may be there, and goes before `rpy`.
     let [x, y, z, w] = numbers(file, origin, "quat_xyzw", [0.0, 0.0, 0.0, 1.0])?;
     let Some(turn) = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-9) else {
-        let message = "a quaternion of length zero is no orientation";
+        let message = "a quaternion of length zero is not an orientation";
         return Err(file
             .problem(value_place(origin, "quat_xyzw"), message, None)
             .into());

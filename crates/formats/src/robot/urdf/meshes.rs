@@ -1,4 +1,4 @@
-//! The shapes that links of a URDF show: mesh files, each with where it stands as the joints move.
+//! The shapes that links of a URDF show: mesh files, each with its pose as the joints move.
 //!
 //! Boxes, cylinders and spheres are left out, and so are textures and colours. Joints that are not on the chain of the
 //! robot are at zero, and so do those that mimic others.
@@ -19,7 +19,7 @@ use super::{origin, tree};
 use crate::document::{self, Problems};
 use crate::xml::{self, children, numbers, required, tag};
 
-/// More shapes than this are no robot.
+/// More shapes than this are not accepted.
 const MOST_MESHES: usize = 1000;
 
 /// A mesh of a link.
@@ -176,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mesh_at_the_flange_link_stands_where_the_chain_has_the_flange() {
+    fn a_mesh_at_the_flange_link_is_at_the_flange_of_the_chain() {
         // The witness is the chain that the reader makes of the same file.
         let robot = super::super::read("two.urdf", "two", ARM).unwrap().robot;
         let hand = meshes("two.urdf", ARM).unwrap().pop().unwrap();
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_off_the_chain_stands_at_zero_and_the_origin_of_a_shape_counts() {
+    fn links_off_the_chain_are_at_zero_and_the_origin_of_a_shape_is_applied() {
         let found = meshes("two.urdf", ARM).unwrap();
         let lid = found[3].base_from_mesh(|name| (name != "open").then_some(0.7));
         assert_eq!(lid.translation.vector, Vector3::new(1.0, 0.0, 0.0));
@@ -214,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn all_that_is_wrong_is_reported_at_its_place() {
+    fn every_error_is_reported_at_its_place() {
         let text = ARM
             .replace("filename=\"lid.stl\"", "file=\"lid.stl\"")
             .replace("scale=\"0.001 0.001 0.001\"", "scale=\"small\"");

@@ -7,8 +7,8 @@
 //! hangs rigidly on the root is where the controller counts from (ROS-Industrial): it becomes the frame
 //! `controller`.
 //!
-//! In reading order: `joints` (the elements as they stand), `tree` (links, joints and the chain to a tip), here the motions
-//! of that chain, and [`meshes`] (how its links look).
+//! In reading order: `joints` (the elements as written), `tree` (links, joints and the chain to a tip), here the
+//! motions of that chain, and [`meshes`] (how its links look).
 //!
 //! | element | motions |
 //! |---|---|
@@ -35,7 +35,7 @@ use super::description::RobotDescription;
 use crate::document::{self, Problems};
 use crate::xml;
 
-/// Joints of a chain, fixed ones included: a few stand between two that move.
+/// Joints of a chain, fixed ones included: a few are between two that move.
 const MOST_ELEMENTS: usize = 4 * MOST_JOINTS;
 
 /// An axis of unit length whose components are all within this of a coordinate axis is that axis: files print six
@@ -52,7 +52,7 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
 
 /// The robot of this URDF text with its flange at the link `tip`.
 ///
-/// Without `tip` the one that the header tells. Joints have the names of the file, zero at its zero.
+/// Without `tip` the one that the header describes. Joints have the names of the file, zero at its zero.
 ///
 /// # Errors
 /// What is not XML or not a URDF, a tree with a loop, a tip that is not there, joints of kinds that no serial arm
@@ -95,16 +95,16 @@ pub fn read_to_tip(
     Ok(found)
 }
 
-/// A chain in the words of the core, and the names of joints that were not taken as they stand.
+/// A chain in the terms of the core, and the names of joints that were changed.
 #[derive(Default)]
 struct Arm {
     /// Base to tip.
     motions: Vec<Motion>,
     /// Those that move, in the order of the chain.
     joints: Vec<Joint>,
-    /// Their axis lies nearly along a coordinate axis, and is taken as that.
+    /// Their axis is nearly along a coordinate axis, and is taken as that.
     aligned: Vec<String>,
-    /// Their limits are no range.
+    /// Their limits are not a valid range.
     unlimited: Vec<String>,
 }
 
@@ -168,7 +168,7 @@ fn controller_frame(tree: &tree::Tree<'_>) -> Vec<NamedFrame> {
 
 /// What a reader should know of the arm.
 ///
-/// Side branches, axes and limits that were not taken as they stand are named with their joints.
+/// Side branches, axes and limits that were changed are named with their joints.
 fn remarks(tree: &tree::Tree<'_>, chain: &tree::Chain<'_>, arm: &Arm, frames: &[NamedFrame]) -> Vec<String> {
     let mut remarks = vec![format!(
         "the base is link `{}`, the flange link `{}`",
@@ -179,14 +179,17 @@ fn remarks(tree: &tree::Tree<'_>, chain: &tree::Chain<'_>, arm: &Arm, frames: &[
     }
     let named = [
         (
-            "moving joints off the chain are left out",
+            "moving joints outside the chain are left out",
             chain.left_out.join(", "),
         ),
         (
             "axes within 1e-6 of a coordinate axis are taken as that axis",
             arm.aligned.join(", "),
         ),
-        ("limits that are no range are left out", arm.unlimited.join(", ")),
+        (
+            "limits without a valid range are left out",
+            arm.unlimited.join(", "),
+        ),
     ];
     let named = named.into_iter().filter(|(_, joints)| !joints.is_empty());
     remarks.extend(named.map(|(what, joints)| format!("{what}: {joints}")));
@@ -235,8 +238,8 @@ fn motion(joint: &JointElement) -> Result<Option<Moving>, (String, &'static str)
 impl Arm {
     /// Adds a joint that moves, turned so that its axis is a coordinate axis.
     ///
-    /// Limits that are no range are left out and named in `unlimited`. An axis along a coordinate axis but for the
-    /// digits of a print is taken as that and named in `aligned`, unless it is exact.
+    /// Limits that are not a valid range are left out and named in `unlimited`. An axis along a coordinate axis but for
+    /// the digits of a print is taken as that and named in `aligned`, unless it is exact.
     fn add(&mut self, joint: &JointElement, Moving { motion, axis }: Moving) {
         let amount = Amount::Joint(self.joints.len());
         let nearest = Axis::ALL[axis.iamax()];

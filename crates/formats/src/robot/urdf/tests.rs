@@ -47,7 +47,7 @@ fn sound() -> String {
 }
 
 #[test]
-fn an_oblique_axis_turns_as_the_file_says() {
+fn an_oblique_axis_turns_as_specified_in_the_file() {
     let robot = read("s.urdf", "s", &urdf(&sound())).unwrap().robot;
     let q = [0.4, -0.7];
     let reached = posture_at(&robot, &q, &Isometry::identity()).base_from_tool;
@@ -106,7 +106,7 @@ fn limits_are_read_as_urdf_means_them_and_what_is_no_range_is_reported() {
         assert_eq!(joint.limits.map(|l| (l.lower, l.upper)), limits, "{to}");
         let remark = found
             .remarks
-            .contains(&"limits that are no range are left out: j1".to_owned());
+            .contains(&"limits without a valid range are left out: j1".to_owned());
         assert_eq!(remark, given, "{to}: {:?}", found.remarks);
     }
 }
@@ -155,7 +155,7 @@ fn a_floating_joint_is_refused() {
 }
 
 #[test]
-fn what_is_no_urdf_is_refused_in_one_line() {
+fn refuses_files_that_are_not_urdf_in_one_line() {
     for text in ["", "<robot", "<robot name=\"x\"/>", "{}"] {
         assert!(read("s.urdf", "s", text).is_err(), "`{text}` was read");
     }
@@ -185,11 +185,11 @@ fn joints_in_a_circle_are_named() {
         + "</robot>";
     let text = read("s.urdf", "s", &whole).unwrap_err().to_string();
     assert!(text.contains("the joints form a loop"), "{text}");
-    let beside = urdf(&sound()).replace("</robot>", "<link name=\"x\"/><link name=\"y\"/>")
+    let two_more = urdf(&sound()).replace("</robot>", "<link name=\"x\"/><link name=\"y\"/>")
         + &joint("one", "fixed", "x", "y", "")
         + &joint("two", "fixed", "y", "x", "")
         + "</robot>";
-    let text = read("s.urdf", "s", &beside).unwrap_err().to_string();
+    let text = read("s.urdf", "s", &two_more).unwrap_err().to_string();
     assert!(text.contains("form a loop: x, y"), "{text}");
 }
 
@@ -224,14 +224,14 @@ fn the_chain_ends_at_the_tip_that_is_requested() {
 }
 
 #[test]
-fn what_is_no_number_is_reported_with_its_place() {
+fn invalid_numbers_are_reported_with_their_place() {
     for (from, to, words) in [
         (
             "xyz=\"0 0 0.4\"",
             "xyz=\"0 0 0,4\"",
             "`0,4` in xyz=\"0 0 0,4\" is not a number",
         ),
-        ("xyz=\"0 0 0.4\"", "xyz=\"0 0.4\"", "2 numbers where 3 are wanted"),
+        ("xyz=\"0 0 0.4\"", "xyz=\"0 0.4\"", "2 numbers: 3 required"),
         ("xyz=\"0 0 0.4\"", "xyz=\"0 0 nan\"", "`nan` in"),
         (
             "xyz=\"0 0 0.4\"",

@@ -94,7 +94,7 @@ impl<'a> Tree<'a> {
                 )),
             },
             _ => refused(format!(
-                "{} links have no parent where one root is wanted: {}",
+                "{} links have no parent: exactly one root is required: {}",
                 roots.len(),
                 listed(&roots)
             )),

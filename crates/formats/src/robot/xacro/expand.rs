@@ -1,4 +1,4 @@
-//! Properties, macros and expressions worked out by the crate `xacro-rs`, its errors told at their place.
+//! Properties, macros and expressions evaluated by the crate `xacro-rs`, its errors reported at their place.
 //!
 //! The text is bounded before (`growth`, and the constants below), the work is done in a thread of its own, and a panic
 //! there is a problem of the file. Messages of the crate have no places, so the words that they quote are looked for in
@@ -27,11 +27,14 @@ const LONGEST_BYTES: usize = 4 << 20;
 /// The expanded text.
 ///
 /// # Errors
-/// The expression or macro that cannot be worked out, where it is in `main` or in a file that it includes.
+/// The expression or macro that cannot be evaluated, where it is in `main` or in a file that it includes.
 pub(super) fn expand(main: &Source, path: &Path, flat: &Flat) -> Result<String, Problems> {
     let (xml, included) = (&flat.xml, &flat.sources[..]);
     if xml.len() > LONGEST_BYTES {
-        let message = format!("{} bytes with all included files are no robot", xml.len());
+        let message = format!(
+            "{} bytes with all included files: too large for a robot",
+            xml.len()
+        );
         return Err(main.problem(0..0, message, None).into());
     }
     for source in std::iter::once(main).chain(included) {
@@ -139,12 +142,12 @@ fn reported(error: &XacroError) -> String {
     format!("cannot expand the xacro: {once}{}", place.unwrap_or_default())
 }
 
-/// The problem at the first text that the message quotes and a file holds.
+/// The problem at the first text that the message quotes and a file contains.
 ///
 /// Words in quotes are tried in their order, each in the main file first; where none is found, the problem is at
 /// the start of the main file.
 fn placed(main: &Source, included: &[Source], message: &str) -> Problem {
-    let hint = "mend the expression, give the file that defines what is missing, or expand it with ROS (`xacro FILE > x.urdf`)";
+    let hint = "correct the expression, give the file that defines what is missing, or expand it with ROS (`xacro FILE > x.urdf`)";
     let quoted = message
         .split(['\'', '`', '"'])
         .skip(1)

@@ -21,9 +21,9 @@ use crate::document::{Problem, Problems, Source};
 use crate::input;
 use crate::xml;
 
-/// Files within files deeper than this are no robot.
+/// Files within files deeper than this are not accepted.
 const DEEPEST: usize = 16;
-/// More includes than this are no robot.
+/// More includes than this are not accepted.
 const MOST_FILES: usize = 100;
 
 /// A file of colours, materials or simulation is not missed.
@@ -91,8 +91,8 @@ struct Macro {
 
 /// The text of `main`, read from `path`, and of all it includes.
 ///
-/// Reads the included files from the disk. If nothing but macros is defined and one of them holds joints, a call of it
-/// is at the end.
+/// Reads the included files from the disk. If nothing but macros is defined and one of them contains joints, a call of
+/// it is at the end.
 ///
 /// # Errors
 /// What is not XML, files that are missing, no robot or several.
@@ -217,8 +217,8 @@ impl Writer<'_> {
 
     /// The contents of an included file in place of the element.
     ///
-    /// A file that is missing is a problem, unless it is marked as optional or its name says that it holds colours or
-    /// the like: then it is a remark. Files that include one another in a circle are refused, as are more than 100.
+    /// A file that is missing is a problem, unless it is marked as optional or its name says that it contains colours
+    /// or the like: then it is a remark. Files that include one another in a circle are refused, as are more than 100.
     fn include(&mut self, file: &Source, node: Node<'_, '_>) {
         let place = xml::value_place(node, "filename");
         let Some(filename) = node.attribute("filename") else {
@@ -227,7 +227,7 @@ impl Writer<'_> {
             return;
         };
         let Some(candidates) = packages::candidates(&self.folder(), filename) else {
-            let message = format!("cannot tell which file `{filename}` is");
+            let message = format!("the path of file `{filename}` cannot be determined");
             let hint =
                 "includes are found by `$(find package)/...` or a plain path, not by other expressions"
                     .to_owned();
@@ -244,10 +244,10 @@ impl Writer<'_> {
                     .push(format!("{filename} was not found: not needed for the chain"));
             } else {
                 let message = format!("cannot find the included file `{filename}`");
-                let beside = candidates
+                let candidates_text = candidates
                     .last()
                     .map_or_else(String::new, |path| path.display().to_string());
-                let hint = format!("put it there: {beside}");
+                let hint = format!("put it there: {candidates_text}");
                 self.problems.push(file.problem(place, message, Some(hint)));
             }
             return;
@@ -302,7 +302,7 @@ impl Writer<'_> {
             |message: &str, hint: String| Err(self.main.problem(xml::tag(root), message, Some(hint)).into());
         let found = match &self.macros[..] {
             [] => {
-                let message = "the file makes no robot: it has no joint, only colours, materials, constants or macros without joints";
+                let message = "the file defines no robot: it has no joint, only colours, materials, constants or macros without joints";
                 let hint = "give the file that includes it".to_owned();
                 return refused(message, hint);
             }
@@ -319,7 +319,7 @@ impl Writer<'_> {
         let without_default = |word: &&str| !word.contains('=') && *word != "prefix";
         let needed: Vec<&str> = found.params.split_whitespace().filter(without_default).collect();
         if !needed.is_empty() {
-            let message = format!("macro `{}` wants values for {}", found.name, needed.join(", "));
+            let message = format!("macro `{}` requires values for {}", found.name, needed.join(", "));
             let hint = format!(
                 "write a file that includes this one and calls it: <xacro:{} prefix=\"\" {}=\"...\"/>",
                 found.name,

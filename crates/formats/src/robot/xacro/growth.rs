@@ -1,4 +1,4 @@
-//! How much a xacro can grow to, worked out before anything is expanded: a macro that calls another twice, which does
+//! How much a xacro can grow to, evaluated before anything is expanded: a macro that calls another twice, which does
 //! the same, is a few lines that fill any memory.
 //!
 //! ```text
@@ -52,7 +52,7 @@ const REFUSED: [&str; 11] = [
     "zfill",
 ];
 
-/// What stands against expanding the document with this data, if anything does; names are in quotes.
+/// Why the document cannot be expanded with this data, if it cannot; names are in quotes.
 pub(super) fn refusal<'a>(root: Node<'a, '_>, data: &'a [Data]) -> Option<String> {
     let texts = root.descendants().flat_map(|node| {
         let attributes = node.attributes().map(|attribute| attribute.value());
@@ -64,7 +64,7 @@ pub(super) fn refusal<'a>(root: Node<'a, '_>, data: &'a [Data]) -> Option<String
         .or_else(|| too_long(root, data).err())
 }
 
-/// An expression in `text` that is not worked out whatever its values are.
+/// An expression in `text` that is not evaluated whatever its values are.
 fn refused_expression(text: &str) -> Option<String> {
     for (at, _) in text.match_indices('$') {
         let rest = text.get(at + 1..).unwrap_or_default();
@@ -116,7 +116,7 @@ fn too_long<'a>(root: Node<'a, '_>, data: &'a [Data]) -> Result<(), String> {
     }
 }
 
-/// The bound as messages tell it.
+/// The bound as messages show it.
 fn megabytes() -> String {
     format!("{} MiB of joints", MOST_BYTES >> 20)
 }
@@ -201,7 +201,7 @@ impl<'a> Lengths<'a> {
     /// How long a text can get: any name in it may be for its value.
     ///
     /// Without a `$` its own letters. With one, every word is taken as a name that may be one of the file's, and every
-    /// `$` as a number besides.
+    /// `$` as a number in addition.
     fn of_text(&self, text: &str) -> u64 {
         let own = text.len() as u64;
         if !text.contains('$') {
@@ -244,7 +244,7 @@ fn parameters(text: &str) -> Vec<(&str, &str)> {
 struct Sizes<'a> {
     /// Of macros, as a call of them gives.
     bodies: BTreeMap<&'a str, u64>,
-    /// Of properties and parameters that hold elements, as `insert_block` gives.
+    /// Of properties and parameters that contain elements, as `insert_block` gives.
     blocks: BTreeMap<&'a str, u64>,
 }
 
@@ -286,7 +286,7 @@ impl<'a> Sizes<'a> {
             .fold(0, u64::saturating_add)
     }
 
-    /// What a node can come to; definitions come to nothing where they stand.
+    /// The largest size of a node after expansion; definitions add nothing.
     fn of(&self, node: Node<'_, '_>, lengths: &Lengths<'_>) -> u64 {
         if !node.is_element() {
             return lengths.of_text(node.text().unwrap_or_default());

@@ -1,5 +1,5 @@
-//! `xacro.load_yaml(FILE)` without the loader of the evaluator: each call is replaced by a property that contains the data of
-//! the file, which was checked before.
+//! `xacro.load_yaml(FILE)` without the loader of the evaluator: each call is replaced by a property that contains the
+//! data of the file, which was checked before.
 //!
 //! ```text
 //! ${xacro.load_yaml('limits.yaml')['a']}   ->   <xacro:property name="armill_yaml_0" value="{'a': 1.5}"/>
@@ -31,15 +31,15 @@ use super::growth::{LONGEST_VALUE, Values};
 use super::packages;
 use crate::input;
 
-/// A larger file holds no parameters of a robot.
+/// A larger file is not a parameter file of a robot.
 const MOST_BYTES: u64 = 1 << 20;
-/// More files than this are no robot.
+/// More files than this are not accepted.
 const MOST_CALLS: usize = 100;
 /// Lists and mappings within one another: the evaluator calls itself for each.
 const DEEPEST: usize = 16;
 /// Values that name values deeper than this are a circle.
 const LEVELS: usize = 16;
-/// Prefix of the properties that hold the data.
+/// Prefix of the properties with the data.
 const PROPERTY: &str = "armill_yaml_";
 /// The function, with and without the prefix of its module.
 const FUNCTION: [&str; 2] = ["xacro.load_yaml", "load_yaml"];
@@ -61,7 +61,8 @@ pub(super) struct Data {
     pub value: String,
 }
 
-/// `text` with each call of `load_yaml` replaced by the property that contains its data. New calls are added to `calls`.
+/// `text` with each call of `load_yaml` replaced by the property that contains its data. New calls are added to
+/// `calls`.
 pub(super) fn replaced(text: &str, folder: &Path, calls: &mut Vec<Call>) -> String {
     let mut out = String::new();
     let mut rest = text;
@@ -111,7 +112,7 @@ fn next_call(text: &str) -> Option<(&str, &str, &str)> {
     None
 }
 
-/// The properties that hold the data of these calls, in the order of the calls; `values` are those of all names.
+/// The properties with the data of these calls, in the order of the calls; `values` are those of all names.
 ///
 /// # Errors
 /// The call whose file is not known, not allowed or not readable.
@@ -312,7 +313,7 @@ fn expression(text: &str) -> Result<String, String> {
             None => return bounded(&value).map(|()| value).map_err(at),
         }
     }
-    Err("it holds no data".to_owned())
+    Err("it contains no data".to_owned())
 }
 
 impl Open {

@@ -1,12 +1,13 @@
 //! xacro: URDF with macros, properties and expressions, expanded and then read as URDF.
 //!
 //! A file that defines one robot macro and calls nothing is read as that robot with an empty `prefix`. Files that it
-//! includes are looked for beside it and in the packages around it; missing files of colours, materials
-//! and simulation are remarks. `$(env ...)` is not worked out.
+//! includes are searched next to it and in the packages around it; missing files of colours, materials
+//! and simulation are remarks. `$(env ...)` is not evaluated.
 //!
-//! In reading order: `packages` (where included files may lie), `flatten` (one text of all files; what links look like
+//! In reading order: `packages` (where included files may be), `flatten` (one text of all files; what links look like
 //! and weigh is dropped, so that nothing of it can fail), `load_yaml` (data of YAML files, checked before it is used),
-//! `growth` (refuses macros that could grow without bound), `expand` (macros and expressions, worked out by the crate `xacro-rs`).
+//! `growth` (refuses macros that could grow without bound), `expand` (macros and expressions, evaluated by the crate
+//! `xacro-rs`).
 
 mod expand;
 mod flatten;
@@ -42,7 +43,7 @@ const DIRECTIVES: [&str; 9] = [
 ///
 /// # Errors
 /// What is not XML, a file that is missing, a file without robot or with several, an expression that cannot be
-/// worked out; then what [`urdf::read_to_tip`] finds in the expanded text.
+/// evaluated; then what [`urdf::read_to_tip`] finds in the expanded text.
 pub fn read_to_tip(
     path: &Path,
     id: &str,
@@ -82,7 +83,7 @@ pub struct Expanded {
 ///
 /// # Errors
 /// What is not XML, a file that is missing, a file without robot or with several, an expression that cannot be
-/// worked out.
+/// evaluated.
 pub fn expand(path: &Path, text: &str) -> Result<Expanded, Problems> {
     let main = Source::new(&path.display().to_string(), text);
     let flat = flatten::flatten(&main, path)?;

@@ -1,17 +1,17 @@
-//! Where the file is that `$(find package)/urdf/x.xacro` means: ROS is not asked, the folders around are.
+//! Finds the file that `$(find package)/urdf/x.xacro` names: without ROS, by the folders around.
 //!
 //! ```text
 //! FOLDER/my_support/urdf/arm.xacro includes
 //!   $(find my_support)/urdf/macro.xacro   FOLDER/my_support/urdf/macro.xacro
-//!   $(find other)/urdf/x.xacro            FOLDER/other/urdf/x.xacro, else x.xacro beside arm.xacro
+//!   $(find other)/urdf/x.xacro            FOLDER/other/urdf/x.xacro, else x.xacro next to arm.xacro
 //! ```
 
 use std::path::{Path, PathBuf};
 
 /// The places where an included file may be, the likeliest first. `None` for a name that is an expression.
 ///
-/// For `$(find package)/rest`: `rest` in a folder around that is called `package` or lies beside one that is; then
-/// the file itself beside the one that includes it.
+/// For `$(find package)/rest`: `rest` in a folder around that is called `package` or is next to one that is; then
+/// the file itself next to the one that includes it.
 pub(super) fn candidates(folder: &Path, filename: &str) -> Option<Vec<PathBuf>> {
     let inside = |open: &str, close: char| filename.strip_prefix(open)?.split_once(close);
     let packaged = inside("$(find ", ')').or_else(|| inside("package://", '/'));

@@ -62,7 +62,7 @@ fn one_macro_becomes_the_robot_with_an_empty_prefix() {
 }
 
 #[test]
-fn files_are_found_beside_and_in_the_packages_around() {
+fn files_are_found_next_to_it_and_in_the_packages_around() {
     let folder = tempfile::tempdir().unwrap();
     let urdf = folder.path().join("maker_support/urdf");
     let other = folder.path().join("maker_constants/urdf");
@@ -99,7 +99,7 @@ fn files_are_found_beside_and_in_the_packages_around() {
 }
 
 #[test]
-fn what_cannot_be_worked_out_is_reported_where_it_stands() {
+fn expressions_that_cannot_be_evaluated_are_reported_at_their_place() {
     for (from, to, words) in [
         (
             "${h + 0.1",
@@ -131,7 +131,7 @@ fn files_without_robot_or_with_several_are_reported() {
          <xacro:macro name=\"material_red\"><material name=\"\"><color rgba=\"${red}\"/></material></xacro:macro></robot>";
     let text = refusal(colours);
     assert!(
-        text.contains("makes no robot") && text.contains("colours"),
+        text.contains("defines no robot") && text.contains("colours"),
         "{text}"
     );
     let second = MACRO.replace(
@@ -145,7 +145,7 @@ fn files_without_robot_or_with_several_are_reported() {
     );
     let text = refusal(&MACRO.replace("params=\"prefix\"", "params=\"prefix speeds parent:=world\""));
     assert!(
-        text.contains("arm.xacro:5:22: macro `maker_arm` wants values for speeds"),
+        text.contains("arm.xacro:5:22: macro `maker_arm` requires values for speeds"),
         "{text}"
     );
 }
@@ -183,7 +183,7 @@ fn a_tip_that_is_not_there_lists_the_links() {
     );
 }
 
-/// A robot of one joint whose file also holds `more`.
+/// A robot of one joint whose file also contains `more`.
 fn with(more: &str) -> String {
     MACRO
         .replace(

@@ -1,4 +1,4 @@
-//! What a program does not tell of the cell that it runs in, and where its frames and tools lie there.
+//! The cell in which a program runs, and the poses of the program's frames and tools in it.
 
 use armill_core::frame::{Isometry, fixed_angles};
 
@@ -7,49 +7,49 @@ use super::error::FollowError;
 use crate::robot_program::number::fixed;
 use crate::robot_program::program::{Frame, Motion, RobotMove, RobotProgram, Target};
 
-/// The cell that a program runs in. Lengths m.
+/// The cell in which a program runs. Lengths m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cell {
     /// Flange to the tool centre point, z from the spindle to the tip.
     pub flange_from_tool: Isometry,
-    /// Base to where the controller counts from.
+    /// Base to the controller's reference frame.
     pub base_from_controller: Isometry,
-    /// From there to the frame that the program calls by number, or does not tell.
+    /// Controller's reference frame to the frame that the program only numbers or does not define.
     pub controller_from_frame: Option<Isometry>,
-    /// Base to where the frame of the first target lies in truth, whatever the program says of it.
+    /// Base to the frame of the first target, replacing that of the program.
     pub base_from_path: Option<Isometry>,
 }
 
-/// Tips farther apart than this are two, m.
+/// Tips further apart than this are different, m.
 const SAME_TIP: f64 = 1e-5;
-/// Tools turned farther than this against each other are told, rad: 0.01 deg.
+/// A rotation between tools above this value is reported, rad: 0.01 deg.
 const SAME_TURN: f64 = 1.75e-4;
 
-/// Where frames and tools of a program lie.
+/// Poses of the frames and tools of a program.
 pub(super) struct Placed {
     /// Base to the frame of the first target.
     pub base_from_path: Isometry,
     flange_from_tool: Isometry,
     base_from_controller: Isometry,
     controller_from_frame: Option<Isometry>,
-    /// What the first target counts from, and its line.
+    /// Frame of the first target, and its line.
     first: Option<(Frame, u32)>,
-    /// Where that lies by the cell's word.
+    /// Pose of that frame given by the cell.
     replaced: Option<Isometry>,
-    /// Numbers of tools that are taken for the cell's; `None` of one without.
+    /// Numbers of tools that are assumed to be the cell's tool; `None` for a tool without number.
     taken: Vec<Option<u32>>,
-    /// How far the axes of the program's tool are turned against those of the cell's, rad, farthest.
+    /// Largest rotation between the axes of the program's tool and the cell's tool, rad.
     turned: f64,
 }
 
 impl Cell {
-    /// Where the frames of `program` lie.
+    /// The poses of the frames of `program`.
     ///
     /// # Errors
-    /// Frames that nobody tells, or both; cuts with another tip.
+    /// Frames that neither the program nor the cell defines, or both define; cuts with another tip.
     pub(super) fn placed(&self, program: &RobotProgram) -> Result<Placed, Vec<FollowError>> {
-        let poses = || program.moves.iter().filter(|given| tells_pose(given));
-        // Rapids may come from a home in another frame: what is cut decides.
+        let poses = || program.moves.iter().filter(|given| has_pose(given));
+        // Rapid moves may begin at a home position in another frame: cutting moves decide.
         let first = poses()
             .find(|given| given.motion != Motion::Joint)
             .or_else(|| poses().next());
@@ -91,14 +91,14 @@ impl Cell {
         Ok(placed)
     }
 
-    /// What is not known of these frames, that of the path first.
+    /// Frames whose poses are not known; that of the path first.
     fn lacks(&self, frames: &[(Frame, u32)]) -> Vec<FollowError> {
         let Some((first, first_line)) = frames.first().copied() else {
             return Vec::new();
         };
         let mut open = frames
             .iter()
-            .filter(|(frame, _)| !matches!(frame, Frame::Told(_)));
+            .filter(|(frame, _)| !matches!(frame, Frame::Given(_)));
         let several = |other: &(Frame, u32), line: u32| FollowError::Several {
             lines: [line, other.1],
         };
@@ -108,7 +108,7 @@ impl Cell {
         }
         if self.controller_from_frame.is_some() {
             return match open.next() {
-                None => vec![FollowError::Told { line: first_line }],
+                None => vec![FollowError::FrameGivenTwice { line: first_line }],
                 Some((_, line)) => open.map(|other| several(other, *line)).collect(),
             };
         }
@@ -117,18 +117,18 @@ impl Cell {
                 line: *line,
                 number: *number,
             },
-            _ => FollowError::EvaluateError { line: *line },
+            _ => FollowError::UnknownFrame { line: *line },
         })
         .collect()
     }
 }
 
 impl Placed {
-    /// Base to what the targets of this move count from.
+    /// Base to the frame of the targets of this move.
     pub fn base_from_frame(&self, given: &RobotMove) -> Isometry {
         let by_program = |frame: &Frame| match frame {
-            Frame::Told(frame) => self.base_from_controller * frame,
-            Frame::Numbered(_) | Frame::EvaluateError => {
+            Frame::Given(frame) => self.base_from_controller * frame,
+            Frame::Numbered(_) | Frame::Unknown => {
                 self.base_from_controller * self.controller_from_frame.unwrap_or_else(Isometry::identity)
             }
         };
@@ -137,8 +137,8 @@ impl Placed {
         };
         match (first, given.frame) {
             (first, frame) if first == frame => base_from_first,
-            // What lies beside it goes with it.
-            (Frame::Told(_), frame) => base_from_first * by_program(&first).inverse() * by_program(&frame),
+            // Other frames move with it.
+            (Frame::Given(_), frame) => base_from_first * by_program(&first).inverse() * by_program(&frame),
             (_, frame) => by_program(&frame),
         }
     }
@@ -148,7 +148,7 @@ impl Placed {
     /// # Errors
     /// A cut with another tip.
     pub fn tcp_from_tool(&self, given: &RobotMove) -> Result<Isometry, FollowError> {
-        let Frame::Told(flange_from_tcp) = given.tool else {
+        let Frame::Given(flange_from_tcp) = given.tool else {
             return Ok(Isometry::identity());
         };
         let between = flange_from_tcp.inverse() * self.flange_from_tool;
@@ -159,7 +159,7 @@ impl Placed {
         let [x, y, z, rx, ry, rz] = mm_deg(&flange_from_tcp);
         Err(FollowError::Tip {
             line: given.line,
-            told_mm: format!("{x}, {y}, {z}"),
+            tip_mm: format!("{x}, {y}, {z}"),
             apart_mm: apart * 1e3,
             tool_mm_deg: format!("[{x}, {y}, {z}, {rx}, {ry}, {rz}]"),
         })
@@ -170,34 +170,36 @@ impl Placed {
             return;
         }
         match given.tool {
-            Frame::Told(_) => {
+            Frame::Given(_) => {
                 let turned = angle(&between.rotation, &Isometry::identity().rotation);
                 self.turned = self.turned.max(turned);
             }
             Frame::Numbered(number) => self.taken.push(Some(number)),
-            Frame::EvaluateError => self.taken.push(None),
+            Frame::Unknown => self.taken.push(None),
         }
     }
 
     /// What a user must know of frames and tools, each a sentence.
     pub fn notes(&self) -> Vec<String> {
         let mut notes = Vec::new();
-        if let (Some((Frame::Told(frame), line)), None) = (self.first, self.replaced) {
+        if let (Some((Frame::Given(frame), line)), None) = (self.first, self.replaced) {
             let numbers = mm_deg(&frame).join(", ");
             notes.push(format!(
-                "line {line}: the program tells its frame ({numbers} mm, deg from where the controller counts): the plane of the study does not move \
-                 it"
+                "line {line}: the program defines its frame ({numbers} mm, deg, relative to the controller's \
+                 reference frame); the plane of the study \
+                 does not change it"
             ));
         }
         for number in &self.taken {
             notes.push(match number {
-                Some(number) => format!("tool {number} of the controller is taken to be the study's"),
-                None => "the program tells no tool: that of the study is taken".to_owned(),
+                Some(number) => format!("tool {number} of the controller is assumed to be the study's tool"),
+                None => "the program defines no tool: the study's tool is used".to_owned(),
             });
         }
         if self.turned > SAME_TURN {
             notes.push(format!(
-                "the axes of the program's tool are turned by {:.2} deg against those of the study's, whose z is the direction of the tool",
+                "the axes of the program's tool are rotated by {:.2} deg relative to those of the study's tool, whose \
+                 z is the tool direction",
                 self.turned.to_degrees()
             ));
         }
@@ -205,8 +207,8 @@ impl Placed {
     }
 }
 
-/// Whether a target or via point of this move is told as a pose.
-fn tells_pose(given: &RobotMove) -> bool {
+/// Whether a target or via point of this move is given as a pose.
+fn has_pose(given: &RobotMove) -> bool {
     let via = match &given.motion {
         Motion::Circular { via } => via.pose(),
         Motion::Joint | Motion::Linear => None,
@@ -217,10 +219,10 @@ fn tells_pose(given: &RobotMove) -> bool {
     true
 }
 
-/// Decimals of a frame or tool in sentences, mm and deg.
+/// Decimals of a frame or tool in messages, mm and deg.
 const DECIMALS: usize = 3;
 
-/// x, y, z in mm and turns about fixed x, y, z in deg.
+/// x, y, z in mm and rotations about fixed x, y, z in deg.
 fn mm_deg(pose: &Isometry) -> [String; 6] {
     let at = pose.translation.vector * 1e3;
     let turned = fixed_angles(&pose.rotation).map(f64::to_degrees);

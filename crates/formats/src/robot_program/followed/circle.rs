@@ -4,21 +4,21 @@
 //! u = p_1 - p_0    v = p_2 - p_0    n = u x v        centre = p_0 + (|u|^2 (v x n) + |v|^2 (n x u)) / (2 |n|^2)
 //! ```
 //!
-//! It turns about `n` by the right hand, from `p_0` over `p_1` to `p_2`. m.
+//! The arc is right-handed about `n`, from `p_0` over `p_1` to `p_2`. m.
 
 use std::f64::consts::TAU;
 
 use armill_core::nalgebra::{Point3, Unit, Vector3};
 use armill_core::path::Arc;
 
-/// A larger radius is a line, m: its arc over a metre leaves the chord by a tenth of a micrometre.
+/// A larger radius is treated as a line, m: its arc over a metre leaves the chord by a tenth of a micrometre.
 const LARGEST_RADIUS: f64 = 1e6;
 
-/// What three points make.
+/// Curve through three points.
 pub(super) enum Through {
-    /// An arc, and the part of it at the second point.
+    /// An arc, and the fraction of it at the second point.
     Arc(Arc, f64),
-    /// No arc: they lie on one line, or two of them are one.
+    /// A line: the points are on one line, or two of them coincide.
     Line,
 }
 
@@ -26,7 +26,7 @@ pub(super) enum Through {
 pub(super) fn through([begin, via, end]: [Point3<f64>; 3]) -> Through {
     let (u, v) = (via - begin, end - begin);
     let n = u.cross(&v);
-    // Two points that are one leave the radius open: 0/0.
+    // Two coincident points leave the radius undefined: 0/0.
     let radius = u.norm() * v.norm() * (u - v).norm() / (2.0 * n.norm());
     if radius.is_nan() || radius >= LARGEST_RADIUS {
         return Through::Line;
@@ -52,7 +52,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn three_points_of_a_circle_tell_its_centre_and_how_far_it_turns() {
+    fn three_points_of_a_circle_give_its_centre_and_angle() {
         let (centre, radius) = (Point3::new(1.2, -0.4, 0.7), 0.083);
         let turn = Rotation3::from_euler_angles(0.4, -1.1, 2.0);
         let on = |angle: f64| centre + turn * Vector3::new(angle.cos(), angle.sin(), 0.0) * radius;
@@ -62,7 +62,7 @@ mod tests {
                 let Through::Arc(arc, found) = through([at(0.0), at(part), at(1.0)]) else {
                     panic!("an arc of {sweep} rad");
                 };
-                // A short arc leaves its chord little: what rounding of the points does to it grows with its square.
+                // A short arc is close to its chord: rounding errors of the points grow with its square.
                 let good = 1e-14 / (sweep * sweep).min(1.0);
                 assert!((arc.centre - centre).norm() < good, "{sweep}");
                 assert!((arc.sweep - sweep).abs() < 1e2 * good && (found - part).abs() < 1e2 * good);
@@ -72,7 +72,7 @@ mod tests {
     }
 
     #[test]
-    fn points_on_a_line_and_points_that_are_one_make_no_arc() {
+    fn points_on_a_line_and_coincident_points_give_no_arc() {
         let at = |x: f64| Point3::new(x, 2.0 * x, -x);
         for three in [
             [0.0, 1.0, 2.0],

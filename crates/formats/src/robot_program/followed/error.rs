@@ -1,11 +1,11 @@
-//! What keeps a program from being followed: what neither it nor its cell tells.
+//! Why a program cannot be followed: data that neither the program nor its cell gives.
 
-/// Why a program is no path in its cell.
+/// Why a program gives no path in its cell.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FollowError {
-    /// A frame that stands on the controller, and that the cell does not tell.
+    /// A frame that is stored on the controller and not given by the cell.
     #[error(
-        "line {line}: places count from frame {number} of the controller, which the program does not tell"
+        "line {line}: coordinates are relative to frame {number} of the controller, which the program does not define"
     )]
     Numbered {
         /// Line of the first such move.
@@ -13,48 +13,50 @@ pub enum FollowError {
         /// Number of the frame.
         number: u32,
     },
-    /// Nothing is said of the frame.
-    #[error("line {line}: the program does not tell which frame its places count from")]
-    EvaluateError {
+    /// The frame is not named.
+    #[error("line {line}: the program does not define the frame of its coordinates")]
+    UnknownFrame {
         /// Line of the first such move.
         line: u32,
     },
-    /// The cell tells a frame that the program tells too.
-    #[error("line {line}: the program tells its frame itself")]
-    Told {
+    /// Both the cell and the program give the frame.
+    #[error("line {line}: the program already defines its frame")]
+    FrameGivenTwice {
         /// Line of the first such move.
         line: u32,
     },
-    /// Frames whose places beside each other are not known.
-    #[error("lines {} and {}: places count from two frames, and how they lie to each other is not told", lines[0], lines[1])]
+    /// Frames whose relative pose is not known.
+    #[error("lines {} and {}: coordinates are relative to two frames, and the pose of one in the other is not \
+        known", lines[0], lines[1])]
     Several {
-        /// Lines of moves in either.
+        /// A line with each of the frames.
         lines: [u32; 2],
     },
-    /// The tool of the program has another tip than the cell's.
+    /// The tip of the program's tool differs from that of the cell's tool.
     #[error(
-        "line {line}: the program's tool has its tip at {told_mm} mm from the flange, {apart_mm:.3} mm from that of the study's"
+        "line {line}: the tip of the program's tool is at {tip_mm} mm from the flange, {apart_mm:.3} mm from the tip \
+         of the study's tool"
     )]
     Tip {
         /// Line of the first such cut.
         line: u32,
-        /// Flange to tip, as the program tells it, mm.
-        told_mm: String,
-        /// How far that is from the tip of the cell's tool, mm.
+        /// Flange to tip in the program, mm.
+        tip_mm: String,
+        /// Distance from the tip of the cell's tool, mm.
         apart_mm: f64,
-        /// Flange to tool as numbers of a study: x, y, z in mm, turns about fixed x, y, z in deg.
+        /// Flange to tool in the form of a study: x, y, z in mm, rotations about fixed x, y, z in deg.
         tool_mm_deg: String,
     },
     /// Joints of another robot.
-    #[error("line {line}: {found} joint positions, where robot `{robot}` has {expected} joints")]
+    #[error("line {line}: {found} joint positions, but robot `{robot}` has {expected} joints")]
     Joints {
         /// Line of the move.
         line: u32,
-        /// How many are told.
+        /// Number of given joint positions.
         found: usize,
         /// Name of the robot.
         robot: String,
-        /// How many it has.
+        /// Number of its joints.
         expected: usize,
     },
 }

@@ -1,4 +1,4 @@
-//! A program as the moves of a path: where each ends in one frame, how the tool stands there and what it follows.
+//! A program as moves of a path: the end of each move in one frame, the tool orientation there, and the course.
 //!
 //! ```text
 //! path_from_tool = path_from_base base_from_frame frame_from_tcp (flange_from_tcp)^-1 flange_from_tool     a pose
@@ -7,15 +7,15 @@
 //!
 //! | symbol | meaning |
 //! |---|---|
-//! | path | the frame that the first pose counts from |
-//! | frame, tcp | what the program's poses count from, and the tool that it tells |
-//! | tool | the tool of the cell, whose tip must be that of the program's along every cut |
+//! | path | the reference frame of the first pose |
+//! | frame, tcp | the reference frame of the program's poses, and the program's tool |
+//! | tool | the tool of the cell; its tip must be that of the program's tool in every cut |
 //!
-//! Straight and circular moves cut, at the speed that is told; moves of the joints are rapids whose ends alone are known.
-//! What goes to or comes from a place that the program does not tell is left out, and said. On an arc the tool turns
-//! evenly from its start to its end.
+//! Straight and circular moves cut at the programmed speed. Joint moves are rapid moves of which only the ends are
+//! known. Moves to or from a position that the program does not give are left out and reported. On an arc the tool
+//! rotates uniformly from start to end.
 //!
-//! In reading order: `cell` what the program does not tell, and frames and tools with it; `error` what it lacks then;
+//! In reading order: `cell` the data that the program does not give, with frames and tools; `error` missing data;
 //! `circle` arcs through three points.
 
 mod cell;
@@ -26,7 +26,7 @@ use std::collections::BTreeMap;
 
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::{Point3, UnitQuaternion, Vector3};
-use armill_core::path::{Course, Move, Pace, ToldSpin};
+use armill_core::path::{Course, GivenSpin, Move, Pace};
 use armill_core::robot::forward::forward;
 use armill_core::robot::inverse::{posture_at, tool_on};
 use armill_core::robot::{BranchPattern, Robot};
@@ -39,41 +39,41 @@ use super::program::{Motion, RobotMove, RobotProgram, Speed, Target};
 /// A program as moves of a path.
 #[derive(Clone, Debug)]
 pub struct Followed {
-    /// Base to the frame that the moves count in.
+    /// Base to the frame of the moves.
     pub base_from_path: Isometry,
-    /// Its moves, those left out apart, in order.
+    /// Its moves in order, except those left out.
     pub moves: Vec<FollowedMove>,
-    /// The posture in which its first cut begins, as far as the program tells it, and the line that does.
+    /// The posture in which its first cut begins, as far as the program gives it, and the line that gives it.
     pub posture: Option<(BranchPattern, u32)>,
-    /// What was left out or taken for granted, each a sentence.
+    /// Assumptions and moves left out, one sentence each.
     pub notes: Vec<String>,
 }
 
 /// One move of a program as one of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FollowedMove {
-    /// Which move of the program.
+    /// Index of the move in the program.
     pub index: usize,
-    /// The same in the frame of the path.
+    /// The move in the frame of the path.
     pub next: Move,
-    /// Path to the frame that its target counts in; `None` of a target told in joints.
+    /// Path to the frame of its target; `None` if the target is given in joints.
     pub path_from_frame: Option<Isometry>,
-    /// Where an arc passes, m, path.
+    /// Via point of an arc, m, path.
     pub via: Option<Point3<f64>>,
 }
 
-/// The moves of `program`, that `robot` runs in `cell`.
+/// The moves of `program` as run by `robot` in `cell`.
 ///
 /// # Errors
-/// Everything that the program does not tell and the cell does not either: frames by their numbers, a tool with another
-/// tip; joints of another robot.
+/// All data that neither the program nor the cell gives: numbered frames, a tool with another tip; and joints of
+/// another robot.
 pub fn follow(program: &RobotProgram, robot: &Robot, cell: &Cell) -> Result<Followed, Vec<FollowError>> {
     let placed = cell.placed(program)?;
     let mut follower = Follower {
         robot,
         cell,
         placed: &placed,
-        stands: None,
+        position: None,
         posture: None,
         begun: false,
         moves: Vec::with_capacity(program.moves.len()),
@@ -104,10 +104,11 @@ pub fn follow(program: &RobotProgram, robot: &Robot, cell: &Cell) -> Result<Foll
     })
 }
 
-/// Orientations at the via point of an arc that lie farther from the even turn are told, rad: half a degree.
+/// A via orientation of an arc that differs from the uniform rotation by more than this is reported, rad: half a
+/// degree.
 const VIA_TURN: f64 = 8.7e-3;
 
-/// Where a target is, in the frame of the path.
+/// Pose of a target, in the frame of the path.
 #[derive(Clone, Copy)]
 struct Place {
     path_from_tool: Isometry,
@@ -124,8 +125,8 @@ struct Follower<'a> {
     robot: &'a Robot,
     cell: &'a Cell,
     placed: &'a cell::Placed,
-    /// Where the move before has ended, if that is known.
-    stands: Option<Isometry>,
+    /// End of the previous move, if it is known.
+    position: Option<Isometry>,
     posture: Option<(BranchPattern, u32)>,
     /// Whether a cut has begun.
     begun: bool,
@@ -143,9 +144,9 @@ impl Follower<'_> {
             Ok(None) => {
                 if let Target::Elsewhere { name } = &given.target {
                     self.noted
-                        .note(What::Elsewhere, given.line, || format!("`{name}`"));
+                        .note(SkippedKind::Elsewhere, given.line, || format!("`{name}`"));
                 }
-                self.stands = None;
+                self.position = None;
                 return;
             }
             Err(error) => return self.errors.push(error),
@@ -153,18 +154,19 @@ impl Follower<'_> {
         let pace = match given.speed {
             _ if !cuts => Pace::Rapid,
             Speed::Tip(speed) => Pace::Feed(speed),
-            Speed::Joints | Speed::EvaluateError => Pace::EvaluateError,
+            Speed::Joints | Speed::Unknown => Pace::Unknown,
         };
         let (mut course, mut pace, mut passed) = (Course::Line, pace, None);
-        match (&given.motion, self.stands) {
+        match (&given.motion, self.position) {
             (Motion::Joint, _) => {}
             (_, None) => {
-                // From where is not known: it ends there, as if by a rapid.
-                self.noted
-                    .note(What::FromNowhere, given.line, || match self.moves.is_empty() {
+                // The start is not known: the move ends there like a rapid move.
+                self.noted.note(SkippedKind::FromNowhere, given.line, || {
+                    match self.moves.is_empty() {
                         true => "the first move".to_owned(),
                         false => "a move".to_owned(),
-                    });
+                    }
+                });
                 pace = Pace::Rapid;
             }
             (Motion::Linear, Some(_)) => {}
@@ -174,21 +176,22 @@ impl Follower<'_> {
                     course = self.arc(given.line, [from, via.path_from_tool, end.path_from_tool]);
                 }
                 Ok(None) => {
-                    self.noted.note(What::NoVia, given.line, || "an arc".to_owned());
+                    self.noted
+                        .note(SkippedKind::NoVia, given.line, || "an arc".to_owned());
                     pace = Pace::Rapid;
                 }
                 Err(error) => return self.errors.push(error),
             },
         }
         self.begun |= pace.cuts();
-        self.stands = Some(end.path_from_tool);
+        self.position = Some(end.path_from_tool);
         let turned = end.path_from_tool.rotation;
         self.moves.push(FollowedMove {
             index,
             next: Move {
                 end: end.point(),
                 axis: Some(-(turned * Vector3::z_axis())),
-                spin: Some(ToldSpin::Orientation(turned)),
+                spin: Some(GivenSpin::Orientation(turned)),
                 course,
                 pace,
                 line: given.line,
@@ -198,7 +201,7 @@ impl Follower<'_> {
         });
     }
 
-    /// Where a target of this move is; `None` where the program does not tell.
+    /// The pose of a target of this move; `None` if the program does not give it.
     fn place(&mut self, given: &RobotMove, target: &Target) -> Result<Option<Place>, FollowError> {
         let path_from_base = self.placed.base_from_path.inverse();
         match target {
@@ -222,7 +225,7 @@ impl Follower<'_> {
                     });
                 }
                 self.noted
-                    .note(What::Joints, given.line, || "joint positions".to_owned());
+                    .note(SkippedKind::Joints, given.line, || "joint positions".to_owned());
                 let base_from_tool = tool_on(&forward(robot, joints), &self.cell.flange_from_tool);
                 Ok(Some(Place {
                     path_from_tool: path_from_base * base_from_tool,
@@ -232,7 +235,7 @@ impl Follower<'_> {
         }
     }
 
-    /// Until the first cut: how the arm stands. Straight moves keep the posture, whatever they say of it.
+    /// Until the first cut: the robot posture. Straight moves keep it, whatever they specify.
     fn hear_posture(&mut self, given: &RobotMove) {
         if self.begun || (given.motion != Motion::Joint && self.posture.is_some()) {
             return;
@@ -248,7 +251,7 @@ impl Follower<'_> {
         if let Some(pattern) = pattern {
             self.posture = Some((pattern, given.line));
         } else if given.motion == Motion::Joint {
-            // It may have changed, and how is not told.
+            // The posture may have changed in an unknown way.
             self.posture = None;
         }
     }
@@ -263,27 +266,29 @@ impl Follower<'_> {
                     .try_slerp(&end.rotation, part, f64::MIN_POSITIVE)
                     .unwrap_or(end.rotation);
                 if angle(&even, &via.rotation) > VIA_TURN {
-                    self.noted.note(What::ViaTurn, line, || "an arc".to_owned());
+                    self.noted
+                        .note(SkippedKind::ViaTurn, line, || "an arc".to_owned());
                 }
                 Course::Arc(arc)
             }
             Through::Line => {
-                self.noted.note(What::FlatArc, line, || "an arc".to_owned());
+                self.noted
+                    .note(SkippedKind::FlatArc, line, || "an arc".to_owned());
                 Course::Line
             }
         }
     }
 }
 
-/// The angle between two orientations, rad; good to rounding where it is small.
+/// The angle between two orientations, rad; accurate to rounding if it is small.
 fn angle(one: &UnitQuaternion<f64>, other: &UnitQuaternion<f64>) -> f64 {
     let between = one.inverse() * other;
     2.0 * between.vector().norm().atan2(between.scalar().abs())
 }
 
-/// What is worth telling of single moves, in the order told.
+/// Kinds of notes on single moves, in the order of the report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum What {
+enum SkippedKind {
     FromNowhere,
     Elsewhere,
     NoVia,
@@ -292,12 +297,12 @@ enum What {
     Joints,
 }
 
-/// How often each was met, the line of its first time, and what that was.
+/// Number of occurrences of each, the line of the first one, and its subject.
 #[derive(Default)]
-struct Noted(BTreeMap<What, (usize, u32, String)>);
+struct Noted(BTreeMap<SkippedKind, (usize, u32, String)>);
 
 impl Noted {
-    fn note(&mut self, what: What, line: u32, shown: impl FnOnce() -> String) {
+    fn note(&mut self, what: SkippedKind, line: u32, shown: impl FnOnce() -> String) {
         let noted = self.0.entry(what).or_insert_with(|| (0, line, shown()));
         noted.0 += 1;
     }
@@ -305,24 +310,24 @@ impl Noted {
     fn sentences(self) -> impl Iterator<Item = String> {
         self.0.into_iter().map(|(what, (times, line, shown))| {
             let said = match what {
-                What::FromNowhere => {
-                    "begins at a place that the program does not tell: its way there is left out"
+                SkippedKind::FromNowhere => {
+                    "begins at a position that the program does not give: the move to it is left out"
                 }
-                What::Elsewhere => {
-                    "is a place that the program does not tell: the way there and the way on are left out"
+                SkippedKind::Elsewhere => {
+                    "is a position that the program does not give: the moves to it and from it are left out"
                 }
-                What::NoVia => "passes a place that the program does not tell: it is left out",
-                What::FlatArc => "has its three points on one line: taken as straight",
-                What::ViaTurn => {
-                    "tells an orientation on its way: the tool is taken to turn evenly from start to end"
+                SkippedKind::NoVia => "passes a position that the program does not give: it is left out",
+                SkippedKind::FlatArc => "has its three points on one line: a straight line is used",
+                SkippedKind::ViaTurn => {
+                    "gives an orientation at its via point: the tool is assumed to rotate uniformly from start to end"
                 }
-                What::Joints => {
-                    "are taken as the robot's file counts its joints: compare them with the pendant"
+                SkippedKind::Joints => {
+                    "use the joint zeros and signs of the robot file: compare them with the pendant"
                 }
             };
             let times = match times {
                 1 => String::new(),
-                times => format!(" ({times} times, here first)"),
+                times => format!(" ({times} times, first here)"),
             };
             format!("line {line}: {shown} {said}{times}")
         })

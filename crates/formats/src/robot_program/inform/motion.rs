@@ -1,4 +1,4 @@
-//! A move of a job: what it names, how fast, and rows of MOVC.
+//! A move of a job: its position, its speed, and rows of MOVC.
 
 use super::position::{Name, Position, elsewhere};
 use super::read::{Job, Reader};
@@ -7,7 +7,7 @@ use crate::robot_program::program::{Motion, RobotMove, Speed};
 use crate::robot_program::spelling::{Line, Part, number};
 
 impl<'a> Reader<'a> {
-    /// MOVJ, MOVL, MOVS or MOVC, with the words behind it.
+    /// MOVJ, MOVL, MOVS or MOVC, with the words after it.
     pub fn motion<'l>(
         &mut self,
         job: &mut Job<'a>,
@@ -16,25 +16,25 @@ impl<'a> Reader<'a> {
     ) {
         let mut position = None;
         let mut external = false;
-        let mut speed = Speed::EvaluateError;
-        let mut ends_arc = ArcEnd::EvaluateError;
+        let mut speed = Speed::Unknown;
+        let mut ends_arc = ArcEnd::Unmarked;
         for part in words {
             let text = part.text.to_ascii_uppercase();
             if text.starts_with("//") || text.starts_with('\'') {
                 break;
             }
             if text.starts_with('+') {
-                let what = "what a second robot or a station does beside (+MOV..) is passed over";
-                self.given.note((job.text, line.number), what);
+                let what = "motion of a second robot or a station (+MOV..) is ignored";
+                self.messages.note((job.text, line.number), what);
                 break;
             }
             match (text.as_str(), text.split_once('=')) {
                 ("UNTIL" | "SRCH", _) => {
-                    let what = format!("{text} is passed over: the move goes to its end");
-                    self.given.note((job.text, line.number), what);
+                    let what = format!("{text} is ignored: the full move is used");
+                    self.messages.note((job.text, line.number), what);
                     break;
                 }
-                ("FPT", _) => ends_arc = ArcEnd::Told,
+                ("FPT", _) => ends_arc = ArcEnd::Marked,
                 (_, Some(("V", value))) => speed = self.speed(job, line, (&part, value)),
                 (_, Some(("VJ" | "VR" | "VE", _))) => speed = Speed::Joints,
                 _ => match Name::of(part.text) {
@@ -44,21 +44,22 @@ impl<'a> Reader<'a> {
                             return;
                         }
                     }
-                    Some(Name::Found(name)) if position.is_none() => position = Some(elsewhere(&name)),
+                    Some(Name::Variable(name)) if position.is_none() => position = Some(elsewhere(&name)),
                     Some(_) => external = true,
                     None => {}
                 },
             }
         }
         if external {
-            let what = "positions of rails and stations (BC, EC, BP, EX) are passed over: they are taken as standing still";
-            self.given.note((job.text, line.number), what);
+            let what =
+                "positions of rails and stations (BC, EC, BP, EX) are ignored: they are assumed not to move";
+            self.messages.note((job.text, line.number), what);
         }
         let Some(position) = position else {
             if !external {
                 let message = format!("`{word}` names no position");
-                let hint = "a move names one: `MOVL C00001 V=100.0`";
-                self.given.problem(job.text, line.span(), message, hint);
+                let hint = "a move names one position: `MOVL C00001 V=100.0`";
+                self.messages.problem(job.text, line.span(), message, hint);
             }
             return;
         };
@@ -67,8 +68,8 @@ impl<'a> Reader<'a> {
         }
         self.end_row(job);
         if word == "MOVS" {
-            let what = "MOVS is taken as straight between its points";
-            self.given.note((job.text, line.number), what);
+            let what = "MOVS is read as straight lines between its points";
+            self.messages.note((job.text, line.number), what);
         }
         let motion = match word {
             "MOVJ" => Motion::Joint,
@@ -77,7 +78,7 @@ impl<'a> Reader<'a> {
         self.push((motion, position, speed), line);
     }
 
-    /// The position of this name; P variables that are not listed stand on the controller.
+    /// The position with this name; P variables that are not listed are on the controller.
     fn position(
         &mut self,
         job: &Job<'a>,
@@ -89,8 +90,8 @@ impl<'a> Reader<'a> {
             (None, 'P') => Some(elsewhere(part.text)),
             (None, _) => {
                 let message = format!("the position {} is not in the list of this job", part.text);
-                let hint = "its line stands below //POS: give the whole job, as the controller saves it";
-                self.given.problem(job.text, line.span_of(part), message, hint);
+                let hint = "positions are listed below //POS: give the whole job as the controller saves it";
+                self.messages.problem(job.text, line.span_of(part), message, hint);
                 None
             }
         }
@@ -98,26 +99,26 @@ impl<'a> Reader<'a> {
 
     fn speed(&mut self, job: &Job<'a>, line: &Line, (part, value): (&Part, &str)) -> Speed {
         if value.starts_with(|c: char| c.is_ascii_alphabetic()) {
-            let what = "a speed out of a variable is not known";
-            self.given.note((job.text, line.number), what);
-            return Speed::EvaluateError;
+            let what = "a speed from a variable is not known";
+            self.messages.note((job.text, line.number), what);
+            return Speed::Unknown;
         }
         match number(value).filter(|value| *value >= 0.0) {
             Some(value) => {
-                let what = "speeds V= are taken as mm/s; a parameter of the controller may make them cm/min or inch/min";
-                self.given.note((job.text, line.number), what);
+                let what = "speeds V= are read as mm/s; a parameter of the controller may make them cm/min or inch/min";
+                self.messages.note((job.text, line.number), what);
                 Speed::Tip(value * 1e-3)
             }
             None => {
-                let message = format!("`{value}` is no speed");
+                let message = format!("`{value}` is not a valid speed");
                 let hint = "write it in mm/s: `V=100.0`";
-                self.given.problem(job.text, line.span_of(part), message, hint);
-                Speed::EvaluateError
+                self.messages.problem(job.text, line.span_of(part), message, hint);
+                Speed::Unknown
             }
         }
     }
 
-    /// One more MOVC of a row.
+    /// Adds a MOVC to a row.
     fn arc(&mut self, job: &mut Job<'a>, line: &Line, (position, speed, end): (Position, Speed, ArcEnd)) {
         match job.row.next(position, end, line.span()) {
             Next::Straight(position) => self.push((Motion::Linear, position, speed), line),
@@ -127,15 +128,15 @@ impl<'a> Reader<'a> {
             }
             Next::Arc { .. } => {
                 let message =
-                    "the points of this arc count in different frames or have different tools".to_owned();
+                    "the points of this arc are relative to different frames or have different tools"
+                        .to_owned();
                 let hint = "teach the three points of an arc in one frame with one tool";
-                self.given.problem(job.text, line.span(), message, hint);
+                self.messages.problem(job.text, line.span(), message, hint);
             }
             Next::Uncertain => {
-                let message = "a fourth MOVC in a row: which points make which arc is not certain".to_owned();
-                let hint =
-                    "end an arc by FPT, or begin the next with a MOVL to the place where the tip stands";
-                self.given.problem(job.text, line.span(), message, hint);
+                let message = "a fourth MOVC in a row: the arcs are ambiguous".to_owned();
+                let hint = "end an arc with FPT, or begin the next one with a MOVL to the current position";
+                self.messages.problem(job.text, line.span(), message, hint);
             }
         }
     }

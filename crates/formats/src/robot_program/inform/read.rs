@@ -1,18 +1,18 @@
-//! What a job does with its positions: moves, and what is passed over between them.
+//! The instructions of a job: moves, and the instructions between them that are ignored.
 
 use super::position::{Position, Positions};
 use crate::document::{Problem, Problems};
 use crate::robot_program::arc_row::ArcRow;
 use crate::robot_program::language::Language;
+use crate::robot_program::messages::ProgramMessages;
 use crate::robot_program::program::{RobotMove, RobotProgram, Target};
 use crate::robot_program::spelling::{Line, Part, lines};
 use crate::robot_program::text::ProgramText;
-use crate::robot_program::given::Told;
 
-/// Jobs that call jobs are followed so deep.
+/// Maximum nesting of job calls.
 const DEEPEST: usize = 30;
 
-/// Words that choose what runs and how often.
+/// Words of control flow.
 const CHOICES: [&str; 18] = [
     "JUMP",
     "IF",
@@ -34,7 +34,7 @@ const CHOICES: [&str; 18] = [
     "RET",
 ];
 
-/// Words that shift or turn what follows.
+/// Words that shift or rotate the positions after them.
 const SHIFTS: [&str; 6] = ["SFTON", "SFTOF", "MFRAME", "MIRROR", "MSHIFT", "SETTOOL"];
 
 /// Words that compute variables, position variables among them.
@@ -42,7 +42,7 @@ const COMPUTES: [&str; 9] = [
     "SET", "ADD", "SUB", "MULMAT", "INVMAT", "CNVRT", "GETS", "SETE", "GETPOS",
 ];
 
-/// Reads the job that comes first, with the jobs that it calls as far as they are among `texts`.
+/// Reads the first job, and the jobs that it calls if they are among `texts`.
 ///
 /// # Errors
 /// Every problem of the files, at most 200.
@@ -56,7 +56,7 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
         text.text().lines().any(begins)
     };
     if let Some(other) = texts.first().filter(|text| !is_job(text)) {
-        let message = "this is no job: it has neither /JOB nor //POS nor //INST";
+        let message = "this is not a job: it has neither /JOB nor //POS nor //INST";
         return Err(Problem::of_file(
             other.name(),
             message,
@@ -69,7 +69,7 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
         names: texts.iter().map(job_name).collect(),
         done: vec![false; texts.len()],
         moves: Vec::new(),
-        given: Told::default(),
+        messages: ProgramMessages::default(),
     };
     reader.job(0, 0);
     let given = |one: &RobotMove| !matches!(one.target, Target::Elsewhere { .. });
@@ -77,17 +77,21 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
         && !reader.moves.iter().any(given)
     {
         let message = format!(
-            "line {}: no target of this job is told in coordinates",
+            "line {}: no target of this job is given in coordinates",
             first.line
         );
-        let hint = "pulses and variables are known to the controller alone: save the job as a relative job, with positions in \
+        let hint = "only the controller can convert pulses and variables: save the job as a relative job, with \
+            positions in \
                     BASE, ROBOT or USER";
-        reader.given.problem(text, 0..0, message, hint);
+        reader.messages.problem(text, 0..0, message, hint);
     }
     let Reader {
-        names, moves, given, ..
+        names,
+        moves,
+        messages,
+        ..
     } = reader;
-    let notes = given.finish()?;
+    let notes = messages.finish()?;
     Ok(RobotProgram {
         language: Language::Inform,
         name: names.into_iter().next().unwrap_or_default(),
@@ -97,7 +101,7 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
     })
 }
 
-/// What a job calls itself, or its file.
+/// The name in a job, or that of its file.
 fn job_name(text: &ProgramText) -> String {
     let given = text.text().lines().take(50).find_map(|line| {
         let rest = line.trim_start().strip_prefix("//NAME")?;
@@ -110,16 +114,16 @@ fn job_name(text: &ProgramText) -> String {
     })
 }
 
-/// Jobs on their way.
+/// Reads jobs.
 pub(super) struct Reader<'a> {
     texts: &'a [ProgramText],
     names: Vec<String>,
     done: Vec<bool>,
     pub moves: Vec<RobotMove>,
-    pub given: Told,
+    pub messages: ProgramMessages,
 }
 
-/// A job on its way.
+/// A job while it is read.
 pub(super) struct Job<'a> {
     pub text: &'a ProgramText,
     pub positions: Positions<'a>,
@@ -146,10 +150,8 @@ impl<'a> Reader<'a> {
             if said.text.starts_with("/JOB") {
                 jobs += 1;
                 if jobs == 2 {
-                    self.given.note(
-                        (text, line.number),
-                        "a second job in the same file is passed over",
-                    );
+                    self.messages
+                        .note((text, line.number), "a second job in the same file is ignored");
                     break;
                 }
             } else if said.text.starts_with("//INST") {
@@ -157,9 +159,9 @@ impl<'a> Reader<'a> {
             } else if instructions && !said.text.starts_with("//") {
                 self.instruction(&mut job, &line);
             } else if !instructions {
-                job.positions.take(&line, &mut self.given);
+                job.positions.take(&line, &mut self.messages);
             }
-            if self.given.is_full() {
+            if self.messages.is_full() {
                 return;
             }
         }
@@ -172,8 +174,8 @@ impl<'a> Reader<'a> {
             return;
         }
         if said.text.starts_with('*') {
-            let what = "labels and jumps are passed over: what stands here runs once";
-            return self.given.note((job.text, line.number), what);
+            let what = "labels and jumps are ignored: the statements here are read once";
+            return self.messages.note((job.text, line.number), what);
         }
         let mut words = said.words();
         let Some(first) = words.next() else {
@@ -184,29 +186,29 @@ impl<'a> Reader<'a> {
             "MOVJ" | "MOVL" | "MOVS" | "MOVC" => self.motion(job, line, (&word, words)),
             "CALL" => self.call(job, line, words.next()),
             _ if word.starts_with("+MOV") => {
-                let what = "what a second robot or a station does beside (+MOV..) is passed over";
-                self.given.note((job.text, line.number), what);
+                let what = "motion of a second robot or a station (+MOV..) is ignored";
+                self.messages.note((job.text, line.number), what);
             }
             _ if word.contains("MOV") => {
                 let message = format!("the move `{word}` is not followed");
                 let hint = match word.as_str() {
-                    "IMOV" => "it goes by an increment: write it as MOVL to a position",
-                    _ => "understood are MOVJ, MOVL, MOVC and MOVS of one robot",
+                    "IMOV" => "it is an incremental move: write it as MOVL to a position",
+                    _ => "supported: MOVJ, MOVL, MOVC and MOVS of one robot",
                 };
-                self.given.problem(job.text, line.span_of(&first), message, hint);
+                self.messages
+                    .problem(job.text, line.span_of(&first), message, hint);
             }
             _ if CHOICES.contains(&word.as_str()) => {
-                let what = format!("{word} is passed over: what stands here runs once");
-                self.given.note((job.text, line.number), what);
+                let what = format!("{word} is ignored: the statements here are read once");
+                self.messages.note((job.text, line.number), what);
             }
             _ if SHIFTS.contains(&word.as_str()) => {
-                let what = format!("{word} is passed over: positions are taken as they are listed");
-                self.given.note((job.text, line.number), what);
+                let what = format!("{word} is ignored: the listed positions are used");
+                self.messages.note((job.text, line.number), what);
             }
             _ if COMPUTES.contains(&word.as_str()) && words.any(|word| word.text.starts_with(['P', 'p'])) => {
-                let what =
-                    format!("{word} of a position variable is passed over: it is taken as it is listed");
-                self.given.note((job.text, line.number), what);
+                let what = format!("{word} of a position variable is ignored: the listed position is used");
+                self.messages.note((job.text, line.number), what);
             }
             _ => {}
         }
@@ -224,21 +226,21 @@ impl<'a> Reader<'a> {
             Some(index) if !self.done[index] && job.depth < DEEPEST => self.job(index, job.depth + 1),
             Some(_) => {
                 let what = format!("the job {name} is called again: it is read once");
-                self.given.note((job.text, line.number), what);
+                self.messages.note((job.text, line.number), what);
             }
             None => {
-                let what = format!("the job {name} is called, but not given: what it does is passed over");
-                self.given.note((job.text, line.number), what);
+                let what = format!("the job {name} is called, but not given: it is ignored");
+                self.messages.note((job.text, line.number), what);
             }
         }
     }
 
-    /// No MOVC follows: whether what came made arcs.
+    /// Ends a row of MOVC: checks that it formed arcs.
     pub fn end_row(&mut self, job: &mut Job<'a>) {
         if let Some(span) = job.row.end() {
-            let message = "this row of MOVC has no three points".to_owned();
-            let hint = "an arc goes through three MOVC in a row";
-            self.given.problem(job.text, span, message, hint);
+            let message = "this row of MOVC has fewer than three points".to_owned();
+            let hint = "an arc has three MOVC in a row";
+            self.messages.problem(job.text, span, message, hint);
         }
     }
 }

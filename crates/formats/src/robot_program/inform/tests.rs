@@ -1,4 +1,4 @@
-//! Jobs of our own, what is wrong with broken ones, and drafts that are read as they were written.
+//! Our own jobs, problems of wrong ones, and drafts that are read back.
 
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::{BranchPattern, Elbow, Shoulder, Wrist};
@@ -62,13 +62,13 @@ END\r
 ";
 
 fn program(text: &str) -> RobotProgram {
-    // Latin-1 bytes, as an old controller keeps them.
+    // Latin-1 bytes, as old controllers write them.
     let bytes: Vec<u8> = text.chars().map(|c| c as u8).collect();
     read(vec![ProgramText::new("part-1.jbi", &bytes)]).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
 #[test]
-fn every_move_of_a_job_is_read_with_what_lasts_over_it() {
+fn every_move_of_a_job_is_read_with_its_definitions() {
     let program = program(JOB);
     assert_eq!(program.name, "PART-1");
     let said: Vec<(Motion, Frame, Frame, Speed, u32)> = program
@@ -82,21 +82,21 @@ fn every_move_of_a_job_is_read_with_what_lasts_over_it() {
             (motion, one.frame, one.tool, one.speed, one.line)
         })
         .collect();
-    let (user, base) = (Frame::Numbered(2), Frame::Told(Isometry::identity()));
+    let (user, base) = (Frame::Numbered(2), Frame::Given(Isometry::identity()));
     let (tool, other) = (Frame::Numbered(3), Frame::Numbered(4));
     let straight = Motion::Linear;
     let arc = Motion::Joint;
     assert_eq!(
         said,
         [
-            (Motion::Joint, Frame::EvaluateError, tool, Speed::Joints, 33),
+            (Motion::Joint, Frame::Unknown, tool, Speed::Joints, 33),
             (straight.clone(), user, tool, Speed::Tip(0.138), 34),
             (straight.clone(), user, tool, Speed::Tip(0.0105), 35),
             (arc.clone(), user, tool, Speed::Tip(0.0105), 37),
             (arc, user, tool, Speed::Tip(0.02), 39),
-            (straight.clone(), base, other, Speed::EvaluateError, 40),
+            (straight.clone(), base, other, Speed::Unknown, 40),
             (straight.clone(), base, other, Speed::Joints, 41),
-            (straight, Frame::EvaluateError, Frame::EvaluateError, Speed::Tip(0.005), 42),
+            (straight, Frame::Unknown, Frame::Unknown, Speed::Tip(0.005), 42),
         ]
     );
     let place = |index: usize| program.moves[index].target.pose().unwrap().translation.vector;
@@ -120,7 +120,7 @@ fn every_move_of_a_job_is_read_with_what_lasts_over_it() {
 }
 
 #[test]
-fn rconf_is_read_as_the_manual_says_and_as_the_robodk_post_writes_it() {
+fn rconf_is_read_in_the_order_of_the_manual_and_of_the_robodk_post() {
     let said = |program: &RobotProgram, index: usize| match &program.moves[index].target {
         Target::Pose { branch, turns, .. } => (*branch, turns.clone()),
         other => panic!("{other:?}"),
@@ -149,17 +149,17 @@ fn rconf_is_read_as_the_manual_says_and_as_the_robodk_post_writes_it() {
 }
 
 #[test]
-fn what_is_passed_over_and_matters_is_noted_with_its_line() {
+fn ignored_instructions_that_matter_are_noted_with_their_lines() {
     let notes = program(JOB).notes;
     for words in [
         "part-1.jbi, line 15: a seventh number of a position",
-        "part-1.jbi, line 32: labels and jumps are passed over",
-        "part-1.jbi, line 34: speeds V= are taken as mm/s",
-        "part-1.jbi, line 40: a speed out of a variable",
-        "part-1.jbi, line 40: what a second robot or a station does beside",
-        "part-1.jbi, line 40: MOVS is taken as straight",
+        "part-1.jbi, line 32: labels and jumps are ignored",
+        "part-1.jbi, line 34: speeds V= are read as mm/s",
+        "part-1.jbi, line 40: a speed from a variable",
+        "part-1.jbi, line 40: motion of a second robot or a station",
+        "part-1.jbi, line 40: MOVS is read as straight",
         "part-1.jbi, line 43: the job TOOLCHANGE is called, but not given",
-        "part-1.jbi, line 44: JUMP is passed over",
+        "part-1.jbi, line 44: JUMP is ignored",
     ] {
         assert!(
             notes.iter().any(|note| note.starts_with(words)),
@@ -170,10 +170,10 @@ fn what_is_passed_over_and_matters_is_noted_with_its_line() {
 }
 
 #[test]
-fn other_poses_change_nothing_but_the_numbers_of_positions() {
+fn other_poses_change_only_the_numbers_of_positions() {
     let program = program(JOB);
     let within = [MICROMETRE, angle_of_decimals(4)];
-    // An orientation that stays is left as it stands.
+    // An unchanged orientation is not rewritten.
     let again = moved_alone(&program, &Isometry::identity(), within);
     assert!(
         again.texts[0]
@@ -188,7 +188,7 @@ fn other_poses_change_nothing_but_the_numbers_of_positions() {
 }
 
 #[test]
-fn a_called_job_is_read_where_it_is_called_first() {
+fn a_called_job_is_read_at_its_first_call() {
     let called = "/JOB\n//NAME SUB\n//POS\n///POSTYPE BASE\nC0=1,2,3,0,0,0\n//INST\nMOVL C0 V=1.0\nCALL JOB:MAIN\nEND\n";
     let main = called
         .replace("SUB", "MAIN")
@@ -217,7 +217,7 @@ fn angles_are_joints() {
 }
 
 #[test]
-fn each_mistake_has_its_sentence() {
+fn every_mistake_has_its_message() {
     let head = "/JOB\n//POS\n///POSTYPE BASE\nC1=1,2,3,0,0,0\nC2=1,2,3,0,0,0\n";
     let with =
         |position: &str, move_: &str| format!("{head}{position}\n//INST\nNOP\nMOVL C1\n{move_}\nEND\n");
@@ -225,42 +225,46 @@ fn each_mistake_has_its_sentence() {
         (
             "C3=1,2,x,0,0,0",
             "",
-            "a.jbi:6:8: `x` is no number in the position C3",
+            "a.jbi:6:8: `x` is not a number in the position C3",
         ),
         (
             "C3=1,2,3",
             "",
-            "a.jbi:6:1: the position C3 is no pose: 3 numbers of the pose, where yaskawa has 6",
+            "a.jbi:6:1: the position C3 is not a valid pose: 3 numbers of the pose, where yaskawa has 6",
         ),
         (
             "C3=1e12,2,3,0,0,0",
             "",
-            "the position C3 is no pose: 1e12 is beyond",
+            "the position C3 is not a valid pose: 1e12 is beyond",
         ),
-        ("C1=1,2,3,0,0,0", "", "a.jbi:6:1: the position C1 is told twice"),
+        ("C1=1,2,3,0,0,0", "", "a.jbi:6:1: the position C1 is given twice"),
         ("Q1=1", "", "`Q1` names no position"),
         (
             "///POSTYPE TOOL\nC3=1,2,3,0,0,0",
             "",
             "a.jbi:7:1: positions of the type TOOL are not followed",
         ),
-        ("///USER x", "", "`x` is no number of a user"),
-        ("///RCONF 1,y", "", "`y` is no part of an RCONF"),
+        ("///USER x", "", "`x` is not a number of a user"),
+        ("///RCONF 1,y", "", "`y` is not a valid RCONF value"),
         (
             "",
             "MOVL C00009 V=1.0",
             "a.jbi:10:6: the position C00009 is not in the list of this job",
         ),
         ("", "MOVL V=1.0", "`MOVL` names no position"),
-        ("", "MOVL C1 V=-1", "a.jbi:10:9: `-1` is no speed"),
+        ("", "MOVL C1 V=-1", "a.jbi:10:9: `-1` is not a valid speed"),
         ("", "IMOV P001 V=1.0", "the move `IMOV` is not followed"),
         ("", "SMOVL C1 V=1.0", "the move `SMOVL` is not followed"),
         (
             "",
             "MOVC C1\nMOVC C2\nMOVL C1",
-            "a.jbi:10:1: this row of MOVC has no three points",
+            "a.jbi:10:1: this row of MOVC has fewer than three points",
         ),
-        ("", "MOVC C1\nMOVC C2", "this row of MOVC has no three points"),
+        (
+            "",
+            "MOVC C1\nMOVC C2",
+            "this row of MOVC has fewer than three points",
+        ),
         (
             "",
             "MOVC C1\nMOVC C2\nMOVC C1\nMOVC C2",
@@ -269,7 +273,7 @@ fn each_mistake_has_its_sentence() {
         (
             "///TOOL 1\nC3=1,2,3,0,0,0",
             "MOVC C1\nMOVC C2\nMOVC C3",
-            "the points of this arc count in different frames",
+            "the points of this arc are relative to different frames",
         ),
     ] {
         let found = problems(&[("a.jbi", &with(position, move_))]);
@@ -279,11 +283,11 @@ fn each_mistake_has_its_sentence() {
         );
     }
     let without_type = problems(&[("a.jbi", "/JOB\n//POS\nC1=1,2,3,0,0,0\n//INST\nEND\n")]);
-    assert!(without_type[0].contains("nothing tells in which coordinates the position C1 counts"));
-    assert!(problems(&[("a.jbi", "hello")])[0].contains("this is no job"));
+    assert!(without_type[0].contains("the coordinate system of position C1 is not given"));
+    assert!(problems(&[("a.jbi", "hello")])[0].contains("this is not a job"));
     let pulses = "/JOB\n//POS\n///POSTYPE PULSE\nC1=1,2,3,0,0,0\n//INST\nMOVJ C1 VJ=1.0\nEND\n";
     assert!(
-        problems(&[("a.jbi", pulses)])[0].contains("line 6: no target of this job is told in coordinates")
+        problems(&[("a.jbi", pulses)])[0].contains("line 6: no target of this job is given in coordinates")
     );
 }
 
@@ -312,7 +316,7 @@ fn a_long_program_is_split_and_read_as_one() {
 }
 
 #[test]
-fn what_controllers_do_not_hold_is_refused() {
+fn refuses_values_outside_the_ranges_of_controllers() {
     let broken = |change: fn(&mut Draft)| {
         let mut draft = one_draft();
         draft.points.push(draft.points[0].clone());
@@ -326,7 +330,7 @@ fn what_controllers_do_not_hold_is_refused() {
 }
 
 #[test]
-fn moves_go_on_as_told_and_the_last_one_stops() {
+fn moves_blend_as_specified_and_the_last_one_stops() {
     let mut draft = one_draft();
     draft.points[0].blend = 0.001;
     draft.points = vec![draft.points[0].clone(); 3];

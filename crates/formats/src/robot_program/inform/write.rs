@@ -1,4 +1,4 @@
-//! A draft as a relative job: positions in a user frame, RCONF for each, split where it is long.
+//! A draft as a relative job: positions in a user frame, RCONF for each; long programs are split.
 
 use armill_core::frame::Isometry;
 
@@ -8,33 +8,34 @@ use crate::robot_program::number::fixed;
 use crate::robot_program::posture::Configuration;
 use crate::robot_program::spelling::in_pieces;
 
-/// Positions of one job; posts write 2000 to 9500. Source: posts.
+/// Maximum number of positions in one job; posts write 2000 to 9500. Source: posts.
 const MOST_POSITIONS: usize = 2000;
 
-/// Characters of a remark. `[recalled]`
+/// Maximum length of a remark. `[recalled]`
 const LONGEST_REMARK: usize = 32;
 
-/// Characters of a name: 8 on NX100, 32 later; three of them number the parts of a long program.
+/// Maximum length of a name: 8 on NX100, 32 later; three characters number the parts of a long program.
 const LONGEST_NAME: [usize; 3] = [8, 32, 29];
 
-/// Part of their greatest speed at which joints go, percent: slow, for a first approach.
+/// Joint speed in percent of the maximum: slow, for a first approach.
 const JOINT_SPEED: &str = "VJ=10.00";
 
-/// Least and greatest speed of the tip, mm/s. `[recalled]`
+/// Range of the tip speed, mm/s. `[recalled]`
 const SPEEDS: [f64; 2] = [0.1, 1500.0];
 
 const END: &str = "\r\n";
 
-/// Writes `draft` as a job, or as several that a main one calls.
+/// Writes `draft` as one job, or as several jobs called by a main job.
 ///
 /// # Errors
-/// What the language or its controllers cannot hold.
+/// Values outside the ranges of the language or its controllers.
 pub fn write(draft: &Draft) -> Result<Written, DraftError> {
     let split = draft.points.len() > MOST_POSITIONS;
     draft.check(&Bounds {
         language: "Yaskawa INFORM",
         longest_name: if split { LONGEST_NAME[2] } else { LONGEST_NAME[1] },
-        names: "a letter, then letters, digits and underscores, 32 characters in all; 29 of a program of several jobs",
+        names: "a letter, then letters, digits and underscores, at most 32 characters; 29 if the program is split \
+            into several jobs",
         joints: 6..=6,
         frames: 1..=63,
         tools: 0..=63,
@@ -74,7 +75,7 @@ fn file(name: &str, text: String) -> (String, Vec<u8>) {
 fn notes(draft: &Draft, split: bool) -> Vec<String> {
     let mut notes = vec![
         format!(
-            "user frame {} on the controller must be, from the robot's base: {}",
+            "user frame {} on the controller must be, relative to the robot base: {}",
             draft.frame_number,
             numbers(&draft.base_from_frame).join(" ")
         ),
@@ -83,20 +84,20 @@ fn notes(draft: &Draft, split: bool) -> Vec<String> {
             draft.tool_number,
             numbers(&draft.flange_from_tool).join(" ")
         ),
-        "the job is a relative one (ATTR RJ), which some controllers load with an option only".to_owned(),
-        "the first move is MOVJ to a position with its RCONF, since joints are pulses that differ from arm to arm: \
-         check it slowly"
+        "the job is a relative job (ATTR RJ); some controllers need an option to load it".to_owned(),
+        "the first move is MOVJ to a position with its RCONF, because pulses differ between robots: \
+         test it at low speed"
             .to_owned(),
-        "V= is in mm/s, as long as the controller's parameter for it is so".to_owned(),
+        "V= is in mm/s if the controller's parameter for it is set so".to_owned(),
     ];
     if draft.points.iter().any(|point| point.blend > 0.0) {
         notes.push(
-            "moves that need not stop have PL=1: how near the tip comes is a parameter of the controller"
+            "moves without exact stop have PL=1: the blend distance is a parameter of the controller"
                 .to_owned(),
         );
     }
     if draft.points.iter().any(|point| point.branch.is_none()) {
-        notes.push("where no posture is told, RCONF says no flip, upper arm, front".to_owned());
+        notes.push("where no posture is given, RCONF says no flip, upper arm, front".to_owned());
     }
     if draft
         .points
@@ -109,12 +110,12 @@ fn notes(draft: &Draft, split: bool) -> Vec<String> {
         ));
     }
     if draft.name.len() + if split { 3 } else { 0 } > LONGEST_NAME[0] {
-        notes.push("controllers before DX100 know names of 8 characters at most".to_owned());
+        notes.push("controllers before DX100 allow names of at most 8 characters".to_owned());
     }
     notes
 }
 
-/// A pose in pieces that fit a remark.
+/// A pose in pieces that fit into remarks.
 fn numbers(pose: &Isometry) -> [String; 4] {
     let numbers = Convention::Yaskawa.numbers_of(pose);
     let of = |at: usize| fixed(numbers[at], super::DECIMALS[at / 3]);
@@ -131,10 +132,10 @@ fn line(out: &mut String, text: &str) {
     out.push_str(END);
 }
 
-/// The head of the instructions, down to NOP and the remarks.
+/// The header of the instructions, to NOP and the remarks.
 fn instructions(draft: &Draft, attributes: &[&str], out: &mut String) {
     line(out, "//INST");
-    // A program does not tell the time of its making: the same draft gives the same bytes.
+    // No time stamp: the same draft gives the same bytes.
     line(out, "///DATE 2000/01/01 00:00");
     for attribute in attributes {
         line(out, attribute);
@@ -178,7 +179,7 @@ fn main(draft: &Draft, parts: &[String]) -> String {
     out
 }
 
-/// A job of these points; where it begins the program, its first move is by joints.
+/// A job with these points. If it begins the program, its first move is a joint move.
 fn job(draft: &Draft, name: &str, (begins, points): (bool, &[DraftPoint])) -> String {
     let mut out = String::new();
     line(&mut out, "/JOB");
@@ -219,7 +220,7 @@ fn job(draft: &Draft, name: &str, (begins, points): (bool, &[DraftPoint])) -> St
     out
 }
 
-/// How the robot stands there: flip, elbow, shoulder, then whether axes R, T, S are turned beyond 180 deg.
+/// Configuration: flip, elbow, shoulder, then whether axes R, T, S are rotated beyond 180 deg.
 fn rconf(point: &DraftPoint) -> String {
     let configuration = point.branch.map(Configuration::of).unwrap_or_default();
     let set = |said: Option<bool>| i32::from(said.unwrap_or(false));

@@ -1,4 +1,4 @@
-//! What stands in braces: `{X 1.0,Y 2.0}`, `{AXIS: A1 0.0}`, `{TOOL_NO 1,IPO_FRAME #BASE}`; and how a pose is spelled there.
+//! Aggregates: `{X 1.0,Y 2.0}`, `{AXIS: A1 0.0}`, `{TOOL_NO 1,IPO_FRAME #BASE}`; and how a pose is written in them.
 
 use std::ops::Range;
 
@@ -8,7 +8,7 @@ use super::SYNTAX;
 use crate::convention::Convention;
 use crate::robot_program::number::{fixed, write_fixed};
 use crate::robot_program::posture::Configuration;
-use crate::robot_program::spelling::Anew;
+use crate::robot_program::spelling::Respelling;
 use crate::robot_program::tokens::{Cursor, Kind, decimals, tokens};
 
 /// The components of a pose, in the order of [`Convention::Kuka`].
@@ -17,19 +17,19 @@ pub(super) const POSE: [&str; 6] = ["X", "Y", "Z", "A", "B", "C"];
 pub(super) const AXES: [&str; 6] = ["A1", "A2", "A3", "A4", "A5", "A6"];
 /// External axes.
 const EXTERNAL: [&str; 6] = ["E1", "E2", "E3", "E4", "E5", "E6"];
-/// Braces within braces, deeper than any data of KUKA.
+/// Maximum nesting of braces, deeper than any data of KUKA.
 const MOST_LEVELS: usize = 8;
-/// Decimals at least of mm and deg, and at most.
+/// Minimum and maximum number of decimals of mm and deg.
 const MM: usize = 3;
 const DEG: usize = 4;
 const MOST_DECIMALS: usize = 9;
 
-/// What braces hold.
+/// An aggregate.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Aggregate {
-    /// Names in capitals; of a name twice the last counts.
+    /// Names in capitals; of a repeated name the last one is used.
     pub fields: Vec<(String, Value)>,
-    /// Where it stands, braces included.
+    /// Its bytes, braces included.
     pub bytes: Range<usize>,
 }
 
@@ -42,11 +42,11 @@ pub(super) enum Value {
     Flag(String),
     /// Bits, as `'B010'` or `'H1F'`.
     Bits(i64),
-    /// Anything else.
+    /// Any other value.
     Other,
 }
 
-/// What is no aggregate, and where.
+/// A text that is not an aggregate, and its position.
 #[derive(Debug, PartialEq)]
 pub(super) struct Broken {
     pub bytes: Range<usize>,
@@ -54,18 +54,18 @@ pub(super) struct Broken {
 }
 
 impl Aggregate {
-    /// The aggregate that stands at the cursor, which goes past it.
+    /// Reads the aggregate at the cursor.
     pub fn read(cursor: &mut Cursor<'_>) -> Result<Aggregate, Broken> {
         nested(cursor, 0)
     }
 
-    /// The last component of this name.
+    /// The last component with this name.
     pub fn field(&self, name: &str) -> Option<&Value> {
         let found = self.fields.iter().rev().find(|(other, _)| other == name);
         found.map(|(_, value)| value)
     }
 
-    /// The number of this name.
+    /// The number with this name.
     pub fn number(&self, name: &str) -> Option<f64> {
         match self.field(name)? {
             Value::Number(number) => Some(*number),
@@ -74,12 +74,12 @@ impl Aggregate {
         }
     }
 
-    /// Whether it tells any of these.
+    /// Whether it has any of these components.
     pub fn has_any(&self, names: &[&str]) -> bool {
         names.iter().any(|name| self.field(name).is_some())
     }
 
-    /// The numbers of these names, those left out as they were before; else the names that are missing.
+    /// The numbers with these names. Missing ones are taken from `former`; without it their names are returned.
     pub fn numbers(&self, names: [&'static str; 6], former: Option<[f64; 6]>) -> Result<[f64; 6], String> {
         let mut numbers = former.unwrap_or_default();
         let mut missing = Vec::new();
@@ -96,7 +96,7 @@ impl Aggregate {
         }
     }
 
-    /// S in words.
+    /// S as a configuration.
     pub fn configuration(&self) -> Configuration {
         let Some(status) = self.bits("S") else {
             return Configuration::default();
@@ -116,7 +116,7 @@ impl Aggregate {
         }
     }
 
-    /// Whether an external axis stands anywhere but at zero.
+    /// Whether an external axis is not at zero.
     pub fn moves_external_axes(&self) -> bool {
         EXTERNAL
             .iter()
@@ -196,7 +196,7 @@ fn value(cursor: &mut Cursor<'_>, level: usize) -> Result<Value, Broken> {
             Ok(Value::Other)
         }
         _ => {
-            // A sign before what is no number is shown with it.
+            // The sign of an invalid number is shown with it.
             cursor.next();
             let end = match (token.kind, cursor.peek()) {
                 (Kind::Mark('-' | '+'), Some(next)) => next.end,
@@ -222,9 +222,13 @@ fn bits(text: &str) -> Option<i64> {
     i64::from_str_radix(digits, base).ok()
 }
 
-/// Spells a pose in place of `before`: an aggregate with its other components, a relative move, or what was computed
-/// from points.
-pub(in crate::robot_program) fn spell((pose, anew): (&Isometry, Anew), before: &str, out: &mut String) {
+/// Writes a pose in place of `before`: an aggregate with its other components, a relative move, or an expression of
+/// points.
+pub(in crate::robot_program) fn spell(
+    (pose, respelling): (&Isometry, Respelling),
+    before: &str,
+    out: &mut String,
+) {
     let numbers = Convention::Kuka.numbers_of(pose);
     let found = tokens(before, &SYNTAX);
     let mut cursor = Cursor::new(before, &found);
@@ -241,13 +245,17 @@ pub(in crate::robot_program) fn spell((pose, anew): (&Isometry, Anew), before: &
     if composed && !closed {
         return whole(&numbers, out);
     }
-    // Of an orientation that is told in part the rest comes from the move before, which may be spelled otherwise now.
+    // The missing angles of a partial orientation come from the previous move, which may have been rewritten.
     let given = found
         .iter()
         .filter(|token| token.kind == Kind::Word)
         .filter(|token| POSE[3..].contains(&before[token.span()].to_ascii_uppercase().as_str()))
         .count();
-    let anew = if matches!(given, 0 | 3) { anew } else { Anew::Pose };
+    let respelling = if matches!(given, 0 | 3) {
+        respelling
+    } else {
+        Respelling::Pose
+    };
     let mut done = 0;
     let mut last = None;
     let mut spelled = [false; 6];
@@ -266,7 +274,7 @@ pub(in crate::robot_program) fn spell((pose, anew): (&Isometry, Anew), before: &
         };
         let end = cursor.before();
         (last, spelled[index]) = (Some(end), true);
-        if !anew.holds(index) {
+        if !respelling.includes(index) {
             continue;
         }
         out.push_str(&before[done..start]);
@@ -283,10 +291,10 @@ pub(in crate::robot_program) fn spell((pose, anew): (&Isometry, Anew), before: &
         done = end;
     }
     let missing: Vec<usize> = (0..6)
-        .filter(|index| !spelled[*index] && anew.holds(*index))
+        .filter(|index| !spelled[*index] && respelling.includes(*index))
         .collect();
     let last = last.unwrap_or(before.len());
-    // What was left out follows the last that was told; nothing between them was written yet.
+    // Missing components follow the last given one; nothing has been written between them.
     if !missing.is_empty() {
         out.push_str(&before[done..last]);
         for index in missing {
@@ -307,7 +315,7 @@ pub(in crate::robot_program) fn spell((pose, anew): (&Isometry, Anew), before: &
     out.push_str(&before[done..]);
 }
 
-/// The numbers of a pose as an aggregate of their own.
+/// The numbers of a pose as a complete aggregate.
 pub(super) fn whole(numbers: &[f64], out: &mut String) {
     for (index, (name, number)) in POSE.iter().zip(numbers).enumerate() {
         let decimals = if index < 3 { MM } else { DEG };

@@ -1,68 +1,68 @@
-//! What lasts until it is told anew: frame, tool, speed of the tip, and which of frame and tool stands still.
+//! Modal settings: frame, tool, tip speed, and whether the tool or the workpiece is on the flange.
 
 use armill_core::frame::Isometry;
 
 use super::aggregate::{Aggregate, POSE, Value};
-use super::points::{Known, Reference};
+use super::points::{PointValue, Reference};
 use super::read::Reader;
 use crate::convention::Convention;
+use crate::robot_program::messages::shown;
 use crate::robot_program::program::{Frame, Speed};
 use crate::robot_program::tokens::{Cursor, Kind, Token};
-use crate::robot_program::given::shown;
 
-/// Frames that a controller has from the start; all are the base of the robot where `$ROBROOT` is null.
+/// Predefined frames; all are the base of the robot if `$ROBROOT` is null.
 const NULL_FRAMES: [&str; 3] = ["$NULLFRAME", "$WORLD", "$ROBROOT"];
 
-/// What holds for the next move.
+/// Settings for the next move.
 #[derive(Clone, Debug)]
 pub(super) struct Modal {
     pub base: Frame,
     pub tool: Frame,
     pub speed: Speed,
-    /// The workpiece is on the flange and the tool stands still (`#TCP`).
-    pub tool_stands: bool,
+    /// The workpiece is on the flange and the tool is stationary (`#TCP`).
+    pub tool_is_stationary: bool,
 }
 
 impl Default for Modal {
     fn default() -> Modal {
         Modal {
-            base: Frame::EvaluateError,
-            tool: Frame::EvaluateError,
-            speed: Speed::EvaluateError,
-            tool_stands: false,
+            base: Frame::Unknown,
+            tool: Frame::Unknown,
+            speed: Speed::Unknown,
+            tool_is_stationary: false,
         }
     }
 }
 
 /// Frame or tool.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum What {
+enum FrameKind {
     Base,
     Tool,
 }
 
-impl What {
+impl FrameKind {
     fn data(self) -> &'static str {
         match self {
-            What::Base => "BASE_DATA",
-            What::Tool => "TOOL_DATA",
+            FrameKind::Base => "BASE_DATA",
+            FrameKind::Tool => "TOOL_DATA",
         }
     }
 
     fn field(self) -> &'static str {
         match self {
-            What::Base => "BASE_NO",
-            What::Tool => "TOOL_NO",
+            FrameKind::Base => "BASE_NO",
+            FrameKind::Tool => "TOOL_NO",
         }
     }
 }
 
 impl<'a> Reader<'a> {
-    /// The variable is assigned what stands at the cursor; `at` is where the line begins.
+    /// Assigns the value at the cursor to the variable; `at` is the beginning of the line.
     pub fn assign(&mut self, (at, to): (Token, &Reference), mut value: Cursor<'a>) {
         match (to.name.as_str(), to.field.as_deref()) {
-            ("$BASE", field) => self.modal.base = self.frame((at, What::Base), value, field.is_some()),
-            ("$TOOL", field) => self.modal.tool = self.frame((at, What::Tool), value, field.is_some()),
+            ("$BASE", field) => self.modal.base = self.frame((at, FrameKind::Base), value, field.is_some()),
+            ("$TOOL", field) => self.modal.tool = self.frame((at, FrameKind::Tool), value, field.is_some()),
             ("$VEL", Some("CP")) => self.speed(at, value.number()),
             ("$VEL", None) => {
                 let given = match Aggregate::read(&mut value.clone()) {
@@ -82,7 +82,7 @@ impl<'a> Reader<'a> {
             ("LDAT_ACT", None) => self.path_speed = self.set(at, value).and_then(|set| set.number("VEL")),
             ("$IPO_MODE", None) => {
                 let text = &value.text[value.place().start..value.end];
-                self.modal.tool_stands = match self.set_named_within(value) {
+                self.modal.tool_is_stationary = match self.set_named_within(value) {
                     Some(set) => set.field("IPO_FRAME") == Some(&Value::Flag("TCP".to_owned())),
                     None => text.trim().eq_ignore_ascii_case("#TCP"),
                 };
@@ -92,11 +92,11 @@ impl<'a> Reader<'a> {
                 let is_whole = field.is_none() && value.peek().is_some_and(|token| token.is('{'));
                 let given = is_whole.then(|| self.aggregate(&mut value)).flatten();
                 let known = match given {
-                    Some(aggregate) => Known::Told {
+                    Some(aggregate) => PointValue::Given {
                         aggregate,
                         text: self.text,
                     },
-                    None => Known::Computed { line: at.line },
+                    None => PointValue::Computed { line: at.line },
                 };
                 self.names.put(&self.module.clone(), name, known);
             }
@@ -104,7 +104,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// What follows `WITH`: assignments between commas.
+    /// The assignments after `WITH`, separated by commas.
     pub fn with(&mut self, line: &Cursor<'a>) {
         let mut cursor = line.clone();
         while cursor.word().is_none_or(|word| word != "WITH") {
@@ -145,15 +145,15 @@ impl<'a> Reader<'a> {
         let what = cursor.word().unwrap_or_default();
         let number = cursor.pass(',').then(|| cursor.number()).flatten();
         match what.as_str() {
-            "BASE" => self.modal.base = self.numbered(at, What::Base, number),
-            "TOOL" => self.modal.tool = self.numbered(at, What::Tool, number),
+            "BASE" => self.modal.base = self.numbered(at, FrameKind::Base, number),
+            "TOOL" => self.modal.tool = self.numbered(at, FrameKind::Tool, number),
             "VEL_CP" | "CP_PARAMS" => self.speed(at, number),
             "CP_DAT" => self.speed(at, self.path_speed),
             "EX_BASE" => {
-                self.modal.base = Frame::EvaluateError;
+                self.modal.base = Frame::Unknown;
                 self.note(
                     at,
-                    "`BAS(#EX_BASE`: the frame hangs on another axis, which is not followed".to_owned(),
+                    "`BAS(#EX_BASE`: the frame is on another axis, which is not followed".to_owned(),
                 );
             }
             _ => {}
@@ -166,24 +166,27 @@ impl<'a> Reader<'a> {
             _ => {
                 self.note(
                     at,
-                    "the speed of the tip is no number here: it is not known".to_owned(),
+                    "the tip speed is not a number here: it is not known".to_owned(),
                 );
-                Speed::EvaluateError
+                Speed::Unknown
             }
         };
     }
 
-    /// The set of numbers that stands at the cursor or is named there; where there is none, a note.
+    /// The set of numbers at the cursor, or the one it names; a note if there is none.
     fn set(&mut self, at: Token, mut value: Cursor<'a>) -> Option<Aggregate> {
         if let Ok(set) = Aggregate::read(&mut value.clone()) {
             return Some(set);
         }
         let name = Reference::read(&mut value).map(|reference| reference.name)?;
         match self.names.find(&self.module, &name) {
-            Some(Known::Told { aggregate, .. }) => Some(aggregate.clone()),
+            Some(PointValue::Given { aggregate, .. }) => Some(aggregate.clone()),
             _ if matches!(name.as_str(), "PDEFAULT" | "LDEFAULT") => None,
             _ => {
-                self.note(at, format!("`{name}` is not told: what it sets stays as it was"));
+                self.note(
+                    at,
+                    format!("`{name}` is not defined: its settings remain unchanged"),
+                );
                 None
             }
         }
@@ -191,57 +194,57 @@ impl<'a> Reader<'a> {
 
     fn frames_of(&mut self, at: Token, set: &Aggregate) {
         if set.field("BASE_NO").is_some() {
-            self.modal.base = self.numbered(at, What::Base, set.number("BASE_NO"));
+            self.modal.base = self.numbered(at, FrameKind::Base, set.number("BASE_NO"));
         }
         if set.field("TOOL_NO").is_some() {
-            self.modal.tool = self.numbered(at, What::Tool, set.number("TOOL_NO"));
+            self.modal.tool = self.numbered(at, FrameKind::Tool, set.number("TOOL_NO"));
         }
         if let Some(Value::Flag(frame)) = set.field("IPO_FRAME") {
-            self.modal.tool_stands = frame == "TCP";
+            self.modal.tool_is_stationary = frame == "TCP";
         }
     }
 
-    /// The set named within `F(NAME.FIELD)` or `F(NAME)`.
+    /// The set named in `F(NAME.FIELD)` or `F(NAME)`.
     fn set_named_within(&self, mut value: Cursor<'a>) -> Option<Aggregate> {
         value.word()?;
         value.pass('(').then_some(())?;
         let name = Reference::read(&mut value)?.name;
         match self.names.find(&self.module, &name)? {
-            Known::Told { aggregate, .. } => Some(aggregate.clone()),
-            Known::Computed { .. } => None,
+            PointValue::Given { aggregate, .. } => Some(aggregate.clone()),
+            PointValue::Computed { .. } => None,
         }
     }
 
-    /// The frame or tool of this number: as the program or a data file tells it, else by its number.
-    fn numbered(&mut self, at: Token, what: What, number: Option<f64>) -> Frame {
+    /// The frame or tool with this number: its value in the program or a data file, otherwise its number.
+    fn numbered(&mut self, at: Token, what: FrameKind, number: Option<f64>) -> Frame {
         let number = number.filter(|number| number.fract() == 0.0 && (0.0..=1e4).contains(number));
         let Some(number) = number.map(|number| number as u32) else {
-            self.note(at, format!("{} is not told by a number here", what.field()));
-            return Frame::EvaluateError;
+            self.note(at, format!("{} is not given as a number here", what.field()));
+            return Frame::Unknown;
         };
         let name = format!("{}[{number}]", what.data());
         let given = match self.names.find(&self.module, &name) {
-            Some(Known::Told { aggregate, .. }) => aggregate.numbers(POSE, None).ok(),
+            Some(PointValue::Given { aggregate, .. }) => aggregate.numbers(POSE, None).ok(),
             _ => None,
         };
         match given.and_then(|numbers| Convention::Kuka.pose(&numbers).ok()) {
-            Some(pose) => Frame::Told(pose),
-            None if number == 0 => Frame::Told(Isometry::identity()),
+            Some(pose) => Frame::Given(pose),
+            None if number == 0 => Frame::Given(Isometry::identity()),
             None => Frame::Numbered(number),
         }
     }
 
-    /// What `$BASE` or `$TOOL` is assigned.
-    fn frame(&mut self, (at, what): (Token, What), mut value: Cursor<'a>, is_part: bool) -> Frame {
+    /// The value assigned to `$BASE` or `$TOOL`.
+    fn frame(&mut self, (at, what): (Token, FrameKind), mut value: Cursor<'a>, is_part: bool) -> Frame {
         let begin = value.place().start;
         let mut found = if is_part {
             None
         } else {
             self.frame_at((at, what), &mut value)
         };
-        while let (Some(Frame::Told(one)), true) = (found, value.pass(':')) {
+        while let (Some(Frame::Given(one)), true) = (found, value.pass(':')) {
             found = match self.frame_at((at, what), &mut value) {
-                Some(Frame::Told(other)) => Some(Frame::Told(one * other)),
+                Some(Frame::Given(other)) => Some(Frame::Given(one * other)),
                 _ => None,
             };
         }
@@ -251,27 +254,27 @@ impl<'a> Reader<'a> {
                 let text = shown(&value.text[begin..value.end]);
                 self.note(
                     at,
-                    format!("`{text}` is computed on the controller: what counts from it is not known"),
+                    format!("`{text}` is computed on the controller: poses relative to it are not known"),
                 );
-                Frame::EvaluateError
+                Frame::Unknown
             }
         }
     }
 
     /// One frame of an expression.
-    fn frame_at(&mut self, (at, what): (Token, What), value: &mut Cursor<'a>) -> Option<Frame> {
+    fn frame_at(&mut self, (at, what): (Token, FrameKind), value: &mut Cursor<'a>) -> Option<Frame> {
         if value.peek().is_some_and(|token| token.is('{')) {
             let former = match what {
-                What::Base => self.modal.base,
-                What::Tool => self.modal.tool,
+                FrameKind::Base => self.modal.base,
+                FrameKind::Tool => self.modal.tool,
             };
             let former = match former {
-                Frame::Told(pose) => <[f64; 6]>::try_from(Convention::Kuka.numbers_of(&pose)).ok(),
-                Frame::Numbered(_) | Frame::EvaluateError => None,
+                Frame::Given(pose) => <[f64; 6]>::try_from(Convention::Kuka.numbers_of(&pose)).ok(),
+                Frame::Numbered(_) | Frame::Unknown => None,
             };
             let aggregate = self.aggregate(value)?;
             let numbers = self.complete((&aggregate, self.text), POSE, former)?;
-            return Convention::Kuka.pose(&numbers).ok().map(Frame::Told);
+            return Convention::Kuka.pose(&numbers).ok().map(Frame::Given);
         }
         let call = value.clone();
         let reference = Reference::read(value)?;
@@ -279,7 +282,7 @@ impl<'a> Reader<'a> {
             return None;
         }
         if NULL_FRAMES.contains(&reference.name.as_str()) {
-            return Some(Frame::Told(Isometry::identity()));
+            return Some(Frame::Given(Isometry::identity()));
         }
         if let Some((name, number)) = reference.index()
             && name == what.data()
@@ -296,11 +299,11 @@ impl<'a> Reader<'a> {
             return Some(self.numbered(at, what, number));
         }
         match self.names.find(&self.module, &reference.name)? {
-            Known::Told { aggregate, .. } => {
+            PointValue::Given { aggregate, .. } => {
                 let numbers = aggregate.numbers(POSE, None).ok()?;
-                Convention::Kuka.pose(&numbers).ok().map(Frame::Told)
+                Convention::Kuka.pose(&numbers).ok().map(Frame::Given)
             }
-            Known::Computed { .. } => None,
+            PointValue::Computed { .. } => None,
         }
     }
 }

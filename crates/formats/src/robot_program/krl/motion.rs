@@ -1,42 +1,42 @@
-//! Moves: where they end, by components, by name, relative to the move before, or composed of frames.
+//! Moves: their targets by components, by name, relative to the previous move, or composed of frames.
 
 use super::aggregate::{AXES, Aggregate, POSE};
-use super::points::{Known, Reference};
+use super::points::{PointValue, Reference};
 use super::read::Reader;
 use super::relative::composed;
 use crate::convention::Convention;
 use crate::robot_program::program::{Frame, Motion, RobotMove, Speed, Spelled, Target};
 use crate::robot_program::tokens::{Cursor, Kind, Token};
 
-/// Where a move ended: what is left out of the next target.
+/// End of the previous move: default of missing components.
 #[derive(Clone, Debug)]
 pub(super) enum Former {
-    /// Components of a pose, and what they count in.
+    /// Components of a pose, with frame and tool.
     Pose([f64; 6], Frame, Frame),
     /// Axes, deg.
     Axes([f64; 6]),
 }
 
-/// Where a move goes to.
-pub(super) enum Goal {
+/// Target of a move.
+pub(super) enum KrlTarget {
     Pose([f64; 6], Target),
     Axes([f64; 6]),
-    /// A place that only the controller knows.
+    /// A position that only the controller knows.
     PassedOver,
 }
 
-/// A target as it stands in a line, or as the line names it.
+/// A target in the line, or named in it.
 struct Named {
     aggregate: Aggregate,
     text: usize,
 }
 
-/// What is said of targets that cannot be found.
-const HINT_POINT: &str = "give the .dat that declares it beside the .src";
+/// Hints for missing targets.
+const HINT_POINT: &str = "give the .dat file that declares it together with the .src file";
 const HINT_TARGET: &str = "a target is `{X 1.0,Y 2.0,Z 3.0,A 0.0,B 0.0,C 0.0}`, `{A1 0.0,...}` or a name";
 
 impl<'a> Reader<'a> {
-    /// The move that this word begins; its targets stand at the cursor.
+    /// The move that begins with this word; its targets are at the cursor.
     pub fn motion(&mut self, (at, word): (Token, &str), cursor: Cursor<'a>) {
         let before = self.modal.clone();
         self.with(&cursor);
@@ -58,22 +58,25 @@ impl<'a> Reader<'a> {
         self.modal = before;
     }
 
-    fn push(&mut self, at: Token, motion: Motion, goal: Goal) {
+    fn push(&mut self, at: Token, motion: Motion, goal: KrlTarget) {
         let (target, former) = match goal {
-            Goal::Pose(numbers, target) => (target, Former::Pose(numbers, self.modal.base, self.modal.tool)),
-            Goal::Axes(axes) => {
+            KrlTarget::Pose(numbers, target) => {
+                (target, Former::Pose(numbers, self.modal.base, self.modal.tool))
+            }
+            KrlTarget::Axes(axes) => {
                 let joints = axes.iter().map(|deg| deg.to_radians()).collect();
                 (Target::Joints(joints), Former::Axes(axes))
             }
-            Goal::PassedOver => {
+            KrlTarget::PassedOver => {
                 self.former = None;
                 return;
             }
         };
-        if self.modal.tool_stands && matches!(target, Target::Pose { .. }) {
-            let message = "the tool stands still here and the workpiece is on the flange (`#TCP`)".to_owned();
-            let hint = "only programs whose tool is on the flange are read: IPO_FRAME #BASE";
-            self.given.problem(self.here(), at.span(), message, hint);
+        if self.modal.tool_is_stationary && matches!(target, Target::Pose { .. }) {
+            let message =
+                "the tool is stationary here and the workpiece is on the flange (`#TCP`)".to_owned();
+            let hint = "only programs with the tool on the flange are supported: IPO_FRAME #BASE";
+            self.messages.problem(self.here(), at.span(), message, hint);
             return;
         }
         let speed = match motion {
@@ -91,49 +94,55 @@ impl<'a> Reader<'a> {
         });
     }
 
-    fn straight(&mut self, (at, word): (Token, &str), cursor: &mut Cursor<'a>) -> Option<(Motion, Goal)> {
+    fn straight(
+        &mut self,
+        (at, word): (Token, &str),
+        cursor: &mut Cursor<'a>,
+    ) -> Option<(Motion, KrlTarget)> {
         let goal = self.goal(at, cursor)?;
         let motion = match word {
             "PTP" | "SPTP" => Motion::Joint,
             _ => Motion::Linear,
         };
-        if matches!((&motion, &goal), (Motion::Linear, Goal::Axes(_))) {
-            let message = format!("`{word}` goes to axes, where a pose is wanted");
-            self.given
-                .problem(self.here(), at.span(), message, "only PTP goes to axes");
+        if matches!((&motion, &goal), (Motion::Linear, KrlTarget::Axes(_))) {
+            let message = format!("`{word}` goes to axes, but needs a pose");
+            self.messages
+                .problem(self.here(), at.span(), message, "only PTP can go to axes");
             return None;
         }
         Some((motion, goal))
     }
 
-    fn circle(&mut self, at: Token, cursor: &mut Cursor<'a>) -> Option<(Motion, Goal)> {
+    fn circle(&mut self, at: Token, cursor: &mut Cursor<'a>) -> Option<(Motion, KrlTarget)> {
         let via = self.goal(at, cursor)?;
         let place = cursor.place();
         if !cursor.pass(',') {
-            let message = "a circle needs a point on its way and its end".to_owned();
-            self.given
-                .problem(self.here(), place, message, "`CIRC {via},{end}`");
+            let message = "a circle needs a via point and an end point".to_owned();
+            self.messages
+                .problem(self.here(), place, message, "write `CIRC {via},{end}`");
             return None;
         }
         let end = self.goal(at, cursor)?;
         if cursor.pass(',') {
-            let message = "the circle goes on behind its end (`CA`), to a place that is not told".to_owned();
-            let hint = "write the place where it ends, without CA";
-            self.given.problem(self.here(), at.span(), message, hint);
+            let message =
+                "the circle continues after its end point (`CA`), to an unknown position".to_owned();
+            let hint = "write the end position without CA";
+            self.messages.problem(self.here(), at.span(), message, hint);
             return None;
         }
         match (via, end) {
-            (Goal::Pose(_, via), end @ Goal::Pose(..)) => Some((Motion::Circular { via }, end)),
+            (KrlTarget::Pose(_, via), end @ KrlTarget::Pose(..)) => Some((Motion::Circular { via }, end)),
             _ => {
-                let message = "a circle goes through poses, not axes".to_owned();
-                self.given.problem(self.here(), at.span(), message, HINT_TARGET);
+                let message = "a circle needs poses, not axes".to_owned();
+                self.messages
+                    .problem(self.here(), at.span(), message, HINT_TARGET);
                 None
             }
         }
     }
 
-    /// The target that stands at the cursor.
-    fn goal(&mut self, at: Token, cursor: &mut Cursor<'a>) -> Option<Goal> {
+    /// The target at the cursor.
+    fn goal(&mut self, at: Token, cursor: &mut Cursor<'a>) -> Option<KrlTarget> {
         let place = cursor.place();
         let named = match cursor.peek().map(|token| token.kind) {
             Some(Kind::Mark('{')) => Named {
@@ -142,24 +151,24 @@ impl<'a> Reader<'a> {
             },
             Some(Kind::Word) => match self.named(cursor)? {
                 Some(named) => named,
-                None => return Some(Goal::PassedOver),
+                None => return Some(KrlTarget::PassedOver),
             },
             _ => {
                 let message = "a target is missing here".to_owned();
-                self.given.problem(self.here(), place, message, HINT_TARGET);
+                self.messages.problem(self.here(), place, message, HINT_TARGET);
                 return None;
             }
         };
         if named.aggregate.moves_external_axes() {
             self.note(
                 at,
-                "external axes (E1, ...) stay as they are and are no joints here".to_owned(),
+                "external axes (E1, ...) are kept unchanged and are not joints in armill".to_owned(),
             );
         }
         let (is_pose, is_axes) = (named.aggregate.has_any(&POSE), named.aggregate.has_any(&AXES));
         if is_pose == is_axes {
             let message = "neither a pose (X, Y, Z, A, B, C) nor axes (A1 to A6)".to_owned();
-            self.given.problem(self.here(), place, message, HINT_TARGET);
+            self.messages.problem(self.here(), place, message, HINT_TARGET);
             return None;
         }
         if is_axes {
@@ -168,7 +177,7 @@ impl<'a> Reader<'a> {
                 _ => None,
             };
             let axes = self.complete((&named.aggregate, named.text), AXES, former)?;
-            return Some(Goal::Axes(axes));
+            return Some(KrlTarget::Axes(axes));
         }
         let former = match &self.former {
             Some(Former::Pose(numbers, base, tool))
@@ -206,35 +215,35 @@ impl<'a> Reader<'a> {
         self.posed(numbers, &Aggregate::default(), place.start..cursor.before())
     }
 
-    /// A pose of these numbers with what the aggregate says beside, spelled at these bytes of the text that is read.
+    /// A pose of these numbers with the other components of the aggregate, written at these bytes of the text.
     pub fn posed(
         &mut self,
         numbers: [f64; 6],
-        beside: &Aggregate,
+        aggregate: &Aggregate,
         bytes: std::ops::Range<usize>,
-    ) -> Option<Goal> {
+    ) -> Option<KrlTarget> {
         let Ok(pose) = Convention::Kuka.pose(&numbers) else {
             self.too_large(bytes);
             return None;
         };
         let target = Target::Pose {
             pose,
-            branch: beside.configuration().pattern(),
-            turns: beside.turns(),
+            branch: aggregate.configuration().pattern(),
+            turns: aggregate.turns(),
             spelled: Spelled {
                 text: self.text,
                 bytes,
             },
         };
-        Some(Goal::Pose(numbers, target))
+        Some(KrlTarget::Pose(numbers, target))
     }
 
     fn too_large(&mut self, place: std::ops::Range<usize>) {
-        let message = "a component beyond 1e9 mm or deg is no pose".to_owned();
-        self.given.problem(self.here(), place, message, HINT_TARGET);
+        let message = "a component exceeds 1e9 mm or deg".to_owned();
+        self.messages.problem(self.here(), place, message, HINT_TARGET);
     }
 
-    /// The components of these names; those that are missing are told.
+    /// The components with these names; missing ones are reported.
     pub fn complete(
         &mut self,
         (aggregate, text): (&Aggregate, usize),
@@ -244,32 +253,35 @@ impl<'a> Reader<'a> {
         match aggregate.numbers(names, former) {
             Ok(numbers) => Some(numbers),
             Err(missing) => {
-                let message = format!("{missing} of this target is not told, nor by the move before");
-                let hint = "a component left out keeps the value of the move before, in the same frame with the same tool";
+                let message =
+                    format!("{missing} of this target is given neither here nor by the previous move");
+                let hint = "a missing component keeps the value of the previous move, in the same frame with the same \
+                    tool";
                 let text = &self.texts[text];
-                self.given.problem(text, aggregate.bytes.clone(), message, hint);
+                self.messages
+                    .problem(text, aggregate.bytes.clone(), message, hint);
                 None
             }
         }
     }
 
-    /// The aggregate that stands at the cursor; what is broken in it is told.
+    /// The aggregate at the cursor; errors in it are reported.
     pub fn aggregate(&mut self, cursor: &mut Cursor<'a>) -> Option<Aggregate> {
         let read = Aggregate::read(cursor);
         read.map_err(|wrong| {
-            self.given
+            self.messages
                 .problem(self.here(), wrong.bytes, wrong.message, HINT_TARGET);
         })
         .ok()
     }
 
-    /// What a name stands for; `Some(None)` is a place that only the controller knows, and was noted.
+    /// The value of a name; `Some(None)` is a position that only the controller knows, and is noted.
     fn named(&mut self, cursor: &mut Cursor<'a>) -> Option<Option<Named>> {
         let token = cursor.peek()?;
         let reference = Reference::read(cursor)?;
         let name = reference.name;
         let mut wrong = |message: String, hint: &str| {
-            self.given
+            self.messages
                 .problem(&self.texts[self.text], token.span(), message, hint);
             None
         };
@@ -280,28 +292,28 @@ impl<'a> Reader<'a> {
             );
         }
         match self.names.find(&self.module, &name) {
-            Some(Known::Told { aggregate, text }) => Some(Some(Named {
+            Some(PointValue::Given { aggregate, text }) => Some(Some(Named {
                 aggregate: aggregate.clone(),
                 text: *text,
             })),
-            Some(Known::Computed { line }) => wrong(
+            Some(PointValue::Computed { line }) => wrong(
                 format!("`{name}` is computed while the program runs, in line {line}"),
-                "write its components as numbers, or give the .dat with the point as it was taught",
+                "write its components as numbers, or give the .dat file with the taught point",
             ),
             None if name.starts_with('$') || name.starts_with("XHOME") => {
                 let sentence =
-                    format!("the move to `{name}` is left out: only the controller knows where it lies");
+                    format!("the move to `{name}` is left out: only the controller knows its position");
                 self.note(token, sentence);
                 Some(None)
             }
             None => wrong(
-                format!("`{name}` is not told: no file given declares it"),
+                format!("`{name}` is not defined: no given file declares it"),
                 HINT_POINT,
             ),
         }
     }
 
-    /// Whether nothing but blends follows a target.
+    /// Whether only blends follow a target.
     fn ends_here(&mut self, mut cursor: Cursor<'a>) -> bool {
         let place = cursor.place();
         while cursor.peek_word().is_some_and(|word| word.starts_with("C_")) {
@@ -311,9 +323,9 @@ impl<'a> Reader<'a> {
         let ends = cursor.peek().is_none();
         if !ends {
             while cursor.next().is_some() {}
-            let message = "what stands behind the target is not understood".to_owned();
-            let hint = "behind a target stand C_DIS, C_ORI, C_VEL, C_PTP, C_SPL or WITH";
-            self.given
+            let message = "the words after the target are not understood".to_owned();
+            let hint = "after a target, C_DIS, C_ORI, C_VEL, C_PTP, C_SPL or WITH can follow";
+            self.messages
                 .problem(self.here(), place.start..cursor.end, message, hint);
         }
         ends

@@ -1,4 +1,4 @@
-//! What data files hold: points, frames of the controller, and the sets of numbers that inline forms name.
+//! Content of data files: points, frames of the controller, and the sets of numbers that inline forms name.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -6,33 +6,33 @@ use super::aggregate::{Aggregate, Broken};
 use crate::robot_program::text::ProgramText;
 use crate::robot_program::tokens::{Cursor, Kind, Token};
 
-/// Types whose components are numbers that a move needs: what is wrong in them is a problem.
+/// Types whose components are numbers that a move needs: errors in them are problems.
 const POINTS: [&str; 7] = ["E6POS", "POS", "E3POS", "FRAME", "E6AXIS", "E3AXIS", "AXIS"];
 /// Words before the type of a declaration.
 const BEFORE_TYPE: [&str; 4] = ["DECL", "GLOBAL", "PUBLIC", "CONST"];
 
-/// A name with what it stands for.
+/// Value of a name.
 #[derive(Clone, Debug)]
-pub(super) enum Known {
-    /// It was told so, in this text.
-    Told { aggregate: Aggregate, text: usize },
+pub(super) enum PointValue {
+    /// Given in this text.
+    Given { aggregate: Aggregate, text: usize },
     /// It is computed while the program runs, in this line.
     Computed { line: u32 },
 }
 
-/// Everything named, by name, then by module: two programs may each have an `XP1`.
+/// All names, by name, then by module: two programs may each have an `XP1`.
 #[derive(Default)]
-pub(super) struct Names(HashMap<String, BTreeMap<String, Known>>);
+pub(super) struct Names(HashMap<String, BTreeMap<String, PointValue>>);
 
 impl Names {
-    /// What the name means in this module; else in the first other that has it.
-    pub fn find(&self, module: &str, name: &str) -> Option<&Known> {
+    /// The value of the name in this module, otherwise in the first other module that has it.
+    pub fn find(&self, module: &str, name: &str) -> Option<&PointValue> {
         let modules = self.0.get(name)?;
         modules.get(module).or_else(|| modules.values().next())
     }
 
-    /// From here on the name means this in this module.
-    pub fn put(&mut self, module: &str, name: String, known: Known) {
+    /// Sets the value of the name in this module.
+    pub fn put(&mut self, module: &str, name: String, known: PointValue) {
         self.0.entry(name).or_default().insert(module.to_owned(), known);
     }
 }
@@ -40,20 +40,20 @@ impl Names {
 /// A variable: `XP1`, `P[3]`, `XP1.X`, `$VEL.CP`.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Reference {
-    /// In capitals, with its index: `P[3]`; `P[?]` where the index is no number.
+    /// In capitals, with its index: `P[3]`; `P[?]` if the index is not a number.
     pub name: String,
-    /// The component behind its point, if one is told.
+    /// The component after its point, if there is one.
     pub field: Option<String>,
 }
 
 impl Reference {
-    /// The index, of a name with one that is a number.
+    /// Name and index, if the index is a number.
     pub fn index(&self) -> Option<(&str, u32)> {
         let (name, rest) = self.name.split_once('[')?;
         Some((name, rest.strip_suffix(']')?.parse().ok()?))
     }
 
-    /// The variable that stands at the cursor, which goes past it.
+    /// Reads the variable at the cursor.
     pub fn read(cursor: &mut Cursor<'_>) -> Option<Reference> {
         let mut name = cursor.word()?;
         if cursor.pass('[') {
@@ -74,8 +74,8 @@ impl Reference {
     }
 }
 
-/// A declaration with values or an assignment, as it stands in a line: the type, if one is told, and the variables with
-/// where their values begin.
+/// A declaration with values, or an assignment: the type, if there is one, and the variables with
+/// the positions of their values.
 pub(super) struct Declared<'a> {
     pub kind: Option<String>,
     pub values: Vec<(Reference, Cursor<'a>)>,
@@ -103,7 +103,7 @@ pub(super) fn declared<'a>(line: &Cursor<'a>) -> Option<Declared<'a>> {
         if cursor.pass('=') {
             values.push((reference, cursor.clone()));
         }
-        // To the next variable of a list.
+        // Go to the next variable of a list.
         let mut depth = 0_usize;
         loop {
             match cursor.next().map(|token| token.kind) {
@@ -120,7 +120,7 @@ pub(super) fn declared<'a>(line: &Cursor<'a>) -> Option<Declared<'a>> {
     }
 }
 
-/// Takes every value that the lines of a data file tell; gives what is broken in points.
+/// Stores all values of the lines of a data file; returns the errors in points.
 pub(super) fn take_data(
     names: &mut Names,
     (module, index): (&str, usize),
@@ -138,7 +138,7 @@ pub(super) fn take_data(
                 Ok(aggregate) => names.put(
                     module,
                     reference.name,
-                    Known::Told {
+                    PointValue::Given {
                         aggregate,
                         text: index,
                     },
@@ -151,7 +151,7 @@ pub(super) fn take_data(
     broken
 }
 
-/// The lines of a text that say anything, but for those of the file manager.
+/// The lines of a text that are not empty, without those of the file manager.
 pub(super) fn lines<'a>(text: &'a str, tokens: &'a [Token]) -> Vec<Cursor<'a>> {
     tokens
         .split(|token| token.kind == Kind::Line)

@@ -1,4 +1,4 @@
-//! Statements, line by line: data files first, then every routine as it stands.
+//! Statements, line by line: data files first, then the routines in order.
 
 use std::collections::HashSet;
 
@@ -8,21 +8,21 @@ use super::motion::Former;
 use super::points::{self, Names, declared, lines, module_of};
 use crate::document::{Problem, Problems};
 use crate::robot_program::language::Language;
+use crate::robot_program::messages::ProgramMessages;
 use crate::robot_program::program::{RobotMove, RobotProgram};
 use crate::robot_program::text::ProgramText;
 use crate::robot_program::tokens::{Cursor, Kind, Token, tokens};
-use crate::robot_program::given::Told;
 
-/// Words of control: what they enclose is read once.
+/// Words of control flow: their bodies are read once.
 const CONTROL: [&str; 7] = ["IF", "FOR", "WHILE", "LOOP", "REPEAT", "SWITCH", "GOTO"];
-/// How the names of moves begin.
+/// Beginnings of the names of moves.
 const MOVES: [&str; 7] = ["PTP", "LIN", "CIRC", "SPTP", "SLIN", "SCIRC", "SPL"];
 
-/// Reads a program, its data files beside it: of several `.src` every routine in the order in which they stand.
+/// Reads a program with its data files. The routines of several `.src` files are read in order.
 ///
 /// # Errors
-/// Every problem of the files, at most 200: points that no file declares, moves that are not known, components that are
-/// missing or no numbers.
+/// All problems of the files, at most 200: points that no file declares, unknown moves, components that are
+/// missing or not numbers.
 pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
     let found: Vec<Vec<Token>> = texts.iter().map(|text| tokens(text.text(), &SYNTAX)).collect();
     let mut reader = Reader::new(&texts);
@@ -35,8 +35,8 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
         if is_data {
             let broken = points::take_data(&mut reader.names, (&module_of(text), index), &lines);
             for wrong in broken {
-                let hint = "components are numbers, as `{X 100.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}`";
-                reader.given.problem(text, wrong.bytes, wrong.message, hint);
+                let hint = "components are numbers, as in `{X 100.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}`";
+                reader.messages.problem(text, wrong.bytes, wrong.message, hint);
             }
         } else {
             reader.routines.extend(
@@ -60,12 +60,12 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
             reader.statement(line.clone());
         }
     }
-    let Reader { given, moves, .. } = reader;
-    let notes = given.finish()?;
+    let Reader { messages, moves, .. } = reader;
+    let notes = messages.finish()?;
     if moves.is_empty() {
         let name = texts.first().map_or("", ProgramText::name);
-        let hint = "give the .src that moves the robot, with the .dat of its points";
-        return Err(Problem::of_file(name, "no move stands in this program", hint).into());
+        let hint = "give the .src file that moves the robot, with the .dat file of its points";
+        return Err(Problem::of_file(name, "the program contains no moves", hint).into());
     }
     Ok(RobotProgram {
         language: Language::Krl,
@@ -76,7 +76,7 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
     })
 }
 
-/// The name of the routine that the line begins, as it is written.
+/// The name of the routine that begins in the line.
 fn routine(line: &Cursor<'_>) -> Option<String> {
     let mut cursor = line.clone();
     while cursor.peek_word().is_some_and(|word| word == "GLOBAL") {
@@ -87,22 +87,22 @@ fn routine(line: &Cursor<'_>) -> Option<String> {
     Some(line.text[name.span()].to_owned())
 }
 
-/// What is known while lines are read.
+/// State while lines are read.
 pub(super) struct Reader<'a> {
     pub texts: &'a [ProgramText],
-    /// Which text is read, and its module.
+    /// The current text and its module.
     pub text: usize,
     pub module: String,
     pub names: Names,
     pub modal: Modal,
-    /// What holds again where a spline block ends.
+    /// Settings to restore at the end of a spline block.
     before_spline: Option<Modal>,
     /// The speed of the set that `LDAT_ACT` names.
     pub path_speed: Option<f64>,
-    /// Where the move before ended.
+    /// End of the previous move.
     pub former: Option<Former>,
     routines: HashSet<String>,
-    pub given: Told,
+    pub messages: ProgramMessages,
     pub moves: Vec<RobotMove>,
 }
 
@@ -118,12 +118,12 @@ impl<'a> Reader<'a> {
             path_speed: None,
             former: None,
             routines: HashSet::new(),
-            given: Told::default(),
+            messages: ProgramMessages::default(),
             moves: Vec::new(),
         }
     }
 
-    /// The text that is read.
+    /// The current text.
     pub fn here(&self) -> &'a ProgramText {
         &self.texts[self.text]
     }
@@ -141,7 +141,7 @@ impl<'a> Reader<'a> {
             "SPLINE" | "PTP_SPLINE" => {
                 self.note(
                     first,
-                    format!("`{word}`: its points are read, not the curve between them"),
+                    format!("`{word}`: its points are read, but not the curve between them"),
                 );
                 self.before_spline = Some(self.modal.clone());
                 self.with(&cursor);
@@ -152,16 +152,13 @@ impl<'a> Reader<'a> {
                 }
             }
             _ if CONTROL.contains(&word.as_str()) && follows != Some(Kind::Mark('=')) => {
-                self.note(
-                    first,
-                    format!("`{word}`: what it governs is read once, as it stands"),
-                );
+                self.note(first, format!("`{word}`: its body is read once"));
             }
-            // No other statement has a place behind its word.
+            // No other statement has a target after its word.
             _ if follows == Some(Kind::Mark('{')) || is_like_a_move(&word) && follows == Some(Kind::Word) => {
-                let message = format!("`{word}` is a move that is not understood");
-                let hint = "understood are PTP, LIN, CIRC, SPTP, SLIN, SCIRC, SPL and PTP_REL, LIN_REL";
-                self.given.problem(self.here(), first.span(), message, hint);
+                let message = format!("`{word}` is an unsupported move");
+                let hint = "supported: PTP, LIN, CIRC, SPTP, SLIN, SCIRC, SPL and PTP_REL, LIN_REL";
+                self.messages.problem(self.here(), first.span(), message, hint);
             }
             _ => match declared(&line) {
                 Some(declared) => {
@@ -179,15 +176,15 @@ impl<'a> Reader<'a> {
         let name = &self.here().text()[word.span()];
         let ours = self.routines.contains(&name.to_ascii_uppercase());
         let what = match ours {
-            true => "its moves are read once, where it stands",
-            false => "what it does is not known here",
+            true => "its moves are read once, where it is defined",
+            false => "its effect is not known",
         };
         self.note(word, format!("`{name}` is called: {what}"));
     }
 
-    /// A remark on what stands at this token.
+    /// Adds a note on this token.
     pub fn note(&mut self, token: Token, sentence: String) {
-        self.given.note((self.here(), token.line), sentence);
+        self.messages.note((self.here(), token.line), sentence);
     }
 }
 

@@ -1,17 +1,21 @@
-//! Moves that count from the end of the move before, and poses in poses.
+//! Moves relative to the end of the previous move, and poses relative to poses.
 
 use armill_core::frame::Isometry;
 
 use super::aggregate::{AXES, Aggregate, POSE};
-use super::motion::{Former, Goal};
+use super::motion::{Former, KrlTarget};
 use super::read::Reader;
 use crate::convention::Convention;
 use crate::robot_program::program::Motion;
 use crate::robot_program::tokens::{Cursor, Token};
 
 impl<'a> Reader<'a> {
-    /// Counted from the end of the move before: in the frame, or, behind `#TOOL`, in the tool.
-    pub fn relative(&mut self, (at, word): (Token, &str), cursor: &mut Cursor<'a>) -> Option<(Motion, Goal)> {
+    /// A move relative to the end of the previous move: in the frame or, after `#TOOL`, in the tool.
+    pub fn relative(
+        &mut self,
+        (at, word): (Token, &str),
+        cursor: &mut Cursor<'a>,
+    ) -> Option<(Motion, KrlTarget)> {
         let aggregate = self.aggregate(cursor)?;
         let in_tool = cursor.pass('#') && cursor.word().is_some_and(|word| word == "TOOL");
         let span = at.start..cursor.before();
@@ -28,7 +32,9 @@ impl<'a> Reader<'a> {
                 .any(|name| aggregate.number(name).is_some_and(|by| by != 0.0));
         let goal = match (self.former.clone(), by) {
             (Some(Former::Axes(former)), Ok(by)) if axes && motion == Motion::Joint => {
-                Some(Goal::Axes(std::array::from_fn(|axis| former[axis] + by[axis])))
+                Some(KrlTarget::Axes(std::array::from_fn(|axis| {
+                    former[axis] + by[axis]
+                })))
             }
             (Some(Former::Pose(former, base, tool)), Ok(by))
                 if !axes && !turns && (base, tool) == (self.modal.base, self.modal.tool) =>
@@ -42,9 +48,10 @@ impl<'a> Reader<'a> {
             _ => None,
         };
         if goal.is_none() {
-            let message = format!("where `{word}` goes to is not known");
-            let hint = "it is read behind a move to a pose of the same frame and tool (to axes for axes), and turns in #TOOL alone";
-            self.given.problem(self.here(), at.span(), message, hint);
+            let message = format!("the target of `{word}` is not known");
+            let hint = "it must follow a move to a pose with the same frame and tool (to axes for axes), and can \
+                rotate only in #TOOL";
+            self.messages.problem(self.here(), at.span(), message, hint);
         }
         goal.map(|goal| (motion, goal))
     }

@@ -1,7 +1,7 @@
-//! A program for controllers of KUKA: one `.src`, or a main one that calls the parts of a long one.
+//! A program for KUKA controllers: one `.src` file, or a main file that calls the parts of a long program.
 //!
-//! Frame and tool are called by their numbers, for the load and the pendant, and then set to the numbers that the program
-//! was made with: what the controller keeps under these numbers stays as it is.
+//! Frame and tool are selected by their numbers, for the load and the pendant, and then set to the values for which the
+//! program was made: the data stored on the controller under these numbers are not changed.
 
 use std::fmt::Write;
 
@@ -13,19 +13,19 @@ use crate::robot_program::draft::{Bounds, Draft, DraftError, DraftPoint, Written
 use crate::robot_program::number::fixed;
 use crate::robot_program::posture::Configuration;
 
-/// `[recalled]` Longest name of a module; frames and tools of newer systems, older ones have 32 and 16.
+/// `[recalled]` Longest name of a module; number of frames and tools of newer systems, older ones have 32 and 16.
 const LONGEST_NAME: usize = 24;
 const MOST_FRAMES: u32 = 128;
-/// Moves of one module: larger ones take long to load and are refused by older systems `[recalled]`.
+/// Maximum number of moves in a module: larger modules load slowly and are refused by older systems `[recalled]`.
 const MOST_MOVES: usize = 5000;
-/// A part is called by its main program's name, an underscore and up to four digits.
+/// The name of a part is that of the main program, an underscore and up to four digits.
 const PART: usize = 5;
 /// Decimals of axes, deg; of a frame or tool, mm and deg; of speeds, m/s; of blends, mm.
 const AXIS: usize = 5;
 const FRAME: [usize; 2] = [4, 6];
 const SPEED: usize = 6;
 const BLEND: usize = 3;
-/// Words of the language `[recalled]`.
+/// Reserved words `[recalled]`.
 const WORDS: &[&str] = &[
     "AND",
     "ANIN",
@@ -100,7 +100,7 @@ const WORDS: &[&str] = &[
 /// Writes a program.
 ///
 /// # Errors
-/// What the language or its controllers cannot hold.
+/// Values outside the ranges of the language or its controllers.
 pub fn write(draft: &Draft) -> Result<Written, DraftError> {
     let is_split = draft.points.len() > MOST_MOVES;
     let bounds = Bounds {
@@ -108,10 +108,10 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
         longest_name: LONGEST_NAME - if is_split { PART } else { 0 },
         names: match is_split {
             true => {
-                "letters, digits and underscores, at most 19 for it is written in parts, and no word of the language"
+                "letters, digits and underscores, at most 19 because it is written in parts, and not a reserved word"
             }
             false => {
-                "a letter, then letters, digits and underscores, at most 24 in all, and no word of the language"
+                "a letter, then letters, digits and underscores, at most 24 characters, and not a reserved word"
             }
         },
         joints: 6..=6,
@@ -127,7 +127,7 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
         let mut body = String::new();
         for (at, point) in points.iter().enumerate() {
             match (index, at) {
-                // The first by axes: no posture is left to choose.
+                // The first move is given in axes: its posture is unique.
                 (0, 0) => _ = write!(main, "PTP {}\r\n", axes(&point.joints)),
                 _ => modal.take((point, draft.blend(point)), &mut body),
             }
@@ -190,7 +190,7 @@ fn axes(joints: &[f64]) -> String {
     format!("{{AXIS: {}}}", axes.join(","))
 }
 
-/// Speed and blend as they were told last.
+/// Last written speed and blend.
 #[derive(Default)]
 struct Modal {
     speed: Option<String>,
@@ -248,11 +248,12 @@ fn notes(draft: &Draft) -> Vec<String> {
     let (frame, tool) = (draft.frame_number, draft.tool_number);
     let mut notes = vec![
         format!(
-            "$BASE and $TOOL are set to the numbers of this program, counted from $ROBROOT; BASE_DATA[{frame}] and \
-             TOOL_DATA[{tool}] of the controller stay as they are: compare them"
+            "$BASE and $TOOL are set to the values of this program, relative to $ROBROOT; BASE_DATA[{frame}] and \
+             TOOL_DATA[{tool}] of the controller are not changed: compare them"
         ),
         format!("the load is that of tool {tool} on the controller: check it"),
-        "the first move goes to its axes from wherever the robot stands: mind what is in between".to_owned(),
+        "the first move goes to its axis positions from the robot's current posture: check for collisions"
+            .to_owned(),
     ];
     let unsaid = draft
         .points
@@ -261,7 +262,7 @@ fn notes(draft: &Draft) -> Vec<String> {
         .any(|point| point.speed.is_none() && point.branch.is_none());
     if unsaid {
         notes.push(
-            "moves of the joints are written without S and T, for the postures of this arm have no names"
+            "joint moves are written without S and T, because the postures of this arm have no names"
                 .to_owned(),
         );
     }
@@ -285,7 +286,7 @@ mod tests {
     }
 
     #[test]
-    fn every_posture_has_a_status_of_its_own() {
+    fn every_posture_has_its_own_status() {
         let mut all: Vec<u32> = Branch::ALL
             .iter()
             .map(|branch| status(Configuration::of(*branch)))

@@ -1,26 +1,26 @@
 //! ABB RAPID: modules, `.mod`, `.prg`, `.sys`.
 //!
-//! | statement | what it becomes |
+//! | statement | read as |
 //! |---|---|
-//! | `MoveAbsJ` | a move of the joints, to joints |
-//! | `MoveJ`, `TriggJ`, `MoveJDO`, ... | a move of the joints, to a pose with confdata |
+//! | `MoveAbsJ` | a joint move to joint positions |
+//! | `MoveJ`, `TriggJ`, `MoveJDO`, ... | a joint move to a pose with confdata |
 //! | `MoveL`, `TriggL`, `ArcL`, `MoveLDO`, ... | a straight move |
 //! | `MoveC`, `TriggC`, `ArcC`, `MoveCDO`, ... | a circular move |
-//! | `CONST`, `PERS`, `VAR`, `name := ...`, `name.uframe := ...` | what later names stand for |
-//! | `Offs(p, x, y, z)`, `RelTool(p, x, y, z \Rx, \Ry, \Rz)` | a place beside another |
+//! | `CONST`, `PERS`, `VAR`, `name := ...`, `name.uframe := ...` | values of names |
+//! | `Offs(p, x, y, z)`, `RelTool(p, x, y, z \Rx, \Ry, \Rz)` | a target with an offset |
 //!
-//! A target is `[[x, y, z], [q1, q2, q3, q4], [cf1, cf4, cf6, cfx], [eax_a, ...]]`, mm, real part first; it counts in the work
-//! object: uframe times oframe. cf is the quarter turn of axes 1, 4, 6 (floor of degrees / 90), told as `turns`; cfx is 4
-//! rear + 2 lower + 1 flip. Speeds are mm/s. Tools that stand still, work objects on the flange and program displacements
-//! (`PDispOn`) are problems; external axes stay in the text and are no joints here.
+//! A target is `[[x, y, z], [q1, q2, q3, q4], [cf1, cf4, cf6, cfx], [eax_a, ...]]`, mm, real part first, relative to
+//! the work object: uframe times oframe. cf is the quarter turn of axes 1, 4, 6 (floor of degrees / 90), returned as
+//! `turns`; cfx is 4 rear + 2 lower + 1 flip. Speeds are mm/s. Stationary tools, work objects on the flange and program
+//! displacements (`PDispOn`) are problems; external axes are kept in the text and are not joints in armill.
 //!
-//! `[recalled]`, not in a sample: `RelTool` turns about x, then the new y, then the new z; where tool and zone stand among the
-//! arguments of process moves; `v100` is 100 mm/s.
+//! `[recalled]`, not in a sample: `RelTool` rotates about x, then the new y, then the new z; the positions of tool and
+//! zone in the arguments of process moves; `v100` is 100 mm/s.
 //!
-//! In reading order: `value` expressions; `names` what names stand for; `statement` takes text apart; `read`, `motion`,
-//! `target`, `kept` what statements do; `spell` a pose; `write` the program out.
+//! In reading order: `value` expressions; `names` values of names; `statement` splits text; `read`, `motion`,
+//! `target`, `frames` the statements; `spell` a pose; `write` the output.
 
-mod kept;
+mod frames;
 mod motion;
 mod names;
 mod read;
@@ -36,7 +36,7 @@ pub use self::write::write;
 
 use super::tokens::Syntax;
 
-/// Remarks from `!` on; texts in `"`.
+/// Remarks begin with `!`; texts are in `"`.
 const SYNTAX: Syntax = Syntax {
     remark: '!',
     quotes: &['"'],

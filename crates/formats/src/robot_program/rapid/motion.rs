@@ -1,16 +1,16 @@
-//! Moves: which argument is what.
+//! Moves and their arguments.
 
 use armill_core::frame::Isometry;
 
-use super::kept::Kept;
+use super::frames::MoveFrames;
 use super::read::Reader;
 use super::statement::is_move;
 use super::value::{Argument, Node, Value};
+use crate::robot_program::messages::shown;
 use crate::robot_program::program::{Frame, Motion, RobotMove, Speed, Target};
 use crate::robot_program::tokens::{Cursor, Token};
-use crate::robot_program::given::shown;
 
-/// Moves of the joints to a pose, straight moves, circular moves.
+/// Joint moves to a pose, straight moves, circular moves.
 const JOINT: [&str; 6] = ["MOVEJ", "MOVEJAO", "MOVEJDO", "MOVEJGO", "MOVEJSYNC", "TRIGGJ"];
 const LINEAR: [&str; 12] = [
     "MOVEL",
@@ -39,11 +39,11 @@ const CIRCULAR: [&str; 11] = [
     "DISPC",
     "CAPC",
 ];
-/// Moves that end where a signal says, or that nobody here knows.
+/// Moves that end at a signal, and unsupported moves.
 const SEARCHING: [&str; 4] = ["SEARCHL", "SEARCHC", "TRIGGLIOS", "STARTMOVETO"];
 
 impl<'a> Reader<'a> {
-    /// The move that this word names, with its arguments at the cursor; whether it is one.
+    /// The move named by this word, with its arguments at the cursor. Returns whether it is a move.
     pub fn motion(&mut self, (at, word): (Token, &str), mut cursor: Cursor<'a>) -> bool {
         let name = &self.here().text()[at.span()];
         let is_circular = CIRCULAR.contains(&word);
@@ -51,29 +51,29 @@ impl<'a> Reader<'a> {
         if word == "MOVEEXTJ" {
             self.note(
                 at,
-                "`MoveExtJ` moves external axes alone: it is left out".to_owned(),
+                "`MoveExtJ` moves only external axes: it is left out".to_owned(),
             );
             return true;
         }
         if !is_known {
             let moves = is_move(word) || SEARCHING.contains(&word);
             if moves {
-                let message = format!("`{name}` is a move that is not understood");
+                let message = format!("`{name}` is an unsupported move");
                 let hint =
-                    "understood are MoveAbsJ, MoveJ, MoveL, MoveC and their like with signals, TriggL, ArcL";
-                self.given.problem(self.here(), at.span(), message, hint);
+                    "supported: MoveAbsJ, MoveJ, MoveL, MoveC and their variants with signals, TriggL, ArcL";
+                self.messages.problem(self.here(), at.span(), message, hint);
             }
             return moves;
         }
-        let before = self.given.count();
+        let before = self.messages.count();
         let arguments = self.arguments(&mut cursor, 0);
-        if self.given.count() > before {
+        if self.messages.count() > before {
             return true;
         }
         if cursor.peek().is_some() {
-            let message = format!("a closing bracket too many in this {name}");
-            let hint = "every bracket is closed, in the order in which they were opened";
-            self.given.problem(self.here(), cursor.place(), message, hint);
+            let message = format!("one closing bracket too many in this {name}");
+            let hint = "close every bracket, in the order in which they were opened";
+            self.messages.problem(self.here(), cursor.place(), message, hint);
             return true;
         }
         let plain: Vec<&Node> = arguments
@@ -95,7 +95,7 @@ impl<'a> Reader<'a> {
         if let Some((motion, target)) = self.goal((at, word), via, end) {
             let is_joint = motion == Motion::Joint;
             let kept = self.kept((at, tool), named(&arguments, "wobj"));
-            let Some(Kept { frame, tool }) = kept else {
+            let Some(MoveFrames { frame, tool }) = kept else {
                 return true;
             };
             let speed = match is_joint {
@@ -116,8 +116,8 @@ impl<'a> Reader<'a> {
 
     fn too_few(&mut self, (at, name): (Token, &str), found: usize) -> bool {
         let message = format!("{found} arguments of `{name}`");
-        let hint = "a move has its target, speed, zone and tool: `MoveL p10,v100,z1,tool1\\WObj:=wobj1;`";
-        self.given.problem(self.here(), at.span(), message, hint);
+        let hint = "a move has target, speed, zone and tool: `MoveL p10,v100,z1,tool1\\WObj:=wobj1;`";
+        self.messages.problem(self.here(), at.span(), message, hint);
         true
     }
 
@@ -140,7 +140,7 @@ impl<'a> Reader<'a> {
         Some((motion, end))
     }
 
-    /// The speed of the tip: `\V`, or the first of a speeddata, mm/s.
+    /// The tip speed: `\V`, or the first number of a speeddata, mm/s.
     fn speed(&mut self, (at, node): (Token, &Node), arguments: &[Argument]) -> Speed {
         if named(arguments, "t").is_some() {
             return Speed::Joints;
@@ -167,25 +167,25 @@ impl<'a> Reader<'a> {
                 let text = shown(&self.here().text()[node.bytes.clone()]);
                 self.note(
                     at,
-                    format!("the speed `{text}` is not told: how fast the tip is is not known"),
+                    format!("the speed `{text}` is not defined: the tip speed is not known"),
                 );
-                Speed::EvaluateError
+                Speed::Unknown
             }),
         }
     }
 
-    /// Work object and tool; nothing, which was told, where one of them cannot be.
-    fn kept(&mut self, (at, tool): (Token, &Node), work: Option<&Node>) -> Option<Kept> {
+    /// Work object and tool; `None` if one of them is not valid, which has been reported.
+    fn kept(&mut self, (at, tool): (Token, &Node), work: Option<&Node>) -> Option<MoveFrames> {
         let tool = self.tool(at, tool)?;
         let frame = match work {
             Some(work) => self.work(at, work)?,
-            None => Frame::Told(Isometry::identity()),
+            None => Frame::Given(Isometry::identity()),
         };
-        Some(Kept { frame, tool })
+        Some(MoveFrames { frame, tool })
     }
 }
 
-/// The value of the optional argument of this name.
+/// The value of the optional argument with this name.
 fn named<'n>(arguments: &'n [Argument], name: &str) -> Option<&'n Node> {
     let found = arguments
         .iter()

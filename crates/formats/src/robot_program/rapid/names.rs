@@ -1,36 +1,36 @@
-//! What names stand for: data of every module, as declared and as assigned since.
+//! Values of names: data of all modules, as declared and assigned.
 
 use std::collections::{BTreeMap, HashMap};
 
 use super::value::{Node, Reference, Step, Value};
 
-/// Names that stand for names, more than anybody chains.
+/// Maximum length of a chain of names.
 const MOST_LINKS: usize = 16;
 
-/// Data of all modules, by name, then by text: two modules may each have a tool of their own under one name.
+/// Data of all modules, by name, then by text: two modules may each have a tool with the same name.
 #[derive(Default)]
 pub(super) struct Names(HashMap<String, BTreeMap<usize, Bound>>);
 
 struct Bound {
     node: Node,
-    /// The text where it is spelled.
+    /// The text that contains it.
     text: usize,
-    /// Parts of it were assigned: it is spelled in more than one place.
+    /// Whether parts of it were assigned: it is written in more than one place.
     is_changed: bool,
 }
 
-/// What an expression comes to.
+/// Value of an expression.
 #[derive(Clone, Copy)]
-pub(super) struct Found<'n> {
+pub(super) struct Definition<'n> {
     pub node: &'n Node,
-    /// The text where it stands.
+    /// The text that contains it.
     pub text: usize,
-    /// Whether it is spelled there and nowhere else.
+    /// Whether it is written only there.
     pub is_whole: bool,
 }
 
 impl Names {
-    /// From here on the name means this in this text.
+    /// Sets the value of the name in this text.
     pub fn put(&mut self, name: String, node: Node, text: usize) {
         let bound = Bound {
             node,
@@ -45,7 +45,7 @@ impl Names {
         self.0.contains_key(name)
     }
 
-    /// A part of what the name stands for is assigned; nothing where the name or the part is not known.
+    /// Assigns a part of the value of a name; no effect if the name or the part is not known.
     pub fn change(&mut self, reference: &Reference, node: Node, text: usize) {
         let Some(modules) = self.0.get_mut(&reference.name) else {
             return;
@@ -67,7 +67,7 @@ impl Names {
             let index = index_of(step, length).filter(|index| *index < length);
             match (index, &mut part.value) {
                 (Some(index), Value::List(all)) => part = &mut all[index],
-                // Which part it is, or of what, is not known: nor is then the whole.
+                // The part is not known, so the whole is not known.
                 (_, value) => {
                     *value = Value::Other;
                     return;
@@ -77,9 +77,9 @@ impl Names {
         *part = node;
     }
 
-    /// What the expression comes to, through names that stand for it.
-    pub fn look<'n>(&'n self, node: &'n Node, text: usize) -> Option<Found<'n>> {
-        let mut found = Found {
+    /// The value of an expression, with names resolved.
+    pub fn look<'n>(&'n self, node: &'n Node, text: usize) -> Option<Definition<'n>> {
+        let mut found = Definition {
             node,
             text,
             is_whole: true,
@@ -90,7 +90,7 @@ impl Names {
             };
             let modules = self.0.get(&reference.name)?;
             let bound = modules.get(&found.text).or_else(|| modules.values().next())?;
-            found = Found {
+            found = Definition {
                 node: &bound.node,
                 text: bound.text,
                 is_whole: found.is_whole && !bound.is_changed,
@@ -102,7 +102,7 @@ impl Names {
         None
     }
 
-    fn part<'n>(&'n self, found: Found<'n>, step: &Step) -> Option<&'n Node> {
+    fn part<'n>(&'n self, found: Definition<'n>, step: &Step) -> Option<&'n Node> {
         match &found.node.value {
             Value::List(all) => all.get(index_of(step, all.len())?),
             _ => None,
@@ -110,7 +110,7 @@ impl Names {
     }
 }
 
-/// Which entry of a record or an array of so many a step leads to.
+/// The index of the entry that a step selects in a record or array of this length.
 fn index_of(step: &Step, length: usize) -> Option<usize> {
     let field = match step {
         Step::Index(index) => return Some(index - 1),
@@ -124,7 +124,7 @@ fn index_of(step: &Step, length: usize) -> Option<usize> {
         "q4" | "cfx" | "uframe" | "rax_4" | "eax_d" => 3,
         "oframe" | "rax_5" | "eax_e" => 4,
         "rax_6" | "eax_f" => 5,
-        // The last of a target and of joints alike.
+        // The last entry of targets and of joints.
         "extax" => length.checked_sub(1)?,
         _ => return None,
     })

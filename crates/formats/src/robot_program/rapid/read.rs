@@ -1,4 +1,4 @@
-//! Statements: data of all modules first, then every routine as it stands.
+//! Statements: data of all modules first, then the routines in order.
 
 use std::collections::HashSet;
 
@@ -7,14 +7,14 @@ use super::names::Names;
 use super::statement::statements;
 use crate::document::{Problem, Problems};
 use crate::robot_program::language::Language;
+use crate::robot_program::messages::ProgramMessages;
 use crate::robot_program::program::{RobotMove, RobotProgram};
 use crate::robot_program::text::ProgramText;
 use crate::robot_program::tokens::{Cursor, Kind, Token, tokens};
-use crate::robot_program::given::Told;
 
-/// Words of control: what they govern is read once.
+/// Words of control flow: their bodies are read once.
 const CONTROL: [&str; 8] = ["IF", "ELSEIF", "ELSE", "FOR", "WHILE", "TEST", "GOTO", "ERROR"];
-/// Instructions that neither move the robot nor change what moves mean.
+/// Instructions that neither move the robot nor affect moves.
 const QUIET: [&str; 58] = [
     "ACCSET",
     "ACTUNIT",
@@ -76,11 +76,11 @@ const QUIET: [&str; 58] = [
     "WAITUNTIL",
 ];
 
-/// Reads a program: of several modules every routine in the order in which they stand.
+/// Reads a program. The routines of several modules are read in order.
 ///
 /// # Errors
-/// Every problem of the files, at most 200: names that no module declares, moves that are not understood, numbers that
-/// are none, tools that stand still.
+/// All problems of the files, at most 200: names that no module declares, unsupported moves, invalid numbers,
+/// stationary tools.
 pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
     let found: Vec<Vec<Token>> = texts
         .iter()
@@ -102,7 +102,7 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
         routines: HashSet::new(),
         name: None,
         in_routine: false,
-        given: Told::default(),
+        messages: ProgramMessages::default(),
         moves: Vec::new(),
     };
     for pass in [Pass::Data, Pass::Routines] {
@@ -114,13 +114,16 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
         }
     }
     let Reader {
-        given, moves, name, ..
+        messages,
+        moves,
+        name,
+        ..
     } = reader;
-    let notes = given.finish()?;
+    let notes = messages.finish()?;
     let file = texts.first().map_or("", ProgramText::name);
     if moves.is_empty() {
         let hint = "give the module whose routines move the robot: MoveJ, MoveL, MoveC, MoveAbsJ";
-        return Err(Problem::of_file(file, "no move stands in this program", hint).into());
+        return Err(Problem::of_file(file, "the program contains no moves", hint).into());
     }
     Ok(RobotProgram {
         language: Language::Rapid,
@@ -131,35 +134,35 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
     })
 }
 
-/// Data outside routines may be declared behind those that use them, and in other files.
+/// Data outside routines may be declared after the routines that use them, and in other files.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Pass {
     Data,
     Routines,
 }
 
-/// What is known while statements are read.
+/// State while statements are read.
 pub(super) struct Reader<'a> {
     pub texts: &'a [ProgramText],
-    /// Which text is read.
+    /// The current text.
     pub text: usize,
     pub names: Names,
     pub routines: HashSet<String>,
     name: Option<String>,
     in_routine: bool,
-    pub given: Told,
+    pub messages: ProgramMessages,
     pub moves: Vec<RobotMove>,
 }
 
 impl<'a> Reader<'a> {
-    /// The text that is read.
+    /// The current text.
     pub fn here(&self) -> &'a ProgramText {
         &self.texts[self.text]
     }
 
-    /// A remark on what stands at this token.
+    /// Adds a note on this token.
     pub fn note(&mut self, token: Token, sentence: String) {
-        self.given.note((self.here(), token.line), sentence);
+        self.messages.note((self.here(), token.line), sentence);
     }
 
     fn statement(&mut self, pass: Pass, statement: Cursor<'a>) {
@@ -191,17 +194,17 @@ impl<'a> Reader<'a> {
             }
             _ if pass == Pass::Data => {}
             _ if CONTROL.contains(&word.as_str()) => {
-                self.note(
-                    at,
-                    format!("`{word}`: what it governs is read once, as it stands"),
-                );
+                self.note(at, format!("`{word}`: its body is read once"));
             }
             "PDISPON" | "PDISPSET" | "EOFFSON" | "EOFFSSET" => {
-                let message = format!("`{word}` displaces every target behind it");
-                let hint = "write the places where the tool goes, without program displacement";
-                self.given.problem(self.here(), at.span(), message, hint);
+                let message = format!("`{word}` displaces all targets after it");
+                let hint = "write the final positions, without program displacement";
+                self.messages.problem(self.here(), at.span(), message, hint);
             }
-            "VELSET" => self.note(at, "`VelSet`: speeds are read as moves tell them".to_owned()),
+            "VELSET" => self.note(
+                at,
+                "`VelSet` is ignored: the speeds of the moves are used".to_owned(),
+            ),
             _ if QUIET.contains(&word.as_str()) => {}
             _ => self.plain((at, &word), statement),
         }
@@ -238,11 +241,11 @@ impl<'a> Reader<'a> {
             let name = &self.here().text()[at.span()];
             self.note(
                 at,
-                format!("`{name}` is called: its moves are read once, where it stands"),
+                format!("`{name}` is called: its moves are read once, where it is defined"),
             );
         } else if is_bare || !self.motion((at, word), cursor) {
             let name = &self.here().text()[at.span()];
-            self.note(at, format!("`{name}` is called: what it does is not known here"));
+            self.note(at, format!("`{name}` is called: its effect is not known"));
         }
     }
 }

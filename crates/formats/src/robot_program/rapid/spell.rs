@@ -7,22 +7,26 @@ use armill_core::frame::Isometry;
 use super::SYNTAX;
 use crate::convention::Convention;
 use crate::robot_program::number::{fixed, write_fixed};
-use crate::robot_program::spelling::Anew;
+use crate::robot_program::spelling::Respelling;
 use crate::robot_program::tokens::{Cursor, Kind, decimals, tokens};
 
-/// Decimals at least, of mm and of a quaternion, and at most.
+/// Minimum and maximum number of decimals of mm and of a quaternion.
 const MM: usize = 3;
 const QUATERNION: usize = 8;
 const MOST_DECIMALS: usize = 12;
 
-/// Spells a pose in place of `before`: number for number in a robtarget; where a name stands, or a place beside one, a
+/// Writes a pose in place of `before`: number for number in a robtarget. A name, or a target with an offset, becomes a
 /// robtarget with the posture and the external axes of that name.
-pub(in crate::robot_program) fn spell((pose, anew): (&Isometry, Anew), before: &str, out: &mut String) {
+pub(in crate::robot_program) fn spell(
+    (pose, respelling): (&Isometry, Respelling),
+    before: &str,
+    out: &mut String,
+) {
     let numbers = Convention::Abb.numbers_of(pose);
     let (place, turn) = numbers.split_at(3);
     let (mut base, mut entries) = (before.trim(), Vec::new());
     let is_list = base.starts_with('[');
-    // `Offs(RelTool(p10, ...), ...)` leans on p10.
+    // `Offs(RelTool(p10, ...), ...)` is based on p10.
     while !base.starts_with('[') {
         let Some((_, arguments)) = base.split_once('(') else {
             break;
@@ -42,9 +46,9 @@ pub(in crate::robot_program) fn spell((pose, anew): (&Isometry, Anew), before: &
             out.push_str(&before[..begin + first.start]);
             list(place, &base[first.clone()], MM, out);
             out.push_str(&base[first.end..second.start]);
-            match anew {
-                Anew::Pose => list(turn, &base[second.clone()], QUATERNION, out),
-                Anew::Place => out.push_str(&base[second.clone()]),
+            match respelling {
+                Respelling::Pose => list(turn, &base[second.clone()], QUATERNION, out),
+                Respelling::Place => out.push_str(&base[second.clone()]),
             }
             out.push_str(&before[begin + second.end..]);
         }
@@ -65,7 +69,7 @@ pub(in crate::robot_program) fn spell((pose, anew): (&Isometry, Anew), before: &
     }
 }
 
-/// The numbers in place of the list `before`; anew where that is none of as many numbers.
+/// The numbers in place of the list `before`, or a new list if `before` has another number of entries.
 fn list(numbers: &[f64], before: &str, least: usize, out: &mut String) {
     match places(before, numbers.len()) {
         Some(places) => {
@@ -83,7 +87,7 @@ fn list(numbers: &[f64], before: &str, least: usize, out: &mut String) {
         }
         None => {
             let written: Vec<String> = numbers.iter().map(|number| fixed(*number, least)).collect();
-            // Blanks around what was there stay.
+            // Surrounding blanks are kept.
             let inner = before.trim();
             let begin = before.len() - before.trim_start().len();
             out.push_str(&before[..begin]);
@@ -93,7 +97,7 @@ fn list(numbers: &[f64], before: &str, least: usize, out: &mut String) {
     }
 }
 
-/// Where the numbers of `[1, 2, 3]` stand.
+/// Byte ranges of the numbers of `[1, 2, 3]`.
 fn places(before: &str, count: usize) -> Option<Vec<Range<usize>>> {
     let found: Vec<_> = tokens(before, &SYNTAX)
         .into_iter()
@@ -111,7 +115,8 @@ fn places(before: &str, count: usize) -> Option<Vec<Range<usize>>> {
     cursor.peek().is_none().then_some(places)
 }
 
-/// What stands between the commas (or before optional arguments) of a list whose opening mark is passed, to its closing one.
+/// The parts between the commas (or before optional arguments) of a list, from after its opening mark to its closing
+/// one.
 fn parts(text: &str) -> Vec<Range<usize>> {
     let (mut all, mut start, mut depth) = (Vec::new(), 0, 0_usize);
     for token in tokens(text, &SYNTAX) {
@@ -132,7 +137,7 @@ fn parts(text: &str) -> Vec<Range<usize>> {
     all
 }
 
-/// A robtarget's first two entries.
+/// The first two entries of a robtarget.
 pub(super) fn whole(pose: &Isometry, out: &mut String) {
     let numbers = Convention::Abb.numbers_of(pose);
     list(&numbers[..3], "", MM, out);

@@ -1,4 +1,4 @@
-//! A module as statements: what ends with `;`, and the heads of blocks, which end with their line or a word.
+//! A module as statements: they end with `;`; block heads end with their line or a word.
 
 use crate::robot_program::tokens::{Cursor, Kind, Token};
 
@@ -19,7 +19,7 @@ const LINES: [&str; 14] = [
     "LANGUAGE",
     "%",
 ];
-/// Heads that are a word alone.
+/// Heads of a single word.
 const WORDS: [&str; 8] = [
     "ELSE", "ENDIF", "ENDFOR", "ENDWHILE", "ENDTEST", "ERROR", "UNDO", "BACKWARD",
 ];
@@ -40,7 +40,7 @@ pub(super) fn statements<'a>(text: &'a str, tokens: &'a [Token]) -> Vec<Cursor<'
     all
 }
 
-/// How many tokens the first statement has, one at least.
+/// Number of tokens of the first statement, at least one.
 fn length(text: &str, rest: &[Token]) -> usize {
     let first = &text[rest[0].span()];
     let word = first.to_ascii_uppercase();
@@ -83,7 +83,7 @@ fn length(text: &str, rest: &[Token]) -> usize {
     }
 }
 
-/// Whether a word names a move of the language, whatever follows it.
+/// Whether a word names a move of the language or of a process.
 pub(super) fn is_move(word: &str) -> bool {
     word.get(..4)
         .is_some_and(|begin| begin.eq_ignore_ascii_case("Move"))

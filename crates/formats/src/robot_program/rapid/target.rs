@@ -1,4 +1,4 @@
-//! What targets mean: of numbers, by name, beside others.
+//! Values of targets: from numbers, by name, with offsets.
 
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::{Translation3, UnitQuaternion, Vector3};
@@ -7,17 +7,17 @@ use armill_core::robot::BranchPattern;
 use super::read::Reader;
 use super::value::{Argument, Node, Value};
 use crate::convention::Convention;
+use crate::robot_program::messages::shown;
 use crate::robot_program::posture::Configuration;
 use crate::robot_program::program::{Spelled, Target};
 use crate::robot_program::tokens::Token;
-use crate::robot_program::given::shown;
 
-/// Places beside places beside places, more than anybody writes.
+/// Maximum nesting of offsets.
 const MOST_LINKS: usize = 16;
-/// An axis that is not there.
+/// Value of an absent axis.
 const ABSENT: f64 = 9e9;
 
-/// A target as it is found.
+/// A resolved target.
 struct Place {
     pose: Isometry,
     branch: BranchPattern,
@@ -26,15 +26,15 @@ struct Place {
     spelled: Spelled,
 }
 
-/// Why a target is not found.
+/// Why a target cannot be resolved.
 enum Missing {
-    /// It was told as a problem already.
-    Told,
-    /// Nobody declares this name.
+    /// It has been reported as a problem.
+    ProgramMessages,
+    /// No module declares this name.
     Name(String),
     /// It is computed on the controller.
     Computed,
-    /// Its numbers make no pose.
+    /// Its numbers are not a valid pose.
     Pose(String),
 }
 
@@ -93,11 +93,11 @@ impl<'a> Reader<'a> {
     fn external(&mut self, at: Token) {
         self.note(
             at,
-            "external axes stay as they are and are no joints here".to_owned(),
+            "external axes are kept unchanged and are not joints in armill".to_owned(),
         );
     }
 
-    /// The pose that the first two of these make; nothing where they are no numbers.
+    /// The pose of the first two nodes; `None` if they are not numbers.
     pub fn pose(&self, all: &[Node], text: usize) -> Option<Result<Isometry, String>> {
         let [x, y, z] = self.numbers(all.first()?, text)?;
         let [q1, q2, q3, q4] = self.numbers(all.get(1)?, text)?;
@@ -105,7 +105,7 @@ impl<'a> Reader<'a> {
         Some(pose.map_err(|error| error.to_string()))
     }
 
-    /// So many numbers of a list.
+    /// `N` numbers of a list.
     fn numbers<const N: usize>(&self, node: &Node, text: usize) -> Option<[f64; N]> {
         let found = self.names.look(node, text)?;
         let Value::List(all) = &found.node.value else {
@@ -135,7 +135,7 @@ impl<'a> Reader<'a> {
         let Some(found) = self.names.look(node, text).filter(|_| level < MOST_LINKS) else {
             return Err(self.why(node, text));
         };
-        // What is spelled in parts is spelled anew where it is used.
+        // A value written in several parts is rewritten where it is used.
         let (spelled_in, bytes) = match found.is_whole {
             true => (found.text, found.node.bytes.clone()),
             false => (text, node.bytes.clone()),
@@ -179,7 +179,7 @@ impl<'a> Reader<'a> {
                     _ => place.pose * Translation3::from(by) * self.turn(arguments, found.text)?,
                 };
                 if pose.translation.vector.iter().any(|value| value.abs() > ABSENT) {
-                    return Err(Missing::Pose("a place beyond 9e9 m is none".to_owned()));
+                    return Err(Missing::Pose("a position exceeds 9e9 m".to_owned()));
                 }
                 Ok(Place {
                     pose,
@@ -210,17 +210,17 @@ impl<'a> Reader<'a> {
         Ok(turn)
     }
 
-    /// Why an expression comes to nothing.
+    /// Why an expression has no value.
     fn why(&self, node: &Node, text: usize) -> Missing {
         match &node.value {
-            Value::Wrong => Missing::Told,
+            Value::Wrong => Missing::ProgramMessages,
             Value::Name(reference) if !self.names.knows(&reference.name) => {
                 let name = &self.texts[text].text()[node.bytes.clone()];
                 Missing::Name(shown(name).to_owned())
             }
             _ => match self.names.look(node, text).map(|found| &found.node.value) {
-                Some(Value::Wrong) => Missing::Told,
-                Some(Value::List(all)) if has_wrong(all) => Missing::Told,
+                Some(Value::Wrong) => Missing::ProgramMessages,
+                Some(Value::List(all)) if has_wrong(all) => Missing::ProgramMessages,
                 _ => Missing::Computed,
             },
         }
@@ -229,19 +229,19 @@ impl<'a> Reader<'a> {
     fn missing(&mut self, node: &Node, missing: Missing, requested: &str) {
         let text = shown(&self.here().text()[node.bytes.clone()]);
         let (message, hint) = match missing {
-            // Told where it stands; a file with problems only in unused data is refused all the same.
-            Missing::Told => return,
+            // Reported where it is used; a file with problems only in unused data is also refused.
+            Missing::ProgramMessages => return,
             Missing::Name(name) => (
-                format!("`{name}` is not told: no module given declares it"),
-                "give the module that declares it beside this one".to_owned(),
+                format!("`{name}` is not defined: no given module declares it"),
+                "also give the module that declares it".to_owned(),
             ),
             Missing::Computed => (
-                format!("`{text}` is computed while the program runs, or is no such target"),
-                format!("a target here is `{requested}`, or a name that stands for one"),
+                format!("`{text}` is computed while the program runs, or is not a valid target"),
+                format!("a target here is `{requested}`, or a name with such a value"),
             ),
             Missing::Pose(why) => (why, format!("a target here is `{requested}`")),
         };
-        self.given
+        self.messages
             .problem(&self.texts[self.text], node.bytes.clone(), message, &hint);
     }
 }
@@ -254,7 +254,7 @@ fn has_wrong(all: &[Node]) -> bool {
     })
 }
 
-/// cf1, cf4, cf6, and what cfx says of the posture.
+/// cf1, cf4, cf6, and the posture in cfx.
 fn posture(confdata: [f64; 4]) -> (BranchPattern, Vec<i32>) {
     let whole = |value: f64| (value.fract() == 0.0 && value.abs() <= 1e6).then_some(value as i32);
     let [cf1, cf4, cf6, cfx] = confdata.map(whole);

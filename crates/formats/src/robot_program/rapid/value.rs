@@ -1,21 +1,21 @@
-//! Expressions as they stand: numbers, lists, names with components, calls; all else is computed on the controller.
+//! Expressions: numbers, lists, names with components, calls; all others are computed on the controller.
 
 use std::ops::Range;
 
 use super::read::Reader;
 use crate::robot_program::tokens::{Cursor, Kind};
 
-/// Brackets within brackets, deeper than anybody writes.
+/// Maximum nesting of brackets.
 const MOST_LEVELS: usize = 40;
 
-/// An expression and its place.
+/// An expression and its position.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
     pub value: Value,
     pub bytes: Range<usize>,
 }
 
-/// What an expression is.
+/// Kind of expression.
 #[derive(Clone, Debug)]
 pub(super) enum Value {
     Number(f64),
@@ -24,7 +24,7 @@ pub(super) enum Value {
     Call(String, Vec<Argument>),
     /// Computed on the controller.
     Other,
-    /// It means nothing, which was told as a problem.
+    /// Invalid, and reported as a problem.
     Wrong,
 }
 
@@ -35,7 +35,7 @@ pub(super) struct Reference {
     pub steps: Vec<Step>,
 }
 
-/// From a value to one of its parts.
+/// Selects a part of a value.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Step {
     /// `.name`
@@ -68,7 +68,7 @@ impl<'a> Reader<'a> {
                 _ => {}
             }
             cursor.next();
-            // Of what operators make of values nothing is known.
+            // Results of operators are not evaluated.
             if !matches!(value, Value::Wrong) {
                 value = Value::Other;
             }
@@ -90,8 +90,8 @@ impl<'a> Reader<'a> {
             Kind::NoNumber => {
                 cursor.next();
                 let message = format!("`{}` is not a number", &cursor.text[token.span()]);
-                let hint = "numbers are written `100`, `-0.5`, `9E9`";
-                self.given.problem(self.here(), token.span(), message, hint);
+                let hint = "write numbers as `100`, `-0.5`, `9E9`";
+                self.messages.problem(self.here(), token.span(), message, hint);
                 Value::Wrong
             }
             Kind::Mark('[') => {
@@ -113,7 +113,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// What stands between brackets, the first of which the cursor has passed.
+    /// The content of brackets; the cursor is after the opening one.
     fn list(&mut self, cursor: &mut Cursor<'a>, level: usize) -> Value {
         let mut all = Vec::new();
         while !cursor.pass(']') {
@@ -127,8 +127,8 @@ impl<'a> Reader<'a> {
 
     fn unclosed(&mut self, cursor: &Cursor<'a>, mark: char) -> Value {
         let message = format!("`{mark}` is missing here");
-        let hint = "every bracket is closed, in the order in which they were opened";
-        self.given.problem(self.here(), cursor.place(), message, hint);
+        let hint = "close every bracket, in the order in which they were opened";
+        self.messages.problem(self.here(), cursor.place(), message, hint);
         Value::Wrong
     }
 
@@ -174,9 +174,9 @@ impl<'a> Reader<'a> {
                 let place = cursor.place();
                 let name = cursor.word().map(|name| name.to_ascii_lowercase());
                 if name.is_none() {
-                    let message = "the name of an argument is missing behind this `\\`".to_owned();
-                    let hint = "optional arguments are written `\\WObj:=wobj1`, `\\NoEOffs`";
-                    self.given.problem(self.here(), place, message, hint);
+                    let message = "the name of an argument is missing after this `\\`".to_owned();
+                    let hint = "write optional arguments as `\\WObj:=wobj1`, `\\NoEOffs`";
+                    self.messages.problem(self.here(), place, message, hint);
                 }
                 let given = cursor.pass(':') && cursor.pass('=');
                 all.push(Argument {

@@ -1,7 +1,7 @@
-//! A program for controllers of ABB: one module, or a main one that calls the routines of others.
+//! A program for ABB controllers: one module, or a main module that calls the routines of others.
 //!
-//! Tool and work object are data of the module, called by their numbers (`tool_2`, `wobj_1`): what the controller keeps
-//! under other names stays as it is.
+//! Tool and work object are data of the module, named by their numbers (`tool_2`, `wobj_1`): the data stored on the
+//! controller under other names are not changed.
 
 use std::fmt::Write;
 
@@ -10,23 +10,23 @@ use crate::robot_program::draft::{Bounds, Draft, DraftError, DraftPoint, Written
 use crate::robot_program::number::fixed;
 use crate::robot_program::posture::Configuration;
 
-/// `[recalled]` Longest identifier; `MOD_` goes before the name of a module, up to six characters behind that of a part.
+/// `[recalled]` Longest identifier; `MOD_` precedes the name of a module, up to six characters follow that of a part.
 const LONGEST_NAME: usize = 32;
 const BEFORE_MODULE: usize = 4;
 const PART: usize = 6;
-/// Numbers of tools and work objects, which names alone tell.
+/// Range of the numbers of tools and work objects, which appear only in names.
 const MOST_FRAMES: u32 = 999;
-/// Moves of one module: larger ones load slowly [formats.md: 10 to 30 thousand lines].
+/// Maximum number of moves in a module: larger modules load slowly [formats.md: 10 to 30 thousand lines].
 const MOST_MOVES: usize = 10_000;
 /// Decimals of joints, deg, and of speeds, mm/s.
 const JOINT: usize = 5;
 const SPEED: usize = 3;
-/// Speeds that every controller has, mm/s `[recalled]`.
+/// Predefined speeds, mm/s `[recalled]`.
 const SPEEDS: [u32; 24] = [
     5, 10, 20, 30, 40, 50, 60, 80, 100, 150, 200, 300, 400, 500, 600, 800, 1000, 1500, 2000, 2500, 3000,
     4000, 5000, 6000,
 ];
-/// Zones that every controller has: name and how far from the target the path may leave it, mm `[recalled]`.
+/// Predefined zones: name and maximum distance of the path from the target, mm `[recalled]`.
 const ZONES: [(&str, f64); 15] = [
     ("z200", 200.0),
     ("z150", 150.0),
@@ -44,9 +44,9 @@ const ZONES: [(&str, f64); 15] = [
     ("z0", 0.3),
     ("fine", 0.0),
 ];
-/// External axes that are not there.
+/// Values of absent external axes.
 const ABSENT: &str = "[9E9,9E9,9E9,9E9,9E9,9E9]";
-/// Words of the language `[recalled]`.
+/// Reserved words `[recalled]`.
 const WORDS: &[&str] = &[
     "ALIAS",
     "AND",
@@ -133,7 +133,7 @@ const WORDS: &[&str] = &[
 /// Writes a program.
 ///
 /// # Errors
-/// What the language or its controllers cannot hold.
+/// Values outside the ranges of the language or its controllers.
 pub fn write(draft: &Draft) -> Result<Written, DraftError> {
     let is_split = draft.points.len() > MOST_MOVES;
     let bounds = Bounds {
@@ -141,10 +141,10 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
         longest_name: LONGEST_NAME - BEFORE_MODULE - if is_split { PART } else { 0 },
         names: match is_split {
             true => {
-                "letters, digits and underscores, at most 22 for it is written in parts, and no word of the language"
+                "letters, digits and underscores, at most 22 because it is written in parts, and not a reserved word"
             }
             false => {
-                "a letter, then letters, digits and underscores, at most 28 in all, and no word of the language"
+                "a letter, then letters, digits and underscores, at most 28 characters, and not a reserved word"
             }
         },
         joints: 6..=6,
@@ -161,7 +161,7 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
         let mut body = String::new();
         for (at, point) in points.iter().enumerate() {
             match (index, at) {
-                // The first by joints: no posture is left to choose.
+                // The first move is given in joints: its posture is unique.
                 (0, 0) => {
                     _ = write!(
                         main,
@@ -189,7 +189,7 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
     })
 }
 
-/// A module to the head of its routine.
+/// A module up to the head of its routine.
 fn head(draft: &Draft, name: &str) -> String {
     let mut out = format!("MODULE MOD_{name}\r\n");
     for line in draft.remark_lines() {
@@ -222,7 +222,7 @@ fn line((point, blend): (&DraftPoint, f64), kept: &str) -> String {
     }
 }
 
-/// A speeddata: of the controller's own, or with its turning speed, deg/s, as theirs `[recalled]`.
+/// A speeddata: a predefined one, or one with the predefined rotation speed, deg/s `[recalled]`.
 fn speed_of(mm_s: f64) -> String {
     let ready = SPEEDS.iter().find(|ready| f64::from(**ready) == mm_s);
     ready.map_or_else(
@@ -264,15 +264,17 @@ fn notes(draft: &Draft) -> Vec<String> {
     let (frame, tool) = (draft.frame_number, draft.tool_number);
     let mut notes = vec![
         format!(
-            "tool_{tool} and wobj_{frame} are data of this module, counted from flange and robot base: compare them with those of the \
+            "tool_{tool} and wobj_{frame} are data of this module, relative to flange and robot base: compare them \
+             with those of the \
              controller"
         ),
         format!("the load of tool_{tool} is written as 1 kg: set mass, centre of gravity and inertia"),
-        "SingArea\\Wrist lets the tool tilt where axes 4 and 6 are in line; ConfL\\Off checks no posture on the way".to_owned(),
-        "the first move goes to its joints from wherever the robot stands: mind what is in between".to_owned(),
+        "SingArea\\Wrist lets the tool tilt where axes 4 and 6 are aligned; ConfL\\Off does not check postures along \
+         the path".to_owned(),
+        "the first move goes to its joint positions from the robot's current posture: check for collisions".to_owned(),
     ];
     if draft.points.iter().any(|point| point.branch.is_none()) {
-        notes.push("cfx is written as 0, for the postures of this arm have no names".to_owned());
+        notes.push("cfx is written as 0, because the postures of this arm have no names".to_owned());
     }
     notes
 }
@@ -296,7 +298,8 @@ mod tests {
 
     #[test]
     fn confdata_is_that_of_the_sample() {
-        // ABB_RAPID_IRC5.mod: the move behind these joints has [0,0,-1,1]; axis 5 is below zero, arm in front, elbow up.
+        // ABB_RAPID_IRC5.mod: the move behind these joints has [0,0,-1,1]; axis 5 is below zero, arm in front, elbow
+        // up.
         let joints = [22.509530, 5.585340, 8.157170, 67.511430, -24.426890, -64.062580];
         assert_eq!(confdata(&point(joints, Branch::ALL[1])), "[0,0,-1,1]");
         let turned = [-0.1, 0.0, 0.0, 180.5, 0.0, -302.5];
@@ -304,7 +307,7 @@ mod tests {
     }
 
     #[test]
-    fn every_posture_has_a_number_of_its_own() {
+    fn every_posture_has_its_own_number() {
         let mut all: Vec<u32> = Branch::ALL
             .iter()
             .map(|branch| cfx(Configuration::of(*branch)))
@@ -314,7 +317,7 @@ mod tests {
     }
 
     #[test]
-    fn speeds_are_the_controllers_own_where_it_has_them_and_zones_never_larger_than_asked() {
+    fn predefined_speeds_are_used_and_zones_never_exceed_the_blend() {
         assert_eq!(speed_of(100.0), "v100");
         assert_eq!(speed_of(123.4567), "[123.457,500,5000,1000]");
         for (blend_mm, zone) in [

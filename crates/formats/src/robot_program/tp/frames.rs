@@ -1,4 +1,4 @@
-//! What a program tells of frames and tools: registers set number by number, then taken as a frame.
+//! Frames and tools in a program: registers that are set number by number and then assigned to a frame.
 
 use std::collections::BTreeMap;
 
@@ -17,7 +17,7 @@ pub(super) enum Which {
     Tool,
 }
 
-/// What they are called, in German listings too.
+/// Their names, also in German listings.
 const NAMES: [(Which, &str); 4] = [
     (Which::User, "UFRAME"),
     (Which::Tool, "UTOOL"),
@@ -25,16 +25,16 @@ const NAMES: [(Which, &str); 4] = [
     (Which::Tool, "WKZ"),
 ];
 
-/// Registers, frames and tools as far as they are told, and which are chosen.
+/// Registers, known frames and tools, and the selected ones.
 #[derive(Debug, Default)]
 pub(super) struct Frames {
     registers: BTreeMap<u32, [Option<f64>; 6]>,
-    given: [BTreeMap<u32, Isometry>; 2],
+    known: [BTreeMap<u32, Isometry>; 2],
     chosen: [Option<u32>; 2],
 }
 
 impl Frames {
-    /// Follows an assignment, `PR[9,1]=1.5` or `UFRAME_NUM=2`: whether it was one of these.
+    /// Evaluates an assignment, `PR[9,1]=1.5` or `UFRAME_NUM=2`. Returns whether it was one of these.
     pub fn assign(&mut self, said: &str, positions: &BTreeMap<u32, Position>) -> bool {
         let Some((left, right)) = said.split_once('=') else {
             return false;
@@ -45,13 +45,13 @@ impl Frames {
                 let pose = single(right, "PR").and_then(|register| self.pose(register));
                 match (single_index(&at), pose) {
                     (Some(at), Some(pose)) => {
-                        self.given[which as usize].insert(at, pose);
+                        self.known[which as usize].insert(at, pose);
                     }
                     (Some(at), None) => {
-                        self.given[which as usize].remove(&at);
+                        self.known[which as usize].remove(&at);
                     }
-                    // Which one was set is not known.
-                    (None, _) => self.given[which as usize].clear(),
+                    // The index is not known.
+                    (None, _) => self.known[which as usize].clear(),
                 }
                 return true;
             }
@@ -109,24 +109,24 @@ impl Frames {
         Convention::Fanuc.pose(&values?).ok()
     }
 
-    /// Which frame or tool is chosen.
+    /// Number of the selected frame or tool.
     pub fn chosen(&self, which: Which) -> Option<u32> {
         self.chosen[which as usize]
     }
 
-    /// The frame or tool of this number; the chosen one where a position has none of its own.
+    /// The frame or tool with this number; the selected one if the position has no number.
     pub fn get(&self, which: Which, own: Option<u32>) -> Frame {
         match own.or(self.chosen(which)) {
-            None => Frame::EvaluateError,
-            Some(0) => Frame::Told(Isometry::identity()),
-            Some(number) => self.given[which as usize]
+            None => Frame::Unknown,
+            Some(0) => Frame::Given(Isometry::identity()),
+            Some(number) => self.known[which as usize]
                 .get(&number)
-                .map_or(Frame::Numbered(number), |pose| Frame::Told(*pose)),
+                .map_or(Frame::Numbered(number), |pose| Frame::Given(*pose)),
         }
     }
 }
 
-/// The number in `NAME[number]`, and nothing behind it.
+/// The number in `NAME[number]` with nothing after it.
 fn single(said: &str, name: &str) -> Option<u32> {
     let (at, behind) = index(said, name)?;
     behind.is_empty().then(|| single_index(&at)).flatten()

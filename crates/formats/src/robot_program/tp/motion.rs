@@ -1,4 +1,4 @@
-//! A move of a program: its positions, how fast, what else is said of it, and rows of A.
+//! A move of a program: its positions, its speed and options, and rows of A.
 
 use super::frames::{Frames, Which};
 use super::position::Taught;
@@ -8,7 +8,7 @@ use crate::robot_program::arc_row::{ArcEnd, Next};
 use crate::robot_program::program::{Frame, Motion, RobotMove, Speed, Target};
 use crate::robot_program::spelling::{Part, number};
 
-/// Units of speed: a length in m, and a time in s; nothing where it says nothing of the tip.
+/// Units of speed: a length in m and a time in s; `None` if the unit does not give the tip speed.
 const UNITS: [(&str, Option<[f64; 2]>); 10] = [
     ("mm/sec", Some([1e-3, 1.0])),
     ("mm/sek", Some([1e-3, 1.0])),
@@ -22,28 +22,28 @@ const UNITS: [(&str, Option<[f64; 2]>); 10] = [
     ("%", None),
 ];
 
-/// Where a move goes.
+/// Target of a move.
 #[derive(Debug)]
-pub(super) struct Goal {
+pub(super) struct TpTarget {
     target: Target,
     frame: Frame,
     tool: Frame,
 }
 
 impl<'a> Reader<'a> {
-    /// J, L, C, A or S, with the words behind it.
+    /// J, L, C, A or S, with the words after it.
     pub fn motion(&mut self, program: &mut Program<'a>, statement: &Statement) {
         let kind = statement.word(0).to_ascii_uppercase();
         let goals = if kind == "C" { 2 } else { 1 };
         let (words, rest) = statement.words[1..].split_at(goals.min(statement.words.len() - 1));
         if !matches!(kind.as_str(), "J" | "L" | "C" | "A" | "S") {
             let message = format!("the move `{kind}` is not followed");
-            let hint = "understood are J, L, C, A and S";
-            self.given
+            let hint = "supported: J, L, C, A and S";
+            self.messages
                 .problem(program.text, statement.span.clone(), message, hint);
             return;
         }
-        let mut goals: Vec<Goal> = words
+        let mut goals: Vec<TpTarget> = words
             .iter()
             .filter_map(|word| self.goal(program, statement, word))
             .collect();
@@ -65,14 +65,14 @@ impl<'a> Reader<'a> {
             }
             ("C", None) => {
                 let message = "an arc with one position".to_owned();
-                let hint = "it goes through one to another: `C P[1] P[2] 100mm/sec FINE`";
-                self.given
+                let hint = "an arc needs two positions: `C P[1] P[2] 100mm/sec FINE`";
+                self.messages
                     .problem(program.text, statement.span.clone(), message, hint);
                 return;
             }
             ("S", _) => {
-                let what = "S is taken as straight between its positions";
-                self.given.note((program.text, statement.line), what);
+                let what = "S is read as straight lines between its positions";
+                self.messages.note((program.text, statement.line), what);
                 Motion::Linear
             }
             _ => Motion::Linear,
@@ -80,9 +80,9 @@ impl<'a> Reader<'a> {
         self.push((motion, end, speed), statement);
     }
 
-    /// Where a word of a move goes.
-    fn goal(&mut self, program: &Program<'a>, statement: &Statement, word: &Part) -> Option<Goal> {
-        let elsewhere = |frames: &Frames| Goal {
+    /// The target in a word of a move.
+    fn goal(&mut self, program: &Program<'a>, statement: &Statement, word: &Part) -> Option<TpTarget> {
+        let elsewhere = |frames: &Frames| TpTarget {
             target: Target::Elsewhere {
                 name: word.text.to_owned(),
             },
@@ -93,9 +93,9 @@ impl<'a> Reader<'a> {
             if index(word.text, "PR").is_some() {
                 return Some(elsewhere(&self.frames));
             }
-            let message = format!("`{}` is no position", word.text);
-            let hint = "a move names one: `L P[1] 100mm/sec FINE`; an arc two";
-            self.given.problem(program.text, word.range(), message, hint);
+            let message = format!("`{}` is not a position", word.text);
+            let hint = "a move names one position: `L P[1] 100mm/sec FINE`; an arc names two";
+            self.messages.problem(program.text, word.range(), message, hint);
             return None;
         };
         let Some(number) = at.first().and_then(|at| at.parse::<u32>().ok()) else {
@@ -110,12 +110,13 @@ impl<'a> Reader<'a> {
                         && own != chosen
                     {
                         let what = format!(
-                            "positions of {what} {own} are gone to while {what} {chosen} is chosen: they are taken in their own"
+                            "positions of {what} {own} are used while {what} {chosen} is selected: they are read in \
+                             their own {what}"
                         );
-                        self.given.note((program.text, statement.line), what);
+                        self.messages.note((program.text, statement.line), what);
                     }
                 }
-                return Some(Goal {
+                return Some(TpTarget {
                     target: target.clone(),
                     frame: self.frames.get(Which::User, user),
                     tool: self.frames.get(Which::Tool, tool),
@@ -123,15 +124,15 @@ impl<'a> Reader<'a> {
             }
             Some(Taught::Refused) => return None,
             Some(Taught::Missing(why)) => (
-                format!("P[{number}] does not tell where it is: {why}"),
+                format!("P[{number}] has no usable position: {why}"),
                 "teach it, or write its numbers",
             ),
             None => (
                 format!("the position P[{number}] is not in this listing"),
-                "it stands behind /POS: save the whole program as ASCII (.LS)",
+                "positions are listed after /POS: save the whole program as ASCII (.LS)",
             ),
         };
-        self.given.problem(program.text, word.range(), message, hint);
+        self.messages.problem(program.text, word.range(), message, hint);
         None
     }
 
@@ -144,7 +145,7 @@ impl<'a> Reader<'a> {
         if kind == "J" {
             return Speed::Joints;
         }
-        // The unit may stand alone behind its number.
+        // The unit may be a separate word after the number.
         let apart = rest.first().is_some_and(|word| number(word.text).is_some());
         if let Some(word) = rest.get(usize::from(apart)) {
             let lower = word.text.to_ascii_lowercase();
@@ -160,57 +161,57 @@ impl<'a> Reader<'a> {
                 (Some((_, None)), _) => return Speed::Joints,
                 (Some((_, Some([length, time]))), Some(value)) => return Speed::Tip(value * length / time),
                 (Some(_), None) if computed => {
-                    let what = "a speed out of a register is not known";
-                    self.given.note((program.text, statement.line), what);
-                    return Speed::EvaluateError;
+                    let what = "a speed from a register is not known";
+                    self.messages.note((program.text, statement.line), what);
+                    return Speed::Unknown;
                 }
                 (Some(_), None) => {
-                    let message = format!("`{given}` is no speed");
-                    self.given
+                    let message = format!("`{given}` is not a valid speed");
+                    self.messages
                         .problem(program.text, word.range(), message, "write it as `100mm/sec`");
-                    return Speed::EvaluateError;
+                    return Speed::Unknown;
                 }
             }
         }
-        let what = "a speed that the program does not tell (WELD_SPEED, max_speed, ...) is not known";
-        self.given.note((program.text, statement.line), what);
-        Speed::EvaluateError
+        let what = "a speed that the program does not give (WELD_SPEED, max_speed, ...) is not known";
+        self.messages.note((program.text, statement.line), what);
+        Speed::Unknown
     }
 
-    /// Whether a move goes to its position, whatever else is said of it.
+    /// Whether a move ends at its position, with these options.
     fn follows(&mut self, program: &Program<'a>, statement: &Statement, rest: &[Part]) -> bool {
         for word in rest {
             let said = word.text.to_ascii_uppercase();
             let name = said.split([',', '[']).next().unwrap_or_default();
             let refused = match name {
-                "INC" => Some("goes by an increment (INC)"),
-                "RTCP" => Some("has a tool that stands still (RTCP)"),
+                "INC" => Some("is incremental (INC)"),
+                "RTCP" => Some("has a stationary tool (RTCP)"),
                 _ => None,
             };
             if let Some(refused) = refused {
-                let message = format!("this move {refused}, which is not followed");
-                let hint = "write it as a move of a tool at the flange to a position of its own";
-                self.given.problem(program.text, word.range(), message, hint);
+                let message = format!("this move {refused}, which is not supported");
+                let hint = "write it as a move of a tool on the flange to a position";
+                self.messages.problem(program.text, word.range(), message, hint);
                 return false;
             }
             if SHIFTS.contains(&name) || name == "COORD" {
-                let what = format!("{name} of moves is passed over: they go to their positions as taught");
-                self.given.note((program.text, statement.line), what);
+                let what = format!("{name} of moves is ignored: the taught positions are used");
+                self.messages.note((program.text, statement.line), what);
             }
         }
         true
     }
 
-    /// One more A of a row.
-    fn arc(&mut self, program: &mut Program<'a>, statement: &Statement, (goal, speed): (Goal, Speed)) {
-        match program.row.next(goal, ArcEnd::EvaluateError, statement.span.clone()) {
+    /// Adds an A to a row.
+    fn arc(&mut self, program: &mut Program<'a>, statement: &Statement, (goal, speed): (TpTarget, Speed)) {
+        match program.row.next(goal, ArcEnd::Unmarked, statement.span.clone()) {
             Next::Straight(goal) => self.push((Motion::Linear, goal, speed), statement),
             Next::Waits => {}
             Next::Arc { via, end } => self.circle(program, statement, (via, end, speed)),
             Next::Uncertain => {
-                let message = "a fourth A in a row: which positions make which arc is not certain".to_owned();
+                let message = "a fourth A in a row: the arcs are ambiguous".to_owned();
                 let hint = "write arcs as C with two positions";
-                self.given
+                self.messages
                     .problem(program.text, statement.span.clone(), message, hint);
             }
         }
@@ -220,21 +221,22 @@ impl<'a> Reader<'a> {
         &mut self,
         program: &Program<'a>,
         statement: &Statement,
-        (via, end, speed): (Goal, Goal, Speed),
+        (via, end, speed): (TpTarget, TpTarget, Speed),
     ) {
         if (via.frame, via.tool) != (end.frame, end.tool) {
             let message =
-                "the positions of this arc count in different frames or have different tools".to_owned();
+                "the positions of this arc are relative to different frames or have different tools"
+                    .to_owned();
             let hint = "teach the positions of an arc in one frame with one tool";
-            self.given
+            self.messages
                 .problem(program.text, statement.span.clone(), message, hint);
             return;
         }
         self.push((Motion::Circular { via: via.target }, end, speed), statement);
     }
 
-    fn push(&mut self, (motion, goal, speed): (Motion, Goal, Speed), statement: &Statement) {
-        let Goal { target, frame, tool } = goal;
+    fn push(&mut self, (motion, goal, speed): (Motion, TpTarget, Speed), statement: &Statement) {
+        let TpTarget { target, frame, tool } = goal;
         self.moves.push(RobotMove {
             motion,
             target,

@@ -4,35 +4,35 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use crate::convention::Convention;
+use crate::robot_program::messages::ProgramMessages;
 use crate::robot_program::posture::Configuration;
 use crate::robot_program::program::{Spelled, Target};
 use crate::robot_program::spelling::{Line, Part, number};
 use crate::robot_program::text::ProgramText;
-use crate::robot_program::given::Told;
 
 /// A position of the first group.
 #[derive(Clone, Debug)]
 pub(super) struct Position {
-    /// The number of its user frame and tool, where it has one of its own.
+    /// Its user frame and tool, if it has its own.
     pub numbers: [Option<u32>; 2],
-    /// Where it is.
+    /// Its value.
     pub taught: Taught,
     /// X, Y, Z, W, P, R of a pose, mm and deg.
     pub values: Option<[f64; 6]>,
 }
 
-/// What a position tells.
+/// Value of a position.
 #[derive(Clone, Debug)]
 pub(super) enum Taught {
-    /// Where it is.
+    /// A target.
     There(Target),
-    /// Not where it is, and why.
+    /// Not known, with the reason.
     Missing(String),
-    /// Something that was refused already.
+    /// Refused and reported.
     Refused,
 }
 
-/// The name and the number of a field, `X = 200.0 mm` or `UF : 1`; `None` of what has no `=` or `:`.
+/// The name and the number of a field, `X = 200.0 mm` or `UF : 1`; `None` without `=` or `:`.
 pub(super) fn field(part: Part<'_>) -> Option<(&str, Part<'_>)> {
     let at = part.text.find(['=', ':'])?;
     let value = part.from(at + 1);
@@ -40,7 +40,7 @@ pub(super) fn field(part: Part<'_>) -> Option<(&str, Part<'_>)> {
     Some((part.text[..at].trim(), first))
 }
 
-/// One position on its way.
+/// A position while it is read.
 struct Open {
     number: u32,
     span: Range<usize>,
@@ -53,7 +53,7 @@ struct Open {
     spelled: Option<Range<usize>>,
     joints: BTreeMap<u32, f64>,
     untaught: Option<String>,
-    /// Told as RX, RY, ..., in the frame of another group.
+    /// Given as RX, RY, ..., in the frame of another group.
     relative: bool,
     broken: bool,
 }
@@ -62,12 +62,12 @@ struct Open {
 pub(super) fn positions(
     (text, index): (&ProgramText, usize),
     lines: &[Line],
-    given: &mut Told,
+    messages: &mut ProgramMessages,
 ) -> BTreeMap<u32, Position> {
     let mut done = BTreeMap::new();
     let mut open: Option<Open> = None;
     for line in lines {
-        if given.is_full() {
+        if messages.is_full() {
             break;
         }
         let said = line.trimmed();
@@ -75,9 +75,9 @@ pub(super) fn positions(
         if said.text.starts_with("P[") || said.text.starts_with("p[") {
             if let Some(open) = open.take() {
                 let message = format!("the position P[{}] has no end", open.number);
-                given.problem(text, open.span, message, "a position ends with `};`");
+                messages.problem(text, open.span, message, "a position ends with `};`");
             }
-            open = begin(text, line, given);
+            open = begin(text, line, messages);
             rest = said
                 .text
                 .find('{')
@@ -96,24 +96,24 @@ pub(super) fn positions(
             ),
             None => (rest, false),
         };
-        fields((text, line), inside, position, given);
+        fields((text, line), inside, position, messages);
         if ends && let Some(position) = open.take() {
-            end((text, index), position, &mut done, given);
+            end((text, index), position, &mut done, messages);
         }
     }
     if let Some(open) = open {
         let message = format!("the position P[{}] has no end", open.number);
-        given.problem(text, open.span, message, "a position ends with `};`");
+        messages.problem(text, open.span, message, "a position ends with `};`");
     }
     done
 }
 
-fn begin(text: &ProgramText, line: &Line, given: &mut Told) -> Option<Open> {
+fn begin(text: &ProgramText, line: &Line, messages: &mut ProgramMessages) -> Option<Open> {
     let said = line.trimmed();
     let inside = said.text[2..].split([']', ':']).next().unwrap_or_default().trim();
     let Ok(number) = inside.parse() else {
-        let message = format!("`{inside}` is no number of a position");
-        given.problem(text, line.span(), message, "positions are written `P[1]{`");
+        let message = format!("`{inside}` is not a number of a position");
+        messages.problem(text, line.span(), message, "positions are written `P[1]{`");
         return None;
     };
     Some(Open {
@@ -132,9 +132,14 @@ fn begin(text: &ProgramText, line: &Line, given: &mut Told) -> Option<Open> {
     })
 }
 
-/// What one line says of a position.
-fn fields((text, line): (&ProgramText, &Line), inside: Part, position: &mut Open, given: &mut Told) {
-    // Commas of the configuration stand between quotes.
+/// Reads the fields of one line of a position.
+fn fields(
+    (text, line): (&ProgramText, &Line),
+    inside: Part,
+    position: &mut Open,
+    messages: &mut ProgramMessages,
+) {
+    // Commas of the configuration are between quotes.
     let mut quoted = false;
     let begin = inside.at;
     let mut start = inside;
@@ -158,16 +163,16 @@ fn fields((text, line): (&ProgramText, &Line), inside: Part, position: &mut Open
         let before = position.group;
         let part = group(part, position);
         if position.group > 1 && before <= 1 {
-            let what = "what further groups (GP2, ...) do is passed over: they are taken as standing still";
-            given.note((text, line.number), what);
+            let what = "further motion groups (GP2, ...) are ignored: they are assumed not to move";
+            messages.note((text, line.number), what);
         }
         if position.group <= 1 {
-            one_field((text, line), part, position, given);
+            one_field((text, line), part, position, messages);
         }
     }
 }
 
-/// What stands behind `GP1:`, if that is told; a group that was left is not come back to.
+/// The part after `GP1:`, if there is one; the first group is not resumed after another one.
 fn group<'a>(part: Part<'a>, position: &mut Open) -> Part<'a> {
     let said = part.trimmed();
     let given = said
@@ -184,7 +189,12 @@ fn group<'a>(part: Part<'a>, position: &mut Open) -> Part<'a> {
     }
 }
 
-fn one_field((text, line): (&ProgramText, &Line), part: Part, position: &mut Open, given: &mut Told) {
+fn one_field(
+    (text, line): (&ProgramText, &Line),
+    part: Part,
+    position: &mut Open,
+    messages: &mut ProgramMessages,
+) {
     let Some((key, value)) = field(part) else {
         return;
     };
@@ -195,7 +205,7 @@ fn one_field((text, line): (&ProgramText, &Line), part: Part, position: &mut Ope
         ("UT", _) => position.numbers[1] = value.text.parse().ok(),
         ("CONFIG", _) => configure(part, position),
         (_, Some(axis)) => {
-            if let Some(value) = taught((text, line), (&key, value), position, given) {
+            if let Some(value) = taught((text, line), (&key, value), position, messages) {
                 let turning = part.text.trim_end().to_ascii_lowercase().ends_with("deg");
                 let value = if turning { value.to_radians() } else { value * 1e-3 };
                 position.joints.insert(axis, value);
@@ -206,11 +216,11 @@ fn one_field((text, line): (&ProgramText, &Line), part: Part, position: &mut Ope
             if let Some(at) = known {
                 if position.pose[at].is_some() {
                     position.broken = true;
-                    let message = format!("{key} is told twice in P[{}]", position.number);
-                    return given.problem(text, line.span_of(&value), message, "tell each number once");
+                    let message = format!("{key} is given twice in P[{}]", position.number);
+                    return messages.problem(text, line.span_of(&value), message, "give each number once");
                 }
                 let place = line.span_of(&value);
-                position.pose[at] = taught((text, line), (&key, value), position, given);
+                position.pose[at] = taught((text, line), (&key, value), position, messages);
                 let spelled = position
                     .spelled
                     .get_or_insert_with(|| line.start + key_at(part)..place.end);
@@ -221,8 +231,8 @@ fn one_field((text, line): (&ProgramText, &Line), part: Part, position: &mut Ope
             {
                 position.relative = true;
             } else if key.starts_with('E') {
-                let what = "extended axes (E1, ...) are passed over: they are taken as standing still";
-                given.note((text, line.number), what);
+                let what = "extended axes (E1, ...) are ignored: they are assumed not to move";
+                messages.note((text, line.number), what);
             }
         }
     }
@@ -232,12 +242,12 @@ fn key_at(part: Part) -> usize {
     part.trimmed().at
 }
 
-/// The number of a field; nothing where it was never taught or is none.
+/// The number of a field; `None` if it was never taught or is not a number.
 fn taught(
     (text, line): (&ProgramText, &Line),
     (key, value): (&str, Part),
     position: &mut Open,
-    given: &mut Told,
+    messages: &mut ProgramMessages,
 ) -> Option<f64> {
     let found = number(value.text);
     if found.is_some() {
@@ -247,9 +257,12 @@ fn taught(
         position.untaught.get_or_insert_with(|| key.to_owned());
     } else {
         position.broken = true;
-        let message = format!("`{}` is no number of {key} in P[{}]", value.text, position.number);
+        let message = format!(
+            "`{}` is not a number of {key} in P[{}]",
+            value.text, position.number
+        );
         let hint = "write it as `X = 200.000 mm`";
-        given.problem(text, line.span_of(&value), message, hint);
+        messages.problem(text, line.span_of(&value), message, hint);
     }
     None
 }
@@ -276,7 +289,7 @@ fn end(
     (text, index): (&ProgramText, usize),
     open: Open,
     done: &mut BTreeMap<u32, Position>,
-    given: &mut Told,
+    messages: &mut ProgramMessages,
 ) {
     let values = open.pose.iter().copied().collect::<Option<Vec<f64>>>();
     let values = values.and_then(|values| <[f64; 6]>::try_from(values).ok());
@@ -284,7 +297,7 @@ fn end(
     let taught = match (&open.untaught, values, open.spelled) {
         _ if open.broken => Taught::Refused,
         _ if open.relative => {
-            Taught::Missing("it is told relative to another group (RX, RY, ...)".to_owned())
+            Taught::Missing("it is given relative to another group (RX, RY, ...)".to_owned())
         }
         (Some(key), ..) => Taught::Missing(format!("its {key} was never taught")),
         (None, Some(values), Some(bytes)) => match Convention::Fanuc.pose(&values) {
@@ -295,8 +308,8 @@ fn end(
                 spelled: Spelled { text: index, bytes },
             }),
             Err(error) => {
-                let message = format!("the position P[{}] is no pose: {error}", open.number);
-                given.problem(
+                let message = format!("the position P[{}] is not a valid pose: {error}", open.number);
+                messages.problem(
                     text,
                     open.span.clone(),
                     message,
@@ -314,7 +327,7 @@ fn end(
                 .all(|(axis, expected)| *axis == expected)
             {
                 true => Taught::There(Target::Joints(joints)),
-                false => Taught::Missing("some of its joints are not told".to_owned()),
+                false => Taught::Missing("some of its joints are not given".to_owned()),
             }
         }
         _ => Taught::Missing(missing(&open.pose)),
@@ -325,8 +338,8 @@ fn end(
         values,
     };
     if done.insert(open.number, position).is_some() {
-        let message = format!("the position P[{}] is told twice", open.number);
-        given.problem(text, open.span, message, "give each position a number of its own");
+        let message = format!("the position P[{}] is given twice", open.number);
+        messages.problem(text, open.span, message, "give each position its own number");
     }
 }
 

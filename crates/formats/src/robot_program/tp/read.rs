@@ -1,31 +1,31 @@
-//! What a program does with its positions: moves, and what is passed over between them.
+//! The statements of a program: moves, and the statements between them that are ignored.
 
 use std::collections::BTreeMap;
 
 use super::frames::Frames;
-use super::motion::Goal;
+use super::motion::TpTarget;
 use super::position::{Position, positions};
 use super::statement::{Statement, index, sections};
 use crate::document::{Problem, Problems};
 use crate::robot_program::arc_row::ArcRow;
 use crate::robot_program::language::Language;
+use crate::robot_program::messages::ProgramMessages;
 use crate::robot_program::program::{RobotMove, RobotProgram};
 use crate::robot_program::spelling::Part;
 use crate::robot_program::text::ProgramText;
-use crate::robot_program::given::Told;
 
-/// Programs that call programs are followed so deep.
+/// Maximum nesting of program calls.
 const DEEPEST: usize = 30;
 
-/// Words that choose what runs and how often.
+/// Words of control flow.
 const CHOICES: [&str; 13] = [
     "JMP", "LBL", "IF", "ELSE", "ENDIF", "SELECT", "FOR", "ENDFOR", "MONITOR", "RUN", "ABORT", "END", "WENN",
 ];
 
-/// Words that shift what follows, or end moves early.
+/// Words that shift the following positions, or end moves early.
 pub(super) const SHIFTS: [&str; 4] = ["OFFSET", "TOOL_OFFSET", "VOFFSET", "SKIP"];
 
-/// Reads the program that comes first, with those that it calls as far as they are among `texts`.
+/// Reads the first program, and the programs that it calls if they are among `texts`.
 ///
 /// # Errors
 /// Every problem of the files, at most 200.
@@ -48,11 +48,11 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
         done: vec![false; texts.len()],
         frames: Frames::default(),
         moves: Vec::new(),
-        given: Told::default(),
+        messages: ProgramMessages::default(),
     };
     reader.program(0, 0)?;
-    let Reader { moves, given, .. } = reader;
-    let notes = given.finish()?;
+    let Reader { moves, messages, .. } = reader;
+    let notes = messages.finish()?;
     Ok(RobotProgram {
         language: Language::Tp,
         name: names.into_iter().next().unwrap_or_default(),
@@ -62,21 +62,21 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
     })
 }
 
-/// Programs on their way.
+/// Reads programs.
 pub(super) struct Reader<'a> {
     texts: &'a [ProgramText],
     names: &'a [String],
     done: Vec<bool>,
     pub frames: Frames,
     pub moves: Vec<RobotMove>,
-    pub given: Told,
+    pub messages: ProgramMessages,
 }
 
-/// A program on its way.
+/// A program while it is read.
 pub(super) struct Program<'a> {
     pub text: &'a ProgramText,
     pub positions: BTreeMap<u32, Position>,
-    pub row: ArcRow<Goal>,
+    pub row: ArcRow<TpTarget>,
     depth: usize,
 }
 
@@ -87,18 +87,18 @@ impl<'a> Reader<'a> {
         };
         *done = true;
         let Some(sections) = sections(text.text()) else {
-            let message = "this is no listing of a FANUC program: it has neither /PROG nor /MN";
-            let hint = "save the program as ASCII (.LS); a .TP file is binary and not read";
+            let message = "this is not a listing of a FANUC program: it has neither /PROG nor /MN";
+            let hint = "save the program as ASCII (.LS); binary .TP files cannot be read";
             return Err(Problem::of_file(text.name(), message, hint).into());
         };
         let mut program = Program {
             text,
-            positions: positions((text, at), &sections.positions, &mut self.given),
+            positions: positions((text, at), &sections.positions, &mut self.messages),
             row: ArcRow::default(),
             depth,
         };
         for statement in &sections.statements {
-            if self.given.is_full() {
+            if self.messages.is_full() {
                 break;
             }
             self.statement(&mut program, statement)?;
@@ -139,14 +139,14 @@ impl<'a> Reader<'a> {
             return self.call(program, statement, called);
         }
         if CHOICES.contains(&name.as_str()) {
-            let what = format!("{name} is passed over: what stands here runs once");
-            self.given.note((program.text, statement.line), what);
+            let what = format!("{name} is ignored: the statements here are read once");
+            self.messages.note((program.text, statement.line), what);
         } else if SHIFTS.contains(&name.as_str()) {
-            let what = format!("{name} is passed over: moves go to their positions as taught");
-            self.given.note((program.text, statement.line), what);
+            let what = format!("{name} is ignored: the taught positions are used");
+            self.messages.note((program.text, statement.line), what);
         } else if index(first, "P").is_some_and(|(_, behind)| behind.starts_with('=')) {
-            let what = "a position is computed, and passed over: it is taken as taught";
-            self.given.note((program.text, statement.line), what);
+            let what = "an assignment to a position is ignored: the taught position is used";
+            self.messages.note((program.text, statement.line), what);
         }
         Ok(())
     }
@@ -163,26 +163,22 @@ impl<'a> Reader<'a> {
             }
             Some(_) => {
                 let what = format!("{name} is called again: it is read once");
-                self.given.note((program.text, statement.line), what);
+                self.messages.note((program.text, statement.line), what);
             }
             None => {
-                let what = format!("{name} is called, but not given: what it does is passed over");
-                self.given.note((program.text, statement.line), what);
+                let what = format!("{name} is called, but not given: it is ignored");
+                self.messages.note((program.text, statement.line), what);
             }
         }
         Ok(())
     }
 
-    /// No A follows: whether what came made arcs.
+    /// Ends a row of A: checks that it formed arcs.
     pub fn end_row(&mut self, program: &mut Program<'a>) {
         if let Some(span) = program.row.end() {
-            let message = "this row of A has no three positions".to_owned();
-            self.given.problem(
-                program.text,
-                span,
-                message,
-                "an arc goes through three A in a row",
-            );
+            let message = "this row of A has fewer than three positions".to_owned();
+            self.messages
+                .problem(program.text, span, message, "an arc has three A in a row");
         }
     }
 }

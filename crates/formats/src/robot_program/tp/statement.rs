@@ -1,31 +1,31 @@
-//! The lines of a program as statements: `  12:L P[1] 100mm/sec FINE ;`, over several lines too.
+//! The lines of a program as statements: `  12:L P[1] 100mm/sec FINE ;`, also over several lines.
 
 use std::ops::Range;
 
 use crate::robot_program::spelling::{Line, Part, lines};
 
-/// No statement goes over more lines.
+/// Maximum number of lines of a statement.
 const MOST_LINES: usize = 50;
 
-/// One statement. Places count in the whole text.
+/// A statement. Positions are offsets in the whole text.
 #[derive(Clone, Debug)]
 pub(super) struct Statement<'a> {
-    /// The line where it begins.
+    /// Its first line.
     pub line: u32,
-    /// Its words; what stands in brackets is no end of a word.
+    /// Its words; brackets do not end a word.
     pub words: Vec<Part<'a>>,
     /// Its bytes.
     pub span: Range<usize>,
 }
 
 impl<'a> Statement<'a> {
-    /// Its word at `index`; an empty one behind the last.
+    /// Its word at `index`; empty after the last word.
     pub fn word(&self, index: usize) -> &'a str {
         self.words.get(index).map_or("", |part| part.text)
     }
 }
 
-/// Where the parts of a listing stand.
+/// The parts of a listing.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Sections<'a> {
     pub name: &'a str,
@@ -33,7 +33,7 @@ pub(super) struct Sections<'a> {
     pub positions: Vec<Line<'a>>,
 }
 
-/// A listing taken apart; `None` where nothing begins with /PROG, /MN or /POS.
+/// Splits a listing; `None` if no line begins with /PROG, /MN or /POS.
 pub(super) fn sections(text: &str) -> Option<Sections<'_>> {
     let mut sections = Sections::default();
     let mut open: Option<Statement> = None;
@@ -144,7 +144,7 @@ fn words<'a>(said: Part<'a>, out: &mut Vec<Part<'a>>) {
     }
 }
 
-/// What stands in brackets behind a name, `PR[GP1:9,2:name]`: group and name left out, parts between commas.
+/// The content of the brackets after a name, `PR[GP1:9,2:name]`, split at commas, without group and name.
 pub(super) fn index<'a>(word: &'a str, name: &str) -> Option<(Vec<&'a str>, &'a str)> {
     let begin = word.get(..name.len())?;
     let inside = word.get(name.len()..)?.strip_prefix('[')?;
@@ -171,7 +171,7 @@ pub(super) fn index<'a>(word: &'a str, name: &str) -> Option<(Vec<&'a str>, &'a 
         }
         _ => inside,
     };
-    // The name of a register stands behind what it is told by; one with a register inside has no such name here.
+    // The name of a register follows its number; a bracket with another register in it has no name here.
     let given = inside.split_once(':').map_or(inside, |(given, _)| given);
     Some((given.split(',').map(str::trim).collect(), behind))
 }
@@ -181,8 +181,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn statements_go_over_lines_and_brackets_hold_words_together() {
-        let text = "/PROG  A\n/MN\n   1:  !a ; b ;\n   2:C P[1]    \n    :  P[2:to the end] R[5:a b]mm/sec FINE    ;\n  3:L P[3]\n4:   ;\n/POS\nP[1]{\n/END\n";
+    fn statements_can_span_lines_and_brackets_keep_words_together() {
+        let text = "/PROG  A\n/MN\n   1:  !a ; b ;\n   2:C P[1]    \n    :  P[2:to the end] R[5:a b]mm/sec FINE    \
+            ;\n  3:L P[3]\n4:   ;\n/POS\nP[1]{\n/END\n";
         let sections = sections(text).unwrap();
         assert_eq!((sections.name, sections.positions.len()), ("A", 1));
         let said: Vec<(u32, Vec<&str>)> = sections

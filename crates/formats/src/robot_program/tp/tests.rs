@@ -1,4 +1,4 @@
-//! Listings of our own, what is wrong with broken ones, and drafts that are read as they were written.
+//! Our own listings, problems of wrong ones, and drafts that are read back.
 
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::BranchPattern;
@@ -95,7 +95,7 @@ P[9]{\r
 ";
 
 fn program(text: &str) -> RobotProgram {
-    // Latin-1 bytes, as an old controller keeps them.
+    // Latin-1 bytes, as old controllers write them.
     let bytes: Vec<u8> = text.chars().map(|c| c as u8).collect();
     read(vec![ProgramText::new("deburr.ls", &bytes)]).unwrap_or_else(|problems| panic!("{problems}"))
 }
@@ -116,12 +116,12 @@ fn every_move_of_a_listing_is_read_with_its_frame_and_tool() {
             (motion, one.frame, one.tool, one.speed, one.line)
         })
         .collect();
-    let given = Frame::Told(
+    let given = Frame::Given(
         Convention::Fanuc
             .pose(&[100.0, -20.5, 0.0, 0.0, 0.0, 90.0])
             .unwrap(),
     );
-    let base = Frame::Told(Isometry::identity());
+    let base = Frame::Given(Isometry::identity());
     let [one, two, three] = [1, 2, 3].map(Frame::Numbered);
     assert_eq!(
         said,
@@ -132,10 +132,10 @@ fn every_move_of_a_listing_is_read_with_its_frame_and_tool() {
             ("arc", two, one, Speed::Tip(0.1), 15),
             ("straight", given, one, Speed::Tip(2.54 / 60.0), 24),
             ("straight", base, three, Speed::Tip(0.05), 26),
-            ("arc", base, three, Speed::EvaluateError, 28),
-            ("straight", base, three, Speed::EvaluateError, 29),
+            ("arc", base, three, Speed::Unknown, 28),
+            ("straight", base, three, Speed::Unknown, 29),
             ("straight", base, three, Speed::Joints, 31),
-            ("straight", given, three, Speed::EvaluateError, 32),
+            ("straight", given, three, Speed::Unknown, 32),
         ]
     );
     assert_eq!(
@@ -164,18 +164,18 @@ fn every_move_of_a_listing_is_read_with_its_frame_and_tool() {
 }
 
 #[test]
-fn what_is_passed_over_and_matters_is_noted_with_its_line() {
+fn ignored_statements_that_matter_are_noted_with_their_lines() {
     let notes = program(LISTING).notes;
     for words in [
-        "deburr.ls, line 24: OFFSET of moves is passed over",
-        "deburr.ls, line 26: positions of user frame 0 are gone to",
-        "deburr.ls, line 29: S is taken as straight",
-        "deburr.ls, line 28: a speed out of a register",
-        "deburr.ls, line 29: a speed that the program does not tell",
-        "deburr.ls, line 29: COORD of moves is passed over",
+        "deburr.ls, line 24: OFFSET of moves is ignored",
+        "deburr.ls, line 26: positions of user frame 0 are used",
+        "deburr.ls, line 29: S is read as straight",
+        "deburr.ls, line 28: a speed from a register",
+        "deburr.ls, line 29: a speed that the program does not give",
+        "deburr.ls, line 29: COORD of moves is ignored",
         "deburr.ls, line 33: OPEN_GRIPPER is called, but not given",
-        "deburr.ls, line 34: IF is passed over",
-        "deburr.ls, line 42: what further groups",
+        "deburr.ls, line 34: IF is ignored",
+        "deburr.ls, line 42: further motion groups",
         "deburr.ls, line 51: extended axes",
     ] {
         assert!(
@@ -187,7 +187,7 @@ fn what_is_passed_over_and_matters_is_noted_with_its_line() {
 }
 
 #[test]
-fn other_poses_change_nothing_but_the_numbers_of_positions() {
+fn other_poses_change_only_the_numbers_of_positions() {
     let program = program(LISTING);
     let within = [MICROMETRE, angle_of_decimals(3)];
     let again = moved_alone(&program, &Isometry::identity(), within);
@@ -204,7 +204,7 @@ fn other_poses_change_nothing_but_the_numbers_of_positions() {
 }
 
 #[test]
-fn a_called_program_is_read_where_it_is_called_first_and_knows_the_frames() {
+fn a_called_program_is_read_at_its_first_call_with_the_current_frames() {
     let main = "/PROG MAIN\n/MN\n1:  PR[1]=P[1] ;\n2:  UTOOL[4]=PR[1] ;\n3:  CALL SUB ;\n4:  CALL SUB ;\n/POS\nP[1]{\nUF : 0, UT : 0,\nX = 1 mm, Y = 2 mm, Z = 3 mm, W = 0 deg, P = 0 deg, R = 0 deg\n};\n/END\n";
     let sub = "/PROG SUB\n/MN\n1:L P[1] 1mm/sec FINE ;\n/POS\nP[1]{\nUF : 0, UT : 4,\nX = 1 mm, Y = 2 mm, Z = 3 mm, W = 0 deg, P = 0 deg, R = 0 deg\n};\n/END\n";
     let texts = [("a.ls", main), ("b.ls", sub)];
@@ -217,7 +217,7 @@ fn a_called_program_is_read_where_it_is_called_first_and_knows_the_frames() {
     let tool = Convention::Fanuc.pose(&[1.0, 2.0, 3.0, 0.0, 0.0, 0.0]).unwrap();
     assert_eq!(
         (program.moves.len(), program.moves[0].tool),
-        (1, Frame::Told(tool))
+        (1, Frame::Given(tool))
     );
     assert_eq!(
         program.notes,
@@ -226,7 +226,7 @@ fn a_called_program_is_read_where_it_is_called_first_and_knows_the_frames() {
 }
 
 #[test]
-fn each_mistake_has_its_sentence() {
+fn every_mistake_has_its_message() {
     let pose = |values: &str| format!("P[3]{{\n   GP1:\n\tUF : 0, UT : 1,\n{values}\n}};\n");
     let good = "\tX = 1 mm, Y = 2 mm, Z = 3 mm, W = 0 deg, P = 0 deg, R = 0 deg";
     let listing = |position: &str, moves: &str| {
@@ -238,42 +238,42 @@ fn each_mistake_has_its_sentence() {
         (
             pose(&good.replace("Y = 2", "Y = x")),
             "L P[3] 1mm/sec FINE",
-            "a.ls:18:16: `x` is no number of Y in P[3]",
+            "a.ls:18:16: `x` is not a number of Y in P[3]",
         ),
         (
             pose(&good.replace("Y = 2", "Y = ****")),
             "L P[3] 1mm/sec FINE",
-            "a.ls:3:8: P[3] does not tell where it is: its Y was never taught",
+            "a.ls:3:8: P[3] has no usable position: its Y was never taught",
         ),
         (
             pose("\tX = 1 mm"),
             "L P[3] 1mm/sec FINE",
-            "P[3] does not tell where it is: it has no Y, Z, W, P, R",
+            "P[3] has no usable position: it has no Y, Z, W, P, R",
         ),
         (
             pose("\tJ1 = 1 deg, J3 = 2 deg"),
             "J P[3] 1% FINE",
-            "some of its joints are not told",
+            "some of its joints are not given",
         ),
         (
             pose(&good.replace("Y = 2", "X = 2")),
             "L P[1] 1mm/sec FINE",
-            "X is told twice in P[3]",
+            "X is given twice in P[3]",
         ),
         (
             pose(&good.replace("Y = 2", "Y = 2e12")),
             "L P[1] 1mm/sec FINE",
-            "the position P[3] is no pose: 2e12 is beyond",
+            "the position P[3] is not a valid pose: 2e12 is beyond",
         ),
         (
             pose(good).replace("P[3]", "P[1]"),
             "L P[1] 1mm/sec FINE",
-            "the position P[1] is told twice",
+            "the position P[1] is given twice",
         ),
         (
             pose(good).replace("P[3]", "P[x]"),
             "L P[1] 1mm/sec FINE",
-            "`x` is no number of a position",
+            "`x` is not a number of a position",
         ),
         (
             "P[3]{\n".to_owned(),
@@ -285,33 +285,37 @@ fn each_mistake_has_its_sentence() {
             "L P[7:a b] 1mm/sec FINE",
             "a.ls:3:8: the position P[7] is not in this listing",
         ),
-        (String::new(), "L P[1] 1x0mm/sec FINE", "`1x0` is no speed"),
-        (String::new(), "L P[1] -5mm/sec FINE", "`-5` is no speed"),
+        (
+            String::new(),
+            "L P[1] 1x0mm/sec FINE",
+            "`1x0` is not a valid speed",
+        ),
+        (String::new(), "L P[1] -5mm/sec FINE", "`-5` is not a valid speed"),
         (
             String::new(),
             "Q P[1] 5mm/sec FINE",
             "the move `Q` is not followed",
         ),
-        (String::new(), "C P[1] 5mm/sec FINE", "`5mm/sec` is no position"),
+        (
+            String::new(),
+            "C P[1] 5mm/sec FINE",
+            "`5mm/sec` is not a position",
+        ),
         (
             String::new(),
             "C P[1] P[2] 5mm/sec FINE",
-            "the positions of this arc count in different frames",
+            "the positions of this arc are relative to different frames",
         ),
-        (
-            String::new(),
-            "L P[1] 5mm/sec FINE INC",
-            "goes by an increment (INC)",
-        ),
+        (String::new(), "L P[1] 5mm/sec FINE INC", "is incremental (INC)"),
         (
             String::new(),
             "L P[1] 5mm/sec FINE RTCP",
-            "has a tool that stands still (RTCP)",
+            "has a stationary tool (RTCP)",
         ),
         (
             String::new(),
             "A P[1] 5mm/sec FINE",
-            "this row of A has no three positions",
+            "this row of A has fewer than three positions",
         ),
         (
             String::new(),
@@ -325,7 +329,7 @@ fn each_mistake_has_its_sentence() {
             "{sentence}: {found:?}"
         );
     }
-    assert!(problems(&[("a.ls", "hello")])[0].contains("this is no listing of a FANUC program"));
+    assert!(problems(&[("a.ls", "hello")])[0].contains("this is not a listing of a FANUC program"));
 }
 
 #[test]
@@ -339,7 +343,7 @@ fn a_german_listing_is_read_too() {
     );
     assert_eq!(
         program.notes,
-        ["a.ls, line 6: B is called, but not given: what it does is passed over"]
+        ["a.ls, line 6: B is called, but not given: it is ignored"]
     );
 }
 
@@ -361,7 +365,7 @@ fn a_long_program_is_split_and_read_as_one() {
         program
             .moves
             .iter()
-            .all(|one| matches!(one.frame, Frame::Told(_)))
+            .all(|one| matches!(one.frame, Frame::Given(_)))
     );
     let joints = program
         .moves
@@ -372,7 +376,7 @@ fn a_long_program_is_split_and_read_as_one() {
 }
 
 #[test]
-fn a_listing_counts_its_lines() {
+fn a_listing_gives_its_number_of_lines() {
     let written = write(&one_draft()).unwrap();
     let text = String::from_utf8(written.files[0].1.clone()).unwrap();
     let body = text
@@ -390,7 +394,7 @@ fn a_listing_counts_its_lines() {
 }
 
 #[test]
-fn moves_go_on_as_told_and_the_last_one_stops() {
+fn moves_blend_as_specified_and_the_last_one_stops() {
     let mut draft = one_draft();
     draft.points[0].blend = 0.001;
     draft.points = vec![draft.points[0].clone(); 3];
@@ -434,7 +438,7 @@ proptest! {
             far <= MICROMETRE && turned <= angle_of_decimals(3)
         };
         for (at, (one, point)) in program.moves.iter().zip(&draft.points).enumerate() {
-            let (Frame::Told(frame), Frame::Told(tool)) = (one.frame, one.tool) else { panic!() };
+            let (Frame::Given(frame), Frame::Given(tool)) = (one.frame, one.tool) else { panic!() };
             prop_assert!(near(&frame, &draft.base_from_frame) && near(&tool, &draft.flange_from_tool));
             match &one.target {
                 Target::Joints(joints) => {

@@ -1,4 +1,5 @@
-//! A draft as a listing: frame and tool set through a register, the first position by joints, split where it is long.
+//! A draft as a listing: frame and tool are set through a register, the first position is given in joints; long
+//! programs are split.
 
 use armill_core::frame::Isometry;
 
@@ -8,37 +9,39 @@ use crate::robot_program::number::fixed;
 use crate::robot_program::posture::Configuration;
 use crate::robot_program::spelling::in_pieces;
 
-/// Positions of one program. `[recalled]`
+/// Maximum number of positions in one program. `[recalled]`
 const MOST_POSITIONS: usize = 5000;
 
-/// Characters of a remark, and of the comment in the head. `[recalled]`
+/// Maximum length of a remark, and of the comment in the header. `[recalled]`
 const LONGEST_REMARK: usize = 30;
 const LONGEST_COMMENT: usize = 16;
 
-/// Characters of a name: 8 on old controllers, 36 since R-30iA; three of them number the parts of a long program. `[recalled]`
+/// Maximum length of a name: 8 on old controllers, 36 since R-30iA; three characters number the parts of a long
+/// program. `[recalled]`
 const LONGEST_NAME: [usize; 3] = [8, 36, 33];
 
 /// The register through which frame and tool are set.
 const REGISTER: u32 = 9;
 
-/// Part of their greatest speed at which joints go, percent: slow, for a first approach.
+/// Joint speed in percent of the maximum: slow, for a first approach.
 const JOINT_SPEED: u32 = 10;
 
-/// Greatest speed of the tip, mm/s. Source: FANUC's manual of options.
+/// Maximum tip speed, mm/s. Source: FANUC's manual of options.
 const FASTEST: f64 = 2000.0;
 
 const END: &str = "\r\n";
 
-/// Writes `draft` as a listing, or as several that a main one calls.
+/// Writes `draft` as one listing, or as several listings called by a main one.
 ///
 /// # Errors
-/// What the language or its controllers cannot hold.
+/// Values outside the ranges of the language or its controllers.
 pub fn write(draft: &Draft) -> Result<Written, DraftError> {
     let split = draft.points.len() > MOST_POSITIONS;
     draft.check(&Bounds {
         language: "FANUC TP",
         longest_name: if split { LONGEST_NAME[2] } else { LONGEST_NAME[1] },
-        names: "a letter, then letters, digits and underscores, 36 characters in all; 33 of a program in several parts",
+        names: "a letter, then letters, digits and underscores, at most 36 characters; 33 if the program is split \
+            into several parts",
         joints: 6..=6,
         frames: 1..=9,
         tools: 1..=10,
@@ -84,22 +87,24 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
 fn notes(draft: &Draft, split: bool) -> Vec<String> {
     let mut notes = vec![
         format!(
-            "the program sets user frame {} and tool {} through PR[{REGISTER}], which it overwrites: see that nothing else uses them",
+            "the program sets user frame {} and tool {} through PR[{REGISTER}] and overwrites it: make sure that it \
+             is not used elsewhere",
             draft.frame_number, draft.tool_number
         ),
-        "the first position is told in joints as this arm's controller counts them (FANUC counts axis 3 from the ground): check it \
-         slowly"
+        "the first position is given in joints as this arm's controller reports them (FANUC measures axis 3 from the \
+         horizontal): test it \
+         at low speed"
             .to_owned(),
-        "CONFIG has the turns of axes 1, 4 and 6; see whether the controller shows them so".to_owned(),
-        "listings (.LS) load where the controller has ASCII upload, an option".to_owned(),
+        "CONFIG has the turns of axes 1, 4 and 6; check that the controller uses the same axes".to_owned(),
+        "to load listings (.LS) the controller needs the ASCII upload option".to_owned(),
     ];
     if draft.points.iter().any(|point| point.blend > 0.0) {
         notes.push(
-            "moves that need not stop have CNT100: how near the tip comes depends on their speed".to_owned(),
+            "moves without exact stop have CNT100: the blend distance depends on their speed".to_owned(),
         );
     }
     if draft.points.iter().any(|point| point.branch.is_none()) {
-        notes.push("where no posture is told, CONFIG says no flip, up, front".to_owned());
+        notes.push("where no posture is given, CONFIG says no flip, up, front".to_owned());
     }
     if draft
         .points
@@ -109,12 +114,12 @@ fn notes(draft: &Draft, split: bool) -> Vec<String> {
         notes.push(format!("speeds above {FASTEST} mm/s are refused by controllers"));
     }
     if draft.name.len() + if split { 3 } else { 0 } > LONGEST_NAME[0] {
-        notes.push("old controllers know names of 8 characters at most".to_owned());
+        notes.push("old controllers allow names of at most 8 characters".to_owned());
     }
     notes
 }
 
-/// Remarks, frame and tool as numbers, and both chosen.
+/// Remarks, the values of frame and tool, and their selection.
 fn head(draft: &Draft) -> Vec<String> {
     let mut lines = Vec::new();
     for remark in &draft.remarks {
@@ -163,7 +168,7 @@ fn moves(draft: &Draft, (begins, points): (bool, &[DraftPoint])) -> Vec<String> 
     points.iter().enumerate().map(one).collect()
 }
 
-/// A speed in m/s as controllers write it, whole numbers of the coarser unit that fits; nothing of one that is too slow.
+/// A speed in m/s as controllers write it: a whole number in the coarser unit that fits; `None` if it is too slow.
 fn feed(speed: f64) -> Option<String> {
     let mm_per_second = speed * 1e3;
     let cm_per_minute = (mm_per_second * 6.0).round();
@@ -217,7 +222,7 @@ fn positions(draft: &Draft, (begins, points): (bool, &[DraftPoint])) -> String {
     out
 }
 
-/// How the robot stands there: flip, elbow, shoulder, then how often axes 1, 4, 6 are turned.
+/// Configuration: flip, elbow, shoulder, then the turns of axes 1, 4, 6.
 fn configuration(point: &DraftPoint) -> String {
     let said = point.branch.map(Configuration::of).unwrap_or_default();
     let letter = |set: Option<bool>, [not, yes]: [char; 2]| if set == Some(true) { yes } else { not };
@@ -237,11 +242,11 @@ fn configuration(point: &DraftPoint) -> String {
     )
 }
 
-/// A listing of these lines and positions.
+/// A listing with these lines and positions.
 fn listing(draft: &Draft, name: &str, (lines, positions): (&[String], &str)) -> (String, Vec<u8>) {
     let comment = in_pieces(draft.remarks.first().map_or("", String::as_str), LONGEST_COMMENT);
     let comment = comment.first().map_or("", String::as_str).replace('"', "'");
-    // A program does not tell the time of its making: the same draft gives the same bytes.
+    // No time stamp: the same draft gives the same bytes.
     let date = "DATE 00-01-01  TIME 00:00:00";
     let count = lines.len();
     let head = [

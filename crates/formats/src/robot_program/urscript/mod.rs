@@ -1,22 +1,22 @@
 //! URScript: `.script`, of controllers of Universal Robots.
 //!
-//! | statement | what it becomes |
+//! | statement | read as |
 //! |---|---|
-//! | `movej` | a move of the joints: to joints, to a pose, to `get_inverse_kin(pose, qnear)` |
+//! | `movej` | a joint move: to joints, to a pose, to `get_inverse_kin(pose, qnear)` |
 //! | `movel`, `movep` | a straight move |
 //! | `movec(via, end)` | a circular move |
 //! | `set_tcp(p[...])` | the tool |
-//! | `name = ...` | a pose, joints or a number that later lines name |
+//! | `name = ...` | a pose, joints or a number for later lines |
 //!
-//! A pose is `p[x, y, z, rx, ry, rz]` in m and rad (rotation vector), in the base of the robot; of `pose_trans(a, b)` the
-//! frame is a and the target b. Numbers may be computed from numbers. Moves that follow a signal (`servoj`, `speedl`, ...)
-//! have no target, and are problems. `v` of straight moves is m/s; a move with `t` says nothing of the tip.
+//! A pose is `p[x, y, z, rx, ry, rz]` in m and rad (rotation vector), in the robot base. In `pose_trans(a, b)` the
+//! frame is a and the target b. Numbers may be computed from numbers. Moves controlled by a signal (`servoj`, `speedl`,
+//! ...) have no target and are problems. `v` of straight moves is m/s; a move with `t` does not give the tip speed.
 //!
 //! `[recalled]`, not in a sample: order of arguments of `movep` and `movec`, `get_inverse_kin` and `qnear`, `d2r`,
-//! `pose_inv`, and that numbers beside poses that `write` chooses (accelerations, speed of joints) suit every arm.
+//! `pose_inv`, and that the default values chosen by `write` (accelerations, joint speed) suit all arms.
 //!
-//! In reading order: `read` statements; `motion` moves; `value` what expressions mean; `spell` a pose; `write` the
-//! program out.
+//! In reading order: `read` statements; `motion` moves; `value` values of expressions; `spell` a pose; `write` the
+//! output.
 
 mod motion;
 mod read;
@@ -30,7 +30,7 @@ pub use self::write::write;
 
 use super::tokens::Syntax;
 
-/// Remarks from `#` on; texts in `"` or `'`.
+/// Remarks begin with `#`; texts are in `"` or `'`.
 const SYNTAX: Syntax = Syntax {
     remark: '#',
     quotes: &['"', '\''],

@@ -1,27 +1,27 @@
-//! Moves: targets, and which argument is the speed.
+//! Moves: their targets and speeds.
 
 use armill_core::frame::Isometry;
 use armill_core::robot::BranchPattern;
 
 use super::read::Reader;
 use super::value::{Argument, Value};
+use crate::robot_program::messages::shown;
 use crate::robot_program::program::{Frame, Motion, RobotMove, Speed, Target};
 use crate::robot_program::tokens::Token;
-use crate::robot_program::given::shown;
 
-/// Joints of an arm of Universal Robots.
+/// Number of joints of a Universal Robots arm.
 const JOINTS: usize = 6;
 
 impl<'a> Reader<'a> {
-    /// The move of this name with these arguments.
+    /// The move with this name and these arguments.
     pub fn motion(&mut self, (at, word): (Token, &str), arguments: &[Argument]) {
         let (via, end, rest) = match (word, arguments) {
             ("movec", [via, end, rest @ ..]) => (Some(via), end, rest),
             ("movej" | "movel" | "movep", [end, rest @ ..]) => (None, end, rest),
             _ => {
-                let message = format!("`{word}` without its target");
-                let hint = "`movel(p[...], a=1.2, v=0.25)`, `movec(p[...], p[...])`";
-                self.given.problem(self.here(), at.span(), message, hint);
+                let message = format!("`{word}` has no target");
+                let hint = "write `movel(p[...], a=1.2, v=0.25)` or `movec(p[...], p[...])`";
+                self.messages.problem(self.here(), at.span(), message, hint);
                 return;
             }
         };
@@ -32,9 +32,9 @@ impl<'a> Reader<'a> {
         let motion = match via {
             Some(Some((via, via_frame))) if via_frame == frame => Motion::Circular { via },
             Some(Some(_)) => {
-                let message = "the two places of this circle count in different frames".to_owned();
-                let hint = "tell both in one frame, or both in the base";
-                self.given.problem(self.here(), at.span(), message, hint);
+                let message = "the two positions of this circle are relative to different frames".to_owned();
+                let hint = "give both in the same frame, or both in the base";
+                self.messages.problem(self.here(), at.span(), message, hint);
                 return;
             }
             Some(None) => return,
@@ -48,18 +48,18 @@ impl<'a> Reader<'a> {
         self.moves.push(RobotMove {
             motion,
             target,
-            frame: Frame::Told(frame),
+            frame: Frame::Given(frame),
             tool: self.tool,
             speed,
             line: at.line,
         });
     }
 
-    /// Where an argument says that the move goes to, and what that counts in.
+    /// The target in an argument, and its frame.
     fn target(&mut self, argument: &Argument) -> Option<(Target, Isometry)> {
         let text = &self.here().text()[argument.bytes.clone()];
         let mut wrong = |message: String, hint: &str| {
-            self.given
+            self.messages
                 .problem(&self.texts[self.text], argument.bytes.clone(), message, hint);
             None
         };
@@ -77,22 +77,25 @@ impl<'a> Reader<'a> {
                 Some((Target::Joints(joints.clone()), Isometry::identity()))
             }
             Value::Numbers(joints) => wrong(
-                format!("{} joints of a target, which has 6", joints.len()),
-                "`[base, shoulder, elbow, wrist 1, wrist 2, wrist 3]`, rad",
+                format!("{} joints in a target, but 6 are required", joints.len()),
+                "write `[base, shoulder, elbow, wrist 1, wrist 2, wrist 3]`, rad",
             ),
             Value::Number(_) => wrong(
-                format!("`{}` is a number, where a target is wanted", shown(text)),
-                "`p[x, y, z, rx, ry, rz]`, m and rad",
+                format!("`{}` is a number, but a target is required", shown(text)),
+                "write `p[x, y, z, rx, ry, rz]`, m and rad",
             ),
             Value::Wrong => None,
             Value::Unknown => {
                 let is_name = !text.is_empty() && text.chars().all(|c| c.is_alphanumeric() || c == '_');
                 let message = match is_name && !self.known.contains_key(text) {
-                    true => format!("`{}` is not told: no line before gives it a value", shown(text)),
+                    true => format!(
+                        "`{}` is not defined: no line before gives it a value",
+                        shown(text)
+                    ),
                     false => format!("`{}` is computed while the program runs", shown(text)),
                 };
-                let hint = "a target is `p[x, y, z, rx, ry, rz]`, joints, or a name that stands for them";
-                self.given
+                let hint = "a target is `p[x, y, z, rx, ry, rz]`, joints, or a name with such a value";
+                self.messages
                     .problem(&self.texts[self.text], argument.bytes.clone(), message, hint);
                 None
             }
@@ -100,7 +103,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// The speed of the tip: `v`, the second number behind the target, unless `t`, the third, tells how long it takes.
+/// The tip speed: `v`, the second number after the target, unless `t`, the third, gives the duration.
 fn speed(word: &str, rest: &[Argument]) -> Speed {
     let number = |name: &str, place: usize| {
         let by_name = rest
@@ -117,6 +120,6 @@ fn speed(word: &str, rest: &[Argument]) -> Speed {
     }
     match number("v", 1) {
         Some(speed) if speed > 0.0 => Speed::Tip(speed),
-        _ => Speed::EvaluateError,
+        _ => Speed::Unknown,
     }
 }

@@ -1,4 +1,4 @@
-//! Statements: a line each, or as many as its brackets go over.
+//! Statements: one per line, or several lines within brackets.
 
 use std::collections::{HashMap, HashSet};
 
@@ -6,35 +6,35 @@ use super::SYNTAX;
 use super::value::Value;
 use crate::document::{Problem, Problems};
 use crate::robot_program::language::Language;
+use crate::robot_program::messages::ProgramMessages;
 use crate::robot_program::program::{Frame, RobotMove, RobotProgram};
 use crate::robot_program::text::ProgramText;
 use crate::robot_program::tokens::{Cursor, Kind, Token, tokens};
-use crate::robot_program::given::Told;
 
-/// Words that govern what follows their colon.
+/// Words of control flow, which end with a colon.
 const CONTROL: [&str; 5] = ["if", "elif", "while", "for", "thread"];
-/// Calls that move nothing.
+/// Calls that do not move the robot.
 const QUIET: [&str; 24] = [
     "set_", "get_", "textmsg", "popup", "sleep", "sync", "modbus_", "rpc_", "write_", "read_", "socket_",
     "enter_", "exit_", "stopj", "stopl", "end_", "halt", "request_", "reset_", "step_", "is_", "rtde_",
     "assert", "zero_",
 ];
-/// Moves that follow a signal or a computation.
+/// Moves controlled by a signal or a computation.
 const FOLLOWING: [&str; 6] = ["servoj", "servol", "servoc", "servop", "speedj", "speedl"];
 
 /// Reads a program.
 ///
 /// # Errors
-/// Every problem of the files, at most 200: targets that are not told, moves without target, numbers that are none.
+/// All problems of the files, at most 200: undefined targets, moves without target, invalid numbers.
 pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
     let mut reader = Reader {
         texts: &texts,
         text: 0,
         known: HashMap::new(),
-        tool: Frame::EvaluateError,
+        tool: Frame::Unknown,
         routines: HashSet::new(),
         name: None,
-        given: Told::default(),
+        messages: ProgramMessages::default(),
         moves: Vec::new(),
     };
     let found: Vec<Vec<Token>> = texts
@@ -59,13 +59,16 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
         }
     }
     let Reader {
-        given, moves, name, ..
+        messages,
+        moves,
+        name,
+        ..
     } = reader;
-    let notes = given.finish()?;
+    let notes = messages.finish()?;
     let file = texts.first().map_or("", ProgramText::name);
     if moves.is_empty() {
-        let hint = "give the .script that moves the robot: movej, movel, movep, movec";
-        return Err(Problem::of_file(file, "no move stands in this program", hint).into());
+        let hint = "give the .script file that moves the robot: movej, movel, movep, movec";
+        return Err(Problem::of_file(file, "the program contains no moves", hint).into());
     }
     let stem = file.rsplit(['/', '\\']).next().unwrap_or_default();
     let stem = stem.rsplit_once('.').map_or(stem, |(stem, _)| stem);
@@ -78,7 +81,7 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
     })
 }
 
-/// The tokens without the ends of lines within brackets.
+/// The tokens without line ends inside brackets.
 fn unbroken(mut all: Vec<Token>) -> Vec<Token> {
     let mut depth = 0_usize;
     all.retain(|token| {
@@ -101,36 +104,36 @@ fn statements<'a>(text: &'a str, tokens: &'a [Token]) -> Vec<Cursor<'a>> {
         .collect()
 }
 
-/// The word at the cursor, as it is written, which the cursor passes.
+/// Moves past the word at the cursor and returns it as written.
 pub(super) fn raw_word<'a>(cursor: &mut Cursor<'a>) -> Option<&'a str> {
     let token = cursor.peek().filter(|token| token.kind == Kind::Word)?;
     cursor.next();
     Some(&cursor.text[token.span()])
 }
 
-/// What is known while statements are read.
+/// State while statements are read.
 pub(super) struct Reader<'a> {
     pub texts: &'a [ProgramText],
-    /// Which text is read.
+    /// The current text.
     pub text: usize,
-    /// What names stand for.
+    /// Values of names.
     pub known: HashMap<&'a str, Value>,
     pub tool: Frame,
     routines: HashSet<&'a str>,
     name: Option<&'a str>,
-    pub given: Told,
+    pub messages: ProgramMessages,
     pub moves: Vec<RobotMove>,
 }
 
 impl<'a> Reader<'a> {
-    /// The text that is read.
+    /// The current text.
     pub fn here(&self) -> &'a ProgramText {
         &self.texts[self.text]
     }
 
-    /// A remark on what stands at this token.
+    /// Adds a note on this token.
     pub fn note(&mut self, token: Token, sentence: String) {
-        self.given.note((self.here(), token.line), sentence);
+        self.messages.note((self.here(), token.line), sentence);
     }
 
     fn statement(&mut self, statement: Cursor<'a>) {
@@ -144,10 +147,7 @@ impl<'a> Reader<'a> {
                 }
                 "else" => _ = cursor.pass(':'),
                 _ if CONTROL.contains(&word) => {
-                    self.note(
-                        at,
-                        format!("`{word}`: what it governs is read once, as it stands"),
-                    );
+                    self.note(at, format!("`{word}`: its body is read once"));
                     if !past_colon(&mut cursor) {
                         return;
                     }
@@ -157,7 +157,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A routine begins: its name, and parameters, of which nothing is known.
+    /// A routine begins: its name, and its parameters, whose values are not known.
     fn routine(&mut self, cursor: &mut Cursor<'a>) {
         self.name = self.name.or(raw_word(cursor));
         while let Some(token) = cursor.next() {
@@ -179,7 +179,7 @@ impl<'a> Reader<'a> {
             return;
         }
         if cursor.pass('[') {
-            // One number of a list is assigned: what the list is then is not followed.
+            // One number of a list is assigned: the list is then not known.
             self.known.insert(word, Value::Unknown);
             return;
         }
@@ -194,34 +194,34 @@ impl<'a> Reader<'a> {
             "set_tcp" => {
                 let arguments = self.arguments(&mut cursor, 0);
                 self.tool = match arguments.first().map(|argument| &argument.value) {
-                    Some(Value::Pose(tool)) => Frame::Told(tool.in_base()),
+                    Some(Value::Pose(tool)) => Frame::Given(tool.in_base()),
                     _ => {
                         self.note(
                             at,
                             "the tool is computed on the controller: it is not known".to_owned(),
                         );
-                        Frame::EvaluateError
+                        Frame::Unknown
                     }
                 };
             }
             _ if self.routines.contains(word) => {
                 self.note(
                     at,
-                    format!("`{word}` is called: its moves are read once, where it stands"),
+                    format!("`{word}` is called: its moves are read once, where it is defined"),
                 );
             }
             _ if FOLLOWING.contains(&word) || word.starts_with("move") => {
-                let message = format!("`{word}` moves the robot in a way that is not understood");
-                let hint = "understood are movej, movel, movep and movec";
-                self.given.problem(self.here(), at.span(), message, hint);
+                let message = format!("`{word}` is an unsupported move");
+                let hint = "supported: movej, movel, movep and movec";
+                self.messages.problem(self.here(), at.span(), message, hint);
             }
             _ if QUIET.iter().any(|begin| word.starts_with(begin)) => {}
-            _ => self.note(at, format!("`{word}` is called: what it does is not known here")),
+            _ => self.note(at, format!("`{word}` is called: its effect is not known")),
         }
     }
 }
 
-/// Goes past the colon that ends a condition; whether there is one.
+/// Moves past the colon that ends a condition. Returns whether there is one.
 fn past_colon(cursor: &mut Cursor<'_>) -> bool {
     while let Some(token) = cursor.next() {
         if token.is(':') {

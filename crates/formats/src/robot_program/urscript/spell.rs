@@ -5,10 +5,10 @@ use armill_core::frame::Isometry;
 use super::SYNTAX;
 use crate::convention::Convention;
 use crate::robot_program::number::{fixed, write_fixed};
-use crate::robot_program::spelling::Anew;
+use crate::robot_program::spelling::Respelling;
 use crate::robot_program::tokens::{Cursor, decimals, tokens};
 
-/// Decimals at least, of m and rad: a micrometre, and the posts' own.
+/// Minimum number of decimals, of m and rad: a micrometre, and as in the posts.
 pub(super) const DECIMALS: usize = 6;
 const MOST_DECIMALS: usize = 12;
 
@@ -18,19 +18,23 @@ pub(super) fn numbers(pose: &Isometry) -> [f64; 6] {
     std::array::from_fn(|index| if index < 3 { of[index] * 1e-3 } else { of[index] })
 }
 
-/// A pose of its own.
+/// A complete pose.
 pub(super) fn whole(pose: &Isometry, out: &mut String) {
     let numbers = numbers(pose).map(|number| fixed(number, DECIMALS));
     out.push_str(&format!("p[{}]", numbers.join(", ")));
 }
 
-/// Spells a pose in place of `before`: number for number where six stand there, else anew.
-pub(in crate::robot_program) fn spell((pose, anew): (&Isometry, Anew), before: &str, out: &mut String) {
+/// Writes a pose in place of `before`: number for number if it has six numbers, otherwise as a new pose.
+pub(in crate::robot_program) fn spell(
+    (pose, respelling): (&Isometry, Respelling),
+    before: &str,
+    out: &mut String,
+) {
     match places(before) {
         Some(places) => {
             let mut done = 0;
             let all = places.into_iter().zip(numbers(pose)).enumerate();
-            for (_, (place, number)) in all.filter(|(index, _)| anew.holds(*index)) {
+            for (_, (place, number)) in all.filter(|(index, _)| respelling.includes(*index)) {
                 out.push_str(&before[done..place.start]);
                 write_fixed(
                     out,
@@ -45,7 +49,7 @@ pub(in crate::robot_program) fn spell((pose, anew): (&Isometry, Anew), before: &
     }
 }
 
-/// Where the six numbers of `p[...]` stand, if they are written as such.
+/// Byte ranges of the six numbers of `p[...]`, if it has this form.
 fn places(before: &str) -> Option<Vec<std::ops::Range<usize>>> {
     let found = tokens(before, &SYNTAX);
     let mut cursor = Cursor::new(before, &found);

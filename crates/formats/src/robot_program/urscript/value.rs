@@ -1,4 +1,4 @@
-//! What expressions mean, as far as they are made of numbers: poses with the place that spells them, joints, numbers.
+//! Values of expressions made of numbers: poses with their positions in the text, joints, numbers.
 
 use std::ops::Range;
 
@@ -9,28 +9,28 @@ use crate::convention::Convention;
 use crate::robot_program::program::Spelled;
 use crate::robot_program::tokens::{Cursor, Kind};
 
-/// Brackets within brackets, deeper than anybody writes.
+/// Maximum nesting of brackets.
 const MOST_LEVELS: usize = 40;
 
-/// Lists of joints and positions are shorter; what is longer is not kept for every name that stands for it.
+/// Maximum length of a stored list: longer than lists of joints and positions.
 const LONGEST_LIST: usize = 64;
 
-/// What is known of an expression.
+/// Value of an expression, as far as it is known.
 #[derive(Clone, Debug)]
 pub(super) enum Value {
     Number(f64),
     Pose(Posed),
     Numbers(Vec<f64>),
-    /// It is computed while the program runs, or means nothing here.
+    /// Computed while the program runs, or not supported.
     Unknown,
-    /// It means nothing, which was told as a problem.
+    /// Invalid, and reported as a problem.
     Wrong,
 }
 
-/// A pose and where it is spelled.
+/// A pose and its position in the text.
 #[derive(Clone, Debug)]
 pub(super) struct Posed {
-    /// What it counts in: robot base to frame.
+    /// Its reference: robot base to frame.
     pub frame: Isometry,
     pub pose: Isometry,
     pub spelled: Spelled,
@@ -43,7 +43,7 @@ impl Posed {
     }
 }
 
-/// An argument, with its name if it has one, and where it stands.
+/// An argument with its name, if it has one, and its position.
 pub(super) struct Argument {
     pub name: Option<String>,
     pub value: Value,
@@ -51,7 +51,7 @@ pub(super) struct Argument {
 }
 
 impl<'a> Reader<'a> {
-    /// The arguments behind `(`, which the cursor has passed, to their `)`.
+    /// The arguments up to `)`; the cursor is after `(`.
     pub fn arguments(&mut self, cursor: &mut Cursor<'a>, level: usize) -> Vec<Argument> {
         let mut all = Vec::new();
         while !cursor.pass(')') {
@@ -80,12 +80,12 @@ impl<'a> Reader<'a> {
 
     fn unclosed(&mut self, cursor: &Cursor<'a>, mark: char) {
         let message = format!("`{mark}` is missing here");
-        let hint = "every bracket is closed, in the order in which they were opened";
-        self.given.problem(self.here(), cursor.place(), message, hint);
+        let hint = "close every bracket, in the order in which they were opened";
+        self.messages.problem(self.here(), cursor.place(), message, hint);
     }
 
-    /// Goes to the next of a list, past its comma, or to where the list is closed; what stands in between is not
-    /// understood, nor is then the value.
+    /// Moves to the next entry of a list, past its comma, or to its closing mark. If there are other tokens before it,
+    /// the value is not known.
     fn past_comma(&mut self, cursor: &mut Cursor<'a>, value: Value) -> Value {
         let (mut value, mut depth) = (value, 0_usize);
         while let Some(token) = cursor.peek() {
@@ -165,8 +165,8 @@ impl<'a> Reader<'a> {
             Kind::NoNumber => {
                 cursor.next();
                 let message = format!("`{}` is not a number", &cursor.text[token.span()]);
-                let hint = "numbers are written `0.25`, `-1.5`, `1e-3`; m and rad";
-                self.given.problem(self.here(), token.span(), message, hint);
+                let hint = "write numbers as `0.25`, `-1.5`, `1e-3`; m and rad";
+                self.messages.problem(self.here(), token.span(), message, hint);
                 Value::Wrong
             }
             Kind::Mark('(') => {
@@ -186,7 +186,7 @@ impl<'a> Reader<'a> {
                 cursor.next();
                 self.named((start, &cursor.text[token.span()]), cursor, level)
             }
-            // A closing mark belongs to who opened it.
+            // A closing mark belongs to the caller.
             Kind::Mark(')' | ']' | ',') => return Value::Unknown,
             _ => {
                 cursor.next();
@@ -200,7 +200,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// What stands between brackets, the first of which the cursor has passed.
+    /// The content of brackets; the cursor is after the opening one.
     fn list(&mut self, cursor: &mut Cursor<'a>, level: usize) -> Vec<Value> {
         let mut all = Vec::new();
         while !cursor.pass(']') {
@@ -263,7 +263,7 @@ impl<'a> Reader<'a> {
     fn pose(&mut self, all: &[Value], bytes: Range<usize>) -> Value {
         let mut wrong = |message: String| {
             let hint = "a pose is `p[x, y, z, rx, ry, rz]`, m and rad";
-            self.given
+            self.messages
                 .problem(&self.texts[self.text], bytes.clone(), message, hint);
             Value::Wrong
         };
@@ -271,7 +271,7 @@ impl<'a> Reader<'a> {
             return Value::Wrong;
         }
         if all.len() != 6 {
-            return wrong(format!("{} numbers of a pose, which has 6", all.len()));
+            return wrong(format!("{} numbers in a pose, but 6 are required", all.len()));
         }
         let Some(mut numbers) = numbers(all) else {
             return Value::Unknown;
@@ -285,7 +285,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A pose in the base that these bytes spell.
+    /// A pose in the base with these bytes.
     fn computed(&self, pose: Isometry, bytes: Range<usize>) -> Value {
         Value::Pose(Posed {
             frame: Isometry::identity(),
@@ -298,7 +298,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// The numbers of a list that holds nothing else.
+/// The numbers of a list that contains only numbers.
 fn numbers(all: &[Value]) -> Option<Vec<f64>> {
     (all.len() <= LONGEST_LIST).then_some(())?;
     all.iter()
@@ -309,7 +309,7 @@ fn numbers(all: &[Value]) -> Option<Vec<f64>> {
         .collect()
 }
 
-/// What a list is that is not made of numbers alone.
+/// The value of a list that does not contain only numbers.
 fn unknown(all: &[Value]) -> Value {
     match all.iter().any(|value| matches!(value, Value::Wrong)) {
         true => Value::Wrong,

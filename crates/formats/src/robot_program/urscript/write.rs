@@ -1,7 +1,7 @@
-//! A program for controllers of Universal Robots: one `.script`, whatever its length.
+//! A program for Universal Robots controllers: one `.script` file of any length.
 //!
-//! Targets are told in a frame of the program itself, `pose_trans(frame, p[...])`; controllers have no numbers of frames
-//! and tools, so the remarks alone tell these.
+//! Targets are relative to a frame defined in the program, `pose_trans(frame, p[...])`. The controllers have no numbers
+//! for frames and tools, so these appear only in remarks.
 
 use std::fmt::Write;
 
@@ -9,19 +9,19 @@ use super::spell::whole;
 use crate::robot_program::draft::{Bounds, Draft, DraftError, DraftPoint, Written};
 use crate::robot_program::number::fixed;
 
-/// Numbers of frames and tools, which remarks alone tell.
+/// Range of the numbers of frames and tools, which appear only in remarks.
 const MOST_FRAMES: u32 = 999;
 /// Decimals of joints, rad, of speeds, m/s, and of blends, m.
 const JOINT: usize = 6;
 const SPEED: usize = 6;
 const BLEND: usize = 6;
-/// What moves take beside their targets, below what the maker's manual takes when nothing is told `[recalled]`: m/s^2,
+/// Parameters of moves, below the defaults in the manufacturer's manual `[recalled]`: m/s^2,
 /// rad/s^2, rad/s.
 const ACCELERATION: &str = "a=1.2";
 const JOINT_PACE: &str = "a=1.4, v=0.5";
-/// A blend takes less than half of the way to either neighbour: controllers refuse circles that overlap.
+/// A blend radius is less than half of the distance to either neighbour: controllers refuse overlapping blends.
 const PART_OF_WAY: f64 = 0.45;
-/// Words of the language.
+/// Reserved words.
 const WORDS: &[&str] = &[
     "and",
     "break",
@@ -61,12 +61,12 @@ const WORDS: &[&str] = &[
 /// Writes a program.
 ///
 /// # Errors
-/// What the language or its controllers cannot hold.
+/// Values outside the ranges of the language or its controllers.
 pub fn write(draft: &Draft) -> Result<Written, DraftError> {
     let bounds = Bounds {
         language: "URScript",
         longest_name: 64,
-        names: "a letter, then letters, digits and underscores, at most 64 in all, and no word of the language",
+        names: "a letter, then letters, digits and underscores, at most 64 characters, and not a reserved word",
         joints: 6..=6,
         frames: 0..=MOST_FRAMES,
         tools: 0..=MOST_FRAMES,
@@ -80,7 +80,7 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
     }
     _ = writeln!(
         out,
-        "  # frame {} and tool {} as this program was made with them",
+        "  # frame {} and tool {} for which this program was made",
         draft.frame_number, draft.tool_number
     );
     out.push_str("  armill_frame = ");
@@ -95,7 +95,7 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
         let joints: Vec<String> = point.joints.iter().map(|joint| fixed(*joint, JOINT)).collect();
         let joints = joints.join(", ");
         _ = match point.speed {
-            // The first by joints: no posture is left to choose.
+            // The first move is given in joints: its posture is unique.
             _ if index == 0 => writeln!(out, "  movej([{joints}], {JOINT_PACE})"),
             None => writeln!(out, "  movej(get_inverse_kin({pose}, [{joints}]), {JOINT_PACE})"),
             Some(speed) => {
@@ -108,14 +108,16 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
     Ok(Written {
         files: vec![(format!("{name}.script"), out.into_bytes())],
         notes: vec![
-            "the tool is set by this program, its load is not: check the payload of the installation".to_owned(),
-            "the first move goes to its joints from wherever the robot stands: mind what is in between".to_owned(),
-            "blends are written no larger than 0.45 of the way to the next point, for controllers refuse more".to_owned(),
+            "this program sets the tool but not its load: check the payload of the installation".to_owned(),
+            "the first move goes to its joint positions from the robot's current posture: check for \
+             collisions".to_owned(),
+            "blends are limited to 0.45 of the distance to the next point, because controllers refuse larger \
+             ones".to_owned(),
         ],
     })
 }
 
-/// The blend of a point; none where it stops, at the ends, and where neighbours are too near.
+/// The blend of a point; none for an exact stop, at the ends, and if neighbours are too close.
 fn blend(points: &[DraftPoint], index: usize) -> String {
     let place = |index: usize| {
         points

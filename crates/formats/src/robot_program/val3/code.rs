@@ -1,4 +1,4 @@
-//! The code of a program as what happens in it: moves with their arguments, calls, choices, assignments.
+//! The code of a program as events: moves with their arguments, calls, control flow, assignments.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -6,27 +6,27 @@ use std::ops::Range;
 use super::tags::{Piece, attributes, pieces, value};
 use crate::robot_program::spelling::Part;
 
-/// Words that choose what runs and how often.
+/// Words of control flow.
 const CHOICES: [&str; 9] = [
     "if", "elseIf", "else", "while", "do", "until", "for", "switch", "case",
 ];
 
-/// What happens somewhere.
+/// An event with its line.
 #[derive(Clone, Debug)]
 pub(super) struct Event<'a> {
     pub line: u32,
-    pub what: What<'a>,
+    pub what: EventKind<'a>,
 }
 
-/// What happens.
+/// Kind of event.
 #[derive(Clone, Debug)]
-pub(super) enum What<'a> {
+pub(super) enum EventKind<'a> {
     /// A call of `mov..`.
     Move {
         word: Part<'a>,
         arguments: Vec<Part<'a>>,
     },
-    /// A call of `mov..` whose bracket is not closed.
+    /// A call of `mov..` with an unclosed bracket.
     Unclosed(Part<'a>),
     /// `call NAME(..)`.
     Call(&'a str),
@@ -40,13 +40,13 @@ pub(super) enum What<'a> {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Program<'a> {
     pub name: &'a str,
-    /// Its code, in pieces.
+    /// Its code, in parts.
     pub code: Vec<Part<'a>>,
-    /// Names that are given to it, or its own.
+    /// Names of its parameters and local variables.
     pub locals: BTreeSet<&'a str>,
 }
 
-/// The programs of a file; a file without tags is the code of one, under the name of the file.
+/// The programs of a file. A file without tags is the code of one program with the name of the file.
 pub(super) fn programs<'a>(text: &'a str, file: &'a str) -> Vec<Program<'a>> {
     if !text.contains("<![CDATA[") && !text.contains("<Code") {
         return vec![Program {
@@ -77,7 +77,7 @@ pub(super) fn programs<'a>(text: &'a str, file: &'a str) -> Vec<Program<'a>> {
     found
 }
 
-/// The line on which each of some places stands, asked for in their order.
+/// Line numbers of positions, which must be requested in ascending order.
 pub(super) struct LineCount<'a> {
     text: &'a str,
     at: usize,
@@ -89,7 +89,7 @@ impl<'a> LineCount<'a> {
         LineCount { text, at: 0, line: 1 }
     }
 
-    /// Of a place behind the one asked for before.
+    /// Line of a position after the previously requested one.
     pub fn of(&mut self, at: usize) -> u32 {
         let between = self.text.as_bytes().get(self.at..at).unwrap_or_default();
         let ends = between.iter().filter(|byte| **byte == b'\n').count();
@@ -99,7 +99,7 @@ impl<'a> LineCount<'a> {
     }
 }
 
-/// What happens in a piece of code, in its order.
+/// The events in a piece of code, in order.
 pub(super) fn events<'a>(code: Part<'a>, lines: &mut LineCount) -> Vec<Event<'a>> {
     let bytes = code.text.as_bytes();
     let mut events = Vec::new();
@@ -128,7 +128,7 @@ pub(super) fn events<'a>(code: Part<'a>, lines: &mut LineCount) -> Vec<Event<'a>
                 };
                 at = word.end;
                 if begins_line && assigned(code.text, word.clone()) {
-                    happens(What::Assign(said));
+                    happens(EventKind::Assign(said));
                 }
                 begins_line = false;
                 let behind = blanks(bytes, at);
@@ -138,24 +138,24 @@ pub(super) fn events<'a>(code: Part<'a>, lines: &mut LineCount) -> Vec<Event<'a>
                     .starts_with("mov");
                 if said == "call" {
                     let called = self::word(bytes, behind);
-                    happens(What::Call(&code.text[called.clone()]));
+                    happens(EventKind::Call(&code.text[called.clone()]));
                     at = called.end;
                 } else if moves && bytes.get(behind) == Some(&b'(') {
                     match arguments(code, behind) {
                         Some((arguments, end)) => {
-                            happens(What::Move {
+                            happens(EventKind::Move {
                                 word: place,
                                 arguments,
                             });
                             at = end;
                         }
                         None => {
-                            happens(What::Unclosed(place));
+                            happens(EventKind::Unclosed(place));
                             at = bytes.len();
                         }
                     }
                 } else if CHOICES.contains(&said) {
-                    happens(What::Choice(said));
+                    happens(EventKind::Choice(said));
                 }
             }
             _ => {
@@ -199,7 +199,7 @@ fn end_of_line(bytes: &[u8], at: usize) -> usize {
     at + rest.iter().take_while(|byte| **byte != b'\n').count()
 }
 
-/// Behind the text that begins here; it ends on its line.
+/// End of the text that begins here; it ends on its line.
 fn behind_text(bytes: &[u8], at: usize) -> usize {
     let mut end = at + 1;
     while let Some(byte) = bytes.get(end) {
@@ -213,7 +213,7 @@ fn behind_text(bytes: &[u8], at: usize) -> usize {
     bytes.len()
 }
 
-/// Whether what begins with this word is assigned to on this line.
+/// Whether the variable that begins with this word is assigned on this line.
 fn assigned(text: &str, word: Range<usize>) -> bool {
     let end = end_of_line(text.as_bytes(), word.end);
     let rest = &text[word.end..end];
@@ -224,7 +224,7 @@ fn assigned(text: &str, word: Range<usize>) -> bool {
     !right.starts_with('=') && !left.contains(['(', '"', '!', '<', '>', '/'])
 }
 
-/// The arguments in a bracket, and where it ends.
+/// The arguments in a bracket, and its end.
 fn arguments(code: Part<'_>, open: usize) -> Option<(Vec<Part<'_>>, usize)> {
     let bytes = code.text.as_bytes();
     let mut found = Vec::new();

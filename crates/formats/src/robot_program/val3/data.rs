@@ -8,16 +8,16 @@ use armill_core::robot::BranchPattern;
 
 use super::tags::{Attribute, Piece, attributes, pieces, value};
 use crate::convention::Convention;
+use crate::robot_program::messages::ProgramMessages;
 use crate::robot_program::posture::Configuration;
 use crate::robot_program::program::{Spelled, Target};
 use crate::robot_program::spelling::number;
 use crate::robot_program::text::ProgramText;
-use crate::robot_program::given::Told;
 
-/// Frames stand in frames so deep.
+/// Maximum nesting of frames.
 const DEEPEST: usize = 30;
 
-/// A greater `tmax` is no limit, mm/s.
+/// A `tmax` above this value is not a limit, mm/s.
 const NO_LIMIT: f64 = 99_999.0;
 
 /// A name with its key, `pPoint[0]`.
@@ -28,7 +28,7 @@ pub(super) struct Reference {
 }
 
 impl Reference {
-    /// Of an expression that is nothing else; no key means the first.
+    /// The reference in an expression that contains nothing else; without a key the first one.
     pub fn of(text: &str) -> Option<Reference> {
         let text = text.trim();
         let end = text
@@ -58,7 +58,7 @@ impl Reference {
     }
 }
 
-/// One of the data.
+/// A datum.
 #[derive(Clone, Debug)]
 pub(super) enum Datum {
     Point {
@@ -74,25 +74,25 @@ pub(super) enum Datum {
         pose: Isometry,
         father: String,
     },
-    /// Speed of the tip, m/s, if it is told.
+    /// Tip speed, m/s, if it is given.
     Speed(Option<f64>),
-    /// Something wrong that is told already.
+    /// Invalid, and reported as a problem.
     Refused,
 }
 
-/// All of them.
+/// All data.
 #[derive(Debug, Default)]
 pub(super) struct Data {
     list: BTreeMap<Reference, Datum>,
 }
 
 impl Data {
-    /// The one of this name.
+    /// The datum with this name.
     pub fn get(&self, reference: &Reference) -> Option<&Datum> {
         self.list.get(reference)
     }
 
-    /// Whether any has this name, whatever its key.
+    /// Whether any datum has this name, with any key.
     pub fn knows(&self, name: &str) -> bool {
         let first = Reference {
             name: name.to_owned(),
@@ -104,7 +104,7 @@ impl Data {
             .is_some_and(|(found, _)| found.name == name)
     }
 
-    /// Robot base to this frame, or flange to this tool; nothing where it leads to what is not told.
+    /// Robot base to this frame, or flange to this tool; `None` if a part of the chain is not known.
     pub fn pose_of(&self, father: &str) -> Option<Isometry> {
         let mut pose = Isometry::identity();
         let mut at = Reference::of(father)?;
@@ -123,21 +123,21 @@ impl Data {
         None
     }
 
-    /// Takes the data of one file.
-    pub fn take(&mut self, (text, index): (&ProgramText, usize), told: &mut Told) {
+    /// Reads the data of one file.
+    pub fn take(&mut self, (text, index): (&ProgramText, usize), messages: &mut ProgramMessages) {
         let mut of: Option<(String, String)> = None;
         for piece in pieces(text.text()) {
-            if told.is_full() {
+            if messages.is_full() {
                 return;
             }
             match piece {
                 Piece::Broken(part) => {
                     let message = "this tag does not end".to_owned();
-                    told.problem(
+                    messages.problem(
                         text,
                         part.range(),
                         message,
-                        "the file is cut off there, or a quote is missing",
+                        "check whether the file is cut off or a quote is missing",
                     );
                 }
                 Piece::Tag(tag) if tag.name == "Data" => {
@@ -161,24 +161,19 @@ impl Data {
                         index,
                         tag: tag.inside.range(),
                     };
-                    let Some(datum) = datum(&file, (kind, &reference, &said), told) else {
+                    let Some(datum) = datum(&file, (kind, &reference, &said), messages) else {
                         continue;
                     };
                     let shown = format!("{}[{}]", reference.name, reference.key);
                     if self.list.insert(reference, datum).is_some() {
                         let message = format!("{shown} is given twice");
-                        told.problem(
-                            text,
-                            tag.inside.range(),
-                            message,
-                            "give each value a key of its own",
-                        );
+                        messages.problem(text, tag.inside.range(), message, "give each value its own key");
                     }
                 }
                 Piece::Tag(tag) if matches!(tag.name, "valuePoint" | "valueJoint") => {
-                    let message = "the data of an older project (s6) are not read".to_owned();
-                    let hint = "convert the project to s7 or later with the maker's suite";
-                    told.problem(text, tag.inside.range(), message, hint);
+                    let message = "the data of an older project (s6) cannot be read".to_owned();
+                    let hint = "convert the project to s7 or later with the manufacturer's suite";
+                    messages.problem(text, tag.inside.range(), message, hint);
                     return;
                 }
                 _ => {}
@@ -197,13 +192,13 @@ struct File<'a> {
 fn datum(
     file: &File,
     (kind, reference, said): (&str, &Reference, &[Attribute]),
-    told: &mut Told,
+    messages: &mut ProgramMessages,
 ) -> Option<Datum> {
     let root = if kind == "tool" { "flange" } else { "world" };
     let father = value(said, "fatherId").unwrap_or(root).to_owned();
     match kind {
         "pointRx" | "frame" | "tool" => {
-            let Some(pose) = pose(file, (reference, said), told) else {
+            let Some(pose) = pose(file, (reference, said), messages) else {
                 return Some(Datum::Refused);
             };
             Some(match kind {
@@ -227,7 +222,7 @@ fn datum(
             let joints = numbers(
                 file,
                 (reference, said),
-                (&["j1", "j2", "j3", "j4", "j5", "j6"], told),
+                (&["j1", "j2", "j3", "j4", "j5", "j6"], messages),
             );
             Some(joints.map_or(Datum::Refused, |joints| {
                 Datum::Joints(Target::Joints(joints.into_iter().map(f64::to_radians).collect()))
@@ -237,7 +232,7 @@ fn datum(
             if value(said, "tmax").is_none() {
                 return Some(Datum::Speed(None));
             }
-            let tip = numbers(file, (reference, said), (&["tmax"], told));
+            let tip = numbers(file, (reference, said), (&["tmax"], messages));
             Some(tip.map_or(Datum::Refused, |tip| {
                 let limit = tip.first().copied().filter(|tip| *tip < NO_LIMIT && *tip >= 0.0);
                 Datum::Speed(limit.map(|tip| tip * 1e-3))
@@ -247,11 +242,11 @@ fn datum(
     }
 }
 
-/// The numbers of these attributes; those left out are zero.
+/// The numbers of these attributes; missing ones are zero.
 fn numbers(
     file: &File,
     (reference, said): (&Reference, &[Attribute]),
-    (keys, told): (&[&str], &mut Told),
+    (keys, messages): (&[&str], &mut ProgramMessages),
 ) -> Option<Vec<f64>> {
     let mut found = Vec::with_capacity(keys.len());
     for key in keys {
@@ -261,9 +256,12 @@ fn numbers(
         };
         let Some(value) = number(attribute.value.text) else {
             let Reference { name, key: at } = reference;
-            let message = format!("`{}` is no number: {key} of {name}[{at}]", attribute.value.text);
-            let hint = "numbers are written with a point: `x=\"100.5\"`";
-            given.problem(file.text, attribute.value.range(), message, hint);
+            let message = format!(
+                "`{}` is not a number: {key} of {name}[{at}]",
+                attribute.value.text
+            );
+            let hint = "write numbers with a decimal point: `x=\"100.5\"`";
+            messages.problem(file.text, attribute.value.range(), message, hint);
             return None;
         };
         found.push(value);
@@ -271,13 +269,20 @@ fn numbers(
     Some(found)
 }
 
-fn pose(file: &File, (reference, said): (&Reference, &[Attribute]), given: &mut Told) -> Option<Isometry> {
-    let numbers = numbers(file, (reference, said), (&super::KEYS, given))?;
+fn pose(
+    file: &File,
+    (reference, said): (&Reference, &[Attribute]),
+    messages: &mut ProgramMessages,
+) -> Option<Isometry> {
+    let numbers = numbers(file, (reference, said), (&super::KEYS, messages))?;
     match Convention::Staubli.pose(&numbers) {
         Ok(pose) => Some(pose),
         Err(error) => {
-            let message = format!("{}[{}] is no pose: {error}", reference.name, reference.key);
-            given.problem(
+            let message = format!(
+                "{}[{}] is not a valid pose: {error}",
+                reference.name, reference.key
+            );
+            messages.problem(
                 file.text,
                 file.tag.clone(),
                 message,

@@ -2,29 +2,29 @@
 
 use std::collections::BTreeMap;
 
-use super::code::{Event, LineCount, Program, What, events, programs};
+use super::code::{Event, EventKind, LineCount, Program, events, programs};
 use super::data::{Data, Datum, Reference};
 use super::tags::{Piece, attributes, pieces, value};
 use crate::document::Problems;
 use crate::robot_program::language::Language;
+use crate::robot_program::messages::ProgramMessages;
 use crate::robot_program::program::{Frame, Motion, RobotMove, RobotProgram, Speed, Target};
 use crate::robot_program::spelling::Part;
 use crate::robot_program::text::ProgramText;
-use crate::robot_program::given::Told;
 
-/// Programs that call programs are followed so deep.
+/// Maximum nesting of program calls.
 const DEEPEST: usize = 30;
 
-/// Longer expressions are cut where they are shown, in characters.
+/// Maximum length of expressions in messages, in characters.
 const LONGEST_SHOWN: usize = 60;
 
-/// The program that a project begins with.
+/// The main program of a project.
 const START: &str = "start";
 
-/// Reads a project: its data, and the program `start` with those that it calls as far as they are among `texts`.
+/// Reads a project: its data, and the program `start` with the programs that it calls if they are among `texts`.
 ///
 /// # Errors
-/// Every problem of the files, at most 200: what is missing by its name.
+/// All problems of the files, at most 200: missing items with their names.
 pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
     let mut reader = Reader {
         data: Data::default(),
@@ -33,14 +33,14 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
         names: BTreeMap::new(),
         done: Vec::new(),
         moves: Vec::new(),
-        given: Told::default(),
+        messages: ProgramMessages::default(),
     };
     let mut project = None;
     for (index, text) in texts.iter().enumerate() {
         match kind(text) {
             Kind::Data => {
                 reader.has_data = true;
-                reader.data.take((text, index), &mut reader.given);
+                reader.data.take((text, index), &mut reader.messages);
             }
             Kind::Project => {
                 project.get_or_insert(stem(text));
@@ -73,12 +73,12 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
             if let Some(text) = texts.first() {
                 let message = "no program (.pgx) is among these files".to_owned();
                 let hint = "give the whole folder of the project: .pjx, .dtx and .pgx";
-                reader.given.problem(text, 0..0, message, hint);
+                reader.messages.problem(text, 0..0, message, hint);
             }
         }
     }
-    let Reader { moves, given, .. } = reader;
-    let notes = given.finish()?;
+    let Reader { moves, messages, .. } = reader;
+    let notes = messages.finish()?;
     Ok(RobotProgram {
         language: Language::Val3,
         name,
@@ -118,15 +118,15 @@ struct Reader<'a> {
     data: Data,
     has_data: bool,
     programs: Vec<(&'a ProgramText, Program<'a>)>,
-    /// Which of the programs has a name; the first of those with the same.
+    /// Indices of the programs by name; the first one of equal names.
     names: BTreeMap<&'a str, usize>,
     done: Vec<bool>,
     moves: Vec<RobotMove>,
-    given: Told,
+    messages: ProgramMessages,
 }
 
-/// Where a move goes.
-struct Goal {
+/// Target of a move.
+struct Val3Target {
     target: Target,
     frame: Frame,
 }
@@ -138,9 +138,9 @@ impl<'a> Reader<'a> {
                 && tag.name == "Parameters"
                 && value(&attributes(tag.inside), "millimeterUnit") == Some("false")
             {
-                let message = "this project counts in inches, which is not read".to_owned();
-                let hint = "set its unit of length to mm (millimeterUnit) in the maker's suite";
-                self.given.problem(text, tag.inside.range(), message, hint);
+                let message = "this project uses inches, which is not supported".to_owned();
+                let hint = "set its unit of length to mm (millimeterUnit) in the manufacturer's suite";
+                self.messages.problem(text, tag.inside.range(), message, hint);
             }
         }
     }
@@ -154,7 +154,7 @@ impl<'a> Reader<'a> {
         let mut lines = LineCount::new(text.text());
         for code in &program.code {
             for event in events(*code, &mut lines) {
-                if self.given.is_full() {
+                if self.messages.is_full() {
                     return;
                 }
                 self.event((text, &program), &event, depth);
@@ -164,41 +164,40 @@ impl<'a> Reader<'a> {
 
     fn event(&mut self, (text, program): (&'a ProgramText, &Program), event: &Event, depth: usize) {
         match &event.what {
-            What::Move { word, arguments } => self.motion((text, program), (event, *word), arguments),
-            What::Unclosed(word) => {
+            EventKind::Move { word, arguments } => self.motion((text, program), (event, *word), arguments),
+            EventKind::Unclosed(word) => {
                 let message = format!("the bracket of `{}` is not closed", word.text);
-                self.given.problem(
+                self.messages.problem(
                     text,
                     word.range(),
                     message,
                     "close it: `movel(pPoint[0],tTool,mSpeed)`",
                 );
             }
-            What::Call(name) => {
+            EventKind::Call(name) => {
                 let known = self.names.get(name).copied();
                 match known {
                     Some(at) if !self.done[at] && depth < DEEPEST => self.program(at, depth + 1),
                     Some(_) => {
                         let what = format!("{name} is called again: it is read once");
-                        self.given.note((text, event.line), what);
+                        self.messages.note((text, event.line), what);
                     }
                     None => {
-                        let what = format!("{name} is called, but not given: what it does is passed over");
-                        self.given.note((text, event.line), what);
+                        let what = format!("{name} is called, but not given: it is ignored");
+                        self.messages.note((text, event.line), what);
                     }
                 }
             }
-            What::Choice(word) => {
-                let what = format!("{word} is passed over: what stands here runs once");
-                self.given.note((text, event.line), what);
+            EventKind::Choice(word) => {
+                let what = format!("{word} is ignored: the statements here are read once");
+                self.messages.note((text, event.line), what);
             }
-            What::Assign(name) => {
+            EventKind::Assign(name) => {
                 let first = Reference::of(name);
                 let used = first.and_then(|first| self.data.get(&first));
                 if used.is_some() {
-                    let what =
-                        format!("{name} is computed, and passed over: it is taken as the data tell it");
-                    self.given.note((text, event.line), what);
+                    let what = format!("the assignment to {name} is ignored: its value in the data is used");
+                    self.messages.note((text, event.line), what);
                 }
             }
         }
@@ -215,18 +214,18 @@ impl<'a> Reader<'a> {
             "movec" => 2,
             _ => {
                 let message = format!("the move `{}` is not followed", word.text);
-                let hint = "understood are movej, movel and movec of one robot";
-                self.given.problem(text, word.range(), message, hint);
+                let hint = "supported: movej, movel and movec of one robot";
+                self.messages.problem(text, word.range(), message, hint);
                 return;
             }
         };
         let (Some(goals), Some([tool, speed])) = (arguments.get(..goals), arguments.get(goals..)) else {
             let message = format!("`{}` with {} arguments", word.text, arguments.len());
-            let hint = "written are `movel(point,tool,mdesc)` and `movec(via,point,tool,mdesc)`";
-            self.given.problem(text, word.range(), message, hint);
+            let hint = "write `movel(point,tool,mdesc)` or `movec(via,point,tool,mdesc)`";
+            self.messages.problem(text, word.range(), message, hint);
             return;
         };
-        let mut found: Vec<Goal> = goals
+        let mut found: Vec<Val3Target> = goals
             .iter()
             .filter_map(|goal| self.goal((text, program), *goal))
             .collect();
@@ -245,9 +244,9 @@ impl<'a> Reader<'a> {
                 self.speed((text, event.line), *speed),
             ),
             (_, Some(_)) => {
-                let message = "the points of this arc count in different frames".to_owned();
-                let hint = "give both points of an arc one fatherId";
-                self.given.problem(text, word.range(), message, hint);
+                let message = "the points of this arc are relative to different frames".to_owned();
+                let hint = "give both points of an arc the same fatherId";
+                self.messages.problem(text, word.range(), message, hint);
                 return;
             }
         };
@@ -261,13 +260,13 @@ impl<'a> Reader<'a> {
         });
     }
 
-    /// Where an argument of a move goes.
-    fn goal(&mut self, (text, program): (&ProgramText, &Program), argument: Part) -> Option<Goal> {
+    /// The target in an argument of a move.
+    fn goal(&mut self, (text, program): (&ProgramText, &Program), argument: Part) -> Option<Val3Target> {
         let elsewhere = || {
             let name = argument.text.chars().take(LONGEST_SHOWN).collect();
-            Some(Goal {
+            Some(Val3Target {
                 target: Target::Elsewhere { name },
-                frame: Frame::EvaluateError,
+                frame: Frame::Unknown,
             })
         };
         let Some(reference) = Reference::of(argument.text) else {
@@ -275,29 +274,29 @@ impl<'a> Reader<'a> {
         };
         let (message, hint) = match self.data.get(&reference) {
             Some(Datum::Point { target, father }) => {
-                let frame = self.data.pose_of(father).map_or(Frame::EvaluateError, Frame::Told);
-                return Some(Goal {
+                let frame = self.data.pose_of(father).map_or(Frame::Unknown, Frame::Given);
+                return Some(Val3Target {
                     target: target.clone(),
                     frame,
                 });
             }
             Some(Datum::Joints(target)) => {
-                return Some(Goal {
+                return Some(Val3Target {
                     target: target.clone(),
-                    frame: Frame::EvaluateError,
+                    frame: Frame::Unknown,
                 });
             }
             Some(Datum::Refused) => return None,
             Some(_) => (
-                format!("`{}` is neither point nor joints", argument.text),
-                "a move goes to a pointRx or a jointRx",
+                format!("`{}` is neither a point nor joints", argument.text),
+                "a move needs a pointRx or a jointRx",
             ),
             None if program.locals.contains(reference.name.as_str()) || reference.name.contains(':') => {
                 return elsewhere();
             }
             None if !self.has_data => (
                 format!(
-                    "`{}` is not told: no data (.dtx) are among these files",
+                    "`{}` is not defined: there are no data (.dtx) among these files",
                     argument.text
                 ),
                 "give the whole folder of the project: .pjx, .dtx and .pgx",
@@ -308,10 +307,10 @@ impl<'a> Reader<'a> {
             ),
             None => (
                 format!("`{}` is not in the data (.dtx)", argument.text),
-                "give all data files of the project, as pointRx or jointRx",
+                "give all data files of the project",
             ),
         };
-        self.given.problem(text, argument.range(), message, hint);
+        self.messages.problem(text, argument.range(), message, hint);
         None
     }
 
@@ -320,11 +319,11 @@ impl<'a> Reader<'a> {
         given.map_or_else(
             || {
                 let name: String = argument.text.chars().take(LONGEST_SHOWN).collect();
-                let what = format!("the tool `{name}` is not told in the data");
-                self.given.note((text, line), what);
-                Frame::EvaluateError
+                let what = format!("the tool `{name}` is not in the data");
+                self.messages.note((text, line), what);
+                Frame::Unknown
             },
-            Frame::Told,
+            Frame::Given,
         )
     }
 
@@ -335,9 +334,9 @@ impl<'a> Reader<'a> {
             Some(Datum::Speed(None)) => Speed::Joints,
             _ => {
                 let name: String = argument.text.chars().take(LONGEST_SHOWN).collect();
-                let what = format!("the description of moves `{name}` is not told in the data");
-                self.given.note((text, line), what);
-                Speed::EvaluateError
+                let what = format!("the move description `{name}` is not in the data");
+                self.messages.note((text, line), what);
+                Speed::Unknown
             }
         }
     }

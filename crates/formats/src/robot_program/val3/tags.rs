@@ -1,16 +1,16 @@
-//! The tags of an XML text and their attributes, with their places; what stands between them is left alone.
+//! The tags of an XML text and their attributes, with their positions. The text between them is not evaluated.
 
 use crate::robot_program::spelling::Part;
 
-/// More attributes of a tag than these are not looked at: none of VAL3 has twenty.
+/// Maximum number of attributes of a tag that are read: no tag of VAL3 has twenty.
 const MOST_ATTRIBUTES: usize = 100;
 
 /// A tag.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tag<'a> {
-    /// Its name; `/Data` closes one.
+    /// Its name; `/Data` is a closing tag.
     pub name: &'a str,
-    /// Its attributes, as they stand.
+    /// Its attributes as text.
     pub inside: Part<'a>,
 }
 
@@ -21,18 +21,18 @@ pub(super) struct Attribute<'a> {
     pub value: Part<'a>,
 }
 
-/// What a text is made of.
+/// A piece of an XML text.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Piece<'a> {
     /// A tag.
     Tag(Tag<'a>),
-    /// `<![CDATA[` and what is in it.
+    /// `<![CDATA[` and its content.
     Verbatim(Part<'a>),
-    /// A tag that does not end.
+    /// An unclosed tag.
     Broken(Part<'a>),
 }
 
-/// The tags of a text, and what stands in CDATA; comments and what begins with `?` or `!` are left out.
+/// The tags of a text and the content of CDATA. Comments, declarations and processing instructions are left out.
 pub(super) fn pieces(text: &str) -> impl Iterator<Item = Piece<'_>> {
     let mut rest = Part { at: 0, text };
     std::iter::from_fn(move || {
@@ -67,7 +67,7 @@ pub(super) fn pieces(text: &str) -> impl Iterator<Item = Piece<'_>> {
                 rest = tag.from(end + 1);
                 let said = tag.text[1..end].trim_end_matches('/');
                 let name = said.split(|c: char| c.is_whitespace()).next().unwrap_or_default();
-                // A closing tag begins with its stroke.
+                // A closing tag begins with a slash.
                 let name_end = 1 + name.len().max(usize::from(said.is_empty()));
                 return Some(Piece::Tag(Tag {
                     name,
@@ -81,7 +81,7 @@ pub(super) fn pieces(text: &str) -> impl Iterator<Item = Piece<'_>> {
     })
 }
 
-/// Where the `>` stands that ends a tag: not one between quotes.
+/// Position of the `>` that ends a tag: not one between quotes.
 fn end_of_tag(text: &str) -> Option<usize> {
     let mut quote = None;
     text.bytes().enumerate().skip(1).find_map(|(at, byte)| {
@@ -136,7 +136,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn tags_have_names_and_attributes_with_their_places() {
+    fn tags_have_names_and_attributes_with_their_positions() {
         let text = "<?xml a='<'?><!-- <b> --><A x=\"1>2\" y = '3'/>t<![CDATA[a<b]]></A><B";
         let said: Vec<String> = pieces(text)
             .map(|piece| match piece {

@@ -1,4 +1,4 @@
-//! Projects of our own, what is wrong with broken ones, and drafts that are read as they were written.
+//! Our own projects, problems of wrong ones, and drafts that are read back.
 
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::BranchPattern;
@@ -114,9 +114,9 @@ fn every_move_of_a_project_is_read_with_its_data() {
             (motion, one.frame, one.tool, one.speed, one.line)
         })
         .collect();
-    let staubli = |numbers: [f64; 6]| Frame::Told(Convention::Staubli.pose(&numbers).unwrap());
-    let base = Frame::Told(Isometry::identity());
-    let part = Frame::Told(
+    let staubli = |numbers: [f64; 6]| Frame::Given(Convention::Staubli.pose(&numbers).unwrap());
+    let base = Frame::Given(Isometry::identity());
+    let part = Frame::Given(
         Convention::Staubli
             .pose(&[600.0, 0.0, 0.0, 0.0, 0.0, 90.0])
             .unwrap()
@@ -128,12 +128,12 @@ fn every_move_of_a_project_is_read_with_its_data() {
     assert_eq!(
         said,
         [
-            ("joint", Frame::EvaluateError, tool, Speed::Joints, 10),
+            ("joint", Frame::Unknown, tool, Speed::Joints, 10),
             ("straight", part, tool, Speed::Tip(0.05), 11),
             ("arc", part, base, Speed::Joints, 12),
-            ("straight", Frame::EvaluateError, tool, Speed::Tip(0.05), 14),
-            ("straight", Frame::EvaluateError, Frame::EvaluateError, Speed::EvaluateError, 16),
-            ("joint", Frame::EvaluateError, tool, Speed::Joints, 18),
+            ("straight", Frame::Unknown, tool, Speed::Tip(0.05), 14),
+            ("straight", Frame::Unknown, Frame::Unknown, Speed::Unknown, 16),
+            ("joint", Frame::Unknown, tool, Speed::Joints, 18),
             ("straight", base, tool, Speed::Tip(0.05), 20),
             ("joint", base, tool, Speed::Joints, 21),
             ("straight", part, tool, Speed::Tip(0.05), 2),
@@ -165,13 +165,13 @@ fn every_move_of_a_project_is_read_with_its_data() {
 }
 
 #[test]
-fn what_is_passed_over_and_matters_is_noted_with_its_line() {
+fn ignored_statements_that_matter_are_noted_with_their_lines() {
     let notes = program().notes;
     for words in [
-        "part/start.pgx, line 15: for is passed over",
-        "part/start.pgx, line 16: the tool `tOther` is not told",
-        "part/start.pgx, line 16: the description of moves `mOther` is not told",
-        "part/start.pgx, line 19: pPoint is computed",
+        "part/start.pgx, line 15: for is ignored",
+        "part/start.pgx, line 16: the tool `tOther` is not in the data",
+        "part/start.pgx, line 16: the move description `mOther` is not in the data",
+        "part/start.pgx, line 19: the assignment to pPoint is ignored",
         "part/start.pgx, line 23: prog:valve is called, but not given",
     ] {
         assert!(
@@ -183,12 +183,12 @@ fn what_is_passed_over_and_matters_is_noted_with_its_line() {
 }
 
 #[test]
-fn other_poses_change_nothing_but_the_numbers_of_points() {
+fn other_poses_change_only_the_numbers_of_points() {
     let program = program();
     let within = [MICROMETRE, angle_of_decimals(4)];
     let again = moved_alone(&program, &Isometry::identity(), within);
     let text = again.texts[1].text();
-    // Zeros that were left out stay out, orientations that stay are left as they stand.
+    // Zeros that were left out are not written, unchanged orientations are not rewritten.
     for line in [
         "<Value key=\"0\" x=\"-36.802\" y=\"-6.159\" z=\"500.000\" rx=\"135.407\" ry=\"80.416\" rz=\"46.453\" shoulder=\"righty\" \
          elbow=\"enegative\" wrist=\"wnegative\" fatherId=\"fPart[1]\" />\r\n",
@@ -214,20 +214,24 @@ fn other_poses_change_nothing_but_the_numbers_of_points() {
 }
 
 #[test]
-fn a_pose_is_spelled_with_what_was_left_out() {
+fn a_pose_is_written_with_attributes_that_were_left_out() {
     let pose = Convention::Staubli
         .pose(&[0.0, 2.0, 0.0, 0.0, 0.0, 90.0])
         .unwrap();
     let mut out = String::new();
-    spell((&pose, Anew::Pose), " key=\"3\" ", &mut out);
+    spell((&pose, Respelling::Pose), " key=\"3\" ", &mut out);
     assert_eq!(out, " key=\"3\" y=\"2.000\" rz=\"90.0000\" ");
     out.clear();
-    spell((&pose, Anew::Pose), " rz=\"1\" z=\"5\" wrist=\"wsame\"", &mut out);
+    spell(
+        (&pose, Respelling::Pose),
+        " rz=\"1\" z=\"5\" wrist=\"wsame\"",
+        &mut out,
+    );
     assert_eq!(out, " rz=\"90.0000\" z=\"0.000\" y=\"2.000\" wrist=\"wsame\"");
 }
 
 #[test]
-fn each_mistake_has_its_sentence() {
+fn every_mistake_has_its_message() {
     let project = |data: &str, code: &str| {
         let data = format!(
             "<Database><Datas>\n<Data name=\"p\" type=\"pointRx\">\n<Value key=\"0\" />\n{data}\n</Data>\n</Datas></Database>"
@@ -238,19 +242,19 @@ fn each_mistake_has_its_sentence() {
         (
             "<Value key=\"1\" x=\"1,5\" />",
             "",
-            "a.dtx:4:19: `1,5` is no number: x of p[1]",
+            "a.dtx:4:19: `1,5` is not a number: x of p[1]",
         ),
         (
             "<Value key=\"1\" x=\"1e12\" />",
             "",
-            "p[1] is no pose: 1e12 is beyond",
+            "p[1] is not a valid pose: 1e12 is beyond",
         ),
-        ("<Value key=\"0\" />", "", "p[0] is told twice"),
+        ("<Value key=\"0\" />", "", "p[0] is given twice"),
         ("<Value key=\"1", "", "a.dtx:4:1: this tag does not end"),
         (
             "<valuePoint index=\"0\">",
             "",
-            "the data of an older project (s6) are not read",
+            "the data of an older project (s6) cannot be read",
         ),
         (
             "",
@@ -261,12 +265,12 @@ fn each_mistake_has_its_sentence() {
         (
             "</Data><Data name=\"f\" type=\"frame\"><Value key=\"0\" />",
             "movel(f,flange,m)",
-            "`f` is neither point nor joints",
+            "`f` is neither a point nor joints",
         ),
         (
             "</Data><Data name=\"f\" type=\"frame\"><Value key=\"0\" /></Data><Data name=\"g\" type=\"pointRx\"><Value x=\"1\" fatherId=\"f\" /></Data><Data name=\"g2\" type=\"frame\"><Value key=\"0\" x=\"1\"/></Data><Data name=\"h\" type=\"pointRx\"><Value fatherId=\"g2\" />",
             "movec(g,h,flange,m)",
-            "the points of this arc count in different frames",
+            "the points of this arc are relative to different frames",
         ),
         ("", "movel(p)", "`movel` with 1 arguments"),
         ("", "movel(p,flange,m", "the bracket of `movel` is not closed"),
@@ -283,11 +287,11 @@ fn each_mistake_has_its_sentence() {
         );
     }
     let inches = PROJECT.replace("\"true\"", "\"false\"");
-    assert!(problems(&[("a.pjx", &inches), ("start.pgx", "")])[0].contains("this project counts in inches"));
+    assert!(problems(&[("a.pjx", &inches), ("start.pgx", "")])[0].contains("this project uses inches"));
     assert!(problems(&[("a.pjx", PROJECT)])[0].contains("no program (.pgx) is among these files"));
     let circle = "<Database><Data name=\"f\" type=\"frame\"><Value fatherId=\"f\" /></Data><Data name=\"p\" type=\"pointRx\"><Value fatherId=\"f\" /></Data></Database>";
     let program = read(texts(&[("a.dtx", circle), ("start.pgx", "x=movel(p,flange,m)")])).unwrap();
-    assert_eq!(program.moves[0].frame, Frame::EvaluateError);
+    assert_eq!(program.moves[0].frame, Frame::Unknown);
 }
 
 #[test]
@@ -317,7 +321,7 @@ fn a_long_program_is_split_and_read_as_one() {
 }
 
 #[test]
-fn moves_go_on_as_told_and_the_last_one_stops() {
+fn moves_blend_as_specified_and_the_last_one_stops() {
     let mut draft = one_draft();
     draft.points[0].blend = 0.001;
     draft.points = vec![draft.points[0].clone(); 3];
@@ -364,7 +368,7 @@ proptest! {
             far <= MICROMETRE && turned <= angle_of_decimals(4)
         };
         for (at, (one, point)) in program.moves.iter().zip(&draft.points).enumerate() {
-            let Frame::Told(tool) = one.tool else { panic!() };
+            let Frame::Given(tool) = one.tool else { panic!() };
             prop_assert!(near(&tool, &draft.flange_from_tool));
             match &one.target {
                 Target::Joints(joints) => {
@@ -375,7 +379,7 @@ proptest! {
                     }
                 }
                 Target::Pose { pose, branch, .. } => {
-                    let Frame::Told(frame) = one.frame else { panic!() };
+                    let Frame::Given(frame) = one.frame else { panic!() };
                     prop_assert!(at > 0 && near(pose, &point.frame_from_tool) && near(&frame, &draft.base_from_frame));
                     prop_assert_eq!(*branch, BranchPattern::from(point.branch.unwrap()));
                 }

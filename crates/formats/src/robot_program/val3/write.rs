@@ -1,4 +1,4 @@
-//! A draft as a project: data with frame, tool and points, programs that go to them, split where they are long.
+//! A draft as a project: data with frame, tool and points, and programs with the moves; long programs are split.
 
 use armill_core::frame::Isometry;
 
@@ -8,12 +8,12 @@ use crate::robot_program::number::fixed;
 use crate::robot_program::posture::Configuration;
 use crate::robot_program::spelling::in_pieces;
 
-/// Moves of one program. `[recalled]`
+/// Maximum number of moves in one program. `[recalled]`
 const MOST_MOVES: usize = 2000;
 
 const LONGEST_REMARK: usize = 100;
 
-/// Least speed that is not written as nothing, mm/s.
+/// Minimum speed that is not written as zero, mm/s.
 const SLOWEST: f64 = 0.0005;
 
 /// Decimals of joints, deg. Source: posts.
@@ -21,18 +21,18 @@ const JOINT_DECIMALS: usize = 5;
 
 const END: &str = "\r\n";
 
-/// The first bytes of a file, as the maker's suite writes them.
+/// The first bytes of a file, as the manufacturer's suite writes them.
 const HEAD: &str = "\u{feff}<?xml version=\"1.0\" encoding=\"utf-8\" ?>\r\n";
 
 /// Writes `draft` as the files of a project.
 ///
 /// # Errors
-/// What the language or its controllers cannot hold.
+/// Values outside the ranges of the language or its controllers.
 pub fn write(draft: &Draft) -> Result<Written, DraftError> {
     draft.check(&Bounds {
         language: "Staubli VAL3",
         longest_name: 31,
-        names: "a letter, then letters, digits and underscores, 31 characters in all",
+        names: "a letter, then letters, digits and underscores, at most 31 characters",
         joints: 6..=6,
         frames: 0..=99,
         tools: 0..=99,
@@ -82,21 +82,24 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
 fn notes(draft: &Draft) -> Vec<String> {
     let mut notes = vec![
         format!(
-            "frame fFrame[{}] and tool tTool[{}] are in the project's data, as told: see that they are those of the cell",
+            "frame fFrame[{}] and tool tTool[{}] are in the project's data as specified: check that they match the \
+             cell",
             draft.frame_number, draft.tool_number
         ),
-        "the files go into a folder of the project's name, for controllers with s7 or later".to_owned(),
-        "the first point is told in joints as this arm's controller counts them: check it slowly".to_owned(),
+        "copy the files to a folder with the project's name, for controllers with s7 or later".to_owned(),
+        "the first point is given in joints as this arm's controller reports them: test it at low speed"
+            .to_owned(),
     ];
     if draft.points.iter().any(|point| point.branch.is_none()) {
         notes.push(
-            "where no posture is told, points keep that of the point before (ssame, esame, wsame)".to_owned(),
+            "where no posture is given, points keep the posture of the previous point (ssame, esame, wsame)"
+                .to_owned(),
         );
     }
     notes
 }
 
-/// Speed and blend as the data tell them: mm/s, mm.
+/// Speed and blend as written in the data: mm/s, mm.
 type Pace = (Option<String>, String);
 
 fn pace(draft: &Draft, point: &DraftPoint) -> Pace {
@@ -106,7 +109,7 @@ fn pace(draft: &Draft, point: &DraftPoint) -> Pace {
     )
 }
 
-/// Every pace, once, in the order of their first points.
+/// Every combination of speed and blend, once, in the order of first use.
 fn speeds(draft: &Draft) -> Vec<Pace> {
     let mut found: Vec<Pace> = Vec::new();
     let mut known = std::collections::BTreeSet::new();
@@ -131,13 +134,13 @@ fn moves(draft: &Draft, speeds: &[Pace]) -> Vec<String> {
     std::iter::once(first).chain(rest).collect()
 }
 
-/// The lines of the program that a project begins with.
+/// The lines of the main program of a project.
 fn started(draft: &Draft, lines: &[String]) -> Vec<String> {
     let remarks = draft
         .remarks
         .iter()
         .flat_map(|remark| in_pieces(remark, LONGEST_REMARK));
-    // What would end the code is taken apart.
+    // Text that would end the code is split.
     let remarks = remarks.map(|piece| format!("// {}", piece.replace("]]>", "]] >")));
     let end = ["waitEndMove()".to_owned()];
     remarks.chain(lines.iter().cloned()).chain(end).collect()
@@ -217,7 +220,8 @@ fn data(draft: &Draft, speeds: &[Pace]) -> String {
     let described = |tip: &str, vel: u32, blend: &str| {
         let kind = if blend == "0.000" { "off" } else { "cartesian" };
         format!(
-            "accel=\"100\" vel=\"{vel}\" decel=\"100\" tmax=\"{tip}\" rmax=\"99999\" blend=\"{kind}\" leave=\"{blend}\" reach=\"{blend}\""
+            "accel=\"100\" vel=\"{vel}\" decel=\"100\" tmax=\"{tip}\" rmax=\"99999\" blend=\"{kind}\" \
+             leave=\"{blend}\" reach=\"{blend}\""
         )
     };
     array(

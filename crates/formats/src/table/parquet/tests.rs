@@ -18,7 +18,7 @@ fn a_table_reads_back_equal() {
 
 #[test]
 fn the_same_table_gives_the_same_bytes() {
-    // Hash maps order their keys anew each time: eight writings would show it.
+    // The order of hash maps changes from run to run: eight writings would show it.
     let first = write(&sample(), &metadata()).unwrap();
     for _ in 0..8 {
         assert_eq!(write(&sample(), &metadata()).unwrap(), first);
@@ -225,7 +225,7 @@ fn refused(bytes: &[u8]) -> String {
 }
 
 #[test]
-fn types_that_no_table_holds_are_refused_by_name() {
+fn types_that_no_table_can_represent_are_refused_by_name() {
     let short = foreign((PhysicalType::FLOAT, Repetition::REQUIRED), None, |column| {
         let ColumnWriter::FloatColumnWriter(column) = column else {
             panic!("of floats")
@@ -302,7 +302,7 @@ fn a_category_that_is_no_label_is_refused_and_so_are_columns_that_are_no_list() 
         "Parquet column `x` has \"b\" in row 1: not among its labels"
     );
     assert!(read(&of(&facts("[\"a\", \"b\"]"))).is_ok());
-    assert!(refused(&of("{}")).starts_with("the metadata `columns` of the Parquet file is no list"));
+    assert!(refused(&of("{}")).starts_with("the metadata `columns` of the Parquet file is not a list"));
 }
 
 #[test]

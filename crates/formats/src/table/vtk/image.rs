@@ -1,7 +1,7 @@
 //! A regular grid in three dimensions as VTK image data, `.vti`.
 //!
 //! The geometry is in the element itself, as origin, spacing and counts (`WholeExtent`, which names the last point, not
-//! their number); the file holds no positions.
+//! their number); the file contains no positions.
 
 use super::{PointArray, VtkError, check_arrays, check_positions, file, point_data};
 

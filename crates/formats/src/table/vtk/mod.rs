@@ -3,7 +3,7 @@
 //! - [`Image`]: a regular grid in three dimensions, `.vti`.
 //! - [`PolyData`]: points anywhere, joined to quadrilaterals and lines, `.vtp`.
 //!
-//! Here stand the values at the points and the bytes of an array; `image` and `poly_data` have the geometry.
+//! This module writes the values at the points and the bytes of an array; `image` and `poly_data` have the geometry.
 //!
 //! Lengths of the geometry are millimetres; arrays carry their unit in their name. Numbers at the points have 32 bits,
 //! seven digits: more cannot be seen. VTK has no missing values: they are written as NaN, and a second array
@@ -154,7 +154,7 @@ impl PointValues {
 
 /// Refuses arrays of the wrong length, of one name, or with values that are not finite.
 ///
-/// The names of masks count as well, so that an array `a_valid` beside `a` is refused.
+/// The names of masks are included, so that an array `a_valid` next to `a` is refused.
 fn check_arrays(arrays: &[PointArray], points: usize) -> Result<(), VtkError> {
     let mut names = BTreeSet::new();
     for PointArray { name, values } in arrays {
@@ -257,7 +257,7 @@ fn data_array<const BYTES: usize>(
     *out += "\n</DataArray>\n";
 }
 
-/// Text for an XML attribute; characters that XML cannot hold at all become a question mark.
+/// Text for an XML attribute; characters that XML cannot represent at all become a question mark.
 fn escaped(text: &str) -> String {
     let mut out = String::new();
     for character in text.chars() {

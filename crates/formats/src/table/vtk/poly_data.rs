@@ -1,6 +1,6 @@
 //! Points joined to quadrilaterals and lines, or alone, as VTK poly data, `.vtp`.
 //!
-//! | element | holds |
+//! | element | content |
 //! |---|---|
 //! | `Points` | positions, mm, 64 bits |
 //! | `Verts`, `Lines`, `Polys` | `connectivity`: points of all cells in a row; `offsets`: where in that row each cell ends |
@@ -16,7 +16,7 @@ use super::{PointArray, VtkError, check_arrays, check_positions, data_array, fil
 pub struct PolyData {
     /// In any one frame, which the file does not name.
     points_mm: Vec<[f64; 3]>,
-    /// Points that are shown by themselves.
+    /// Points that are shown separately.
     vertices: Vec<usize>,
     /// Each joins its points in order.
     lines: Vec<Vec<usize>>,

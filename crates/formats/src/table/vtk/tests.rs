@@ -74,7 +74,7 @@ impl ReadBack {
     }
 }
 
-/// A grid of 3 x 2 x 2 points in which every value tells its place.
+/// A grid of 3 x 2 x 2 points in which every value shows its place.
 fn sample_image() -> Image {
     let points = |value: fn(f64, f64, f64) -> f64| -> Vec<f64> {
         let places = (0..12).map(|index| (index % 3, index / 3 % 2, index / 6));
@@ -189,7 +189,7 @@ fn a_vector_has_three_components_side_by_side() {
 }
 
 #[test]
-fn a_name_may_hold_what_xml_reserves() {
+fn a_name_may_contain_what_xml_reserves() {
     let file = ReadBack::of(write_image(&sample_image()));
     assert_eq!(file.floats("PointData", "within <limit> & \"more\""), [1.0; 12]);
     let strange = array("a\u{0}\n\u{ffff}'b", PointValues::Scalar(vec![Some(2.0)]));

@@ -24,14 +24,14 @@ use super::statement::Statement;
 /// No hole has more pecks.
 const MOST_PECKS: f64 = 1000.0;
 
-/// A cycle that holds until CYCLE/OFF; lengths in m.
+/// A cycle that is active until CYCLE/OFF; lengths in m.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Cycle {
     /// Below the point, against the tool axis; not negative.
     depth: f64,
     /// Above the point: from here on it cuts.
     rapid_to: f64,
-    /// Above the point: here it goes from hole to hole; not below `rapid_to`.
+    /// Above the point: height of the moves between holes; not below `rapid_to`.
     retract_to: f64,
     /// `None`: that of FEDRAT.
     feed: Option<Feed>,
@@ -39,7 +39,7 @@ pub(super) struct Cycle {
     pecks: Option<[f64; 2]>,
 }
 
-/// What the parameters of a CYCLE tell, in its own units.
+/// The parameters of a CYCLE, in its own units.
 #[derive(Default)]
 struct Parameters {
     /// FEDTO.
@@ -56,7 +56,7 @@ struct Parameters {
 impl Interpreter<'_> {
     /// CYCLE/...
     ///
-    /// A cycle that is refused ends the one before, so that its points are not drilled as that.
+    /// A refused cycle also ends the previous one, so that its points are not drilled with it.
     pub fn cycle(&mut self, statement: &Statement) {
         let kind = statement.word_at(0);
         match kind.as_str() {
@@ -67,18 +67,18 @@ impl Interpreter<'_> {
             "BORE" | "REAM" | "TAP" => {
                 self.warn(
                     statement,
-                    format!("CYCLE/{kind} is followed as DRILL: up in rapid, whatever the spindle does"),
+                    format!("CYCLE/{kind} is read as DRILL: retract in rapid, spindle behaviour ignored"),
                 );
                 self.drill(statement, "DRILL");
             }
             _ => {
-                let message = format!("the cycle `{kind}` is not understood");
-                let hint = "understood are DRILL, DEEP, DEEP2, BORE, REAM and TAP; let the CAM system write others as GOTO";
+                let message = format!("the cycle `{kind}` is not supported");
+                let hint = "supported: DRILL, DEEP, DEEP2, BORE, REAM and TAP; let the CAM system write others as GOTO";
                 let span = statement
                     .parameters()
                     .next()
                     .map_or(statement.word_span(), |first| first.span);
-                self.tell(statement, span, message, hint);
+                self.report(statement, span, message, hint);
             }
         }
     }
@@ -93,11 +93,11 @@ impl Interpreter<'_> {
             let name = key.text.to_uppercase();
             let Some(value) = parameters.next() else {
                 let message = format!("`{name}` has no number");
-                self.tell(
+                self.report(
                     statement,
                     key.span,
                     message,
-                    "each word of a cycle is followed by its number",
+                    "each word of a cycle needs a number after it",
                 );
                 break;
             };
@@ -114,10 +114,10 @@ impl Interpreter<'_> {
                 "DWELL" => {}
                 "MMPM" | "IPM" | "MMPR" | "IPR" => given.feed = self.feed_in(statement, &name, value),
                 _ => {
-                    let message = format!("`{name}` is not understood in the cycle {kind}");
-                    let hint = "understood are FEDTO, RAPTO, RTRCTO, DWELL, MMPM, IPM, MMPR, IPR; in DEEP INCR, in \
+                    let message = format!("`{name}` is not supported in the cycle {kind}");
+                    let hint = "supported: FEDTO, RAPTO, RTRCTO, DWELL, MMPM, IPM, MMPR, IPR; in DEEP INCR, in \
                                 DEEP2 1STPECK and SUBPECK";
-                    self.tell(statement, key.span, message, hint);
+                    self.report(statement, key.span, message, hint);
                 }
             }
         }
@@ -127,11 +127,11 @@ impl Interpreter<'_> {
         }
         match made(&given, kind, self.dialect) {
             Ok(cycle) => self.cycle = Some(cycle),
-            Err((message, hint)) => self.tell(statement, statement.parameters_span(), message, hint),
+            Err((message, hint)) => self.report(statement, statement.parameters_span(), message, hint),
         }
     }
 
-    /// The moves of a hole whose top is `top`.
+    /// The moves of a hole with this top.
     ///
     /// In rapid to the retract height and the height where it begins to cut, then pecks or one cut down, then back in
     /// rapid.
@@ -143,8 +143,8 @@ impl Interpreter<'_> {
         axis: Option<Unit<Vector3<f64>>>,
     ) {
         let Some(up) = axis else {
-            let message = "a hole, but nothing tells the tool axis";
-            self.tell(
+            let message = "a hole, but the tool axis is not given";
+            self.report(
                 statement,
                 statement.parameters_span(),
                 message,
@@ -192,13 +192,14 @@ impl Interpreter<'_> {
     }
 }
 
-/// The cycle that was told, or what is wrong with it and what to do.
+/// The given cycle, or the problem and a hint.
 ///
 /// Refused are: no depth or height, nothing to cut below the point, a retract height below that where it begins to cut,
 /// more than 1000 pecks.
 fn made(given: &Parameters, kind: &str, dialect: Option<Dialect>) -> Result<Cycle, (String, &'static str)> {
     let missing = |name: &str| {
-        let hint = "a cycle tells how deep (FEDTO) and from which height above the point (RAPTO) it cuts";
+        let hint =
+            "a cycle needs its depth (FEDTO) and the height above the point where it begins to cut (RAPTO)";
         (format!("the cycle {kind} has no {name}"), hint)
     };
     let fed_to = given.depth.ok_or_else(|| missing("FEDTO"))?;
@@ -218,7 +219,7 @@ fn made(given: &Parameters, kind: &str, dialect: Option<Dialect>) -> Result<Cycl
     if retract_to < rapid_to {
         let hint = "RTRCTO and RAPTO are heights above the point";
         return Err((
-            format!("the cycle {kind} goes back lower (RTRCTO) than it begins to cut (RAPTO)"),
+            format!("the cycle {kind} retracts lower (RTRCTO) than it begins to cut (RAPTO)"),
             hint,
         ));
     }

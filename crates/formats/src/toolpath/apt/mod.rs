@@ -1,14 +1,14 @@
 //! Cutter locations: APT-CL or CLDATA as SolidWorks CAM writes it, and the CLSF of Siemens NX.
 //!
-//! Which words are followed, passed over and refused stands in `docs/guide/tool-path-words.md`;
+//! The words that are followed, ignored and refused are listed in `docs/guide/tool-path-words.md`;
 //! `tests/toolpath/words.rs` tries each.
 //!
 //! The two dialects differ where a GOTO leaves the tool axis out: SolidWorks means 0,0,1, NX the one before. They are
 //! known by `CSYS`, `TRNTYP` and by `TOOL PATH`, `TLDATA`, `MSYS`. The path is in world coordinates (SolidWorks), in
-//! those of the first MSYS (NX), in the only ones there are otherwise. Cutter compensation is passed over: the points
-//! are taken as they stand.
+//! those of the first MSYS (NX), in the only ones there are otherwise. Cutter compensation is ignored: the points
+//! are used unchanged.
 //!
-//! In reading order: `statement` takes lines apart; `modal` holds what lasts; `words` says what each word does,
+//! In reading order: `statement` splits lines; `modal` stores modal settings; `words` evaluates each word,
 //! `systems` and `tool` do so for frames and cutters, `motion` and `cycle` for what moves.
 //!
 //! Source: ISO 4343, ISO 3592; how both programs write, read in their files.
@@ -50,9 +50,9 @@ impl fmt::Display for Dialect {
     }
 }
 
-/// What a user may say of a file where it is silent.
+/// Options for a file that does not give these values.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Wanted {
+pub struct AptReadOptions {
     /// The unit of a file without UNITS line; a file that has one keeps it.
     pub unit: Option<LengthUnit>,
     /// The dialect, whatever the file looks like.
@@ -61,15 +61,15 @@ pub struct Wanted {
 
 /// Reads the cutter locations in `reader`, and gives `out` their steps one by one; `path` is what problems show.
 ///
-/// With problems the steps given so far are worth nothing.
+/// If there are problems, the steps given so far are not valid.
 ///
 /// # Errors
 /// Every problem of the file, at most 200: words whose meaning is not certain, numbers that are none, arcs whose ends
-/// have different radii, words that move the tool and are not understood, lengths whose unit nobody told.
+/// have different radii, unsupported words that move the tool, lengths without a unit.
 pub fn read(
     path: &str,
     reader: impl BufRead,
-    requested: &Wanted,
+    requested: &AptReadOptions,
     out: &mut dyn FnMut(Step),
 ) -> Result<Summary, Problems> {
     let mut statements = Statements::new(path, reader);

@@ -1,6 +1,6 @@
-//! What holds until something else is said: unit, dialect, frame, axis, feed, spindle, tool, cycle.
+//! Modal settings: unit, dialect, frame, axis, feed, spindle, tool, cycle.
 //!
-//! | what | held | given to the core in |
+//! | what | stored | given to the core in |
 //! |---|---|---|
 //! | cutter, last MSYS | in the unit of the file, until a move needs it: UNITS may come later | m |
 //! | points, heights of cycles | m, in the frame of the path | m |
@@ -19,7 +19,7 @@ use armill_core::path::{Move, Operation, Step};
 use super::cycle::Cycle;
 use super::motion::Circle;
 use super::statement::{Parameter, Statement};
-use super::{Dialect, LengthUnit, Wanted};
+use super::{AptReadOptions, Dialect, LengthUnit};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
 use crate::toolpath::direction::LARGEST;
 use crate::toolpath::notes::Notes;
@@ -29,7 +29,7 @@ const MOST_WORDS: usize = 1000;
 /// Longer words are cut where they are counted, in characters.
 const LONGEST_WORD: usize = 120;
 
-/// How feed is told.
+/// Unit of the feed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Feed {
     /// m/s
@@ -40,10 +40,10 @@ pub(super) enum Feed {
 
 /// Follows a program word by word.
 pub(super) struct Interpreter<'a> {
-    /// The path that problems show.
+    /// The file name shown in problems.
     pub name: &'a str,
-    /// What the user says where the file is silent.
-    pub requested: &'a Wanted,
+    /// Options for a file that does not give these values.
+    pub requested: &'a AptReadOptions,
     /// Takes the steps.
     out: &'a mut dyn FnMut(Step),
     /// Those found so far.
@@ -54,13 +54,13 @@ pub(super) struct Interpreter<'a> {
     warnings: Notes<String>,
     /// Points named so far: GOTO, FROM and GOHOME.
     pub points: u64,
-    /// The unit of length, where it was told or needed.
+    /// The unit of length, as soon as it is given or needed.
     pub unit: Option<LengthUnit>,
-    /// As it was wanted, or as the first word shows that one of them alone writes.
+    /// The option, or the dialect of the first word that only one of them uses.
     pub dialect: Option<Dialect>,
-    /// Whether the missing unit has been told already.
-    unit_asked: bool,
-    /// Cutter in the unit of the file, until a move needs it: the unit may be told later.
+    /// Whether the missing unit has been reported.
+    unit_reported: bool,
+    /// Cutter in the unit of the file, until a move needs it: the unit may be given later.
     pub cutter: [Option<f64>; 2],
     /// The one at hand, its cutter aside; line 0 until a word begins it.
     pub operation: Operation,
@@ -68,11 +68,11 @@ pub(super) struct Interpreter<'a> {
     begins: bool,
     /// INSERT right before a CUTTER names the tool.
     pub inserted: Option<String>,
-    /// Speed that SPINDL/ON comes back to, rad/s.
-    pub told_spindle: Option<f64>,
-    /// Of moves that are no rapids, until another is told.
+    /// Speed that SPINDL/ON restores, rad/s.
+    pub last_spindle: Option<f64>,
+    /// Feed of moves that are not rapid, until the next FEDRAT.
     pub feed: Option<Feed>,
-    /// Unit of a FEDRAT that tells none.
+    /// Unit of a FEDRAT without a unit.
     pub feed_mode: Option<&'static str>,
     /// Whether the next GOTO is a rapid.
     pub rapid: bool,
@@ -80,25 +80,29 @@ pub(super) struct Interpreter<'a> {
     pub circle: Option<Circle>,
     /// What every GOTO drills at present.
     pub cycle: Option<Cycle>,
-    /// What was told of the tool axis, in the frame of the path.
+    /// Last given tool axis, in the frame of the path.
     pub axis: Option<Unit<Vector3<f64>>>,
-    /// Where the tip stands, m.
+    /// Position of the tip, m.
     pub at: Option<Point3<f64>>,
     /// The last MSYS, in the unit of the file, until a point needs it.
     pub system: Option<(Vector3<f64>, UnitQuaternion<f64>)>,
-    /// Where the first MSYS lies, m.
+    /// Pose of the first MSYS, m.
     pub world_from_path: Option<Isometry>,
     /// Path from the system that GOTO counts in.
     pub path_from_here: Isometry,
     /// Whether TRNTYP said that points are in the world.
-    pub world_told: bool,
+    pub in_world: bool,
     /// Whether FINI came.
     pub ended: bool,
 }
 
 impl<'a> Interpreter<'a> {
     /// Before the first statement.
-    pub fn new(name: &'a str, requested: &'a Wanted, out: &'a mut dyn FnMut(Step)) -> Interpreter<'a> {
+    pub fn new(
+        name: &'a str,
+        requested: &'a AptReadOptions,
+        out: &'a mut dyn FnMut(Step),
+    ) -> Interpreter<'a> {
         Interpreter {
             name,
             requested,
@@ -109,12 +113,12 @@ impl<'a> Interpreter<'a> {
             points: 0,
             unit: None,
             dialect: requested.dialect,
-            unit_asked: false,
+            unit_reported: false,
             cutter: [None; 2],
             operation: Operation::default(),
             begins: true,
             inserted: None,
-            told_spindle: None,
+            last_spindle: None,
             feed: None,
             feed_mode: None,
             rapid: false,
@@ -125,7 +129,7 @@ impl<'a> Interpreter<'a> {
             system: None,
             world_from_path: None,
             path_from_here: Isometry::identity(),
-            world_told: false,
+            in_world: false,
             ended: false,
         }
     }
@@ -139,7 +143,7 @@ impl<'a> Interpreter<'a> {
             self.problems.push(circle.without_end.clone());
         }
         if self.points == 0 && self.problems.is_empty() {
-            let message = "no GOTO in this file: it moves no tool";
+            let message = "the file has no GOTO and moves no tool";
             let hint = "cutter locations have lines such as `GOTO/10.,20.,-5.`";
             self.problems.push(Problem::of_file(self.name, message, hint));
         }
@@ -147,12 +151,12 @@ impl<'a> Interpreter<'a> {
         let warnings = self.warnings.iter();
         let warnings = warnings.map(|(sentence, noted)| format!("{sentence} ({noted})"));
         let ignored = self.ignored.iter();
-        let ignored = ignored.map(|(word, noted)| format!("{word} was passed over {noted}"));
+        let ignored = ignored.map(|(word, noted)| format!("{word} was ignored {noted}"));
         Ok(warnings.chain(ignored).collect())
     }
 
     /// Keeps a problem, unless there are enough already.
-    pub fn tell(
+    pub fn report(
         &mut self,
         statement: &Statement,
         span: Range<usize>,
@@ -206,21 +210,22 @@ impl<'a> Interpreter<'a> {
         (self.out)(Step::Move(next));
     }
 
-    /// Metres of the unit of length; asks for it once if nobody told it.
+    /// Metres per unit of length. Reports a missing unit once.
     ///
-    /// Where nobody did, a file has a problem, and mm stand in so that the rest is looked at.
+    /// A missing unit is a problem; mm is then used so that the rest of the file can be checked.
     pub fn metres(&mut self, statement: &Statement) -> f64 {
         self.unit = self.unit.or(self.requested.unit);
-        if self.unit.is_none() && !self.unit_asked {
-            self.unit_asked = true;
-            let message = "a length, but nothing before it tells the unit of this file";
-            let hint = "say whether it is in mm or inch (unit = \"mm\" or \"inch\"), or add the line `UNITS/MM` at its beginning";
-            self.tell(statement, statement.parameters_span(), message, hint);
+        if self.unit.is_none() && !self.unit_reported {
+            self.unit_reported = true;
+            let message = "a length, but the unit of this file has not been given before";
+            let hint = "give the unit (unit = \"mm\" or \"inch\"), or add the line `UNITS/MM` at the beginning of the \
+                file";
+            self.report(statement, statement.parameters_span(), message, hint);
         }
         self.unit.unwrap_or(LengthUnit::Millimetre).metres()
     }
 
-    /// What a word tells of whose file this is.
+    /// The dialect to which a word belongs.
     ///
     /// Words of both are a problem, unless the user has said whose it is.
     pub fn evidence(&mut self, statement: &Statement, dialect: Dialect) {
@@ -231,18 +236,18 @@ impl<'a> Interpreter<'a> {
                     "`{}` is a word of {dialect}, but those before are of {known}",
                     statement.word
                 );
-                self.tell(
+                self.report(
                     statement,
                     statement.word_span(),
                     message,
-                    "say whose it is: dialect = \"nx\" or \"solidworks\"",
+                    "give the dialect: dialect = \"nx\" or \"solidworks\"",
                 );
             }
             Some(_) => {}
         }
     }
 
-    /// All parameters as numbers; `None` if one is none, which is told.
+    /// All parameters as numbers; `None` if one is not a number, which is reported.
     pub fn numbers(&mut self, statement: &Statement) -> Option<Vec<f64>> {
         let before = self.problems.len();
         let numbers: Vec<f64> = statement
@@ -252,37 +257,37 @@ impl<'a> Interpreter<'a> {
         (self.problems.len() == before).then_some(numbers)
     }
 
-    /// A parameter as a number; `None` if it is none, which is told.
+    /// A parameter as a number; `None` if it is not a number, which is reported.
     pub fn number(&mut self, statement: &Statement, parameter: &Parameter) -> Option<f64> {
         match parameter.text.parse::<f64>() {
             Ok(number) if number.abs() <= LARGEST => Some(number),
             Ok(_) => {
                 let message = format!("`{}` is not a number from -1e9 to 1e9", parameter.text);
-                self.tell(
+                self.report(
                     statement,
                     parameter.span.clone(),
                     message,
-                    "is a decimal point missing?",
+                    "check whether a decimal point is missing",
                 );
                 None
             }
             Err(_) if parameter.text.is_empty() => {
                 let at = parameter.span.clone();
-                self.tell(
+                self.report(
                     statement,
                     at,
                     "a number is missing here",
-                    "two commas stand side by side, or one at the end",
+                    "there are two commas in a row, or one at the end",
                 );
                 None
             }
             Err(_) => {
                 let message = format!("`{}` is not a number", parameter.text);
                 let hint = format!(
-                    "`{}` takes numbers such as `12.5`, separated by commas",
+                    "`{}` needs numbers such as `12.5`, separated by commas",
                     statement.word
                 );
-                self.tell(statement, parameter.span.clone(), message, &hint);
+                self.report(statement, parameter.span.clone(), message, &hint);
                 None
             }
         }

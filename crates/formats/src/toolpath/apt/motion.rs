@@ -1,6 +1,6 @@
 //! GOTO and CIRCLE as lines and arcs.
 //!
-//! An arc turns by the right hand about its axis `n`, from where the tip stands (`a` from the centre, across the axis)
+//! An arc is right-handed about its axis `n`, from the position of the tip (`a` from the centre, across the axis)
 //! to the next GOTO (`b`): `sweep = atan2(n . (a x b), a . b)`, between 0 and a full turn; where both are in the same
 //! direction from the centre it is a full turn.
 
@@ -26,7 +26,7 @@ const TURN_SLACK: f64 = 1e-3;
 const MOST_TURNS: f64 = 10_000.0;
 
 /// A tool axis, where one is written.
-type ToldAxis = Option<Unit<Vector3<f64>>>;
+type WrittenAxis = Option<Unit<Vector3<f64>>>;
 
 /// What a CIRCLE says, until the GOTO that ends it.
 #[derive(Clone, Debug)]
@@ -39,7 +39,7 @@ pub(super) struct Circle {
     radius: Option<f64>,
     /// Turns of a helix, where they are written.
     turns: Option<f64>,
-    /// What to tell if nothing follows.
+    /// Problem to report if no GOTO follows.
     pub without_end: Problem,
 }
 
@@ -57,12 +57,12 @@ impl Interpreter<'_> {
         let axis = self.axis_of(statement, given);
         if let Some(cycle) = self.cycle.clone() {
             if rapid || circle.is_some() {
-                let message = "RAPID or CIRCLE within a drilling cycle: is this a hole?";
-                self.tell(
+                let message = "RAPID or CIRCLE within a drilling cycle: not known whether this is a hole";
+                self.report(
                     statement,
                     statement.word_span(),
                     message,
-                    "end the cycle before with `CYCLE/OFF`",
+                    "end the cycle before it with `CYCLE/OFF`",
                 );
                 return;
             }
@@ -133,10 +133,11 @@ impl Interpreter<'_> {
             numbers.as_slice(),
             matches!(numbered, 6 | 7 | 11) && after == usize::from(numbered < names.len()),
         ) else {
-            let message = format!("{} parameters of a CIRCLE", names.len());
-            let hint = "centre and axis: `CIRCLE/x,y,z,i,j,k`; or centre, axis, radius, two tolerances, diameter and \
+            let message = format!("a CIRCLE has {} parameters", names.len());
+            let hint = "write centre and axis: `CIRCLE/x,y,z,i,j,k`; or centre, axis, radius, two tolerances, \
+                diameter and \
                         corner of the tool, for a helix followed by `TIMES,n`";
-            self.tell(statement, statement.parameters_span(), message, hint);
+            self.report(statement, statement.parameters_span(), message, hint);
             return;
         };
         let metres = self.metres(statement);
@@ -146,7 +147,7 @@ impl Interpreter<'_> {
         let turns = (after == 1).then(|| rest.last().copied()).flatten();
         if let Some(turns) = turns.filter(|turns| !(*turns > 0.0 && *turns <= MOST_TURNS)) {
             let message = format!("a helix of {turns} turns is not between 0 and {MOST_TURNS}");
-            self.tell(
+            self.report(
                 statement,
                 statement.parameters_span(),
                 message,
@@ -165,22 +166,22 @@ impl Interpreter<'_> {
         });
     }
 
-    /// How fast a GOTO that is no rapid goes.
+    /// Speed of a GOTO that is not rapid.
     ///
     /// Feed a turn is taken with the spindle as it turns here; without one it is a problem.
     pub fn pace(&mut self, statement: &Statement) -> Pace {
         match self.feed {
-            None => Pace::EvaluateError,
+            None => Pace::Unknown,
             Some(Feed::Speed(speed)) => Pace::Feed(speed),
             Some(Feed::PerTurn(length)) => match self.operation.spindle.filter(|speed| *speed != 0.0) {
                 Some(speed) => Pace::Feed(length * speed.abs() / TAU),
                 None => {
-                    // Told once for each FEDRAT.
+                    // Reported once for each FEDRAT.
                     self.feed = None;
-                    let message = "feed is told for each turn, but the spindle does not turn here";
-                    let hint = "a `SPINDL/n,RPM,CLW` is missing before";
-                    self.tell(statement, statement.word_span(), message, hint);
-                    Pace::EvaluateError
+                    let message = "the feed is per revolution, but the spindle does not turn here";
+                    let hint = "add a `SPINDL/n,RPM,CLW` before it";
+                    self.report(statement, statement.word_span(), message, hint);
+                    Pace::Unknown
                 }
             },
         }
@@ -189,15 +190,15 @@ impl Interpreter<'_> {
     /// The point of a GOTO in the frame of the path, m, and the axis it writes.
     ///
     /// Refused are other counts than three and six, and a direction that has not length 1.
-    fn point_and_axis(&mut self, statement: &Statement) -> Option<(Point3<f64>, ToldAxis)> {
+    fn point_and_axis(&mut self, statement: &Statement) -> Option<(Point3<f64>, WrittenAxis)> {
         let numbers = self.numbers(statement)?;
         let (point, axis) = match numbers.as_slice() {
             [x, y, z] => ([*x, *y, *z], None),
             [x, y, z, i, j, k] => ([*x, *y, *z], Some(self.direction(statement, [*i, *j, *k])?)),
             _ => {
-                let message = format!("{} numbers of a {}", numbers.len(), statement.word);
-                let hint = "three of the point, or six with the tool axis";
-                self.tell(statement, statement.parameters_span(), message, hint);
+                let message = format!("a {} has {} numbers", statement.word, numbers.len());
+                let hint = "write three numbers for the point, or six with the tool axis";
+                self.report(statement, statement.parameters_span(), message, hint);
                 return None;
             }
         };
@@ -205,18 +206,18 @@ impl Interpreter<'_> {
         Some((self.path_from_here * (Point3::from(point) * metres), axis))
     }
 
-    /// The tool axis at a point that writes `told`, as the dialect has it.
+    /// The tool axis at a point with this written axis, according to the dialect.
     ///
     /// Where the dialect is not known, leaving out an axis that was written before is a problem: each means another.
-    fn axis_of(&mut self, statement: &Statement, given: ToldAxis) -> Option<Unit<Vector3<f64>>> {
+    fn axis_of(&mut self, statement: &Statement, given: WrittenAxis) -> Option<Unit<Vector3<f64>>> {
         match (given, self.dialect) {
             (Some(axis), _) => self.axis = Some(axis),
             (None, Some(Dialect::Nx)) => {}
             (None, Some(Dialect::SolidWorks)) => self.axis = Some(Vector3::z_axis()),
             (None, None) if self.axis.is_some() => {
-                let message = "no tool axis here, but one before: is it the same, or 0,0,1?";
-                let hint = "dialect = \"nx\" keeps the axis, dialect = \"solidworks\" means 0,0,1";
-                self.tell(statement, statement.parameters_span(), message, hint);
+                let message = "no tool axis here, but one before: ambiguous between the same axis and 0,0,1";
+                let hint = "dialect = \"nx\" keeps the axis, dialect = \"solidworks\" uses 0,0,1";
+                self.report(statement, statement.parameters_span(), message, hint);
                 self.axis = None;
             }
             (None, None) => {}
@@ -231,21 +232,21 @@ impl Interpreter<'_> {
             Err(length) => {
                 let [i, j, k] = ijk;
                 let message = format!("the direction {i},{j},{k} has a length of {length:.4}, not 1");
-                let hint = "three numbers of the point come first, then three of a direction of length 1";
-                self.tell(statement, statement.parameters_span(), message, hint);
+                let hint = "write the point first, then a direction of length 1";
+                self.report(statement, statement.parameters_span(), message, hint);
                 None
             }
         }
     }
 
-    /// The arc from where the tip stands to `end`.
+    /// The arc from the position of the tip to `end`.
     ///
     /// Refused are an arc from nowhere, ends and written radius that differ by more than [`RADIUS_SLACK`], and a helix
     /// whose turns do not end where it ends. What a helix climbs is the distance of both ends along its axis.
     fn arc(&mut self, statement: &Statement, circle: &Circle, end: Point3<f64>) -> Option<Arc> {
         let Some(from) = self.at else {
-            let message = "an arc from nowhere: no GOTO before it says where the tip stands";
-            self.tell(statement, statement.word_span(), message, "begin with a GOTO");
+            let message = "an arc without a start: no GOTO before it gives the position of the tip";
+            self.report(statement, statement.word_span(), message, "begin with a GOTO");
             return None;
         };
         let across = |point: Point3<f64>| {
@@ -270,8 +271,8 @@ impl Interpreter<'_> {
                 mm(a.norm()),
                 mm(b.norm())
             );
-            let hint = "the CIRCLE before gives the centre; both ends lie on the circle";
-            self.tell(statement, statement.parameters_span(), message, hint);
+            let hint = "the CIRCLE before gives the centre; both ends must be on the circle";
+            self.report(statement, statement.parameters_span(), message, hint);
             return None;
         }
         let turned = circle.axis.dot(&a.cross(&b)).atan2(a.dot(&b));
@@ -291,9 +292,10 @@ impl Interpreter<'_> {
                         "a helix of {turns} turns that ends {:.3} deg from where it begins",
                         angle.to_degrees()
                     );
-                    let hint = "whether the part of a turn comes on top is not certain: write the helix as full turns, \
+                    let hint = "it is ambiguous whether the part of a turn is additional: write the helix as full \
+                        turns, \
                                 or as lines";
-                    self.tell(statement, statement.parameters_span(), message, hint);
+                    self.report(statement, statement.parameters_span(), message, hint);
                     return None;
                 }
                 sweep

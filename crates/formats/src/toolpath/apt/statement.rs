@@ -26,13 +26,13 @@ const FREE_TEXT: [&str; 6] = ["PARTNO", "PPRINT", "INSERT", "REMARK", "LETTER", 
 pub(super) struct Statement {
     /// Its major word, in capitals.
     pub word: String,
-    /// What stands behind it, as one text.
+    /// The text after it.
     text: String,
     /// Its place in the text.
     word_span: Range<usize>,
-    /// Places in the text, blanks left out; an empty one between two commas is kept.
+    /// Ranges in the text, without blanks; an empty one between two commas is kept.
     parameters: Vec<Range<usize>>,
-    /// The lines it stands on, and where each begins in the text.
+    /// Its lines, and the offset of each in the text.
     pieces: Vec<(usize, Line)>,
 }
 
@@ -67,7 +67,7 @@ impl Statement {
             .map_or_else(String::new, |parameter| parameter.text.to_uppercase())
     }
 
-    /// What stands behind its word, as people wrote it.
+    /// The text after its word, as written.
     pub fn free_text(&self) -> &str {
         self.text
             .get(self.word_span.end..)
@@ -91,7 +91,7 @@ impl Statement {
 
     /// A problem at a place of this statement.
     ///
-    /// It stands on the line on which `span` begins, and ends there.
+    /// It is reported on the line where `span` begins.
     pub fn problem(&self, name: &str, span: Range<usize>, message: impl Into<String>, hint: &str) -> Problem {
         let after = self.pieces.partition_point(|(start, _)| *start <= span.start);
         // The first piece begins at 0, so that one always begins before.
@@ -120,10 +120,10 @@ impl<R: BufRead> Statements<R> {
 
     /// The next statement; `None` behind the last.
     ///
-    /// Lines without anything but blanks and remarks are passed over.
+    /// Lines without anything but blanks and remarks are ignored.
     ///
     /// # Errors
-    /// What is no text, and a statement without end.
+    /// A file that is not text, and an unfinished statement.
     pub fn next(&mut self) -> Result<Option<Statement>, Problems> {
         let mut text = String::new();
         let mut pieces: Vec<(usize, Line)> = Vec::new();
@@ -156,14 +156,14 @@ impl<R: BufRead> Statements<R> {
 fn unended(name: &str, pieces: &[(usize, Line)]) -> Problem {
     let (_, first) = &pieces[0];
     let message = match pieces.len() {
-        MOST_LINES => format!("this statement goes over more than {MOST_LINES} lines"),
+        MOST_LINES => format!("this statement has more than {MOST_LINES} lines"),
         _ => "this statement is continued by `$`, but the file ends".to_owned(),
     };
     first.problem(
         name,
         0..first.text.len(),
         message,
-        "a `$` at the end of a line continues it on the next",
+        "a `$` at the end of a line continues the statement on the next line",
     )
 }
 

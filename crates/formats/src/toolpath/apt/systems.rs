@@ -5,9 +5,9 @@
 //!
 //! | word | numbers | meaning |
 //! |---|---|---|
-//! | `CSYS` | twelve, row by row: three of a turn, one of the origin | checked; points are where TRNTYP says |
+//! | `CSYS` | twelve, row by row: three of a rotation, one of the origin | checked; points are in the system of TRNTYP |
 //! | `TRNTYP` | a word | `WORLD`, or refused |
-//! | `MSYS` | nine: origin, x axis, y axis | where the points that follow are counted |
+//! | `MSYS` | nine: origin, x axis, y axis | system of the points after it |
 
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::{Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
@@ -25,10 +25,13 @@ impl Interpreter<'_> {
     /// A word of SolidWorks alone.
     pub fn trntyp(&mut self, statement: &Statement) {
         self.evidence(statement, Dialect::SolidWorks);
-        self.world_told = statement.word_at(0) == "WORLD";
-        if !self.world_told {
-            let message = format!("TRNTYP/{}: in which system are the points?", statement.word_at(0));
-            self.tell(
+        self.in_world = statement.word_at(0) == "WORLD";
+        if !self.in_world {
+            let message = format!(
+                "TRNTYP/{}: the system of the points is not known",
+                statement.word_at(0)
+            );
+            self.report(
                 statement,
                 statement.parameters_span(),
                 message,
@@ -47,44 +50,44 @@ impl Interpreter<'_> {
             return;
         };
         let [a, b, c, x, d, e, f, y, g, h, i, z] = numbers[..] else {
-            let message = format!("{} numbers of a CSYS", numbers.len());
-            self.tell(
+            let message = format!("a CSYS has {} numbers", numbers.len());
+            self.report(
                 statement,
                 statement.parameters_span(),
                 message,
-                "twelve are wanted: three rows of four",
+                "write twelve numbers: three rows of four",
             );
             return;
         };
         let axes = Matrix3::new(a, b, c, d, e, f, g, h, i);
         if rotation(axes).is_none() {
-            self.tell(
+            self.report(
                 statement,
                 statement.parameters_span(),
                 SKEW,
-                "the first three numbers of each row make a turn",
+                "the first three numbers of each row must form a rotation",
             );
-        } else if !self.world_told && (axes != Matrix3::identity() || [x, y, z] != [0.0; 3]) {
-            let message = "a CSYS, but nothing before it says whether points are in it or in the world";
-            self.tell(
+        } else if !self.in_world && (axes != Matrix3::identity() || [x, y, z] != [0.0; 3]) {
+            let message = "a CSYS, but it is not known whether points are in it or in the world";
+            self.report(
                 statement,
                 statement.word_span(),
                 message,
-                "`TRNTYP/WORLD` before it says that they are in the world",
+                "add `TRNTYP/WORLD` before it if they are in the world",
             );
         }
     }
 
     /// The system of the points: its origin, x axis and y axis.
     ///
-    /// Kept until the next point, since the unit may come behind it. What was told of the tool axis is forgotten.
+    /// Stored until the next point, because the unit may come later. The previous tool axis is forgotten.
     pub fn msys(&mut self, statement: &Statement) {
         self.evidence(statement, Dialect::Nx);
         let Some(numbers) = self.numbers(statement) else {
             return;
         };
         let [x, y, z, ref axes @ ..] = numbers[..] else {
-            return self.tell(
+            return self.report(
                 statement,
                 statement.parameters_span(),
                 "an MSYS without origin",
@@ -92,27 +95,27 @@ impl Interpreter<'_> {
             );
         };
         let [a, b, c, d, e, f] = *axes else {
-            let message = format!("{} numbers of an MSYS", numbers.len());
-            return self.tell(statement, statement.parameters_span(), message, MSYS_HINT);
+            let message = format!("an MSYS has {} numbers", numbers.len());
+            return self.report(statement, statement.parameters_span(), message, MSYS_HINT);
         };
         let (first, second) = (Vector3::new(a, b, c), Vector3::new(d, e, f));
         let Some(turn) = rotation(Matrix3::from_columns(&[first, second, first.cross(&second)])) else {
-            return self.tell(statement, statement.parameters_span(), SKEW, MSYS_HINT);
+            return self.report(statement, statement.parameters_span(), SKEW, MSYS_HINT);
         };
         if self.world_from_path.is_none() && self.points > 0 {
             let message = "the first MSYS, but points came before it";
-            self.tell(
+            self.report(
                 statement,
                 statement.word_span(),
                 message,
-                "every path says its MSYS before its points",
+                "write the MSYS of a path before its points",
             );
         }
         self.system = Some((Vector3::new(x, y, z), turn));
         self.axis = None;
     }
 
-    /// Takes the last MSYS as the system of what follows; its unit may have been told behind it.
+    /// Applies the last MSYS to the following points; its unit may have come after it.
     ///
     /// The first one is the frame of the path: there `path_from_here` is the identity.
     pub fn settle_system(&mut self, statement: &Statement) {
@@ -129,7 +132,7 @@ impl Interpreter<'_> {
 /// What is wrong with axes that make no turn.
 const SKEW: &str = "these axes are not perpendicular and of length 1";
 /// How an MSYS is written.
-const MSYS_HINT: &str = "nine numbers: origin, x axis, y axis";
+const MSYS_HINT: &str = "write nine numbers: origin, x axis, y axis";
 
 /// The turn of three axes; `None` if they are not perpendicular, of length 1 and right-handed.
 fn rotation(axes: Matrix3<f64>) -> Option<UnitQuaternion<f64>> {

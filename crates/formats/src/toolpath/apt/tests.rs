@@ -11,14 +11,17 @@ use armill_core::path::{Arc, Course, Move, Operation, Step};
 
 use super::*;
 
-fn steps(text: &str, expected: &Wanted) -> Result<(Summary, Vec<Step>), Problems> {
+fn steps(text: &str, expected: &AptReadOptions) -> Result<(Summary, Vec<Step>), Problems> {
     let mut steps = Vec::new();
-    let summary = read("part.apt", text.as_bytes(), expected, &mut |step| steps.push(step))?;
+    let summary = read("part.apt", text.as_bytes(), expected, &mut |step| {
+        steps.push(step)
+    })?;
     Ok((summary, steps))
 }
 
 fn read_all(text: &str) -> (Summary, Vec<Operation>, Vec<Move>) {
-    let (summary, steps) = steps(text, &Wanted::default()).unwrap_or_else(|problems| panic!("{problems}"));
+    let (summary, steps) =
+        steps(text, &AptReadOptions::default()).unwrap_or_else(|problems| panic!("{problems}"));
     let (mut operations, mut moves) = (Vec::new(), Vec::new());
     for step in steps {
         match step {
@@ -30,7 +33,7 @@ fn read_all(text: &str) -> (Summary, Vec<Operation>, Vec<Move>) {
 }
 
 fn problems(text: &str) -> String {
-    steps(text, &Wanted::default()).unwrap_err().to_string()
+    steps(text, &AptReadOptions::default()).unwrap_err().to_string()
 }
 
 fn near(a: Point3<f64>, mm: [f64; 3]) {
@@ -42,6 +45,6 @@ fn near(a: Point3<f64>, mm: [f64; 3]) {
 fn arc(next: &Move) -> Arc {
     match next.course {
         Course::Arc(arc) => arc,
-        Course::Line => panic!("{next:?} is no arc"),
+        Course::Line => panic!("{next:?} is not an arc"),
     }
 }

@@ -2,10 +2,10 @@
 //!
 //! | word | parameters |
 //! |---|---|
-//! | `LOAD/TOOL,n`, `LOADTL/n` | number of the tool; other kinds of LOAD are passed over |
+//! | `LOAD/TOOL,n`, `LOADTL/n` | number of the tool; other kinds of LOAD are ignored |
 //! | `CUTTER/d,r` | diameter, corner radius; in the unit of the file |
 //! | `TLDATA/MILL,d,r` | the same (NX) |
-//! | `TLDATA/DRILL,d` or `DRILL,kind,d` | diameter alone (NX); what follows is passed over |
+//! | `TLDATA/DRILL,d` or `DRILL,kind,d` | diameter alone (NX); what follows is ignored |
 //!
 //! Each begins an operation. Lengths stay in the unit of the file until a move needs them.
 
@@ -21,11 +21,11 @@ impl Interpreter<'_> {
             return self.ignore(statement);
         }
         let Some(parameter) = statement.parameters().nth(at) else {
-            self.tell(
+            self.report(
                 statement,
                 statement.word_span(),
                 "the number of the tool is missing",
-                "`LOAD/TOOL,12`",
+                "write `LOAD/TOOL,12`",
             );
             return;
         };
@@ -35,8 +35,8 @@ impl Interpreter<'_> {
                 self.begin_operation(statement);
             }
             Err(_) => {
-                let message = format!("`{}` is no number of a tool", parameter.text);
-                self.tell(statement, parameter.span, message, "`LOAD/TOOL,12`");
+                let message = format!("`{}` is not a number of a tool", parameter.text);
+                self.report(statement, parameter.span, message, "`LOAD/TOOL,12`");
             }
         }
     }
@@ -55,11 +55,11 @@ impl Interpreter<'_> {
         }
         let [diameter, corner] = lengths;
         let Some(diameter) = diameter else {
-            self.tell(
+            self.report(
                 statement,
                 statement.word_span(),
                 "the diameter of the tool is missing",
-                "`CUTTER/12.,0.5`",
+                "write `CUTTER/12.,0.5`",
             );
             return;
         };
@@ -69,8 +69,8 @@ impl Interpreter<'_> {
                 "a tool of diameter {diameter} with a corner radius of {}",
                 corner.unwrap_or(0.0)
             );
-            let hint = "the diameter comes first; the corner radius is no more than half of it";
-            self.tell(statement, statement.parameters_span(), message, hint);
+            let hint = "write the diameter first; the corner radius must not exceed half of it";
+            self.report(statement, statement.parameters_span(), message, hint);
             return;
         }
         self.cutter = [Some(diameter), corner];
@@ -85,7 +85,7 @@ impl Interpreter<'_> {
         match statement.word_at(0).as_str() {
             "MILL" => self.cutter(statement, 1),
             "DRILL" => {
-                // What follows the diameter of a drill are its point and its length; a kind may stand before it.
+                // The diameter of a drill is followed by its point and length; a kind may precede it.
                 let kind = statement.word_at(1);
                 let at = if kind.starts_with(|c: char| c.is_ascii_alphabetic()) {
                     2
@@ -105,11 +105,11 @@ impl Interpreter<'_> {
         }
     }
 
-    /// A tool of the diameter that parameter `at` tells, without corner.
+    /// A tool with the diameter in parameter `at`, without a corner radius.
     fn drill_of(&mut self, statement: &Statement, at: usize) {
         let Some(parameter) = statement.parameters().nth(at) else {
-            let hint = "`TLDATA/DRILL,6.,118.`";
-            return self.tell(
+            let hint = "write `TLDATA/DRILL,6.,118.`";
+            return self.report(
                 statement,
                 statement.word_span(),
                 "the diameter of the drill is missing",
@@ -119,7 +119,7 @@ impl Interpreter<'_> {
         match self.number(statement, &parameter) {
             Some(diameter) if diameter < 0.0 => {
                 let message = format!("a drill of diameter {diameter}");
-                self.tell(statement, parameter.span, message, "the diameter comes first");
+                self.report(statement, parameter.span, message, "write the diameter first");
             }
             Some(diameter) => {
                 self.cutter = [Some(diameter), None];

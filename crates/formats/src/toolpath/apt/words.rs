@@ -1,9 +1,9 @@
-//! What each word does; those of frames, tools, moves and cycles stand in files of their own.
+//! Evaluation of each word; those of frames, tools, moves and cycles are in other files.
 //!
 //! | word | what it changes |
 //! |---|---|
 //! | `UNITS` | the unit of lengths, not of feeds |
-//! | `FEDRAT` | the feed, until the next; its mode where it tells one |
+//! | `FEDRAT` | the feed, until the next one; its mode if given |
 //! | `RAPID` | the pace of the next GOTO alone |
 //! | `SPINDL` | the speed of the spindle: a new operation |
 //! | `TOOL PATH` | the name of the operation (NX); forgets axis, feed, cycle and cutter, which a path writes again |
@@ -38,16 +38,16 @@ const FASTEST_SPINDLE_RPM: f64 = 1e6;
 impl Interpreter<'_> {
     /// Takes the next statement.
     ///
-    /// What is wrong is kept, and the next is taken as if this one had not been. Words that are not known are counted
+    /// Problems are collected, and the next statement is read without this one. Unknown words are counted
     /// as such, not refused.
     pub fn take(&mut self, statement: &Statement) {
         if self.ended {
-            let message = format!("`{}` behind FINI", statement.word);
-            self.tell(
+            let message = format!("`{}` after FINI", statement.word);
+            self.report(
                 statement,
                 statement.word_span(),
                 message,
-                "one file holds one program: cut this one in two",
+                "a file must contain one program: split this file",
             );
             return;
         }
@@ -87,15 +87,15 @@ impl Interpreter<'_> {
             }
             "FINI" => self.ended = true,
             word if REFUSED.contains(&word) => {
-                let message = format!("`{word}` moves the tool or its points, and is not understood");
-                let hint = "let the CAM system write points and arcs alone: GOTO and CIRCLE";
-                self.tell(statement, statement.word_span(), message, hint);
+                let message = format!("`{word}` moves the tool or its points and is not supported");
+                let hint = "let the CAM system write only points and arcs: GOTO and CIRCLE";
+                self.report(statement, statement.word_span(), message, hint);
             }
             word if IGNORED.contains(&word) || word.starts_with("CSI_") => self.ignore(statement),
             word if word.contains('=') => {
                 let message = "a definition: this is the source of an APT program, not its cutter locations";
-                let hint = "run it through the APT processor and take the CL file that comes out";
-                self.tell(statement, statement.word_span(), message, hint);
+                let hint = "process it with the APT processor and use the resulting CL file";
+                self.report(statement, statement.word_span(), message, hint);
             }
             word => {
                 let shown: String = word.chars().take(40).collect();
@@ -111,12 +111,12 @@ impl Interpreter<'_> {
             "MM" => Some(LengthUnit::Millimetre),
             "INCH" | "INCHES" | "IN" => Some(LengthUnit::Inch),
             _ => {
-                let message = format!("`{word}` is no unit of length");
-                self.tell(
+                let message = format!("`{word}` is not a unit of length");
+                self.report(
                     statement,
                     statement.parameters_span(),
                     message,
-                    "`UNITS/MM` or `UNITS/INCH`",
+                    "write `UNITS/MM` or `UNITS/INCH`",
                 );
                 return;
             }
@@ -136,21 +136,21 @@ impl Interpreter<'_> {
             {
                 Some(known) => mode = Some(known),
                 None if word.starts_with(|c: char| c.is_ascii_alphabetic()) => {
-                    let message = format!("`{word}` is no mode of feed");
-                    self.tell(
+                    let message = format!("`{word}` is not a feed mode");
+                    self.report(
                         statement,
                         parameter.span,
                         message,
-                        "understood are MMPM, IPM, MMPR and IPR",
+                        "supported: MMPM, IPM, MMPR and IPR",
                     );
                     return;
                 }
                 None if value.is_some() => {
-                    self.tell(
+                    self.report(
                         statement,
                         parameter.span,
                         "a second number of a FEDRAT",
-                        "`FEDRAT/250.,MMPM`",
+                        "write `FEDRAT/250.,MMPM`",
                     );
                     return;
                 }
@@ -163,11 +163,11 @@ impl Interpreter<'_> {
         let (Some(mode), Some(value)) = (mode, value) else {
             let missing = if value.is_none() { "number" } else { "unit" };
             let message = format!("a FEDRAT without {missing}");
-            self.tell(
+            self.report(
                 statement,
                 statement.parameters_span(),
                 message,
-                "`FEDRAT/250.,MMPM` or `FEDRAT/MMPM,250.`",
+                "write `FEDRAT/250.,MMPM` or `FEDRAT/MMPM,250.`",
             );
             return;
         };
@@ -175,15 +175,15 @@ impl Interpreter<'_> {
         self.feed = self.feed_in(statement, mode, value);
     }
 
-    /// A feed of `value` in this mode; `None` if it is not above 0, which is told.
+    /// A feed of `value` in this mode; `None` if it is not above 0, which is reported.
     pub fn feed_in(&mut self, statement: &Statement, mode: &str, value: f64) -> Option<Feed> {
         if value <= 0.0 {
             let message = format!("a feed of {value} {mode} is not above 0");
-            self.tell(
+            self.report(
                 statement,
                 statement.parameters_span(),
                 message,
-                "rapid moves are told by RAPID before their GOTO",
+                "write RAPID before a GOTO for a rapid move",
             );
             return None;
         }
@@ -197,14 +197,14 @@ impl Interpreter<'_> {
         })
     }
 
-    /// SPINDL: turns a minute, CLW or CCLW; clockwise where neither stands. ON goes back to the last speed above 0. A
-    /// speed in other units than RPM is not known, and noted.
+    /// SPINDL: revolutions per minute, CLW or CCLW; clockwise if neither is given. ON restores the last speed above 0.
+    /// A speed in other units than RPM is not known, and noted.
     fn spindl(&mut self, statement: &Statement) {
         let (mut speed_rpm, mut sign, mut on_surface) = (None, 1.0, false);
         for parameter in statement.parameters() {
             match parameter.text.to_uppercase().as_str() {
                 "OFF" => speed_rpm = Some(0.0),
-                "ON" => self.operation.spindle = self.told_spindle,
+                "ON" => self.operation.spindle = self.last_spindle,
                 "RPM" | "CLW" => {}
                 "CCLW" => sign = -1.0,
                 "SFM" | "SMM" | "MAXRPM" | "RANGE" => on_surface = true,
@@ -230,17 +230,17 @@ impl Interpreter<'_> {
         let Some(speed_rpm) = speed_rpm else { return };
         if !(0.0..=FASTEST_SPINDLE_RPM).contains(&speed_rpm) {
             let message = format!("{speed_rpm} RPM is not between 0 and {FASTEST_SPINDLE_RPM}");
-            self.tell(
+            self.report(
                 statement,
                 statement.parameters_span(),
                 message,
-                "the sense is told by CLW and CCLW",
+                "give the direction with CLW or CCLW",
             );
             return;
         }
         self.operation.spindle = Some(sign * speed_rpm * TAU / 60.0);
         if speed_rpm > 0.0 {
-            self.told_spindle = self.operation.spindle;
+            self.last_spindle = self.operation.spindle;
         }
     }
 

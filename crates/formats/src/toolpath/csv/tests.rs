@@ -1,4 +1,4 @@
-//! Tables that are right, and every way in which they can be wrong.
+//! Correct tables, and all ways in which they can be wrong.
 
 use super::*;
 
@@ -51,12 +51,12 @@ fn the_same_path_in_other_units_and_separators_is_the_same() {
 }
 
 #[test]
-fn rapids_axes_and_feeds_that_are_not_told_are_told_apart() {
+fn rapids_and_missing_axes_and_feeds_are_distinguished() {
     let text = "x_mm,y_mm,z_mm,i,j,k,feed_mm_per_min,rapid,note\n0,0,5,0,0,1,,1,here\n0,0,0,,,,60,0,\n1,0,0,0,0.6,0.8,,,\n";
     let found = moves(text);
     assert_eq!(found[0].pace, Pace::Rapid);
     assert_eq!(found[1].pace, Pace::Feed(0.001));
-    assert_eq!(found[2].pace, Pace::EvaluateError);
+    assert_eq!(found[2].pace, Pace::Unknown);
     assert_eq!(found[0].axis, Some(Vector3::z_axis()));
     assert_eq!(found[1].axis, None);
     assert!((found[2].axis.unwrap().into_inner() - Vector3::new(0.0, 0.6, 0.8)).norm() < 1e-15);
@@ -78,12 +78,12 @@ fn an_operation_begins_where_name_speed_or_engagement_change() {
     assert_eq!(
         (depths(3), found[3].spindle),
         (None, None),
-        "what is not told is not kept"
+        "missing values are not carried over"
     );
 }
 
 #[test]
-fn names_without_unit_unknown_and_double_columns_are_told_with_what_was_meant() {
+fn columns_without_unit_unknown_and_duplicate_columns_are_reported_with_a_suggestion() {
     for (header, part) in [
         ("x,y_mm,z_mm", "1:1: column `x` without unit"),
         (
@@ -94,15 +94,15 @@ fn names_without_unit_unknown_and_double_columns_are_told_with_what_was_meant() 
         ("x_mm,y_mm,z_mm,spindle", "write `spindle_rpm`"),
         ("x_mm,y_mm,z_mm,colour", "1:16: unknown column `colour`"),
         ("x_cm,y_mm,z_mm", "unknown column `x_cm`"),
-        ("x_mm,y_mm,z_mm,x_in", "`x_in` tells what `x_mm` tells"),
-        ("x_mm,y_mm,z_mm,i,i", "`i` tells what `i` tells"),
+        ("x_mm,y_mm,z_mm,x_in", "`x_in` repeats `x_mm`"),
+        ("x_mm,y_mm,z_mm,i,i", "`i` repeats `i`"),
         ("x_mm,z_mm", "missing columns: `y_mm`"),
         ("x_mm,y_mm,z_mm,i,k", "missing columns: `j`"),
         (
             "x_mm,y_mm,z_mm,axial_depth_mm",
             "missing columns: `radial_depth_mm`",
         ),
-        ("1.0,2.0,3.0", "`1.0` is no name of a column"),
+        ("1.0,2.0,3.0", "`1.0` is not a column name"),
     ] {
         let given = problems(&format!("{header}\n1,2,3\n"));
         assert!(given.contains(part), "{header}: {given}");
@@ -111,7 +111,7 @@ fn names_without_unit_unknown_and_double_columns_are_told_with_what_was_meant() 
 }
 
 #[test]
-fn cells_that_are_wrong_are_told_with_line_and_column() {
+fn wrong_cells_are_reported_with_line_and_column() {
     let head = "x_mm,y_mm,z_mm,i,j,k,feed_mm_per_min,rapid,axial_depth_mm,radial_depth_mm\n";
     for (row, part) in [
         ("1,2 mm,3,,,,,,,", "2:3: `2 mm` is not a number"),
@@ -124,18 +124,18 @@ fn cells_that_are_wrong_are_told_with_line_and_column() {
         ("1,2,3,,,,,maybe,,", "`maybe` is neither yes nor no"),
         ("1,2,3,,,,,,-1,1", "`-1` is below 0"),
         ("1,2,3,,,,,,1,", "one depth without the other"),
-        ("1,5,2,3,,,,,,,", "11 cells in a table of 10 columns"),
-        ("1,5,2,3,,,,,,,", "decimal commas need `;`"),
+        ("1,5,2,3,,,,,,,", "11 cells, but the table has 10 columns"),
+        ("1,5,2,3,,,,,,,", "separate cells with `;`"),
     ] {
         let given = problems(&format!("{head}{row}\n"));
         assert!(given.contains(part), "{row}: {given}");
     }
-    assert!(problems("").contains("no point in this file"));
-    assert!(problems("x_mm,y_mm,z_mm\n").contains("no point in this file"));
+    assert!(problems("").contains("the file has no point"));
+    assert!(problems("x_mm,y_mm,z_mm\n").contains("the file has no point"));
 }
 
 #[test]
-fn no_text_makes_it_panic() {
+fn no_text_causes_a_panic() {
     for text in [
         "\"",
         ",",
@@ -149,22 +149,19 @@ fn no_text_makes_it_panic() {
 }
 
 #[test]
-fn the_spin_is_told_in_degrees_or_radians_and_an_empty_cell_tells_none() {
+fn spin_is_read_in_degrees_or_radians_and_an_empty_cell_gives_none() {
     let found = moves("x_mm,y_mm,z_mm,spin_deg\n0,0,0,-90\n1,0,0,\n");
     assert_eq!(
         [found[0].spin, found[1].spin],
-        [Some(ToldSpin::Angle(-std::f64::consts::FRAC_PI_2)), None]
+        [Some(GivenSpin::Angle(-std::f64::consts::FRAC_PI_2)), None]
     );
     let found = moves("x_mm,y_mm,z_mm,spin_rad\n0,0,0,0.25\n");
-    assert_eq!(found[0].spin, Some(ToldSpin::Angle(0.25)));
+    assert_eq!(found[0].spin, Some(GivenSpin::Angle(0.25)));
     let wrong = problems("x_mm,y_mm,z_mm,spin\n0,0,0,1\n");
     assert!(
         wrong.contains("without unit") && wrong.contains("`spin_deg`"),
         "{wrong}"
     );
     let twice = problems("x_mm,y_mm,z_mm,spin_deg,spin_rad\n0,0,0,1,1\n");
-    assert!(
-        twice.contains("`spin_rad` tells what `spin_deg` tells"),
-        "{twice}"
-    );
+    assert!(twice.contains("`spin_rad` repeats `spin_deg`"), "{twice}");
 }

@@ -6,7 +6,7 @@
 use crate::robot_program::Language;
 use crate::table::sheet::{cells, separator_of};
 
-/// The beginnings of lines of robots whose programs nobody here reads.
+/// Line beginnings of robot languages that are not supported.
 const OTHER_ROBOTS: &[(&str, &[&str])] = &[("Comau PDL2", &["MOVE LINEAR", "MOVE JOINT", "MOVE TO "])];
 
 /// Words that only cutter locations begin a line with, before `/`.

@@ -1,4 +1,5 @@
-//! A program in any format: known by what it holds first, by its name second, and read by its own reader.
+//! A program in any format: recognised from its content, otherwise from its name, and read by the reader of that
+//! format.
 //!
 //! | format | known by its content | endings |
 //! |---|---|---|
@@ -8,7 +9,7 @@
 //!
 //! | program of a robot | lines that only its language has | those of its [`Language`] |
 //!
-//! What a program of a robot goes to depends on its robot: it is known here, and read by
+//! The path of a robot program depends on its robot: it is only recognised here, and read by
 //! [`robot_program`](crate::robot_program). `known_by`: what lines of a program show.
 
 mod known_by;
@@ -38,9 +39,9 @@ pub enum Format {
     Robot(Language),
 }
 
-/// What a user may say of a program where it is silent.
+/// Options for a program that does not give these values.
 #[derive(Clone, Default)]
-pub struct Wanted<'a> {
+pub struct ToolpathReadOptions<'a> {
     /// The unit of lengths.
     pub unit: Option<LengthUnit>,
     /// Cutter locations: whose they are, where they do not show it.
@@ -51,25 +52,25 @@ pub struct Wanted<'a> {
     pub tools: Option<ToolTable>,
     /// G-code: subroutines that are not in the program.
     pub subroutines: Option<Lookup<'a>>,
-    /// G-code: most lines of loops and subroutines; see [`gcode::Wanted`].
+    /// G-code: most lines of loops and subroutines; see [`gcode::GcodeReadOptions`].
     pub most_repeated_lines: Option<usize>,
 }
 
-/// So much of a file tells its format, bytes.
+/// Number of bytes used to recognise the format.
 pub const HEAD_BYTES: u64 = 256 * 1024;
-/// So many lines of a file are looked at; headers of remarks are longer in no file we know.
+/// Maximum number of lines that are searched for the format.
 const MOST_LINES: usize = 2000;
 
 /// Reads the program in `reader`, and gives `out` its steps one by one; `path` is what problems show.
 ///
-/// With problems the steps given so far are worth nothing.
+/// If there are problems, the steps given so far are not valid.
 ///
 /// # Errors
-/// A format that nobody here reads, or a program of a robot, which needs its robot; every problem of the file.
+/// An unsupported format, or a robot program, which needs its robot; all problems of the file.
 pub fn read(
     path: &str,
     mut reader: impl BufRead,
-    requested: &Wanted<'_>,
+    requested: &ToolpathReadOptions<'_>,
     out: &mut dyn FnMut(Step),
 ) -> Result<Summary, Problems> {
     let mut head = Vec::new();
@@ -79,7 +80,7 @@ pub fn read(
     let whole = Cursor::new(head).chain(reader);
     match format {
         Format::Apt => {
-            let requested = apt::Wanted {
+            let requested = apt::AptReadOptions {
                 unit: requested.unit,
                 dialect: requested.dialect,
             };
@@ -87,20 +88,20 @@ pub fn read(
         }
         Format::Csv => csv::read(path, whole, out),
         Format::Gcode => {
-            let requested = gcode::Wanted {
+            let requested = gcode::GcodeReadOptions {
                 unit: requested.unit.unwrap_or_default(),
                 rotaries: requested.rotaries.clone(),
                 tools: requested.tools.clone(),
                 subroutines: requested.subroutines,
                 most_repeated_lines: requested.most_repeated_lines,
-                ..gcode::Wanted::default()
+                ..gcode::GcodeReadOptions::default()
             };
             gcode::read(path, whole, &requested, out)
         }
         Format::Robot(language) => Err(Problem::of_file(
             path,
-            format!("this is a program of a robot ({})", language.title()),
-            "it is no path without its robot: `robot_program::read`, then `follow`",
+            format!("this is a robot program ({})", language.title()),
+            "a robot program gives a path only with its robot: use `robot_program::read`, then `follow`",
         )
         .into()),
     }
@@ -123,8 +124,7 @@ impl Format {
     /// G-code; then the ending.
     ///
     /// # Errors
-    /// A program of a robot in a language that nobody here reads, and a file of which neither content nor name tells what it
-    /// is.
+    /// A robot program in an unsupported language, and a file whose format cannot be recognised from content or name.
     pub fn of(path: &Path, text: &str) -> Result<Format, Problems> {
         let refused = |message: String, hint: &str| {
             let path = path.display().to_string();
@@ -156,9 +156,10 @@ impl Format {
             }
             Some(Robots::Read(language)) => return Ok(Format::Robot(language)),
             Some(Robots::Other(language)) => {
-                let hint = "its language is not read: give the path as the CAM system writes it, as cutter locations (APT, \
+                let hint = "its language is not supported: give the path as the CAM system writes it, as cutter \
+                    locations (APT, \
                             CLSF), G-code or CSV";
-                return refused(format!("this is a program of a robot ({language})"), hint);
+                return refused(format!("this is a robot program ({language})"), hint);
             }
             None => {}
         }
@@ -177,9 +178,9 @@ impl Format {
             ("csv" | "tsv", _) => Ok(Format::Csv),
             ("nc" | "ngc" | "gcode" | "tap" | "cnc" | "mpf" | "eia" | "iso" | "min", _) => Ok(Format::Gcode),
             _ => refused(
-                "neither content nor name tells what tool path this is".to_owned(),
-                "understood are G-code, cutter locations (APT, CLSF), CSV and programs of robots (KRL, RAPID, INFORM, TP, \
-                 URScript, VAL3): give it the ending of its format, such as `.nc`, `.apt`, `.csv` or `.src`",
+                "neither content nor file name identifies the format of this tool path".to_owned(),
+                "supported: G-code, cutter locations (APT, CLSF), CSV and robot programs (KRL, RAPID, INFORM, TP, \
+                 URScript, VAL3); use the file ending of the format, such as `.nc`, `.apt`, `.csv` or `.src`",
             ),
         }
     }

@@ -5,7 +5,7 @@ fn of(name: &str, text: &str) -> Result<Format, String> {
 }
 
 #[test]
-fn content_tells_the_format_whatever_the_name() {
+fn the_format_is_recognised_from_the_content_with_any_name() {
     for name in ["part.txt", "part", "part.nc", "part.csv"] {
         for (text, format) in [
             ("PARTNO/1\r\nUNIT/MM\r\n", Format::Apt),
@@ -26,13 +26,13 @@ fn content_tells_the_format_whatever_the_name() {
 }
 
 #[test]
-fn the_name_tells_where_content_does_not() {
+fn the_format_is_recognised_from_the_name_if_the_content_is_unclear() {
     assert_eq!(of("a.NGC", "(nothing yet)\n"), Ok(Format::Gcode));
     assert_eq!(of("a.cls", "$$ nothing yet\n"), Ok(Format::Apt));
     assert_eq!(of("a.csv", "1,2,3\n"), Ok(Format::Csv));
     let given = of("a.pdf", "hello\n").unwrap_err();
     assert!(
-        given.contains("neither content nor name") && given.contains("G-code, cutter locations"),
+        given.contains("neither content nor file name") && given.contains("G-code, cutter locations"),
         "{given}"
     );
 }
@@ -53,7 +53,13 @@ fn programs_of_robots_are_known_by_their_lines() {
         ),
     ] {
         assert_eq!(of("part.txt", text), Ok(Format::Robot(language)), "{text}");
-        let given = read("part.txt", text.as_bytes(), &Wanted::default(), &mut |_| ()).unwrap_err();
+        let given = read(
+            "part.txt",
+            text.as_bytes(),
+            &ToolpathReadOptions::default(),
+            &mut |_| (),
+        )
+        .unwrap_err();
         assert!(given.to_string().contains(language.title()), "{given}");
     }
     assert_eq!(of("a.src", "hello\n"), Ok(Format::Robot(Language::Krl)));
@@ -61,7 +67,7 @@ fn programs_of_robots_are_known_by_their_lines() {
     assert_eq!(of("start.pgx", val3), Ok(Format::Robot(Language::Val3)));
     let comau = of("a.pdl", "PROGRAM a\nMOVE LINEAR TO p1\n").unwrap_err();
     assert!(
-        comau.contains("Comau PDL2") && comau.contains("not read"),
+        comau.contains("Comau PDL2") && comau.contains("not supported"),
         "{comau}"
     );
 }

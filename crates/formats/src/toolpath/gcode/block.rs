@@ -1,6 +1,6 @@
 //! A line as the words it has: letters with their values, codes by group, settings of parameters.
 //!
-//! Blanks and capitals mean nothing outside comments. Values are computed while the line is read; parameters set in a
+//! Blanks and case are ignored outside comments. Values are computed while the line is read; parameters set in a
 //! line get their values after it, as the standard wants it.
 //!
 //! ```text
@@ -8,8 +8,8 @@
 //! n10g1x[#1+2]#2=5m8                     the clean text; each of its bytes knows its place in the line
 //! ```
 //!
-//! Codes G and M go by their group, other letters stand once each. A letter that no code of the block has taken by the
-//! end is refused, so that no word is passed over in silence.
+//! Each modal group has at most one code G or M; other letters occur once each. A letter that no code of the block
+//! uses is refused, so that no word is silently ignored.
 //!
 //! Source: NISTIR 6556, sections 3.3 and 3.4.
 
@@ -26,7 +26,7 @@ pub(super) const LONGEST_LINE: usize = 4096;
 pub(super) struct Clean {
     /// Lower case, no blanks.
     pub text: Vec<u8>,
-    /// Where each byte of `text` stood in the line.
+    /// Original position of each byte of `text` in the line.
     at: Vec<u16>,
     /// Comments in parentheses, bytes of the line.
     pub comments: Vec<(usize, usize)>,
@@ -35,7 +35,7 @@ pub(super) struct Clean {
 }
 
 impl Clean {
-    /// Reads a line anew.
+    /// Reads a new line.
     ///
     /// # Errors
     /// A line that is too long, a comment that is not closed.
@@ -80,7 +80,7 @@ impl Clean {
 
     /// The bytes of the line that a range of the text came from.
     ///
-    /// A range past the end of the text is told at its end.
+    /// A range past the end of the text is reported at its end.
     pub fn place(&self, range: std::ops::Range<usize>) -> std::ops::Range<usize> {
         let last = self.at.last().map_or(0, |at| usize::from(*at) + 1);
         let of = |index: usize| self.at.get(index).map(|at| usize::from(*at));
@@ -90,7 +90,7 @@ impl Clean {
     }
 }
 
-/// Codes by group, each with where it stands in the clean text.
+/// Codes by group, each with its position in the clean text.
 pub(super) type Codes = [Option<(u16, (u16, u16))>; GROUPS];
 
 /// The words of a line.
@@ -100,11 +100,11 @@ pub(super) struct Block {
     values: [f64; 26],
     /// By letter: from and to in the clean text.
     places: [(u16, u16); 26],
-    /// A bit for each letter that stands in the block; a is bit 0.
+    /// A bit for each letter of the block; a is bit 0.
     present: u32,
     /// The same for letters that some code has taken.
     used: u32,
-    /// Codes G by group, in tenths: 921 is G92.1; and where they stand.
+    /// Codes G by group, in tenths: 921 is G92.1; and their positions.
     pub g: Codes,
     /// Codes M by group.
     pub m: Codes,
@@ -132,7 +132,7 @@ impl Block {
     /// Reads the words of a clean line from this byte on.
     ///
     /// # Errors
-    /// The first word that is none, stands twice, is beyond 1e9, or is a code that is unknown, not read, or of a group
+    /// The first word that is invalid, repeated, beyond 1e9, or a code that is unknown, unsupported, or of a group
     /// that is taken.
     pub fn read(&mut self, clean: &Clean, from: usize, values: &dyn Values) -> Result<(), Refused> {
         self.present = 0;
@@ -248,7 +248,7 @@ impl Block {
         1 << u32::from(letter.wrapping_sub(b'a') % 26)
     }
 
-    /// Whether a letter stands in the block, taken or not.
+    /// Whether the block has this letter, used or not.
     pub fn has(&self, letter: u8) -> bool {
         self.present & Block::bit(letter) != 0
     }
@@ -283,7 +283,7 @@ impl Block {
         b"ijk".iter().any(|letter| self.has(*letter))
     }
 
-    /// A word that nothing asked for.
+    /// A word that no code uses.
     ///
     /// The first in the alphabet.
     pub fn unused(&self) -> Option<u8> {
@@ -292,13 +292,13 @@ impl Block {
         (left != 0).then(|| b'a' + left.trailing_zeros() as u8)
     }
 
-    /// Where a word stands in the clean text.
+    /// Position of a word in the clean text.
     pub fn place(&self, letter: u8) -> std::ops::Range<usize> {
         let (start, end) = self.places[usize::from(letter.wrapping_sub(b'a') % 26)];
         usize::from(start)..usize::from(end)
     }
 
-    /// Where in the clean text what a refusal names stands.
+    /// Position in the clean text of the subject of a refusal.
     ///
     /// The word or code that it speaks of; else the code of cutter compensation, or that of motion.
     pub fn place_of(&self, refusal: &Refusal) -> Option<std::ops::Range<usize>> {
@@ -344,19 +344,23 @@ impl Block {
         place.map(|(start, end)| usize::from(start)..usize::from(end))
     }
 
-    /// Whether a G code stands in the block, in tenths: 640 is G64.
+    /// Whether the block has a G code, in tenths: 640 is G64.
     pub fn has_g(&self, code: u16) -> bool {
         groups::of_g(code).is_some_and(|group| self.g[group].is_some_and(|(found, _)| found == code))
     }
 }
 
-/// Refuses a value beyond [`LARGEST`], and what is no number.
+/// Refuses a value beyond [`LARGEST`] and anything that is not a number.
 pub(super) fn within(word: char, value: f64) -> Result<(), Refusal> {
     if value.abs() <= LARGEST {
         return Ok(());
     }
     let requested = "within 1e9";
-    Err(Refusal::WordValue { word, value, requested })
+    Err(Refusal::WordValue {
+        word,
+        value,
+        requested,
+    })
 }
 
 /// A letter as people write it.
@@ -364,7 +368,7 @@ pub(super) fn shown(letter: u8) -> char {
     char::from(letter.to_ascii_uppercase())
 }
 
-/// What to say of a code that is no code in tenths.
+/// Refusal of a code that is not valid in tenths.
 fn unknown(letter: char, value: f64) -> Refusal {
     Refusal::UnknownCode(format!("{letter}{value}"))
 }

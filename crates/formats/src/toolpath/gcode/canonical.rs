@@ -68,7 +68,7 @@ pub enum PathControl {
 /// An arc or helix in a plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ArcFeed {
-    /// The plane it lies in.
+    /// Its plane.
     pub plane: Plane,
     /// End along the first and second axis of the plane.
     pub end: [f64; 2],
@@ -92,7 +92,7 @@ impl ArcFeed {
     }
 }
 
-/// What a block asks of the machine.
+/// A request of a block to the machine.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(missing_docs)]
 pub enum Canonical {
@@ -118,7 +118,7 @@ pub enum Canonical {
     },
     /// Units per minute, or per revolution.
     SetFeedRate(f64),
-    /// The feed of this block, told before its new unit, counts in the new one. Not a call of NISTIR 6556.
+    /// The feed of this block, given before its new unit, is in the new one. Not a call of NISTIR 6556.
     FeedRateInNewUnit(f64),
     SetMotionControlMode(PathControl),
     /// Q of G64: how far points nearly on a line may be joined.
@@ -153,17 +153,17 @@ pub enum Canonical {
     ProgramStop,
     /// M2, M30.
     ProgramEnd,
-    /// Tool-centre control: from here on X, Y, Z tell the tip in the frame of the part.
+    /// Tool-centre control: from here on X, Y, Z are the tip in the frame of the part.
     ToolCentreControl {
         on: bool,
     },
-    /// The tool from its tip to the spindle, told as a vector of the next move.
+    /// The tool axis from tip to spindle, given as a vector of the next move.
     ToolAxis([f64; 3]),
     /// The next move is counted in machine coordinates.
     MachineCoordinates,
 }
 
-/// Numbers with four decimals, and what stands between them.
+/// Numbers with four decimals, and their separator.
 struct Listed<'a>(&'a [f64], &'a str);
 
 impl fmt::Display for Listed<'_> {

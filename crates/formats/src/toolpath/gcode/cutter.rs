@@ -1,4 +1,4 @@
-//! Cutter compensation: the path of the cutter's centre beside the contour that the program tells.
+//! Cutter compensation: the path of the cutter centre at an offset from the programmed contour.
 //!
 //! Each piece of the contour is moved by the radius `r` to the side of the cutter: a line along its normal, an arc to
 //! the radius `R - r` inside and `R + r` outside. Where two pieces leave a gap (convex corner) an arc of radius `r`
@@ -29,13 +29,13 @@ const TANGENT: f64 = 1e-3;
 const TURNING_BACK: f64 = 0.05;
 /// Calls that may wait for the next piece.
 const MOST_WAITING: usize = 10_000;
-/// A crossing that lies this part of the radius of the cutter outside its piece is rounding, not gouging.
+/// A crossing that is outside its piece by this fraction of the cutter radius is rounding, not gouging.
 const OUTSIDE: f64 = 1e-6;
 
 /// What receives canonical calls, each with its line of the program.
 pub(super) type Out<'a> = &'a mut dyn FnMut(Canonical, u32) -> Result<(), Refusal>;
 
-/// What a moved piece lies on, in the plane.
+/// Line or circle of an offset piece, in the plane.
 #[derive(Clone, Copy, Debug)]
 enum Shape {
     Line {
@@ -72,7 +72,7 @@ pub(super) enum Contour {
     Arc { centre: Point2<f64>, sense: Sense },
 }
 
-/// Compensation that is on: the plane, the cutter, and where its centre stands.
+/// Active compensation: the plane, the cutter, and the position of its centre.
 #[derive(Clone, Copy, Debug)]
 struct Active {
     side: f64,
@@ -80,7 +80,7 @@ struct Active {
     plane: Plane,
     /// Whether no piece was moved yet.
     entering: bool,
-    /// Where the centre of the cutter stands.
+    /// Position of the cutter centre.
     at: Point2<f64>,
 }
 
@@ -99,8 +99,8 @@ pub(super) struct Cutter {
 }
 
 impl Piece {
-    /// Whether `at`, a point of its line or circle, lies between its start and its end, within a length of `slack`.
-    fn holds(&self, at: Point2<f64>, slack: f64) -> bool {
+    /// Whether `at`, a point of its line or circle, is between its start and its end, within a length of `slack`.
+    fn contains(&self, at: Point2<f64>, slack: f64) -> bool {
         match self.shape {
             Shape::Line { towards } => {
                 (at - self.start).dot(&towards) >= -slack && (at - self.end).dot(&towards) <= slack
@@ -151,7 +151,7 @@ impl Cutter {
         Ok(())
     }
 
-    /// Ends it: the last piece ends beside the end of its contour.
+    /// Ends it: the last piece ends at the offset end of its contour.
     pub fn end(&mut self, out: Out<'_>) -> Result<(), Refusal> {
         self.leaving |= self.active.take().is_some();
         self.flush(out)
@@ -206,9 +206,9 @@ impl Cutter {
         };
         let to = end_in(&call, active.plane);
         if !arc && (to - from).norm() == 0.0 {
-            // Across the plane alone: beside the contour as before.
-            let beside = if active.entering { to } else { active.at };
-            end_at(&mut call, active.plane, beside);
+            // A move only across the plane: at the same offset from the contour.
+            let offset = if active.entering { to } else { active.at };
+            end_at(&mut call, active.plane, offset);
             return self.pass(call, out);
         }
         let mut next = moved(&active, contour, (from, to), call)?;
@@ -260,7 +260,7 @@ impl Cutter {
     }
 }
 
-/// How two pieces beside the contour come together.
+/// How two offset pieces are joined.
 enum Corner {
     /// They go on straight.
     None,
@@ -277,7 +277,8 @@ fn corner(last: &Piece, arrives: Vector2<f64>, bend: f64, active: &Active) -> Co
     if cross.abs() < TANGENT && onward {
         return Corner::None;
     }
-    // Where the contour turns back on itself, its bends tell on which side it goes on: a radius from the corner.
+    // Where the contour turns back on itself, its curvature decides on which side it continues: a radius from the
+    // corner.
     let bends = match !onward && cross.abs() < TURNING_BACK {
         true => cross - (last.bend + bend) * active.radius / 2.0,
         false => cross,
@@ -292,7 +293,7 @@ fn corner(last: &Piece, arrives: Vector2<f64>, bend: f64, active: &Active) -> Co
 fn meeting(last: &Piece, next: &Piece, arrives: Vector2<f64>, radius: f64) -> Result<Point2<f64>, Refusal> {
     let slack = OUTSIDE * radius;
     crossing(last, next, arrives)
-        .filter(|at| last.holds(*at, slack) && next.holds(*at, slack))
+        .filter(|at| last.contains(*at, slack) && next.contains(*at, slack))
         .ok_or(Refusal::Gouging { radius })
 }
 
@@ -312,7 +313,7 @@ fn bend(contour: Contour, at: Point2<f64>) -> f64 {
     }
 }
 
-/// The piece beside the contour, as if nothing were before it.
+/// The offset piece, without regard to the previous one.
 fn moved(
     active: &Active,
     contour: Contour,
@@ -444,7 +445,7 @@ fn crossing(last: &Piece, next: &Piece, arrives: Vector2<f64>) -> Option<Point2<
     }
 }
 
-/// Where a line meets a circle; `None` where it passes beside it.
+/// Intersection of a line and a circle; `None` if they do not intersect.
 fn line_and_circle(
     through: Point2<f64>,
     towards: Vector2<f64>,

@@ -8,15 +8,15 @@
 //! | G85, G89 | G89 waits P | at feed |
 //! | G86, G88 | waits P, the spindle stops; G88 waits for the operator | fast |
 //!
-//! G98 goes back to where the axis stood before the cycle, G99 to R.
+//! G98 retracts to the position of the axis before the cycle, G99 to R.
 //!
 //! ```text
 //! G81 X_ Y_ Z_ R_ L_      Z bottom, R where it begins to cut, L holes
 //! X_ Y_                   another hole of the same cycle: words stay until the code changes
 //! ```
 //!
-//! Z and R stand for the axis across the plane. Under G91 R counts from where the axis stands and Z from R, and L holes
-//! go on by the same step.
+//! Z and R apply to the axis across the plane. Under G91 R is relative to the position of the axis and Z to R, and L
+//! holes go on by the same step.
 //!
 //! Source: NISTIR 6556, section 3.5.16; G73: LinuxCNC documentation.
 
@@ -25,8 +25,8 @@ use super::canonical::{Axes, Canonical, PathControl};
 use super::cutter::Out;
 use super::groups;
 use super::machine::{FeedMode, Machine};
+use super::read_options::Warning;
 use super::refusal::{Excess, Refusal};
-use super::requested::Warning;
 
 /// Gap between the drill and the bottom it comes back to, mm and inch: 0.010 inch as in NISTIR 6556.
 const PECK_GAP: [f64; 2] = [0.254, 0.010];
@@ -78,11 +78,11 @@ struct Hole {
 }
 
 impl Machine {
-    /// Does a block of a cycle, code in tenths: up to R if the axis stands below, then hole by hole. Corners are
+    /// Executes a block of a cycle, code in tenths: up to R if the axis is below, then hole by hole. Corners are
     /// followed exactly meanwhile.
     ///
     /// # Errors
-    /// What `may_drill` and `keep` refuse, L that is no count of holes, R below the bottom, more than 100000 steps.
+    /// Refusals of `may_drill` and `keep`, L that is not a number of holes, R below the bottom, more than 100000 steps.
     pub(super) fn cycle(&mut self, code: u16, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
         self.may_drill(code, block)?;
         let [first, second, across] = self.plane.axes();
@@ -218,7 +218,7 @@ impl Machine {
         self.to(end, how, out)
     }
 
-    /// Moves, and stands there.
+    /// Moves to a position.
     fn to(&mut self, end: Axes, how: Straight, out: Out<'_>) -> Result<(), Refusal> {
         self.at = end;
         self.call(how(end), out)

@@ -8,7 +8,7 @@
 //! | `moves` | G10, G28, G30, G52, G92, then motion |
 //! | `stopping` | M98, M99; M0, M1, M2, M30, M60 |
 //!
-//! Codes G are in tenths: 921 is G92.1. Each step takes the words that its codes want; a word that nobody took is
+//! Codes G are in tenths: 921 is G92.1. Each step takes the words of its codes; a word that is not used is
 //! refused.
 //!
 //! Source: NISTIR 6556, section 3.8, order of execution.
@@ -19,8 +19,8 @@ use super::cutter::Out;
 use super::groups;
 use super::machine::{FeedMode, Machine};
 use super::offsets::tool_number;
+use super::read_options::Warning;
 use super::refusal::Refusal;
-use super::requested::Warning;
 use crate::toolpath::LengthUnit;
 
 /// What follows a block.
@@ -80,7 +80,7 @@ impl Machine {
             };
             let per_revolution = self.feed_mode == FeedMode::PerRevolution;
             self.call(Canonical::SetFeedMode { per_revolution }, out)?;
-            // A mode that is told forgets the feed, whose number could mean something else.
+            // A new mode resets the feed, whose number could have another meaning.
             if self.feed_mode != FeedMode::InverseTime {
                 self.feed = 0.0;
                 self.call(Canonical::SetFeedRate(0.0), out)?;
@@ -118,14 +118,14 @@ impl Machine {
         Ok(())
     }
 
-    /// Codes M that move nothing: tool change, spindle, and those of the machine, which are passed over with their
+    /// Codes M that move nothing: tool change, spindle, and those of the machine, which are ignored with their
     /// words.
     fn machine_codes(&mut self, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
         if let Some((code, _)) = block.m[groups::TOOL] {
             if self.cutter.is_on() {
                 return Err(Refusal::NotUnderCompensation(groups::name(b'm', code)));
             }
-            // M61 tells which tool is in the spindle; M6 puts in the one that T chose, with the spindle standing.
+            // M61 sets the tool in the spindle; M6 changes to the one selected by T, with the spindle stopped.
             if code == 61 {
                 let number = block
                     .take(b'q')
@@ -207,7 +207,7 @@ impl Machine {
             let changes = unit != self.unit;
             self.use_unit(unit);
             self.call(Canonical::UseLengthUnits(unit), out)?;
-            // The order of the standard sets the feed before the unit; nobody means F of that block in the old one.
+            // The order of the standard sets the feed before the unit; but F of that block is meant in the new unit.
             if changes && block.has(b'f') && self.feed_mode != FeedMode::InverseTime {
                 self.call(Canonical::FeedRateInNewUnit(self.feed), out)?;
             }
@@ -273,7 +273,7 @@ impl Machine {
         self.cutter.begin(self.plane, left * diameter)
     }
 
-    /// What takes axis words: codes that hold for one block, then motion, told here or by a block before.
+    /// Codes that use axis words: codes for one block, then motion, given here or by a previous block.
     fn moves(&mut self, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
         let once = block.g[groups::ONCE]
             .map(|(code, _)| code)
@@ -296,7 +296,7 @@ impl Machine {
             Some(code) => self.shift(code, block, out)?,
             None => {}
         }
-        // Axis words that no other code has taken move the tip, by the code told here or by the one in force.
+        // Axis words that no other code uses move the tip, by the code in this block or by the modal one.
         let moving = takes_axes.is_none()
             && !block.has_g(431)
             && (block.has_axes() || self.vector && block.has_vector());
@@ -305,8 +305,8 @@ impl Machine {
             (None, true) => self.motion,
             (None, false) => return Ok(()),
         };
-        if moving && !self.unit_told {
-            self.unit_told = true;
+        if moving && !self.unit_given {
+            self.unit_given = true;
             self.warn(Warning::UnitAssumed);
         }
         if block.g[groups::MACHINE].is_some() && !matches!(code, 0 | 10) {

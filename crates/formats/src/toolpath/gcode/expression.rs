@@ -17,7 +17,7 @@
 //! function ATAN has two brackets: atan[y]/[x]
 //! ```
 //!
-//! `FIX` rounds down and `FUP` up. What has no finite value is refused where it comes up.
+//! `FIX` rounds down and `FUP` up. A result that is not finite is refused.
 //!
 //! Source: NISTIR 6556, section 3.3.2; EXISTS and named parameters: LinuxCNC documentation.
 
@@ -26,7 +26,7 @@ use super::refusal::Refusal;
 /// Brackets inside brackets.
 pub(super) const DEEPEST: usize = 100;
 
-/// What an expression may ask for.
+/// Values that an expression can use.
 pub(super) trait Values {
     /// The value of a parameter `#number`, which may be computed; zero where it was never set.
     fn numbered(&self, number: f64) -> Result<f64, Refusal>;
@@ -38,9 +38,9 @@ pub(super) trait Values {
 pub(super) struct Reader<'a> {
     /// In small letters, without blanks.
     pub text: &'a [u8],
-    /// The byte it stands at.
+    /// The current byte.
     pub at: usize,
-    /// What parameters are asked of.
+    /// Source of parameter values.
     pub values: &'a dyn Values,
     /// Levels around it.
     depth: usize,
@@ -69,19 +69,19 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The byte it stands at; `None` at the end.
+    /// The current byte; `None` at the end.
     pub fn peek(&self) -> Option<u8> {
         self.text.get(self.at).copied()
     }
 
-    /// Steps over `wanted` if it stands here.
+    /// Moves past the `requested` byte if it is next.
     pub fn take(&mut self, requested: u8) -> bool {
         let here = self.peek() == Some(requested);
         self.at += usize::from(here);
         here
     }
 
-    /// Steps over `wanted`, which must stand here.
+    /// Moves past the `requested` byte, which must be next.
     fn expect(&mut self, requested: u8) -> Read<()> {
         if self.take(requested) {
             return Ok(());
@@ -89,12 +89,12 @@ impl<'a> Reader<'a> {
         Err(Refusal::Expected(char::from(requested)))
     }
 
-    /// What lies before it.
+    /// The text from the current byte.
     fn rest(&self) -> &'a [u8] {
         self.text.get(self.at..).unwrap_or_default()
     }
 
-    /// Reads what stands inside something else, no more than [`DEEPEST`] deep: the reader calls itself for each.
+    /// Reads a nested part, no more than [`DEEPEST`] deep: the reader is recursive.
     fn deeper<T>(&mut self, read: impl FnOnce(&mut Self) -> Read<T>) -> Read<T> {
         self.depth += 1;
         if self.depth > DEEPEST {
@@ -179,7 +179,7 @@ impl<'a> Reader<'a> {
         Ok(left)
     }
 
-    /// What stands behind `#`: a number or a name.
+    /// The part after `#`: a number or a name.
     pub fn parameter(&mut self) -> Read<Name> {
         self.expect(b'#')?;
         if self.take(b'<') {
@@ -207,7 +207,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The letters here as what is no function.
+    /// The letters here as an unknown function.
     fn unknown(&self) -> Refusal {
         let letters = self.rest().iter().take_while(|byte| byte.is_ascii_lowercase());
         Refusal::UnknownFunction(letters.map(|byte| char::from(*byte)).collect())
@@ -277,7 +277,7 @@ fn finite(value: f64, what: &'static str) -> Read<f64> {
     Err(Refusal::NoValue(what))
 }
 
-/// What stands between two values.
+/// Operator between two values.
 #[derive(Clone, Copy)]
 enum Operator {
     Power,

@@ -8,7 +8,7 @@
 //! | `o1 do` | | `o1 while [..]` |
 //! | `o1 repeat [..]` | | `o1 endrepeat` |
 //!
-//! Besides: `o1 call [..]..`, `o1 return`, `o1 break`, `o1 continue`; `O1234` alone begins a subroutine of M98.
+//! Also: `o1 call [..]..`, `o1 return`, `o1 break`, `o1 continue`; `O1234` alone begins a subroutine of M98.
 //!
 //! Source: LinuxCNC documentation, O codes.
 
@@ -26,7 +26,7 @@ pub(super) enum Keyword {
     EndSub,
     /// Does a subroutine, with its arguments.
     Call,
-    /// Leaves it, with a value where one stands behind.
+    /// Leaves it, with a value if one follows.
     Return,
     If,
     ElseIf,
@@ -81,7 +81,7 @@ pub(super) struct OWord {
 /// they are written without needless digits.
 ///
 /// # Errors
-/// A name that is not closed, a number that is none, a word that is no keyword.
+/// An unclosed name, an invalid number, an unknown keyword.
 pub(super) fn o_word(clean: &Clean, values: &dyn Values) -> Result<Option<OWord>, Refusal> {
     let text = clean.text.as_slice();
     let mut at = 0;
@@ -127,7 +127,7 @@ pub(super) fn o_word(clean: &Clean, values: &dyn Values) -> Result<Option<OWord>
 
 /// A line kept, with its o-word.
 #[derive(Clone, Debug)]
-pub(super) struct Kept {
+pub(super) struct StoredLine {
     /// The line as it came.
     pub line: Line,
     /// `None` for a line of words.
@@ -142,14 +142,14 @@ pub(super) struct Kept {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Body {
     /// In the order of the text.
-    pub lines: Vec<Kept>,
+    pub lines: Vec<StoredLine>,
 }
 
 impl Body {
     /// Keeps a line; until it is linked it belongs to itself.
     pub fn push(&mut self, line: Line, word: Option<OWord>) {
         let at = self.lines.len();
-        self.lines.push(Kept {
+        self.lines.push(StoredLine {
             line,
             word,
             partner: at,

@@ -1,7 +1,7 @@
 //! Codes by their modal groups: of each group a block may have one.
 //!
 //! Codes G are in tenths, so that G92.1 is 921; codes M are whole. Groups of G and of M have the same numbers for other
-//! things, and stand in lists of their own.
+//! things and have separate lists.
 //!
 //! Source: LinuxCNC documentation, G-code overview, table of modal groups; the codes of other controls for tool-centre
 //! control: FANUC G43.4 and G43.5, Heidenhain M128 and M129, Siemens TRAORI and TRAFOOF, LinuxCNC remaps M428 and M429.
@@ -35,7 +35,7 @@ pub(super) const SYSTEM: usize = 12;
 pub(super) const PATH: usize = 13;
 /// G97.
 pub(super) const SPINDLE_MODE: usize = 14;
-/// G53 stands beside G0 and G1.
+/// G53, together with G0 and G1.
 pub(super) const MACHINE: usize = 15;
 
 /// From here on groups of M: M0, M1, M2, M30, M60.
@@ -100,7 +100,7 @@ pub(super) fn of_m(code: u16) -> Option<usize> {
 
 /// Why a code that is known is not read.
 ///
-/// `None` for codes that are read, and for those that nobody here knows.
+/// `None` for supported codes and for unknown ones.
 pub(super) fn unsupported(letter: u8, code: u16) -> Option<&'static str> {
     if letter != b'g' {
         return match code {

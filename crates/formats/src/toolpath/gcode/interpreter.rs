@@ -8,7 +8,7 @@
 //! ```
 //!
 //! A line that is refused is left out as a whole or from that word on; the next is done with the state as it then is,
-//! and no line is told twice. After [`MOST_FAULTS`] faults, and after what may never end, the rest is not looked at.
+//! and no line is given twice. After [`MOST_FAULTS`] faults, and after what may never end, the rest is not looked at.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::BufRead;
@@ -23,12 +23,12 @@ use super::lines::{Line, Lines};
 use super::machine::Machine;
 use super::messages;
 use super::parameters::{self, Parameters};
+use super::read_options::{GcodeReadOptions, Warning};
 use super::refusal::{Excess, Fault, Refusal};
 use super::subroutines::Labels;
-use super::requested::{Wanted, Warning};
 use crate::toolpath::notes::Notes;
 
-/// Problems told of one program.
+/// Maximum number of problems reported for one program.
 pub const MOST_FAULTS: usize = 100;
 /// Text of subroutines and loops.
 pub const MOST_KEPT_BYTES: usize = 256 << 20;
@@ -50,13 +50,17 @@ pub struct Interpreted {
     pub notes: Notes<Warning>,
 }
 
-/// What receives the canonical calls, each with its line; what it refuses is told at the line.
+/// Receiver of the canonical calls, each with its line; a refusal is reported at the line.
 pub type Receiver<'a> = &'a mut dyn FnMut(Canonical, u32) -> Result<(), Refusal>;
 
 /// Interprets a program; the calls go to `out` while it is read.
 ///
 /// Ends at M2 or M30, at a return outside of subroutines, at a second `%` or at the end of the text.
-pub fn interpret(reader: &mut dyn BufRead, requested: &Wanted<'_>, out: Receiver<'_>) -> Interpreted {
+pub fn interpret(
+    reader: &mut dyn BufRead,
+    requested: &GcodeReadOptions<'_>,
+    out: Receiver<'_>,
+) -> Interpreted {
     let mut interpreter = Interpreter {
         machine: Machine::new(requested),
         requested,
@@ -84,7 +88,7 @@ pub fn interpret(reader: &mut dyn BufRead, requested: &Wanted<'_>, out: Receiver
 pub(super) struct Interpreter<'a> {
     /// Modes, offsets, position.
     pub machine: Machine,
-    pub requested: &'a Wanted<'a>,
+    pub requested: &'a GcodeReadOptions<'a>,
     /// Takes the calls.
     out: Receiver<'a>,
     /// The words of the line at hand.
@@ -96,14 +100,14 @@ pub(super) struct Interpreter<'a> {
     pub labels: Labels,
     /// Of lines kept so far.
     kept_bytes: usize,
-    /// Kept lines that were done, each round counted.
+    /// Executed lines of loops and subroutines, repetitions included.
     pub repeated: usize,
     /// The same when the first line was refused.
     pub repeated_until_fault: usize,
     /// Subroutines being called.
     pub depth: usize,
     pub faults: Vec<Fault>,
-    /// Lines refused once are not told again in the next round of their loop.
+    /// Refused lines, which are not reported again in the next round of their loop.
     refused: BTreeSet<(Option<Rc<str>>, u32)>,
     /// Whether nothing more is looked at.
     pub stopped: bool,
@@ -164,7 +168,7 @@ impl Interpreter<'_> {
 
     /// Cleans a line; its o-word, if it is one.
     ///
-    /// What is wrong is told here; `Err` says that it was. A line that is left out (`/`) is empty.
+    /// Problems are reported here; `Err` means that there was one. A line that is left out (`/`) is empty.
     pub fn o_word_of(&mut self, line: &Line) -> Result<Option<OWord>, ()> {
         if let Err(refused) = self.clean.read(&line.text) {
             self.fault(line, refused.refusal, refused.place);
@@ -208,7 +212,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Counts a line that is kept for what begins at `start`; none when there are too many, told there.
+    /// Counts a stored line of what begins at `start`; `None` if there are too many, which is reported there.
     pub fn keep(&mut self, line: &Line, start: &Line) -> Option<()> {
         self.kept_bytes += line.text.len() + size_of::<Line>();
         if self.kept_bytes <= MOST_KEPT_BYTES {
@@ -225,7 +229,7 @@ impl Interpreter<'_> {
 
     /// Keeps lines from one that begins a subroutine, branch or loop to the one that ends it.
     ///
-    /// Lines between are checked for their o-words alone. `None` where something is wrong, which was told; of a
+    /// Only the o-words of the lines between are checked. `None` if there is a problem, which is reported; of a
     /// subroutine its first line is not kept.
     pub fn collect(&mut self, first: OWord, line: &mut Line, lines: &mut Lines<'_>) -> Option<Rc<Body>> {
         let begins = first.keyword;
@@ -276,7 +280,7 @@ impl Interpreter<'_> {
         self.linked(body).filter(|_| sound)
     }
 
-    /// Kept lines that know where they go on; what does not belong together is told.
+    /// Stored lines with their continuations; unmatched o-words are reported.
     pub fn linked(&mut self, mut body: Body) -> Option<Rc<Body>> {
         if let Err((index, refusal)) = body.link() {
             let line = body
@@ -291,12 +295,12 @@ impl Interpreter<'_> {
         Some(Rc::new(body))
     }
 
-    /// A line kept, cleaned anew.
+    /// Executes a stored line after cleaning it again.
     ///
-    /// Told faults are not told again.
+    /// Reported faults are not reported again.
     pub fn execute_kept(&mut self, line: &Line) -> Flow {
         if self.clean.read(&line.text).is_err() {
-            // Told when it was kept.
+            // Reported when it was stored.
             return Flow::Next;
         }
         if self.clean.deleted && self.requested.block_delete {
@@ -364,7 +368,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Keeps what is refused, at bytes of its line; what has been refused in an earlier round of a loop is not told
+    /// Stores a refusal with the bytes of its line. A refusal from an earlier round of a loop is not reported
     /// again.
     pub fn fault(&mut self, line: &Line, refusal: Refusal, place: std::ops::Range<usize>) {
         let never_ends = matches!(refusal, Refusal::TooMuch { .. });
@@ -389,7 +393,7 @@ impl Interpreter<'_> {
 /// Sets the parameters of a block.
 ///
 /// # Errors
-/// A parameter that is none, one that only tells the state, too many names.
+/// An invalid parameter, a read-only one, too many names.
 fn settings(machine: &mut Machine, block: &Block) -> Result<(), Refusal> {
     for (name, value) in &block.settings {
         match name {

@@ -1,4 +1,4 @@
-//! Lines of a program, one at a time: a file of any length is never held.
+//! Lines of a program, one at a time: a file of any length is never stored completely.
 
 use std::collections::VecDeque;
 use std::io::{self, BufRead};
@@ -7,7 +7,7 @@ use std::rc::Rc;
 use super::block::LONGEST_LINE;
 use crate::document::lines::RawLines;
 
-/// A line and where it stands.
+/// A line and its position.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Line {
     /// Without its end; cut where it is longer than any line may be.
@@ -21,7 +21,7 @@ pub(super) struct Line {
 }
 
 impl Line {
-    /// What it takes to keep it.
+    /// Memory needed to store it.
     fn bytes(&self) -> usize {
         self.text.len() + size_of::<Line>()
     }

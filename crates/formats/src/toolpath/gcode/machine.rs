@@ -1,4 +1,4 @@
-//! The state that blocks change: modes, offsets, position; and how program and machine coordinates belong together.
+//! The modal state: modes, offsets, position; and the relation of program and machine coordinates.
 //!
 //! `m = g5x + length + Rz(turn) (p + g92)`, where `Rz` turns X and Y alone.
 //!
@@ -18,9 +18,9 @@ use super::cutter::{Cutter, Out};
 use super::cycles::Cycle;
 use super::expression::Values;
 use super::parameters::{self, Parameters};
+use super::read_options::{GcodeReadOptions, Warning};
 use super::refusal::Refusal;
 use super::tools::{Tool, ToolTable};
-use super::requested::{Wanted, Warning};
 use crate::toolpath::LengthUnit;
 use crate::toolpath::direction::LARGEST;
 use crate::toolpath::notes::Notes;
@@ -42,7 +42,7 @@ pub(super) struct Machine {
     /// In the unit of the machine.
     pub tools: ToolTable,
     /// Whether there is a tool table at all.
-    pub tools_told: bool,
+    pub has_tool_table: bool,
     /// The unit of the program in force: of all lengths below.
     pub unit: LengthUnit,
     pub plane: Plane,
@@ -51,7 +51,7 @@ pub(super) struct Machine {
     /// G90.1, not G91.1: I, J, K are the centre itself.
     pub arc_absolute: bool,
     pub feed_mode: FeedMode,
-    /// Units a minute, or a revolution; 0 where none was told.
+    /// Units per minute, or per revolution; 0 if none was given.
     pub feed: f64,
     /// Revolutions a minute.
     pub speed: f64,
@@ -72,7 +72,7 @@ pub(super) struct Machine {
     pub g92: Axes,
     /// Offset of the tool, units and deg.
     pub length: Axes,
-    /// Where the tip stands in coordinates of the program, units and deg.
+    /// Position of the tip in coordinates of the program, units and deg.
     pub at: Axes,
     /// Number of the tool that T chose.
     pub selected: u32,
@@ -93,7 +93,7 @@ pub(super) struct Machine {
     /// Number of the line being read.
     pub line: u32,
     /// Whether G20 or G21 came, or its absence was warned of.
-    pub unit_told: bool,
+    pub unit_given: bool,
 }
 
 /// Adds `by` times `second`.
@@ -117,8 +117,8 @@ pub(super) fn scaled(mut of: Axes, by: f64) -> Axes {
 }
 
 impl Machine {
-    /// Before the first block: G17, G90, G91.1, G94, G98, G64 and no motion, with the parameters that were told.
-    pub fn new(requested: &Wanted<'_>) -> Machine {
+    /// Before the first block: G17, G90, G91.1, G94, G98, G64 and no motion, with the given parameters.
+    pub fn new(requested: &GcodeReadOptions<'_>) -> Machine {
         let mut parameters = Parameters::new();
         for (number, value) in &requested.parameters {
             if let Ok(index) = Parameters::index(f64::from(*number)) {
@@ -131,7 +131,7 @@ impl Machine {
                 unit: requested.machine_unit,
                 ..ToolTable::default()
             }),
-            tools_told: requested.tools.is_some(),
+            has_tool_table: requested.tools.is_some(),
             unit: requested.unit,
             plane: Plane::Xy,
             absolute: true,
@@ -159,7 +159,7 @@ impl Machine {
             vector: false,
             notes: Notes::default(),
             line: 1,
-            unit_told: false,
+            unit_given: false,
         };
         let system = machine.parameters.numbered(parameters::SYSTEM);
         machine.system = if (1.0..=9.0).contains(&system) {
@@ -170,7 +170,7 @@ impl Machine {
         machine
     }
 
-    /// What a program begins with: the offsets that the machine holds.
+    /// Start of a program: the stored offsets of the machine.
     pub fn begin(&mut self, out: Out<'_>) -> Result<(), Refusal> {
         (self.g5x, self.turn) = self.stored_system(self.system)?;
         if self.parameters.numbered(parameters::G92_FLAG) != 0.0 {
@@ -204,7 +204,7 @@ impl Machine {
         plus(turned(offset, -self.turn), -1.0, self.g92)
     }
 
-    /// Changes offsets: the machine stands still, the position counts anew.
+    /// Changes offsets: the machine does not move, but the position has new coordinates.
     ///
     /// What the program calls this place is then another.
     pub fn recount(&mut self, change: impl FnOnce(&mut Machine)) {
@@ -222,7 +222,7 @@ impl Machine {
         Ok(scaled(values, self.tools.unit.in_units_of(self.unit)))
     }
 
-    /// A parameter that tells an offset.
+    /// A parameter that contains an offset.
     fn stored_at(&self, number: usize) -> Result<f64, Refusal> {
         let value = self.parameters.numbered(number);
         match value.abs() <= LARGEST {
@@ -245,9 +245,9 @@ impl Machine {
         Ok((zero, self.stored_at(parameters::turn_of(system))?))
     }
 
-    /// A tool of the table; without a table any tool, with nothing told of it.
+    /// A tool of the table; without a table any tool, without data.
     ///
-    /// Number 0 is no tool at all, without length and diameter, unless the table has it.
+    /// Number 0 means no tool, without length and diameter, unless the table contains it.
     ///
     /// # Errors
     /// A number that the table does not have.
@@ -255,7 +255,7 @@ impl Machine {
         match self.tools.tools.get(&number) {
             Some(tool) => Ok(Some(*tool)),
             None if number == 0 => Ok(Some(Tool::default())),
-            None if self.tools_told => Err(Refusal::ToolUnknown(number)),
+            None if self.has_tool_table => Err(Refusal::ToolUnknown(number)),
             None => Ok(None),
         }
     }
@@ -274,10 +274,10 @@ impl Machine {
         }
         self.cycle.scale(by);
         self.unit = unit;
-        self.unit_told = true;
+        self.unit_given = true;
     }
 
-    /// A parameter of [`parameters::READ_ONLY`]: it tells the state.
+    /// A parameter of [`parameters::READ_ONLY`]: it gives the state.
     fn read_only_parameter(&self, index: usize) -> f64 {
         let tool = self.tools.tools.get(&self.tool);
         match index {
@@ -289,7 +289,7 @@ impl Machine {
         }
     }
 
-    /// What a name that begins with `_` tells of the state, as LinuxCNC calls it.
+    /// State variable with a name that begins with `_`, as in LinuxCNC.
     fn named_state(&self, name: &[u8]) -> Option<f64> {
         let flag = |flag: bool| Some(f64::from(u8::from(flag)));
         let axis = |of: Axes, letter: u8| {

@@ -1,8 +1,8 @@
-//! Comments that speak: `(MSG,text)` and `(DEBUG,text #5420)`, in which parameters become their values.
+//! Comments with messages: `(MSG,text)` and `(DEBUG,text #5420)`, in which parameters are replaced by their values.
 //!
-//! | comment | told |
+//! | comment | message |
 //! |---|---|
-//! | `(MSG, text)` | the text as it stands |
+//! | `(MSG, text)` | the text unchanged |
 //! | `(DEBUG, x is #5420)` | parameters as numbers with six decimals, `######` where they have no value |
 //! | any other | nothing |
 //!
@@ -10,7 +10,7 @@
 
 use super::expression::{Reader, Values};
 
-/// What a comment says to the operator, if it does.
+/// The message of a comment to the operator, if there is one.
 pub(super) fn message(comment: &[u8], values: &dyn Values) -> Option<String> {
     let comment = comment.trim_ascii_start();
     let (word, text) = comment.split_at_checked(comment.iter().position(|byte| *byte == b',')?)?;

@@ -1,6 +1,6 @@
 //! G-code, ISO 6983 and RS-274/NGC as LinuxCNC speaks it: a modal interpreter, and what it gives as steps of a path.
 //!
-//! Which words are followed, passed over and refused, and what is taken for granted, stands in
+//! The words that are followed, ignored and refused, and the assumptions, are listed in
 //! `docs/guide/tool-path-words.md`; `tests/toolpath/words.rs` tries each. What moves the tool and is not understood
 //! refuses the program. Rotary words need tool-centre control and [`Rotaries`]: X, Y, Z are then the tip in the frame
 //! of the part, and a table carries that frame with it.
@@ -8,7 +8,7 @@
 //! In reading order: `lines` and `block` take a program apart (`expression`, `groups`, `messages`); `interpreter` goes
 //! through it (`flow`, `walk`, `subroutines`); `execute` does a block upon the `machine` (`parameters`, `offsets`,
 //! `motion`, `cycles`, `cutter`) as [`canonical`] calls, or says its [`refusal`]; `steps` makes the path of them, by
-//! [`rotaries`]. [`tools`] and [`wanted`] come with a program.
+//! [`rotaries`]. [`tools`] and [`read_options`] are inputs in addition to the program.
 //!
 //! Source: LinuxCNC documentation, G codes and O codes; Kramer, Proctor, Messina, The NIST RS274NGC Interpreter,
 //! NISTIR 6556 (2000). Witness: the interpreter tests of LinuxCNC.
@@ -32,10 +32,10 @@ mod walk;
 
 pub mod canonical;
 pub mod interpreter;
+pub mod read_options;
 pub mod refusal;
 pub mod rotaries;
 pub mod tools;
-pub mod requested;
 
 use std::io::BufRead;
 
@@ -43,10 +43,10 @@ use armill_core::path::Step;
 
 pub use self::canonical::Canonical;
 pub use self::interpreter::interpret;
+pub use self::read_options::{GcodeReadOptions, Lookup, Warning};
 pub use self::refusal::{Fault, Refusal};
 pub use self::rotaries::{Rotaries, Rotary};
 pub use self::tools::{Tool, ToolTable};
-pub use self::requested::{Lookup, Wanted, Warning};
 
 use self::steps::Tracer;
 use super::Summary;
@@ -66,18 +66,18 @@ use crate::document::{Problem, Problems, Source};
 ///
 /// let program = "G21 G90 T1 M6 S6000 M3\nG0 X0 Y0 Z5\nG1 Z-1 F300\nG2 I10\nM2\n";
 /// let mut steps = Vec::new();
-/// let wanted = gcode::Wanted::default();
-/// let summary = gcode::read("ring.ngc", program.as_bytes(), &wanted, &mut |step| steps.push(step))?;
+/// let options = gcode::GcodeReadOptions::default();
+/// let summary = gcode::read("ring.ngc", program.as_bytes(), &options, &mut |step| steps.push(step))?;
 /// assert_eq!((summary.cuts, summary.arcs), (2, 1));
 ///
-/// let problems = gcode::read("bad.ngc", "G1 X1\n".as_bytes(), &wanted, &mut |_| {}).unwrap_err();
+/// let problems = gcode::read("bad.ngc", "G1 X1\n".as_bytes(), &options, &mut |_| {}).unwrap_err();
 /// assert!(problems.to_string().contains("bad.ngc:1:1: G1 with a feed of zero"));
 /// # Ok::<(), armill_formats::document::Problems>(())
 /// ```
 pub fn read(
     path: &str,
     mut reader: impl BufRead,
-    requested: &Wanted<'_>,
+    requested: &GcodeReadOptions<'_>,
     out: &mut dyn FnMut(Step),
 ) -> Result<Summary, Problems> {
     let mut summary = Summary::new(Format::Gcode);

@@ -21,8 +21,8 @@ use super::cutter::{Contour, Out};
 use super::groups;
 use super::machine::{FeedMode, Machine};
 use super::parameters;
+use super::read_options::Warning;
 use super::refusal::Refusal;
-use super::requested::Warning;
 
 /// Least difference of radii that is looked at, per 2 sqrt(2): mm and inch.
 const RADII_APART: [f64; 2] = [0.01, 0.001];
@@ -32,7 +32,7 @@ const RADII_FAR_APART: f64 = 100.0;
 const RADII_RELATIVE: f64 = 1e-3;
 /// Turns of one helix: a spring, not a cut.
 const MOST_TURNS: f64 = 10_000.0;
-/// A tool axis told as a vector may have any length between these: beyond, its digits are lost.
+/// Range of the length of a tool axis given as a vector: beyond it digits are lost.
 const VECTOR_LENGTHS: RangeInclusive<f64> = 1e-6..=1e6;
 /// Ends nearer than this angle, rad, are the same: rounding of computed ends, 1e-6 mm on a radius of 1 m.
 const SAME_END: f64 = 1e-9;
@@ -98,7 +98,7 @@ impl Machine {
 
     /// I, J, K under G43.5.
     ///
-    /// Whether they stand in the block; the tool axis goes out as a call of its own.
+    /// Returns whether the block has them; the tool axis is a separate call.
     fn vector_words(&mut self, block: &mut Block, out: Out<'_>) -> Result<bool, Refusal> {
         if !self.vector || !block.has_vector() {
             return Ok(false);
@@ -133,7 +133,7 @@ impl Machine {
     /// Turns about the axis across the plane; words of that axis make a helix, P its turns, begun ones counted.
     ///
     /// # Errors
-    /// No centre or two, radii that differ, P that is no count of turns, no feed.
+    /// No centre or two, radii that differ, P that is not a number of turns, no feed.
     pub(super) fn arc(&mut self, code: u16, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
         let [first, second, across] = self.plane.axes();
         let end = self.target(block.axes());
@@ -174,7 +174,7 @@ impl Machine {
         Ok(())
     }
 
-    /// The centre that I, J, K or R tell of an arc.
+    /// The centre of an arc given by I, J, K or R.
     ///
     /// I, J, K count from the start, or are the centre itself under G90.1; one that is left out is that of the start.
     fn centre(
@@ -260,7 +260,7 @@ fn bounded(end: &Axes) -> Result<(), Refusal> {
     axes.try_for_each(|(value, letter)| within(shown(*letter), *value))
 }
 
-/// What the feed is counted along: the way of the tip, or degrees where it stands.
+/// Length to which the feed refers: the path of the tip, or degrees if it does not move.
 fn length(from: &Axes, to: &Axes) -> f64 {
     let apart = |axes: std::ops::Range<usize>| {
         axes.map(|axis| (to[axis] - from[axis]).powi(2))
@@ -300,7 +300,7 @@ fn centre_by_radius(
         return Err(Refusal::ArcAnywhere);
     }
     let square = radius * radius - d * d / 4.0;
-    // A half circle, rounded: the radius may lack what its last digit holds.
+    // A half circle, rounded: the radius may be too small by its last digit.
     if d / 2.0 > radius.abs() * (1.0 + RADII_RELATIVE) {
         return Err(Refusal::ArcTooSmall { radius, chord: d });
     }
@@ -317,7 +317,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_sweep_goes_the_way_it_is_told() {
+    fn a_sweep_has_the_programmed_direction() {
         let (x, y) = (Vector2::x(), Vector2::y());
         assert_eq!(sweep(x, y, Sense::Counterclockwise), PI / 2.0);
         assert_eq!(sweep(x, y, Sense::Clockwise), 1.5 * PI);

@@ -1,6 +1,6 @@
-//! Codes that change what coordinates count from: G10, G43, G52, G54, G92 and their like.
+//! Codes that change the reference of coordinates: G10, G43, G52, G54, G92 and similar.
 //!
-//! With `m = g5x + length + Rz(turn) (p + g92)` (see `machine`), where the tip stands at `m` and the words are `w`:
+//! With `m = g5x + length + Rz(turn) (p + g92)` (see `machine`), the tip at `m` and the words `w`:
 //!
 //! | code | sets | so that |
 //! |---|---|---|
@@ -20,13 +20,13 @@ use super::cutter::Out;
 use super::groups;
 use super::machine::{Machine, scaled};
 use super::parameters;
+use super::read_options::Warning;
 use super::refusal::Refusal;
-use super::requested::Warning;
 
 /// G59.3, which G10 L11 counts from.
 const FIXTURE: u8 = 9;
 
-/// The words where they stand, else the base.
+/// The words that are given, otherwise the base.
 fn over(words: [Option<f64>; 6], base: Axes) -> Axes {
     std::array::from_fn(|axis| words[axis].unwrap_or(base[axis]))
 }
@@ -43,7 +43,11 @@ fn whole(
     // Words may be computed.
     let whole = value.round();
     if (value - whole).abs() > 1e-6 || !range.contains(&whole) {
-        return Err(Refusal::WordValue { word, value, requested });
+        return Err(Refusal::WordValue {
+            word,
+            value,
+            requested,
+        });
     }
     Ok(whole as u32)
 }
@@ -88,14 +92,14 @@ impl Machine {
     /// G10 L2 and L20.
     ///
     /// What the words do not name stays; under a turn X and Y are found together. Of the system in force the change
-    /// holds at once.
+    /// takes effect at once.
     fn set_system(&mut self, system: u8, kind: u32, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
         self.not_compensating("G10")?;
         let (zero, turn) = self.stored_system(system)?;
         let turn = block.take(b'r').unwrap_or(turn);
         let words = block.axes();
         let zero = if kind == 20 {
-            // Where the system must lie for the tip to stand at the words.
+            // Position of the system with which the tip is at the words.
             let machine = self.in_machine(self.at);
             self.with_system(zero, turn, |other| {
                 let at = over(words, other.in_program(machine));
@@ -133,7 +137,7 @@ impl Machine {
 
     /// G10 L1, L10 and L11.
     ///
-    /// The table changes, not the offset in force. I and J, angles of turning tools, are passed over.
+    /// The table changes, not the offset in force. I and J, angles of turning tools, are ignored.
     fn set_tool(&mut self, number: u32, kind: u32, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
         self.not_compensating("G10")?;
         let mut tool = self.tool(number)?.unwrap_or_default();
@@ -142,7 +146,7 @@ impl Machine {
         let machine = self.in_machine(self.at);
         let offset = match kind {
             1 => over(words, offset),
-            // The offset with which the tip would stand at the words.
+            // The offset with which the tip is at the words.
             10 => {
                 let (zero, turn) = (self.g5x, self.turn);
                 self.with_system(zero, turn, |other| other.offset_for(machine, offset, words))
@@ -177,7 +181,7 @@ impl Machine {
         )
     }
 
-    /// The offset with which the tip at `machine` would stand at the words; axes without word keep `offset`.
+    /// The offset with which the tip at `machine` is at the words; axes without word keep `offset`.
     fn offset_for(&mut self, machine: Axes, offset: Axes, words: [Option<f64>; 6]) -> Axes {
         self.length = offset;
         let at = over(words, self.in_program(machine));
@@ -188,7 +192,7 @@ impl Machine {
 
     /// G54 to G59.3.
     ///
-    /// The tip stays where it is and counts anew.
+    /// The tip does not move but has new coordinates.
     pub(super) fn use_system(&mut self, code: u16, out: Out<'_>) -> Result<(), Refusal> {
         let system = match code {
             540 => 1,
@@ -248,7 +252,7 @@ impl Machine {
 
     /// G28.1 and G30.1.
     ///
-    /// Where the tip stands, in machine coordinates.
+    /// Position of the tip, in machine coordinates.
     pub(super) fn store_home(&mut self, code: u16) {
         let machine = self.in_machine(self.at);
         self.store(parameters::home_of(code), machine);

@@ -49,7 +49,7 @@ pub(super) fn zero_of(system: u8) -> usize {
     SYSTEM + 1 + SYSTEM_STRIDE * (usize::from(system) - 1)
 }
 
-/// Where the turn of a coordinate system, 1 to 9, stands.
+/// Index of the rotation of a coordinate system, 1 to 9.
 pub(super) fn turn_of(system: u8) -> usize {
     zero_of(system) + 9
 }

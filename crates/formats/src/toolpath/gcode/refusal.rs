@@ -1,7 +1,7 @@
-//! Why a block is refused: one variant for each situation, so that tests can tell one reason from another.
+//! Why a block is refused: one variant for each reason.
 //!
 //! Messages name the word or code, its value and the limit. Lengths in them are in the unit of the program, which they
-//! do not name. Limits stand in the variants, so that a message tells the one that was crossed.
+//! do not name. The variants contain the limits, so that a message can give the exceeded limit.
 
 use std::fmt;
 
@@ -13,7 +13,7 @@ use thiserror::Error;
 pub enum Refusal {
     #[error("cannot be read further: {0}")]
     Unreadable(String),
-    // What no block may look like.
+    // Invalid form of a block.
     #[error("line of more than {limit} bytes")]
     LineTooLong { limit: usize },
     #[error("`{0}` begins no word")]
@@ -24,7 +24,7 @@ pub enum Refusal {
     NotANumber(String),
     #[error("expected `{0}`")]
     Expected(char),
-    #[error("`{0}` is no function or operator")]
+    #[error("`{0}` is not a function or operator")]
     UnknownFunction(String),
     #[error("expected `#` of a parameter inside EXISTS")]
     ExpectedParameter,
@@ -56,19 +56,19 @@ pub enum Refusal {
         value: f64,
         requested: &'static str,
     },
-    #[error("{0} and {1} in one block, where only one of their group may stand")]
+    #[error("{0} and {1} in one block, but only one code of their group is allowed")]
     SameGroup(String, String),
     #[error("unknown code {0}")]
     UnknownCode(String),
-    // What is understood and not read.
-    #[error("{code} is not read: {reason}")]
+    // Known but not supported.
+    #[error("{code} is not supported: {reason}")]
     Unsupported { code: String, reason: &'static str },
     // Motion.
     #[error("axis words without a code that moves")]
     AxesWithoutMotion,
     #[error("{0} without any axis word")]
     AxesMissing(String),
-    #[error("{0} and {1} both want the axis words of this block")]
+    #[error("{0} and {1} both need the axis words of this block")]
     AxesTwice(String, String),
     #[error("{0} without {1} word")]
     WordMissing(String, &'static str),
@@ -92,7 +92,7 @@ pub enum Refusal {
     ArcTooSmall { radius: f64, chord: f64 },
     #[error("arc with R that ends where it starts: it could be any circle")]
     ArcAnywhere,
-    #[error("arc of no radius")]
+    #[error("arc with radius 0")]
     ArcPoint,
     // Canned cycles.
     #[error("{word} in a canned cycle")]
@@ -106,7 +106,7 @@ pub enum Refusal {
     NotUnderCompensation(String),
     #[error("cutter compensation in the YZ plane")]
     CompensationPlane,
-    #[error("move after cutter compensation that is no straight line")]
+    #[error("move after cutter compensation that is not a straight line")]
     ArcAfterCompensation,
     #[error("corner that a cutter of radius {radius} cannot reach without gouging")]
     Gouging { radius: f64 },
@@ -114,7 +114,7 @@ pub enum Refusal {
     ArcInsideCutter { arc: f64, radius: f64 },
     #[error("more than {limit} calls between two moves of cutter compensation")]
     CompensationWaits { limit: usize },
-    #[error("diameter of tool {0} is not told")]
+    #[error("diameter of tool {0} is not given")]
     DiameterUnknown(u32),
     #[error("tool {0} is not in the tool table")]
     ToolUnknown(u32),
@@ -127,9 +127,9 @@ pub enum Refusal {
     FlowUnopened(String),
     #[error("o-word `{0}` that nothing ends")]
     FlowUnclosed(String),
-    #[error("`{0}` is no o-word")]
+    #[error("`{0}` is not an o-word")]
     FlowUnknown(String),
-    #[error("words behind an o-word")]
+    #[error("words after an o-word")]
     FlowTrailing,
     #[error("subroutine {0} is not known")]
     SubroutineUnknown(String),
@@ -142,32 +142,34 @@ pub enum Refusal {
     // The tip and its axis.
     #[error("cut with {axis} at {angle} deg and no tool-centre control")]
     RotaryCut { axis: char, angle: f64 },
-    #[error("{axis} turns under tool-centre control, and how the machine's rotary axes stand is not told")]
+    #[error(
+        "{axis} rotates under tool-centre control, but the arrangement of the machine's rotary axes is not given"
+    )]
     RotariesUnknown { axis: char },
-    #[error("{axis} turns, and the machine described has no such axis")]
+    #[error("{axis} rotates, but the specified machine has no such axis")]
     RotaryAbsent { axis: char },
     #[error("tool axis I, J, K of length {length}: must be from 1e-6 to 1e6")]
     NoDirection { length: f64 },
-    #[error("cut in {0} after cuts in {1}, and where one lies to the other is not told")]
+    #[error("cut in {0} after cuts in {1}, but their relative position is not given")]
     SystemUnknown(&'static str, &'static str),
-    #[error("cut in machine coordinates, and where the workpiece lies in them is not told")]
+    #[error("cut in machine coordinates, but the position of the workpiece in them is not given")]
     MachineCut,
 }
 
 impl Refusal {
-    /// What to do about it, where that is known.
+    /// A hint, if there is one.
     ///
     /// `None` where the message says it.
     pub fn hint(&self) -> Option<String> {
         let hint = match self {
-            Refusal::WordTwice(_) | Refusal::SameGroup(..) => "write them in blocks of their own",
+            Refusal::WordTwice(_) | Refusal::SameGroup(..) => "write them in separate blocks",
             Refusal::WordAmbiguous(_) | Refusal::AxesTwice(..) => "write the codes on separate lines",
             Refusal::UnknownCode(_) => {
-                "the guide has a page of words (tool-path-words.md); take the block out if it moves nothing"
+                "see the list of words in the guide (tool-path-words.md); remove the block if it does not move the tool"
             }
             Refusal::NoFeed(_) => "give F before the first cut",
             Refusal::NoInverseTime(_) => {
-                "under G93 every cut has its own F, the inverse of its time in minutes"
+                "under G93 every cut needs its own F, the inverse of its time in minutes"
             }
             Refusal::AxesWithoutMotion => "give G0, G1, G2 or G3",
             Refusal::ArcRadii { .. } => {
@@ -183,11 +185,11 @@ impl Refusal {
             Refusal::SubroutineUnknown(_) => "define it before its call, or give its file",
             Refusal::RotaryCut { .. } => {
                 "post-process with tool-centre control (G43.4, M428, TRAORI, M128), so that X Y Z are the tip in the \
-                 frame of the part; and say what the rotary axes turn: rotaries = \"table-ac\", \"table-bc\", \"head-ca\" or \
+                 frame of the part; and give the rotary axes: rotaries = \"table-ac\", \"table-bc\", \"head-ca\" or \
                  \"head-cb\""
             }
             Refusal::RotariesUnknown { .. } => {
-                "say what the rotary axes turn: rotaries = \"table-ac\" (A tilts the table that carries C), \"table-bc\", \
+                "give the rotary axes: rotaries = \"table-ac\" (A tilts the table that carries C), \"table-bc\", \
                  \"head-ca\" (C carries the head that A tilts) or \"head-cb\""
             }
             Refusal::SystemUnknown(..) => {
@@ -216,7 +218,7 @@ impl Refusal {
     }
 }
 
-/// What there may be too much of.
+/// Quantity with a maximum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Excess {
     /// Text of subroutines and loops.
@@ -233,7 +235,7 @@ impl fmt::Display for Excess {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Excess::KeptBytes => "bytes of subroutines and loops",
-            Excess::RepeatedLines => "lines of loops and subroutines to be done",
+            Excess::RepeatedLines => "executed lines of loops and subroutines",
             Excess::MovesOfALine => "moves of one line",
             Excess::Pecks => "steps in one hole",
         })
@@ -251,9 +253,9 @@ pub struct Refused {
     pub place: std::ops::Range<usize>,
 }
 
-/// A refusal and where it stands in its file.
+/// A refusal and its position in its file.
 ///
-/// One a line: a line that goes wrong in every round of a loop has one.
+/// One per line: a line that fails in every round of a loop is reported once.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fault {
     /// Why.

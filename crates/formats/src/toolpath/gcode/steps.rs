@@ -19,20 +19,20 @@ use armill_core::path::{Arc, Course, Move, Operation, Pace, Step};
 use super::canonical::{ArcFeed, Axes, Canonical};
 use super::motion::sweep;
 use super::parameters;
+use super::read_options::{GcodeReadOptions, Warning};
 use super::refusal::Refusal;
 use super::rotaries::{Rotaries, Rotary};
-use super::requested::{Wanted, Warning};
 use crate::toolpath::LengthUnit;
 use crate::toolpath::notes::Notes;
 
-/// Rotary axes nearer to zero than this, deg, stand there.
+/// Rotary axes closer to zero than this, deg, are at zero.
 const AT_ZERO: f64 = 1e-9;
 /// Work coordinate systems by number.
 const SYSTEMS: [&str; 10] = [
     "G53", "G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3",
 ];
 
-/// Where the coordinates of the program lie, m and rad.
+/// Pose of the program's coordinate system, m and rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Frame {
     /// 1 for G54.
@@ -77,11 +77,11 @@ struct Tip {
 pub(super) struct Tracer<'a> {
     out: &'a mut dyn FnMut(Step),
     rotaries: Option<&'a Rotaries>,
-    /// Which systems somebody has measured: their zeros were told.
+    /// Systems whose zeros are given.
     systems_measured: [bool; 10],
     /// Of tools by number, m.
     diameters: BTreeMap<u32, f64>,
-    /// What lengths of calls count in.
+    /// Unit of lengths in calls.
     unit: LengthUnit,
     /// That in force.
     frame: Frame,
@@ -95,7 +95,7 @@ pub(super) struct Tracer<'a> {
     axis: Option<Unit<Vector3<f64>>>,
     /// Whether tool-centre control is on.
     centre: bool,
-    /// Tool axis that was told as a vector, of any length.
+    /// Tool axis given as a vector, of any length.
     vector: Option<Vector3<f64>>,
     /// Whether the next move is counted in machine coordinates.
     in_machine: bool,
@@ -104,7 +104,7 @@ pub(super) struct Tracer<'a> {
     per_revolution: bool,
     /// Revolutions per minute.
     speed: f64,
-    /// 1 clockwise, -1 counterclockwise, 0 standing; none before it was told.
+    /// 1 clockwise, -1 counterclockwise, 0 stopped; `None` before it is given.
     sense: Option<f64>,
     /// In the spindle.
     tool: Option<u32>,
@@ -114,13 +114,14 @@ pub(super) struct Tracer<'a> {
 }
 
 impl<'a> Tracer<'a> {
-    /// Before the first call; a system counts as measured where a parameter of it was told.
-    pub fn new(requested: &'a Wanted<'_>, out: &'a mut dyn FnMut(Step)) -> Tracer<'a> {
+    /// Before the first call; a system is known if one of its parameters is given.
+    pub fn new(requested: &'a GcodeReadOptions<'_>, out: &'a mut dyn FnMut(Step)) -> Tracer<'a> {
         let mut systems_measured = [false; 10];
         for (system, measured) in (0_u8..).zip(&mut systems_measured).skip(1) {
             let first = parameters::zero_of(system);
-            *measured = (first..first + 10)
-                .any(|index| u16::try_from(index).is_ok_and(|index| requested.parameters.contains_key(&index)));
+            *measured = (first..first + 10).any(|index| {
+                u16::try_from(index).is_ok_and(|index| requested.parameters.contains_key(&index))
+            });
         }
         let diameters = requested.tools.iter().flat_map(|table| {
             let unit = table.unit.metres();
@@ -161,8 +162,8 @@ impl<'a> Tracer<'a> {
     /// The next call and its line.
     ///
     /// # Errors
-    /// A cut whose place is not told: between systems that nobody measured, in machine coordinates, with a rotary axis
-    /// away from zero and no tool-centre control; rotary axes that are not described.
+    /// A cut whose position is not known: between systems that are not given, in machine coordinates, with a rotary
+    /// axis away from zero and no tool-centre control; rotary axes that are not described.
     pub fn take(&mut self, call: Canonical, line: u32) -> Result<(), Refusal> {
         match call {
             Canonical::StraightTraverse(end) => {
@@ -175,7 +176,7 @@ impl<'a> Tracer<'a> {
             Canonical::ArcFeed(arc) => self.arc(&arc, line)?,
             Canonical::UseLengthUnits(unit) => self.unit = unit,
             Canonical::SetG5xOffset(system, zero) => {
-                // Said of the system in force, or away from zero: somebody has measured it.
+                // A value for the active system, or different from zero: the system is known.
                 let again = system == self.frame.system && self.path.is_some();
                 self.frame.zero = self.lengths(&zero);
                 self.frame.system = system;
@@ -213,13 +214,13 @@ impl<'a> Tracer<'a> {
         Vector3::new(of[0], of[1], of[2]) * self.unit.metres()
     }
 
-    /// How fast a cut goes; not told where the feed is zero, or a turn of a standing spindle.
+    /// Speed of a cut; unknown if the feed is zero, or per revolution of a stopped spindle.
     fn pace(&mut self, line: u32) -> Pace {
         const MINUTE: f64 = 60.0;
         let per_minute = if self.per_revolution {
             let turning = self.sense.unwrap_or_default().abs() * self.speed;
             if turning == 0.0 {
-                self.notes.count(Warning::SpindleStands, line);
+                self.notes.count(Warning::SpindleStopped, line);
             }
             self.feed * turning
         } else {
@@ -228,7 +229,7 @@ impl<'a> Tracer<'a> {
         if per_minute > 0.0 {
             Pace::Feed(per_minute / MINUTE)
         } else {
-            Pace::EvaluateError
+            Pace::Unknown
         }
     }
 
@@ -251,7 +252,7 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// Before every move: in which frame it is, and whether that is told.
+    /// Before every move: determines its frame, and whether it is known.
     ///
     /// Until the first cut the frame of the path follows that of the program.
     fn settle(&mut self, pace: Pace, rotary: [f64; 3], line: u32) -> Result<(), Refusal> {
@@ -297,7 +298,7 @@ impl<'a> Tracer<'a> {
 
     /// The tool in the frame of the path.
     ///
-    /// A vector goes before rotary axes; with all of them at zero the tool stands along Z, whatever the machine.
+    /// A vector takes precedence over rotary axes; with all of them at zero the tool is along Z on any machine.
     fn tool_axis(&mut self, rotary: [f64; 3]) -> Result<Option<Unit<Vector3<f64>>>, Refusal> {
         if !self.centre {
             return Ok(None);
@@ -354,7 +355,7 @@ impl<'a> Tracer<'a> {
             let q = self.in_path(p);
             self.step(Pace::Rapid, Tip { p, q, axis }, Course::Line, line);
         }
-        // The start in the coordinates now in force: as the program told it, or found anew where these have changed
+        // The start in the current coordinates: as given by the program, or computed again if they have changed
         // since.
         let from = match (self.at, self.path) {
             (Some((p, q)), Some(path)) if path != self.frame => {
@@ -366,7 +367,7 @@ impl<'a> Tracer<'a> {
         let unit = self.unit.metres();
         let mut end = Vector3::zeros();
         (end[first], end[second], end[across]) = (arc.end[0] * unit, arc.end[1] * unit, arc.across * unit);
-        // The centre is told at no height: it is put at that of the start, from which a helix climbs.
+        // The height of the centre is not given: that of the start is used, from which a helix climbs.
         let mut centre = Point3::origin();
         (centre[first], centre[second], centre[across]) =
             (arc.centre[0] * unit, arc.centre[1] * unit, from[across]);

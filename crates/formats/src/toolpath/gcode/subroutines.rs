@@ -1,8 +1,8 @@
 //! Subroutines: of the program, of other files, and those of M98 behind the end of the program.
 //!
-//! A name is looked for among those that the program has defined so far, then in a file of that name (`Wanted`), then,
-//! for M98, among labels in the lines still to come. A file may hold `o<name> sub` as a program does, or be the body
-//! itself.
+//! A name is looked for among those that the program has defined so far, then in a file of that name
+//! (`GcodeReadOptions`), then, for M98, among labels in the following lines. A file may contain `o<name> sub` as a
+//! program does, or be the body itself.
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -13,7 +13,7 @@ use super::interpreter::{Flow, Interpreter, MOST_KEPT_BYTES};
 use super::lines::{Line, Lines};
 use super::refusal::Refusal;
 
-/// Where labels of M98 stand in lines that were looked at ahead: no line is looked at twice for them.
+/// Positions of labels of M98 in lines that were read ahead: no line is searched twice.
 #[derive(Debug, Default)]
 pub(super) struct Labels {
     /// Lines of each, in order.
@@ -60,7 +60,7 @@ impl Interpreter<'_> {
         self.subroutines.get(name).cloned()
     }
 
-    /// A subroutine of M98 that stands farther on, behind the end of the program; `call` is the line that wants it.
+    /// A subroutine of M98 after the end of the program; `call` is the line that calls it.
     ///
     /// From the line behind its label `O1234` to the first M99, or to the end of the text.
     fn ahead(&mut self, name: &str, call: &Line, lines: &mut Lines<'_>) -> Option<Rc<Body>> {

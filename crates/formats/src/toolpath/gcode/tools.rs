@@ -18,7 +18,7 @@ use crate::document::lines::Lines;
 use crate::toolpath::LengthUnit;
 use crate::toolpath::direction::LARGEST;
 
-/// A tool as its table tells it.
+/// A tool of the tool table.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tool {
     /// Offset of its tip, in the unit of the table, deg.
@@ -44,10 +44,10 @@ const MOST_TOOLS: usize = 10_000;
 impl ToolTable {
     /// The table in this text; `path` is what problems show.
     ///
-    /// Of two lines with one number the last counts; empty lines and remarks (`;`) are passed over.
+    /// Of two lines with one number the last counts; empty lines and remarks (`;`) are ignored.
     ///
     /// # Errors
-    /// A line without `T`, a word that no table has, what is no number, more than 10000 tools.
+    /// A line without `T`, an unknown word, an invalid number, more than 10000 tools.
     pub fn read(path: &str, text: &str, unit: LengthUnit) -> Result<ToolTable, Problems> {
         let mut lines = Lines::new(path, text.as_bytes());
         let mut table = ToolTable {
@@ -71,7 +71,7 @@ impl ToolTable {
             }
             if table.tools.len() > MOST_TOOLS || problems.len() > MOST_TOOLS {
                 let message = format!("more than {MOST_TOOLS} tools");
-                let hint = "a tool table has a line for each place of the magazine";
+                let hint = "a tool table has one line for each place of the magazine";
                 problems.push(line.problem(path, 0..line.text.len(), message, hint));
                 break;
             }
@@ -84,7 +84,7 @@ impl ToolTable {
 /// Bytes of the line, and what is wrong with them.
 type Misread = (std::ops::Range<usize>, String);
 
-/// Number and tool of a line; pocket, angles and axes U, V, W are passed over.
+/// Number and tool of a line; pocket, angles and axes U, V, W are ignored.
 fn tool(line: &str) -> Result<(u32, Tool), Misread> {
     let mut number = None;
     let mut tool = Tool::default();
@@ -99,7 +99,7 @@ fn tool(line: &str) -> Result<(u32, Tool), Misread> {
             .and_then(|digits| digits.parse::<f64>().ok())
             .filter(|value| value.abs() <= LARGEST);
         let Some(value) = value else {
-            return Err((place, format!("`{word}` is no word of a tool table")));
+            return Err((place, format!("`{word}` is not a word of a tool table")));
         };
         match letter.to_ascii_uppercase() {
             'T' if value >= 0.0 && value <= f64::from(u32::MAX) && value.fract() == 0.0 => {
@@ -114,7 +114,7 @@ fn tool(line: &str) -> Result<(u32, Tool), Misread> {
             'D' => tool.diameter = value,
             'Q' if (0.0..=9.0).contains(&value) => tool.orientation = value as u8,
             'P' | 'I' | 'J' | 'U' | 'V' | 'W' => {}
-            _ => return Err((place, format!("`{word}` is no word of a tool table"))),
+            _ => return Err((place, format!("`{word}` is not a word of a tool table"))),
         }
     }
     match number {
@@ -142,15 +142,15 @@ mod tests {
     }
 
     #[test]
-    fn all_that_is_wrong_is_told_with_its_place() {
+    fn all_problems_are_reported_with_their_positions() {
         let problems = ToolTable::read("t.tbl", "P1 Z2\nT1 Dx\nT2 !5\n", LengthUnit::Inch).unwrap_err();
         let lines: Vec<String> = problems.as_slice().iter().map(ToString::to_string).collect();
         assert_eq!(
             lines,
             [
                 "t.tbl:1:1: a tool without its number",
-                "t.tbl:2:4: `Dx` is no word of a tool table",
-                "t.tbl:3:4: `!5` is no word of a tool table",
+                "t.tbl:2:4: `Dx` is not a word of a tool table",
+                "t.tbl:3:4: `!5` is not a word of a tool table",
             ]
         );
     }

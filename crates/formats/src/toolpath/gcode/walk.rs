@@ -2,7 +2,7 @@
 //!
 //! | o-word | goes on at |
 //! |---|---|
-//! | `if` | the next line, or the first branch whose condition holds, or behind `endif` |
+//! | `if` | the next line, or the first branch whose condition is true, or after `endif` |
 //! | `elseif`, `else` (reached from above) | behind `endif` |
 //! | `while` | the next line, or behind `endwhile`, which goes back to it |
 //! | `while` of a `do` | behind the `do`, or the next line |
@@ -62,7 +62,7 @@ impl Interpreter<'_> {
         Flow::Next
     }
 
-    /// Counts a line that is done; false where there were too many, told there, or where the program has stopped.
+    /// Counts an executed line; false if there were too many, which is reported there, or if the program has stopped.
     ///
     /// After a fault only 10000 lines more are done, so that a loop whose end was refused ends.
     fn may_go_on(&mut self, line: &Line) -> bool {
@@ -97,11 +97,11 @@ impl Interpreter<'_> {
         };
         let (line, partner) = (&kept.line, kept.partner);
         match word.keyword {
-            Keyword::If if !self.holds(line, word) => self.branch(body, partner),
+            Keyword::If if !self.is_true(line, word) => self.branch(body, partner),
             Keyword::ElseIf | Keyword::Else => kept.end + 1,
-            Keyword::While if !self.holds(line, word) => partner + 1,
+            Keyword::While if !self.is_true(line, word) => partner + 1,
             Keyword::EndWhile => partner,
-            Keyword::DoWhile if self.holds(line, word) => partner + 1,
+            Keyword::DoWhile if self.is_true(line, word) => partner + 1,
             Keyword::Repeat => {
                 // Counts below one give no round at all.
                 let rounds = self.value(line, word).unwrap_or_default().round().max(0.0) as u64;
@@ -140,13 +140,13 @@ impl Interpreter<'_> {
         }
     }
 
-    /// The branch that holds after a condition that does not.
+    /// The branch whose condition is true after a condition that is false.
     ///
-    /// `at` is the next branch; the line behind the one that holds, or behind `endif`.
+    /// `at` is the next branch; returns the line after the true one, or after `endif`.
     fn branch(&mut self, body: &Rc<Body>, mut at: usize) -> usize {
         while let Some(kept) = body.lines.get(at) {
             match &kept.word {
-                Some(word) if word.keyword == Keyword::ElseIf && !self.holds(&kept.line, word) => {
+                Some(word) if word.keyword == Keyword::ElseIf && !self.is_true(&kept.line, word) => {
                     at = kept.partner;
                 }
                 _ => break,
@@ -155,8 +155,8 @@ impl Interpreter<'_> {
         at + 1
     }
 
-    /// Whether a condition is other than zero; one that is refused does not hold.
-    fn holds(&mut self, line: &Line, word: &OWord) -> bool {
+    /// Whether a condition is not zero; a refused one is false.
+    fn is_true(&mut self, line: &Line, word: &OWord) -> bool {
         self.value(line, word).is_some_and(|value| value != 0.0)
     }
 

@@ -72,7 +72,7 @@ fn samples_without_their_data_file_name_every_point_that_is_missing() {
         assert_eq!(all.len(), 9);
         for (index, problem) in all.iter().enumerate() {
             assert!(
-                problem.contains(&format!("`XP{}` is not told", index + 1)),
+                problem.contains(&format!("`XP{}` is not defined", index + 1)),
                 "{problem}"
             );
         }
@@ -100,7 +100,10 @@ fn a_module_has_its_points_in_the_data_file() {
         (Motion::Joint, Speed::Joints)
     );
     let base = Isometry::identity();
-    assert_eq!((first.frame, first.tool), (Frame::Told(base), Frame::Numbered(3)));
+    assert_eq!(
+        (first.frame, first.tool),
+        (Frame::Given(base), Frame::Numbered(3))
+    );
     let Target::Pose { branch, turns, .. } = &second.target else {
         panic!("{second:?}");
     };
@@ -123,9 +126,9 @@ fn a_module_has_its_points_in_the_data_file() {
     assert_eq!(arc.line, 22);
     for part in [
         "`XHOME` is left out",
-        "`FHOME` is not told",
+        "`FHOME` is not defined",
         "external axes",
-        "teil.src, line 23: `LOOP`: what it governs is read once",
+        "teil.src, line 23: `LOOP`: its body is read once",
         "`Zange` is called",
     ] {
         assert!(
@@ -137,12 +140,12 @@ fn a_module_has_its_points_in_the_data_file() {
 }
 
 #[test]
-fn rewriting_changes_the_bytes_of_targets_alone() {
+fn rewriting_changes_only_the_bytes_of_targets() {
     let program = module();
     let by = kuka([0.1234, -5.0, 1000.0, 10.0, 20.0, -30.0]);
     keeps_the_rest(&program, |pose| *pose);
     let files = keeps_the_rest(&program, |pose| by * pose);
-    // The move file holds no target.
+    // The move file contains no target.
     assert_eq!(files[0].1, MODULE.as_bytes());
     let data = String::from_utf8(files[1].1.clone()).unwrap();
     for kept in [
@@ -154,9 +157,9 @@ fn rewriting_changes_the_bytes_of_targets_alone() {
 }
 
 #[test]
-fn decimals_are_three_and_four_or_those_that_stand_there() {
+fn decimals_are_three_and_four_or_as_written() {
     let program = of("LIN {Z 3.123456, C 0,X 1 ,Y 2.5,B -0.00001,A 0,E1 7}");
-    // Turned by half a degree, and left as it stands where it is not.
+    // Rotated by half a degree, and unchanged where it is not rotated.
     let turned = |pose: &Isometry| {
         let turn = kuka([0.0, 0.0, 0.0, 0.5, 0.0, 0.0]).rotation;
         Isometry::from_parts(pose.translation, turn * pose.rotation)
@@ -177,7 +180,7 @@ fn decimals_are_three_and_four_or_those_that_stand_there() {
 }
 
 #[test]
-fn bytes_of_latin_1_stay() {
+fn latin_1_bytes_are_kept() {
     let bytes = b"DEF A()\r\n; \xfcber\r\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0} ; \xe4\r\nEND\r\n";
     let text = armill_formats::robot_program::ProgramText::new("a.src", bytes);
     let program = armill_formats::robot_program::read(vec![text]).unwrap();
@@ -187,7 +190,7 @@ fn bytes_of_latin_1_stay() {
 }
 
 #[test]
-fn components_left_out_are_those_of_the_move_before_and_are_written_when_they_move() {
+fn missing_components_come_from_the_previous_move_and_are_written_when_they_change() {
     let program = of("PTP {X 1,Y 2,Z 3,A 10,B 0,C 0,S 2,T 0}\nLIN {X 20}\nlin {z -5,b 90} C_DIS");
     same(
         program.moves[1].target.pose().unwrap(),
@@ -204,11 +207,11 @@ fn components_left_out_are_those_of_the_move_before_and_are_written_when_they_mo
 }
 
 #[test]
-fn a_component_left_out_behind_axes_or_another_frame_is_a_problem() {
+fn a_missing_component_after_axes_or_in_another_frame_is_a_problem() {
     let axes = "PTP {A1 0,A2 -90,A3 90,A4 0,A5 0,A6 0}";
     wrong(
         &format!("{axes}\nLIN {{X 20}}"),
-        "3:5: Y, Z, A, B, C of this target is not told",
+        "3:5: Y, Z, A, B, C of this target is given neither",
     );
     wrong(
         &format!("LIN {POSE}\n$BASE={POSE}\nLIN {{X 20}}"),
@@ -229,7 +232,7 @@ fn a_component_left_out_behind_axes_or_another_frame_is_a_problem() {
 }
 
 #[test]
-fn relative_moves_count_from_the_move_before() {
+fn relative_moves_start_at_the_end_of_the_previous_move() {
     let lines = "PTP {A1 1,A2 -90,A3 90,A4 0,A5 0,A6 0}\nPTP_REL {A1 10}\nLIN {X 1,Y 2,Z 3,A 0,B 90,C 0}\n\
                  LIN_REL {X 10}\nSLIN_REL {Z 10} #TOOL C_DIS\nPTP_REL {Y -2}";
     let program = of(lines);
@@ -248,15 +251,12 @@ fn relative_moves_count_from_the_move_before() {
         text.contains("\nSLIN {X 21.000,Y 2.000,Z 3.000,A 0.0000,B 90.0000,C 0.0000} C_DIS\nPTP {"),
         "{text}"
     );
-    wrong("LIN_REL {X 10}", "where `LIN_REL` goes to is not known");
+    wrong("LIN_REL {X 10}", "the target of `LIN_REL` is not known");
     wrong(
         &format!("LIN {POSE}\nLIN_REL {{A 10}}"),
-        "where `LIN_REL` goes to is not known",
+        "the target of `LIN_REL` is not known",
     );
-    wrong(
-        "CIRC_REL {X 10},{X 20}",
-        "`CIRC_REL` is a move that is not understood",
-    );
+    wrong("CIRC_REL {X 10},{X 20}", "`CIRC_REL` is an unsupported move");
 }
 
 #[test]
@@ -279,14 +279,14 @@ fn points_are_composed_with_frames_and_written_whole() {
 }
 
 #[test]
-fn frames_and_tools_are_told_or_numbered() {
+fn frames_and_tools_are_given_or_numbered() {
     let frame = |lines: &str| of(&format!("{lines}\nLIN {POSE}")).moves[0].frame;
     let tool = |lines: &str| of(&format!("{lines}\nLIN {POSE}")).moves[0].tool;
     let given = |found: Frame, numbers: [f64; 6]| match found {
-        Frame::Told(found) => same(&found, &kuka(numbers)),
+        Frame::Given(found) => same(&found, &kuka(numbers)),
         other => panic!("{other:?}"),
     };
-    assert_eq!(frame(""), Frame::EvaluateError);
+    assert_eq!(frame(""), Frame::Unknown);
     assert_eq!(frame("BAS(#BASE,4)"), Frame::Numbered(4));
     assert_eq!(tool("$TOOL=TOOL_DATA[16]"), Frame::Numbered(16));
     assert_eq!(
@@ -308,16 +308,16 @@ fn frames_and_tools_are_told_or_numbered() {
         [1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
     );
     let computed = of(&format!("$BASE=EK(MACHINE_DEF[2].ROOT, #EASYS, X)\nLIN {POSE}"));
-    assert_eq!(computed.moves[0].frame, Frame::EvaluateError);
+    assert_eq!(computed.moves[0].frame, Frame::Unknown);
     assert!(computed.notes[0].contains("`EK(MACHINE_DEF[2].ROOT, #EASYS, X)` is computed on the controller"));
     wrong(
         "$BASE={X 1}\nPTP {A1 0,A2 0,A3 0,A4 0,A5 0,A6 0}",
-        "Y, Z, A, B, C of this target is not told",
+        "Y, Z, A, B, C of this target is given neither",
     );
 }
 
 #[test]
-fn moves_of_a_spline_system_have_frames_and_speeds_of_their_own() {
+fn spline_moves_have_their_own_frames_and_speeds() {
     let lines = format!(
         "DECL FDAT FP1={{TOOL_NO 2,BASE_NO 5,IPO_FRAME #BASE}}\n$VEL.CP=0.1\n\
          SLIN {POSE} WITH $VEL=SVEL_CP(0.4, , LCPDAT1), $TOOL=STOOL2(FP1), $BASE=SBASE(FP1.BASE_NO), \
@@ -331,7 +331,7 @@ fn moves_of_a_spline_system_have_frames_and_speeds_of_their_own() {
         (program.moves[0].frame, program.moves[0].tool),
         (Frame::Numbered(5), Frame::Numbered(2))
     );
-    assert_eq!(program.moves[1].frame, Frame::EvaluateError);
+    assert_eq!(program.moves[1].frame, Frame::Unknown);
     assert!(
         program
             .notes
@@ -341,21 +341,21 @@ fn moves_of_a_spline_system_have_frames_and_speeds_of_their_own() {
 }
 
 #[test]
-fn speeds_are_metres_a_second() {
+fn speeds_are_in_metres_per_second() {
     for (line, speed) in [
         ("$VEL.CP=0.2", Speed::Tip(0.2)),
         ("$VEL={CP 1.5,ORI1 200,ORI2 200}", Speed::Tip(1.5)),
         ("BAS(#VEL_CP,.5)", Speed::Tip(0.5)),
         ("LDAT_ACT={VEL 0.75,ACC 100}\nBAS(#CP_DAT)", Speed::Tip(0.75)),
-        ("$VEL.CP=V_WORK", Speed::EvaluateError),
-        ("", Speed::EvaluateError),
+        ("$VEL.CP=V_WORK", Speed::Unknown),
+        ("", Speed::Unknown),
     ] {
         assert_eq!(of(&format!("{line}\nLIN {POSE}")).moves[0].speed, speed, "{line}");
     }
 }
 
 #[test]
-fn points_of_two_modules_may_have_one_name() {
+fn points_of_two_modules_may_have_the_same_name() {
     let data = |x: f64| format!("DEFDAT D\nDECL E6POS XP1={{X {x},Y 0,Z 0,A 0,B 0,C 0}}\nENDDAT\n");
     let (one, two) = (data(1.0), data(2.0));
     let files = [
@@ -371,7 +371,7 @@ fn points_of_two_modules_may_have_one_name() {
         .map(|of| of.target.pose().unwrap().translation.x)
         .collect();
     assert_eq!(x, [0.001, 0.002]);
-    assert!(program.notes[0].contains("`TWO` is called: its moves are read once, where it stands"));
+    assert!(program.notes[0].contains("`TWO` is called: its moves are read once, where it is defined"));
 }
 
 /// T of KUKA: which axes are below zero.
@@ -390,13 +390,13 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn what_is_written_reads_as_it_was_meant(draft in drafts()) {
+    fn a_written_draft_is_read_back(draft in drafts()) {
         reads_back(Language::Krl, &draft, &SAYS);
     }
 }
 
 #[test]
-fn a_program_is_written_so() {
+fn a_program_has_the_expected_text() {
     let written = write(Language::Krl, &long(3)).unwrap();
     let (name, bytes) = &written.files[0];
     assert_eq!((written.files.len(), name.as_str()), (1, "PLATE.src"));
@@ -413,7 +413,7 @@ fn a_program_is_written_so() {
 }
 
 #[test]
-fn a_long_program_is_written_in_parts_that_a_main_one_calls() {
+fn a_long_program_is_written_in_parts_called_by_a_main_program() {
     let written = write(Language::Krl, &long(10_001)).unwrap();
     let names: Vec<&str> = written.files.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(
@@ -430,7 +430,7 @@ fn a_long_program_is_written_in_parts_that_a_main_one_calls() {
 }
 
 #[test]
-fn what_controllers_do_not_hold_is_refused() {
+fn refuses_drafts_outside_the_ranges_of_controllers() {
     let refused = |change: &dyn Fn(&mut Draft), part: &str| {
         let mut draft = long(2);
         change(&mut draft);
@@ -439,17 +439,17 @@ fn what_controllers_do_not_hold_is_refused() {
     };
     refused(
         &|draft| draft.name = "5TH".to_owned(),
-        "`5TH` is no name in KUKA KRL",
+        "`5TH` is not a valid name in KUKA KRL",
     );
     refused(&|draft| draft.name = "A".repeat(25), "at most 24");
     refused(
         &|draft| draft.tool_number = 129,
         "tool 129 is outside 0 to 128 of KUKA KRL",
     );
-    refused(&|draft| draft.points.clear(), "without points");
+    refused(&|draft| draft.points.clear(), "has no points");
     refused(
         &|draft| draft.points[0].joints.push(0.0),
-        "7 joints, where KUKA KRL is written for 6 to 6",
+        "7 joints, but KUKA KRL programs can have 6 to 6",
     );
     refused(
         &|draft| draft.points[1].speed = Some(0.0),
@@ -459,5 +459,8 @@ fn what_controllers_do_not_hold_is_refused() {
     let mut draft = long(5001);
     draft.name = "A".repeat(20);
     let given = write(Language::Krl, &draft).unwrap_err().to_string();
-    assert!(given.contains("at most 19 for it is written in parts"), "{given}");
+    assert!(
+        given.contains("at most 19 because it is written in parts"),
+        "{given}"
+    );
 }

@@ -4,7 +4,7 @@ use super::program::moves_of;
 
 /// A contour that the cutter follows on its left; offsets worked out by hand.
 #[test]
-fn the_cutter_runs_beside_its_contour() {
+fn the_cutter_is_offset_from_its_contour() {
     let square = "G21 F60\nG0 X-10 Y0\nG41.1 D4\nG1 X0\nX10\nY10\nX0\nY0\nG40\nG0 X-10\n";
     assert_eq!(
         moves_of(square),

@@ -1,6 +1,6 @@
 //! O-words and subroutines.
 
-use armill_formats::toolpath::gcode::Wanted;
+use armill_formats::toolpath::gcode::GcodeReadOptions;
 use armill_formats::toolpath::gcode::interpreter::MOST_REPEATED_LINES;
 
 use super::program::{calls, ends, first_problem, read};
@@ -13,7 +13,7 @@ fn say(program: &str) -> Vec<String> {
 }
 
 #[test]
-fn flow_goes_where_it_is_told() {
+fn loops_branches_and_subroutines_are_followed() {
     let number = |value: &str| format!("MESSAGE(\"{value}.000000\")");
     for (program, expected) in [
         (
@@ -49,7 +49,7 @@ fn flow_goes_where_it_is_told() {
 }
 
 #[test]
-fn numbered_subroutines_behind_the_end_come_in_any_order_and_the_next_of_two_counts() {
+fn numbered_subroutines_after_the_end_are_found_in_any_order_and_the_next_of_two_is_used() {
     let behind = "O9\n(debug,1)\nM99\nO8\n(debug,2)\nM99\nO9\n(debug,3)\nM99\n";
     assert_eq!(
         say(&format!("M98 P8\nM98 P9\nG4 P0\nM98 P8\nM2\n{behind}")),
@@ -66,43 +66,43 @@ fn numbered_subroutines_behind_the_end_come_in_any_order_and_the_next_of_two_cou
 fn subroutines_come_from_other_files() {
     let lookup =
         |name: &str| (name == "far").then(|| "o<far> sub\nG0 X#1\nG1 Y1\no<far> endsub\n".to_owned());
-    let expected = Wanted {
+    let expected = GcodeReadOptions {
         subroutines: Some(&lookup),
-        ..Wanted::default()
+        ..GcodeReadOptions::default()
     };
     let (path, _) = read("G21 F60\no<far> call [3]\n", &expected).unwrap();
     assert_eq!(ends(&path), [[3.0, 0.0, 0.0], [3.0, 1.0, 0.0]]);
     assert_eq!(
         first_problem("G21\no<far> call [3]\n", &expected),
         "far:3:1: G1 with a feed of zero",
-        "problems are told of the file they stand in"
+        "problems are reported in their own file"
     );
 }
 
 #[test]
 fn programs_that_never_end_are_stopped() {
-    let endless = Wanted {
+    let endless = GcodeReadOptions {
         most_repeated_lines: Some(1000),
-        ..Wanted::default()
+        ..GcodeReadOptions::default()
     };
     assert_eq!(
         first_problem("o1 while [1]\n(round)\no1 endwhile\n", &endless)
             .split(": ")
             .nth(1),
-        Some("more than 1000 lines of loops and subroutines to be done")
+        Some("more than 1000 executed lines of loops and subroutines")
     );
     assert_eq!(
         MOST_REPEATED_LINES, 20_000_000,
-        "where nothing is told: ten seconds"
+        "the default limit takes about ten seconds"
     );
 }
 
 #[test]
 fn an_endless_loop_ends_and_sooner_after_a_line_that_was_refused() {
     let given = |program: &str, most_repeated_lines| {
-        let expected = Wanted {
+        let expected = GcodeReadOptions {
             most_repeated_lines,
-            ..Wanted::default()
+            ..GcodeReadOptions::default()
         };
         read(program, &expected).unwrap_err().to_string()
     };

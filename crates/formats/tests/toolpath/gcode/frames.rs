@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use armill_core::nalgebra::Vector3;
-use armill_formats::toolpath::gcode::{Rotaries, Rotary, Wanted, Warning};
+use armill_formats::toolpath::gcode::{GcodeReadOptions, Rotaries, Rotary, Warning};
 
 use super::program::{arc_of, ends, path, read};
 
@@ -27,9 +27,9 @@ fn work_offsets_may_be_given_as_parameters() {
     let parameters = BTreeMap::from([(5221, 10.0), (5223, -7.0), (5241, 30.0), (5243, -7.0)]);
     let (path, _) = read(
         program,
-        &Wanted {
+        &GcodeReadOptions {
             parameters,
-            ..Wanted::default()
+            ..GcodeReadOptions::default()
         },
     )
     .unwrap();
@@ -45,14 +45,14 @@ fn work_offsets_may_be_given_as_parameters() {
 }
 
 #[test]
-fn the_tool_axis_is_told_under_tool_centre_control() {
+fn the_tool_axis_is_given_under_tool_centre_control() {
     let rotaries = Some(Rotaries {
         table: vec![Rotary::B],
         head: vec![Rotary::A],
     });
-    let expected = Wanted {
+    let expected = GcodeReadOptions {
         rotaries,
-        ..Wanted::default()
+        ..GcodeReadOptions::default()
     };
     for (on, off) in [
         ("M128", "M129"),
@@ -73,7 +73,7 @@ fn the_tool_axis_is_told_under_tool_centre_control() {
     }
     let (path, _) = read(
         "G21 F60 G0 X0\nG43.5 H1\nG1 X1 I0 J3 K4\nJ4 K3\n",
-        &Wanted::default(),
+        &GcodeReadOptions::default(),
     )
     .unwrap();
     for (next, axis) in path.moves[1..].iter().zip([[0.0, 0.6, 0.8], [0.0, 0.8, 0.6]]) {
@@ -83,9 +83,9 @@ fn the_tool_axis_is_told_under_tool_centre_control() {
 }
 
 #[test]
-fn what_is_taken_for_granted_is_noted() {
+fn assumptions_are_noted() {
     let program = "G0 X1\nG28\nM62 P1\nM101\nT1 M6 G43 H1\nG21 G91 F1\n";
-    let (_, summary) = read(program, &Wanted::default()).unwrap();
+    let (_, summary) = read(program, &GcodeReadOptions::default()).unwrap();
     let expected = [
         (Warning::UnitAssumed, 1),
         (Warning::HomeAssumed, 2),
@@ -97,7 +97,7 @@ fn what_is_taken_for_granted_is_noted() {
     let expected =
         expected.map(|(warning, line)| format!("{} (once, first in line {line})", warning.meaning()));
     assert_eq!(summary.notes, expected);
-    let (path, summary) = read("G21 F60\nG2 I5\n", &Wanted::default()).unwrap();
+    let (path, summary) = read("G21 F60\nG2 I5\n", &GcodeReadOptions::default()).unwrap();
     let note = format!("{} (once, first in line 2)", Warning::StartAssumed.meaning());
     assert_eq!(summary.notes, [note]);
     assert_eq!(path.moves.len(), 2, "the arc has a start");

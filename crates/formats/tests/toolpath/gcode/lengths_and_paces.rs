@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 
 use armill_core::path::Pace;
 use armill_formats::toolpath::LengthUnit;
-use armill_formats::toolpath::gcode::{Tool, ToolTable, Wanted, Warning};
+use armill_formats::toolpath::gcode::{GcodeReadOptions, Tool, ToolTable, Warning};
 
 use super::program::{calls, ends, path, read};
 
@@ -51,7 +51,7 @@ fn a_cycle_that_stops_the_spindle_starts_it_again_as_it_turned() {
 }
 
 #[test]
-fn the_feed_of_a_block_counts_in_the_unit_of_that_block() {
+fn the_feed_of_a_block_uses_the_unit_of_that_block() {
     for program in [
         "G21 F60\nG0 X0\nG20 F60 G1 X1\n",
         "G21 F60\nG0 X0\nF60 G1 G20 X1\n",
@@ -64,15 +64,15 @@ fn the_feed_of_a_block_counts_in_the_unit_of_that_block() {
     }
     // A line of the same number in another file is another line.
     let lookup = |name: &str| (name == "far").then(|| "(far)\nG20\nG1 X1\n".to_owned());
-    let expected = Wanted {
+    let expected = GcodeReadOptions {
         subroutines: Some(&lookup),
-        ..Wanted::default()
+        ..GcodeReadOptions::default()
     };
     let (far, _) = read("G21 G0 X0\nF60\no<far> call\n", &expected).unwrap();
     assert_eq!(
         far.moves[1].pace,
         Pace::Feed(1e-3),
-        "a feed told before stays as fast as it is"
+        "a feed given before keeps its speed"
     );
 }
 
@@ -85,12 +85,12 @@ fn an_operation_begins_with_its_tool_and_speed() {
             ..Tool::default()
         },
     )]);
-    let expected = Wanted {
+    let expected = GcodeReadOptions {
         tools: Some(ToolTable {
             unit: LengthUnit::Millimetre,
             tools,
         }),
-        ..Wanted::default()
+        ..GcodeReadOptions::default()
     };
     let program = "G21 T2 M6\nG0 X0\nS600 M3\nG1 X1 F60\nG0 Z9\nM5\nG0 X0\nS1200 M3\nG1 X5\nX6\nM2\n";
     let (path, summary) = read(program, &expected).unwrap();
@@ -123,15 +123,19 @@ fn inverse_time_is_length_by_time() {
 
 #[test]
 fn feed_per_revolution_needs_a_spindle_that_turns() {
-    let (path, summary) = read("G21 G95 F0.5\nG1 X1\nX2\nS600 M3\nX4\n", &Wanted::default()).unwrap();
-    assert_eq!(path.moves[1].pace, Pace::EvaluateError);
+    let (path, summary) = read(
+        "G21 G95 F0.5\nG1 X1\nX2\nS600 M3\nX4\n",
+        &GcodeReadOptions::default(),
+    )
+    .unwrap();
+    assert_eq!(path.moves[1].pace, Pace::Unknown);
     assert_eq!(path.moves[2].pace, Pace::Feed(5e-3));
-    let note = format!("{} (twice, first in line 2)", Warning::SpindleStands.meaning());
+    let note = format!("{} (twice, first in line 2)", Warning::SpindleStopped.meaning());
     assert_eq!(summary.notes, [note]);
     assert_eq!(
         (summary.moves, summary.cuts),
         (3, 2),
-        "the first says where the tip stands"
+        "the first gives the position of the tip"
     );
 }
 
@@ -152,12 +156,12 @@ fn every_line_end_ends_a_block() {
 }
 
 #[test]
-fn blocks_with_a_slash_are_left_out_where_wanted() {
+fn blocks_with_a_slash_are_left_out_on_request() {
     let program = "G21 F60 G0 X0\n/G1 X1\nG1 X2\n";
     assert_eq!(path(program).moves.len(), 3);
-    let expected = Wanted {
+    let expected = GcodeReadOptions {
         block_delete: true,
-        ..Wanted::default()
+        ..GcodeReadOptions::default()
     };
     assert_eq!(read(program, &expected).unwrap().0.moves.len(), 2);
 }

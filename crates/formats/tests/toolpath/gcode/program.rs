@@ -3,7 +3,7 @@
 use armill_core::path::{Arc, Course, Move, Operation, Step};
 use armill_formats::document::Problems;
 use armill_formats::toolpath::Summary;
-use armill_formats::toolpath::gcode::{self, Wanted, interpret};
+use armill_formats::toolpath::gcode::{self, GcodeReadOptions, interpret};
 
 /// The steps of a program, kept.
 #[derive(Debug, Default)]
@@ -14,7 +14,7 @@ pub struct Program {
     pub starts: Vec<usize>,
 }
 
-pub fn read(program: &str, expected: &Wanted<'_>) -> Result<(Program, Summary), Problems> {
+pub fn read(program: &str, expected: &GcodeReadOptions<'_>) -> Result<(Program, Summary), Problems> {
     let mut path = Program::default();
     let summary = gcode::read("p.ngc", program.as_bytes(), expected, &mut |step| match step {
         Step::Operation(operation) => {
@@ -27,12 +27,12 @@ pub fn read(program: &str, expected: &Wanted<'_>) -> Result<(Program, Summary), 
 }
 
 pub fn path(program: &str) -> Program {
-    read(program, &Wanted::default())
+    read(program, &GcodeReadOptions::default())
         .unwrap_or_else(|problems| panic!("{problems}"))
         .0
 }
 
-pub fn first_problem(program: &str, expected: &Wanted<'_>) -> String {
+pub fn first_problem(program: &str, expected: &GcodeReadOptions<'_>) -> String {
     match read(program, expected) {
         Err(problems) => problems.as_slice()[0].to_string(),
         Ok(_) => panic!("accepted: {program}"),
@@ -41,10 +41,14 @@ pub fn first_problem(program: &str, expected: &Wanted<'_>) -> String {
 
 pub fn calls(program: &str) -> Vec<String> {
     let mut calls = Vec::new();
-    let found = interpret(&mut program.as_bytes(), &Wanted::default(), &mut |call, _| {
-        calls.push(call.to_string());
-        Ok(())
-    });
+    let found = interpret(
+        &mut program.as_bytes(),
+        &GcodeReadOptions::default(),
+        &mut |call, _| {
+            calls.push(call.to_string());
+            Ok(())
+        },
+    );
     assert!(found.faults.is_empty(), "{:?}", found.faults);
     calls
 }
@@ -58,7 +62,7 @@ pub fn moves_of(program: &str) -> Vec<String> {
 pub fn arc_of(next: &Move) -> Arc {
     match next.course {
         Course::Arc(arc) => arc,
-        Course::Line => panic!("line {} is no arc", next.line),
+        Course::Line => panic!("line {} is not an arc", next.line),
     }
 }
 

@@ -1,24 +1,24 @@
-//! Every refusal once, with its place.
+//! Every refusal once, with its position.
 
 use std::collections::BTreeMap;
 
 use armill_formats::document::Problem;
 use armill_formats::toolpath::LengthUnit;
-use armill_formats::toolpath::gcode::{self, Rotaries, Tool, ToolTable, Wanted};
+use armill_formats::toolpath::gcode::{self, GcodeReadOptions, Rotaries, Tool, ToolTable};
 
 use super::program::{first_problem, read};
 
-/// Programs, and what is said of them first.
+/// Programs, and their first problem.
 const REFUSED: &[(&str, &str)] = &[
     ("G21 G1 X1", "1:5: G1 with a feed of zero"),
     ("G93 G1 X1", "1:5: G1 without its own F word in inverse time, G93"),
     (
         "G0 G1 X1",
-        "1:4: G0 and G1 in one block, where only one of their group may stand",
+        "1:4: G0 and G1 in one block, but only one code of their group is allowed",
     ),
     (
         "M3 M4",
-        "1:4: M3 and M4 in one block, where only one of their group may stand",
+        "1:4: M3 and M4 in one block, but only one code of their group is allowed",
     ),
     ("G0 X1 Y2 X3", "1:10: word X twice in a block"),
     ("G0 X1 R2", "1:7: word R is used by no code of this block"),
@@ -28,20 +28,26 @@ const REFUSED: &[(&str, &str)] = &[
     ),
     ("G123.4", "1:1: unknown code G123.4"),
     ("M1000", "1:1: unknown code M1000"),
-    ("G5 X1", "1:1: G5 is not read: splines and NURBS are not expanded"),
+    (
+        "G5 X1",
+        "1:1: G5 is not supported: splines and NURBS are not expanded",
+    ),
     (
         "G68.2 X1",
-        "1:1: G68.2 is not read: tilted planes need the machine's kinematics",
+        "1:1: G68.2 is not supported: tilted planes need the machine's kinematics",
     ),
     (
         "G38.2 X1 F1",
-        "1:1: G38.2 is not read: where a probe stops is not in the program",
+        "1:1: G38.2 is not supported: where a probe stops is not in the program",
     ),
     ("G38.2 F1", "1:1: G38.2 without any axis word"),
-    ("M70", "1:1: M70 is not read: saved modal states are not kept"),
+    (
+        "M70",
+        "1:1: M70 is not supported: saved modal states are not kept",
+    ),
     (
         "G0 @5 ^3",
-        "1:4: @ is not read: polar words and spindle numbers are not understood",
+        "1:4: @ is not supported: polar words and spindle numbers are not understood",
     ),
     ("G0 X!", "1:4: expected a number, found `!`"),
     ("G0 !", "1:4: `!` begins no word"),
@@ -59,7 +65,7 @@ const REFUSED: &[(&str, &str)] = &[
     ("#5420=1", "1:1: parameter #5420 cannot be set"),
     ("#<_x>=1", "1:1: parameter #<_x> cannot be set"),
     ("G0 X[1/0]", "1:4: an operation has no real value here"),
-    ("G0 Xfoo[1]", "1:4: `foo` is no function or operator"),
+    ("G0 Xfoo[1]", "1:4: `foo` is not a function or operator"),
     ("G0 X1e10", "1:6: word E is used by no code of this block"),
     ("G0 X[10**12]", "1:4: word X is 1000000000000: must be within 1e9"),
     (
@@ -83,7 +89,7 @@ const REFUSED: &[(&str, &str)] = &[
     ("G53 G2 X1 I1 F1", "1:5: G53 needs G0 or G1"),
     (
         "G92 G1 X1 F1",
-        "1:5: G92 and G1 both want the axis words of this block",
+        "1:5: G92 and G1 both need the axis words of this block",
     ),
     ("G92", "1:1: G92 without any axis word"),
     ("G4", "1:1: G4 without P word"),
@@ -100,7 +106,7 @@ const REFUSED: &[(&str, &str)] = &[
         "G2 R2 F1",
         "1:1: arc with R that ends where it starts: it could be any circle",
     ),
-    ("G2 X1 I0 F1", "1:1: arc of no radius"),
+    ("G2 X1 I0 F1", "1:1: arc with radius 0"),
     (
         "G2 X3 I1 F1",
         "1:1: arc of radius 1 at its start and 2 at its end: they may differ by 0.028284271247461905",
@@ -128,7 +134,7 @@ const REFUSED: &[(&str, &str)] = &[
         "F1 G83 X1 Z-1000 R0 Q0.001",
         "1:4: more than 100000 steps in one hole",
     ),
-    ("G41 D1", "1:5: diameter of tool 1 is not told"),
+    ("G41 D1", "1:5: diameter of tool 1 is not given"),
     ("G19 G41.1 D1", "1:5: cutter compensation in the YZ plane"),
     ("G41.1 D1\nG42.1 D1", "2:1: cutter compensation is on already"),
     ("G41.1 D1\nT1 M6", "2:4: M6 while cutter compensation is on"),
@@ -136,18 +142,18 @@ const REFUSED: &[(&str, &str)] = &[
     ("G41.1 D1\nG18", "2:1: G18 while cutter compensation is on"),
     (
         "F1 G41.1 D2\nG1 X1\nG40\nG2 X2 I0.5",
-        "4:1: move after cutter compensation that is no straight line",
+        "4:1: move after cutter compensation that is not a straight line",
     ),
     (
         "F1 G41.1 D2\nG1 X9\nX10\nY0.5\nX0\nY-9",
         "4:1: corner that a cutter of radius 1 cannot reach without gouging",
     ),
-    // The crossing lies before the start of a line, or behind its end: the cutter would go backwards into the floor.
+    // The crossing is before the start of a line, or after its end: the cutter would go backwards into the floor.
     (
         "G21 G90 G0 X-60 Y0\nG41.1 D10\nG1 X-40 Y0 F100\nX0\nY2\nX40\nG40 Y50",
         "5:1: corner that a cutter of radius 5 cannot reach without gouging",
     ),
-    // Likewise of an arc, which would go nearly once around.
+    // The same for an arc, which would go nearly once around.
     (
         "G21 G90 G0 X-60 Y0\nG41.1 D10\nG1 X-40 Y0 F100\nX0\nG3 X1.7431 Y0.0761 I0 J20\nG1 X0.8716 Y10.0381",
         "6:1: corner that a cutter of radius 5 cannot reach without gouging",
@@ -166,8 +172,8 @@ const REFUSED: &[(&str, &str)] = &[
         "o1 repeat [2]\no2 endwhile\no1 endrepeat",
         "2:1: o-word `2` that nothing begins",
     ),
-    ("o1 iff [1]", "1:1: `iff` is no o-word"),
-    ("o1 sub\no1 endsub\no1 call 5", "3:9: words behind an o-word"),
+    ("o1 iff [1]", "1:1: `iff` is not an o-word"),
+    ("o1 sub\no1 endsub\no1 call 5", "3:9: words after an o-word"),
     ("o9 call", "1:1: subroutine 9 is not known"),
     ("M98 P9", "1:1: subroutine 9 is not known"),
     ("M98", "1:1: M98 without P word"),
@@ -185,7 +191,7 @@ const REFUSED: &[(&str, &str)] = &[
     ),
     (
         "M128\nG0 C30",
-        "2:4: C turns under tool-centre control, and how the machine's rotary axes stand is not told",
+        "2:4: C rotates under tool-centre control, but the arrangement of the machine's rotary axes is not given",
     ),
     (
         "G43.5 H0 G0 I0",
@@ -193,19 +199,19 @@ const REFUSED: &[(&str, &str)] = &[
     ),
     (
         "F1 G1 X1\nX2\nG55 X3",
-        "3:1: cut in G55 after cuts in G54, and where one lies to the other is not told",
+        "3:1: cut in G55 after cuts in G54, but their relative position is not given",
     ),
     (
         "F1 G53 G1 X1",
-        "1:8: cut in machine coordinates, and where the workpiece lies in them is not told",
+        "1:8: cut in machine coordinates, but the position of the workpiece in them is not given",
     ),
 ];
 
 #[test]
-fn what_is_wrong_is_told_with_its_place() {
+fn problems_are_reported_with_their_positions() {
     let mut wrong = Vec::new();
     for (program, expected) in REFUSED {
-        let said = match read(program, &Wanted::default()) {
+        let said = match read(program, &GcodeReadOptions::default()) {
             Ok(_) => "accepted".to_owned(),
             Err(problems) => problems.as_slice()[0].to_string(),
         };
@@ -218,13 +224,13 @@ fn what_is_wrong_is_told_with_its_place() {
 
 #[test]
 fn a_machine_without_the_axis_refuses_it() {
-    let expected = Wanted {
+    let expected = GcodeReadOptions {
         rotaries: Some(Rotaries::table_ac()),
-        ..Wanted::default()
+        ..GcodeReadOptions::default()
     };
     assert_eq!(
         first_problem("M128\nG0 B30\n", &expected),
-        "p.ngc:2:4: B turns, and the machine described has no such axis"
+        "p.ngc:2:4: B rotates, but the specified machine has no such axis"
     );
 }
 
@@ -237,12 +243,12 @@ fn a_tool_table_knows_its_tools() {
             ..Tool::default()
         },
     )]);
-    let expected = Wanted {
+    let expected = GcodeReadOptions {
         tools: Some(ToolTable {
             unit: LengthUnit::Millimetre,
             tools,
         }),
-        ..Wanted::default()
+        ..GcodeReadOptions::default()
     };
     assert_eq!(
         first_problem("T7 M6\n", &expected),
@@ -254,9 +260,9 @@ fn a_tool_table_knows_its_tools() {
     );
 }
 
-/// More than any program has: named parameters, calls that wait for the next move, arguments.
+/// Exceeded maxima: named parameters, calls that wait for the next move, arguments.
 #[test]
-fn what_is_too_much_of_is_refused() {
+fn refuses_exceeded_maxima() {
     let names: String = (0..10_001).map(|k| format!("#<_n{k}>=1\n")).collect();
     let waits = format!("F1 G41.1 D2\nG1 X1\n{}G1 X2\n", "S1\n".repeat(10_001));
     let arguments = format!("o1 sub\no1 endsub\no1 call {}\n", "[1] ".repeat(31));
@@ -268,12 +274,12 @@ fn what_is_too_much_of_is_refused() {
         ),
         (arguments, "p.ngc:3:9: call with more than 30 arguments"),
     ] {
-        assert_eq!(first_problem(&program, &Wanted::default()), expected);
+        assert_eq!(first_problem(&program, &GcodeReadOptions::default()), expected);
     }
 }
 
 #[test]
-fn a_reader_that_fails_is_told() {
+fn reports_a_failing_reader() {
     struct Broken;
     impl std::io::Read for Broken {
         fn read(&mut self, _: &mut [u8]) -> std::io::Result<usize> {
@@ -281,7 +287,7 @@ fn a_reader_that_fails_is_told() {
         }
     }
     let begun = std::io::Read::chain(&b"G21\nG0 X1\n"[..], std::io::BufReader::new(Broken));
-    let problems = gcode::read("p.ngc", begun, &Wanted::default(), &mut |_| {}).unwrap_err();
+    let problems = gcode::read("p.ngc", begun, &GcodeReadOptions::default(), &mut |_| {}).unwrap_err();
     assert!(
         problems
             .to_string()
@@ -293,7 +299,7 @@ fn a_reader_that_fails_is_told() {
 #[test]
 fn hints_name_what_can_be_done() {
     let hint = |program: &str| {
-        let problems = read(program, &Wanted::default()).unwrap_err();
+        let problems = read(program, &GcodeReadOptions::default()).unwrap_err();
         problems.as_slice()[0].hint().unwrap_or_default().to_owned()
     };
     assert!(hint("F1 G83 X1 Z-1000 R0 Q0.001").contains("the step Q"));
@@ -302,29 +308,47 @@ fn hints_name_what_can_be_done() {
 }
 
 #[test]
-fn all_problems_of_a_program_are_told_at_once_up_to_a_limit() {
-    let problems = read("G21\nG1 X1\nG0 X2\nG777\nF60 G1 X3 Q4\n", &Wanted::default()).unwrap_err();
+fn all_problems_of_a_program_are_reported_together_up_to_a_maximum() {
+    let problems = read(
+        "G21\nG1 X1\nG0 X2\nG777\nF60 G1 X3 Q4\n",
+        &GcodeReadOptions::default(),
+    )
+    .unwrap_err();
     let lines: Vec<usize> = problems.as_slice().iter().map(Problem::line).collect();
     assert_eq!(lines, [2, 4, 5]);
     let many = "G777\n".repeat(1000);
-    assert_eq!(read(&many, &Wanted::default()).unwrap_err().as_slice().len(), 100);
+    assert_eq!(
+        read(&many, &GcodeReadOptions::default())
+            .unwrap_err()
+            .as_slice()
+            .len(),
+        100
+    );
     let again = "o1 repeat [50]\nG777\no1 endrepeat\n";
     assert_eq!(
-        read(again, &Wanted::default()).unwrap_err().as_slice().len(),
+        read(again, &GcodeReadOptions::default())
+            .unwrap_err()
+            .as_slice()
+            .len(),
         1,
-        "a line is told once"
+        "a line is reported once"
     );
 }
 
 #[test]
-fn what_is_no_text_or_too_long_is_refused_not_held() {
+fn refuses_binary_text_and_long_lines_without_storing_them() {
     let long = format!("G21\nG0 X{}\n", "1".repeat(100_000));
     assert_eq!(
-        first_problem(&long, &Wanted::default()),
+        first_problem(&long, &GcodeReadOptions::default()),
         "p.ngc:2:1: line of more than 4096 bytes"
     );
     let bytes = b"\xef\xbb\xbfG21 (\xff\xfe) F60\nG1 X\xff1\n".to_vec();
-    let outcome = gcode::read("p.ngc", &mut bytes.as_slice(), &Wanted::default(), &mut |_| {});
+    let outcome = gcode::read(
+        "p.ngc",
+        &mut bytes.as_slice(),
+        &GcodeReadOptions::default(),
+        &mut |_| {},
+    );
     let problems = outcome.unwrap_err();
     assert_eq!(problems.as_slice()[0].line(), 2);
     assert_eq!(problems.as_slice()[0].column(), 4);

@@ -136,10 +136,10 @@ fn canonical_calls_are_those_of_the_other_interpreter() {
     let mut count = 0;
     for (program, expected, table) in EXPECTED {
         let program = folder.join("tests").join(program);
-        let beside = program.parent().unwrap();
-        let wanted = simulated(table.map(|table| beside.join(table)).as_deref());
+        let directory = program.parent().unwrap();
+        let options = simulated(table.map(|table| directory.join(table)).as_deref());
         let mut ours = Vec::new();
-        let found = interpret(&mut bytes(&program).as_slice(), &wanted, &mut |call, line| {
+        let found = interpret(&mut bytes(&program).as_slice(), &options, &mut |call, line| {
             ours.push((call.to_string(), line));
             Ok(())
         });
@@ -148,7 +148,7 @@ fn canonical_calls_are_those_of_the_other_interpreter() {
             continue;
         }
         ours.retain(|(call, _)| compared(call));
-        let mut theirs = expected_calls(&text(&beside.join(expected)));
+        let mut theirs = expected_calls(&text(&directory.join(expected)));
         if program.ends_with("abs-pts/test.ngc") {
             // Of this one only the messages are kept.
             ours.retain(|(call, _)| call.starts_with("MESSAGE"));

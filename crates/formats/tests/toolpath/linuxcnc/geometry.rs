@@ -5,11 +5,11 @@ use std::path::Path;
 
 use armill_core::nalgebra::Vector3;
 use armill_core::path::{Course, Move, Step};
-use armill_formats::toolpath::gcode::{self, Rotaries, Wanted};
+use armill_formats::toolpath::gcode::{self, GcodeReadOptions, Rotaries};
 
 use super::{bytes, linuxcnc};
 
-fn moves(file: &Path, expected: &Wanted<'_>) -> Vec<Move> {
+fn moves(file: &Path, expected: &GcodeReadOptions<'_>) -> Vec<Move> {
     let mut moves = Vec::new();
     let summary = gcode::read("p", bytes(file).as_slice(), expected, &mut |step| {
         if let Step::Move(next) = step {
@@ -24,9 +24,9 @@ const FIVE_AXES: &str = "configs/sim/axis/vismach/5axis/table-rotary-tilting/dem
 
 /// Plunges and retracts along the tool axis: between a rapid and a cut, the rotary axes at rest and the tool tilted.
 fn plunges_along_axis(path: &Path, rotaries: Rotaries) -> usize {
-    let expected = Wanted {
+    let expected = GcodeReadOptions {
         rotaries: Some(rotaries),
-        ..Wanted::default()
+        ..GcodeReadOptions::default()
     };
     let along = |pair: &&[Move]| {
         let [before, next] = pair else { return false };
@@ -78,7 +78,7 @@ fn arcs_sweep_as_they_should_in_every_plane() {
         ("full_yz.ngc", &[(3.0, -Vector3::y()), (1.0, Vector3::y())]),
     ] {
         let mut arcs = Vec::new();
-        for next in moves(&folder.join(file), &Wanted::default()) {
+        for next in moves(&folder.join(file), &GcodeReadOptions::default()) {
             if let Course::Arc(arc) = next.course {
                 arcs.push(arc);
             }

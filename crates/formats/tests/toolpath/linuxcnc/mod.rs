@@ -9,7 +9,7 @@ mod refusals;
 use std::path::{Path, PathBuf};
 
 use armill_formats::toolpath::LengthUnit;
-use armill_formats::toolpath::gcode::{ToolTable, Wanted};
+use armill_formats::toolpath::gcode::{GcodeReadOptions, ToolTable};
 
 use crate::samples_folder::samples;
 
@@ -27,10 +27,10 @@ fn text(path: &Path) -> String {
 }
 
 /// The simulated machine of those tests counts its tool table and parameters in inches.
-fn simulated(table: Option<&Path>) -> Wanted<'static> {
-    Wanted {
+fn simulated(table: Option<&Path>) -> GcodeReadOptions<'static> {
+    GcodeReadOptions {
         machine_unit: LengthUnit::Inch,
         tools: table.map(|path| ToolTable::read("tbl", &text(path), LengthUnit::Inch).unwrap()),
-        ..Wanted::default()
+        ..GcodeReadOptions::default()
     }
 }

@@ -1,6 +1,6 @@
 //! Its larger programs: read, or refused for the reason named.
 
-use armill_formats::toolpath::gcode::{self, Rotaries, Wanted};
+use armill_formats::toolpath::gcode::{self, GcodeReadOptions, Rotaries};
 
 use super::{bytes, linuxcnc, simulated};
 use crate::samples_folder::files_below;
@@ -17,20 +17,20 @@ fn five_axes(file: &str) -> Option<Rotaries> {
 
 /// Programs of the folders `nc_files`, `configs` and `tests/trajectory-planner` that are refused: the first problem.
 const REFUSED: &[(&str, &str)] = &[
-    ("nc_files/comp-g1.ngc", "p:27:1: diameter of tool 4 is not told"),
-    ("nc_files/comp.ngc", "p:12:5: diameter of tool 1 is not told"),
+    ("nc_files/comp-g1.ngc", "p:27:1: diameter of tool 4 is not given"),
+    ("nc_files/comp.ngc", "p:12:5: diameter of tool 1 is not given"),
     (
         "nc_files/daisy.ngc",
         "p:63:19: cut with A at 7.341617023617251 deg and no tool-centre control",
     ),
     (
         "nc_files/hole-circle.ngc",
-        "p:10:18: ^ is not read: polar words and spindle numbers are not understood",
+        "p:10:18: ^ is not supported: polar words and spindle numbers are not understood",
     ),
-    ("nc_files/mmount.ngc", "p:42:1: diameter of tool 4 is not told"),
+    ("nc_files/mmount.ngc", "p:42:1: diameter of tool 4 is not given"),
     (
         "nc_files/nurbs/G5/butterfly-xy.ngc",
-        "p:12:1: G5.2 is not read: splines and NURBS are not expanded",
+        "p:12:1: G5.2 is not supported: splines and NURBS are not expanded",
     ),
     (
         "nc_files/plasmac/imperial_circles.ngc",
@@ -42,15 +42,15 @@ const REFUSED: &[(&str, &str)] = &[
     ),
     (
         "nc_files/polar.ngc",
-        "p:10:1: ^ is not read: polar words and spindle numbers are not understood",
+        "p:10:1: ^ is not supported: polar words and spindle numbers are not understood",
     ),
     (
         "nc_files/spiral.ngc",
-        "p:9:8: @ is not read: polar words and spindle numbers are not understood",
+        "p:9:8: @ is not supported: polar words and spindle numbers are not understood",
     ),
     (
         "nc_files/systems.ngc",
-        "p:15:1: G5.1 is not read: splines and NURBS are not expanded",
+        "p:15:1: G5.1 is not supported: splines and NURBS are not expanded",
     ),
     (
         "bridgemill/5axisgui.ngc",
@@ -78,23 +78,23 @@ const REFUSED: &[(&str, &str)] = &[
     ),
     (
         "demos/incremental_repetition.ngc",
-        "p:1:1: G69 is not read: tilted planes need the machine's kinematics",
+        "p:1:1: G69 is not supported: tilted planes need the machine's kinematics",
     ),
     (
         "demos/incremental_repetition_back_and_forth.ngc",
-        "p:1:1: G69 is not read: tilted planes need the machine's kinematics",
+        "p:1:1: G69 is not supported: tilted planes need the machine's kinematics",
     ),
     (
         "demos/incremental_repetition_g533.ngc",
-        "p:1:1: G69 is not read: tilted planes need the machine's kinematics",
+        "p:1:1: G69 is not supported: tilted planes need the machine's kinematics",
     ),
     (
         "demos/simple_example.ngc",
-        "p:1:1: G69 is not read: tilted planes need the machine's kinematics",
+        "p:1:1: G69 is not supported: tilted planes need the machine's kinematics",
     ),
 ];
 
-/// Programs that only hold a subroutine.
+/// Programs that contain only a subroutine.
 const WITHOUT_CUTS: &[&str] = &[
     "ngcgui_lib/helix.ngc",
     "demos/circular_pocket.ngc",
@@ -112,7 +112,7 @@ fn every_larger_program_is_read_or_refused_for_the_reason_named() {
             if !name.ends_with(".ngc") {
                 continue;
             }
-            let expected = Wanted {
+            let expected = GcodeReadOptions {
                 rotaries: five_axes(&name),
                 ..simulated(None)
             };

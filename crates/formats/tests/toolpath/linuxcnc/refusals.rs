@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use armill_formats::toolpath::LengthUnit;
-use armill_formats::toolpath::gcode::{Refusal, Wanted, interpret};
+use armill_formats::toolpath::gcode::{GcodeReadOptions, Refusal, interpret};
 
 use super::{bytes, linuxcnc, simulated};
 use crate::samples_folder::files_below;
@@ -73,15 +73,17 @@ const BAD: &[(&str, Reason)] = &[
 fn what_the_other_interpreter_refuses_is_refused_for_the_same_reason() {
     let Some(folder) = linuxcnc() else { return };
     let folder = folder.join("tests/interp/bad");
-    let expected = Wanted {
+    let expected = GcodeReadOptions {
         unit: LengthUnit::Inch,
         ..simulated(None)
     };
     let mut wrong = Vec::new();
     for (file, reason) in BAD {
-        let found = interpret(&mut bytes(&folder.join(file)).as_slice(), &expected, &mut |_, _| {
-            Ok(())
-        });
+        let found = interpret(
+            &mut bytes(&folder.join(file)).as_slice(),
+            &expected,
+            &mut |_, _| Ok(()),
+        );
         match found.faults.first() {
             Some(fault) if reason(&fault.refusal) => {}
             Some(fault) => wrong.push(format!("{file}:{}: {}", fault.line, fault.refusal)),

@@ -1,68 +1,68 @@
-//! What cuts along a path, what it met in the stock, and how its force gave way, in the answer.
+//! The cut along a path, its engagement in the stock, and its force-deflection equilibrium, in the answer.
 //!
-//! Largest forces are those of the cut as drawn, the tool where the program has it; deviations are those of the force
-//! at rest. Notes tell what was taken for granted on the way.
+//! Largest forces are those of the nominal cut, without deflection; deviations are those of the force in
+//! equilibrium. Notes state the assumptions.
 
-use armill_core::map::Rested;
-use armill_core::path::Met;
+use armill_core::map::EquilibriumSummary;
+use armill_core::path::StockEngagement;
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::file::path::PathAnalysis;
 use crate::number::without_rounding;
-use crate::run::PathFound;
+use crate::run::PathResult;
 
-/// What cuts or drills along a path, and the forces of it.
+/// The cut or drill along a path, and its forces.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct CutAnswer {
     /// Material that the forces are those of.
     pub material: String,
-    /// Largest mean force of a revolution along the path, of the cut as drawn.
+    /// Largest mean force of a revolution along the path, of the nominal cut.
     pub largest_mean_n: f64,
-    /// Largest force within a revolution, likewise.
+    /// Largest force within a revolution, of the nominal cut.
     pub largest_peak_n: f64,
-    /// Points whose cut has no force: plunges and steep dives, where the bottom of the cutter is not modelled.
+    /// Points whose cut has no force: plunges and steep ramps, where the bottom of the cutter is not modelled.
     pub points_without_force: usize,
-    /// What the tool met in the stock, where the study tells one.
+    /// Engagement in the stock, if the study has one.
     pub stock: Option<StockAnswer>,
-    /// How the force of the cut gave way with the tool.
+    /// Force-deflection equilibrium of the cut.
     pub rest: Option<RestAnswer>,
 }
 
-/// What the tool met in the stock.
+/// Engagement of the tool in the stock.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct StockAnswer {
     /// Points with nothing ahead of the tool.
     pub points_in_air: usize,
-    /// Points with material over its whole width.
+    /// Points with full-width engagement.
     pub points_in_slot: usize,
-    /// Points at which it leans, with the engagement of the study.
+    /// Points at which it is tilted, with the engagement of the study.
     pub points_leaning: usize,
     /// Deepest cut.
     pub largest_axial_depth_mm: f64,
     /// Widest cut.
     pub largest_radial_depth_mm: f64,
-    /// Taken away in all.
+    /// Volume removed in total.
     pub removed_mm3: f64,
 }
 
-/// How the force gave way with the tool.
+/// The force-deflection equilibrium.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct RestAnswer {
-    /// Largest deviation across the tool if the force stayed as drawn.
+    /// Largest deviation across the tool if the force stayed nominal.
     pub nominal_max_in_plane_um: f64,
-    /// Points at which force and tool do not rest: the cut draws the tool in.
+    /// Points without force-deflection equilibrium: the cut pulls the tool in.
     pub points_unsettled: usize,
     /// Line of the first of them.
     pub first_unsettled_line: Option<u32>,
 }
 
-/// Deviations that differ by less than this part with and without giving way need no word.
+/// Relative difference of the deviations with and without the equilibrium below which no note is given.
 const MATTERS: f64 = 0.05;
 
 impl CutAnswer {
-    /// `None` where the study tells neither cut nor drill.
-    pub(super) fn of(analysis: &PathAnalysis, found: &PathFound) -> Option<CutAnswer> {
+    /// `None` if the study has neither cut nor drill.
+    pub(super) fn of(analysis: &PathAnalysis, found: &PathResult) -> Option<CutAnswer> {
         let of_cut = analysis.cut.as_ref().map(|cut| &cut.material);
         let material = of_cut.or(analysis.drill.as_ref().map(|drill| &drill.material))?;
         let forces = found.forces?;
@@ -71,40 +71,43 @@ impl CutAnswer {
             largest_mean_n: forces.largest_mean,
             largest_peak_n: forces.greatest,
             points_without_force: forces.without_force,
-            stock: forces.met.map(|met| StockAnswer::of(&met)),
-            rest: found.along.rested.map(|rested| RestAnswer::of(analysis, &rested)),
+            stock: forces.stock_engagement.map(|met| StockAnswer::of(&met)),
+            rest: found
+                .along
+                .equilibrium
+                .map(|equilibrium| RestAnswer::of(analysis, &equilibrium)),
         })
     }
 }
 
 impl StockAnswer {
-    /// What was met, in mm.
-    pub(super) fn of(met: &Met) -> StockAnswer {
+    /// The engagement, in mm.
+    pub(super) fn of(engagement: &StockEngagement) -> StockAnswer {
         StockAnswer {
-            points_in_air: met.in_air,
-            points_in_slot: met.slots,
-            points_leaning: met.leaning,
-            largest_axial_depth_mm: met.largest_depth * 1e3,
-            largest_radial_depth_mm: met.largest_width * 1e3,
-            removed_mm3: met.removed * 1e9,
+            points_in_air: engagement.in_air,
+            points_in_slot: engagement.slots,
+            points_leaning: engagement.leaning,
+            largest_axial_depth_mm: engagement.largest_depth * 1e3,
+            largest_radial_depth_mm: engagement.largest_width * 1e3,
+            removed_mm3: engagement.removed * 1e9,
         }
     }
 }
 
 impl RestAnswer {
-    /// How forces and tool rested, with the line where they first do not.
-    pub(super) fn of(analysis: &PathAnalysis, rested: &Rested) -> RestAnswer {
+    /// The equilibrium of force and tool, with the line where it first does not exist.
+    pub(super) fn of(analysis: &PathAnalysis, equilibrium: &EquilibriumSummary) -> RestAnswer {
         RestAnswer {
-            nominal_max_in_plane_um: rested.largest_if_drawn * 1e6,
-            points_unsettled: rested.unsettled,
-            first_unsettled_line: rested
+            nominal_max_in_plane_um: equilibrium.largest_nominal * 1e6,
+            points_unsettled: equilibrium.unsettled,
+            first_unsettled_line: equilibrium
                 .first_unsettled
                 .map(|index| analysis.track.path.points[index].line),
         }
     }
 }
 
-/// Diameters of tools that differ by more than this part are told.
+/// Diameters of tools that differ by more than this part are reported.
 const OTHER_DIAMETER: f64 = 0.01;
 
 /// Tools of the program of another size than the cutter of the study.
@@ -122,16 +125,16 @@ fn other_tools(analysis: &PathAnalysis) -> Option<String> {
     }
     (!others.is_empty()).then(|| {
         format!(
-            "the program tells tools of {}: they cut with that size, and with all else of the cutter of {} mm that the study \
-             tells",
+            "the program specifies tools of {}: they are evaluated with that size and otherwise as the cutter of {} mm of the \
+             study",
             others.join(", "),
             without_rounding(cutter_mm)
         )
     })
 }
 
-/// What a user should know of cut or drill.
-pub(super) fn notes(analysis: &PathAnalysis, found: &PathFound) -> Vec<String> {
+/// Notes on the cut or drill.
+pub(super) fn notes(analysis: &PathAnalysis, found: &PathResult) -> Vec<String> {
     let of_cut = analysis.cut.as_ref().map(|cut| {
         let mut notes = of_engagement(analysis, found);
         notes.extend(of_rest(analysis, found));
@@ -142,24 +145,24 @@ pub(super) fn notes(analysis: &PathAnalysis, found: &PathFound) -> Vec<String> {
     of_cut.or(of_drill).unwrap_or_default()
 }
 
-/// What a user should know of the engagement.
-fn of_engagement(analysis: &PathAnalysis, found: &PathFound) -> Vec<String> {
+/// Notes on the engagement.
+fn of_engagement(analysis: &PathAnalysis, found: &PathResult) -> Vec<String> {
     let mut notes: Vec<String> = other_tools(analysis).into_iter().collect();
-    match found.forces.and_then(|forces| forces.met) {
+    match found.forces.and_then(|forces| forces.stock_engagement) {
         None => notes.push(
-            "forces are those of the same engagement everywhere: what earlier passes took away is not looked at; \
-             `cut.stock` tells the box that the part is cut from"
+            "forces are those of a constant engagement: material removed by earlier passes is not considered; \
+             specify the stock with `cut.stock`"
                 .to_owned(),
         ),
         Some(met) => {
             notes.push(
-                "depths are those that the tool finds in the stock, as if every pass before had left what is drawn"
+                "depths are those of the tool in the stock, as if every pass before had left the nominal shape"
                     .to_owned(),
             );
             if met.leaning > 0 {
                 notes.push(format!(
-                    "{} points have the engagement that the study tells: the tool leans there, and a stock is cut by \
-                     upright tools alone",
+                    "{} points have the engagement of the study: the tool is tilted there, and the engagement in a stock is \
+                     computed for upright tools only",
                     met.leaning
                 ));
             }
@@ -168,30 +171,34 @@ fn of_engagement(analysis: &PathAnalysis, found: &PathFound) -> Vec<String> {
     notes
 }
 
-/// What a user should know of how the force gave way.
-fn of_rest(analysis: &PathAnalysis, found: &PathFound) -> Vec<String> {
+/// Notes on the force-deflection equilibrium.
+fn of_rest(analysis: &PathAnalysis, found: &PathResult) -> Vec<String> {
     let mut notes = Vec::new();
-    let largest = found.along.answers.worst().map_or(0.0, |(_, evaluation)| evaluation.in_plane);
-    match &found.along.rested {
+    let largest = found
+        .along
+        .answers
+        .worst()
+        .map_or(0.0, |(_, evaluation)| evaluation.in_plane);
+    match &found.along.equilibrium {
         None => notes.push(
-            "the force does not give way with the tool here: this stiffness model changes with the load"
+            "the change of the force with the deflection is neglected: this stiffness model changes with the load"
                 .to_owned(),
         ),
-        Some(rested) => {
-            let ratio = rested.largest_if_drawn / largest.max(f64::MIN_POSITIVE);
+        Some(equilibrium) => {
+            let ratio = equilibrium.largest_nominal / largest.max(f64::MIN_POSITIVE);
             if (ratio - 1.0).abs() > MATTERS {
                 notes.push(format!(
-                    "the tool strays so far that the cut changes: the largest deviation across it is {:.1} µm where force \
-                     and tool rest, {:.1} µm under the force of the cut as drawn",
+                    "the tool deflects so far that the cut changes: the largest deviation across it is {:.1} µm in \
+                     force-deflection equilibrium, {:.1} µm under the nominal force",
                     largest * 1e6,
-                    rested.largest_if_drawn * 1e6
+                    equilibrium.largest_nominal * 1e6
                 ));
             }
-            if let Some(first) = rested.first_unsettled {
+            if let Some(first) = equilibrium.first_unsettled {
                 notes.push(format!(
-                    "at {} points, the first on line {}, the cut draws the tool in and neither rests; the force of the cut \
-                     as drawn stands there",
-                    rested.unsettled, analysis.track.path.points[first].line
+                    "at {} points, the first on line {}, the cut pulls the tool in and there is no equilibrium; the nominal force is \
+                     used there",
+                    equilibrium.unsettled, analysis.track.path.points[first].line
                 ));
             }
         }

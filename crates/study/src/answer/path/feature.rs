@@ -1,24 +1,24 @@
-//! What became of the features that a study marks in its program.
+//! The deviations of the features that a study marks in its program.
 //!
-//! | kind | what is told |
+//! | kind | what is reported |
 //! |---|---|
 //! | `circle` | radius as programmed and its change, shift of the centre, roundness |
-//! | `line` | straightness across and along the tool, shift without the part along the line |
+//! | `line` | straightness across and along the tool, shift without the component along the line |
 //! | `plane` | flatness, shift along the tool |
 //! | `hole` | shift |
 //!
 //! Form errors are peak to valley; shifts are in the axes of the program.
 
 use armill_core::nalgebra::Vector3;
-use armill_core::path::{Became, Strayed, became};
+use armill_core::path::{DeviatedPoint, FeatureErrors, feature_errors};
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::file::path::{FeatureTable, PathAnalysis};
 use crate::number::without_rounding;
-use crate::run::PathFound;
+use crate::run::PathResult;
 
-/// What became of a feature under one load case.
+/// The deviations of a feature under one load case.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct FeatureAnswer {
     /// Its name.
@@ -31,9 +31,9 @@ pub struct FeatureAnswer {
     pub points: usize,
     /// Circle: radius of the tool's path as programmed.
     pub radius_mm: Option<f64>,
-    /// Circle: what it became larger by.
+    /// Circle: increase of the radius.
     pub radius_change_um: Option<f64>,
-    /// How far its centre, axis or middle was moved; path axes. Of a line without the part along it, of a plane along
+    /// Shift of its centre, axis or middle; path axes. Of a line without the component along it, of a plane along
     /// the tool.
     pub shift_um: Option<[f64; 3]>,
     /// Circle: peak to valley about the least-squares circle.
@@ -49,7 +49,7 @@ pub struct FeatureAnswer {
 }
 
 /// Every feature under every load case, feature by feature, of the points whose lines it names.
-pub(super) fn features(analysis: &PathAnalysis, found: &PathFound) -> Vec<FeatureAnswer> {
+pub(super) fn features(analysis: &PathAnalysis, found: &PathResult) -> Vec<FeatureAnswer> {
     let of = |feature: &FeatureTable| {
         let [first, last] = feature.lines;
         let points = &analysis.track.path.points;
@@ -63,13 +63,13 @@ pub(super) fn features(analysis: &PathAnalysis, found: &PathFound) -> Vec<Featur
     analysis.features.iter().flat_map(of).collect()
 }
 
-/// One feature under one case. Without a result, and with the reason, where a point of it is not reached or its points
-/// make no such feature.
+/// One feature under one case. Without a result, and with the reason, if a point of it is not reached or its points
+/// do not define such a feature.
 fn of_case(
     (feature, case): (&FeatureTable, usize),
     points: &[usize],
     analysis: &PathAnalysis,
-    found: &PathFound,
+    found: &PathResult,
 ) -> FeatureAnswer {
     let mut given = FeatureAnswer {
         name: feature.name.clone(),
@@ -87,23 +87,23 @@ fn of_case(
     };
     let answers = &found.along.answers;
     if points.iter().any(|i| answers.points[*i].is_err()) {
-        given.missing = Some("not every point of it is reached");
+        given.missing = Some("some of its points are out of reach");
         return given;
     }
     let placing = &analysis.track.placing;
     let path_from_base = placing.base_from_path.inverse();
-    let strayed = |i: &usize| {
+    let deviated = |i: &usize| {
         let point = &analysis.track.path.points[*i];
-        Strayed {
+        DeviatedPoint {
             at: point.at,
             axis: path_from_base.rotation * placing.spindle(point),
             by: path_from_base * answers.deviations_at(*i)[case],
         }
     };
-    let strayed: Vec<Strayed> = points.iter().map(strayed).collect();
+    let deviated: Vec<DeviatedPoint> = points.iter().map(deviated).collect();
     let um = |v: Vector3<f64>| Some(v.map(|c| c * 1e6).into());
-    match became(feature.kind.kind(), &strayed) {
-        Some(Became::Circle {
+    match feature_errors(feature.kind.kind(), &deviated) {
+        Some(FeatureErrors::Circle {
             radius,
             radius_change,
             centre_shift,
@@ -114,7 +114,7 @@ fn of_case(
             given.shift_um = um(centre_shift);
             given.roundness_um = Some(roundness * 1e6);
         }
-        Some(Became::Line {
+        Some(FeatureErrors::Line {
             straightness_across,
             straightness_normal: straightness_axial,
             offset,
@@ -123,13 +123,13 @@ fn of_case(
             given.straightness_axial_um = Some(straightness_axial * 1e6);
             given.shift_um = um(offset);
         }
-        Some(Became::Plane { flatness, offset }) => {
+        Some(FeatureErrors::Plane { flatness, offset }) => {
             given.flatness_um = Some(flatness * 1e6);
-            let normal = strayed.first().map_or_else(Vector3::z, |p| p.axis.into_inner());
+            let normal = deviated.first().map_or_else(Vector3::z, |p| p.axis.into_inner());
             given.shift_um = um(normal * offset);
         }
-        Some(Became::Hole { shift }) => given.shift_um = um(shift),
-        None => given.missing = Some("its points make no such feature"),
+        Some(FeatureErrors::Hole { shift }) => given.shift_um = um(shift),
+        None => given.missing = Some("its points do not define such a feature"),
     }
     given
 }

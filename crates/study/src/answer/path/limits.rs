@@ -1,7 +1,7 @@
-//! What a path permits, in the answer: the least over its points, each with the line it comes from.
+//! The process limits of a path, in the answer: the least over its points, each with its line.
 //!
-//! A force is permitted by itself, in place of what the study has push; a depth or feed with all else as the study
-//! cuts. Lengths are in mm, forces in N, as told beside each value.
+//! A force is permitted alone, in place of the load of the study; a depth or feed with everything else as the study
+//! cuts. Lengths are in mm, forces in N, as given next to each value.
 
 use armill_core::map::{CutLimits, Permitted, PermittedForces, PointLimits};
 use schemars::JsonSchema;
@@ -9,14 +9,14 @@ use serde::Serialize;
 
 use crate::file::path::PathAnalysis;
 use crate::number::without_rounding;
-use crate::run::PathFound;
+use crate::run::PathResult;
 
-/// What keeps the tolerance on the whole of a program: the least of its points.
+/// The process limits that meet the tolerance on a whole program: the least of its points.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct LimitsAnswer {
-    /// Points that were asked: spread over the path, the worst among them.
+    /// Points that were evaluated: spread over the path, the worst among them.
     pub points: usize,
-    /// Force that every direction permits.
+    /// Force permitted in every direction.
     pub any_direction: Option<LimitAnswer>,
     /// Force along the feed.
     pub along: Option<LimitAnswer>,
@@ -24,31 +24,31 @@ pub struct LimitsAnswer {
     pub cross: Option<LimitAnswer>,
     /// Force along the tool.
     pub axial: Option<LimitAnswer>,
-    /// Axial depth of the cut, all else as the study has it.
+    /// Axial depth of the cut, everything else as in the study.
     pub axial_depth: Option<LimitAnswer>,
-    /// Radial depth, likewise; none of a slot.
+    /// Radial depth; none of a slot.
     pub radial_depth: Option<LimitAnswer>,
-    /// Feed per tooth, likewise.
+    /// Feed per tooth.
     pub feed_per_tooth: Option<LimitAnswer>,
 }
 
-/// A limit, and where it comes from.
+/// A limit, and the line that determines it.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct LimitAnswer {
-    /// How much.
-    // unit: the one told beside it
+    /// Its value.
+    // unit: the one in the field `unit`
     pub value: f64,
     /// Its unit.
     pub unit: &'static str,
-    /// `up to`, `at least` (more was not looked at), or `nothing`.
+    /// `up to`, `at least` (larger values were not evaluated), or `nothing`.
     pub verdict: &'static str,
     /// Line of the program that permits no more.
     pub line: u32,
 }
 
 impl LimitsAnswer {
-    /// `None` where it was not asked, or cannot be told: of a model that changes with the load.
-    pub(super) fn of(analysis: &PathAnalysis, found: &PathFound) -> Option<LimitsAnswer> {
+    /// `None` if it was not requested, or cannot be computed: of a model that changes with the load.
+    pub(super) fn of(analysis: &PathAnalysis, found: &PathResult) -> Option<LimitsAnswer> {
         let limits = found.limits.as_ref()?;
         let line = |point: &PointLimits| analysis.track.path.points[point.index].line;
         let force = |of: fn(&PermittedForces) -> f64| {

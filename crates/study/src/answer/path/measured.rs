@@ -1,4 +1,4 @@
-//! Measured forces in the answer: which record, what was taken off, and when the program begins in it.
+//! Measured forces in the answer: the record, its treatment, and the start of the program in it.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -7,48 +7,48 @@ use crate::file::path::MeasuredForces;
 use crate::file::path::measured::{ActsOnName, SynchroniseName};
 use crate::forces::DriftAnswer;
 
-/// The record that forces come from.
+/// The record of the forces.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct MeasuredAnswer {
-    /// Its file, as the study calls it.
+    /// Its file, as named in the study.
     pub file: String,
     /// The format it is in.
     pub format: &'static str,
-    /// What its numbers act on: `tool` or `part`.
+    /// What its forces act on: `tool` or `part`.
     pub acts_on: &'static str,
-    /// Axes that the sensor stands along.
+    /// Axes of the sensor.
     pub frame: &'static str,
-    /// By what angle it is turned about z of them.
+    /// Rotation of the sensor about z of them.
     pub sensor_turned_deg: f64,
     /// First and last instant of the record.
     pub record_s: [f64; 2],
-    /// Time in the record at which the first cut of the program begins.
+    /// Time in the record at which the first cut of the program starts.
     pub start_s: f64,
     /// Time in the record at which the last cut ends.
     pub end_s: f64,
-    /// How the begin was found: `told`, `threshold` or `predicted`.
+    /// How the start was determined: `given`, `threshold` or `predicted`.
     pub synchronised: &'static str,
-    /// How like the prediction the record is there, to 1; none without prediction.
+    /// Correlation with the prediction there, at most 1; none without prediction.
     // unit: 1
     pub likeness: Option<f64>,
-    /// From 0 to 1: how far that likeness stands out from the second best.
+    /// From 0 to 1: by how much that correlation exceeds the second best.
     pub confidence: Option<f64>,
-    /// What was taken off, on the tool, in the axes of `frame`; none where the drift was to stay.
+    /// The drift that was removed, on the tool, in the axes of `frame`; none if drift removal is off.
     pub drift: Option<DriftAnswer>,
-    /// Slower than this was kept.
+    /// Cut-off of the low-pass filter.
     pub low_pass_hz: Option<f64>,
-    /// Speed of the spindle that turns were counted by.
+    /// Spindle speed that defines the revolutions.
     pub spindle_rpm: Option<f64>,
-    /// Samples between begin and end of the program.
+    /// Samples between start and end of the program.
     pub samples_used: usize,
     /// Largest force along the program.
     pub largest_n: f64,
-    /// Largest force within a turn, where that is a load case.
+    /// Largest force within a revolution, if that is a load case.
     pub largest_peak_n: Option<f64>,
 }
 
 impl MeasuredAnswer {
-    /// The record as the study names and treats it, and the stretch of it that the program takes.
+    /// The record as named and treated in the study, and the interval of it that the program uses.
     pub(super) fn of(measured: &MeasuredForces) -> MeasuredAnswer {
         let (table, treated) = (&measured.table, &measured.treated);
         MeasuredAnswer {
@@ -64,7 +64,7 @@ impl MeasuredAnswer {
             start_s: measured.program[0],
             end_s: measured.program[1],
             synchronised: match table.synchronise {
-                None => "told",
+                None => "given",
                 Some(SynchroniseName::Threshold) => "threshold",
                 Some(SynchroniseName::Predicted) => "predicted",
             },
@@ -83,7 +83,7 @@ impl MeasuredAnswer {
     }
 }
 
-/// What a user should know of the forces, in sentences.
+/// Notes on the forces for the user, in sentences.
 pub(super) fn notes(measured: &MeasuredForces) -> Vec<String> {
     let mut notes = vec![format!(
         "forces are those of {}, from {:.4} to {:.4} s: {} samples",
@@ -98,17 +98,17 @@ pub(super) fn notes(measured: &MeasuredForces) -> Vec<String> {
             .iter()
             .map(|[from, to]| format!("{from:.3} to {to:.3} s"));
         let how = match measured.air {
-            crate::forces::Air::Found => "the quietest stretches",
+            crate::forces::Air::Detected => "the quietest intervals",
             _ => "the air cuts",
         };
         format!(
-            "drift of the sensor was taken off through {how}: {}",
+            "drift of the sensor was removed with {how}: {}",
             through.collect::<Vec<_>>().join(", ")
         )
     });
-    notes.push(drift.unwrap_or_else(|| "drift of the sensor was left in".to_owned()));
+    notes.push(drift.unwrap_or_else(|| "drift of the sensor was not removed".to_owned()));
     if measured.treated.before.moment().is_some() {
-        notes.push("measured moments are left out: they count from the origin of the sensor".to_owned());
+        notes.push("measured moments are neglected: they refer to the origin of the sensor".to_owned());
     }
     notes
 }

@@ -1,14 +1,14 @@
-//! A path in the answer: how far the tool deviates along it, where and why, and what became of what it makes.
+//! A path in the answer: the deviation of the tool along it, where and why, and its effect on features.
 //!
 //! | part of the deviation | meaning |
 //! |---|---|
-//! | in-plane | across the tool, of a shape in its plane: the largest of all cases, what the limit is held against |
-//! | along, cross | its parts forwards on the track and to the left of it: what is hardly seen, and what walls get |
-//! | axial | along the tool, from the part towards the spindle: what floors get |
+//! | in-plane | across the tool, of a shape in its plane: the largest of all cases, compared with the tolerance |
+//! | along, cross | its components forwards on the track and to the left of it: hardly visible, and the error of walls |
+//! | axial | along the tool, from the part towards the spindle: the error of floors |
 //!
-//! `worst`: where it is worst; `feature`: circles, lines, planes, holes; `cut`, `measured`: what pushes; `limits`: what
-//! keeps the tolerance; `program`: what a program tells of it; `search`: what a search for turns of the tool and branches brought;
-//! `unloaded`: what backlash and geometry make of it.
+//! `worst`: where it is worst; `feature`: circles, lines, planes, holes; `cut`, `measured`: the load; `limits`: the
+//! process limits; `program`: data of a program; `search`: the result of a search for spins of the tool and branches;
+//! `unloaded`: the effect of backlash and geometry.
 
 mod cut;
 mod feature;
@@ -37,22 +37,22 @@ use super::point::{PointAnswer, SettingAnswer};
 use crate::file::path::PathAnalysis;
 use crate::file::resolve::{Setting, Study};
 use crate::number::without_rounding;
-use crate::run::{MOST_JUMPS, PathFound};
+use crate::run::{MOST_JUMPS, PathResult};
 
 /// A path.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PathAnswer {
     /// Its name.
     pub name: String,
-    /// Posture asked for: words of a branch, or `best`.
+    /// Requested posture: words of a branch, or `best`.
     pub branch: String,
-    /// Branch in which the whole path is followed; none of an arm whose branches have no names.
+    /// Branch in which the whole path is followed; none for an arm whose branches have no names.
     pub followed_branch: Option<String>,
     /// How many points.
     pub points: usize,
     /// Points without posture.
     pub unreachable: usize,
-    /// Points with a posture that stands outside joint limits.
+    /// Points with a posture outside joint limits.
     pub outside_joint_limits: usize,
     /// Length of all cuts, or of the shape.
     pub length_mm: f64,
@@ -64,46 +64,46 @@ pub struct PathAnswer {
     pub max_full_um: Option<f64>,
     /// Largest deviation along the track, by size.
     pub max_along_um: Option<f64>,
-    /// Largest deviation across the track, by size: what walls get.
+    /// Largest deviation across the track, by size: the error of walls.
     pub max_cross_um: Option<f64>,
-    /// Largest deviation along the tool, by size: what floors get.
+    /// Largest deviation along the tool, by size: the error of floors.
     pub max_axial_um: Option<f64>,
-    /// Points within the limit over all points.
+    /// Points within the tolerance over all points.
     pub fraction_within: f64,
     /// Of circles reached everywhere, the path itself or its features: the largest roundness of all cases (peak to
     /// valley about the least-squares circle).
     pub roundness_um: Option<f64>,
     /// On a circle: each case.
     pub circle_cases: Vec<CircleCase>,
-    /// What became of the features asked for.
+    /// Deviations of the requested features.
     pub features: Vec<FeatureAnswer>,
     /// The point with the largest in-plane deviation.
     pub worst: Option<PointAnswer>,
-    /// Where it is worst, each from another part of the path.
+    /// The worst points, each from another part of the path.
     pub worst_points: Vec<WorstPoint>,
-    /// Where a joint jumps from one point to the next.
+    /// Jumps of a joint from one point to the next.
     pub jumps: Vec<String>,
-    /// What all points share.
+    /// The common setting of all points.
     pub setting: SettingAnswer,
-    /// Range of each joint (mm for sliding joints) along the path; empty where no point is reached.
+    /// Range of each joint (mm for prismatic joints) along the path; empty if no point is reached.
     pub joint_range_deg: Vec<[f64; 2]>,
-    /// What cuts or drills, where the forces were computed from it.
+    /// The cut or drill, if the forces were computed from it.
     pub cut: Option<CutAnswer>,
-    /// The record that the forces come from; none where they were not measured.
+    /// The record of the forces; none if they were not measured.
     pub measured: Option<MeasuredAnswer>,
-    /// What keeps the tolerance everywhere.
+    /// The process limits that meet the tolerance everywhere.
     pub limits: Option<LimitsAnswer>,
-    /// The program that tells the path; none of a shape.
+    /// The program of the path; none for a shape.
     pub program: Option<ProgramAnswer>,
-    /// Turns of the tool and branches that were searched for; none where nothing was.
+    /// The search for spins of the tool and branches; none without a search.
     pub search: Option<SearchAnswer>,
-    /// What backlash and geometry make of the deviations; none where load and gravity alone move the tool.
+    /// Effect of backlash and geometry on the deviations; none if load and gravity alone move the tool.
     pub unloaded: Option<UnloadedAnswer>,
-    /// What was passed over, or taken for granted.
+    /// What was skipped or assumed.
     pub notes: Vec<String>,
 }
 
-/// What becomes of a circle under one load case.
+/// The deviation of a circle under one load case.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct CircleCase {
     /// The case, from 1.
@@ -118,12 +118,14 @@ pub struct CircleCase {
     pub roundness_um: f64,
 }
 
-/// What became of the path that the ask called `name` asks for.
-pub(super) fn answer(study: &Study, name: &str, analysis: &PathAnalysis, found: &PathFound) -> PathAnswer {
+/// The result of the path of the analysis called `name`.
+pub(super) fn answer(study: &Study, name: &str, analysis: &PathAnalysis, found: &PathResult) -> PathAnswer {
     let (setting, answers) = (&analysis.setting, &found.along.answers);
-    let evaluation = || answers.evaluation().map(|(_, evaluation)| evaluation);
+    let evaluation = || answers.evaluations().map(|(_, evaluation)| evaluation);
     let points = answers.points.len();
-    let within = evaluation().filter(|evaluation| evaluation.in_plane <= setting.limit).count();
+    let within = evaluation()
+        .filter(|evaluation| evaluation.in_plane <= setting.tolerance)
+        .count();
     let features = feature::features(analysis, found);
     let of_features = features.iter().filter_map(|feature| feature.roundness_um);
     let of_cases = found
@@ -138,11 +140,15 @@ pub(super) fn answer(study: &Study, name: &str, analysis: &PathAnalysis, found: 
         followed_branch: followed(study, &found.along, setting),
         points,
         unreachable: points - evaluation().count(),
-        outside_joint_limits: evaluation().filter(|evaluation| !evaluation.within_limits()).count(),
+        outside_joint_limits: evaluation()
+            .filter(|evaluation| !evaluation.within_limits())
+            .count(),
         length_mm: analysis.length() * 1e3,
         max_in_plane_um: answers.worst().map(|(_, evaluation)| evaluation.in_plane * 1e6),
         min_in_plane_um: answers.best().map(|(_, evaluation)| evaluation.in_plane * 1e6),
-        max_full_um: evaluation().map(|evaluation| evaluation.full * 1e6).max_by(f64::total_cmp),
+        max_full_um: evaluation()
+            .map(|evaluation| evaluation.full * 1e6)
+            .max_by(f64::total_cmp),
         max_along_um: along,
         max_cross_um: cross,
         max_axial_um: axial,
@@ -185,10 +191,10 @@ fn followed(study: &Study, along: &AlongPath, setting: &Setting) -> Option<Strin
 }
 
 /// Largest deviation of all cases along the track, across it and along the tool, by size.
-fn largest_parts(analysis: &PathAnalysis, found: &PathFound) -> [Option<f64>; 3] {
+fn largest_parts(analysis: &PathAnalysis, found: &PathResult) -> [Option<f64>; 3] {
     let answers = &found.along.answers;
     let mut largest: Option<[f64; 3]> = None;
-    for (index, _) in answers.evaluation() {
+    for (index, _) in answers.evaluations() {
         for deviation in answers.deviations_at(index) {
             let parts = analysis.track.parts(index, deviation);
             let [along, cross, axial] = largest.unwrap_or_default();
@@ -202,8 +208,8 @@ fn largest_parts(analysis: &PathAnalysis, found: &PathFound) -> [Option<f64>; 3]
     std::array::from_fn(|i| largest.map(|largest| largest[i] * 1e6))
 }
 
-/// Each case of a circle that is a shape; none of other paths, nor of a circle that is not reached everywhere.
-fn circle_cases(found: &PathFound) -> Vec<CircleCase> {
+/// Each case of a circle that is a shape; none for other paths, and for a circle that is not reached everywhere.
+fn circle_cases(found: &PathResult) -> Vec<CircleCase> {
     let um = |value: f64| value * 1e6;
     let of_case = |(case, radial): (usize, &armill_core::map::RadialDeviation)| CircleCase {
         case: case + 1,
@@ -216,7 +222,7 @@ fn circle_cases(found: &PathFound) -> Vec<CircleCase> {
 }
 
 /// Joints that jump between points next to each other on the path, in sentences.
-fn jumps(study: &Study, analysis: &PathAnalysis, found: &PathFound) -> Vec<String> {
+fn jumps(study: &Study, analysis: &PathAnalysis, found: &PathResult) -> Vec<String> {
     let joints = study.robot.robot.joints();
     let given = found.jumps.iter().take(MOST_JUMPS).map(|jump| {
         format!(
@@ -226,18 +232,18 @@ fn jumps(study: &Study, analysis: &PathAnalysis, found: &PathFound) -> Vec<Strin
             analysis.track.path.points[jump.index].line
         )
     });
-    // One more was looked for than is told.
+    // One more was searched than is reported.
     let more = (found.jumps.len() > MOST_JUMPS).then(|| "more jumps follow".to_owned());
     given.chain(more).collect()
 }
 
-/// Range of each joint, deg (mm); empty where no point is reached.
+/// Range of each joint, deg (mm); empty if no point is reached.
 fn joint_ranges(study: &Study, answers: &Answers) -> Vec<[f64; 2]> {
     let range = |joint: usize| {
         let slides = study.robot.robot.slides(joint);
         let scale = if slides { 1e3 } else { 1f64.to_degrees() };
         let positions = answers
-            .evaluation()
+            .evaluations()
             .map(|(index, _)| answers.joints_at(index)[joint] * scale);
         let [low, high] = positions.fold([f64::MAX, f64::MIN], |[low, high], q| [low.min(q), high.max(q)]);
         (low <= high).then(|| [without_rounding(low), without_rounding(high)])
@@ -246,13 +252,13 @@ fn joint_ranges(study: &Study, answers: &Answers) -> Vec<[f64; 2]> {
     ranges.unwrap_or_default()
 }
 
-/// What was passed over or taken for granted: in the program, in the cut, in the record.
-fn notes(analysis: &PathAnalysis, found: &PathFound) -> Vec<String> {
+/// What was skipped or assumed: in the program, in the cut, in the record.
+fn notes(analysis: &PathAnalysis, found: &PathResult) -> Vec<String> {
     let mut notes = program::notes(analysis);
     notes.extend(cut::notes(analysis, found));
-    if found.along.unloaded.is_some() && found.limits.is_some() {
+    if found.along.backlash_geometry.is_some() && found.limits.is_some() {
         notes.push(
-            "what keeps the tolerance (limits) is told of the load alone: backlash and geometry come on top"
+            "the process limits (limits) are computed for the load alone: backlash and geometry are additional"
                 .to_owned(),
         );
     }

@@ -1,22 +1,22 @@
-//! What only a path that a program tells has in the answer.
+//! The data of a path that is given by a program.
 
 use armill_core::path::Operation;
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::file::path::{PathAnalysis, PathSource};
-use crate::run::PathFound;
+use crate::run::PathResult;
 
-/// The program that tells a path.
+/// The program of a path.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct ProgramAnswer {
-    /// Its file, as the study calls it.
+    /// Its file, as named in the study.
     pub file: String,
     /// The format it is in.
     pub format: &'static str,
     /// Moves, rapids included.
     pub moves: usize,
-    /// Time of the cuts whose feed is told.
+    /// Time of the cuts with a known feed.
     pub cutting_time_s: f64,
     /// Stretches with the same tool and spindle speed.
     pub operations: Vec<OperationAnswer>,
@@ -25,11 +25,11 @@ pub struct ProgramAnswer {
 /// A stretch with the same tool and spindle speed.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct OperationAnswer {
-    /// What the program calls it.
+    /// Its name in the program.
     pub name: Option<String>,
     /// Number of its tool.
     pub tool: Option<u32>,
-    /// Line where it begins.
+    /// First line.
     pub line: u32,
     /// Its points.
     pub points: usize,
@@ -39,7 +39,7 @@ pub struct OperationAnswer {
 
 impl ProgramAnswer {
     /// `None` of a shape.
-    pub(super) fn of(analysis: &PathAnalysis, found: &PathFound) -> Option<ProgramAnswer> {
+    pub(super) fn of(analysis: &PathAnalysis, found: &PathResult) -> Option<ProgramAnswer> {
         let PathSource::Program { file, summary, .. } = &analysis.source else {
             return None;
         };
@@ -54,12 +54,15 @@ impl ProgramAnswer {
 }
 
 /// Each operation from its first point to the first of the next; those without a point are left out.
-fn operations(analysis: &PathAnalysis, found: &PathFound) -> Vec<OperationAnswer> {
+fn operations(analysis: &PathAnalysis, found: &PathResult) -> Vec<OperationAnswer> {
     let (all, points) = (&analysis.track.path.operations, &found.along.answers.points);
     let of = |(i, (first, operation)): (usize, &(usize, Operation))| {
         let end = all.get(i + 1).map_or(points.len(), |next| next.0);
         let points = &points[*first..end];
-        let largest = points.iter().flatten().map(|evaluation| evaluation.in_plane * 1e6);
+        let largest = points
+            .iter()
+            .flatten()
+            .map(|evaluation| evaluation.in_plane * 1e6);
         OperationAnswer {
             name: operation.name.clone(),
             tool: operation.tool,
@@ -72,7 +75,7 @@ fn operations(analysis: &PathAnalysis, found: &PathFound) -> Vec<OperationAnswer
     given.filter(|operation| operation.points > 0).collect()
 }
 
-/// What was passed over in the program.
+/// What was skipped in the program.
 pub(super) fn notes(analysis: &PathAnalysis) -> Vec<String> {
     match &analysis.source {
         PathSource::Program { summary, .. } => summary.notes.clone(),

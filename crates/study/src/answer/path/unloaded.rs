@@ -1,4 +1,4 @@
-//! What moves the tool along a path beside its load: backlash and geometry.
+//! Displacements along a path in addition to those by the load: backlash and geometry.
 
 use armill_core::optimize::reversals;
 use schemars::JsonSchema;
@@ -6,38 +6,38 @@ use serde::Serialize;
 
 use crate::file::path::PathAnalysis;
 use crate::file::resolve::Study;
-use crate::run::PathFound;
+use crate::run::PathResult;
 
-/// What moves the tool beside its load; the deviations of the path have it too.
+/// Displacements in addition to those by the load; they are included in the deviations of the path.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct UnloadedAnswer {
     /// Largest displacement across the tool, all cases.
     pub max_in_plane_um: f64,
     /// Largest length of it.
     pub max_full_um: f64,
-    /// Every joint that has play.
-    pub joints: Vec<PlayAnswer>,
-    /// Whether the arm differs from the one that its controller reckons with.
+    /// Every joint with backlash.
+    pub joints: Vec<JointBacklash>,
+    /// Whether the arm differs from the nominal model of its controller.
     pub measured_arm: bool,
 }
 
-/// The play of one joint.
+/// The backlash of one joint.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct PlayAnswer {
+pub struct JointBacklash {
     /// Its name.
     pub name: String,
-    /// The whole gap of a joint that turns.
+    /// The whole backlash of a revolute joint.
     pub backlash_deg: Option<f64>,
-    /// The whole gap of a joint that slides.
+    /// The whole backlash of a prismatic joint.
     pub backlash_mm: Option<f64>,
-    /// Times that the joint turns back on the cuts of the path.
+    /// Number of reversals of the joint on the cuts of the path.
     pub reversals: usize,
 }
 
 impl UnloadedAnswer {
-    /// What it was along this path; `None` where load and gravity alone move the tool.
-    pub(super) fn of(study: &Study, analysis: &PathAnalysis, found: &PathFound) -> Option<UnloadedAnswer> {
-        let unloaded = found.along.unloaded.as_ref()?;
+    /// The displacements along this path; `None` if load and gravity alone move the tool.
+    pub(super) fn of(study: &Study, analysis: &PathAnalysis, found: &PathResult) -> Option<UnloadedAnswer> {
+        let unloaded = found.along.backlash_geometry.as_ref()?;
         let robot = &study.robot.robot;
         let cases = found.along.answers.case_count;
         let in_plane = |(at, moved): (usize, &armill_core::nalgebra::Vector3<f64>)| {
@@ -46,9 +46,9 @@ impl UnloadedAnswer {
         };
         let turned_back = reversals(&analysis.track.path, &found.along.answers);
         let model = &analysis.setting.model;
-        let play = model.structure.gaps().map(|(joint, backlash)| {
+        let play = model.structure.joints_with_backlash().map(|(joint, backlash)| {
             let slides = robot.slides(joint);
-            PlayAnswer {
+            JointBacklash {
                 name: robot.joints()[joint].name.clone(),
                 backlash_deg: (!slides).then(|| backlash.gap.to_degrees()),
                 backlash_mm: slides.then_some(backlash.gap * 1e3),
@@ -57,14 +57,14 @@ impl UnloadedAnswer {
         });
         Some(UnloadedAnswer {
             max_in_plane_um: unloaded
-                .moved
+                .displacements
                 .iter()
                 .enumerate()
                 .map(in_plane)
                 .fold(0.0, f64::max)
                 * 1e6,
             max_full_um: unloaded
-                .moved
+                .displacements
                 .iter()
                 .map(armill_core::nalgebra::Vector3::norm)
                 .fold(0.0, f64::max)

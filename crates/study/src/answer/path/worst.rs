@@ -1,32 +1,32 @@
-//! Where a path is worst, and why.
+//! The worst points of a path, and why.
 //!
-//! The points are those that were asked once more by themselves, with shares and uncertainty, on a plane across the
-//! tool. Parts of the deviation are of the deciding case: `along` forwards on the track, `cross` to its left, `axial`
-//! from the part towards the spindle.
+//! The points were evaluated once more separately, with shares and uncertainty, on a plane across the tool. Components
+//! of the deviation are those of the worst case: `along` forwards on the track, `cross` to its left, `axial` from the
+//! part towards the spindle.
 
-use armill_core::kernel::Held;
+use armill_core::kernel::Evaluation;
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::super::point::PointAnswer;
 use crate::file::path::PathAnalysis;
 use crate::file::resolve::Study;
-use crate::run::{InFull, PathFound};
+use crate::run::{PathResult, PointDetail};
 
-/// A point where the deviation is large, and why.
+/// A point with a large deviation, and why.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct WorstPoint {
     /// Line of the program, or piece of the shape.
     pub line: u32,
     /// Distance along all cuts.
     pub distance_mm: f64,
-    /// Deviation of the deciding case along the track.
+    /// Deviation of the worst case along the track.
     pub along_um: f64,
     /// To the left of the track.
     pub cross_um: f64,
     /// Along the tool, from the part towards the spindle.
     pub axial_um: f64,
-    /// What makes it large.
+    /// Why it is large.
     pub cause: String,
     /// The point.
     pub point: PointAnswer,
@@ -34,22 +34,23 @@ pub struct WorstPoint {
 
 /// A feed that turns by more than this between two points turns sharply, rad.
 const SHARP: f64 = 0.5;
-/// A joint nearer to its limit than this is told, rad.
+/// A joint nearer to its limit than this is reported, rad.
 const NEAR_LIMIT: f64 = 0.087;
 
-/// Worst first; a point that was not held when asked by itself is left out.
-pub(super) fn worst_points(study: &Study, analysis: &PathAnalysis, found: &PathFound) -> Vec<WorstPoint> {
-    let given = |worst: &InFull| of_point(study, analysis, worst);
+/// Worst first; a point without a separate evaluation is left out.
+pub(super) fn worst_points(study: &Study, analysis: &PathAnalysis, found: &PathResult) -> Vec<WorstPoint> {
+    let given = |worst: &PointDetail| of_point(study, analysis, worst);
     found.worst.iter().filter_map(given).collect()
 }
 
 /// One point; its in-plane coordinates are on the plane of the study, not on the one across the tool.
-fn of_point(study: &Study, analysis: &PathAnalysis, worst: &InFull) -> Option<WorstPoint> {
+fn of_point(study: &Study, analysis: &PathAnalysis, worst: &PointDetail) -> Option<WorstPoint> {
     let evaluation = *worst.answers.points.first()?.as_ref().ok()?;
     let here = &analysis.track.path.points[worst.index];
-    let parts = analysis
-        .track
-        .parts(worst.index, &worst.answers.deviations_at(0)[evaluation.deciding_case]);
+    let parts = analysis.track.parts(
+        worst.index,
+        &worst.answers.deviations_at(0)[evaluation.worst_case],
+    );
     let at = worst.setting.plane.base_from_part.translation.vector.into();
     let point = PointAnswer {
         in_plane_mm: PointAnswer::in_plane_mm(&analysis.setting.plane, &at),
@@ -66,9 +67,14 @@ fn of_point(study: &Study, analysis: &PathAnalysis, worst: &InFull) -> Option<Wo
     })
 }
 
-/// In words, as far as they hold: whose share is largest, a singularity, a joint near its limit, a feed that turns
+/// The reasons, in words: the largest contributor, a singularity, a joint near its limit, a feed that turns
 /// sharply.
-fn cause(study: &Study, (analysis, index): (&PathAnalysis, usize), evaluation: &Held, point: &PointAnswer) -> String {
+fn cause(
+    study: &Study,
+    (analysis, index): (&PathAnalysis, usize),
+    evaluation: &Evaluation,
+    point: &PointAnswer,
+) -> String {
     let joints = study.robot.robot.joints();
     let names = analysis.setting.model.contributor_names(joints);
     let largest = point
@@ -79,7 +85,10 @@ fn cause(study: &Study, (analysis, index): (&PathAnalysis, usize), evaluation: &
         parts.push(format!("near the {singularity}"));
     }
     if evaluation.limit_margin < NEAR_LIMIT {
-        parts.push(format!("joint {} at its limit", joints[evaluation.limit_joint].name));
+        parts.push(format!(
+            "joint {} at its limit",
+            joints[evaluation.limit_joint].name
+        ));
     }
     let points = &analysis.track.path.points;
     if let Some(before) = index.checked_sub(1).map(|i| &points[i]) {

@@ -3,8 +3,8 @@
 //! | of the table | in the core |
 //! |---|---|
 //! | `law`, `material` | mechanistic: mean of the whole sets of the material; Kienzle: of its values, with ratios |
-//! | `side`, `radial_depth_mm` | on which side of the feed the part stands, and how far the cutter reaches into it |
-//! | `feed_mm_per_min`, `spindle_rpm` | m/s and rad/s, where the program tells none |
+//! | `side`, `radial_depth_mm` | on which side of the feed the part is, and the radial depth of cut |
+//! | `feed_mm_per_min`, `spindle_rpm` | m/s and rad/s, if the program does not specify them |
 //! | `u_percent` | standard uncertainty of all coefficients together, in place of the scatter of the sets |
 //! | `stock` | a box; the engagement is then what the tool meets there |
 
@@ -12,56 +12,56 @@ use std::f64::consts::TAU;
 
 use armill_core::load::{
     Cutter, CuttingError, CuttingLaw, Estimate, Hand, Immersion, Kienzle, KienzleValues, Mechanistic, Runout,
-    Together,
+    SetStatistics,
 };
 use armill_core::nalgebra::Point3;
-use armill_core::path::{Cutting, Greatest, Stock, StockError};
+use armill_core::path::{Cutting, GreatestForce, Stock, StockError};
 use armill_formats::material::Material;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::file::places::Places;
+use crate::file::problem_log::ProblemLog;
 use crate::library;
 
-/// What cuts, and how deep.
+/// The cutter and its depths of cut.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CutTable {
     /// Name of a material of the library.
     pub material: String,
-    /// Law of the chip; mechanistic if left out, where the material has the coefficients.
+    /// Cutting force law; mechanistic if left out, if the material has the coefficients.
     pub law: Option<LawName>,
     /// The cutter.
     pub cutter: CutterTable,
-    /// Depth along the tool.
+    /// Axial depth of cut.
     #[schemars(range(min = 0.0, max = 1e3))]
     pub axial_depth_mm: f64,
-    /// Depth across the tool and the feed; the whole diameter of a slot.
+    /// Radial depth of cut, across the tool and the feed; the whole diameter for a slot.
     #[schemars(range(min = 0.0, max = 1e3))]
     pub radial_depth_mm: Option<f64>,
-    /// On which side of the feed the part stands.
+    /// On which side of the feed the part is.
     pub side: SideName,
-    /// Feed where the program does not tell it.
+    /// Feed, if the program does not specify it.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub feed_mm_per_min: Option<f64>,
-    /// Speed of the spindle where the program does not tell it; clockwise.
+    /// Spindle speed, if the program does not specify it; clockwise.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub spindle_rpm: Option<f64>,
-    /// Whether the greatest force of a revolution is a second load case, beside the mean.
+    /// Whether the greatest force of a revolution is a second load case in addition to the mean.
     #[serde(default)]
     pub peak: bool,
     /// Kienzle: radial over cutting force, and its standard uncertainty.
     pub radial_ratio: Option<[f64; 2]>,
-    /// Kienzle: axial over cutting force, positive as a right-hand helix makes it, and its standard uncertainty.
+    /// Kienzle: axial over cutting force, positive for a right-hand helix, and its standard uncertainty.
     pub axial_ratio: Option<[f64; 2]>,
     /// Standard uncertainty of the coefficients, in place of the scatter of the material's sets.
     #[schemars(range(min = 0.0, max = 1e3))]
     pub u_percent: Option<f64>,
-    /// The box that the part is cut from: where the tool meets it, depths are those that it finds.
+    /// The stock, a box: the depths of cut are then those of the tool in the stock.
     pub stock: Option<StockTable>,
 }
 
-/// A box of material, in the frame of the program.
+/// A box of stock, in the frame of the program.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StockTable {
@@ -76,7 +76,7 @@ pub struct StockTable {
     pub cell_mm: Option<f64>,
 }
 
-/// A law of the chip.
+/// A cutting force law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum LawName {
@@ -86,13 +86,13 @@ pub enum LawName {
     Kienzle,
 }
 
-/// Where the part stands, seen along the feed; the spindle turns clockwise.
+/// Position of the part, seen along the feed; the spindle turns clockwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum SideName {
-    /// On the left: chips begin thin.
+    /// On the left: the chip thickness starts at zero (up-milling).
     Up,
-    /// On the right: chips end thin.
+    /// On the right: the chip thickness ends at zero (down-milling).
     Down,
     /// A strip in the middle of the cutter.
     Centred,
@@ -110,7 +110,7 @@ pub struct CutterTable {
     /// Radius of its corner: 0 or left out is flat, half the diameter a ball.
     #[schemars(range(min = 0.0, max = 1e3))]
     pub corner_radius_mm: Option<f64>,
-    /// How many flutes.
+    /// Number of flutes.
     #[schemars(range(min = 1, max = 100))]
     pub flutes: u32,
     /// Helix; 30 if left out. Negative is left-hand.
@@ -119,61 +119,61 @@ pub struct CutterTable {
     /// Rake, for Kienzle.
     #[schemars(range(min = -45.0, max = 45.0))]
     pub rake_deg: Option<f64>,
-    /// How far its axis lies from that of the spindle.
+    /// Offset of its axis from that of the spindle (runout).
     #[schemars(range(min = 0.0, max = 1e4))]
     pub runout_um: Option<f64>,
 }
 
-/// Helix of an end mill where nobody tells it, deg.
+/// Default helix angle of an end mill, deg.
 const HELIX_DEG: f64 = 30.0;
-/// Ratios of radial and axial to cutting force where nobody tells them, each with its standard uncertainty: wide, since
+/// Default ratios of radial and axial to cutting force, each with its standard uncertainty: wide, since
 /// they follow edge, rake and helix.
 const RADIAL_RATIO: [f64; 2] = [0.3, 0.1];
 /// The same of the axial force.
 const AXIAL_RATIO: [f64; 2] = [0.2, 0.1];
-/// Standard uncertainty of coefficients that one set alone tells: half the scatter among sets of one alloy, whose
+/// Standard uncertainty of coefficients known from one set alone: half the scatter among sets of one alloy, whose
 /// Ktc differ by a factor of 2.2.
 const RELATIVE_U_OF_ONE_SET: f64 = 0.3;
 
-/// A cut, worked out, and where its numbers come from.
+/// A resolved cut, with the sources of its numbers.
 #[derive(Clone, Debug)]
 pub struct Cut {
-    /// What the core takes.
+    /// The cut for the core.
     pub cutting: Cutting,
     /// The material.
     pub material: Material,
-    /// What a user should know of it.
+    /// Notes for the user on it.
     pub remarks: Vec<String>,
-    /// What it cuts from, uncut, if the study tells it.
+    /// The uncut stock, if the study specifies it.
     pub stock: Option<Stock>,
 }
 
-/// The cut of this table; `None` where it has problems.
-pub(super) fn resolve(places: &mut Places<'_>, table: &CutTable) -> Option<Cut> {
-    let material = material(places, "cut.material", &table.material);
+/// The cut of this table; `None` if it has problems.
+pub(super) fn resolve(log: &mut ProblemLog<'_>, table: &CutTable) -> Option<Cut> {
+    let material = material(log, "cut.material", &table.material);
     let cutter = cutter(&table.cutter)
         .map_err(|error| {
-            places.problem(
+            log.problem(
                 "cut.cutter",
                 error.to_string(),
-                "an end mill as its catalogue tells it",
+                "the data of an end mill as in its catalogue",
             );
         })
         .ok();
-    let immersion = immersion(places, table);
-    let stock = stock(places, table);
+    let immersion = immersion(log, table);
+    let stock = stock(log, table);
     let (material, cutter, immersion) = (material?, cutter?, immersion?);
     if table.axial_depth_mm <= 0.0 {
         let message = format!("an axial depth of {} mm cuts nothing", table.axial_depth_mm);
-        places.problem(
+        log.problem(
             "cut.axial_depth_mm",
             message,
-            "how deep the cutter is in the part along its axis",
+            "give the depth of the cutter in the part along its axis",
         );
         return None;
     }
     let mut remarks = Vec::new();
-    let law = law(places, table, &material, &mut remarks)?;
+    let law = law(log, table, &material, &mut remarks)?;
     Some(Cut {
         cutting: Cutting {
             cutter,
@@ -189,9 +189,9 @@ pub(super) fn resolve(places: &mut Places<'_>, table: &CutTable) -> Option<Cut> 
                 .filter(|speed| *speed > 0.0)
                 .map(|speed| speed * TAU / 60.0),
             greatest: if table.peak {
-                Greatest::SecondCase
+                GreatestForce::SecondCase
             } else {
-                Greatest::LeftOut
+                GreatestForce::LeftOut
             },
         },
         material,
@@ -200,20 +200,22 @@ pub(super) fn resolve(places: &mut Places<'_>, table: &CutTable) -> Option<Cut> 
     })
 }
 
-/// Cells across a cutter where the study does not tell them: edges of the engagement are then right to about 1.3 % of
+/// Default number of cells across a cutter: edges of the engagement are then correct to about 1.3 % of
 /// the diameter.
 const CELLS_ACROSS: f64 = 40.0;
 
-/// The stock, `Some(None)` where none is told.
-fn stock(places: &mut Places<'_>, table: &CutTable) -> Option<Option<Stock>> {
+/// The stock, `Some(None)` if none is given.
+fn stock(log: &mut ProblemLog<'_>, table: &CutTable) -> Option<Option<Stock>> {
     let Some(reported) = &table.stock else {
         return Some(None);
     };
     let corners = [reported.from_mm, reported.to_mm].map(|mm| Point3::from(mm.map(|c| c * 1e-3)));
-    let cell_mm = reported.cell_mm.unwrap_or(table.cutter.diameter_mm / CELLS_ACROSS);
+    let cell_mm = reported
+        .cell_mm
+        .unwrap_or(table.cutter.diameter_mm / CELLS_ACROSS);
     let refused = |error: StockError| {
         let hint = "from_mm = [-50, -50, -20], to_mm = [50, 50, 0]: two corners in the frame of the program";
-        places.problem("cut.stock", error.to_string(), hint);
+        log.problem("cut.stock", error.to_string(), hint);
     };
     Stock::new(corners, cell_mm * 1e-3)
         .map_err(refused)
@@ -222,13 +224,13 @@ fn stock(places: &mut Places<'_>, table: &CutTable) -> Option<Option<Stock>> {
 }
 
 /// The library material called `name`; a problem at `key`, with the name most like it, where there is none.
-pub(super) fn material(places: &mut Places<'_>, key: &str, name: &str) -> Option<Material> {
+pub(super) fn material(log: &mut ProblemLog<'_>, key: &str, name: &str) -> Option<Material> {
     // Those of the library are read by its tests.
     match library::material(name) {
         Some(Ok(material)) => Some(material),
         Some(Err(_)) | None => {
             let message = format!("no material is called `{name}`");
-            places.problem(key, message, &library::hint_of_material(name));
+            log.problem(key, message, &library::hint_of_material(name));
             None
         }
     }
@@ -255,14 +257,14 @@ fn cutter(table: &CutterTable) -> Result<Cutter, CuttingError> {
         .with_runout(runout)
 }
 
-/// How the cutter stands in the part; only a slot needs no radial depth.
-fn immersion(places: &mut Places<'_>, table: &CutTable) -> Option<Immersion> {
+/// The position of the cutter in the part; only a slot needs no radial depth.
+fn immersion(log: &mut ProblemLog<'_>, table: &CutTable) -> Option<Immersion> {
     if table.side == SideName::Slot {
         return Some(Immersion::Slot);
     }
     let Some(depth) = table.radial_depth_mm else {
         let hint = "radial_depth_mm = 2; only a slot has none";
-        places.problem("cut", "a cut on one side needs its `radial_depth_mm`", hint);
+        log.problem("cut", "a cut on one side needs its `radial_depth_mm`", hint);
         return None;
     };
     let depth = depth * 1e-3;
@@ -273,9 +275,9 @@ fn immersion(places: &mut Places<'_>, table: &CutTable) -> Option<Immersion> {
     })
 }
 
-/// The law asked for, else the mechanistic one where the material has a whole set. `remarks` hears what was assumed.
+/// The requested law, else the mechanistic one if the material has a complete set. Assumptions are added to `remarks`.
 fn law(
-    places: &mut Places<'_>,
+    log: &mut ProblemLog<'_>,
     table: &CutTable,
     material: &Material,
     remarks: &mut Vec<String>,
@@ -289,19 +291,22 @@ fn law(
             mechanistic(&together, given).map(CuttingLaw::Mechanistic)
         }
         (Some(LawName::Mechanistic), None) => {
-            let message = format!("{} has no whole set of mechanistic coefficients", material.name);
-            places.problem("cut.law", message, "law = \"kienzle\"");
+            let message = format!(
+                "{} has no complete set of mechanistic coefficients",
+                material.name
+            );
+            log.problem("cut.law", message, "law = \"kienzle\"");
             return None;
         }
         (Some(LawName::Kienzle) | None, _) => {
             let Some(together) = material.kienzle() else {
                 let message = format!("{} has no specific cutting force", material.name);
-                places.problem("cut.law", message, "another material");
+                log.problem("cut.law", message, "use another material");
                 return None;
             };
             if table.radial_ratio.is_none() || table.axial_ratio.is_none() {
                 remarks.push(format!(
-                    "Kienzle tells the cutting force alone: radial and axial force are assumed as {} +- {} and {} +- {} of it where the study does not say.",
+                    "Kienzle gives the cutting force alone: radial and axial force are assumed as {} +- {} and {} +- {} of it unless the study specifies them.",
                     RADIAL_RATIO[0], RADIAL_RATIO[1], AXIAL_RATIO[0], AXIAL_RATIO[1]
                 ));
             }
@@ -316,12 +321,12 @@ fn law(
         }
     };
     requested
-        .map_err(|error| places.problem("cut.material", error.to_string(), "is the number right?"))
+        .map_err(|error| log.problem("cut.material", error.to_string(), "check the number"))
         .ok()
 }
 
 /// Mechanistic law of a material; `relative` in place of the scatter of its sets.
-fn mechanistic(together: &Together<6>, relative: Option<f64>) -> Result<Mechanistic, CuttingError> {
+fn mechanistic(together: &SetStatistics<6>, relative: Option<f64>) -> Result<Mechanistic, CuttingError> {
     let (shear, edge) = (together.mean.fixed_rows::<3>(0), together.mean.fixed_rows::<3>(3));
     let law = Mechanistic::new(shear.into(), edge.into())?;
     match (relative, together.covariance) {
@@ -333,7 +338,7 @@ fn mechanistic(together: &Together<6>, relative: Option<f64>) -> Result<Mechanis
 /// Kienzle's law of a material; `relative` in place of the scatter of its sets, and the ratios of radial and axial to
 /// cutting force, each with its standard uncertainty.
 pub(super) fn kienzle(
-    together: &Together<2>,
+    together: &SetStatistics<2>,
     relative: Option<f64>,
     ratios: [[f64; 2]; 2],
 ) -> Result<Kienzle, CuttingError> {
@@ -362,10 +367,10 @@ pub(super) fn kienzle(
     })
 }
 
-/// Says what stands for the scatter where a material has a single set.
+/// States what replaces the scatter for a material with a single set.
 pub(super) fn one_set_remark(material: &str) -> String {
     format!(
-        "{material}: one set of coefficients alone is known; {:.0} % is taken as its standard uncertainty.",
+        "{material}: only one set of coefficients is known; {:.0} % is assumed as its standard uncertainty.",
         RELATIVE_U_OF_ONE_SET * 100.0
     )
 }

@@ -1,6 +1,6 @@
-//! The drill of a program: its size, the material, and what the program does not tell.
+//! The drill of a program: its size, the material, and what the program does not specify.
 //!
-//! Thrust and torque come from the lips alone, by Kienzle's law of the material and a ratio of the force normal to a
+//! Thrust and torque are those of the lips alone, by Kienzle's law of the material and a ratio of the force normal to a
 //! lip. The chisel edge is left out, and every answer says so.
 
 use std::f64::consts::TAU;
@@ -11,9 +11,9 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::cut::{kienzle, material, one_set_remark};
-use crate::file::places::Places;
+use crate::file::problem_log::ProblemLog;
 
-/// A twist drill that goes into the part wherever the program moves along its axis.
+/// A twist drill that enters the part where the program moves along its axis.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DrillTable {
@@ -25,10 +25,10 @@ pub struct DrillTable {
     /// Full angle of its point; 118 if left out.
     #[schemars(range(min = 30.0, max = 180.0))]
     pub point_deg: Option<f64>,
-    /// Feed where the program does not tell it.
+    /// Feed, if the program does not specify it.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub feed_mm_per_min: Option<f64>,
-    /// Speed of the spindle where the program does not tell it.
+    /// Spindle speed, if the program does not specify it.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub spindle_rpm: Option<f64>,
     /// Force normal to a lip over the cutting force, and its standard uncertainty.
@@ -41,27 +41,27 @@ pub struct DrillTable {
 /// A drill with all that thrust and torque need.
 #[derive(Clone, Debug)]
 pub struct DrillCut {
-    /// What the core takes.
+    /// The drill for the core.
     pub drill: Drill,
     /// The material.
     pub material: Material,
-    /// What a user should know of it.
+    /// Notes for the user on it.
     pub remarks: Vec<String>,
 }
 
-/// The common twist drill, deg.
+/// Default point angle of a twist drill, deg.
 const POINT_DEG: f64 = 118.0;
-/// Normal over cutting force on a lip where nobody tells it, with its standard uncertainty: wide, since it follows
+/// Default ratio of normal to cutting force on a lip, with its standard uncertainty: wide, since it follows
 /// rake, point and wear.
 const NORMAL_RATIO: [f64; 2] = [0.5, 0.2];
 
-/// The drill of the table at this key; `None` where it has problems.
-pub(super) fn resolve(places: &mut Places<'_>, (key, table): (&str, &DrillTable)) -> Option<DrillCut> {
+/// The drill of the table at this key; `None` if it has problems.
+pub(super) fn resolve(log: &mut ProblemLog<'_>, (key, table): (&str, &DrillTable)) -> Option<DrillCut> {
     let of_material = format!("{key}.material");
-    let material = material(places, &of_material, &table.material)?;
+    let material = material(log, &of_material, &table.material)?;
     let Some(together) = material.kienzle() else {
         let message = format!("{} has no specific cutting force", material.name);
-        places.problem(&of_material, message, "another material");
+        log.problem(&of_material, message, "use another material");
         return None;
     };
     let mut remarks = vec![
@@ -75,14 +75,14 @@ pub(super) fn resolve(places: &mut Places<'_>, (key, table): (&str, &DrillTable)
     }
     if table.normal_ratio.is_none() {
         remarks.push(format!(
-            "the force normal to a lip is assumed as {} +- {} of the cutting force, since the study does not say.",
+            "the force normal to a lip is assumed as {} +- {} of the cutting force, since the study does not specify it.",
             NORMAL_RATIO[0], NORMAL_RATIO[1]
         ));
     }
     let normal = table.normal_ratio.unwrap_or(NORMAL_RATIO);
     let law = kienzle(&together, relative, [normal, [0.0, 0.0]]);
     let law = law
-        .map_err(|error| places.problem(key, error.to_string(), "is the number right?"))
+        .map_err(|error| log.problem(key, error.to_string(), "check the number"))
         .ok()?;
     Some(DrillCut {
         drill: Drill {

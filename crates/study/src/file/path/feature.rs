@@ -5,21 +5,21 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::program::ProgramTable;
-use crate::file::places::Places;
+use crate::file::problem_log::ProblemLog;
 
-/// A stretch of the program that makes a feature.
+/// A range of lines of the program that makes a feature.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FeatureTable {
     /// Its name.
     pub name: String,
-    /// What it is to be.
+    /// Its kind.
     pub kind: FeatureName,
     /// First and last line of the program that cut it.
     pub lines: [u32; 2],
 }
 
-/// What a feature is to be.
+/// Kind of a feature.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum FeatureName {
@@ -34,7 +34,7 @@ pub enum FeatureName {
 }
 
 impl FeatureName {
-    /// As the study calls it.
+    /// Its name in the study.
     pub(crate) fn word(self) -> &'static str {
         match self {
             FeatureName::Circle => "circle",
@@ -44,7 +44,7 @@ impl FeatureName {
         }
     }
 
-    /// As the core knows it.
+    /// Its kind in the core.
     pub(crate) fn kind(self) -> FeatureKind {
         match self {
             FeatureName::Circle => FeatureKind::Circle,
@@ -55,11 +55,11 @@ impl FeatureName {
     }
 }
 
-/// Whether every feature has points of the program; tells those that have none.
+/// Whether every feature has points of the program; reports those that have none.
 ///
 /// Lines are those of the program, counted from 1, both ends included.
 pub(super) fn features_have_points(
-    places: &mut Places<'_>,
+    log: &mut ProblemLog<'_>,
     table: &ProgramTable,
     points: &[PathPoint],
 ) -> bool {
@@ -72,9 +72,9 @@ pub(super) fn features_have_points(
         all = false;
         let lines = || points.iter().map(|point| point.line);
         let (low, high) = (lines().min().unwrap_or(0), lines().max().unwrap_or(0));
-        let message = format!("`{}`: no cut stands in lines {first} to {last}", feature.name);
-        let hint = format!("the cuts of the program stand in lines {low} to {high}");
-        places.problem(&format!("program.feature[{index}].lines"), message, &hint);
+        let message = format!("`{}`: lines {first} to {last} contain no cut", feature.name);
+        let hint = format!("the cuts of the program are in lines {low} to {high}");
+        log.problem(&format!("program.feature[{index}].lines"), message, &hint);
     }
     all
 }

@@ -1,4 +1,4 @@
-//! A program of a machine tool, cutter locations or a table of points as a path: its reader and what the study tells it.
+//! A program of a machine tool, cutter locations or a table of points as a path: its reader and the keys of the study.
 
 use std::io::BufReader;
 use std::path::Path;
@@ -7,21 +7,21 @@ use armill_core::path::PathBuilder;
 use armill_formats::input;
 use armill_formats::toolpath::LengthUnit;
 use armill_formats::toolpath::apt::Dialect;
-use armill_formats::toolpath::format::{self, Wanted};
+use armill_formats::toolpath::format::{self, ToolpathReadOptions};
 use armill_formats::toolpath::gcode::ToolTable;
 
 use super::program::{
-    BESIDE_STUDY, DialectName, MOST_POINTS, ProgramFile, ProgramTable, ReadProgram, RotariesName, UnitName,
+    DialectName, FILE_HINT, MOST_POINTS, ProgramFile, ProgramTable, ReadProgram, RotariesName, UnitName,
 };
 use crate::StudyError;
-use crate::file::places::Places;
+use crate::file::problem_log::ProblemLog;
 
-/// The points of the program; `None` where it has problems, told at their places.
+/// The points of the program; `None` if it has problems, reported at their keys.
 ///
 /// # Errors
 /// The problems of its file.
 pub(super) fn read(
-    places: &mut Places<'_>,
+    log: &mut ProblemLog<'_>,
     table: &ProgramTable,
     file: &ProgramFile<'_>,
 ) -> Result<Option<ReadProgram>, StudyError> {
@@ -29,17 +29,17 @@ pub(super) fn read(
         (
             "frame_mm_deg",
             table.frame_mm_deg.is_some(),
-            "part_from_path_mm_deg tells where it lies on the part",
+            "part_from_path_mm_deg specifies its placement on the part",
         ),
         (
             "cuts_up_to_mm_per_min",
             table.cuts_up_to_mm_per_min.is_some(),
-            "its rapids are told in the program",
+            "its rapids are given in the program",
         ),
     ];
     for (key, _, hint) in of_robots.iter().filter(|(_, given, _)| *given) {
-        let message = format!("`{key}`: `{}` is no program of a robot", table.file);
-        places.problem(&format!("program.{key}"), message, hint);
+        let message = format!("`{key}`: `{}` is not a robot program", table.file);
+        log.problem(&format!("program.{key}"), message, hint);
     }
     if of_robots.iter().any(|(_, given, _)| *given) {
         return Ok(None);
@@ -48,7 +48,7 @@ pub(super) fn read(
         Ok(opened) => opened,
         Err(error) => {
             let message = format!("cannot read {}: {error}", file.path.display());
-            places.problem("program.file", message, BESIDE_STUDY);
+            log.problem("program.file", message, FILE_HINT);
             return Ok(None);
         }
     };
@@ -60,7 +60,7 @@ pub(super) fn read(
         None => None,
         Some(name) => {
             let path = file.folder.join(name);
-            let Some(text) = text_of(places, "program.tool_table", &path) else {
+            let Some(text) = text_of(log, "program.tool_table", &path) else {
                 return Ok(None);
             };
             Some(ToolTable::read(
@@ -70,14 +70,14 @@ pub(super) fn read(
             )?)
         }
     };
-    // A subroutine that is not in the program lies beside it in a file of its own, as LinuxCNC has it.
-    let beside = file.path.parent().unwrap_or(file.folder).to_owned();
+    // A subroutine that is not in the program is in a separate file of the same folder, as in LinuxCNC.
+    let same_folder = file.path.parent().unwrap_or(file.folder).to_owned();
     let subroutine = |name: &str| {
         let plain = name.chars().all(|c| c.is_alphanumeric() || "-_".contains(c));
-        let path = beside.join(format!("{name}.ngc"));
+        let path = same_folder.join(format!("{name}.ngc"));
         plain.then(|| input::read_text(&path).ok()).flatten()
     };
-    let requested = Wanted {
+    let requested = ToolpathReadOptions {
         unit,
         dialect: table.dialect.map(|dialect| match dialect {
             DialectName::Nx => Dialect::Nx,
@@ -86,7 +86,7 @@ pub(super) fn read(
         rotaries: table.rotaries.map(RotariesName::rotaries),
         tools,
         subroutines: Some(&subroutine),
-        ..Wanted::default()
+        ..ToolpathReadOptions::default()
     };
     let mut builder = PathBuilder::new(file.sampling, MOST_POINTS);
     let shown = file.path.display().to_string();
@@ -100,17 +100,17 @@ pub(super) fn read(
             robot: None,
         })),
         Err(error) => {
-            file.too_many(places, error);
+            file.too_many(log, error);
             Ok(None)
         }
     }
 }
 
-/// The text of a file that the study names by `key`; `None` where it cannot be read, told at its place.
-fn text_of(places: &mut Places<'_>, key: &str, path: &Path) -> Option<String> {
-    let tell = |error: std::io::Error| {
+/// The text of a file that the study names by `key`; `None` if it cannot be read, reported at its key.
+fn text_of(log: &mut ProblemLog<'_>, key: &str, path: &Path) -> Option<String> {
+    let report = |error: std::io::Error| {
         let message = format!("cannot read {}: {error}", path.display());
-        places.problem(key, message, BESIDE_STUDY);
+        log.problem(key, message, FILE_HINT);
     };
-    input::read_text(path).map_err(tell).ok()
+    input::read_text(path).map_err(report).ok()
 }

@@ -1,8 +1,8 @@
-//! A measured force as the load of a program: its record, how it is turned and treated, and when the program begins in
-//! it.
+//! A measured force as the load of a program: its record, its orientation and treatment, and the start of the program
+//! in it.
 //!
-//! A point that the tip reaches at the time `t` of the program gets the force at `start + t` of the record, as the tool
-//! feels it. Moments are left out: they count from the origin of the sensor, wherever that is.
+//! A point that the tip reaches at the time `t` of the program gets the force at `start + t` of the record, as it acts
+//! on the tool. Moments are left out: they refer to the origin of the sensor.
 
 use std::path::Path;
 
@@ -21,8 +21,8 @@ use serde::Deserialize;
 use super::cut::Cut;
 use crate::StudyError;
 use crate::file::format::LoadFrameName;
-use crate::file::places::Places;
-use crate::forces::{Air, Measured, Refusal, Treated, Treatment, Unread, read, treat};
+use crate::file::problem_log::ProblemLog;
+use crate::forces::{Air, Measured, ProcessedRecord, Refusal, Treatment, Unread, read, treat};
 
 /// A record of measured forces.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -30,45 +30,45 @@ use crate::forces::{Air, Measured, Refusal, Treated, Treatment, Unread, read, tr
 pub struct MeasuredTable {
     /// Its file, relative to the study: a text export of DynoWare, or a CSV.
     pub file: String,
-    /// What the numbers of the file act on: the tool, or the part as a dynamometer under it feels it.
+    /// What the forces of the file act on: the tool, or the part as measured by a dynamometer under it.
     pub acts_on: ActsOnName,
-    /// Axes that the sensor stands along: `base`, `part`, or `feed`.
+    /// Axes of the sensor: `base`, `part`, or `feed`.
     pub frame: LoadFrameName,
-    /// By what angle the sensor is turned about z of that frame; 0 if left out.
+    /// Rotation of the sensor about z of that frame; 0 if left out.
     #[schemars(range(min = -360.0, max = 360.0))]
     pub sensor_turned_deg: Option<f64>,
-    /// Stretches where nothing is cut, from when to when; the quietest ones if left out.
+    /// Air-cut intervals, from when to when; the quietest ones if left out.
     #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
     pub air_s: Option<Vec<[f64; 2]>>,
-    /// Whether drift is taken off; true if left out.
+    /// Whether drift is removed; true if left out.
     pub drift: Option<bool>,
-    /// Slower than this is kept; everything if left out.
+    /// Cut-off of the low-pass filter; no filter if left out.
     #[schemars(range(min = 0.0, max = 1e9))]
     pub low_pass_hz: Option<f64>,
-    /// Speed of the spindle: forces are then those of whole turns.
+    /// Spindle speed: forces are then averaged over whole revolutions.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub spindle_rpm: Option<f64>,
-    /// Whether the force of largest size within each turn is a second load case beside its mean.
+    /// Whether the force of largest size within each revolution is a second load case in addition to its mean.
     #[serde(default)]
     pub peak: bool,
-    /// Time in the record at which the first cut of the program begins.
+    /// Time in the record at which the first cut of the program starts.
     #[schemars(range(min = -1e9, max = 1e9))]
     pub start_s: Option<f64>,
-    /// How that time is found, in place of `start_s`.
+    /// How that time is determined, in place of `start_s`.
     pub synchronise: Option<SynchroniseName>,
-    /// For `synchronise = "threshold"`: the first cut begins where the force is larger for the first time.
+    /// For `synchronise = "threshold"`: the first cut starts where this force is first exceeded.
     #[schemars(range(min = 0.0, max = 1e9))]
     pub threshold_n: Option<f64>,
     /// Speed of rapids between cuts.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub rapid_mm_per_min: Option<f64>,
-    /// Feed where the program does not tell it.
+    /// Feed, if the program does not specify it.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub feed_mm_per_min: Option<f64>,
     /// Standard uncertainty of the size of the force; 0 if left out.
     #[schemars(range(min = 0.0, max = 1e3))]
     pub u_percent: Option<f64>,
-    /// Cycle of an export that holds several, from 1.
+    /// Cycle of an export with several cycles, from 1.
     #[schemars(range(min = 1, max = 10000))]
     pub cycle: Option<u32>,
     /// Names of three forces, and three moments if there are any, as an export has them; `Fx`, `Fy`, `Fz` if left out.
@@ -80,59 +80,59 @@ pub struct MeasuredTable {
     pub columns: Option<Vec<String>>,
 }
 
-/// What a measured force acts on.
+/// The body on which a measured force acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum ActsOnName {
     /// The tool.
     Tool,
-    /// The part: the tool feels it with all signs turned.
+    /// The part: the tool feels it with all signs reversed.
     Part,
 }
 
-/// How the begin of the program is found in the record.
+/// How the start of the program is determined in the record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum SynchroniseName {
-    /// Where the force crosses `threshold_n` for the first time.
+    /// The force exceeds `threshold_n` for the first time.
     Threshold,
-    /// Where the record is most like the force that `[cut]` predicts.
+    /// The record has the highest correlation with the force that `[cut]` predicts.
     Predicted,
 }
 
 /// Measured forces along a program.
 #[derive(Clone, Debug)]
 pub struct MeasuredForces {
-    /// What the study says.
+    /// Its table in the study.
     pub table: MeasuredTable,
     /// Format of the file.
     pub format: &'static str,
-    /// Where drift was seen.
+    /// Intervals of the drift.
     pub air: Air,
-    /// The record as the tool feels it, in the axes of the frame, before and after.
-    pub treated: Treated,
-    /// When the first cut of the program begins in the record and when its last one ends, s.
+    /// The record as the force on the tool, in the axes of the frame, before and after treatment.
+    pub treated: ProcessedRecord,
+    /// When the first cut of the program starts in the record and when its last one ends, s.
     pub program: [f64; 2],
-    /// How sure that is, where it was found by a prediction.
+    /// Confidence of the alignment, if it was determined with a prediction.
     pub lag: Option<Lag>,
     /// Largest force of the first case, and of the second, N.
     pub largest: [f64; 2],
 }
 
-/// A lag that stands out from the second best by less than this may be the wrong one.
+/// A lag whose correlation exceeds the second best by less than this may be the wrong one.
 const LOW_CONFIDENCE: f64 = 0.1;
-/// A prediction is laid upon the record with so much of its time on either side without force, so that begin and end
-/// count.
+/// A prediction is correlated with the record with so much of its time on either side without force, so that start and
+/// end are included.
 const MARGIN: f64 = 0.25;
 /// 1 mm/min in m/s.
 const M_S_PER_MM_MIN: f64 = 1e-3 / 60.0;
 
 impl MeasuredForces {
-    /// What a user should know of it before trusting it.
+    /// A warning for the user.
     pub fn warning(&self) -> Option<String> {
         let unsure = self.lag.filter(|lag| lag.confidence() < LOW_CONFIDENCE)?;
         Some(format!(
-            "where the program begins in the record {} is not sure: at {:.4} s it is like the prediction by {:.2}, elsewhere by {:.2}; tell it with `start_s` if it is known",
+            "the start of the program in the record {} is uncertain: at {:.4} s the correlation with the prediction is {:.2}, elsewhere {:.2}; set `start_s` if it is known",
             self.table.file,
             self.program[0],
             unsure.likeness,
@@ -140,7 +140,7 @@ impl MeasuredForces {
         ))
     }
 
-    /// Samples between begin and end of the program.
+    /// Samples between start and end of the program.
     pub fn samples(&self) -> usize {
         let [from, to] = self.program;
         let time = self.treated.after.time();
@@ -148,12 +148,13 @@ impl MeasuredForces {
     }
 }
 
-/// The forces along a course as a load, and what they come from; `None` where they have problems, told at their places.
+/// The forces along a course as a load, and their source; `None` if they have problems, reported at their
+/// keys.
 ///
 /// # Errors
 /// The problems of the file.
 pub(super) fn along(
-    places: &mut Places<'_>,
+    log: &mut ProblemLog<'_>,
     table: &MeasuredTable,
     folder: &Path,
     (track, cut): (&Track, Option<&Cut>),
@@ -177,13 +178,13 @@ pub(super) fn along(
     };
     Ok(found
         .map_err(|Refusal { key, message, hint }| {
-            places.problem(&format!("program.measured.{key}"), message, &hint);
+            log.problem(&format!("program.measured.{key}"), message, &hint);
         })
         .ok())
 }
 
-/// Turns the record to the tool and its frame, treats it, finds where the program begins in it, and takes the forces at
-/// its points.
+/// Transforms the record to the tool and its frame, treats it, determines the start of the program, and evaluates the
+/// forces at its points.
 fn forces(
     table: &MeasuredTable,
     measured: Measured,
@@ -203,7 +204,7 @@ fn forces(
     let [lasts, cuts] = [record.end() - record.begin(), clock.duration()];
     if cuts > lasts {
         let message = format!("the record lasts {lasts:.3} s, but the cuts of the program take {cuts:.3} s");
-        let hint = "is it the record of this program, with the feeds and rapids that were driven?";
+        let hint = "check that it is the record of this program, with the feeds and rapids as run";
         return Err(Refusal::new("file", message, hint));
     }
     let (start, lag) = start(table, &treated.after, &clock, track, cut)?;
@@ -212,7 +213,7 @@ fn forces(
     let step = lasts / (record.time().len() - 1) as f64;
     if program[0] < record.begin() - step || program[1] > record.end() + step {
         let message = format!(
-            "the program goes from {:.3} to {:.3} s of a record from {:.3} to {:.3} s",
+            "the program runs from {:.3} to {:.3} s of a record from {:.3} to {:.3} s",
             program[0],
             program[1],
             record.begin(),
@@ -223,7 +224,11 @@ fn forces(
         } else {
             "synchronise"
         };
-        return Err(Refusal::new(key, message, "the record holds the whole program"));
+        return Err(Refusal::new(
+            key,
+            message,
+            "the record must contain the whole program",
+        ));
     }
     let (load, largest) = at_points(table, &treated, &clock, start)?;
     let forces = MeasuredForces {
@@ -238,21 +243,21 @@ fn forces(
     Ok((load, forces))
 }
 
-/// Where drift is seen: told, to be found, or nowhere.
+/// Intervals for drift removal: given, to be determined, or none.
 fn air(table: &MeasuredTable) -> Result<Air, Refusal> {
     match (&table.air_s, table.drift) {
         (Some(_), Some(false)) => Err(Refusal::new(
             "air_s",
-            "air cuts are told, but `drift = false` leaves the drift in",
+            "air cuts are given, but `drift = false` disables drift removal",
             "remove one",
         )),
-        (None, Some(false)) => Ok(Air::Kept),
-        (Some(stretches), _) => Ok(Air::Told(stretches.clone())),
-        (None, _) => Ok(Air::Found),
+        (None, Some(false)) => Ok(Air::NotRemoved),
+        (Some(stretches), _) => Ok(Air::Given(stretches.clone())),
+        (None, _) => Ok(Air::Detected),
     }
 }
 
-/// When the tip is at each point, from the begin of the first cut.
+/// When the tip is at each point, from the start of the first cut.
 fn clock(table: &MeasuredTable, track: &Track) -> Result<Clock, Refusal> {
     let speed = |given: Option<f64>| given.filter(|v| *v > 0.0).map(|v| v * M_S_PER_MM_MIN);
     let speeds = Speeds {
@@ -264,14 +269,14 @@ fn clock(table: &MeasuredTable, track: &Track) -> Result<Clock, Refusal> {
         NoTime::NoRapid { .. } => Refusal::new(
             "rapid_mm_per_min",
             error.to_string(),
-            "rapid_mm_per_min = 6000: how fast the robot was between the cuts",
+            "rapid_mm_per_min = 6000: the speed of the robot between the cuts",
         ),
     })
 }
 
-/// When the first cut begins in the record, s.
+/// When the first cut starts in the record, s.
 ///
-/// With it the lag, where a prediction found it; exactly one of `start_s` and `synchronise` must tell.
+/// With it the lag, if a prediction determined it; exactly one of `start_s` and `synchronise` must be given.
 fn start(
     table: &MeasuredTable,
     record: &Record,
@@ -283,18 +288,18 @@ fn start(
     match (table.start_s, table.synchronise) {
         (Some(_), Some(_)) => Err(Refusal::new(
             "synchronise",
-            "the begin of the program is told and is to be found",
+            "the start of the program is given twice",
             "either `start_s` or `synchronise`",
         )),
         (Some(start), None) => Ok((start, None)),
         (None, None) => Err(Refusal::new(
             "start_s",
-            "nothing tells when the program begins in the record",
+            "the start of the program in the record is not given",
             "start_s = 1.2, or synchronise = \"threshold\" or \"predicted\"",
         )),
         (None, Some(SynchroniseName::Threshold)) => {
             let threshold = table.threshold_n.ok_or_else(|| {
-                let message = "the begin is to be found by a threshold, but there is none";
+                let message = "the start is to be determined with a threshold, but there is none";
                 Refusal::new(
                     "threshold_n",
                     message,
@@ -302,14 +307,14 @@ fn start(
                 )
             })?;
             let start = lag::start(record, threshold);
-            let start = start.map_err(|error| refused(error, "another threshold_n, or start_s"))?;
+            let start = start.map_err(|error| refused(error, "use another threshold_n, or start_s"))?;
             Ok((start, None))
         }
         (None, Some(SynchroniseName::Predicted)) => {
             let cut = cut.ok_or_else(|| {
                 Refusal::new(
                     "synchronise",
-                    "no `cut` predicts the force",
+                    "synchronise = \"predicted\" requires a `cut` that predicts the force",
                     "[cut] with material, cutter and depths",
                 )
             })?;
@@ -320,21 +325,21 @@ fn start(
             let prediction = prediction.map_err(|error| refused(error, hint))?;
             let range = [record.begin(), record.end() - clock.duration()];
             let lag = align(record, &prediction, range).map_err(|error| refused(error, hint))?;
-            // The top of a parabola may lie between samples beyond the last one.
+            // The top of a parabola may be between samples beyond the last one.
             let start = lag.seconds.clamp(range[0], range[1].max(range[0]));
             Ok((start, Some(lag)))
         }
     }
 }
 
-/// The mean force of the cut at every point, in the axes that the record is told in.
+/// The mean force of the cut at every point, in the axes of the record.
 fn predicted(table: &MeasuredTable, track: &Track, cut: &Cut) -> Result<Vec<Vector3<f64>>, Refusal> {
     let mut stock = cut.stock.clone();
     let along = cut
         .cutting
         .along(&track.path, &track.placing, stock.as_mut(), Watch::NONE);
     let load = along.map_err(|error| {
-        let hint = "the program tells feed and spindle, or cut.feed_mm_per_min and cut.spindle_rpm do";
+        let hint = "give feed and spindle speed in the program, or cut.feed_mm_per_min and cut.spindle_rpm";
         Refusal::new("synchronise", error.to_string(), hint)
     })?;
     let load = PathLoad::Cuts(load.cuts);
@@ -354,18 +359,19 @@ fn predicted(table: &MeasuredTable, track: &Track, cut: &Cut) -> Result<Vec<Vect
 
 /// The forces at the points, and the largest of each case, N.
 ///
-/// Where turns are counted their mean, on a line between the middles of two, else the force at that instant; with `peak`
-/// the strongest of the turn as a second case.
+/// With a spindle speed their mean over each revolution, interpolated between the middles of two, else the force at
+/// that instant; with `peak` the largest of the revolution as a second case.
 fn at_points(
     table: &MeasuredTable,
-    treated: &Treated,
+    treated: &ProcessedRecord,
     clock: &Clock,
     start: f64,
 ) -> Result<(PathLoad, [f64; 2]), Refusal> {
     let turns = treated.turns.as_deref();
     let cases = if table.peak { 2 } else { 1 };
     if table.peak && turns.is_none() {
-        let message = "a peak is that of a turn of the spindle, and its speed is not told";
+        let message =
+            "a peak is evaluated for each revolution of the spindle, and the spindle speed is not given";
         return Err(Refusal::new("peak", message, "spindle_rpm = 9000"));
     }
     let mut wrenches = Vec::with_capacity(clock.time().len() * cases);

@@ -1,12 +1,12 @@
-//! A path of an ask: a shape on the plane or a program, where it lies in the cell, and what pushes along it.
+//! A path of an analysis: a shape on the plane or a program, its placement in the cell, and its load.
 //!
 //! ```text
 //! circle | line | polyline_mm | rectangle   part x, y on the plane, tool against its normal
 //! program.file                              part_from_path_mm_deg, tool_axis, spin
 //! ```
 //!
-//! `shape` and [`program`] (`machine_program`, [`robot_program`]) give its points, [`feature`] marks stretches of them; `load` puts on what pushes: given
-//! cases, a [`cut`], a [`drill`], or [`measured`] forces.
+//! `shape` and [`program`] (`machine_program`, [`robot_program`]) give its points, [`feature`] marks stretches of them;
+//! `load` puts on the load: given cases, a [`cut`], a [`drill`], or [`measured`] forces.
 
 pub mod cut;
 pub mod drill;
@@ -21,48 +21,48 @@ mod shape;
 pub use cut::Cut;
 pub use drill::DrillCut;
 pub use feature::FeatureTable;
-pub(super) use load::{Push, put_on};
+pub(super) use load::{LoadSource, put_on};
 pub use measured::MeasuredForces;
 pub use robot_program::RobotPath;
 
 use std::path::Path;
 
 use armill_core::load::PathLoad;
-use armill_core::path::{ForcesTold, Placing, Shape, Spin, Track};
+use armill_core::path::{ForceSummary, Placing, Shape, Spin, Track};
 use armill_core::robot::Robot;
 use armill_formats::toolpath::Summary;
 
 use super::format::AnalysisTable;
-use super::places::Places;
+use super::problem_log::ProblemLog;
 use super::resolve::Setting;
 use crate::StudyError;
 
-/// A path with what pushes along it.
+/// A path with its load.
 #[derive(Clone, Debug)]
 pub struct PathAnalysis {
-    /// How its points are asked; cases in base as far as they do not turn with the feed.
+    /// How its points are evaluated; cases in base as far as they do not turn with the feed.
     pub setting: Setting,
-    /// What gave the points.
+    /// Source of the points.
     pub source: PathSource,
-    /// The points, and where they lie.
+    /// The points and their placement.
     pub track: Track,
-    /// What pushes there; of a cut in a stock as if the engagement were the same everywhere.
+    /// The load; of a cut in a stock as if the engagement were constant.
     pub load: PathLoad,
-    /// The cut that the forces come from, in place of given cases.
+    /// The cut of the forces, in place of given cases.
     pub cut: Option<Cut>,
-    /// The drill, likewise.
+    /// The drill, if there is one.
     pub drill: Option<DrillCut>,
-    /// What is worth telling of the forces of either.
-    pub forces: Option<ForcesTold>,
-    /// The record that the forces come from.
+    /// Statistics of the forces of either.
+    pub forces: Option<ForceSummary>,
+    /// The record of the forces.
     pub measured: Option<Box<MeasuredForces>>,
-    /// Whether it is asked what keeps the tolerance.
+    /// Whether the process limits that meet the tolerance are requested.
     pub wants_limits: bool,
-    /// Features asked for.
+    /// Requested features.
     pub features: Vec<FeatureTable>,
 }
 
-/// What gives the points of a path.
+/// Source of the points of a path.
 #[derive(Clone, Debug)]
 pub enum PathSource {
     /// A shape on the plane.
@@ -73,18 +73,18 @@ pub enum PathSource {
         file: String,
         /// What was read.
         summary: Summary,
-        /// What only a program of a robot has.
+        /// What only a robot program has.
         robot: Option<Box<RobotPath>>,
     },
     /// A list of holes, which no path joins.
     Holes {
-        /// Its file, as the study calls it; none where the study lists them itself.
+        /// Its file, as named in the study; none if the study lists them itself.
         file: Option<String>,
     },
 }
 
 impl PathSource {
-    /// The program of a robot, if it is one.
+    /// The robot program, if it is one.
     pub fn robot(&self) -> Option<&RobotPath> {
         match self {
             PathSource::Program { robot, .. } => robot.as_deref(),
@@ -94,19 +94,19 @@ impl PathSource {
 }
 
 impl PathAnalysis {
-    /// Whether what keeps the tolerance is asked and can be told.
+    /// Whether the process limits are requested and can be computed.
     ///
     /// A model in which the load changes the arm permits no limits.
-    pub fn tells_limits(&self) -> bool {
+    pub fn reports_limits(&self) -> bool {
         self.wants_limits && self.setting.model.is_affine()
     }
 
-    /// Whether its cut tells the stock.
+    /// Whether its cut specifies the stock.
     pub fn has_stock(&self) -> bool {
         self.cut.as_ref().is_some_and(|cut| cut.stock.is_some())
     }
 
-    /// What errors call it: its file, or its shape.
+    /// Its name in messages: its file, or its shape.
     pub fn shown(&self) -> &str {
         match &self.source {
             PathSource::Shape(Shape::Circle { .. }) => "circle",
@@ -131,23 +131,24 @@ impl PathAnalysis {
     }
 }
 
-/// The path of this ask; `None` where it has problems, told at their places. `step_mm` is the pitch of the plane.
+/// The path of this analysis; `None` if it has problems, reported at their keys. `step_mm` is the pitch of the
+/// plane.
 ///
 /// # Errors
 /// The problems of the files that it names.
 pub(super) fn resolve(
-    places: &mut Places<'_>,
+    log: &mut ProblemLog<'_>,
     (table, step_mm): (&AnalysisTable, f64),
     (folder, robot): (&Path, Option<&Robot>),
-    (mut setting, push): (Option<Setting>, Option<Push<'_>>),
+    (mut setting, push): (Option<Setting>, Option<LoadSource<'_>>),
 ) -> Result<Option<PathAnalysis>, StudyError> {
     if usize::from(table.program.is_some()) + shape::count(table) != 1 {
         let hint = "circle = { radius_mm = 100 }, line, polyline_mm, rectangle, or program = { file = \"part.ngc\" }";
-        places.problem_here("a path has exactly one shape or program", hint);
+        log.problem_here("a path has exactly one shape or program", hint);
         return Ok(None);
     }
     let (path, source) = match &table.program {
-        Some(of) => match program::read(places, of, (folder, robot.zip(setting.as_ref())))? {
+        Some(of) => match program::read(log, of, (folder, robot.zip(setting.as_ref())))? {
             Some(mut found) => {
                 if let (Some(program), Some(robot), Some(setting)) = (&found.robot, robot, &mut setting) {
                     let note = robot_program::take_posture(setting, &program.followed, robot);
@@ -162,7 +163,7 @@ pub(super) fn resolve(
             }
             None => return Ok(None),
         },
-        None => match shape::resolve(places, table, step_mm) {
+        None => match shape::resolve(log, table, step_mm) {
             Some((path, shape)) => (path, PathSource::Shape(shape)),
             None => return Ok(None),
         },
@@ -179,8 +180,8 @@ pub(super) fn resolve(
         },
     };
     if table.program.is_some() && table.spin_deg.is_some() {
-        let hint = "say it of the program: program.spin_deg";
-        places.problem("spin_deg", "`spin_deg` turns the tool on a shape", hint);
+        let hint = "use program.spin_deg";
+        log.problem("spin_deg", "`spin_deg` is valid for shapes only", hint);
         return Ok(None);
     }
     let mut analysis = PathAnalysis {
@@ -203,6 +204,6 @@ pub(super) fn resolve(
             .map_or_else(Vec::new, |of| of.feature.clone()),
         setting,
     };
-    let pushes = put_on(places, push, folder, &mut analysis)?;
+    let pushes = put_on(log, push, folder, &mut analysis)?;
     Ok(pushes.then_some(analysis))
 }

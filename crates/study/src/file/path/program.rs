@@ -1,12 +1,12 @@
-//! A program that a path follows: its file, where it lies on the part, how the tool is turned, how finely it is cut into
+//! A program that a path follows: its file, its placement on the part, the spin of the tool, the resolution of its
 //! points.
 //!
-//! | frame | what it is |
+//! | frame | meaning |
 //! |---|---|
-//! | `path` | what the program counts from, moved by `part_from_path_mm_deg` |
+//! | `path` | the reference frame of the program, moved by `part_from_path_mm_deg` |
 //! | `part` | origin at the centre of the plane, z its outward normal |
 //!
-//! A program of a robot tells its frame in the base of the robot itself; see `robot_program`.
+//! A robot program specifies its frame in the base of the robot itself; see `robot_program`.
 //!
 //! Lines become points at most `step_mm` apart, arcs so many that no chord leaves them by more than `chord_error_mm`.
 //! The reader hands its steps on one by one; at most `MOST_POINTS` points are made of them.
@@ -32,7 +32,7 @@ use super::machine_program;
 use super::measured::MeasuredTable;
 use super::robot_program::{self, RobotPath};
 use crate::StudyError;
-use crate::file::places::Places;
+use crate::file::problem_log::ProblemLog;
 use crate::file::quantities::{at_least, pose_mm_deg, step};
 use crate::file::resolve::Setting;
 
@@ -40,44 +40,44 @@ use crate::file::resolve::Setting;
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ProgramTable {
-    /// Its file, relative to the study: G-code, APT-CL or CLSF, a CSV of points, or a program of a robot (KRL, RAPID, INFORM,
-    /// TP, URScript; of VAL3 the folder).
+    /// Its file, relative to the study: G-code, APT-CL or CLSF, a CSV of points, or a robot program (KRL, RAPID,
+    /// INFORM, TP, URScript; of VAL3 the folder).
     pub file: String,
-    /// Unit of lengths where the file does not tell.
+    /// Unit of lengths, if the file does not specify it.
     pub unit: Option<UnitName>,
-    /// Whose cutter locations (APT, CLSF) these are, where the file does not show it.
+    /// Dialect of the cutter locations (APT, CLSF), if the file does not show it.
     pub dialect: Option<DialectName>,
-    /// What the rotary words of G-code turn.
+    /// Meaning of the rotary words of G-code.
     pub rotaries: Option<RotariesName>,
-    /// Tool table of the machine that the G-code is for, as LinuxCNC writes it, relative to the study.
+    /// Tool table of the machine of the G-code, in the format of LinuxCNC, relative to the study.
     pub tool_table: Option<String>,
-    /// Where its zero lies in the part frame (z = outward normal of the plane, origin at its centre): x, y, z in mm,
-    /// then turns about the fixed axes x, y, z in degrees.
+    /// Its origin in the part frame (z = outward normal of the plane, origin at its centre): x, y, z in mm,
+    /// then rotations about the fixed axes x, y, z in degrees.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub part_from_path_mm_deg: Option<[f64; 6]>,
-    /// Programs of robots: the frame that the program calls by its number, as the controller has it: x, y, z in mm, then
-    /// turns about the fixed axes x, y, z in degrees.
+    /// Robot programs: the frame that the program calls by its number, as in the controller: x, y, z in mm,
+    /// then rotations about the fixed axes x, y, z in degrees.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub frame_mm_deg: Option<[f64; 6]>,
-    /// Programs of robots: straight and circular moves faster than this cut nothing, as moves of the joints do.
+    /// Robot programs: straight and circular moves faster than this do not cut, as joint moves do not.
     #[schemars(range(min = 0.0, max = 1e9))]
     pub cuts_up_to_mm_per_min: Option<f64>,
-    /// Where the tool points.
+    /// Direction of the tool.
     pub tool_axis: Option<ToolAxisName>,
-    /// How the tool is turned about its axis.
+    /// Spin of the tool about its axis.
     pub spin: Option<SpinName>,
-    /// By what angle more.
+    /// Additional spin.
     #[schemars(range(min = -360.0, max = 360.0))]
     pub spin_deg: Option<f64>,
-    /// Farthest that a chord may leave its arc; 0.01 if left out.
+    /// Largest distance of a chord from its arc; 0.01 if left out.
     #[schemars(range(max = 1e3))]
     pub chord_error_mm: Option<f64>,
     /// Longest distance between points; 1 if left out.
     #[schemars(range(max = 1e6))]
     pub step_mm: Option<f64>,
-    /// Whether force, depth, width and feed that keep the tolerance are told; so if left out.
+    /// Whether force, depth, width and feed that meet the tolerance are reported; true if left out.
     pub limits: Option<bool>,
-    /// Stretches of the program that make a feature.
+    /// Ranges of lines of the program that make a feature.
     #[serde(default)]
     pub feature: Vec<FeatureTable>,
     /// Measured forces: the load of this program.
@@ -96,7 +96,7 @@ pub enum UnitName {
     Inch,
 }
 
-/// Whose cutter locations.
+/// Dialects of cutter locations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum DialectName {
@@ -106,7 +106,7 @@ pub enum DialectName {
     SolidWorks,
 }
 
-/// What rotary words turn, from the frame of the machine outwards.
+/// Meaning of rotary words, from the frame of the machine outwards.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RotariesName {
@@ -132,73 +132,76 @@ impl RotariesName {
     }
 }
 
-/// Where the tool points.
+/// Direction of the tool.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum ToolAxisName {
-    /// Where the program says; against the plane's normal where it says nothing.
+    /// As in the program; opposite to the normal of the plane if the program has no tool axis.
     Program,
-    /// Always against the plane's normal.
+    /// Always opposite to the normal of the plane.
     Normal,
 }
 
-/// How the tool is turned about its axis.
+/// Spin of the tool about its axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SpinName {
-    /// The same everywhere.
+    /// Constant.
     Fixed,
     /// With the feed.
     AlongFeed,
-    /// As the program tells at each point: column `spin_deg` of a CSV, the orientations of a program of a robot.
+    /// As the program specifies at each point: column `spin_deg` of a CSV, the orientations of a robot program.
     Given,
 }
 
-/// Most points of a program: what the memory of a study holds.
+/// Most points of a program: limited by the memory of a study.
 pub(super) const MOST_POINTS: usize = 8_000_000;
-/// What to do where a file is not found.
-pub(in crate::file) const BESIDE_STUDY: &str = "the path counts from the folder of the study";
-/// Greatest distance of a chord from its arc where the study says nothing, mm.
+/// Hint for a file that is not found.
+pub(in crate::file) const FILE_HINT: &str = "paths are relative to the folder of the study";
+/// Default of the largest distance of a chord from its arc, mm.
 const CHORD_ERROR_MM: f64 = 0.01;
-/// Least distance of a chord from its arc, mm: far below what any machine keeps.
+/// Least distance of a chord from its arc, mm: far below the accuracy of any machine.
 const LEAST_CHORD_ERROR_MM: f64 = 1e-6;
-/// Greatest distance of points where the study says nothing, mm.
+/// Default of the largest distance of points, mm.
 const STEP_MM: f64 = 1.0;
 
 /// A program as points.
 pub(in crate::file) struct ReadProgram {
     /// Its points.
     pub path: SampledPath,
-    /// What was read.
+    /// Data of the program.
     pub summary: Summary,
-    /// What only a program of a robot has.
+    /// Data that only a robot program has.
     pub robot: Option<Box<RobotPath>>,
 }
 
-/// The points of the program of this table; `None` where it has problems, told at their places. A program of a robot is
-/// followed by the robot of `cell`; without, it is read alone.
+/// The points of the program of this table; `None` if it has problems, reported at their keys. A robot program
+/// is followed by the robot of `cell`; without, it is read alone.
 ///
 /// # Errors
 /// The problems of its file.
 pub(in crate::file) fn read(
-    places: &mut Places<'_>,
+    log: &mut ProblemLog<'_>,
     table: &ProgramTable,
     (folder, cell): (&Path, Option<(&Robot, &Setting)>),
 ) -> Result<Option<ReadProgram>, StudyError> {
     let chord_error_mm = table.chord_error_mm.unwrap_or(CHORD_ERROR_MM);
     let chord_error = at_least(
-        places,
+        log,
         "program.chord_error_mm",
         chord_error_mm,
         LEAST_CHORD_ERROR_MM,
     );
-    let step = step(places, "program.step_mm", table.step_mm.unwrap_or(STEP_MM));
+    let step = step(log, "program.step_mm", table.step_mm.unwrap_or(STEP_MM));
     for (index, feature) in table.feature.iter().enumerate() {
         let [first, last] = feature.lines;
         if first == 0 || last < first {
-            let message = format!("`{}` is cut by lines {first} to {last}", feature.name);
-            let hint = "first and last line of the program, counted from 1";
-            places.problem(&format!("program.feature[{index}].lines"), message, hint);
+            let message = format!(
+                "`{}`: the range of lines {first} to {last} is not valid",
+                feature.name
+            );
+            let hint = "give the first and the last line of the program, from 1";
+            log.problem(&format!("program.feature[{index}].lines"), message, hint);
         }
     }
     let (Some(chord_error), Some(step)) = (chord_error, step) else {
@@ -210,9 +213,9 @@ pub(in crate::file) fn read(
         sampling: Sampling { chord_error, step },
     };
     let shown = file.path.display().to_string();
-    let found = match file.robot_language(places) {
-        Some(Some(language)) => robot_program::read(places, (table, language), (&file, cell))?,
-        Some(None) => machine_program::read(places, table, &file)?,
+    let found = match file.robot_language(log) {
+        Some(Some(language)) => robot_program::read(log, (table, language), (&file, cell))?,
+        Some(None) => machine_program::read(log, table, &file)?,
         None => None,
     };
     let Some(found) = found else {
@@ -223,23 +226,23 @@ pub(in crate::file) fn read(
         let hint = match &found.robot {
             Some(_) => {
                 "moves of the joints cut nothing, nor those above `cuts_up_to_mm_per_min`, and straight ones only from a place \
-                 that the program tells"
+                 that the program specifies"
             }
-            None => "rapids alone cut nothing",
+            None => "the program has rapids only",
         };
-        places.problem("program.file", message, hint);
+        log.problem("program.file", message, hint);
         return Ok(None);
     }
     if table.spin == Some(SpinName::Given)
         && let Some(silent) = found.path.points.iter().find(|point| point.spin.is_none())
     {
-        let message = format!("{shown}: line {} tells no spin", silent.line);
-        let hint = "a CSV tells it in a column `spin_deg`, a program of a robot by itself; for others: spin = \"fixed\" or \
+        let message = format!("{shown}: line {} gives no spin", silent.line);
+        let hint = "a CSV gives it in a column `spin_deg`, a robot program in its poses; for others: spin = \"fixed\" or \
                     \"along-feed\"";
-        places.problem("program.spin", message, hint);
+        log.problem("program.spin", message, hint);
         return Ok(None);
     }
-    if !features_have_points(places, table, &found.path.points) {
+    if !features_have_points(log, table, &found.path.points) {
         return Ok(None);
     }
     Ok(Some(found))
@@ -247,17 +250,17 @@ pub(in crate::file) fn read(
 
 /// The file of a program, and how it is read.
 pub(super) struct ProgramFile<'a> {
-    /// Where it lies.
+    /// Its path.
     pub path: PathBuf,
     /// That of the study.
     pub folder: &'a Path,
-    /// How finely it is cut into points.
+    /// Resolution of its points.
     pub sampling: Sampling,
 }
 
 impl ProgramFile<'_> {
-    /// The language of robots that it is written in, if it is; `None` where it cannot be read, told at its place.
-    fn robot_language(&self, places: &mut Places<'_>) -> Option<Option<Language>> {
+    /// The robot language of the program, if it is a robot program; `None` if it cannot be read, reported at its key.
+    fn robot_language(&self, log: &mut ProblemLog<'_>) -> Option<Option<Language>> {
         if self.path.is_dir() {
             // A project of VAL3 is a folder.
             let is_project = |name: &str| Path::new(name).extension().is_some_and(|ending| ending == "pjx");
@@ -267,14 +270,14 @@ impl ProgramFile<'_> {
                 return Some(Some(Language::Val3));
             }
             let message = format!("{} is a folder", self.path.display());
-            places.problem("program.file", message, "name the file in it");
+            log.problem("program.file", message, "name the file in it");
             return None;
         }
         let mut head = Vec::new();
         let read = input::open(&self.path).and_then(|file| file.take(HEAD_BYTES).read_to_end(&mut head));
         if let Err(error) = read {
             let message = format!("cannot read {}: {error}", self.path.display());
-            places.problem("program.file", message, BESIDE_STUDY);
+            log.problem("program.file", message, FILE_HINT);
             return None;
         }
         match Format::of(&self.path, &String::from_utf8_lossy(&head)) {
@@ -284,22 +287,22 @@ impl ProgramFile<'_> {
         }
     }
 
-    /// Tells that it gives more points than memory holds.
-    pub fn too_many(&self, places: &mut Places<'_>, error: TooManyPoints) {
+    /// Reports a program with more points than fit into memory.
+    pub fn too_many(&self, log: &mut ProblemLog<'_>, error: TooManyPoints) {
         let message = format!("{} gives {error}", self.path.display());
-        places.problem(
+        log.problem(
             "program.step_mm",
             message,
-            "a larger step, or a part of the program",
+            "use a larger step, or split the program",
         );
     }
 }
 
-/// Where the program lies, and how the tool is turned on it.
+/// The placement of the program, and the orientation of the tool on it.
 ///
-/// Without `tool_axis` and `spin` the tool points where the program says, and keeps one turn about its axis.
+/// Without `tool_axis` and `spin` the tool points as in the program, and has a constant spin.
 ///
-/// A program of a robot lies where it says, and tells whole orientations.
+/// A robot program specifies its own placement and complete orientations.
 pub(in crate::file) fn placing(
     table: &ProgramTable,
     base_from_part: &Isometry,

@@ -1,13 +1,13 @@
-//! A program of a robot as a path: its files, what it counts from in the cell, its moves as points.
+//! A robot program as a path: its files, its frames in the cell, its moves as points.
 //!
 //! | language | files |
 //! |---|---|
-//! | KUKA KRL | the `.src`, and the `.dat` of the same name beside it |
-//! | Staubli VAL3 | every `.pjx`, `.pgx` and `.dtx` of the folder, or of the folder that the file lies in |
+//! | KUKA KRL | the `.src`, and the `.dat` of the same name in its folder |
+//! | Staubli VAL3 | every `.pjx`, `.pgx` and `.dtx` of the folder, or of the folder of the file |
 //! | others | the file |
 //!
-//! The frame of the path is that of the program, in the base of the robot: the plane of the study does not move it, unless
-//! `part_from_path_mm_deg` says where it lies in truth.
+//! The frame of the path is that of the program, in the base of the robot: the plane of the study does not move it,
+//! unless `part_from_path_mm_deg` specifies its actual placement.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -21,46 +21,46 @@ use armill_formats::robot_program::{
 };
 use armill_formats::toolpath::Summary;
 
-use super::program::{BESIDE_STUDY, MOST_POINTS, ProgramFile, ProgramTable, ReadProgram};
+use super::program::{FILE_HINT, MOST_POINTS, ProgramFile, ProgramTable, ReadProgram};
 use crate::StudyError;
-use crate::file::places::Places;
+use crate::file::problem_log::ProblemLog;
 use crate::file::quantities::pose_mm_deg;
 use crate::file::resolve::Setting;
 use crate::naming::base_from_controller;
 
-/// A program of a robot that a path follows.
+/// A robot program that a path follows.
 #[derive(Clone, Debug)]
 pub struct RobotPath {
-    /// As it stands in its files.
+    /// As in its files.
     pub program: RobotProgram,
     /// As moves of the path.
     pub followed: Followed,
     /// The points of each of those moves, in order.
     pub spans: Vec<Span>,
-    /// What it does not tell of the cell.
+    /// What it does not specify of the cell.
     pub cell: Cell,
 }
 
-/// The points that a move becomes.
+/// The points of a move.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Span {
-    /// Those that it added to the path; none of a rapid, and of a move to where the tip stands.
+    /// Points added to the path; none for a rapid, and for a move that ends at the present position.
     pub points: Range<usize>,
-    /// In how many pieces it was cut.
+    /// Number of pieces of the move.
     pub pieces: usize,
-    /// The point at which it ends, if a cut passes there.
+    /// The point at which it ends, if a cut passes it.
     pub end: Option<usize>,
 }
 
-/// No program of a robot is larger, all its files together, bytes.
+/// Size limit of a robot program, all its files together, bytes.
 const MOST_BYTES: u64 = 256 * 1024 * 1024;
 
-/// The program as points; `None` where it has problems, told at their places, or no cell to follow it in.
+/// The program as points; `None` if it has problems, reported at their keys, or no cell to follow it in.
 ///
 /// # Errors
 /// The problems of its files.
 pub(super) fn read(
-    places: &mut Places<'_>,
+    log: &mut ProblemLog<'_>,
     (table, language): (&ProgramTable, Language),
     (file, cell): (&ProgramFile<'_>, Option<(&Robot, &Setting)>),
 ) -> Result<Option<ReadProgram>, StudyError> {
@@ -71,26 +71,23 @@ pub(super) fn read(
         ("tool_table", table.tool_table.is_some()),
     ];
     for (key, _) in others.iter().filter(|(_, given)| *given) {
-        let message = format!(
-            "`{key}` means nothing to a program of a robot ({})",
-            language.title()
-        );
-        places.problem(&format!("program.{key}"), message, "leave it out");
+        let message = format!("`{key}` is not valid for a robot program ({})", language.title());
+        log.problem(&format!("program.{key}"), message, "leave it out");
     }
     if table.frame_mm_deg.is_some() && table.part_from_path_mm_deg.is_some() {
-        let message = "`frame_mm_deg` and `part_from_path_mm_deg` both tell where the program lies";
-        places.problem("program.frame_mm_deg", message, "keep one of the two");
+        let message = "`frame_mm_deg` and `part_from_path_mm_deg` both specify the placement of the program";
+        log.problem("program.frame_mm_deg", message, "keep one of the two");
     }
-    let Some(texts) = texts(places, &file.path, language) else {
+    let Some(texts) = texts(log, &file.path, language) else {
         return Ok(None);
     };
     let program = language.read(texts)?;
-    let clean = places.problems.is_empty();
+    let clean = log.problems.is_empty();
     let Some((robot, setting)) = cell.filter(|_| clean) else {
         return Ok(None);
     };
     let cell = cell_of(table, (robot, setting));
-    let Some(mut followed) = followed(places, &program, (&table.file, robot, &cell)) else {
+    let Some(mut followed) = followed(log, &program, (&table.file, robot, &cell)) else {
         return Ok(None);
     };
     if let Some(fastest) = table.cuts_up_to_mm_per_min {
@@ -103,7 +100,7 @@ pub(super) fn read(
     let (path, spans) = match sampled(&followed.moves, file.sampling) {
         Ok(found) => found,
         Err(error) => {
-            file.too_many(places, error);
+            file.too_many(log, error);
             return Ok(None);
         }
     };
@@ -119,14 +116,14 @@ pub(super) fn read(
     }))
 }
 
-/// The texts of the program at `path`, the main one first; `None` where a file cannot be read, told at its place.
-fn texts(places: &mut Places<'_>, path: &Path, language: Language) -> Option<Vec<ProgramText>> {
+/// The texts of the program at `path`, the main one first; `None` if a file cannot be read, reported at its key.
+fn texts(log: &mut ProblemLog<'_>, path: &Path, language: Language) -> Option<Vec<ProgramText>> {
     let folder = if path.is_dir() {
         path
     } else {
         path.parent().unwrap_or(Path::new("."))
     };
-    let beside = || -> Vec<PathBuf> {
+    let same_folder = || -> Vec<PathBuf> {
         let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
         let mut found: Vec<PathBuf> = entries
             .map(|entry| entry.path())
@@ -140,20 +137,20 @@ fn texts(places: &mut Places<'_>, path: &Path, language: Language) -> Option<Vec
             let of = |expected: &str| {
                 let same =
                     |other: &&PathBuf| other.file_stem() == path.file_stem() && ending(other) == expected;
-                beside().iter().find(same).cloned()
+                same_folder().iter().find(same).cloned()
             };
-            // Of a `.dat` the program beside it is meant.
+            // A `.dat` means the program of the same name.
             let main = if ending(path) == "dat" { of("src") } else { None };
             let main = main.unwrap_or_else(|| path.to_owned());
             let data = of("dat").filter(|data| *data != main);
             [Some(main), data].into_iter().flatten().collect()
         }
         Language::Val3 => {
-            let mut files: Vec<PathBuf> = beside()
+            let mut files: Vec<PathBuf> = same_folder()
                 .into_iter()
                 .filter(|file| language.endings().contains(&ending(file).as_str()))
                 .collect();
-            // The file that the study names comes first: a program that is to begin with, or the project.
+            // The file that the study names comes first: the main program, or the project.
             files.sort_by_key(|file| (file != path, ending(file) != "pjx"));
             files
         }
@@ -169,7 +166,7 @@ fn texts(places: &mut Places<'_>, path: &Path, language: Language) -> Option<Vec
             bytes / mib,
             MOST_BYTES / mib
         );
-        places.problem("program.file", message, "give a part of the program");
+        log.problem("program.file", message, "split the program");
         return None;
     }
     let mut texts = Vec::with_capacity(files.len());
@@ -178,7 +175,7 @@ fn texts(places: &mut Places<'_>, path: &Path, language: Language) -> Option<Vec
             Ok(bytes) => texts.push(ProgramText::new(&file.display().to_string(), &bytes)),
             Err(error) => {
                 let message = format!("cannot read {}: {error}", file.display());
-                places.problem("program.file", message, BESIDE_STUDY);
+                log.problem("program.file", message, FILE_HINT);
                 return None;
             }
         }
@@ -186,13 +183,13 @@ fn texts(places: &mut Places<'_>, path: &Path, language: Language) -> Option<Vec
     Some(texts)
 }
 
-/// What the name of a file ends with, lower case.
+/// The extension of a file name, lower case.
 fn ending(path: &Path) -> String {
     let ending = path.extension().and_then(|ending| ending.to_str());
     ending.unwrap_or_default().to_lowercase()
 }
 
-/// What the study tells of the cell.
+/// What the study specifies of the cell.
 fn cell_of(table: &ProgramTable, (robot, setting): (&Robot, &Setting)) -> Cell {
     let given = |pose: &Option<[f64; 6]>| pose.as_ref().map(pose_mm_deg);
     Cell {
@@ -204,50 +201,50 @@ fn cell_of(table: &ProgramTable, (robot, setting): (&Robot, &Setting)) -> Cell {
     }
 }
 
-/// The program in this cell; `None` where it has problems, told at their places.
+/// The program in this cell; `None` if it has problems, reported at their keys.
 fn followed(
-    places: &mut Places<'_>,
+    log: &mut ProblemLog<'_>,
     program: &RobotProgram,
     (file, robot, cell): (&str, &Robot, &Cell),
 ) -> Option<Followed> {
     let reported = follow(program, robot, cell).map_err(|errors| {
         for error in errors {
             let (key, hint) = advice(&error);
-            places.problem(key, format!("{file}: {error}"), &hint);
+            log.problem(key, format!("{file}: {error}"), &hint);
         }
     });
     reported.ok()
 }
 
-/// Where in a study an error is mended, and how.
+/// Where in a study an error can be corrected, and how.
 fn advice(error: &FollowError) -> (&'static str, String) {
     match error {
-        FollowError::Numbered { .. } | FollowError::EvaluateError { .. } => (
+        FollowError::Numbered { .. } | FollowError::UnknownFrame { .. } => (
             "program.frame_mm_deg",
-            "frame_mm_deg = [x, y, z, rx, ry, rz] tells it as the controller has it: mm, and deg about the fixed axes x, y, z; or \
+            "frame_mm_deg = [x, y, z, rx, ry, rz] specifies it as in the controller: mm, and deg about the fixed axes x, y, z; or \
              part_from_path_mm_deg puts it on the plane"
                 .to_owned(),
         ),
-        FollowError::Told { .. } => (
+        FollowError::FrameGivenTwice { .. } => (
             "program.frame_mm_deg",
-            "leave `frame_mm_deg` out; part_from_path_mm_deg puts the program elsewhere".to_owned(),
+            "leave `frame_mm_deg` out; part_from_path_mm_deg specifies another placement".to_owned(),
         ),
         FollowError::Several { .. } => (
             "program.file",
-            "a study tells one frame: split the program by its frames, or tell them in the program".to_owned(),
+            "a study can specify one frame: split the program by its frames, or define them in the program".to_owned(),
         ),
         FollowError::Tip { tool_mm_deg, .. } => (
             "tool.flange_from_tool_mm_deg",
             format!("the program's tool is {tool_mm_deg}; z of the study's must point from the spindle to the tip"),
         ),
-        FollowError::Joints { .. } => ("robot", "is this the robot that the program is for?".to_owned()),
+        FollowError::Joints { .. } => ("robot", "check that the program is for this robot".to_owned()),
     }
 }
 
 /// The moves of `followed` as points, and which points each became.
 ///
 /// # Errors
-/// More points than memory holds.
+/// More points than fit into memory.
 pub(super) fn sampled(
     moves: &[FollowedMove],
     sampling: Sampling,
@@ -273,7 +270,7 @@ pub(super) fn sampled(
     Ok((path, spans))
 }
 
-/// The point of the path at which move `index` ends: its own last one, or the one at which the cut behind it begins.
+/// The point of the path at which move `index` ends: its own last one, or the start of the cut that follows it.
 fn end_of(
     (moves, added): (&[FollowedMove], &[Range<usize>]),
     index: usize,
@@ -296,9 +293,9 @@ fn end_of(
     begin.filter(here).or(end.filter(here))
 }
 
-/// Takes the posture that the program tells, where the study asks for none.
+/// Uses the posture that the program specifies, if the study requests none.
 ///
-/// The note that says so.
+/// Returns the note that states this.
 pub(super) fn take_posture(setting: &mut Setting, followed: &Followed, robot: &Robot) -> Option<String> {
     let nominal = robot.nominal_branch();
     let BranchChoice::Of(requested) = setting.choice else {
@@ -312,6 +309,6 @@ pub(super) fn take_posture(setting: &mut Setting, followed: &Followed, robot: &R
     let pattern = reported.or(nominal);
     setting.choice = BranchChoice::Of(pattern);
     Some(format!(
-        "line {line}: the arm stands {pattern}, as the program tells; `posture.branch` of a study tells otherwise"
+        "line {line}: the posture {pattern} is used as specified in the program; set `posture.branch` to use another one"
     ))
 }

@@ -1,6 +1,6 @@
 //! A shape on the plane as points.
 //!
-//! Files tell points as (y', z') in mm from the centre of the plane; the core takes part axes, `x = -y'`, `y = z'`, in
+//! Files give points as (y', z') in mm from the centre of the plane; the core uses part axes, `x = -y'`, `y = z'`, in
 //! metres. Where `step_mm` is left out a circle has 360 points, any other shape the pitch of the plane.
 
 use armill_core::nalgebra::{Point2, Vector2};
@@ -8,13 +8,13 @@ use armill_core::path::{SampledPath, Shape};
 
 use super::program::MOST_POINTS;
 use crate::file::format::AnalysisTable;
-use crate::file::places::Places;
+use crate::file::problem_log::ProblemLog;
 use crate::file::quantities::{self, positive};
 
-/// A circle is sampled every degree where the ask says nothing.
+/// Default step of a circle: one degree.
 const CIRCLE_SAMPLES: f64 = 360.0;
 
-/// How many shapes an ask has.
+/// How many shapes an analysis has.
 pub(super) fn count(table: &AnalysisTable) -> usize {
     let given = [
         table.circle.is_some(),
@@ -25,41 +25,38 @@ pub(super) fn count(table: &AnalysisTable) -> usize {
     given.into_iter().filter(|given| *given).count()
 }
 
-/// The shape of an ask, which has one, cut into points; `None` where it has problems. `step_mm` is the pitch of the
-/// plane.
+/// The shape of an analysis, which has one, cut into points; `None` if it has problems. `step_mm` is the pitch of
+/// the plane.
 pub(super) fn resolve(
-    places: &mut Places<'_>,
+    log: &mut ProblemLog<'_>,
     table: &AnalysisTable,
     step_mm: f64,
 ) -> Option<(SampledPath, Shape)> {
     if let Some(circle) = &table.circle {
-        positive(places, "circle.radius_mm", circle.radius_mm)?;
+        positive(log, "circle.radius_mm", circle.radius_mm)?;
     }
     let shape = shape(table)?;
     let length = shape.length();
     if length <= 0.0 {
         let hint = "give it at least two different points";
-        places.problem_here("the path has length 0 mm", hint);
+        log.problem_here("the path has length 0 mm", hint);
         return None;
     }
     let (key, step) = match (table.step_mm, &shape) {
-        (Some(step), _) => ("step_mm", quantities::step(places, "step_mm", step)?),
+        (Some(step), _) => ("step_mm", quantities::step(log, "step_mm", step)?),
         (None, Shape::Circle { .. }) => ("step_mm", length / CIRCLE_SAMPLES),
-        (None, Shape::Polyline(_)) => (
-            "plane.step_mm",
-            quantities::step(places, "plane.step_mm", step_mm)?,
-        ),
+        (None, Shape::Polyline(_)) => ("plane.step_mm", quantities::step(log, "plane.step_mm", step_mm)?),
     };
     let points = length / step;
     if points > MOST_POINTS as f64 {
         let message = format!("the path would have {points:.0} points, more than {MOST_POINTS}");
-        places.problem(key, message, "a larger step");
+        log.problem(key, message, "use a larger step");
         return None;
     }
     Some((shape.sampled(step), shape))
 }
 
-/// The shape of the table in part axes; `None` where it has none.
+/// The shape of the table in part axes; `None` if it has none.
 fn shape(table: &AnalysisTable) -> Option<Shape> {
     // The study's y' runs against x of the part.
     let at = |[y, z]: [f64; 2]| Point2::new(-y * 1e-3, z * 1e-3);

@@ -1,14 +1,14 @@
-//! How words and numbers stand in the tables of a report.
+//! Format of words and numbers in the tables of a report.
 //!
-//! A column with a unit holds numbers and is aligned by their ends; the first column names the row. A dash stands where
+//! A column with a unit contains numbers and is right-aligned; the first column names the row. A dash means that
 //! there is no number.
 
 use armill_report::html::{Align, Column, Input, Table};
 
-/// The unit of a column of numbers that have none.
+/// The unit of a column of dimensionless numbers.
 pub(crate) const COUNT: &str = "count";
 
-/// Columns by name and unit: those with a unit hold numbers, but the first.
+/// Columns by name and unit: those with a unit contain numbers, except for the first.
 pub(crate) fn columns(names: &[(&str, &str)]) -> Vec<Column> {
     let column = |(i, (name, unit)): (usize, &(&str, &str))| Column {
         name: (*name).to_owned(),
@@ -22,12 +22,12 @@ pub(crate) fn columns(names: &[(&str, &str)]) -> Vec<Column> {
     names.iter().enumerate().map(column).collect()
 }
 
-/// A number with one decimal; a dash where there is none.
+/// A number with one decimal; a dash if there is none.
 pub(crate) fn um(value: Option<f64>) -> String {
     value.map_or_else(|| NONE.to_owned(), |value| format!("{value:.1}"))
 }
 
-/// What stands where there is no number.
+/// The text of a missing number.
 pub(crate) const NONE: &str = "–";
 
 /// A fraction in percent.
@@ -35,7 +35,7 @@ pub(crate) fn percent(fraction: f64) -> String {
     format!("{:.1}", fraction * 100.0)
 }
 
-/// One number that went in.
+/// One input number.
 pub(crate) fn input(name: &str, value: String, unit: &str, source: &str) -> Input {
     Input {
         name: name.to_owned(),
@@ -45,7 +45,7 @@ pub(crate) fn input(name: &str, value: String, unit: &str, source: &str) -> Inpu
     }
 }
 
-/// The table without the columns that no row has anything in.
+/// The table without empty columns.
 pub(crate) fn without_empty_columns(mut table: Table) -> Table {
     let empty = |k: usize| {
         let mut cells = table.rows.iter().filter_map(|row| row.get(k));

@@ -1,7 +1,7 @@
-//! The cut that forces come from: material with its coefficients, cutter, depths, feed and spindle, largest forces.
+//! The cut of the forces: material with its coefficients, cutter, depths, feed and spindle, largest forces.
 //!
-//! Coefficients are told as catalogues do, N/mm² of the chip and N/mm of the edge, each with its standard uncertainty;
-//! lengths in mm, feed in mm/min, speed in rev/min.
+//! Coefficients are in the units of catalogues, N/mm² of the chip and N/mm of the edge, each with its standard
+//! uncertainty; lengths in mm, feed in mm/min, speed in rev/min.
 
 use std::f64::consts::TAU;
 
@@ -40,7 +40,7 @@ pub(super) fn rows(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
     given.into_iter().flat_map(of).collect()
 }
 
-/// The rows of one cut, from the material to the forces that came of it.
+/// The rows of one cut, from the material to the resulting forces.
 fn of_cut(answer: &StudyAnswer, (name, path): (&str, &PathAnalysis), cut: &Cut) -> Vec<Input> {
     let sources = sources_of_cut(cut);
     let places: Vec<String> = sources.iter().map(|source| place(answer, &source.key)).collect();
@@ -59,8 +59,8 @@ fn of_cut(answer: &StudyAnswer, (name, path): (&str, &PathAnalysis), cut: &Cut) 
     rows.push(study("radial depth", radial, unit));
     let given = |value: Option<f64>| {
         value.map_or_else(
-            || "as the program tells".to_owned(),
-            |value| format!("{}, where the program tells none", plain(value)),
+            || "as in the program".to_owned(),
+            |value| format!("{}, unless the program specifies it", plain(value)),
         )
     };
     let unit = |value: Option<f64>, unit: &'static str| value.map_or("", |_| unit);
@@ -146,10 +146,10 @@ const MECHANISTIC: [&str; 6] = [
     "radial, of the edge (Kre)",
     "axial, of the edge (Kae)",
 ];
-/// No source of a material tells these.
-const THE_STUDY_OR_ASSUMED: &str = "the study; assumed by armill where it says nothing";
+/// Source of values that no source of a material gives.
+const THE_STUDY_OR_ASSUMED: &str = "the study; assumed by armill if not specified";
 
-/// A cutter as a catalogue tells it; what it does not have is left out.
+/// A cutter in the form of a catalogue; zero values are left out.
 fn cutter(cutter: &Cutter) -> String {
     let mut parts = vec![format!("{} mm", plain(cutter.diameter() * 1e3))];
     let corner = cutter.corner_radius();
@@ -176,7 +176,7 @@ fn cutter(cutter: &Cutter) -> String {
     parts.join(", ")
 }
 
-/// Four digits, and no zeros behind them.
+/// Four digits, without trailing zeros.
 fn plain(value: f64) -> String {
     let digits = if value == 0.0 {
         0
@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cutter_is_told_in_the_words_of_its_catalogue() {
+    fn a_cutter_is_described_as_in_its_catalogue() {
         let given = |made: Result<Cutter, _>| made.map(|made| cutter(&made)).unwrap_or_default();
         assert_eq!(
             given(Cutter::flat(6e-3, 2).and_then(|c| c.with_helix(30_f64.to_radians(), Hand::Right))),

@@ -9,7 +9,7 @@ use crate::answer::{HoleAnswer, HolesAnswer};
 const MOST: usize = 40;
 
 /// The section of one set.
-pub(super) fn tell(report: Report, holes: &HolesAnswer) -> Report {
+pub(super) fn add_section(report: Report, holes: &HolesAnswer) -> Report {
     let report = report
         .section(&format!("Holes: {}", holes.name))
         .table(&numbers(holes))
@@ -17,26 +17,26 @@ pub(super) fn tell(report: Report, holes: &HolesAnswer) -> Report {
     if holes.notes.is_empty() {
         return report;
     }
-    let passed = format!("{}: what was passed over or taken for granted.", holes.name);
+    let passed = format!("{}: skipped statements and assumptions.", holes.name);
     report.paragraph(&passed).list(&holes.notes)
 }
 
 fn numbers(holes: &HolesAnswer) -> Table {
     let given = |text: &Option<String>| text.clone().unwrap_or_else(|| NONE.to_owned());
     without_empty_columns(Table {
-        caption: "Deviations across the holes are what the tolerance is held against; along them they are the error of depth. Each \
-                  hole is held in the turn of the tool and the branch that is best for it."
+        caption: "Deviations across the holes are compared with the tolerance; deviations along them are the error of depth. Each \
+                  hole is evaluated with its best spin of the tool and branch."
             .to_owned(),
         columns: columns(&[
             ("holes", ""),
             ("file", ""),
             ("count", COUNT),
             ("cannot be drilled", COUNT),
-            ("within the limit", "%"),
+            ("within the tolerance", "%"),
             ("mean across", "µm"),
             ("largest across", "µm"),
             ("largest error of depth", "µm"),
-            ("turns tried", COUNT),
+            ("spins tried", COUNT),
             ("material", ""),
             ("largest thrust", "N"),
         ]),
@@ -86,8 +86,8 @@ fn each(holes: &HolesAnswer) -> Table {
     };
     without_empty_columns(Table {
         caption: format!(
-            "{}: hole by hole, worst first. x is that of the part, laid into the plane of the hole, y to its left; depth is positive \
-             where the hole is too shallow; ± is the standard uncertainty.{more}",
+            "{}: hole by hole, worst first. x is that of the part, projected into the plane of the hole, y to its left; depth is positive \
+             if the hole is too shallow; ± is the standard uncertainty.{more}",
             holes.name
         ),
         columns: columns(&[
@@ -99,10 +99,10 @@ fn each(holes: &HolesAnswer) -> Table {
             ("y", "µm"),
             ("depth", "µm"),
             ("branch", ""),
-            ("turn", "deg"),
+            ("spin", "deg"),
             ("to joint limit", "deg"),
-            ("wrist bent by", "deg"),
-            ("why not", ""),
+            ("wrist bend", "deg"),
+            ("reason", ""),
         ]),
         rows: holes.each.iter().take(MOST).map(row).collect(),
     })

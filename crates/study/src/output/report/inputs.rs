@@ -1,7 +1,7 @@
-//! The numbers that went into the result, each with its source.
+//! The input numbers of the result, each with its source.
 //!
 //! Load, tool and tolerance are those of the first map of the answer, else of the first path, box or set of holes. A
-//! long source that repeats from row to row is told once.
+//! long source that repeats from row to row is given once.
 
 use armill_report::html::Input;
 
@@ -33,12 +33,12 @@ pub(super) fn rows(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
     inputs
 }
 
-/// A source longer than this stands once, not in every row below each other.
+/// A longer source is given once, not in consecutive rows.
 const LONG: usize = 40;
-/// What stands in its place.
+/// The text that replaces it.
 const AS_ABOVE: &str = "as above";
 
-/// What and where a source is, by its key; the key itself where nobody lists it.
+/// The description and the publication of a source, by its key; the key itself if it is not listed.
 pub(super) fn place(answer: &StudyAnswer, key: &str) -> String {
     let found = answer.sources.iter().find(|source| source.key == key);
     found.map_or_else(
@@ -79,7 +79,7 @@ fn robot(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
     inputs
 }
 
-/// The given cases; none where forces come with a path.
+/// The given cases; none if forces come with a path.
 fn forces(setting: &SettingAnswer) -> Vec<Input> {
     let source = setting.load_source.as_deref().unwrap_or(THE_STUDY);
     let force = |(i, force): (usize, &[f64; 3])| {
@@ -89,7 +89,7 @@ fn forces(setting: &SettingAnswer) -> Vec<Input> {
     setting.cases_n.iter().enumerate().map(force).collect()
 }
 
-/// Source of what the user says.
+/// Source of the values given by the user.
 pub(super) const THE_STUDY: &str = "the study";
 
 /// Tolerance, tool, stiffness model and frame.
@@ -109,6 +109,6 @@ fn others(answer: &StudyAnswer, setting: &SettingAnswer) -> Vec<Input> {
             THE_STUDY,
         ),
         input("stiffness model", setting.model.join("; "), "", "robot and study"),
-        input("heights count from", setting.base.clone(), "", THE_STUDY),
+        input("reference frame", setting.base.clone(), "", THE_STUDY),
     ]
 }

@@ -1,9 +1,9 @@
 //! The report: question, answer, tables, pictures, warnings, inputs with their sources; one HTML file.
 //!
-//! It holds its pictures and needs no file beside it.
+//! It contains its pictures and needs no other file.
 //!
-//! A file for each chapter: `statements`, `planes`, `volumes`, `paths`, `holes`, `inputs` with `cut`; `cells`: numbers in
-//! tables.
+//! A file for each chapter: `statements`, `planes`, `volumes`, `paths`, `holes`, `inputs` with `cut`; `cells`: numbers
+//! in tables.
 
 pub(crate) mod cells;
 mod cut;
@@ -22,7 +22,7 @@ use crate::answer::StudyAnswer;
 use crate::budget;
 use crate::file::resolve::Study;
 
-/// The whole page: a chapter only where the study asked for it, pictures in the order given.
+/// The whole page: chapters only for the analyses of the study, pictures in the order given.
 pub(super) fn html(
     study: &Study,
     answer: &StudyAnswer,
@@ -43,9 +43,9 @@ pub(super) fn html(
         }
     }
     if !answer.statements.is_empty() {
-        report = report.section("What others state, and what was found here").paragraph(
+        report = report.section("Published statements").paragraph(
             "A reading is consistent with a statement if its largest in-plane deviation is within the stated bound. \
-             That is not a confirmation: where the source leaves tool length, plate angle, branch and base frame open, \
+             Consistent does not mean confirmed: if the source does not state tool length, plate angle, branch and base frame, \
              several readings may be consistent.",
         );
         for table in statements::tables(answer) {
@@ -56,16 +56,16 @@ pub(super) fn html(
         report = report.section("Planes").table(&planes::table(answer));
     }
     if !answer.paths.is_empty() {
-        report = paths::tell(report, &answer.paths);
+        report = paths::add_section(report, &answer.paths);
     }
     for set in &answer.holes {
-        report = holes::tell(report, set);
+        report = holes::add_section(report, set);
     }
     if !answer.volumes.is_empty() {
         report = report.section("Volumes").table(&volumes::table(answer));
     }
     if let Some(given) = &answer.measured {
-        report = report.section("What was measured, beside what is predicted");
+        report = report.section("Measurement and prediction");
         report = report.paragraph(&budget::output::in_words(given));
         for table in budget::output::tables(given) {
             report = report.table(&table);

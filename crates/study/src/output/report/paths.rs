@@ -1,7 +1,7 @@
-//! Paths: how far the tool deviates, where and why, what became of features and operations.
+//! Paths: the deviation of the tool, where and why, and its effect on features and operations.
 //!
-//! Two tables tell all paths, a row a path: deviations, and what was followed. Then each path has its own: worst
-//! points, features, what it permits, operations, notes. Columns that would be empty are left out.
+//! Two tables contain all paths, a row a path: deviations, and data of the path. Then each path has its own: worst
+//! points, features, process limits, operations, notes. Empty columns are left out.
 
 use armill_report::html::{Report, Table};
 
@@ -14,7 +14,7 @@ use crate::answer::{
 const MOST_OPERATIONS: usize = 40;
 
 /// The section of the paths, each with its own tables.
-pub(super) fn tell(report: Report, paths: &[PathAnswer]) -> Report {
+pub(super) fn add_section(report: Report, paths: &[PathAnswer]) -> Report {
     let mut report = report
         .section("Paths")
         .table(&deviations(paths))
@@ -38,17 +38,14 @@ pub(super) fn tell(report: Report, paths: &[PathAnswer]) -> Report {
         }
         if !path.notes.is_empty() {
             report = report
-                .paragraph(&format!(
-                    "{}: what was passed over or taken for granted.",
-                    path.name
-                ))
+                .paragraph(&format!("{}: skipped statements and assumptions.", path.name))
                 .list(&path.notes);
         }
     }
     report
 }
 
-/// How far the tool deviates: a row a path.
+/// Deviation of the tool: a row a path.
 fn deviations(paths: &[PathAnswer]) -> Table {
     let row = |path: &PathAnswer| {
         vec![
@@ -65,27 +62,27 @@ fn deviations(paths: &[PathAnswer]) -> Table {
         ]
     };
     without_empty_columns(Table {
-        caption: "Deviations by size. Across the tool, in the plane of a shape, is what the tolerance is held against; it \
-                  has a part along the track, hardly seen on the part, and one to its side, which walls get. Floors get the \
-                  one along the tool. Roundness: largest of all load cases, peak to valley about the least-squares circle."
+        caption: "Deviations by size. The deviation across the tool, for a shape in its plane, is compared with the tolerance; it \
+                  has a component along the track, hardly visible on the part, and one to its left, the error of walls. The component \
+                  along the tool is the error of floors. Roundness: largest of all load cases, peak to valley about the least-squares circle."
             .to_owned(),
         columns: columns(&[
             ("path", ""),
             ("branch", ""),
-            ("within the limit", "%"),
+            ("within the tolerance", "%"),
             ("least across the tool", "µm"),
             ("largest across the tool", "µm"),
             ("along the track", "µm"),
-            ("to its side", "µm"),
+            ("to the left", "µm"),
             ("along the tool", "µm"),
-            ("in space", "µm"),
+            ("total", "µm"),
             ("roundness", "µm"),
         ]),
         rows: paths.iter().map(row).collect(),
     })
 }
 
-/// What was followed: files, lengths, times, and points that have no posture or no force.
+/// Data of the paths: files, lengths, times, and points that have no posture or no force.
 fn followed(paths: &[PathAnswer]) -> Table {
     let count = |points: usize| match points {
         0 => NONE.to_owned(),
@@ -107,7 +104,7 @@ fn followed(paths: &[PathAnswer]) -> Table {
         ]
     };
     without_empty_columns(Table {
-        caption: "What was followed.".to_owned(),
+        caption: "Data of the paths.".to_owned(),
         columns: columns(&[
             ("path", ""),
             ("file", ""),
@@ -123,7 +120,7 @@ fn followed(paths: &[PathAnswer]) -> Table {
     })
 }
 
-/// A time as people read it; a dash where no feed is told.
+/// A time as minutes and seconds; a dash without a feed.
 fn minutes(seconds: f64) -> String {
     let whole = seconds.round();
     if seconds > 0.0 {
@@ -133,7 +130,7 @@ fn minutes(seconds: f64) -> String {
     }
 }
 
-/// What keeps the tolerance on the whole program.
+/// The process limits of the whole program.
 fn permitted(name: &str, limits: &LimitsAnswer) -> Table {
     let rows = [
         ("force in any direction", &limits.any_direction),
@@ -161,8 +158,8 @@ fn permitted(name: &str, limits: &LimitsAnswer) -> Table {
     };
     Table {
         caption: format!(
-            "{name}: what holds the tolerance everywhere, each with all else as the study has it, and the line that permits no \
-             more. Asked at {} points; nothing: however little is asked for, the tool deviates more.",
+            "{name}: process limits that meet the tolerance everywhere, each with everything else as in the study, and the line that permits no \
+             more. Evaluated at {} points; nothing: the tool exceeds the tolerance at any value.",
             limits.points
         ),
         columns: columns(&[
@@ -176,7 +173,7 @@ fn permitted(name: &str, limits: &LimitsAnswer) -> Table {
     }
 }
 
-/// Where one path is worst; the numbers are those of its pictures.
+/// The worst points of one path; the numbers are those of its pictures.
 fn worst_points(name: &str, points: &[WorstPoint]) -> Table {
     let row = |(i, worst): (usize, &WorstPoint)| {
         let [along, cross, axial] =
@@ -199,8 +196,8 @@ fn worst_points(name: &str, points: &[WorstPoint]) -> Table {
     };
     Table {
         caption: format!(
-            "{name}: where it is worst, each from another part of the path. Signs: forwards along the track, to its left, \
-             from the part towards the spindle. The numbers stand in the pictures."
+            "{name}: the worst points, each from another part of the path. Signs: forwards along the track, to its left, \
+             from the part towards the spindle. The pictures show the numbers of the points."
         ),
         columns: columns(&[
             ("point", ""),
@@ -211,13 +208,13 @@ fn worst_points(name: &str, points: &[WorstPoint]) -> Table {
             ("along the track", "µm"),
             ("to its left", "µm"),
             ("along the tool", "µm"),
-            ("mostly by", ""),
+            ("largest contribution", ""),
         ]),
         rows: points.iter().enumerate().map(row).collect(),
     }
 }
 
-/// What became of the features of one path; the case is told where there are several.
+/// The deviations of the features of one path; the case is given if there are several.
 fn features(name: &str, features: &[FeatureAnswer]) -> Table {
     let several = features.iter().any(|feature| feature.case > 1);
     let row = |feature: &FeatureAnswer| {
@@ -247,7 +244,7 @@ fn features(name: &str, features: &[FeatureAnswer]) -> Table {
     };
     without_empty_columns(Table {
         caption: format!(
-            "{name}: what became of its features. Moved by: centre, axis or middle, in the axes of the program. Roundness, \
+            "{name}: deviations of its features. Shift: of the centre, axis or middle, in the axes of the program. Roundness, \
              straightness and flatness are peak to valley."
         ),
         columns: columns(&[
@@ -255,8 +252,8 @@ fn features(name: &str, features: &[FeatureAnswer]) -> Table {
             ("kind", ""),
             ("load case", ""),
             ("radius of the path", "mm"),
-            ("grows by", "µm"),
-            ("moved by x, y, z", "µm"),
+            ("radius change", "µm"),
+            ("shift x, y, z", "µm"),
             ("roundness", "µm"),
             ("straightness across the tool", "µm"),
             ("straightness along the tool", "µm"),
@@ -296,7 +293,7 @@ fn operations_table(name: &str, operations: &[OperationAnswer]) -> Table {
         columns: columns(&[
             ("operation", ""),
             ("tool", COUNT),
-            ("begins in line", COUNT),
+            ("first line", COUNT),
             ("points", COUNT),
             ("largest across the tool", "µm"),
         ]),

@@ -5,19 +5,19 @@ use armill_report::html::Table;
 use super::cells::{COUNT, columns, percent, um};
 use crate::answer::StudyAnswer;
 
-/// Every map and section, with what fraction holds the limit and how sure that is.
+/// Every map and section, with the fraction within the tolerance and its uncertainty.
 pub(super) fn table(answer: &StudyAnswer) -> Table {
     Table {
-        caption: "Fractions are of all points; named branches are judged whether their joints stand inside their limits or not. Surely and possibly: with twice the standard uncertainty added and taken away.".to_owned(),
+        caption: "Fractions are of all points; named branches are evaluated whether their joints are inside their limits or not. Reliably and possibly: with the expanded uncertainty (k = 2) added and subtracted.".to_owned(),
         columns: columns(&[
             ("plane", ""),
             ("branch", ""),
-            ("within the limit", "%"),
+            ("within the tolerance", "%"),
             ("… and inside joint limits", "%"),
-            ("surely … possibly within", "%"),
+            ("reliably … possibly within", "%"),
             ("least", "µm"),
             ("largest", "µm"),
-            ("force permitted there, any direction", "N"),
+            ("permitted force there, any direction", "N"),
             ("out of reach", COUNT),
             ("points", COUNT),
         ]),

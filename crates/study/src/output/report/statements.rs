@@ -1,4 +1,4 @@
-//! What others state, beside what was found: a table a statement.
+//! Published statements, compared with these results: a table a statement.
 
 use armill_report::html::Table;
 

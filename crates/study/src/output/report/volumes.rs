@@ -5,14 +5,14 @@ use armill_report::html::Table;
 use super::cells::{COUNT, columns, percent};
 use crate::answer::StudyAnswer;
 
-/// Every box, with the volume that holds the limit.
+/// Every box, with the volume within the tolerance.
 pub(super) fn table(answer: &StudyAnswer) -> Table {
     Table {
-        caption: "Each point within stands for one cell of the pitch.".to_owned(),
+        caption: "Each point within the tolerance represents one cell of the grid.".to_owned(),
         columns: columns(&[
             ("box", ""),
             ("branch", ""),
-            ("within the limit", "%"),
+            ("within the tolerance", "%"),
             ("… and inside joint limits", "%"),
             ("volume within", "dm³"),
             ("points", COUNT),

@@ -4,9 +4,9 @@
 //! |---|---|---|
 //! | `hole` | - | number in the order given, from 1 |
 //! | `line` | - | line of the file, or number in the list |
-//! | `turn_deg` | deg | turn of the tool that was found |
+//! | `turn_deg` | deg | spin of the tool that was found |
 //! | `wrist_bend_deg` | deg | angle between axes 4 and 6 |
-//! | `hole_x_um`, `hole_y_um` | um | deviation across the hole, along x of the part laid into its plane and to the left of it |
+//! | `hole_x_um`, `hole_y_um` | um | deviation across the hole, along x of the part projected into its plane and to the left of it |
 //! | `depth_um` | um | out of the part: too shallow |
 
 use armill_core::optimize::HolesFound;
@@ -18,7 +18,11 @@ use crate::file::holes::HolesAnalysis;
 use crate::file::resolve::Study;
 
 /// Number, line, turn and bend, and the deviation in the axes of each hole.
-pub(super) fn columns<'a>(study: &'a Study, analysis: &'a HolesAnalysis, found: &'a HolesFound) -> Vec<Numbers<'a>> {
+pub(super) fn columns<'a>(
+    study: &'a Study,
+    analysis: &'a HolesAnalysis,
+    found: &'a HolesFound,
+) -> Vec<Numbers<'a>> {
     let points = &analysis.path.track.path.points;
     let part = |name: &str, description: &'static str, axis: usize| {
         Numbers::um(name.to_owned(), description, move |_, index, evaluation| {
@@ -46,12 +50,12 @@ pub(super) fn columns<'a>(study: &'a Study, analysis: &'a HolesAnalysis, found: 
         },
         Numbers::deg(
             "turn_deg".to_owned(),
-            "turn of the tool about its axis that was found",
+            "spin of the tool about its axis that was found",
             move |_, index, _| found.spins[index].to_degrees(),
         ),
         Numbers::deg(
             "wrist_bend_deg".to_owned(),
-            "angle between axes 4 and 6; empty of an arm without named branches",
+            "angle between axes 4 and 6; empty for an arm without named branches",
             move |rows, index, _| {
                 let bend = wrist_bend(&study.robot.robot, rows.answers.joints_at(index));
                 bend.map_or(f64::NAN, f64::to_degrees)

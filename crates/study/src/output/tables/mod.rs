@@ -1,26 +1,26 @@
-//! Tables of an ask: Parquet and CSV with one row a point, VTK for planes, paths and boxes.
+//! Tables of an analysis: Parquet and CSV with one row a point, VTK for planes, paths and boxes.
 //!
-//! Positions count from the frame that the study names; deviations are in base axes, micrometres.
+//! Positions are relative to the reference frame of the study; deviations are in base axes, micrometres.
 //!
 //! | column | meaning |
 //! |---|---|
 //! | `section` | label, of sections only |
 //! | `x_mm`, `y_mm`, `z_mm` | TCP |
 //! | `state` | `within`, `above_tolerance`, or why there is no posture |
-//! | `branch`, `singularity` | how the arm stands, and near what |
+//! | `branch`, `singularity` | the posture, and a singularity that is near |
 //! | `line` to `axial_um` | of paths only: see `track` |
 //! | `hole` to `depth_um` | of holes only: see `holes` |
 //! | `limit_margin_deg` | least distance of a joint to its limit, deg (mm) |
-//! | `deciding_case` | the case with the largest in-plane deviation, from 1 |
-//! | `in_plane_um`, `in_plane_u_um`, `probability_within` | its deviation, u, chance to hold the limit |
+//! | `worst_case` | the case with the largest in-plane deviation, from 1 |
+//! | `in_plane_um`, `in_plane_u_um`, `probability_within` | its deviation, u, probability to be within the tolerance |
 //! | `normal_um`, `full_um` | along the normal, whole length |
-//! | `joint_NAME_deg` (`_mm`) | joint positions as the robot file counts them |
+//! | `joint_NAME_deg` (`_mm`) | joint positions in the convention of the robot file |
 //! | `share_NAME_um` | shares of joints, base, flange, tool in the in-plane deviation |
 //! | `deviation_x_case_1_um`, ... | the deviation under each case |
 //!
-//! A point without posture has its place and state alone. Uncertainty, probability and shares are left out where the
-//! core tells none: along a path whose load differs from point to point, or whose tool leans. VTK has the envelopes,
-//! and the deviation of each case as an array of vectors.
+//! A point without posture has its position and state alone. Uncertainty, probability and shares are left out if the
+//! core does not compute them: along a path whose load differs from point to point, or with a tilted tool. VTK has the
+//! envelopes, and the deviation of each case as an array of vectors.
 
 mod holes;
 mod track;
@@ -28,25 +28,25 @@ mod track;
 use std::fmt::Display;
 use std::ops::Range;
 
-use armill_core::kernel::{Answers, Held};
+use armill_core::kernel::{Answers, Evaluation};
 use armill_core::map::{PlaneMap, probability_within};
 use armill_formats::table::vtk::{Image, PointArray, PointValues, PolyData, write_image, write_poly_data};
 use armill_formats::table::{Column, ColumnData, Table, csv};
 use rayon::prelude::*;
 
 use super::Csv;
-use super::rows::{MM_DECIMALS, Rows, of_held, of_points, rows};
+use super::rows::{MM_DECIMALS, Rows, of_points, of_reached, rows};
 use crate::error::StudyError;
-use crate::file::resolve::{Ask, Study, Subject};
-use crate::run::{Done, Found};
+use crate::file::resolve::{Analysis, Study, Subject};
+use crate::run::{AnalysisData, AnalysisResult};
 
-/// The file of an ask for ParaView.
+/// The file of an analysis for ParaView.
 const IMAGE: &str = "vti";
-/// Likewise of a plane or path.
+/// The same of a plane or path.
 const POLY_DATA: &str = "vtp";
 
-/// What the files of an ask end in.
-pub(super) fn extensions(analysis: &Ask, csv: Csv) -> Vec<&'static str> {
+/// File extensions of the results of an analysis.
+pub(super) fn extensions(analysis: &Analysis, csv: Csv) -> Vec<&'static str> {
     let mut extensions = Vec::new();
     if has_csv(analysis, csv) {
         extensions.push("csv");
@@ -55,7 +55,7 @@ pub(super) fn extensions(analysis: &Ask, csv: Csv) -> Vec<&'static str> {
         extensions.push("parquet");
     }
     if let Subject::Path(path) = &analysis.subject
-        && path.tells_limits()
+        && path.reports_limits()
     {
         extensions.push(super::limits::EXTENSION);
     }
@@ -66,11 +66,11 @@ pub(super) fn extensions(analysis: &Ask, csv: Csv) -> Vec<&'static str> {
     extensions
 }
 
-/// A spreadsheet shows so many points of a path with ease.
+/// A spreadsheet can show so many points of a path.
 const FEW: usize = 100_000;
 
-/// Many points are for programs; without Parquet they have nothing else to read.
-fn has_csv(analysis: &Ask, csv: Csv) -> bool {
+/// Many points are for programs; without Parquet they have no other format to read.
+fn has_csv(analysis: &Analysis, csv: Csv) -> bool {
     let few = match &analysis.subject {
         Subject::Map(_) => true,
         Subject::Path(path) => path.track.len() <= FEW,
@@ -80,16 +80,16 @@ fn has_csv(analysis: &Ask, csv: Csv) -> bool {
     few || csv == Csv::Every || cfg!(not(feature = "parquet"))
 }
 
-/// Takes the bytes of a file that ends in this.
+/// Accepts the bytes of a file with this extension.
 type Save<'a> = dyn Fn(&str, &[u8]) -> Result<(), StudyError> + Sync + 'a;
 
-/// Hands the files of one ask to `save`, extension and bytes.
+/// Passes the files of one analysis to `save`, extension and bytes.
 ///
 /// # Errors
 /// That of `save`; a table or field that cannot be made, which would be a fault of armill.
 pub(super) fn files(
     study: &Study,
-    (analysis, done): (&Ask, &Done<'_>),
+    (analysis, done): (&Analysis, &AnalysisResult<'_>),
     csv: Csv,
     save: &Save<'_>,
 ) -> Result<(), StudyError> {
@@ -104,7 +104,7 @@ pub(super) fn files(
         if has_csv(analysis, csv) {
             save("csv", &csv::write(&table))?;
         }
-        if let Found::Path(path, found) = &done.found
+        if let AnalysisData::Path(path, found) = &done.found
             && let Some(table) = super::limits::table(&analysis.name, path, found)?
         {
             save(super::limits::EXTENSION, &csv::write(&table))?;
@@ -112,27 +112,27 @@ pub(super) fn files(
         Ok(())
     };
     let field = || match &done.found {
-        Found::Volume(setting, volume) => {
+        AnalysisData::Volume(setting, volume) => {
             let mm = |v: armill_core::nalgebra::Point3<f64>| v.coords.map(|c| c * 1e3).into();
             let step = volume.grid.step * 1e3;
-            let origin = mm(setting.counted(&volume.grid.corner()));
+            let origin = mm(setting.in_reference(&volume.grid.corner()));
             let image = Image::new(origin, [step; 3], volume.grid.counts, arrays(&series))?;
             save(IMAGE, &write_image(&image))
         }
-        Found::Holes(..) => {
+        AnalysisData::Holes(..) => {
             let points = series.iter().flat_map(|rows| rows.at_mm.iter().copied());
             let holes = PolyData::points(points.collect(), arrays(&series))?;
             save(POLY_DATA, &write_poly_data(&holes))
         }
-        Found::Path(..) => {
+        AnalysisData::Path(..) => {
             let paths: Vec<Vec<[f64; 3]>> = series.iter().flat_map(stretches).collect();
             save(
                 POLY_DATA,
                 &write_poly_data(&PolyData::paths(&paths, arrays(&series))?),
             )
         }
-        Found::Map(_, map) => save(POLY_DATA, &write_poly_data(&sheets(&[map], &series)?)),
-        Found::Sections(sections) => {
+        AnalysisData::Map(_, map) => save(POLY_DATA, &write_poly_data(&sheets(&[map], &series)?)),
+        AnalysisData::Sections(sections) => {
             let maps: Vec<&PlaneMap> = sections.iter().map(|section| &section.map).collect();
             save(POLY_DATA, &write_poly_data(&sheets(&maps, &series)?))
         }
@@ -141,17 +141,17 @@ pub(super) fn files(
     of_table.and(of_field)
 }
 
-/// The points of one ask with their columns.
+/// The points of one analysis with their columns.
 ///
 /// # Errors
 /// A table that cannot be made, which would be a fault of armill.
-pub(super) fn rows_of(study: &Study, done: &Done<'_>) -> Result<Table, StudyError> {
+pub(super) fn rows_of(study: &Study, done: &AnalysisResult<'_>) -> Result<Table, StudyError> {
     table(study, done.name, &rows(&done.found))
 }
 
-/// What a Parquet file says of itself: version, study, ask, robot.
+/// The metadata of a Parquet file: version, study, analysis, robot.
 #[cfg(feature = "parquet")]
-fn metadata(study: &Study, analysis: &Ask) -> armill_formats::table::parquet::Metadata {
+fn metadata(study: &Study, analysis: &Analysis) -> armill_formats::table::parquet::Metadata {
     let entries = [
         ("armill", env!("CARGO_PKG_VERSION").to_owned()),
         ("study", study.title.clone()),
@@ -164,13 +164,13 @@ fn metadata(study: &Study, analysis: &Ask) -> armill_formats::table::parquet::Me
         .collect()
 }
 
-/// The points of a path, stretch by stretch where rapids part them.
+/// The points of a path, interval by interval between rapids.
 fn stretches(rows: &Rows<'_>) -> Vec<Vec<[f64; 3]>> {
     let stretches = rows.path.iter().flat_map(|(path, _)| path.track.path.stretches());
     stretches.map(|stretch| rows.at_mm[stretch].to_vec()).collect()
 }
 
-/// All planes of an ask as one surface.
+/// All planes of an analysis as one surface.
 fn sheets(maps: &[&PlaneMap], series: &[Rows<'_>]) -> Result<PolyData, StudyError> {
     let counts: Vec<[usize; 2]> = maps.iter().map(|map| [map.grid.columns, map.grid.rows]).collect();
     let points = series
@@ -182,12 +182,14 @@ fn sheets(maps: &[&PlaneMap], series: &[Rows<'_>]) -> Result<PolyData, StudyErro
 
 /// Values for VTK: the envelope, and the deviation vector of each case.
 fn arrays(series: &[Rows<'_>]) -> Vec<PointArray> {
-    let scalar = |name: &str, um: fn(&Held) -> f64| PointArray {
+    let scalar = |name: &str, um: fn(&Evaluation) -> f64| PointArray {
         name: name.to_owned(),
         values: PointValues::Scalar(
             series
                 .iter()
-                .flat_map(|rows| of_held(rows, 0..rows.at_mm.len(), |_, _, evaluation| um(evaluation) * 1e6))
+                .flat_map(|rows| {
+                    of_reached(rows, 0..rows.at_mm.len(), |_, _, evaluation| um(evaluation) * 1e6)
+                })
                 .collect(),
         ),
     };
@@ -211,13 +213,13 @@ fn arrays(series: &[Rows<'_>]) -> Vec<PointArray> {
     arrays
 }
 
-/// Decimals that mean something: a nanometre of deviation, a degree of 1e-6 (some 0.02 um at an arm's length), a
-/// position as it was asked.
+/// Significant decimals: a nanometre of deviation, a degree of 1e-6 (some 0.02 um at an arm's length), a
+/// position as given.
 const UM_DECIMALS: u8 = 3;
 /// Of angles.
 const DEG_DECIMALS: u8 = 6;
 
-/// A column of numbers that is yet to be filled.
+/// A column of numbers that is not filled yet.
 struct Numbers<'a> {
     name: String,
     unit: Option<&'static str>,
@@ -227,22 +229,22 @@ struct Numbers<'a> {
     fill: Fill<'a>,
 }
 
-/// Takes a series, a range of its points, and the list to append to: `None` for a point without posture.
+/// Accepts a series, a range of its points, and the list to append to: `None` for a point without posture.
 type Fill<'a> = Box<dyn Fn(&Rows<'_>, Range<usize>, &mut Vec<Option<f64>>) + Send + Sync + 'a>;
 
 impl<'a> Numbers<'a> {
-    /// A column of micrometres: `um` gives the value of a point that is held.
+    /// A column of micrometres: `um` gives the value of a point with a posture.
     fn um(
         name: String,
         description: &'static str,
-        um: impl Fn(&Rows<'_>, usize, &Held) -> f64 + Send + Sync + 'a,
+        um: impl Fn(&Rows<'_>, usize, &Evaluation) -> f64 + Send + Sync + 'a,
     ) -> Numbers<'a> {
         Numbers {
             name,
             unit: Some("um"),
             decimals: UM_DECIMALS,
             description,
-            fill: Box::new(move |rows, points, values| values.extend(of_held(rows, points, &um))),
+            fill: Box::new(move |rows, points, values| values.extend(of_reached(rows, points, &um))),
         }
     }
 
@@ -250,7 +252,7 @@ impl<'a> Numbers<'a> {
     fn deg(
         name: String,
         description: &'static str,
-        deg: impl Fn(&Rows<'_>, usize, &Held) -> f64 + Send + Sync + 'a,
+        deg: impl Fn(&Rows<'_>, usize, &Evaluation) -> f64 + Send + Sync + 'a,
     ) -> Numbers<'a> {
         Numbers {
             unit: Some("deg"),
@@ -271,7 +273,7 @@ impl<'a> Numbers<'a> {
     }
 }
 
-/// Points whose answers stay in the cache while all columns take their values from them.
+/// Points whose answers stay in the cache while all columns read them.
 const POINTS_AT_ONCE: usize = 512;
 
 /// The columns of these numbers, filled on all threads.
@@ -308,31 +310,39 @@ fn table(study: &Study, name: &str, series: &[Rows<'_>]) -> Result<Table, StudyE
         columns.push(Column {
             name: format!("{letter}_mm"),
             unit: Some("mm".to_owned()),
-            description: format!("{letter} of the TCP in the frame that the study counts from"),
+            description: format!("{letter} of the TCP in the reference frame of the study"),
             decimals: Some(MM_DECIMALS),
             data: ColumnData::Float(of_points(series, |rows, index| rows.at_mm[index][axis])),
         });
     }
     columns.push(words(
-        ("state", "within the limit, over it, or why there is no posture"),
+        (
+            "state",
+            "within the tolerance, above it, or why there is no posture",
+        ),
         series,
         |rows, i| Some(rows.state(i)),
     ));
     columns.push(words(("branch", "name of the posture"), series, |rows, i| {
-        rows.answers.points[i].as_ref().ok().map(|evaluation| evaluation.name)
+        rows.answers.points[i]
+            .as_ref()
+            .ok()
+            .map(|evaluation| evaluation.name)
     }));
     columns.push(words(
-        ("singularity", "near which singularity the posture stands"),
+        ("singularity", "a singularity near the posture"),
         series,
         |rows, i| Some(rows.answers.points[i].as_ref().ok()?.singularity?.word()),
     ));
-    // All series of an ask have the same columns.
+    // All series of an analysis have the same columns.
     let numbers = series.first().map_or_else(Vec::new, |rows| {
         let contributors = rows.setting.model.contributor_names(study.robot.robot.joints());
         let mut columns = rows
             .path
             .map_or_else(Vec::new, |(path, found)| track::columns(&path.track, found));
-        let of_holes = rows.holes.map(|(analysis, found)| holes::columns(study, analysis, found));
+        let of_holes = rows
+            .holes
+            .map(|(analysis, found)| holes::columns(study, analysis, found));
         columns.extend(of_holes.into_iter().flatten());
         columns.extend(numbers(study, contributors, rows.answers));
         columns
@@ -341,16 +351,16 @@ fn table(study: &Study, name: &str, series: &[Rows<'_>]) -> Result<Table, StudyE
     Ok(Table::new(name, columns)?)
 }
 
-/// Columns whose values are not told at every point where shares are not.
+/// Columns without values at points where shares are not computed.
 const WITH_SHARES: [&str; 2] = ["in_plane_u_um", "probability_within"];
 
-/// The columns of numbers that every ask has; `contributors` are those that have shares.
+/// The columns of numbers that every analysis has; `contributors` are those that have shares.
 fn numbers<'a>(study: &'a Study, contributors: Vec<String>, answers: &Answers) -> Vec<Numbers<'a>> {
     let (cases, shared) = (answers.case_count, answers.share_count > 0);
     let mut columns = vec![
         Numbers::deg(
             "limit_margin_deg".to_owned(),
-            "least distance of a joint to its limit (mm of a sliding joint), negative outside",
+            "least distance of a joint to its limit (mm for a prismatic joint), negative outside",
             |_, _, evaluation| {
                 let slides = study.robot.robot.slides(evaluation.limit_joint);
                 evaluation.limit_margin * if slides { 1e3 } else { 1f64.to_degrees() }
@@ -360,9 +370,9 @@ fn numbers<'a>(study: &'a Study, contributors: Vec<String>, answers: &Answers) -
             unit: None,
             decimals: 0,
             ..Numbers::um(
-                "deciding_case".to_owned(),
+                "worst_case".to_owned(),
                 "load case with the largest in-plane deviation, from 1",
-                |_, _, evaluation| evaluation.deciding_case as f64 + 1.0,
+                |_, _, evaluation| evaluation.worst_case as f64 + 1.0,
             )
         },
         Numbers::um(
@@ -380,8 +390,8 @@ fn numbers<'a>(study: &'a Study, contributors: Vec<String>, answers: &Answers) -
             decimals: 4,
             ..Numbers::um(
                 "probability_within".to_owned(),
-                "probability that the in-plane deviation is within the limit",
-                |rows, _, evaluation| probability_within(evaluation, rows.setting.limit),
+                "probability that the in-plane deviation is within the tolerance",
+                |rows, _, evaluation| probability_within(evaluation, rows.setting.tolerance),
             )
         },
         Numbers::um(
@@ -400,7 +410,7 @@ fn numbers<'a>(study: &'a Study, contributors: Vec<String>, answers: &Answers) -
     }
     let joints = study.robot.robot.joints();
     columns.extend(joints.iter().enumerate().map(|(i, joint)| {
-        let what = "joint position in the robot file's counting";
+        let what = "joint position in the convention of the robot file";
         if study.robot.robot.slides(i) {
             Numbers {
                 unit: Some("mm"),
@@ -422,7 +432,7 @@ fn numbers<'a>(study: &'a Study, contributors: Vec<String>, answers: &Answers) -
         let name = format!("share_{contributor}_um");
         Numbers::um(
             name,
-            "share of the joint (base, flange, tool) in the in-plane deviation; the shares add up to it",
+            "share of the joint (base, flange, tool) in the in-plane deviation; the sum of the shares is the deviation",
             move |rows, index, _| rows.answers.shares_at(index)[i] * 1e6,
         )
     }));
@@ -439,7 +449,7 @@ fn numbers<'a>(study: &'a Study, contributors: Vec<String>, answers: &Answers) -
     columns
 }
 
-/// The column that tells to which section a point belongs.
+/// The column with the section of a point.
 fn section(series: &[Rows<'_>]) -> Column {
     let codes = series
         .iter()
@@ -457,7 +467,7 @@ fn section(series: &[Rows<'_>]) -> Column {
     }
 }
 
-/// A column of few words, by name and description; points without one get an empty word.
+/// A column of few words, by name and description; points without one get an empty text.
 fn words<W: PartialEq + Display>(
     (name, description): (&str, &str),
     series: &[Rows<'_>],

@@ -4,22 +4,22 @@
 //! |---|---|---|
 //! | `line` | - | line of the program, or piece of the shape |
 //! | `distance_mm` | mm | along all cuts before |
-//! | `feed_mm_per_s` | mm/s | speed of the tip; empty where the program tells none |
-//! | `turn_deg` | deg | turn of the tool that a search found |
-//! | `along_um`, `cross_um`, `axial_um` | um | parts of the deviation of the deciding case, seen from the track |
-//! | `unloaded_along_um`, `unloaded_cross_um`, `unloaded_axial_um` | um | what of them backlash and geometry make |
+//! | `feed_mm_per_s` | mm/s | speed of the tip; empty if the program does not specify it |
+//! | `turn_deg` | deg | spin of the tool that a search found |
+//! | `along_um`, `cross_um`, `axial_um` | um | components of the deviation of the worst case relative to the track |
+//! | `unloaded_along_um`, `unloaded_cross_um`, `unloaded_axial_um` | um | their part due to backlash and geometry |
 
 use armill_core::path::{Pace, Parts, Track};
 
 use super::{MM_DECIMALS, Numbers};
-use crate::run::PathFound;
+use crate::run::PathResult;
 
-/// Line, way and feed, and the deviation seen from the track.
-pub(super) fn columns<'a>(track: &'a Track, found: &'a PathFound) -> Vec<Numbers<'a>> {
+/// Line, distance and feed, and the deviation relative to the track.
+pub(super) fn columns<'a>(track: &'a Track, found: &'a PathResult) -> Vec<Numbers<'a>> {
     let points = &track.path.points;
     let part = |name: &str, description: &'static str, of: fn(Parts) -> f64| {
         Numbers::um(name.to_owned(), description, move |rows, index, evaluation| {
-            let deviation = rows.answers.deviations_at(index)[evaluation.deciding_case];
+            let deviation = rows.answers.deviations_at(index)[evaluation.worst_case];
             of(track.parts(index, &deviation)) * 1e6
         })
     };
@@ -27,7 +27,7 @@ pub(super) fn columns<'a>(track: &'a Track, found: &'a PathFound) -> Vec<Numbers
         let spins = &searched.posture.spins;
         Numbers::deg(
             "turn_deg".to_owned(),
-            "turn of the tool about its axis that was found, beside the one it has without",
+            "spin of the tool about its axis that was found, relative to the one without the search",
             move |_, index, _| spins[index].to_degrees(),
         )
     });
@@ -55,7 +55,7 @@ pub(super) fn columns<'a>(track: &'a Track, found: &'a PathFound) -> Vec<Numbers
             decimals: MM_DECIMALS,
             ..Numbers::um(
                 "feed_mm_per_s".to_owned(),
-                "speed of the tip, where the program tells it",
+                "speed of the tip, if the program specifies it",
                 move |_, index, _| match points[index].pace {
                     Pace::Feed(speed) => speed * 1e3,
                     _ => f64::NAN,
@@ -64,17 +64,17 @@ pub(super) fn columns<'a>(track: &'a Track, found: &'a PathFound) -> Vec<Numbers
         },
         part(
             "along_um",
-            "deviation of the deciding case along the track",
+            "deviation of the worst case along the track",
             |parts| parts.along,
         ),
         part(
             "cross_um",
-            "deviation of the deciding case across the track, to the left",
+            "deviation of the worst case across the track, to the left",
             |parts| parts.cross,
         ),
         part(
             "axial_um",
-            "deviation of the deciding case along the tool, away from the part",
+            "deviation of the worst case along the tool, away from the part",
             |parts| parts.axial,
         ),
     ];
@@ -83,31 +83,31 @@ pub(super) fn columns<'a>(track: &'a Track, found: &'a PathFound) -> Vec<Numbers
     columns
 }
 
-/// What of the deviation no load makes; none where all of it is the load's.
-fn unloaded<'a>(track: &'a Track, found: &'a PathFound) -> Vec<Numbers<'a>> {
-    let Some(unloaded) = &found.along.unloaded else {
+/// The part of the deviation without load; none if all of it is due to the load.
+fn unloaded<'a>(track: &'a Track, found: &'a PathResult) -> Vec<Numbers<'a>> {
+    let Some(unloaded) = &found.along.backlash_geometry else {
         return Vec::new();
     };
     let part = |name: &str, description: &'static str, of: fn(Parts) -> f64| {
         Numbers::um(name.to_owned(), description, move |rows, index, evaluation| {
-            let moved = unloaded.moved[index * rows.answers.case_count + evaluation.deciding_case];
+            let moved = unloaded.displacements[index * rows.answers.case_count + evaluation.worst_case];
             of(track.parts(index, &moved)) * 1e6
         })
     };
     vec![
         part(
             "unloaded_along_um",
-            "what of along_um backlash and geometry make",
+            "part of along_um due to backlash and geometry",
             |parts| parts.along,
         ),
         part(
             "unloaded_cross_um",
-            "what of cross_um backlash and geometry make",
+            "part of cross_um due to backlash and geometry",
             |parts| parts.cross,
         ),
         part(
             "unloaded_axial_um",
-            "what of axial_um backlash and geometry make",
+            "part of axial_um due to backlash and geometry",
             |parts| parts.axial,
         ),
     ]

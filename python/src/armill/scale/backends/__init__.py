@@ -1,6 +1,6 @@
-"""Where tasks run: threads of this process (``local.py``), Dask (``dask.py``), Ray (``ray.py``).
+"""Backends that run tasks: threads of this process (``local.py``), Dask (``dask.py``), Ray (``ray.py``).
 
-A backend takes parts and gives what became of them in any order. How many are sent is not its business (``window.py``).
+A backend receives parts and returns their outcomes in any order. ``window.py`` decides how many are sent.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from armill.scale.task import Failed, Task
 
 @dataclass(frozen=True)
 class Lost:
-    """A part whose worker died, and what is known of it: another may have it."""
+    """A part whose worker died, and the known reason. It may be sent again."""
 
     part: int
     why: str
@@ -26,28 +26,28 @@ Outcome = Done | Failed | Lost
 
 
 class Backend(Protocol):
-    """Runs a task for one part after the other."""
+    """Runs a task for each part sent."""
 
     def width(self) -> int:
-        """How many parts can be at work at once, by now."""
+        """Current number of parts that can run at once."""
         ...
 
     def send(self, part: int) -> None:
-        """Takes a part."""
+        """Sends a part."""
         ...
 
     def arrived(self) -> Iterable[Outcome]:
-        """Waits until one at least of the parts sent has come to its end, and tells those that have."""
+        """Waits for at least one of the parts sent, and returns the outcomes that have arrived."""
         ...
 
     def close(self) -> None:
-        """Gives up what was sent and not told, and lets go of what was started here."""
+        """Cancels parts without an outcome, and stops what was started here."""
         ...
 
 
 @dataclass(frozen=True)
-class Wanted:
-    """What was asked of a backend: a name, an address or a client; how many workers; how long to wait for them, s."""
+class BackendOptions:
+    """Options of a backend: a name, an address or a client; number of workers; time to wait for them, s."""
 
     backend: Any
     workers: int | None
@@ -55,21 +55,21 @@ class Wanted:
     timeout: float
 
 
-def opened(wanted: Wanted, task: Task) -> Backend:
-    """The backend that is wanted, ready to take parts."""
-    backend = wanted.backend
+def opened(options: BackendOptions, task: Task) -> Backend:
+    """The requested backend, ready for parts."""
+    backend = options.backend
     if backend == "local":
         from armill.scale.backends.local import Local
 
-        return Local(wanted, task)
+        return Local(options, task)
     if isinstance(backend, str) and (backend == "ray" or backend.startswith("ray://")):
         from armill.scale.backends.ray import Ray
 
-        return Ray(wanted, task)
+        return Ray(options, task)
     is_address = isinstance(backend, str) and backend.partition("://")[0] in {"tcp", "tls", "ucx", "ws", "wss"}
     if backend == "dask" or is_address or (not isinstance(backend, str) and hasattr(backend, "submit")):
         from armill.scale.backends.dask import Dask
 
-        return Dask(wanted, task)
+        return Dask(options, task)
     hint = '"local", "dask", "ray", the address of a scheduler ("tcp://HOST:8786", "ray://HOST:10001"), or a client of dask'
-    raise refused(f"there is no backend {backend!r}", hint)
+    raise refused(f"`{backend}` is not a backend", hint)

@@ -1,7 +1,6 @@
 """Dask: a cluster of this machine, or any scheduler.
 
-The scheduler gives the tasks of a worker that is gone to others by itself; a task that took several workers with it comes
-back as ``KilledWorker``.
+The scheduler reassigns the tasks of a lost worker. A task that killed several workers is returned as ``KilledWorker``.
 """
 
 from __future__ import annotations
@@ -11,18 +10,18 @@ import time
 from collections.abc import Iterable
 from typing import Any
 
-from armill.scale.backends import Lost, Outcome, Wanted
+from armill.scale.backends import BackendOptions, Lost, Outcome
 from armill.scale.errors import SweepFailed, needed
 from armill.scale.task import Task
 
-#: The number of workers is asked for anew after so long, s: they come and go.
+#: Interval at which the number of workers is updated, s.
 LOOK_AGAIN_S = 5.0
 
 
 class Dask:
-    """A client, and the cluster where it was started here."""
+    """A client, and the cluster if it was started here."""
 
-    def __init__(self, wanted: Wanted, task: Task) -> None:
+    def __init__(self, options: BackendOptions, task: Task) -> None:
         self._distributed = needed("distributed", "scale")
         self._task = task
         self._own: list[Any] = []
@@ -30,8 +29,8 @@ class Dask:
         self._count = 0
         self._looked, self._width = -LOOK_AGAIN_S, 0
         try:
-            self._client = self._connected(wanted)
-            self._found(wanted)
+            self._client = self._connected(options)
+            self._found(options)
         except BaseException:
             self.close()
             raise
@@ -39,26 +38,26 @@ class Dask:
             [], loop=self._client.loop, with_results=True, raise_errors=False
         )
 
-    def _connected(self, wanted: Wanted) -> Any:
-        if not isinstance(wanted.backend, str):
-            return wanted.backend
-        address = wanted.backend
+    def _connected(self, options: BackendOptions) -> Any:
+        if not isinstance(options.backend, str):
+            return options.backend
+        address = options.backend
         if address == "dask":
-            address = self._started(wanted)
+            address = self._started(options)
         try:
-            client = self._distributed.Client(address, timeout=wanted.timeout, set_as_default=False)
+            client = self._distributed.Client(address, timeout=options.timeout, set_as_default=False)
         except (OSError, TimeoutError) as error:
             raise SweepFailed(
-                f"the scheduler at {address} did not answer within {wanted.timeout:g} s: is it running, and is the address right?"
+                f"the scheduler at {address} did not answer within {options.timeout:g} s: check that it is running, and the address"
             ) from error
         self._own.insert(0, client)
         return client
 
-    def _started(self, wanted: Wanted) -> str:
+    def _started(self, options: BackendOptions) -> str:
         """The address of a cluster of this machine."""
         try:
             cluster = self._distributed.LocalCluster(
-                n_workers=wanted.workers,
+                n_workers=options.workers,
                 # Threads of the mechanics, not of Dask.
                 threads_per_worker=1,
                 dashboard_address=None,
@@ -71,25 +70,25 @@ class Dask:
         address: str = cluster.scheduler_address
         return address
 
-    def _found(self, wanted: Wanted) -> None:
+    def _found(self, options: BackendOptions) -> None:
         try:
-            self._client.wait_for_workers(wanted.workers or 1, timeout=wanted.timeout)
+            self._client.wait_for_workers(options.workers or 1, timeout=options.timeout)
         except (OSError, TimeoutError) as error:
             there = len(self._client.scheduler_info(n_workers=-1)["workers"])
             raise SweepFailed(
-                f"the scheduler has {there} of {wanted.workers or 1} workers after {wanted.timeout:g} s: start them, or wait longer (timeout=)"
+                f"the scheduler has {there} of {options.workers or 1} workers after {options.timeout:g} s: start them, or wait longer (timeout=)"
             ) from error
 
     def width(self) -> int:
         now = time.monotonic()
         if now - self._looked > LOOK_AGAIN_S:
             self._looked, self._width = now, sum(self._client.nthreads().values())
-        # Without workers there is one part that waits for them.
+        # Without workers one part waits for them.
         return max(self._width, 1)
 
     def send(self, part: int) -> None:
         self._count += 1
-        # A name that no other task of the scheduler has: a part may be sent again.
+        # A unique name on the scheduler: a part may be sent again.
         key = f"armill-{self._task.fingerprint[:12]}-{id(self):x}-{self._count}-part-{part}"
         future = self._client.submit(self._task, part, key=key, pure=False)
         self._sent[future] = part

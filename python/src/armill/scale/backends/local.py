@@ -1,4 +1,4 @@
-"""Threads of this process. The mechanics runs without the lock of Python; work in plain Python wants processes: Dask."""
+"""Threads of this process. The native part runs without the lock of Python; for work in Python use processes: Dask."""
 
 from __future__ import annotations
 
@@ -6,16 +6,16 @@ import os
 from collections.abc import Iterable
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 
-from armill.scale.backends import Lost, Outcome, Wanted
+from armill.scale.backends import BackendOptions, Lost, Outcome
 from armill.scale.task import Task
 
 
 class Local:
-    """A pool of threads, a task on each."""
+    """A pool of threads, one task on each."""
 
-    def __init__(self, wanted: Wanted, task: Task) -> None:
+    def __init__(self, options: BackendOptions, task: Task) -> None:
         self._task = task
-        self._width = wanted.workers or max(_processors() // wanted.threads_per_worker, 1)
+        self._width = options.workers or max(_processors() // options.threads_per_worker, 1)
         self._pool = ThreadPoolExecutor(self._width, thread_name_prefix="armill-sweep")
         self._sent: dict[Future[Outcome], int] = {}
 

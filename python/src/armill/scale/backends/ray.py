@@ -1,4 +1,4 @@
-"""Ray: processes of this machine, or any cluster. Whether a task is done again is decided here alone."""
+"""Ray: processes of this machine, or any cluster. Ray itself does not retry tasks."""
 
 from __future__ import annotations
 
@@ -6,40 +6,40 @@ import time
 from collections.abc import Iterable
 from typing import Any
 
-from armill.scale.backends import Lost, Outcome, Wanted
+from armill.scale.backends import BackendOptions, Lost, Outcome
 from armill.scale.errors import SweepFailed, needed
 from armill.scale.task import Task
 
 
-#: The processors of the cluster are counted anew after so long, s: machines come and go.
+#: Interval at which the number of processors is updated, s.
 LOOK_AGAIN_S = 5.0
 
 
 class Ray:
-    """A connection, which is closed again where it was made here."""
+    """A connection, which is closed if it was opened here."""
 
-    def __init__(self, wanted: Wanted, task: Task) -> None:
+    def __init__(self, options: BackendOptions, task: Task) -> None:
         self._ray = needed("ray", "ray")
-        self._threads = wanted.threads_per_worker
+        self._threads = options.threads_per_worker
         self._own = not self._ray.is_initialized()
         self._sent: dict[Any, int] = {}
         self._looked, self._width = -LOOK_AGAIN_S, 1
         if self._own:
-            self._start(wanted)
+            self._start(options)
         run = self._ray.remote(_part)
         self._remote = run.options(num_cpus=self._threads, max_retries=0)
         self._task = self._ray.put(task)
 
-    def _start(self, wanted: Wanted) -> None:
+    def _start(self, options: BackendOptions) -> None:
         quiet: dict[str, Any] = {"logging_level": "error", "log_to_driver": False}
         try:
-            if wanted.backend == "ray":
-                workers = wanted.workers and wanted.workers * self._threads
+            if options.backend == "ray":
+                workers = options.workers and options.workers * self._threads
                 self._ray.init(num_cpus=workers, include_dashboard=False, **quiet)
             else:
-                self._ray.init(address=wanted.backend, **quiet)
+                self._ray.init(address=options.backend, **quiet)
         except (ConnectionError, TimeoutError, RuntimeError) as error:
-            raise SweepFailed(f"ray at {wanted.backend} cannot be reached: {error}") from error
+            raise SweepFailed(f"ray at {options.backend} cannot be reached: {error}") from error
 
     def width(self) -> int:
         now = time.monotonic()

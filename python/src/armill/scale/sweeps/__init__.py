@@ -1,1 +1,1 @@
-"""Sweeps that are ready-made: a file each with what it asks and the columns that it gives."""
+"""Predefined sweeps, one file each, with their columns."""

@@ -1,4 +1,4 @@
-"""The files that a study names: they are part of what is asked."""
+"""The files that a study names: they are part of the request."""
 
 from __future__ import annotations
 
@@ -23,5 +23,5 @@ def _is_file(path: Path) -> bool:
     try:
         return path.is_file()
     except (OSError, ValueError):
-        # A sentence is no name of a file.
+        # A sentence is not a file name.
         return False

@@ -1,19 +1,19 @@
-"""Robots x studies: every study run with every change, a row each.
+"""Robots x studies: every study with every change, one row each.
 
 An item is a study with one set of changes: keys of a study file and their values, ``{"robot": "kuka/kr120r2500pro",
 "tolerance_um": 40, "tool.flange_from_tool_mm_deg": [...]}``.
 
 ===================  =================================================================================
-column               what it is
+column               contents
 ===================  =================================================================================
-``study``            its number among those given
-``change``           that of the changes
+``study``            index of the study
+``change``           index of the set of changes
 ``answer``           the answer in one sentence
-``max_in_plane_um``  the largest of all maps, volumes, paths and sets of holes; null where nothing is reached
-``warnings``         how many there are
+``max_in_plane_um``  the largest of all maps, volumes, paths and sets of holes; null where nothing is reachable
+``warnings``         number of warnings
 ===================  =================================================================================
 
-and one for each of ``columns``: where it stands in ``result.json``, such as ``{"roundness_um": "paths.0.roundness_um"}``.
+and one for each of ``columns``: its place in ``result.json``, such as ``{"roundness_um": "paths.0.roundness_um"}``.
 """
 
 from __future__ import annotations
@@ -32,10 +32,10 @@ from armill.scale.errors import needed, refused
 from armill.scale.sweep import Block, Sweep
 from armill.scale.sweeps.named_files import named_files
 
-#: It came into Python with 3.11.
+#: In the standard library since Python 3.11.
 TOML = "tomllib" if sys.version_info >= (3, 11) else "tomli"
-#: What a study asks for, in its result.
-ASKED = ("maps", "volumes", "paths", "holes")
+#: Keys of the analyses in a result.
+ANALYSES = ("maps", "volumes", "paths", "holes")
 
 
 @dataclass(frozen=True)
@@ -75,7 +75,7 @@ class Studies:
 
     def _row(self, study: int, change: int, threads: int) -> dict[str, Any]:
         answer = self.changed(study, change).run(threads=threads).answer
-        largest = [told.get("max_in_plane_um") for asked in ASKED for told in answer.get(asked, [])]
+        largest = [analysis.get("max_in_plane_um") for kind in ANALYSES for analysis in answer.get(kind, [])]
         row: dict[str, Any] = {
             "answer": answer["answer"],
             "warnings": len(answer["warnings"]),
@@ -108,7 +108,7 @@ def _value(value: Any) -> str:
 
 
 def _at(answer: Any, where: str) -> float | None:
-    """The number at a place of the result, `paths.0.roundness_um`; None where there is null."""
+    """The number at a place of the result, `paths.0.roundness_um`; None for null."""
     found: Any = answer
     for name in where.split("."):
         try:
@@ -116,7 +116,7 @@ def _at(answer: Any, where: str) -> float | None:
         except (KeyError, IndexError, ValueError, TypeError):
             raise ValueError(f"the result has no `{where}`") from None
     if found is not None and (isinstance(found, bool) or not isinstance(found, (int, float))):
-        raise ValueError(f"`{where}` of the result is no number")
+        raise ValueError(f"`{where}` of the result is not a number")
     return found
 
 
@@ -127,18 +127,18 @@ def studies(
     robots: Sequence[str] | None = None,
     columns: Mapping[str, str] | None = None,
 ) -> Sweep:
-    """studies, changes -> Sweep: each study with each set of changes; ``robots`` are changes of the robot alone.
+    """studies, changes -> Sweep: each study with each set of changes; ``robots`` are changes of the robot only.
 
-    A robot file that is named must lie where every worker finds it, as must what a study names.
+    Every worker must have access to named robot files and to the files of the studies.
     """
     found = [study if isinstance(study, Study) else Study.load(study) for study in studies]
     if not found:
-        raise refused("there is no study", "give one at least")
+        raise refused("there is no study", "give at least one")
     sets = [dict(change) for change in changes]
     if robots is not None:
         sets = [{**change, "robot": robot} for robot in robots for change in sets]
     if not sets:
-        raise refused("there is no change", "{} leaves a study as it is")
+        raise refused("there is no set of changes", "use {} for an unchanged study")
     texts = [study.text for study in found]
     folders = [str(Path(study.folder).absolute()) for study in found]
     work = Studies(texts, folders, [], sets, dict(columns or {}))

@@ -1,14 +1,14 @@
-//! A circle in the cell, and the arm that follows it: joints and levers over the angle.
+//! A circle in the cell, and the arm that follows it: joint positions and levers over the angle.
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | `a` | angle on the circle, from its +y' towards z' | rad |
-//! | `theta` | position of a joint there, the chain's counting | rad (m) |
-//! | `l` | lever of a joint: how its screw moves the tool, per unit | m/rad (m/m) |
-//! | `g` | what moves the tool beside load and backlash: geometry, gravity | m |
+//! | `theta` | position of a joint there, chain coordinates | rad (m) |
+//! | `l` | lever of a joint: displacement of the tool per unit | m/rad (m/m) |
+//! | `g` | displacement of the tool by geometry and gravity | m |
 //!
-//! Levers and `g` are told along the axes of the circle: towards angle 0, towards 90 deg, along the normal. All are known
-//! at stations evenly round the circle; between them cubics through four stations stand for them, which leave
+//! Levers and `g` are given along the axes of the circle: towards angle 0, towards 90 deg, along the normal. All are
+//! computed at stations evenly round the circle; between them cubics through four stations interpolate with an error of
 //! the fourth power of the pitch: 1e-9 of the whole at 720 stations.
 
 use std::f64::consts::TAU;
@@ -25,10 +25,10 @@ use crate::source::{Arm, ArmState, StiffnessModel};
 use crate::spatial::Wrench;
 use crate::watch::{Cancelled, Watch};
 
-/// A circle on a plane of the cell, with the tool held still on it.
+/// A circle on a plane of the cell, with constant tool orientation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Circle {
-    /// Where its plane lies, and how the tool stands on it.
+    /// Its plane, and the tool orientation.
     pub placing: Placing,
     /// Path x and y, m.
     pub centre: Point2<f64>,
@@ -36,11 +36,11 @@ pub struct Circle {
     pub radius: f64,
 }
 
-/// Stations that a measured circle is followed at.
+/// Number of stations on a measured circle.
 pub const STATIONS: usize = 720;
-/// Fewest stations: cubics need neighbours.
+/// Minimum number of stations: cubics need neighbours.
 pub const LEAST_STATIONS: usize = 24;
-/// A joint that moves less over a whole circle stands still: rounding of the inverse, rad (m).
+/// A joint that moves less over a whole circle is at standstill: rounding of the inverse, rad (m).
 const STILL: f64 = 1e-9;
 /// A joint that turns farther from one of 24 stations to the next jumps, rad (m).
 const JUMP: f64 = 1.0;
@@ -50,14 +50,14 @@ const JUMP: f64 = 1.0;
 pub struct Followed {
     /// Nominal radius, m.
     pub radius: f64,
-    /// Where joints turn back, by joint, then by angle.
+    /// Reversals of the joints, by joint, then by angle.
     pub reversals: Vec<JointReversal>,
-    /// Least distance of a joint to its limit on the way, negative outside, rad (m).
+    /// Least margin of a joint to its limit on the path, negative outside, rad (m).
     pub limit_margin: f64,
     /// By joint.
     pub(super) joints: Vec<JointAlong>,
     /// `g` at each station.
-    pub(super) beside: Vec<Vector3<f64>>,
+    pub(super) unloaded: Vec<Vector3<f64>>,
 }
 
 /// One joint along the circle.
@@ -65,22 +65,22 @@ pub struct Followed {
 pub(super) struct JointAlong {
     /// `theta` at each station.
     pub theta: Vec<f64>,
-    /// Whether it moves by rounding alone: then it drags its link nowhere.
-    pub stands_still: bool,
-    /// How far it has gone on after a whole turn.
+    /// Whether it moves only by rounding: then its backlash has no effect.
+    pub at_standstill: bool,
+    /// Change of its position over a whole turn.
     pub winding: f64,
     /// `l` at each station.
     pub lever: Vec<Vector3<f64>>,
     /// Torque of gravity on its link at each station, N m (N).
     pub torque: Vec<f64>,
-    /// What decides on its flank.
+    /// Its side of the backlash is decided by this.
     pub side: BacklashSide,
 }
 
-/// Why an arm follows no circle.
+/// Why an arm does not follow a circle.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NotFollowed {
-    /// It does not get there.
+    /// A point is out of reach.
     #[error("at {} deg of the circle: {why}", angle.to_degrees())]
     Unreachable {
         /// rad
@@ -88,21 +88,21 @@ pub enum NotFollowed {
         /// Why.
         why: Unreachable,
     },
-    /// It changes its posture.
+    /// The posture changes.
     #[error("joint number {} jumps at {} deg of the circle", joint + 1, angle.to_degrees())]
     Jumps {
-        /// Which.
+        /// Index of the joint.
         joint: usize,
         /// rad
         angle: f64,
     },
-    /// The watch says so.
+    /// Cancelled by the watch.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
 
-/// The arm of `question` along `circle`, in the branch of the question, at so many stations (at least
-/// [`LEAST_STATIONS`]). Load cases of the question are not looked at.
+/// The arm of `question` along `circle`, in the branch of the question, at this number of stations (at least
+/// [`LEAST_STATIONS`]). Load cases of the question are ignored.
 ///
 /// # Errors
 /// [`NotFollowed`].
@@ -151,7 +151,7 @@ pub fn follow(
             theta: (0..track.len())
                 .map(|index| arm.robot.theta(joint, answers.joints_at(index)))
                 .collect(),
-            stands_still: false,
+            at_standstill: false,
             winding: 0.0,
             lever: Vec::with_capacity(track.len()),
             torque: Vec::with_capacity(track.len()),
@@ -176,17 +176,17 @@ pub fn follow(
             along.torque.push(arm_state.gravity_torques()[joint]);
         }
     }
-    let beside = (0..track.len()).map(|index| axes.tr_mul(&answers.deviations_at(index)[0]));
+    let unloaded = (0..track.len()).map(|index| axes.tr_mul(&answers.deviations_at(index)[0]));
     Ok(Followed {
         radius: circle.radius,
         reversals: reversals(&joints),
         limit_margin,
-        beside: beside.collect(),
+        unloaded: unloaded.collect(),
         joints,
     })
 }
 
-/// The same model without backlash: what is left moves the tool the same way both ways round.
+/// The same model without backlash: the rest is equal in both directions.
 fn without_gaps(model: &StiffnessModel) -> StiffnessModel {
     let mut model = model.clone();
     model.structure.backlash.clear();
@@ -194,11 +194,11 @@ fn without_gaps(model: &StiffnessModel) -> StiffnessModel {
 }
 
 impl JointAlong {
-    /// Finds how far the joint goes on in a turn, and whether it stands still.
+    /// Determines the change of the joint over a turn, and whether it is at standstill.
     fn close(&mut self, joint: usize, slides: bool) -> Result<(), NotFollowed> {
         let count = self.theta.len();
         let seam = self.theta[0] - self.theta[count - 1];
-        // The last station and the first are neighbours, by whole turns of a joint that turns.
+        // The last station and the first are neighbours, modulo whole turns of a revolute joint.
         let turns = if slides { 0.0 } else { (seam / TAU).round() };
         self.winding = -turns * TAU;
         let most = JUMP * LEAST_STATIONS as f64 / count as f64;
@@ -210,8 +210,8 @@ impl JointAlong {
         }
         let least = self.theta.iter().copied().fold(f64::INFINITY, f64::min);
         let most = self.theta.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        self.stands_still = most - least < STILL;
-        if self.stands_still {
+        self.at_standstill = most - least < STILL;
+        if self.at_standstill {
             self.theta.fill(least);
         }
         Ok(())
@@ -225,25 +225,25 @@ impl JointAlong {
 
     /// `theta` at an angle of the first turn.
     pub fn theta_at(&self, angle: f64) -> f64 {
-        if self.stands_still {
+        if self.at_standstill {
             return self.theta[0];
         }
         let count = self.theta.len();
         let (four, weights) = cubic(angle, count);
-        // Stations are counted from one turn before.
+        // Stations are numbered from one turn before.
         let of = |k: usize| self.at(four + k) - self.winding;
         (0..4).map(|k| weights[k] * of(k)).sum()
     }
 }
 
-/// What stands at `angle` (rad) between values at even stations of a turn.
+/// Interpolation at `angle` (rad) of values at even stations of a turn.
 pub(super) fn between(values: &[Vector3<f64>], angle: f64) -> Vector3<f64> {
     let (four, weights) = cubic(angle, values.len());
     let of = |k: usize| values[(four + k) % values.len()];
     (0..4).map(|k| of(k) * weights[k]).sum()
 }
 
-/// The same of plain numbers.
+/// The same for plain numbers.
 pub(super) fn between_numbers(values: &[f64], angle: f64) -> f64 {
     let (four, weights) = cubic(angle, values.len());
     (0..4)
@@ -251,7 +251,7 @@ pub(super) fn between_numbers(values: &[f64], angle: f64) -> f64 {
         .sum()
 }
 
-/// The first of four stations about an angle of a turn, counted from one turn before, and the weights of these.
+/// The first of four stations about an angle of a turn, numbered from one turn before, and their weights.
 fn cubic(angle: f64, count: usize) -> (usize, [f64; 4]) {
     let place = angle.rem_euclid(TAU) / TAU * count as f64;
     let before = place.floor();

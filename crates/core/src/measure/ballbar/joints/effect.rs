@@ -1,12 +1,12 @@
-//! What a gap of a joint makes of the radius: the same play, dragged the same way, as along any path.
+//! Effect of the backlash of a joint on the radius, with the model of backlash along any path.
 //!
 //! ```text
-//! e_i(a, s; b) = n(a) . l_i(a) u_i(a, s; b)        u by source::backlash, behind a whole turn as run-in
-//! r(a, s)      = |R n + g + sum l_i u_i|           what a bar shows, about the pivot
+//! e_i(a, s; b) = n(a) . l_i(a) u_i(a, s; b)        u by source::backlash, after a whole turn as run-in
+//! r(a, s)      = |R n + g + sum l_i u_i|           measured by a bar, about the pivot
 //! ```
 //!
-//! A joint crosses its gap while it turns back, some degrees at a time: so the effect is not quite in proportion
-//! to the gap. A gap below zero is the opposite of one above: an estimate may come out there by noise.
+//! A joint crosses its backlash while it reverses, over some degrees: the effect is therefore not exactly proportional
+//! to the backlash. A negative backlash is the opposite of a positive one: an estimate may be negative by noise.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -17,28 +17,29 @@ use super::super::run::Direction;
 use super::circle::{Followed, between, between_numbers};
 use super::reversal::JointReversal;
 use crate::robot::{Backlash, BacklashSide};
-use crate::source::backlash::{along, placements};
+use crate::source::backlash::{along, link_offset};
 use crate::spatial::{Twist, Wrench};
 
-/// Difference of gaps by which a derivative is taken, of the gap, and at least, rad (m).
+/// Difference for the derivative by the backlash, relative, and at least, rad (m).
 const STEP: [f64; 2] = [1e-4, 1e-9];
-/// So far beside a reversal its joint is looked at, rad.
+/// Range next to a reversal in which its joint is followed, rad.
 const ASIDE: f64 = 1e-3;
 
 impl Followed {
-    /// How many joints the arm has.
+    /// Number of joints of the arm.
     pub fn joint_count(&self) -> usize {
         self.joints.len()
     }
 
-    /// What the gap (rad, m) of joint `joint` makes of the radius, m, at these angles (rad, any order) gone this way.
+    /// Effect of the backlash (rad, m) of joint `joint` on the radius, m, at these angles (rad, any order) in this
+    /// direction.
     pub fn effect(&self, (joint, gap): (usize, f64), direction: Direction, angles: &[f64]) -> Vec<f64> {
         let lags = self.lags((joint, gap), direction, angles);
         let lever = |a: f64| between(&self.joints[joint].lever, a).dot(&outwards(a));
         angles.iter().zip(lags).map(|(a, lag)| lever(*a) * lag).collect()
     }
 
-    /// How the effect of a gap grows with it, m per rad (m): of a gap of nothing that of a small one over its size.
+    /// Derivative of the effect by the backlash, m per rad (m): for zero backlash that of a small one over its size.
     pub fn slope(&self, (joint, gap): (usize, f64), direction: Direction, angles: &[f64]) -> Vec<f64> {
         let step = (STEP[0] * gap.abs()).max(STEP[1]);
         let [more, less] = [gap + step, gap - step].map(|gap| self.effect((joint, gap), direction, angles));
@@ -46,10 +47,10 @@ impl Followed {
         pairs.map(|(more, less)| (more - less) / (2.0 * step)).collect()
     }
 
-    /// What a bar shows at these angles (rad) gone this way, outwards positive, m: geometry, gravity and the gaps of all
-    /// joints (rad, m; one a joint).
+    /// Radial deviations measured by a bar at these angles (rad) in this direction, outwards positive, m: geometry,
+    /// gravity and the backlash of all joints (rad, m; one per joint).
     pub fn deviation(&self, gaps: &[f64], direction: Direction, angles: &[f64]) -> Vec<f64> {
-        let mut moved: Vec<Vector3<f64>> = angles.iter().map(|a| between(&self.beside, *a)).collect();
+        let mut moved: Vec<Vector3<f64>> = angles.iter().map(|a| between(&self.unloaded, *a)).collect();
         for (joint, gap) in gaps.iter().enumerate().filter(|(_, gap)| **gap != 0.0) {
             let lags = self.lags((joint, *gap), direction, angles);
             for ((moved, a), lag) in moved.iter_mut().zip(angles).zip(lags) {
@@ -61,14 +62,14 @@ impl Followed {
         shown.map(|sample| radius(sample) - self.radius).collect()
     }
 
-    /// What is left of that without gaps at one angle, m: the same both ways.
-    pub fn beside(&self, angle: f64) -> f64 {
-        let moved = between(&self.beside, angle);
+    /// The part of that without backlash at one angle, m: equal in both directions.
+    pub fn unloaded_at(&self, angle: f64) -> f64 {
+        let moved = between(&self.unloaded, angle);
         (outwards(angle) * self.radius + moved).norm() - self.radius
     }
 
-    /// How far the radius steps outwards where a joint turns back, m, in whichever way it is gone; of a torque that holds the
-    /// flank there is no step.
+    /// Outward step of the radius where a joint reverses, m, in either direction; where a torque decides the
+    /// side there is no step.
     pub fn step(&self, reversal: &JointReversal, gap: f64) -> f64 {
         let along = &self.joints[reversal.joint];
         let before = along.theta_at(reversal.angle) - along.theta_at(wrapped(reversal.angle - ASIDE));
@@ -79,8 +80,8 @@ impl Followed {
         }
     }
 
-    /// Where the link of a joint that turns back has crossed its gap, gone this way, rad; `None` where it turns back again
-    /// before, or not within a quarter turn.
+    /// Where the link of a joint that reverses has crossed its backlash, in this direction, rad; `None` where it
+    /// reverses again before, or not within a quarter turn.
     pub fn crossed(&self, reversal: &JointReversal, gap: f64, direction: Direction) -> Option<f64> {
         let along = &self.joints[reversal.joint];
         let turned = along.theta_at(reversal.angle);
@@ -109,7 +110,7 @@ impl Followed {
             standard_uncertainty: 0.0,
             side: along_joint.side,
         };
-        // Stops in the order in which they are passed: stations, reversals, and the angles that are asked for.
+        // Stops in the order of motion: stations, reversals, and the requested angles.
         let count = along_joint.theta.len();
         let stations =
             (0..count).map(|index| (TAU * index as f64 / count as f64, along_joint.theta[index], None));
@@ -139,7 +140,7 @@ impl Followed {
             if let Some(place) = place {
                 let torque = between_numbers(&along_joint.torque, *angle);
                 let unloaded = (&Twist::ZERO, &Wrench::ZERO);
-                found[*place] = placements(&backlash, link, unloaded, torque) * gap.signum();
+                found[*place] = link_offset(&backlash, link, unloaded, torque) * gap.signum();
             }
         }
         found

@@ -1,18 +1,19 @@
-//! The gaps of all joints at once, from circular tests on one circle or several.
+//! Backlash of all joints at once, from circular tests on one circle or several.
 //!
 //! ```text
-//! least over b and the nuisance of every circle:   sum |dr - beside - nuisance - sum_i e_i(a, s; b_i)|^2
+//! least over b and the nuisance of every circle:   sum |dr - unloaded - nuisance - sum_i e_i(a, s; b_i)|^2
 //! ```
 //!
-//! by Gauss-Newton steps, since a gap is crossed while its joint turns back. `beside` is what geometry and gravity of the
-//! study move the tool by; the nuisance takes what a circle shows the same both ways (see `nuisance`).
+//! by Gauss-Newton steps, since a backlash is crossed while its joint reverses. `unloaded` is the displacement by
+//! geometry and gravity of the study; the nuisance is the part of a circle that is equal in both directions (see
+//! `nuisance`).
 //!
-//! **Told apart.** The variance of a gap over what it would be if no other joint were looked for, with the nuisance taken
-//! off, is its inflation: 1 of a joint that shows like no other. Above [`Asked::inflation`] (10 is the
-//! usual rule of regression \[recalled\]) circles tell of sums of gaps rather than of this one, and errors of the columns,
-//! since no gear has quite the play that is drawn here, grow as the noise does: such joints are named together, and not told.
+//! **Identifiability.** The variance of a backlash over its variance without the other joints, with the nuisance taken
+//! off, is its inflation: 1 of a joint that is independent of all others. Above [`BacklashOptions::inflation`] (10 is
+//! the usual rule of regression \[recalled\]) circles determine sums of backlashes rather than this one, and model
+//! errors of the columns are amplified like the noise: such joints are named together, and not reported separately.
 //!
-//! **Standard uncertainty.** With noise that is told `sigma^2 (J^T J)^-1`, else from residuals and repeated runs, as
+//! **Standard uncertainty.** With given noise `sigma^2 (J^T J)^-1`, else from residuals and repeated runs, as
 //! for the parts of a circle (`parts::trust`).
 
 use nalgebra::{DMatrix, DVector, SVD};
@@ -23,37 +24,37 @@ use super::super::run::{CircularTest, Direction, Run, RunError};
 use super::circle::Followed;
 use super::nuisance::{basis, without};
 
-/// A circular test, and the arm that went round.
+/// A circular test, and the arm that followed the circle.
 #[derive(Clone, Copy, Debug)]
 pub struct Observed<'a> {
-    /// Angles of the test are those of the circle.
+    /// The arm on the circle; angles of the test are those of the circle.
     pub followed: &'a Followed,
     /// Its runs.
     pub test: &'a CircularTest,
 }
 
-/// What is looked for.
+/// Options of the estimate.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Asked {
-    /// Joints whose gap is looked for; the others have none.
+pub struct BacklashOptions {
+    /// Joints whose backlash is estimated; the others have none.
     pub joints: Vec<usize>,
-    /// Lobes that a circle may have, the same both ways; 0: its radius alone, 2: place, scale and squareness too.
+    /// Lobes of a circle, equal in both directions; 0: its radius only, 2: position, scale and squareness too.
     pub most_lobes: usize,
     /// Standard deviation of a sample of a profile, m; `None` from the residuals.
     pub noise: Option<f64>,
-    /// Greatest inflation of a variance that counts as told apart.
+    /// Greatest inflation of the variance of an identifiable backlash.
     pub inflation: f64,
 }
 
-/// Gaps whose variance is inflated more are not told apart, where nobody says otherwise.
+/// Default of the greatest inflation of the variance.
 pub const INFLATION: f64 = 10.0;
-/// Lobes that are taken off each circle where nobody says how many.
+/// Default number of lobes that are removed from each circle.
 pub const LOBES: usize = 6;
 
-impl Asked {
-    /// All joints of an arm that has so many.
-    pub fn of_all(joints: usize) -> Asked {
-        Asked {
+impl BacklashOptions {
+    /// All joints of an arm with this number of them.
+    pub fn of_all(joints: usize) -> BacklashOptions {
+        BacklashOptions {
             joints: (0..joints).collect(),
             most_lobes: LOBES,
             noise: None,
@@ -62,70 +63,75 @@ impl Asked {
     }
 }
 
-/// The gap of one joint.
+/// The estimated backlash of one joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Gap {
-    /// Which joint.
+pub struct EstimatedBacklash {
+    /// Index of the joint.
     pub joint: usize,
-    /// rad (m); below zero by noise, or where the link is ahead of its motor.
+    /// rad (m); negative by noise, or where the link is ahead of its motor.
     pub gap: f64,
     /// Its standard uncertainty, same unit.
     pub u: f64,
 }
 
-/// What circles tell of the gaps.
+/// Result of the estimate.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Gaps {
-    /// Of each joint that was told apart.
-    pub given: Vec<Gap>,
+pub struct BacklashFit {
+    /// Of each identifiable joint.
+    pub estimates: Vec<EstimatedBacklash>,
     /// Covariance of these, in their order.
     pub covariance: DMatrix<f64>,
-    /// Sets of joints of which only a sum is seen.
+    /// Sets of joints of which only a sum is observable.
     pub together: Vec<Vec<usize>>,
-    /// Joints that do not show on any circle.
+    /// Joints without an effect on any circle.
     pub unseen: Vec<usize>,
-    /// Joints that show, each with the inflation of its variance; infinite where only a sum is seen.
+    /// Joints with an effect, each with the inflation of its variance; infinite where only a sum is observable.
     pub inflation: Vec<(usize, f64)>,
-    /// The gaps that the fit ended with, one a joint of the arm: of joints that are together one of many that fit as well.
+    /// The backlash of each joint at the end of the fit, one per joint of the arm: of joints in a set one of many equal
+    /// fits.
     pub fitted: Vec<f64>,
-    /// Root mean square of what place, size and lobes of the circles leave, m.
+    /// Root mean square of the residual of position, size and lobes of the circles, m.
     pub rms_before: f64,
-    /// And of what the gaps leave of that, m.
+    /// And of the residual with backlash, m.
     pub rms_after: f64,
-    /// Samples of the profiles that were used.
+    /// Number of samples of the profiles.
     pub samples: usize,
 }
 
-impl Gaps {
-    /// The gap of a joint, if it was told apart.
-    pub fn of(&self, joint: usize) -> Option<&Gap> {
-        self.given.iter().find(|gap| gap.joint == joint)
+impl BacklashFit {
+    /// The backlash of a joint, if it is identifiable.
+    pub fn of(&self, joint: usize) -> Option<&EstimatedBacklash> {
+        self.estimates.iter().find(|gap| gap.joint == joint)
     }
 }
 
-/// A gap of 1 rad (m) that moves the radius by less than this (m, root mean square) does not show: of 1 mrad it is a
-/// micrometre.
+/// A backlash of 1 rad (m) that moves the radius by less than this (m, root mean square) has no effect: for 1 mrad it
+/// is a micrometre.
 const LEAST_EFFECT: f64 = 1e-3;
-/// A singular value of unit columns below this is a sum that is not seen: noise would make it larger than any gap.
+/// A singular value of unit columns below this is a sum that is not observable: noise would make it larger than any
+/// backlash.
 const UNSEEN: f64 = 1e-3;
-/// Gaps whose estimates hang together by more are named together.
+/// Estimates with a greater correlation are named together.
 const TOGETHER: f64 = 0.3;
-/// Steps that change the radius by less have come to rest, m.
+/// Steps that change the radius by less have converged, m.
 const SETTLED: f64 = 1e-12;
 const MOST_ROUNDS: usize = 30;
-/// A gap to begin with, rad (m).
+/// Initial backlash, rad (m).
 const USUAL: f64 = 1e-4;
-/// Residuals that differ by less, relative, are those of one rest.
+/// Residuals that differ by less, relative, belong to one minimum.
 const ALIKE: f64 = 1e-9;
 
-/// The gaps that `observed` circles tell; `None` where they have fewer samples than there are unknowns.
+/// The backlash of the joints on the `observed` circles; `None` where they have fewer samples than there are unknowns.
 ///
 /// # Errors
-/// A test that is no test of its circle: radii farther off than half the radius.
+/// A test that does not belong to its circle: radii that differ by more than half the radius.
 ///
 /// # Panics
 /// If the circles are of arms with different numbers of joints, or there is none.
-pub fn gaps(observed: &[Observed<'_>], requested: &Asked) -> Result<Option<Gaps>, RunError> {
+pub fn fit_backlash(
+    observed: &[Observed<'_>],
+    requested: &BacklashOptions,
+) -> Result<Option<BacklashFit>, RunError> {
     let circles: Vec<Samples> = observed.iter().map(samples_of).collect::<Result<_, _>>()?;
     let rows: Vec<(usize, usize)> = circles
         .iter()
@@ -156,10 +162,12 @@ pub fn gaps(observed: &[Observed<'_>], requested: &Asked) -> Result<Option<Gaps>
     Ok(Some(sight.solve(requested, fixed)))
 }
 
-/// The samples of one circle, without what is no backlash by the study.
+/// The samples of one circle, without the parts of the study that are not backlash.
 fn samples_of(observed: &Observed<'_>) -> Result<Samples, RunError> {
     let run = |run: &Run| {
-        let left = run.samples().map(|(a, dr)| (a, dr - observed.followed.beside(a)));
+        let left = run
+            .samples()
+            .map(|(a, dr)| (a, dr - observed.followed.unloaded_at(a)));
         let (angle, deviation) = left.unzip();
         Run::new(run.direction(), angle, deviation)
     };
@@ -170,28 +178,29 @@ fn samples_of(observed: &Observed<'_>) -> Result<Samples, RunError> {
     ))
 }
 
-/// All samples, and what is taken off them.
+/// All samples, and the parts that are removed from them.
 struct Sight<'a> {
     observed: &'a [Observed<'a>],
     samples: Samples,
-    /// Where the samples of each circle begin, and how many they are.
+    /// First sample of each circle, and their number.
     rows: Vec<(usize, usize)>,
     bases: Vec<DMatrix<f64>>,
 }
 
 impl Sight<'_> {
-    fn solve(&self, requested: &Asked, fixed: usize) -> Gaps {
+    fn solve(&self, requested: &BacklashOptions, fixed: usize) -> BacklashFit {
         let joints = self.observed[0].followed.joint_count();
         let first = self.columns(&requested.joints, &vec![0.0; joints]);
         let count = self.samples.at.len() as f64;
         let shows = |column: usize| first.column(column).norm() / count.sqrt() > LEAST_EFFECT;
         let (seen, unseen): (Vec<usize>, Vec<usize>) = (0..requested.joints.len()).partition(|k| shows(*k));
-        let [seen, unseen] = [seen, unseen]
-            .map(|places| -> Vec<usize> { places.into_iter().map(|place| requested.joints[place]).collect() });
+        let [seen, unseen] = [seen, unseen].map(|places| -> Vec<usize> {
+            places.into_iter().map(|place| requested.joints[place]).collect()
+        });
         let before = self.left(&vec![0.0; joints]);
         let from = |start: Vec<f64>| self.settle(&seen, start, requested.inflation);
         let first = from(vec![0.0; joints]);
-        // Where crossings alone tell joints apart there is a second rest with a gap below zero.
+        // Where only crossings distinguish joints there is a second minimum with a negative backlash.
         let upright = from(first.0.iter().map(|gap| gap.abs()).collect());
         let alike = from(start_of(&seen, joints));
         let (fitted, rest, parted) = [first, upright, alike]
@@ -210,20 +219,20 @@ impl Sight<'_> {
                 (&parted.inverse, freedom),
             ),
         };
-        let given: Vec<usize> = (0..seen.len())
+        let reported: Vec<usize> = (0..seen.len())
             .filter(|place| !parted.together.iter().any(|set| set.contains(place)))
             .collect();
         let rms = |of: &DVector<f64>| (of.norm_squared() / count).sqrt();
-        Gaps {
-            given: given
+        BacklashFit {
+            estimates: reported
                 .iter()
-                .map(|place| Gap {
+                .map(|place| EstimatedBacklash {
                     joint: seen[*place],
                     gap: fitted[seen[*place]],
                     u: covariance[(*place, *place)].sqrt(),
                 })
                 .collect(),
-            covariance: covariance.select_columns(&given).select_rows(&given),
+            covariance: covariance.select_columns(&reported).select_rows(&reported),
             together: (parted.together.iter())
                 .map(|set| set.iter().map(|place| seen[*place]).collect())
                 .collect(),
@@ -236,7 +245,7 @@ impl Sight<'_> {
         }
     }
 
-    /// Gauss-Newton steps from these gaps: where they end, what they leave, and the columns there.
+    /// Gauss-Newton steps from these backlashes: the end, the residual, and the columns there.
     fn settle(&self, seen: &[usize], mut gaps: Vec<f64>, inflation: f64) -> (Vec<f64>, DVector<f64>, Parted) {
         let mut rest = self.left(&gaps);
         let mut parted = Parted::of(self.columns(seen, &gaps), inflation);
@@ -255,7 +264,7 @@ impl Sight<'_> {
         (gaps, rest, parted)
     }
 
-    /// What gaps of this size leave of the samples, without the nuisance.
+    /// Residual of the samples with these backlashes, without the nuisance.
     fn left(&self, gaps: &[f64]) -> DVector<f64> {
         let mut left = self.samples.deviation.clone();
         for (joint, gap) in gaps.iter().enumerate().filter(|(_, gap)| **gap != 0.0) {
@@ -266,7 +275,7 @@ impl Sight<'_> {
             .into_owned()
     }
 
-    /// How the samples grow with the gaps of these joints, without the nuisance.
+    /// Derivatives of the samples by the backlash of these joints, without the nuisance.
     fn columns(&self, joints: &[usize], gaps: &[f64]) -> DMatrix<f64> {
         let column = |joint: &usize| {
             let at = (*joint, gaps[*joint]);
@@ -279,7 +288,7 @@ impl Sight<'_> {
         }
     }
 
-    /// One value a sample, run by run.
+    /// One value per sample, run by run.
     fn column(&self, of: impl Fn(&Followed, Direction, &[f64]) -> Vec<f64>) -> DVector<f64> {
         let begins = self.samples.begins.windows(2);
         let circles = self.observed.iter().zip(&self.samples.runs);
@@ -305,25 +314,25 @@ impl Sight<'_> {
     }
 }
 
-/// Gaps of gears as they are, of the joints that show.
+/// Typical backlash of gears, of the joints with an effect.
 fn start_of(seen: &[usize], joints: usize) -> Vec<f64> {
     let gap = |joint: usize| if seen.contains(&joint) { USUAL } else { 0.0 };
     (0..joints).map(gap).collect()
 }
 
-/// Columns, with what of them can be told apart.
+/// Columns, with their identifiability.
 pub(super) struct Parted {
     columns: DMatrix<f64>,
-    /// Inverse of their normal matrix, on the sums that are seen.
+    /// Inverse of their normal matrix, on the observable sums.
     pub inverse: DMatrix<f64>,
-    /// Of each column; infinite where only a sum is seen.
+    /// Of each column; infinite where only a sum is observable.
     pub inflation: Vec<f64>,
-    /// Sets of places that are told as a sum rather than each.
+    /// Sets of indices of which only a sum is reported.
     pub together: Vec<Vec<usize>>,
 }
 
 impl Parted {
-    /// Of columns that each show something.
+    /// Of columns that each have an effect.
     pub fn of(columns: DMatrix<f64>, most_inflation: f64) -> Parted {
         let count = columns.ncols();
         if count == 0 {
@@ -338,7 +347,7 @@ impl Parted {
         let unit = DMatrix::from_fn(columns.nrows(), count, |i, k| columns[(i, k)] / length[k]);
         // The triangle has the singular values of the columns, and is small.
         let svd = SVD::new(unit.qr().r(), false, true);
-        let right = svd.v_t.expect("asked for").transpose();
+        let right = svd.v_t.expect("requested").transpose();
         let mut inverse = DMatrix::zeros(count, count);
         let mut is_sum = vec![false; count];
         for (value, sum) in svd.singular_values.iter().zip(right.column_iter()) {
@@ -353,7 +362,7 @@ impl Parted {
             .map(|k| if is_sum[k] { f64::INFINITY } else { inverse[(k, k)] })
             .collect();
         let lost: Vec<usize> = (0..count).filter(|k| inflation[*k] > most_inflation).collect();
-        // Sums that are seen hardly or not at all join those that have a part in them.
+        // Sums that are hardly observable join the columns that are part of them.
         let floor = UNSEEN * UNSEEN;
         let weak = svd.singular_values.iter().zip(right.column_iter());
         let joins: DMatrix<f64> = weak.fold(DMatrix::zeros(count, count), |joins, (value, sum)| {
@@ -369,8 +378,8 @@ impl Parted {
     }
 }
 
-/// Which of the `lost` go together: those that hang together by more than [`TOGETHER`] in `joins`, a covariance; one that is
-/// left alone hangs together with many, with each a little.
+/// Groups of the `lost`: those with a correlation above [`TOGETHER`] in `joins`, a covariance; one that is
+/// left alone is correlated with many, with each a little.
 fn sets(lost: &[usize], joins: &DMatrix<f64>) -> Vec<Vec<usize>> {
     let hang = |i: usize, k: usize| joins[(i, k)].abs() / (joins[(i, i)] * joins[(k, k)]).sqrt();
     let mut found: Vec<Vec<usize>> = Vec::new();

@@ -1,14 +1,15 @@
-//! Which joints of an arm turn back where on the circle, and how much play has each? Backlash from circular tests.
+//! Reversals of the joints of an arm on a circle, and their backlash from circular tests.
 //!
 //! ```text
-//! dr(a, s) = smooth(a) + sum over joints of  n(a) . s_i(a) u_i(a, s; b_i)        s: the way round, u_i: link minus motor
+//! dr(a, s) = smooth(a) + sum over joints of  n(a) . s_i(a) u_i(a, s; b_i)        s: direction, u_i: link minus motor
 //! ```
 //!
-//! In reading order: [`circle`] (a circle in the cell, and the arm that follows it), [`reversal`] (where joints turn back),
-//! [`effect`] (what a gap makes of the radius), `nuisance` (what of the radius is no backlash), [`fit`](mod@fit) (all gaps at once, from any number
-//! of circles, and which of them cannot be told apart), [`plan`] (circles that tell them apart).
+//! In reading order: [`circle`] (a circle in the cell, and the arm that follows it), [`reversal`] (angles where joints
+//! reverse), [`effect`] (effect of a backlash on the radius), `nuisance` (parts of the radius that are not backlash),
+//! [`fit`](mod@fit) (all joints at once, from any number of circles, and which of them are not identifiable), [`plan`]
+//! (circles that make them identifiable).
 //!
-//! Theory, and what the numbers leave out: `docs/theory/joint-backlash.md`.
+//! Theory, and limits of the method: `docs/theory/joint-backlash.md`.
 
 pub mod circle;
 pub mod effect;
@@ -18,6 +19,6 @@ pub mod plan;
 pub mod reversal;
 
 pub use circle::{Circle, Followed, NotFollowed, follow};
-pub use fit::{Asked, Gap, Gaps, Observed, gaps};
-pub use plan::{Candidate, Domain, Normal, Plan, PlanAsked, Proposed, propose};
+pub use fit::{BacklashFit, BacklashOptions, EstimatedBacklash, Observed, fit_backlash};
+pub use plan::{Candidate, CirclePlanOptions, Domain, Normal, Plan, Proposed, propose};
 pub use reversal::JointReversal;

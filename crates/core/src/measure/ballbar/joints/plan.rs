@@ -1,28 +1,28 @@
-//! Which circles tell the gaps of all joints apart?
+//! Circles that make the backlash of all joints identifiable.
 //!
-//! Candidates are circles about places of a box, in three planes of the base, of some radii; each with the tool against
+//! Candidates are circles with centres in a box, in three planes of the base, of some radii; each with the tool against
 //! the normal of its plane. Circles are taken one by one, each time the one with which
 //!
 //! ```text
 //! log det(M / sigma^2 + 1 / prior^2)        M: sum over circles of P^T P, P the columns without nuisance
 //! ```
 //!
-//! is greatest (D-optimal, as in `identify::plan`): while some sum of gaps is not seen at all that is the sum worth most,
-//! and later the one that is known worst. The same question has the same answer.
+//! is greatest (D-optimal, as in `identify::plan`): first the sums that are not observable at all,
+//! later the one with the greatest uncertainty. The result is reproducible.
 
 use nalgebra::{DMatrix, Matrix3, Point2, Point3, Rotation3, UnitQuaternion, Vector3};
 use rayon::prelude::*;
 
 use super::super::run::Direction;
 use super::circle::{Circle, Followed, NotFollowed, follow};
-use super::fit::{Gap, Parted};
+use super::fit::{EstimatedBacklash, Parted};
 use super::nuisance::{basis, without};
 use crate::frame::Isometry;
 use crate::kernel::{AT_LIMIT, Question};
 use crate::path::{Placing, Spin};
 use crate::watch::{Cancelled, Watch};
 
-/// Where circles are looked for.
+/// Range of the candidate circles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Domain {
     /// Middle of the box of centres, m, base.
@@ -37,7 +37,7 @@ pub struct Domain {
     pub radii: Vec<f64>,
 }
 
-/// Normal of a circle, along an axis of the base: the tool points against it.
+/// Normal of a circle, along an axis of the base: the tool points opposite to it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Normal {
     /// Plane xy, up: the tool points down.
@@ -50,7 +50,7 @@ pub enum Normal {
     Left,
 }
 
-/// One circle that may be driven.
+/// One candidate circle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Candidate {
     /// Its centre, m, base.
@@ -61,65 +61,66 @@ pub struct Candidate {
     pub circle: Circle,
 }
 
-/// What is asked for.
+/// Input of a plan.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PlanAsked {
-    /// How many circles more, at most.
+pub struct CirclePlanOptions {
+    /// Maximum number of further circles.
     pub count: usize,
-    /// Joints whose gaps are wanted.
+    /// Joints whose backlash is to be estimated.
     pub joints: Vec<usize>,
-    /// Lobes of a circle that are no backlash.
+    /// Lobes of a circle that are not backlash.
     pub most_lobes: usize,
-    /// Greatest inflation of a variance that counts as told apart.
+    /// Greatest inflation of the variance of an identifiable backlash.
     pub inflation: f64,
     /// Standard deviation of a sample, m: half a degree apart, both ways, one run each.
     pub noise: f64,
 }
 
-/// A circle that was chosen.
+/// A selected circle.
 #[derive(Clone, Debug)]
 pub struct Proposed {
-    /// Which.
+    /// The candidate.
     pub candidate: Candidate,
     /// The arm along it, at [`STATIONS`] stations.
     pub followed: Followed,
-    /// What is known with it and all before.
-    pub known: Known,
+    /// Expected result with it and all before.
+    pub known: ExpectedUncertainty,
 }
 
-/// What circles together will tell.
+/// Expected result of several circles.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Known {
-    /// Greatest inflation of a variance, of the joints that show; none where none does, infinite where only a sum is seen.
+pub struct ExpectedUncertainty {
+    /// Greatest inflation of a variance, of the joints with an effect; none where there is none, infinite where only a
+    /// sum is observable.
     pub inflation: Option<f64>,
-    /// Standard uncertainties to expect; gaps are those that were assumed. Of joints that are told apart.
-    pub given: Vec<Gap>,
-    /// Sets of joints of which only a sum is seen.
+    /// Expected standard uncertainties of the identifiable joints; their backlash is the assumed one.
+    pub estimates: Vec<EstimatedBacklash>,
+    /// Sets of joints of which only a sum is observable.
     pub together: Vec<Vec<usize>>,
-    /// Joints that do not show.
+    /// Joints without an effect.
     pub unseen: Vec<usize>,
 }
 
 /// Circles to drive.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// What is known before; of no circle nothing shows.
-    pub begun: Known,
-    /// In the order in which they were chosen.
+    /// Expected result before; without circles no joint has an effect.
+    pub begun: ExpectedUncertainty,
+    /// In the order of their selection.
     pub circles: Vec<Proposed>,
-    /// Candidates that were looked at, and those that the arm follows within its limits.
+    /// Number of candidates, and of those that the arm follows within its limits.
     pub candidates: [usize; 2],
 }
 
 /// Stations of a candidate.
 pub const STATIONS: usize = 180;
-/// A gap that is assumed, rad (m).
+/// The assumed backlash, rad (m).
 const ASSUMED: f64 = 1e-4;
-/// Gaps are not known beforehand beyond this, rad (m).
+/// Prior standard uncertainty of a backlash, rad (m).
 const PRIOR: f64 = 1e-3;
 /// Samples of a measured circle, one way.
 const SAMPLES: f64 = 720.0;
-/// See [`super::fit`]: a gap of 1 rad (m) that moves the radius by less (m) does not show.
+/// See [`super::fit`]: a backlash of 1 rad (m) that moves the radius by less (m) has no effect.
 const LEAST_EFFECT: f64 = 1e-3;
 
 impl Normal {
@@ -186,14 +187,14 @@ fn circle(centre: Point3<f64>, normal: Normal, radius: f64) -> Circle {
     }
 }
 
-/// Circles of `candidates` to drive beside those that were `begun`, in the branch of `question`.
+/// Circles of `candidates` in addition to those already `begun`, in the branch of `question`.
 ///
 /// # Errors
 /// [`Cancelled`] if the watch says so.
 pub fn propose(
     question: &Question<'_>,
     (candidates, begun): (&[Candidate], &[Followed]),
-    requested: &PlanAsked,
+    requested: &CirclePlanOptions,
     watch: Watch<'_>,
 ) -> Result<Plan, Cancelled> {
     let reached: Vec<(Candidate, Followed, DMatrix<f64>)> = candidates
@@ -218,15 +219,17 @@ pub fn propose(
         .collect::<Result<_, _>>()?;
     let joints = requested.joints.len();
     let zero = DMatrix::zeros(joints, joints);
-    let mut sum: DMatrix<f64> = begun.iter().fold(zero, |sum, one| sum + information(one, requested));
+    let mut sum: DMatrix<f64> = begun
+        .iter()
+        .fold(zero, |sum, one| sum + information(one, requested));
     let before = known(&sum, requested);
     let mut chosen: Vec<usize> = Vec::new();
     let mut circles = Vec::new();
     while chosen.len() < requested.count {
         let free = (0..reached.len()).filter(|place| !chosen.contains(place));
-        let worth = free.map(|place| (place, log_determinant(&(&sum + &reached[place].2), requested)));
-        // Of equal ones the first.
-        let best = worth.reduce(|best, next| if next.1 > best.1 { next } else { best });
+        let gains = free.map(|place| (place, log_determinant(&(&sum + &reached[place].2), requested)));
+        // The first of equal ones.
+        let best = gains.reduce(|best, next| if next.1 > best.1 { next } else { best });
         let Some((place, _)) = best else { break };
         let (candidate, followed, own) = &reached[place];
         sum += own;
@@ -244,10 +247,10 @@ pub fn propose(
     })
 }
 
-/// `P^T P` of a circle both ways, as of [`SAMPLES`] samples each.
-fn information(followed: &Followed, requested: &PlanAsked) -> DMatrix<f64> {
+/// `P^T P` of a circle in both directions, with [`SAMPLES`] samples each.
+fn information(followed: &Followed, requested: &CirclePlanOptions) -> DMatrix<f64> {
     let pitch = std::f64::consts::TAU / STATIONS as f64;
-    // Half a pitch beside the axes, where most joints turn back.
+    // Half a pitch off the axes, where most joints reverse.
     let angles: Vec<f64> = (0..STATIONS).map(|k| (k as f64 + 0.5) * pitch).collect();
     let both: Vec<f64> = angles.iter().chain(&angles).copied().collect();
     let columns = DMatrix::from_fn(both.len(), requested.joints.len(), |_, _| 0.0);
@@ -264,15 +267,15 @@ fn information(followed: &Followed, requested: &PlanAsked) -> DMatrix<f64> {
     left.tr_mul(&left) * (SAMPLES / STATIONS as f64)
 }
 
-fn log_determinant(information: &DMatrix<f64>, requested: &PlanAsked) -> f64 {
+fn log_determinant(information: &DMatrix<f64>, requested: &CirclePlanOptions) -> f64 {
     let count = information.nrows();
     let all = information / requested.noise.powi(2) + DMatrix::identity(count, count) / PRIOR.powi(2);
     all.cholesky()
         .map_or(f64::NEG_INFINITY, |root| root.l().diagonal().map(f64::ln).sum())
 }
 
-/// What this information tells.
-fn known(information: &DMatrix<f64>, requested: &PlanAsked) -> Known {
+/// Expected result of this information.
+fn known(information: &DMatrix<f64>, requested: &CirclePlanOptions) -> ExpectedUncertainty {
     let samples = 2.0 * SAMPLES;
     let shows = |k: &usize| (information[(*k, *k)] / samples).sqrt() > LEAST_EFFECT;
     let (seen, unseen): (Vec<usize>, Vec<usize>) = (0..requested.joints.len()).partition(shows);
@@ -282,11 +285,11 @@ fn known(information: &DMatrix<f64>, requested: &PlanAsked) -> Known {
     let roots = eigen.eigenvalues.map(|value| value.max(0.0).sqrt());
     let columns = DMatrix::from_diagonal(&roots) * eigen.eigenvectors.transpose();
     let parted = Parted::of(columns, requested.inflation);
-    let given = (0..seen.len()).filter(|place| !parted.together.iter().any(|set| set.contains(place)));
-    Known {
+    let reported = (0..seen.len()).filter(|place| !parted.together.iter().any(|set| set.contains(place)));
+    ExpectedUncertainty {
         inflation: parted.inflation.iter().copied().reduce(f64::max),
-        given: given
-            .map(|place| Gap {
+        estimates: reported
+            .map(|place| EstimatedBacklash {
                 joint: requested.joints[seen[place]],
                 gap: ASSUMED,
                 u: requested.noise * parted.inverse[(place, place)].sqrt(),

@@ -1,27 +1,27 @@
-//! Where joints turn back on a circle.
+//! Reversals of the joints on a circle.
 //!
 //! ```text
 //! theta'(a) = 0        theta' by five points, fourth order; its zero by a cubic through four
 //! ```
 //!
-//! Place alone decides: a joint turns back at the same angle whichever way round.
+//! Only the geometry decides: a joint reverses at the same angle in both directions.
 
 use std::f64::consts::TAU;
 
 use super::circle::{JointAlong, between_numbers};
 
-/// A joint turns back here.
+/// A reversal of a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointReversal {
-    /// Which joint.
+    /// Index of the joint.
     pub joint: usize,
-    /// Where on the circle, 0 to below a turn, rad.
+    /// Angle on the circle, 0 to below a turn, rad.
     pub angle: f64,
 }
 
 /// A speed below this part of the greatest is rounding.
 const ROUNDING: f64 = 1e-9;
-/// Halvings that lead to a zero: past rounding.
+/// Maximum number of halvings for a zero: beyond rounding.
 const HALVINGS: usize = 50;
 
 /// All of them, by joint, then by angle.
@@ -52,7 +52,7 @@ fn zeros(values: &[f64]) -> Vec<f64> {
         let counts = value.abs() > ROUNDING * greatest;
         counts.then_some(value > 0.0)
     };
-    // From a station with a sign on, so that a stretch without one has both its ends.
+    // From a station with a nonzero value on, so that a stretch of zeros has both its ends.
     let Some(first) = (0..count).find(|index| sign(*index).is_some()) else {
         return Vec::new();
     };
@@ -82,7 +82,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn zeros_of_a_wave_are_where_it_has_them_on_a_station_or_between() {
+    fn zeros_of_a_wave_are_found_on_stations_and_between() {
         for shift in [0.0, 0.3, -1e-12] {
             let values: Vec<f64> = (0..360)
                 .map(|k| (2.0 * (f64::from(k).to_radians() - shift)).sin())

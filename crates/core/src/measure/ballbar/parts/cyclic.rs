@@ -1,8 +1,8 @@
-//! The period that the error of an axis repeats with, where nobody tells it.
+//! The period of the cyclic error of an axis, where it is not given.
 //!
-//! Periods are tried from that of four samples to the radius, evenly in turns along an axis; for each, what its four waves (see
-//! [`super::term`]) explain of what the other parts leave. The best is taken where that is more than noise gives: as
-//! `F` of four unknowns, beyond `LEAST_F`.
+//! Periods are tried from that of four samples to the radius, evenly in turns along an axis; for each, the part that
+//! its four waves (see [`super::term`]) explain of the residual of the other parts. The best is taken where that is
+//! above noise: as `F` of four unknowns, beyond `LEAST_F`.
 
 use std::f64::consts::TAU;
 
@@ -10,18 +10,18 @@ use nalgebra::{DMatrix, DVector};
 
 use super::super::profile::Profile;
 use super::super::run::{CircularTest, Direction};
-use super::fit::{Asked, rest_without_cyclic};
+use super::fit::{PartsOptions, rest_without_cyclic};
 use super::term::{Axis, Term, Wave};
 
 /// Noise gives less in all but one of 1e4 searches over some hundred periods.
 const LEAST_F: f64 = 12.0;
-/// Trials a turn more along the diameter: a wave between two is missed by little.
+/// Trials per turn along the diameter: a wave between two is missed only slightly.
 const TRIALS_A_TURN: f64 = 4.0;
 /// Finer trials round the best one, to each side.
 const FINER: i32 = 20;
 
-/// The periods that a test can tell, m: that of four samples where they are densest, and the radius. A shorter one is seen
-/// as another, a longer one is not seen to repeat.
+/// The periods that a test resolves, m: that of four samples where they are densest, and the radius. A shorter one is
+/// seen as another, a longer one does not repeat.
 pub fn periods(test: &CircularTest) -> [f64; 2] {
     let densest = test
         .runs()
@@ -33,8 +33,8 @@ pub fn periods(test: &CircularTest) -> [f64; 2] {
     [least, test.radius()]
 }
 
-/// The period of the strongest cyclic error along either axis, m; `None` where none stands out.
-pub fn strongest_period(test: &CircularTest, requested: &Asked) -> Option<f64> {
+/// The period of the strongest cyclic error along either axis, m; `None` where none is significant.
+pub fn strongest_period(test: &CircularTest, requested: &PartsOptions) -> Option<f64> {
     let (samples, rows, rest) = rest_without_cyclic(test, requested)?;
     let base = rows.clone().qr().q();
     let [shortest, longest] = periods(test);
@@ -57,14 +57,14 @@ pub fn strongest_period(test: &CircularTest, requested: &Asked) -> Option<f64> {
     (freedom > 0.0 && f > LEAST_F && rest.norm() > 0.0).then(|| test.radius() / turns)
 }
 
-/// Squares of the residuals that waves of so many turns along a radius explain.
+/// Squares of the residuals explained by waves of this many turns along a radius.
 fn explained(at: &[(f64, Direction)], (base, rest): (&DMatrix<f64>, &DVector<f64>), turns: f64) -> f64 {
     let terms =
         [Axis::A, Axis::B].map(|axis| [Wave::Cosine, Wave::Sine].map(|wave| Term::Cyclic(axis, wave)));
     let waves = DMatrix::from_fn(at.len(), 4, |row, column| {
         terms[column / 2][column % 2].at(at[row], (&[], TAU * turns))
     });
-    // What the other terms can tell of a wave is theirs.
+    // The projection of a wave on the other terms belongs to those.
     let own = &waves - base * base.tr_mul(&waves);
     let q = own.qr().q();
     q.tr_mul(rest).norm_squared()

@@ -4,13 +4,13 @@
 //! dr(a, s) = sum over terms of  value * term(a, s)  +  rest
 //! ```
 //!
-//! over the profiles of all runs, about the set-up centre: there reversals are where the drives reverse. What the place
-//! of the circle makes of second order, `e^2/2R`, is taken off before. A sample on a reversal is on neither side of it
-//! and left out.
+//! over the profiles of all runs, about the set-up centre: there reversals are where the drives reverse. The
+//! second-order effect of the position of the circle, `e^2/2R`, is subtracted before. A sample on a reversal is on
+//! neither side of it and left out.
 //!
-//! Terms that the runs cannot tell apart are named: clockwise alone, a radius that goes with the direction is a radius.
-//! Of each such set the last term is left out, so that the first holds the sum. A term that stands alone in its set was not
-//! seen at all: a reversal in a gap.
+//! Terms that are not distinguishable are named: with clockwise runs only, a radius that depends on the direction is a
+//! radius. Of each such set the last term is left out, so that the first is the sum. A single term in its set has no
+//! effect on the test: a reversal in a gap.
 
 use nalgebra::{DMatrix, DVector, Vector2};
 
@@ -21,21 +21,21 @@ use super::term::{Axis, ON_STEP, Reversal, Term, Wave};
 use super::trust::covariance;
 use crate::identify::Spread;
 
-/// Which parts are looked for.
+/// Options of the analysis.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Asked {
-    /// Where drives reverse.
+pub struct PartsOptions {
+    /// Angles where drives reverse.
     pub reversals: Vec<Reversal>,
-    /// Most lobes; below 3 none.
+    /// Maximum number of lobes; below 3 none.
     pub most_lobes: usize,
     /// Period of a cyclic error along either axis, m.
     pub period: Option<f64>,
 }
 
-/// One part, with how sure it is.
+/// One part, with its uncertainty.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
-    /// What it is.
+    /// The term.
     pub term: Term,
     /// m
     pub value: f64,
@@ -43,31 +43,32 @@ pub struct Part {
     pub u: f64,
 }
 
-/// What a test is made of.
+/// Parts of a test.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parts {
-    /// One a term that was told apart.
+    /// One per identifiable term.
     pub parts: Vec<Part>,
-    /// Sets of terms of which only a sum is known, or a single one that nothing is known of; the last of each is not
+    /// Sets of terms of which only a sum is known, or a single one without effect; the last of each is not
     /// among the parts.
     pub together: Vec<Vec<Term>>,
-    /// Covariance of radius and scale mismatch, m^2: over an arc they hang together. 0 where one is not among the parts.
+    /// Covariance of radius and scale mismatch, m^2: over an arc they are correlated. 0 where one is not among the
+    /// parts.
     pub scale_covariance: f64,
     /// Root mean square of the radial deviation without the radius and the offset of the fit, m.
     pub rms_before: f64,
-    /// And of what no part explains, m.
+    /// And of the residual of all parts, m.
     pub rms_after: f64,
-    /// Samples of the profiles that were used.
+    /// Number of samples of the profiles.
     pub samples: usize,
 }
 
 impl Parts {
-    /// The part of a term, if it was told apart.
+    /// The part of a term, if it is identifiable.
     pub fn of(&self, term: Term) -> Option<&Part> {
         self.parts.iter().find(|part| part.term == term)
     }
 
-    /// The part of a term, if it was told apart from all others: no sum.
+    /// The part of a term, if it is identifiable separately: not a sum.
     pub fn alone(&self, term: Term) -> Option<&Part> {
         let in_sum = self.together.iter().any(|set| set.contains(&term));
         self.of(term).filter(|_| !in_sum)
@@ -78,19 +79,20 @@ impl Parts {
 pub(in super::super) struct Samples {
     /// Angle (rad) and direction.
     pub at: Vec<(f64, Direction)>,
-    /// Radial deviation without what is of second order in the offset, m.
+    /// Radial deviation without the second-order effect of the offset, m.
     pub deviation: DVector<f64>,
-    /// Where each run begins, and where the last one ends.
+    /// First sample of each run, and the end of the last one.
     pub begins: Vec<usize>,
-    /// How many runs each circle has; one circle, of one test.
+    /// Number of runs of each circle; one circle, of one test.
     pub runs: Vec<usize>,
 }
 
-/// What `asked` makes of the test; `None` where there are fewer samples than terms, or of a period of no length.
-pub fn parts(test: &CircularTest, requested: &Asked) -> Option<Parts> {
+/// The parts of the test with options `requested`; `None` where there are fewer samples than terms, or for a period of
+/// no length.
+pub fn parts(test: &CircularTest, requested: &PartsOptions) -> Option<Parts> {
     let samples = Samples::of(test, &requested.reversals);
     let mut terms = all_terms(requested);
-    let (rows, spread, together) = told_apart(&samples, &mut terms, requested, test.radius())?;
+    let (rows, spread, together) = identifiable(&samples, &mut terms, requested, test.radius())?;
     let values = solved(&rows, &samples.deviation, &spread);
     let rest = &samples.deviation - &rows * &values;
     let freedom = rows.nrows() - rows.ncols();
@@ -99,7 +101,7 @@ pub fn parts(test: &CircularTest, requested: &Asked) -> Option<Parts> {
     let place = |term: Term| terms.iter().position(|of| *of == term);
     let scales = place(Term::Radius).zip(place(Term::ScaleMismatch));
     let scale_covariance = scales.map_or(0.0, |both| covariance[both]);
-    // A step that no sample stands beside is a guess of its shape: it counts in the fit and is not told.
+    // A step without samples on both sides depends on its assumed shape: it is used in the fit and not reported.
     let unseen = unseen(test, &requested.reversals);
     let found = terms
         .iter()
@@ -123,18 +125,18 @@ pub fn parts(test: &CircularTest, requested: &Asked) -> Option<Parts> {
     })
 }
 
-/// The residuals of a fit without cyclic error, with the rows that made them; see [`super::cyclic`].
+/// The residuals of a fit without cyclic error, with its rows; see [`super::cyclic`].
 pub(super) fn rest_without_cyclic(
     test: &CircularTest,
-    requested: &Asked,
+    requested: &PartsOptions,
 ) -> Option<(Samples, DMatrix<f64>, DVector<f64>)> {
-    let requested = Asked {
+    let requested = PartsOptions {
         period: None,
         ..requested.clone()
     };
     let samples = Samples::of(test, &requested.reversals);
     let mut terms = all_terms(&requested);
-    let (rows, spread, _) = told_apart(&samples, &mut terms, &requested, test.radius())?;
+    let (rows, spread, _) = identifiable(&samples, &mut terms, &requested, test.radius())?;
     let values = solved(&rows, &samples.deviation, &spread);
     let rest = &samples.deviation - &rows * &values;
     Some((samples, rows, rest))
@@ -144,7 +146,7 @@ impl Samples {
     pub(in super::super) fn of(test: &CircularTest, reversals: &[Reversal]) -> Samples {
         let offset = least_squares_centre(test).map_or_else(Vector2::zeros, |centre| centre.offset);
         let radius = test.radius();
-        // What is left of |R n + e| without R and e . n.
+        // |R n + e| without R and e . n.
         let second_order = |angle: f64| {
             let n = Vector2::new(angle.cos(), angle.sin());
             (n * radius + offset).norm() - radius - offset.dot(&n)
@@ -169,7 +171,7 @@ impl Samples {
         }
     }
 
-    /// Those of several circles, one behind the other.
+    /// Those of several circles, one after the other.
     pub(in super::super) fn joined(circles: &[Samples]) -> Samples {
         let (mut at, mut deviation, mut begins) = (Vec::new(), Vec::new(), vec![0]);
         for circle in circles {
@@ -190,9 +192,9 @@ impl Samples {
 fn unseen(test: &CircularTest, reversals: &[Reversal]) -> Vec<Term> {
     let profiles: Vec<Profile> = test.runs().iter().map(Profile::of).collect();
     // At a sample a profile is known even where a gap begins.
-    let beside = |angle: f64| [angle - 2.0 * ON_STEP, angle + 2.0 * ON_STEP];
+    let both_sides = |angle: f64| [angle - 2.0 * ON_STEP, angle + 2.0 * ON_STEP];
     let is_seen = |angle: f64| {
-        let both = |profile: &Profile| beside(angle).iter().all(|side| profile.at(*side).is_some());
+        let both = |profile: &Profile| both_sides(angle).iter().all(|side| profile.at(*side).is_some());
         profiles.iter().any(both)
     };
     let reversals = reversals.iter().enumerate();
@@ -202,8 +204,8 @@ fn unseen(test: &CircularTest, reversals: &[Reversal]) -> Vec<Term> {
         .collect()
 }
 
-/// Every term that is asked for, in the order in which they are told.
-fn all_terms(requested: &Asked) -> Vec<Term> {
+/// Every requested term, in the order of the results.
+fn all_terms(requested: &PartsOptions) -> Vec<Term> {
     let mut terms = vec![
         Term::Radius,
         Term::Offset(Axis::A),
@@ -224,11 +226,11 @@ fn all_terms(requested: &Asked) -> Vec<Term> {
     terms
 }
 
-/// Rows of the terms that are told apart, and their spread; takes the others out of `terms` and gives the sets.
-fn told_apart(
+/// Rows of the identifiable terms, and their spread; removes the others from `terms` and returns the sets.
+fn identifiable(
     samples: &Samples,
     terms: &mut Vec<Term>,
-    requested: &Asked,
+    requested: &PartsOptions,
     radius: f64,
 ) -> Option<(DMatrix<f64>, Spread, Vec<Vec<Term>>)> {
     let turns = requested
@@ -238,7 +240,7 @@ fn told_apart(
         return None;
     }
     let mut sets = Vec::new();
-    // Each round takes a term out.
+    // Each round removes a term.
     loop {
         if terms.is_empty() || samples.at.len() <= terms.len() {
             return None;
@@ -255,14 +257,14 @@ fn told_apart(
     }
 }
 
-/// Least squares through the covariance, once more for what rounding left.
+/// Least squares through the covariance, with one refinement for rounding.
 fn solved(rows: &DMatrix<f64>, right: &DVector<f64>, spread: &Spread) -> DVector<f64> {
     let first = &spread.covariance * rows.tr_mul(right);
     let left = right - rows * &first;
     first + &spread.covariance * rows.tr_mul(&left)
 }
 
-/// Squares of the deviation about the circle of the fit: without its radius and its place.
+/// Squares of the deviation about the circle of the fit: without its radius and its position.
 fn about_circle(samples: &Samples, terms: &[Term], rows: &DMatrix<f64>, values: &DVector<f64>) -> f64 {
     let circle = DVector::from_fn(values.len(), |index, _| match terms[index] {
         Term::Radius | Term::Offset(_) => values[index],

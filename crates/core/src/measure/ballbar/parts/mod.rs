@@ -1,7 +1,7 @@
-//! Which part of a measured circle comes from what? Scale, squareness, where it lies, steps at reversals, cyclic error.
+//! Parts of a measured circle: scale, squareness, position, steps at reversals, cyclic error.
 //!
-//! In reading order: [`term`] (what each makes of the radius), [`fit`](mod@fit) (all of them at once, by least squares), `trust`
-//! (how sure they are), [`cyclic`] (the period that the residuals repeat with).
+//! In reading order: [`term`] (effect of each on the radius), [`fit`](mod@fit) (all of them at once, by least squares),
+//! `trust` (their uncertainties), [`cyclic`] (the period of the residuals).
 
 pub mod cyclic;
 pub mod fit;
@@ -9,5 +9,5 @@ pub mod term;
 pub(super) mod trust;
 
 pub use cyclic::{periods, strongest_period};
-pub use fit::{Asked, Part, Parts, parts};
+pub use fit::{Part, Parts, PartsOptions, parts};
 pub use term::{Axis, Reversal, Step, Term, Wave, of_axes};

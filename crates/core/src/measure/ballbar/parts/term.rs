@@ -1,28 +1,29 @@
-//! What each error makes of the radius along the circle.
+//! Effect of each error on the radius along the circle.
 //!
-//! With `a` the angle, `s` the direction (+1 anticlockwise, -1 clockwise), `(x, y) = R (cos a, sin a)` and small errors:
+//! With `a` the angle, `s` the direction (+1 anticlockwise, -1 clockwise), `(x, y) = R (cos a, sin a)` and small
+//! errors:
 //!
-//! | term | makes of the radius | its value, m |
+//! | term | effect on the radius | its value, m |
 //! |---|---|---|
 //! | radius | `1` | mean of both scales, `R (alpha + beta)/2` |
-//! | offset along A, B | `cos a`, `sin a` | where the circle lies |
+//! | offset along A, B | `cos a`, `sin a` | position of the circle |
 //! | scale mismatch | `cos 2a` | `R (alpha - beta)/2`: A long, B short where positive |
 //! | squareness | `-sin 2a` | `R sigma/2`: the angle between +A and +B is 90 deg + `sigma` |
 //! | direction radius | `s/2` | radius anticlockwise minus clockwise |
 //! | servo mismatch | `s sin 2a` | `v (tau_A - tau_B)/2`: A lags behind B where positive |
-//! | reversal | see below | height of the step outwards, in the way it is gone |
+//! | reversal | see below | height of the step outwards, in the direction of motion |
 //! | lobes | `cos n a`, `sin n a` | amplitude, n from 3 |
 //! | cyclic | `cos a` or `sin a` times a wave over `x` or `y` | amplitude along the axis |
 //!
-//! A drive with the gap `b` lags behind by half of it, so an axis that reverses at `a_k` leaves
+//! A drive with the backlash `b` lags behind by half of it, so an axis that reverses at `a_k` leaves
 //! `s/2 sign(sin(a - a_k)) cos(a - a_k)` of `b`: at `a_k` the radius steps outwards by `b`, on the other side of the
-//! circle too. Each side is a step of its own, since few axes have the same gap on both:
+//! circle too. Each side is a separate step, since few axes have the same backlash on both:
 //!
 //! ```text
 //! h/2 s sign(sin(a - a_k)) max(0, cos(a - a_k))
 //! ```
 //!
-//! `alpha`, `beta`: scale errors of the axes; `v`: speed along the path; `tau`: how long a drive lags behind.
+//! `alpha`, `beta`: scale errors of the axes; `v`: speed along the path; `tau`: lag of a drive.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -37,7 +38,7 @@ pub enum Axis {
     B,
 }
 
-/// Which of the two of a wave.
+/// Phase of a wave.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wave {
     /// Even.
@@ -46,21 +47,21 @@ pub enum Wave {
     Sine,
 }
 
-/// Where a drive reverses along the circle: one gap, with the steps that it makes.
+/// A reversal of a drive along the circle: one backlash, with its steps.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reversal {
-    /// As results call it.
+    /// Its name in results.
     pub name: String,
-    /// Every place where it shows.
+    /// Every angle where it has an effect.
     pub steps: Vec<Step>,
 }
 
-/// One place where a drive reverses.
+/// One angle where a drive reverses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step {
     /// rad
     pub angle: f64,
-    /// How far the radius steps outwards there for one unit of the gap, in the way it is gone: clockwise, anticlockwise.
+    /// Outward step of the radius there per unit of backlash, in the direction of motion: clockwise, anticlockwise.
     pub outwards: [f64; 2],
 }
 
@@ -69,7 +70,7 @@ pub struct Step {
 pub enum Term {
     /// Mean radius.
     Radius,
-    /// Where the circle lies.
+    /// Position of the circle.
     Offset(Axis),
     /// Ellipse along the axes.
     ScaleMismatch,
@@ -79,9 +80,9 @@ pub enum Term {
     DirectionRadius,
     /// Ellipse between the axes that turns with the direction.
     ServoMismatch,
-    /// Gap of a reversal, by its place in the list.
+    /// Backlash of a reversal, by its index in the list.
     Reversal(usize),
-    /// So many lobes, 3 or more.
+    /// This number of lobes, 3 or more.
     Lobes(usize, Wave),
     /// Error of an axis that repeats along it.
     Cyclic(Axis, Wave),
@@ -106,7 +107,7 @@ pub fn of_axes(names: [&str; 2]) -> Vec<Reversal> {
 }
 
 impl Step {
-    /// What the step leaves of one unit, at an angle (rad) in a direction.
+    /// Effect of the step of one unit, at an angle (rad) in a direction.
     pub fn at(&self, angle: f64, direction: Direction) -> f64 {
         let (sine, cosine) = (angle - self.angle).sin_cos();
         let side = if sine == 0.0 { 0.0 } else { sine.signum() };
@@ -134,7 +135,7 @@ impl Axis {
 }
 
 impl Term {
-    /// What one metre of this term makes of the radius at an angle; `turns` is the phase of a cyclic error at the end of
+    /// Effect of one metre of this term on the radius at an angle; `turns` is the phase of a cyclic error at the end of
     /// an axis: `2 pi R` over its period.
     pub fn at(&self, (angle, direction): (f64, Direction), (reversals, turns): (&[Reversal], f64)) -> f64 {
         let sign = direction.sign();
@@ -170,7 +171,7 @@ mod tests {
 
     const R: f64 = 0.1;
 
-    /// Radius of what a machine makes of the circle: `act` turns the commanded place into the actual one.
+    /// Radius of a machine on the circle: `act` turns the commanded position into the actual one.
     fn radial(angle: f64, act: impl Fn(f64, f64) -> (f64, f64)) -> f64 {
         let (x, y) = act(R * angle.cos(), R * angle.sin());
         x.hypot(y) - R
@@ -180,7 +181,7 @@ mod tests {
         term.at((angle, direction), (&of_axes(["X", "Y"]), TAU * R / 0.01))
     }
 
-    /// Against the geometry itself; what is left is the square of the error over the radius.
+    /// Compared with the geometry itself; the difference is the square of the error over the radius.
     fn same(term: Term, value: f64, act: impl Fn(f64, f64, f64) -> (f64, f64)) {
         for direction in Direction::BOTH {
             for deg in 0..360 {
@@ -196,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn scale_and_squareness_are_those_of_axes_that_are_long_and_askew() {
+    fn scale_and_squareness_are_those_of_axes_with_length_and_angle_errors() {
         same(Term::Radius, R * 50e-6, |x, y, _| {
             (x * (1.0 + 50e-6), y * (1.0 + 50e-6))
         });
@@ -208,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn a_drive_that_lags_behind_makes_an_ellipse_that_turns_with_the_direction() {
+    fn a_drive_with_lag_makes_an_ellipse_that_depends_on_the_direction() {
         // At 100 mm/s A is 40 us late.
         let (v, late) = (0.1, 40e-6);
         same(Term::ServoMismatch, v * late / 2.0, |x, y, sign| {
@@ -218,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn an_axis_with_a_gap_lags_behind_by_half_of_it_both_ways() {
+    fn an_axis_with_backlash_lags_behind_by_half_of_it_in_both_directions() {
         let gap = 10e-6;
         for (axis, ends) in [(Axis::A, [0, 1]), (Axis::B, [2, 3])] {
             for direction in Direction::BOTH {
@@ -244,17 +245,17 @@ mod tests {
     }
 
     #[test]
-    fn the_radius_steps_outwards_by_the_gap_whichever_way_it_is_gone() {
+    fn the_radius_steps_outwards_by_the_backlash_in_either_direction() {
         for (end, angle) in [0.0, PI, FRAC_PI_2, -FRAC_PI_2].into_iter().enumerate() {
             for direction in Direction::BOTH {
-                let beside = |side: f64| {
+                let radius_at = |side: f64| {
                     at(
                         Term::Reversal(end),
                         angle + side * direction.sign() * 1e-7,
                         direction,
                     )
                 };
-                assert!((beside(1.0) - beside(-1.0) - 1.0).abs() < 1e-6);
+                assert!((radius_at(1.0) - radius_at(-1.0) - 1.0).abs() < 1e-6);
             }
         }
         let across = Step {
@@ -265,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cyclic_error_moves_its_axis_by_a_wave_of_its_place() {
+    fn a_cyclic_error_moves_its_axis_by_a_wave_over_its_position() {
         let wave = |x: f64| 2e-6 * (TAU * x / 0.01).cos();
         same(Term::Cyclic(Axis::A, Wave::Cosine), 2e-6, |x, y, _| {
             (x + wave(x), y)

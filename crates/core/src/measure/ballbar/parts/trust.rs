@@ -1,21 +1,22 @@
-//! How sure each part is: from what the parts leave, and from runs that should be alike.
+//! Uncertainty of each part: from the residuals, and from repeated runs.
 //!
 //! | from | standard uncertainty |
 //! |---|---|
 //! | residuals | `sqrt(C_jj sigma^2 tau)`, `C` the inverse of the normal matrix, `sigma^2` the mean square left |
-//! | repeat runs | each run adds its part to a value; the scatter of these among runs of one direction |
+//! | repeated runs | each run adds its part to a value; the scatter of these among runs of one direction |
 //!
-//! Residuals along a circle hang together: `tau = 1 + 2 sum rho_k` counts how many samples tell what one would, `rho_k`
-//! their correlation `k` samples apart, up to the first that is not positive. Where runs scatter more than residuals
-//! say, in the mean over all parts, all are as much less sure; and no part is surer than its own scatter.
+//! Residuals along a circle are correlated: `tau = 1 + 2 sum rho_k` is the number of samples with the information of
+//! one, `rho_k` their correlation `k` samples apart, up to the first that is not positive. Where runs scatter more than
+//! the residuals indicate, in the mean over all parts, all uncertainties are increased; and no part has less than its
+//! own scatter.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::super::run::Direction;
 use super::fit::Samples;
 
-/// Covariance of the values of the columns of `rows`, from what they leave and the inverse of their normal matrix; so many
-/// samples count beside all that was fitted.
+/// Covariance of the values of the columns of `rows`, from the residuals and the inverse of their normal matrix; the
+/// degrees of freedom are those of this many samples.
 pub(in super::super) fn covariance(
     samples: &Samples,
     (rows, rest): (&DMatrix<f64>, &DVector<f64>),
@@ -32,7 +33,7 @@ pub(in super::super) fn covariance(
         .map(|(runs, rest)| if *rest > 0.0 { runs / rest } else { 0.0 })
         .sum();
     let wider = (ratio / known.len() as f64).max(1.0);
-    // What hangs together goes on doing so: each grows as its own uncertainty does.
+    // Correlated parts stay correlated: each grows as its own uncertainty does.
     let grown = |k: usize| match known[k] > 0.0 {
         true => (known[k] * wider).max(of_runs[k]).sqrt() / known[k].sqrt(),
         false => 1.0,
@@ -42,7 +43,7 @@ pub(in super::super) fn covariance(
     })
 }
 
-/// `tau`: the variance of a sum of residuals over what it would be if they did not hang together.
+/// `tau`: the variance of a sum of residuals over that of uncorrelated ones.
 fn hanging_together(samples: &Samples, rest: &DVector<f64>) -> f64 {
     let runs: Vec<&[f64]> = samples
         .begins
@@ -91,7 +92,7 @@ fn between_runs(
     Some(sum)
 }
 
-/// The same of one circle, from what each run adds.
+/// The same of one circle, from the additions of each run.
 fn between_runs_of_one_circle(added: &[(Direction, DVector<f64>)], values: usize) -> Option<Vec<f64>> {
     let of = |direction: Direction| -> Vec<&DVector<f64>> {
         let runs = added.iter().filter(|(of, _)| *of == direction);
@@ -105,7 +106,7 @@ fn between_runs_of_one_circle(added: &[(Direction, DVector<f64>)], values: usize
     let [clockwise, anticlockwise] = Direction::BOTH.map(of);
     let variance = |index: usize| -> f64 {
         let sides = [(&clockwise, &anticlockwise), (&anticlockwise, &clockwise)];
-        // A single run scatters as those the other way do.
+        // A single run is given the scatter of the other direction.
         let of = |(own, other): (&Vec<&DVector<f64>>, &Vec<&DVector<f64>>)| {
             let repeated = if own.len() > 1 { own } else { other };
             own.len() as f64 * scatter(repeated, index)

@@ -1,4 +1,4 @@
-//! Which chains have a closed form, and that it does not matter how their joints are counted.
+//! Which chains have a closed form, and that the coordinates of their joints have no effect on it.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -76,7 +76,7 @@ fn ideal() -> [Chain; 2] {
     [ortho_parallel([0.0; 6]), three_parallel([0.0; 6])].map(|motions| Chain::new(motions).unwrap())
 }
 
-/// The same angles, whole turns aside.
+/// The same angles modulo whole turns.
 fn same(a: &[f64], b: &[f64], within: f64) -> bool {
     let away = |(a, b): (&f64, &f64)| (a - b - TAU * ((a - b) / TAU).round()).abs();
     a.iter().zip(b).map(away).all(|away| away < within)
@@ -97,7 +97,7 @@ fn poses(chain: &Chain, count: usize) -> Vec<([f64; 6], Isometry)> {
 }
 
 #[test]
-fn every_condition_that_is_broken_by_a_micrometre_is_noticed_and_made_up_for() {
+fn every_condition_that_is_violated_by_a_micrometre_is_noticed_and_compensated() {
     let kinds: [fn([f64; 6]) -> Vec<Motion>; 2] = [ortho_parallel, three_parallel];
     for (kind, motions) in kinds.into_iter().enumerate() {
         let is_kind = |form: Option<ClosedForm>| match form {
@@ -114,7 +114,7 @@ fn every_condition_that_is_broken_by_a_micrometre_is_noticed_and_made_up_for() {
                 off[condition] = by;
                 Chain::new(motions(off)).unwrap()
             };
-            // Rounding is none of our business; a micrometre is; two centimetres are another arm.
+            // Rounding is ignored; a micrometre is noticed; two centimetres are another arm.
             assert!(is_kind(ClosedForm::recognise(&off(1e-11))), "{kind} {condition}");
             assert!(ClosedForm::recognise(&off(1e-6)).is_none(), "{kind} {condition}");
             assert!(is_kind(ClosedForm::next_to(&off(1e-6))), "{kind} {condition}");
@@ -133,7 +133,8 @@ fn the_ideal_neighbour_of_an_ideal_arm_is_the_arm_itself() {
         );
         for (_, pose) in poses(&chain, 100) {
             for branch in Branch::ALL {
-                // The neighbour keeps its elbow off the end of its range, within 2.6 deg: it answers beyond it as well.
+                // The elbow of the neighbour is limited to 2.6 deg from the end of its range: it answers beyond it as
+                // well.
                 if let Ok((own, _)) = form.chain_positions(&pose, branch, None)
                     && (own[2] + bend_at_zero).sin().abs() > 0.05
                 {
@@ -146,7 +147,7 @@ fn the_ideal_neighbour_of_an_ideal_arm_is_the_arm_itself() {
 }
 
 #[test]
-fn the_branch_that_was_asked_for_is_the_branch_that_comes() {
+fn the_requested_branch_is_returned() {
     for chain in ideal() {
         let form = ClosedForm::recognise(&chain).unwrap();
         let (mut came, mut own_too) = (0, 0);
@@ -171,7 +172,7 @@ fn the_branch_that_was_asked_for_is_the_branch_that_comes() {
     }
 }
 
-/// `chain` with joint `i` counted from `-zeros[i]`, and against the right hand where `reversed`.
+/// `chain` with the zero of joint `i` at `-zeros[i]`, and against the right hand where `reversed`.
 fn recounted(chain: &Chain, zeros: &[f64; 6], reversed: &[bool; 6]) -> Chain {
     let mut motions = Vec::new();
     for motion in chain.motions() {
@@ -188,7 +189,7 @@ fn recounted(chain: &Chain, zeros: &[f64; 6], reversed: &[bool; 6]) -> Chain {
 }
 
 #[test]
-fn postures_do_not_depend_on_how_joints_are_counted() {
+fn postures_do_not_depend_on_joint_coordinates() {
     let mut stream = Stream(5);
     for chain in ideal() {
         let form = ClosedForm::recognise(&chain).unwrap();
@@ -209,7 +210,7 @@ fn postures_do_not_depend_on_how_joints_are_counted() {
             for theta in here {
                 let given: [f64; 6] =
                     std::array::from_fn(|i| (theta[i] - zeros[i]) * if reversed[i] { -1.0 } else { 1.0 });
-                // Where a branch ends two postures run into each other: known to the root of rounding.
+                // Where a branch ends two postures merge: accurate to the root of rounding.
                 assert!(
                     there.iter().any(|other| same(other, &given, 1e-6)),
                     "{given:?} {there:?}"
@@ -225,7 +226,7 @@ fn singularities_are_flagged_at_nine_tenths_of_their_bound_and_not_at_eleven() {
     let form = ClosedForm::recognise(&chain).unwrap();
     for (part, near) in [(0.9, true), (1.1, false)] {
         let sine = part * NEAR_SINGULAR;
-        // At chain zero the upper arm stands upright and the forearm is level: the elbow is bent by a quarter turn.
+        // At chain zero the upper arm is vertical and the forearm is level: the elbow is bent by a quarter turn.
         let with_bend = |psi: f64, bend: f64| [0.3, psi, bend - FRAC_PI_2, 0.2, 1.0, -0.4];
         let flagged = |theta: [f64; 6]| form.name(&theta).1;
         let expected = |singularity| near.then_some(singularity);
@@ -243,7 +244,7 @@ fn singularities_are_flagged_at_nine_tenths_of_their_bound_and_not_at_eleven() {
             let psi = ((r - A1) / cos.hypot(sin)).asin() - sin.atan2(cos);
             let theta = with_bend(psi, 1.0);
             assert_eq!(flagged(theta), expected(Singularity::Shoulder));
-            // The inverse says the same of the same posture.
+            // The inverse reports the same for the same posture.
             let (branch, _) = form.name(&theta);
             let (_, given) = form
                 .chain_positions(&chain.base_from_flange(&theta), branch, None)
@@ -281,7 +282,7 @@ fn a_wrist_centre_out_of_reach_misses_by_the_distance() {
         matches!(miss, Unreachable::TooFar { by } if (by - 0.05).abs() < 1e-12),
         "{miss}"
     );
-    // The folded arm keeps 40 mm from the shoulder: here the wrist stands 10 mm above it.
+    // The folded arm stays 40 mm from the shoulder: here the wrist is 10 mm above it.
     let folded = Isometry::translation(A1 + 0.1, 0.0, 0.41);
     let miss = form.chain_positions(&folded, Branch::ALL[0], None).unwrap_err();
     assert!(
@@ -291,14 +292,14 @@ fn a_wrist_centre_out_of_reach_misses_by_the_distance() {
 }
 
 #[test]
-fn a_neighbour_answers_a_little_beyond_the_reach() {
+fn a_neighbour_answers_slightly_beyond_the_reach() {
     let chain = Chain::new(ortho_parallel([1e-4; 6])).unwrap();
     let next = ClosedForm::next_to(&chain).unwrap();
     let at = |beyond: f64| {
         let level = Isometry::translation(A1 + L2 + L3 + 0.1 + beyond, 0.0, 0.4);
         next.chain_positions(&level, Branch::ALL[0], None)
     };
-    // The lengths of the neighbour differ from the drawn ones by some 1e-4 m.
+    // The lengths of the neighbour differ from the nominal ones by some 1e-4 m.
     assert!(at(SLACK - 1e-3).is_ok());
     assert!(matches!(at(SLACK + 1e-3), Err(Unreachable::TooFar { .. })));
 }

@@ -1,4 +1,4 @@
-//! Descents: how fast they end, what they leave alone, and where joints to spare are drawn to.
+//! Descents: convergence, fixed joints, and redundant joints.
 
 use nalgebra::DMatrix;
 
@@ -54,7 +54,7 @@ fn near_the_pose_every_step_squares_the_error() {
 }
 
 #[test]
-fn a_pose_that_is_held_already_leaves_every_bit() {
+fn a_pose_that_is_already_reached_changes_no_bit() {
     let robot = arms::other::oblique();
     let theta = near_middle(&robot, &mut Stream(3), 1.0);
     let mut found = theta.clone();
@@ -65,7 +65,7 @@ fn a_pose_that_is_held_already_leaves_every_bit() {
 }
 
 #[test]
-fn a_joint_that_stands_still_keeps_every_bit() {
+fn a_fixed_joint_keeps_every_bit() {
     let robot = arms::other::iiwa14();
     let chain = robot.chain();
     let mut descent = Descent::new(chain);
@@ -75,20 +75,20 @@ fn a_joint_that_stands_still_keeps_every_bit() {
         let there = near_middle(&robot, &mut stream, 1.2);
         let goal = goal(&robot, &there);
         let mut theta: Vec<f64> = there.iter().map(|t| t + stream.between(-0.1, 0.1)).collect();
-        let stands = theta[2];
-        if descent.reach_beside(chain, &goal, 2, &mut theta).is_ok() {
+        let fixed = theta[2];
+        if descent.reach_with_fixed(chain, &goal, 2, &mut theta).is_ok() {
             assert!(descent.error(chain, &goal, &theta).norm() < 1e-9);
             reached += 1;
         }
-        assert_eq!(theta[2].to_bits(), stands.to_bits());
-        // Nothing of it stays: the next descent moves all joints.
+        assert_eq!(theta[2].to_bits(), fixed.to_bits());
+        // No lasting effect: the next descent moves all joints.
         assert_eq!(descent.still, None);
     }
     assert!(reached > 30, "{reached} of 40");
 }
 
 #[test]
-fn joints_to_spare_end_where_no_motion_of_their_own_leads_nearer_home() {
+fn redundant_joints_end_where_no_self_motion_leads_nearer_home() {
     let robot = arms::other::iiwa14();
     let chain = robot.chain();
     let mut descent = Descent::new(chain);
@@ -103,7 +103,7 @@ fn joints_to_spare_end_where_no_motion_of_their_own_leads_nearer_home() {
         assert!(descent.error(chain, &goal, &theta).norm() < 1e-9);
         let distance = |theta: &[f64]| -> f64 { theta.iter().zip(&home).map(|(a, b)| (a - b).powi(2)).sum() };
         assert!(distance(&theta) <= distance(&there) + 1e-9);
-        // The motion that leaves the flange where it is: what all columns together do not see.
+        // The self-motion: the null space of all columns.
         descent.error(chain, &goal, &theta);
         descent.linearise(chain);
         let j = DMatrix::from_fn(6, 7, |row, column| descent.columns[column][row]);
@@ -150,7 +150,7 @@ fn joints_are_dependent_where_the_singular_values_say_so() {
 }
 
 #[test]
-fn a_pose_out_of_reach_is_not_found_by_what_is_missing() {
+fn a_pose_out_of_reach_is_not_found_and_the_remaining_error_is_reported() {
     let robot = arms::other::oblique();
     let mut descent = Descent::new(robot.chain());
     let far = Goal::new(&Isometry::translation(9.0, 0.0, 0.0));

@@ -1,9 +1,9 @@
-//! The postures of one robot at one pose after the other, with room that is reused.
+//! The postures of one robot at one pose after the other, with reused memory.
 //!
 //! Closed forms give each branch at once; a calibrated arm takes them as starts; those without names for their branches
 //! are in `unnamed`. Other chains are searched from starts spread over the ranges of their joints, or from the
-//! postures of the pose before, in `search`. All work in chain positions; joints are counted, and every posture is
-//! verified by forward kinematics, in one place.
+//! postures of the pose before, in `search`. All work in chain positions; the conversion to joint positions and the
+//! verification by forward kinematics are in one place.
 
 mod search;
 mod unnamed;
@@ -18,50 +18,50 @@ use super::super::posture::{PostureName, Sides, Singularity};
 use super::super::unreachable::Unreachable;
 use super::closed_form::ClosedForm;
 use super::descent::{Descent, Goal};
-use super::holds;
 use super::kind::Inverse;
+use super::verify;
 use crate::frame::Isometry;
 use search::{MOST, SAME, THOROUGH};
 
-/// Where the flange should be, and where the arm stood or likes to stand.
+/// The requested flange pose, with the joint positions before it and at home.
 #[derive(Clone, Copy, Debug)]
-pub struct Wanted<'a> {
+pub struct InverseTarget<'a> {
     /// The flange, in base.
     pub base_from_flange: Isometry,
     /// Joint positions of the point before, if there is one.
     pub near: Option<&'a [f64]>,
-    /// Joint positions where a rail or a joint to spare stands, and that further joints to spare are drawn to; without,
-    /// the middle of their ranges, or zero where they have none.
+    /// Joint positions at which a rail or a fixed redundant joint is kept, and to which other redundant joints are
+    /// pulled; by default the middle of their ranges, or zero where they have none.
     pub home: Option<&'a [f64]>,
 }
 
-/// A posture that holds the flange where it was wanted.
+/// A posture of the requested flange pose.
 #[derive(Clone, Debug)]
-pub struct Found {
+pub struct InverseSolution {
     /// Its name.
     pub name: PostureName,
     /// Joint positions `q`, rad (m).
     pub joints: Vec<f64>,
-    /// Near which singularity, if any.
+    /// The singularity that it is near, if any.
     pub singularity: Option<Singularity>,
 }
 
-/// Finds postures; made once a thread.
+/// Finds postures; one per thread.
 #[derive(Debug)]
 pub struct Finder<'r> {
     robot: &'r Robot,
     arm: Arm<'r>,
     frames: Frames,
     descent: Descent,
-    found: Vec<Found>,
+    found: Vec<InverseSolution>,
     /// Of each posture found: chain positions of the arm, kept for the pose that follows.
     before: Vec<Vec<f64>>,
     home: Vec<f64>,
-    /// The joint that stands still, and where.
-    stands: Option<(usize, f64)>,
+    /// The fixed joint, and its position.
+    fixed: Option<(usize, f64)>,
 }
 
-/// The chain that postures are found for: the robot's own, or what its rail carries.
+/// The chain of the inverse: the robot's own, or that of the arm on its rail.
 #[derive(Clone, Copy, Debug)]
 struct Arm<'r> {
     chain: &'r Chain,
@@ -91,7 +91,7 @@ impl<'r> Arm<'r> {
 }
 
 impl<'r> Finder<'r> {
-    /// Room to find postures of `robot`.
+    /// Working memory for the postures of `robot`.
     pub fn new(robot: &'r Robot) -> Finder<'r> {
         let arm = Arm::of(robot);
         Finder {
@@ -102,11 +102,11 @@ impl<'r> Finder<'r> {
             found: Vec::with_capacity(8),
             before: Vec::new(),
             home: vec![0.0; robot.joints().len()],
-            stands: None,
+            fixed: None,
         }
     }
 
-    /// Forgets the postures of the pose before: the next search starts anew.
+    /// Forgets the postures of the previous pose: the next search starts without them.
     pub fn forget(&mut self) {
         self.before.clear();
     }
@@ -116,25 +116,29 @@ impl<'r> Finder<'r> {
     ///
     /// # Errors
     /// The reason of the branch that misses by least, or how near a search came.
-    pub fn all(&mut self, expected: &Wanted<'_>) -> Result<&[Found], Unreachable> {
+    pub fn all(&mut self, expected: &InverseTarget<'_>) -> Result<&[InverseSolution], Unreachable> {
         self.find(expected, BranchPattern::default(), MOST)
     }
 
-    /// The postures whose branch matches; of a chain without named branches the one nearest to `near`, or to the posture
-    /// before, or to `home`.
+    /// The postures whose branch matches; of a chain without named branches the one nearest to `near`, or to the
+    /// posture before, or to `home`.
     ///
     /// # Errors
     /// Those of [`Finder::all`].
-    pub fn matching(&mut self, expected: &Wanted<'_>, pattern: BranchPattern) -> Result<&[Found], Unreachable> {
+    pub fn matching(
+        &mut self,
+        expected: &InverseTarget<'_>,
+        pattern: BranchPattern,
+    ) -> Result<&[InverseSolution], Unreachable> {
         self.find(expected, pattern, 1)
     }
 
     fn find(
         &mut self,
-        expected: &Wanted<'_>,
+        expected: &InverseTarget<'_>,
         pattern: BranchPattern,
         most: usize,
-    ) -> Result<&[Found], Unreachable> {
+    ) -> Result<&[InverseSolution], Unreachable> {
         self.found.clear();
         self.settle_home(expected);
         let arm_from_flange = self.base_from_arm().inv_mul(&expected.base_from_flange);
@@ -142,7 +146,7 @@ impl<'r> Finder<'r> {
             Inverse::Closed(form) => self.branches(form, expected, &arm_from_flange, pattern),
             Inverse::Polished(form) => self.polished(form, expected, &arm_from_flange, pattern),
             Inverse::SphericalWrist(form) => self.with_wrist(form, expected, &arm_from_flange, most),
-            Inverse::OneStands(arm_state) => self.with_one_arm_state(arm_state, expected, &arm_from_flange, most),
+            Inverse::OneFixed(fixed) => self.with_fixed_joint(fixed, expected, &arm_from_flange, most),
             Inverse::Searched | Inverse::OnRail(_) => self.search(expected, &arm_from_flange, most, THOROUGH),
         };
         if self.found.is_empty() {
@@ -151,8 +155,8 @@ impl<'r> Finder<'r> {
         Ok(&self.found)
     }
 
-    /// Home with nothing left out.
-    fn settle_home(&mut self, expected: &Wanted<'_>) {
+    /// Sets every joint of home.
+    fn settle_home(&mut self, expected: &InverseTarget<'_>) {
         match expected.home {
             Some(home) => self.home.copy_from_slice(home),
             None => {
@@ -163,7 +167,7 @@ impl<'r> Finder<'r> {
         }
     }
 
-    /// Where the rail has brought the arm.
+    /// Frame of the rail's end.
     fn base_from_arm(&self) -> Isometry {
         let mut base_from_arm = Isometry::identity();
         for motion in self.arm.rail {
@@ -176,7 +180,7 @@ impl<'r> Finder<'r> {
         base_from_arm
     }
 
-    /// Chain positions of the arm at joint positions of the robot.
+    /// Chain positions of the arm for joint positions of the robot.
     fn chain_positions(&self, q: &[f64]) -> Vec<f64> {
         (self.arm.first..q.len())
             .map(|i| self.robot.theta(i, q))
@@ -186,7 +190,7 @@ impl<'r> Finder<'r> {
     fn branches(
         &mut self,
         form: &ClosedForm,
-        expected: &Wanted<'_>,
+        expected: &InverseTarget<'_>,
         arm_from_flange: &Isometry,
         pattern: BranchPattern,
     ) -> Option<Unreachable> {
@@ -204,36 +208,36 @@ impl<'r> Finder<'r> {
         missed
     }
 
-    /// The branches of a calibrated arm, from those of the ideal one. The ideal arm names them too: where it stands
-    /// nearly straight a descent may end in another branch than it came from.
+    /// The branches of a calibrated arm, from those of the ideal one. The ideal arm also names them: near a straight
+    /// posture a descent may end in another branch than that of its start.
     fn polished(
         &mut self,
         form: &ClosedForm,
-        expected: &Wanted<'_>,
+        expected: &InverseTarget<'_>,
         arm_from_flange: &Isometry,
         pattern: BranchPattern,
     ) -> Option<Unreachable> {
         let near = expected.near.map(|q| self.chain_positions(q));
         let goal = Goal::new(arm_from_flange);
         let mut missed: Option<Unreachable> = None;
-        // Branches that are asked for first: mostly they are what the others need not be looked at for.
+        // Requested branches first: usually they make the others unnecessary.
         let (requested, others): (Vec<Branch>, Vec<Branch>) = Branch::ALL
             .into_iter()
             .partition(|branch| pattern.matches(*branch));
-        let mut strayed = false;
+        let mut renamed = false;
         for branch in requested.iter().chain(&others) {
-            if !pattern.matches(*branch) && !strayed {
+            if !pattern.matches(*branch) && !renamed {
                 break;
             }
             let solved = form.chain_positions(arm_from_flange, *branch, near.as_deref());
             let kept = solved.and_then(|(mut theta, _)| {
                 self.descent.reach(self.arm.chain, &goal, &mut theta)?;
                 let (own, singularity) = form.name(&theta);
-                strayed |= own != *branch;
+                renamed |= own != *branch;
                 if self.is_known(&theta, SAME) {
                     return Ok(());
                 }
-                // Beside a singularity the ideal arm may give two postures one name: the second keeps its start's.
+                // Near a singularity the ideal arm may give two postures one name: the second keeps that of its start.
                 let taken = self
                     .found
                     .iter()
@@ -255,8 +259,9 @@ impl<'r> Finder<'r> {
 
     /// Whether these chain positions, whole turns apart, have been found already.
     fn is_known(&self, theta: &[f64], same: f64) -> bool {
-        let is =
-            |found: &Found| (0..theta.len()).all(|i| self.between(i, theta[i], &found.joints).abs() < same);
+        let is = |found: &InverseSolution| {
+            (0..theta.len()).all(|i| self.between(i, theta[i], &found.joints).abs() < same)
+        };
         self.found.iter().any(is)
     }
 
@@ -271,7 +276,7 @@ impl<'r> Finder<'r> {
         }
     }
 
-    fn keep_searched(&mut self, expected: &Wanted<'_>, theta: &[f64]) -> Result<(), Unreachable> {
+    fn keep_searched(&mut self, expected: &InverseTarget<'_>, theta: &[f64]) -> Result<(), Unreachable> {
         let (name, singularity) = match self.arm.inverse.names() {
             Some(form) => {
                 let (branch, singularity) = form.name(theta);
@@ -288,18 +293,18 @@ impl<'r> Finder<'r> {
         self.keep(expected, theta, name, singularity)
     }
 
-    /// Counts the joints of a posture, verifies it and keeps it; sides are told from the joints counted.
+    /// Converts a posture to joint positions, verifies it and stores it; sides are derived from the joint positions.
     fn keep(
         &mut self,
-        expected: &Wanted<'_>,
+        expected: &InverseTarget<'_>,
         theta: &[f64],
         name: PostureName,
         singularity: Option<Singularity>,
     ) -> Result<(), Unreachable> {
-        let joints = self.counted(theta, expected.near);
+        let joints = self.joint_positions(theta, expected.near);
         forward_into(self.robot, &joints, &mut self.frames);
-        holds(&self.frames, &expected.base_from_flange)?;
-        self.found.push(Found {
+        verify(&self.frames, &expected.base_from_flange)?;
+        self.found.push(InverseSolution {
             name: match name {
                 PostureName::Branch(_) => name,
                 PostureName::Sides(_) => sides(self.robot, &joints),
@@ -311,41 +316,41 @@ impl<'r> Finder<'r> {
     }
 
     /// Joint positions of the robot at chain positions of the arm, its rail at home.
-    fn counted(&self, theta: &[f64], near: Option<&[f64]>) -> Vec<f64> {
+    fn joint_positions(&self, theta: &[f64], near: Option<&[f64]>) -> Vec<f64> {
         let mut joints = self.home.clone();
         for (i, theta) in theta.iter().enumerate() {
             let joint = self.arm.first + i;
-            if let Some((_, place)) = self.stands.filter(|(stands, _)| *stands == joint) {
+            if let Some((_, place)) = self.fixed.filter(|(fixed, _)| *fixed == joint) {
                 joints[joint] = place;
                 continue;
             }
-            let counted = self.robot.joint_position(joint, *theta, &joints);
+            let position = self.robot.joint_position(joint, *theta, &joints);
             joints[joint] = if self.robot.slides(joint) {
-                counted
+                position
             } else {
-                self.whole_turns(joint, counted, near)
+                self.whole_turns(joint, position, near)
             };
         }
         joints
     }
 
-    /// The count of a turning joint as near as possible to where it stood, if its limits allow, otherwise to the
-    /// middle of its range. An ortho-parallel arm takes the middle always, as its lanes do.
-    fn whole_turns(&self, joint: usize, counted: f64, near: Option<&[f64]>) -> f64 {
+    /// The position of a revolute joint, by whole turns as near as possible to the previous one within its limits,
+    /// otherwise to the middle of its range. An ortho-parallel arm always takes the middle, as its lanes do.
+    fn whole_turns(&self, joint: usize, position: f64, near: Option<&[f64]>) -> f64 {
         let limits = self.robot.joints()[joint].limits;
         if let Some(near) = near
             && self.robot.ortho_parallel().is_none()
         {
-            let close = nearest_turn(counted, near[joint]);
+            let close = nearest_turn(position, near[joint]);
             if limits.is_none_or(|limits| limits.margin(close) >= 0.0) {
                 return close;
             }
         }
-        nearest_turn(counted, limits.map_or(0.0, |limits| limits.middle()))
+        nearest_turn(position, limits.map_or(0.0, |limits| limits.middle()))
     }
 }
 
-/// Name of the posture at the joint positions `q`, and the singularity it stands near, if any.
+/// Name of the posture at the joint positions `q`, and the singularity that it is near, if any.
 pub(super) fn name(robot: &Robot, q: &[f64]) -> (PostureName, Option<Singularity>) {
     let arm = Arm::of(robot);
     let theta: Vec<f64> = (arm.first..q.len()).map(|i| robot.theta(i, q)).collect();
@@ -365,7 +370,7 @@ fn sides(robot: &Robot, q: &[f64]) -> PostureName {
     PostureName::Sides(Sides::of(q, &robot.middles()))
 }
 
-/// The miss that is smaller.
+/// The smaller miss.
 fn nearer(known: Option<Unreachable>, miss: Unreachable) -> Unreachable {
     known.filter(|known| !miss.is_nearer_than(known)).unwrap_or(miss)
 }
@@ -373,7 +378,7 @@ fn nearer(known: Option<Unreachable>, miss: Unreachable) -> Unreachable {
 /// `angle` plus whole turns, in (middle - pi, middle + pi].
 fn nearest_turn(angle: f64, middle: f64) -> f64 {
     let away = (angle - middle) / TAU;
-    // A hair below -half a turn is half a turn: -180 deg and 180 deg are one posture.
+    // Slightly below -half a turn is half a turn: -180 deg and 180 deg are one posture.
     angle - TAU * (away - 0.5 - 1e-12).ceil()
 }
 

@@ -6,29 +6,29 @@ use super::super::super::unreachable::Unreachable;
 use super::super::descent::Goal;
 use super::super::kind::ENOUGH;
 use super::super::starts::spread;
-use super::{Finder, Found, Wanted, nearer};
+use super::{Finder, InverseSolution, InverseTarget, nearer};
 use crate::frame::Isometry;
 
-/// Postures of one pose at most: a general arm of six turning joints has up to 16.
+/// Maximum number of postures of one pose: a general arm of six revolute joints has up to 16.
 pub(super) const MOST: usize = 16;
-/// Postures after which a search ends, to take the nearest of them: joints to spare and singular poses have no end.
+/// Postures after which a search ends, to take the nearest of them: redundant and singular poses have infinitely many.
 const PLENTY: usize = 32;
-/// Starts without a new posture that end a search; and one that a closed form went before.
+/// Starts without a new posture that end a search; and those after a closed form.
 pub(super) const THOROUGH: usize = 48;
 pub(super) const SHORT: usize = 8;
-/// Starts of a search at most.
+/// Maximum number of starts of a search.
 const MOST_STARTS: usize = 400;
-/// Two postures nearer than this (rad, m) are one; joints to spare settle less sharply.
+/// Two postures nearer than this (rad, m) are one; redundant joints converge less accurately.
 pub(super) const SAME: f64 = 1e-4;
-const SAME_TO_SPARE: f64 = 1e-2;
+const SAME_REDUNDANT: f64 = 1e-2;
 /// A posture that moved farther than this (rad, m) from the pose before is not its continuation.
 const JUMP: f64 = 0.5;
 
 impl Finder<'_> {
-    /// Postures by descents, until so many starts in a row (`barren`) have brought nothing new.
+    /// Postures by descents, until `barren` starts in a row have found nothing new.
     pub(super) fn search(
         &mut self,
-        requested: &Wanted<'_>,
+        requested: &InverseTarget<'_>,
         arm_from_flange: &Isometry,
         most: usize,
         barren: usize,
@@ -61,8 +61,8 @@ impl Finder<'_> {
         missed
     }
 
-    /// Takes up those postures of the pose before that have a continuation here; false if none has.
-    fn follow(&mut self, requested: &Wanted<'_>, goal: &Goal, home: &[f64], most: usize) -> bool {
+    /// Takes those postures of the previous pose that have a continuation here; false if none has.
+    fn follow(&mut self, requested: &InverseTarget<'_>, goal: &Goal, home: &[f64], most: usize) -> bool {
         if self.before.len() > most {
             return false;
         }
@@ -90,13 +90,13 @@ impl Finder<'_> {
 
     fn same(&self) -> f64 {
         if self.arm.chain.links().len() > ENOUGH {
-            SAME_TO_SPARE
+            SAME_REDUNDANT
         } else {
             SAME
         }
     }
 
-    /// Chain positions that the joints of the arm may take; a turn for joints without limits.
+    /// Ranges of the chain positions of the arm; one turn for joints without limits.
     fn ranges(&self) -> Vec<[f64; 2]> {
         let middles = self.chain_positions(&self.robot.middles());
         let range = |(i, middle): (usize, f64)| {
@@ -114,11 +114,11 @@ impl Finder<'_> {
         middles.into_iter().enumerate().map(range).collect()
     }
 
-    /// Nearest first, to `near`, to the posture before, or to home; `most` of them are left, to be followed.
+    /// Sorts by distance from `near`, the previous posture, or home, and keeps `most` of them.
     pub(super) fn order(&mut self, near: Option<&[f64]>, most: usize) {
         let before = near.is_none().then(|| self.before.first()).flatten();
         let from = near.unwrap_or(&self.home);
-        let away = |found: &Found| -> f64 {
+        let away = |found: &InverseSolution| -> f64 {
             match before {
                 Some(theta) => {
                     let away = (0..theta.len()).map(|i| self.between(i, theta[i], &found.joints).powi(2));
@@ -127,7 +127,7 @@ impl Finder<'_> {
                 None => found.joints.iter().zip(from).map(|(a, b)| (a - b).powi(2)).sum(),
             }
         };
-        let mut found: Vec<(f64, Found)> = self
+        let mut found: Vec<(f64, InverseSolution)> = self
             .found
             .iter()
             .map(|found| (away(found), found.clone()))

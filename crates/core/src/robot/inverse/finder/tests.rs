@@ -1,13 +1,13 @@
-//! What a finder gives, in which order, and what it keeps from one pose to the next.
+//! The postures that a finder returns, their order, and what it remembers between poses.
 
 use std::f64::consts::PI;
 
 use super::*;
 use crate::arms::{self, Stream, other};
 
-fn expected<'a>(robot: &Robot, q: &[f64], near: Option<&'a [f64]>) -> Wanted<'a> {
+fn expected<'a>(robot: &Robot, q: &[f64], near: Option<&'a [f64]>) -> InverseTarget<'a> {
     let flange = crate::robot::forward::forward(robot, q).base_from_flange;
-    Wanted {
+    InverseTarget {
         base_from_flange: Isometry::from_parts(flange.translation, flange.rotation.into()),
         near,
         home: None,
@@ -26,7 +26,7 @@ fn patterns() -> Vec<BranchPattern> {
 }
 
 #[test]
-fn the_postures_that_match_are_those_of_all_that_match() {
+fn matching_returns_those_of_all_that_match() {
     let mut stream = Stream(41);
     for robot in [arms::hung(), other::ur10e(), other::on_rail(&arms::kr120())] {
         let mut finder = Finder::new(&robot);
@@ -36,7 +36,7 @@ fn the_postures_that_match_are_those_of_all_that_match() {
             let Ok(all) = finder.all(&expected) else { continue };
             let all = all.to_vec();
             for pattern in patterns() {
-                let of_all: Vec<&Found> = all
+                let of_all: Vec<&InverseSolution> = all
                     .iter()
                     .filter(|found| found.name.branch().is_some_and(|branch| pattern.matches(branch)))
                     .collect();
@@ -58,7 +58,7 @@ fn the_postures_that_match_are_those_of_all_that_match() {
 }
 
 #[test]
-fn postures_of_one_pose_are_distinct_and_hold_it() {
+fn postures_of_one_pose_are_distinct_and_reach_it() {
     let mut stream = Stream(42);
     let arms = [
         other::calibrated(&arms::mh12(), 5e-4),
@@ -75,7 +75,7 @@ fn postures_of_one_pose_are_distinct_and_hold_it() {
             let found = finder.all(&expected).unwrap_or_default().to_vec();
             for (i, a) in found.iter().enumerate() {
                 let frames = crate::robot::forward::forward(&robot, &a.joints);
-                assert_eq!(holds(&frames, &expected.base_from_flange), Ok(()));
+                assert_eq!(verify(&frames, &expected.base_from_flange), Ok(()));
                 for b in &found[..i] {
                     let away = a
                         .joints
@@ -94,7 +94,7 @@ fn postures_of_one_pose_are_distinct_and_hold_it() {
 }
 
 #[test]
-fn postures_without_names_come_nearest_first() {
+fn postures_without_names_are_sorted_by_distance() {
     let robot = other::free("skewed", &other::SKEWED);
     let mut finder = Finder::new(&robot);
     let mut stream = Stream(43);
@@ -103,10 +103,11 @@ fn postures_without_names_come_nearest_first() {
         let q = stream.joints(&robot);
         let near: Vec<f64> = q.iter().map(|q| q + stream.between(-0.05, 0.05)).collect();
         let found = finder.all(&expected(&robot, &q, Some(&near))).unwrap().to_vec();
-        let away =
-            |found: &Found| -> f64 { found.joints.iter().zip(&near).map(|(a, b)| (a - b).powi(2)).sum() };
+        let away = |found: &InverseSolution| -> f64 {
+            found.joints.iter().zip(&near).map(|(a, b)| (a - b).powi(2)).sum()
+        };
         assert!(found.windows(2).all(|pair| away(&pair[0]) <= away(&pair[1])));
-        // The posture that made the pose is among them, unless its range ends between the two.
+        // The posture of the pose is among them, unless its range ends between the two.
         let made: f64 = q.iter().zip(&near).map(|(a, b)| (a - b).powi(2)).sum();
         assert!(
             away(&found[0]) <= made + 1e-9 || q.iter().any(|q| q.abs() > PI - 0.06),
@@ -122,7 +123,7 @@ fn postures_without_names_come_nearest_first() {
 }
 
 #[test]
-fn a_finder_that_forgets_is_a_new_one() {
+fn a_finder_after_forget_equals_a_new_one() {
     let robot = other::oblique();
     let mut stream = Stream(44);
     let mut used = Finder::new(&robot);
@@ -137,18 +138,18 @@ fn a_finder_that_forgets_is_a_new_one() {
             .map(|found| found.joints.clone())
             .collect();
         let mut new = Finder::new(&robot);
-        let anew: Vec<Vec<f64>> = new
+        let fresh: Vec<Vec<f64>> = new
             .all(&expected)
             .unwrap_or_default()
             .iter()
             .map(|found| found.joints.clone())
             .collect();
-        assert_eq!(again, anew);
+        assert_eq!(again, fresh);
     }
 }
 
 #[test]
-fn a_finder_that_does_not_forget_follows_on_a_path() {
+fn a_finder_follows_a_path_by_continuation() {
     let robot = other::oblique();
     let mut finder = Finder::new(&robot);
     let q = [0.3, -0.4, 0.5, -0.6, 0.7, -0.8];
@@ -171,20 +172,20 @@ fn a_finder_that_does_not_forget_follows_on_a_path() {
 }
 
 #[test]
-fn turns_are_counted_near_the_joint_as_it_stood() {
+fn whole_turns_are_chosen_near_the_previous_joint_position() {
     // Joints of a UR turn by 360 deg to either side.
     let robot = other::ur10e();
     let mut finder = Finder::new(&robot);
     let q = [0.3, -1.2, 1.4, 5.0, 1.2, -5.5];
     let (called, _) = name(&robot, &q);
     let pattern = BranchPattern::from(called.branch().unwrap());
-    let counted = |finder: &mut Finder<'_>, near: Option<&[f64]>| {
+    let joint_position = |finder: &mut Finder<'_>, near: Option<&[f64]>| {
         finder.matching(&expected(&robot, &q, near), pattern).unwrap()[0]
             .joints
             .clone()
     };
-    let near = counted(&mut finder, Some(&q));
-    let middle = counted(&mut finder, None);
+    let near = joint_position(&mut finder, Some(&q));
+    let middle = joint_position(&mut finder, None);
     for joint in 0..6 {
         assert!((near[joint] - q[joint]).abs() < 1e-9);
         assert!(middle[joint].abs() <= PI + 1e-9);
@@ -193,14 +194,14 @@ fn turns_are_counted_near_the_joint_as_it_stood() {
                 || (0.5 * (middle[joint] - q[joint])).sin().abs() < 1e-9
         );
     }
-    // A count that the limits do not allow is none.
+    // A position outside the limits is not taken.
     let beyond = [0.3, -1.2, 1.4, 5.0, 1.2, -5.5 - TAU];
-    let back = counted(&mut finder, Some(&beyond));
+    let back = joint_position(&mut finder, Some(&beyond));
     assert!((back[5] - (-5.5 + TAU)).abs() < 1e-9, "{}", back[5]);
 }
 
 #[test]
-fn the_nearest_turn_lies_within_half_a_turn_and_half_a_turn_is_positive() {
+fn the_nearest_turn_is_within_half_a_turn_and_half_a_turn_is_positive() {
     let mut stream = Stream(45);
     for _ in 0..500 {
         let (angle, middle) = (stream.between(-20.0, 20.0), stream.between(-3.0, 3.0));
@@ -208,7 +209,7 @@ fn the_nearest_turn_lies_within_half_a_turn_and_half_a_turn_is_positive() {
         assert!((-PI - 1e-11..=PI + 1e-11).contains(&(turned - middle)));
         assert!((0.5 * (turned - angle)).sin().abs() < 1e-14);
     }
-    // -180 deg, 180 deg, and a hair beside them, are one posture.
+    // -180 deg, 180 deg, and values next to them, are one posture.
     for angle in [-PI, PI, -PI - 1e-13, PI - 1e-13, -PI + 1e-13] {
         assert!((nearest_turn(angle, 0.0) - PI).abs() < 1e-11, "{angle}");
     }
@@ -219,7 +220,7 @@ fn the_nearest_turn_lies_within_half_a_turn_and_half_a_turn_is_positive() {
 fn out_of_reach_names_the_branch_that_misses_by_least() {
     let robot = arms::mh12();
     let mut finder = Finder::new(&robot);
-    let far = Wanted {
+    let far = InverseTarget {
         base_from_flange: Isometry::translation(4.0, 0.0, 0.5),
         near: None,
         home: None,
@@ -243,23 +244,23 @@ fn out_of_reach_names_the_branch_that_misses_by_least() {
 }
 
 #[test]
-fn frames_that_miss_their_pose_hold_nothing() {
+fn frames_that_miss_their_pose_are_refused() {
     let robot = arms::kr120();
     let q = Stream(46).joints(&robot);
     let frames = crate::robot::forward::forward(&robot, &q);
     let pose = expected(&robot, &q, None).base_from_flange;
-    assert_eq!(holds(&frames, &pose), Ok(()));
+    assert_eq!(verify(&frames, &pose), Ok(()));
     for by in [2e-9, 0.1] {
         let moved = Isometry::translation(by, 0.0, 0.0) * pose;
-        let miss = holds(&frames, &moved).unwrap_err();
+        let miss = verify(&frames, &moved).unwrap_err();
         assert!(
             matches!(miss, Unreachable::Unverified { by: given } if (given - by).abs() < 1e-12),
             "{miss}"
         );
-        // Half a turn has no sine, and is none the less a turn.
+        // Half a turn has sine zero, but is a rotation.
         for angle in [by, PI] {
             let turn = Isometry::rotation(nalgebra::Vector3::x() * angle);
-            assert!(holds(&frames, &(pose * turn)).is_err(), "{angle}");
+            assert!(verify(&frames, &(pose * turn)).is_err(), "{angle}");
         }
     }
 }

@@ -1,25 +1,25 @@
-//! Postures of closed forms whose branches have no names: spherical wrists, also where one joint to spare stands still.
+//! Postures of closed forms without named branches: spherical wrists, also with one redundant joint fixed.
 
 use std::f64::consts::PI;
 
 use super::super::super::unreachable::Unreachable;
 use super::super::descent::Goal;
+use super::super::fixed_joint::FixedJoint;
 use super::super::lines::sense_of;
 use super::super::spherical_wrist::SphericalWrist;
-use super::super::fixed_joint::FixedJoint;
 use super::search::{SAME, SHORT};
-use super::{Finder, Wanted};
+use super::{Finder, InverseTarget};
 use crate::frame::Isometry;
 
-/// Steps (rad) by which a joint leaves home where no posture lies inside the limits with it there: 5 deg.
+/// Steps (rad) by which the fixed joint leaves home where no posture is within the limits there: 5 deg.
 const STEP: f64 = PI / 36.0;
-/// Halvings of the last step: the joint then stands within 1e-5 rad of the first place that does.
+/// Halvings of the last step: the joint is then within 1e-5 rad of the first valid position.
 const HALVINGS: u32 = 13;
 
-/// What a standing joint is asked.
-struct Held<'a> {
-    arm_state: &'a FixedJoint,
-    requested: &'a Wanted<'a>,
+/// A pose for an arm with one fixed joint.
+struct FixedJointTarget<'a> {
+    fixed: &'a FixedJoint,
+    requested: &'a InverseTarget<'a>,
     arm_from_flange: &'a Isometry,
 }
 
@@ -28,7 +28,7 @@ impl Finder<'_> {
     pub(super) fn with_wrist(
         &mut self,
         form: &SphericalWrist,
-        requested: &Wanted<'_>,
+        requested: &InverseTarget<'_>,
         arm_from_flange: &Isometry,
         most: usize,
     ) -> Option<Unreachable> {
@@ -43,70 +43,69 @@ impl Finder<'_> {
         self.ordered_or_searched(requested, arm_from_flange, most)
     }
 
-    /// The postures of an arm with a joint to spare that stands still: at home, or as near to it as any posture lies
-    /// inside the limits.
-    pub(super) fn with_one_arm_state(
+    /// The postures of an arm with one redundant joint fixed: at home, or at the position nearest to it with a posture
+    /// within the limits.
+    pub(super) fn with_fixed_joint(
         &mut self,
-        arm_state: &FixedJoint,
-        requested: &Wanted<'_>,
+        fixed: &FixedJoint,
+        requested: &InverseTarget<'_>,
         arm_from_flange: &Isometry,
         most: usize,
     ) -> Option<Unreachable> {
-        let evaluation = Held {
-            arm_state,
+        let target = FixedJointTarget {
+            fixed,
             requested,
             arm_from_flange,
         };
-        let at_home = self.arm_state_at(&evaluation, 0.0);
-        let (away, all) = if self.any_inside(&evaluation, 0.0, &at_home) {
+        let at_home = self.positions_at(&target, 0.0);
+        let (away, all) = if self.any_inside(&target, 0.0, &at_home) {
             (0.0, at_home)
         } else {
-            self.leave_home(&evaluation).unwrap_or((0.0, at_home))
+            self.leave_home(&target).unwrap_or((0.0, at_home))
         };
-        self.stands = self.place(&evaluation, away);
+        self.fixed = self.place(&target, away);
         for theta in all {
             self.take(requested, &theta);
         }
-        self.stands = None;
+        self.fixed = None;
         self.ordered_or_searched(requested, arm_from_flange, most)
     }
 
-    /// Chain positions with the standing joint so far (rad) from home.
-    fn arm_state_at(&mut self, evaluation: &Held<'_>, away: f64) -> Vec<[f64; 7]> {
-        let joint = self.arm.first + evaluation.arm_state.joint;
+    /// Chain positions with the fixed joint this far (rad) from home.
+    fn positions_at(&mut self, target: &FixedJointTarget<'_>, away: f64) -> Vec<[f64; 7]> {
+        let joint = self.arm.first + target.fixed.joint;
         let sense = self.robot.joints()[joint].sign.factor();
         let angle = self.robot.theta(joint, &self.home) + sense * away;
-        let Some(form) = evaluation.arm_state.at(angle) else {
+        let Some(form) = target.fixed.at(angle) else {
             return Vec::new();
         };
-        let near = evaluation.requested.near.map(|q| self.chain_positions(q));
-        let kept = near.and_then(|theta| evaluation.arm_state.without(&theta));
-        let goal = Goal::new(evaluation.arm_from_flange);
-        let six = form.chain_positions(evaluation.arm_from_flange, kept.as_ref());
-        let mut all: Vec<[f64; 7]> = six.iter().map(|six| evaluation.arm_state.with(angle, six)).collect();
+        let near = target.requested.near.map(|q| self.chain_positions(q));
+        let kept = near.and_then(|theta| target.fixed.without(&theta));
+        let goal = Goal::new(target.arm_from_flange);
+        let six = form.chain_positions(target.arm_from_flange, kept.as_ref());
+        let mut all: Vec<[f64; 7]> = six.iter().map(|six| target.fixed.with(angle, six)).collect();
         all.retain_mut(|theta| {
             let reached = self
                 .descent
-                .reach_beside(self.arm.chain, &goal, evaluation.arm_state.joint, theta);
+                .reach_with_fixed(self.arm.chain, &goal, target.fixed.joint, theta);
             reached.is_ok()
         });
         all
     }
 
-    /// The count of the standing joint so far (rad) from home; one that counts earlier joints along stands where they
-    /// leave it.
-    fn place(&self, evaluation: &Held<'_>, away: f64) -> Option<(usize, f64)> {
-        let joint = self.arm.first + evaluation.arm_state.joint;
+    /// The joint position of the fixed joint this far (rad) from home; a joint coupled to earlier ones follows them.
+    fn place(&self, target: &FixedJointTarget<'_>, away: f64) -> Option<(usize, f64)> {
+        let joint = self.arm.first + target.fixed.joint;
         let alone = self.robot.joints()[joint].coupling.is_empty();
         alone.then(|| (joint, self.home[joint] + away))
     }
 
-    /// Moves the standing joint from home, to the side where it stood first, until a posture lies inside the limits:
-    /// how far (rad), and the chain positions there.
-    fn leave_home(&mut self, evaluation: &Held<'_>) -> Option<(f64, Vec<[f64; 7]>)> {
-        let joint = self.arm.first + evaluation.arm_state.joint;
+    /// Moves the fixed joint from home, first to the side where it was before, until a posture is within the limits:
+    /// its distance (rad), and the chain positions there.
+    fn leave_home(&mut self, target: &FixedJointTarget<'_>) -> Option<(f64, Vec<[f64; 7]>)> {
+        let joint = self.arm.first + target.fixed.joint;
         let (home, limits) = (self.home[joint], self.robot.joints()[joint].limits);
-        let first = sense_of(evaluation.requested.near.map_or(0.0, |near| near[joint] - home));
+        let first = sense_of(target.requested.near.map_or(0.0, |near| near[joint] - home));
         let sides = [first, -first].map(|side| {
             let room = limits.map_or(PI, |limits| {
                 if side > 0.0 {
@@ -121,9 +120,9 @@ impl Finder<'_> {
         while from < PI {
             for (side, room) in sides.into_iter().filter(|(_, room)| from < *room) {
                 let to = (from + STEP).min(room);
-                let all = self.arm_state_at(evaluation, side * to);
-                if self.any_inside(evaluation, side * to, &all) {
-                    return Some(self.first_inside(evaluation, [side * from, side * to], all));
+                let all = self.positions_at(target, side * to);
+                if self.any_inside(target, side * to, &all) {
+                    return Some(self.first_inside(target, [side * from, side * to], all));
                 }
             }
             from += STEP;
@@ -131,17 +130,17 @@ impl Finder<'_> {
         None
     }
 
-    /// Between a place of the standing joint without and one with a posture inside the limits the first with one.
+    /// Between a position of the fixed joint without and one with a posture within the limits: the first one with.
     fn first_inside(
         &mut self,
-        evaluation: &Held<'_>,
+        target: &FixedJointTarget<'_>,
         [mut without, mut with]: [f64; 2],
         mut all: Vec<[f64; 7]>,
     ) -> (f64, Vec<[f64; 7]>) {
         for _ in 0..HALVINGS {
             let middle = 0.5 * (without + with);
-            let found = self.arm_state_at(evaluation, middle);
-            if self.any_inside(evaluation, middle, &found) {
+            let found = self.positions_at(target, middle);
+            if self.any_inside(target, middle, &found) {
                 (with, all) = (middle, found);
             } else {
                 without = middle;
@@ -150,22 +149,22 @@ impl Finder<'_> {
         (with, all)
     }
 
-    /// Whether one of these chain positions lies inside the joint limits, with the standing joint so far from home.
-    fn any_inside(&mut self, evaluation: &Held<'_>, away: f64, all: &[[f64; 7]]) -> bool {
-        self.stands = self.place(evaluation, away);
+    /// Whether one of these chain positions is within the joint limits, with the fixed joint this far from home.
+    fn any_inside(&mut self, target: &FixedJointTarget<'_>, away: f64, all: &[[f64; 7]]) -> bool {
+        self.fixed = self.place(target, away);
         let inside = all.iter().any(|theta| {
-            let joints = self.counted(theta, evaluation.requested.near);
+            let joints = self.joint_positions(theta, target.requested.near);
             let margin = self.robot.limit_margin(&joints);
             margin.is_none_or(|(_, margin)| margin >= 0.0)
         });
-        self.stands = None;
+        self.fixed = None;
         inside
     }
 
-    /// Keeps a posture that is new.
-    fn take(&mut self, requested: &Wanted<'_>, theta: &[f64]) {
+    /// Stores a posture that is new.
+    fn take(&mut self, requested: &InverseTarget<'_>, theta: &[f64]) {
         if !self.is_known(theta, SAME) {
-            // One that forward kinematics does not confirm is none.
+            // A posture that forward kinematics does not confirm is dropped.
             self.keep_searched(requested, theta).ok();
         }
     }
@@ -173,7 +172,7 @@ impl Finder<'_> {
     /// The nearest first; where there is none, what a short search finds.
     fn ordered_or_searched(
         &mut self,
-        requested: &Wanted<'_>,
+        requested: &InverseTarget<'_>,
         arm_from_flange: &Isometry,
         most: usize,
     ) -> Option<Unreachable> {

@@ -1,4 +1,4 @@
-//! Which arm has which inverse, and what is said of it.
+//! Inverse kind of each arm, and its description.
 
 use super::*;
 use crate::arms::{self, other};
@@ -43,7 +43,7 @@ fn table() -> Vec<(Robot, &'static str, &'static str, [bool; 2])> {
         (
             other::iiwa14(),
             "closed_form",
-            "closed form, up to 8 postures without names (spherical wrist); joint 3 stands still",
+            "closed form, up to 8 postures without names (spherical wrist); joint 3 is fixed",
             [false, false],
         ),
         (
@@ -55,13 +55,13 @@ fn table() -> Vec<(Robot, &'static str, &'static str, [bool; 2])> {
         (
             other::on_rail(&arms::kr120()),
             "closed_form",
-            "closed form, up to 8 postures (ortho-parallel arm with spherical wrist); the first joint stands still",
+            "closed form, up to 8 postures (ortho-parallel arm with spherical wrist); the first joint is fixed",
             [true, true],
         ),
         (
             other::on_rail(&other::on_rail(&other::ur10e())),
             "closed_form",
-            "closed form, up to 8 postures (arm with three parallel axes); the first 2 joints stand still",
+            "closed form, up to 8 postures (arm with three parallel axes); the first 2 joints are fixed",
             [true, false],
         ),
     ]
@@ -83,23 +83,23 @@ fn every_arm_has_the_inverse_of_its_kind() {
 }
 
 #[test]
-fn only_an_arm_that_is_nothing_else_is_ortho_parallel() {
+fn only_an_exact_arm_without_rail_is_ortho_parallel() {
     for (robot, ..) in table() {
-        // On a rail, calibrated or of another kind it goes point by point.
+        // On a rail, calibrated or of another kind, points are solved one by one.
         let plain = matches!(robot.name(), "yaskawa/mh12" | "made-up/hung");
         assert_eq!(robot.ortho_parallel().is_some(), plain, "{}", robot.name());
     }
 }
 
 #[test]
-fn a_rail_is_what_slides_first_and_is_to_spare() {
+fn a_rail_consists_of_the_first_prismatic_joints_that_are_redundant() {
     let railed = other::on_rail(&arms::mh12());
     let Inverse::OnRail(rail) = railed.inverse() else {
         panic!("{}", railed.inverse());
     };
     assert_eq!((rail.joints, rail.chain.links().len()), (1, 6));
     assert!(!matches!(rail.inverse, Inverse::OnRail(_)));
-    // Six joints have none to spare: the first slides, and stands in the search.
+    // With six joints none is redundant: the first is prismatic, and takes part in the search.
     let mut motions = railed.chain().motions().to_vec();
     let last = motions
         .iter()

@@ -1,4 +1,4 @@
-//! The edges of wrists that are not perpendicular, and the arm seen from its flange.
+//! The range limits of wrists that are not perpendicular, and the arm seen from its flange.
 
 use super::*;
 use crate::arms::Stream;
@@ -24,7 +24,7 @@ fn reversed(chain: &Chain) -> Chain {
 
 fn same(a: &[f64; 6], b: &[f64; 6]) -> bool {
     let away = |(a, b): (&f64, &f64)| (a - b).sin().abs() + (1.0 - (a - b).cos());
-    // Joints near the end of a branch are known to the root of rounding.
+    // Joints near the end of a branch are accurate to the root of rounding.
     a.iter().zip(b).map(away).all(|away| away < 1e-5)
 }
 
@@ -51,7 +51,7 @@ fn an_arm_and_the_same_arm_seen_from_its_flange_have_the_same_postures() {
     }
 }
 
-/// The turn that stands axis 6 at the angle `gamma` (rad) from axis 4.
+/// The rotation that puts axis 6 at the angle `gamma` (rad) from axis 4.
 fn axis_6_at(form: &SphericalWrist, gamma: f64) -> Rotation3<f64> {
     let [z4, z6] = [3, 5].map(|i| form.lines[i].axis);
     let normal = nalgebra::Unit::new_normalize(z4.cross(&z6));

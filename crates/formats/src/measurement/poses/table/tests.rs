@@ -36,7 +36,7 @@ fn the_same_poses_in_other_units_names_and_separators_are_the_same() {
 }
 
 #[test]
-fn names_directions_commanded_poses_turns_and_what_was_passed_over_are_kept() {
+fn names_directions_commanded_poses_orientations_and_ignored_columns_are_returned() {
     let text = "pose,direction,q1_deg,q2_mm,x_mm,y_mm,z_mm,rx_deg,ry_deg,rz_deg,commanded_x_mm,commanded_y_mm,commanded_z_mm,std\n\
                 P1,up,0,0,1,2,3,0,0,90,1,1,1,x\nP1,down,0,0,,,,,,,1,1,1,x\n";
     let found = read_with(text.as_bytes(), &[]).unwrap();
@@ -50,7 +50,7 @@ fn names_directions_commanded_poses_turns_and_what_was_passed_over_are_kept() {
 }
 
 #[test]
-fn orders_of_angles_differ_and_each_is_its_own() {
+fn each_order_of_angles_gives_a_different_rotation() {
     let angles = [0.3, -0.4, 1.2];
     let [fixed, moving] = [TurnOrder::FixedXyz, TurnOrder::MovingXyz].map(|order| order.rotation(angles));
     let x = |by: f64| UnitQuaternion::from_scaled_axis(Vector3::x() * by);
@@ -61,10 +61,10 @@ fn orders_of_angles_differ_and_each_is_its_own() {
 }
 
 #[test]
-fn what_is_wrong_is_told_with_its_place() {
+fn problems_are_reported_with_their_positions() {
     for (text, columns, part) in [
-        ("", &[][..], "no poses in this file"),
-        ("q1_deg,q2_mm,x_mm,y_mm,z_mm\n", &[], "no poses in this file"),
+        ("", &[][..], "the file has no poses"),
+        ("q1_deg,q2_mm,x_mm,y_mm,z_mm\n", &[], "the file has no poses"),
         (
             "q1_deg,x_mm,y_mm\n1,2,3\n",
             &[],
@@ -75,17 +75,17 @@ fn what_is_wrong_is_told_with_its_place() {
             &[],
             "columns are missing: `ry_deg`, `rz_deg`",
         ),
+        ("q1,q2_mm,x_mm,y_mm,z_mm\n", &[], "1:1: no unit is given for `q1`"),
+        ("q1_mm,q2_mm,x_mm,y_mm,z_mm\n", &[], "`mm` is not a unit of `q1`"),
         (
-            "q1,q2_mm,x_mm,y_mm,z_mm\n",
+            "q1_deg,q2_deg,x_mm,y_mm,z_mm\n",
             &[],
-            "1:1: nothing tells the unit of `q1`",
+            "`deg` is not a unit of `q2`",
         ),
-        ("q1_mm,q2_mm,x_mm,y_mm,z_mm\n", &[], "`mm` is no unit of `q1`"),
-        ("q1_deg,q2_deg,x_mm,y_mm,z_mm\n", &[], "`deg` is no unit of `q2`"),
         (
             "q1_deg,turn_rad,q2_mm,x_mm,y_mm,z_mm\n",
             &[],
-            "1:8: `turn_rad` tells what a column before it tells",
+            "1:8: `turn_rad` repeats an earlier column",
         ),
         (
             "q1_deg,q2_mm,x_mm,y_mm,a\n",
@@ -95,12 +95,12 @@ fn what_is_wrong_is_told_with_its_place() {
         (
             "q1_deg,q2_mm,x_mm,y_mm,a\n",
             &["zed_mm=a"],
-            "`zed_mm`, which `a` is mapped to, means nothing here",
+            "`a` is mapped to `zed_mm`, which is not a known column",
         ),
         (
             "q1_deg,q2_mm,x_mm,y_mm,z_mm\n1,2,3,4\n",
             &[],
-            "2:1: 4 cells in a table of 5 columns",
+            "2:1: 4 cells, but the table has 5 columns",
         ),
         (
             "q1_deg,q2_mm,x_mm,y_mm,z_mm\n1,2,3,4,five\n",
@@ -115,12 +115,12 @@ fn what_is_wrong_is_told_with_its_place() {
         (
             "q1_rad,q2_mm,x_mm,y_mm,z_mm\n90,2,3,4,5\n",
             &[],
-            "beyond two turns",
+            "exceeds two turns",
         ),
         (
             "q1_deg,q2_mm,x_m,y_mm,z_mm\n90,2,30000,4,5\n",
             &[],
-            "2:6: a length of 30000 m is beyond",
+            "2:6: a length of 30000 m exceeds",
         ),
     ] {
         let problems = read_with(text.as_bytes(), columns).unwrap_err();
@@ -129,7 +129,7 @@ fn what_is_wrong_is_told_with_its_place() {
 }
 
 #[test]
-fn problems_of_all_rows_are_told_at_once() {
+fn problems_of_all_rows_are_reported_together() {
     let text = b"q1_deg,q2_mm,x_mm,y_mm,z_mm\na,2,3,4,5\n1,b,c,4,5\n1,2,3,4,5\n";
     let problems = read_with(text, &[]).unwrap_err();
     for place in ["2:1", "3:3", "3:5"] {

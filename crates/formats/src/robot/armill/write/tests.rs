@@ -67,7 +67,7 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn what_is_written_reads_back_as_the_same_arm(
+    fn a_written_file_reads_back_as_the_same_arm(
         robot in robots(),
         seeds in prop::collection::vec(-3.0..3.0f64, 8),
         at in prop::array::uniform3(amount()),
@@ -110,7 +110,7 @@ fn round_numbers_are_written_round() {
 }
 
 #[test]
-fn what_is_missing_stands_in_comments() {
+fn missing_numbers_are_written_as_comments() {
     let robot = Robot::new(
         "a",
         vec![Motion::About(Axis::Z, Amount::Joint(0))],
@@ -129,7 +129,7 @@ fn what_is_missing_stands_in_comments() {
 }
 
 #[test]
-fn turns_beyond_a_whole_one_and_limits_close_together_are_written_so_that_they_read() {
+fn rotations_beyond_a_turn_and_close_limits_are_written_readably() {
     for (angle, limits) in [
         (11.0, [0.0, 1.7e-11]),
         (-7.0, [1.0, 1.0 + 3e-16]),

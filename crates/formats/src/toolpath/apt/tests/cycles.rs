@@ -62,12 +62,12 @@ fn nx_writes_depths_with_the_sign_of_the_axis() {
 }
 
 #[test]
-fn cycles_that_are_not_understood_are_refused() {
+fn refuses_unsupported_cycles() {
     let head = "UNIT/MM\nTRNTYP/WORLD\n";
     for (text, part) in [
         (
             "CYCLE/MILL,FEDTO,5.,RAPTO,3.",
-            "3:7: the cycle `MILL` is not understood",
+            "3:7: the cycle `MILL` is not supported",
         ),
         ("CYCLE/DRILL,RAPTO,3.", "the cycle DRILL has no FEDTO"),
         ("CYCLE/DRILL,FEDTO,5.", "has no RAPTO"),
@@ -75,10 +75,10 @@ fn cycles_that_are_not_understood_are_refused() {
             "CYCLE/DRILL,FEDTO,5.,RAPTO,3.,RTRCTO,AUTO",
             "`AUTO` is not a number",
         ),
-        ("CYCLE/DRILL,FEDTO,5.,RAPTO,3.,RTRCTO,2.", "goes back lower"),
+        ("CYCLE/DRILL,FEDTO,5.,RAPTO,3.,RTRCTO,2.", "retracts lower"),
         (
             "CYCLE/DRILL,FEDTO,5.,RAPTO,3.,STEP,2.",
-            "3:31: `STEP` is not understood in the cycle DRILL",
+            "3:31: `STEP` is not supported in the cycle DRILL",
         ),
         ("CYCLE/DRILL,FEDTO,5.,RAPTO", "`RAPTO` has no number"),
         ("CYCLE/DEEP,FEDTO,5.,RAPTO,3.", "has no INCR"),
@@ -99,5 +99,5 @@ fn cycles_that_are_not_understood_are_refused() {
         assert!(given.contains(part), "{text}: {given}");
     }
     let given = problems("UNIT/MM\nCYCLE/DRILL,FEDTO,5.,RAPTO,3.\nGOTO/0,0,0\n");
-    assert!(given.contains("nothing tells the tool axis"), "{given}");
+    assert!(given.contains("the tool axis is not given"), "{given}");
 }

@@ -7,9 +7,10 @@ use armill_core::path::{Pace, Step};
 
 use super::{arc, near, problems, read_all, steps};
 use crate::toolpath::LengthUnit;
-use crate::toolpath::apt::{Dialect, Wanted};
+use crate::toolpath::apt::{AptReadOptions, Dialect};
 
-pub(super) const SOLIDWORKS: &str = "PARTNO/bracket 7\r\nUNIT/MM\r\nINSERT/8MM $ END MILL\r\nCUTTER/8.,1.5,4.,0,0,0,60.\r\nLOAD/TOOL,3\r\n\
+pub(super) const SOLIDWORKS: &str = "PARTNO/bracket 7\r\nUNIT/MM\r\nINSERT/8MM $ END \
+    MILL\r\nCUTTER/8.,1.5,4.,0,0,0,60.\r\nLOAD/TOOL,3\r\n\
     COOLNT/FLOOD\r\nSPINDL/6000,RPM,CLW\r\nINSERT/Stock\r\nTRNTYP/WORLD,0,0,0\r\nCSYS/0,0,1.,10.,0,1.,0,0,-1.,0,0,0\r\n\
     RAPID/\r\nGOTO/10.,.5,25.,1.,0,0\r\nFEDRAT/600.,MMPM\r\nGOTO/10.,.5,-1.,1.,0,0\r\nGOTO/12.,.5,-1.\r\nFINI";
 
@@ -20,8 +21,8 @@ fn a_solidworks_program_has_its_tool_frame_and_pace() {
     assert_eq!(
         summary.notes,
         [
-            "COOLNT was passed over once, first in line 6",
-            "INSERT was passed over twice, first in line 3"
+            "COOLNT was ignored once, first in line 6",
+            "INSERT was ignored twice, first in line 3"
         ]
     );
     let operation = &operations[0];
@@ -56,14 +57,14 @@ fn an_nx_program_keeps_the_axis_and_writes_the_feed_the_other_way_round() {
     let tilted = moves[3].axis.unwrap();
     assert!((tilted.into_inner() - Vector3::new(0.0, 0.6, 0.8)).norm() < 1e-15);
     assert_eq!(moves[4].axis, Some(tilted), "the axis before");
-    assert_eq!(moves[3].line, 14, "a statement stands where it begins");
+    assert_eq!(moves[3].line, 14, "the line where the statement begins");
     // From (0,0) over (5,5) to (10,0): clockwise seen from above, so half a turn about -z.
     assert!((arc(&moves[2]).sweep - PI).abs() < 1e-12);
     assert_eq!(arc(&moves[2]).axis, -Vector3::z_axis());
 }
 
 #[test]
-fn a_second_msys_is_told_in_the_first() {
+fn a_second_msys_is_relative_to_the_first() {
     let second = "MSYS/0.0,0.0,30.0,0.0,1.0,0.0,-1.0,0.0,0.0\nGOTO/1.0,2.0,3.0,1.0,0.0,0.0\n";
     let first =
         "TOOL PATH/A\nUNITS/MM\nMSYS/0.0,0.0,10.0,1.0,0.0,0.0,0.0,1.0,0.0\nGOTO/1.0,2.0,3.0,0.0,0.0,1.0\n";
@@ -75,17 +76,21 @@ fn a_second_msys_is_told_in_the_first() {
 }
 
 #[test]
-fn a_unit_nobody_told_is_asked_for_once_and_may_be_given() {
+fn a_missing_unit_is_reported_once_and_can_be_given() {
     let text = "TOOL PATH/A\nGOTO/1.0,0.0,0.0\nGOTO/2.0,0.0,0.0\n";
     let given = problems(text);
-    assert_eq!(given.matches("tells the unit of this file").count(), 1, "{given}");
+    assert_eq!(
+        given.matches("the unit of this file has not been given").count(),
+        1,
+        "{given}"
+    );
     assert!(
         given.contains("part.apt:2:6: ") && given.contains("`UNITS/MM`"),
         "{given}"
     );
-    let inch = Wanted {
+    let inch = AptReadOptions {
         unit: Some(LengthUnit::Inch),
-        ..Wanted::default()
+        ..AptReadOptions::default()
     };
     let (_, steps) = steps(text, &inch).unwrap();
     let Some(Step::Move(last)) = steps.last() else {
@@ -95,17 +100,20 @@ fn a_unit_nobody_told_is_asked_for_once_and_may_be_given() {
 }
 
 #[test]
-fn an_axis_left_out_is_asked_for_where_no_dialect_shows() {
+fn a_missing_axis_is_reported_if_the_dialect_is_not_known() {
     let text = "UNITS/MM\nGOTO/0,0,0,1.,0,0\nGOTO/1.,0,0\n";
     let given = problems(text);
-    assert!(given.contains("3:6: no tool axis here, but one before"), "{given}");
+    assert!(
+        given.contains("3:6: no tool axis here, but one before"),
+        "{given}"
+    );
     for (dialect, axis) in [
         (Dialect::Nx, Vector3::x_axis()),
         (Dialect::SolidWorks, Vector3::z_axis()),
     ] {
-        let expected = Wanted {
+        let expected = AptReadOptions {
             dialect: Some(dialect),
-            ..Wanted::default()
+            ..AptReadOptions::default()
         };
         let (_, steps) = steps(text, &expected).unwrap();
         let Some(Step::Move(last)) = steps.last() else {
@@ -114,7 +122,7 @@ fn an_axis_left_out_is_asked_for_where_no_dialect_shows() {
         assert_eq!(last.axis, Some(axis));
     }
     let (_, _, moves) = read_all("UNITS/MM\nGOTO/0,0,0\nGOTO/1.,0,0\n");
-    assert_eq!(moves[1].axis, None, "nothing told is nothing known");
+    assert_eq!(moves[1].axis, None, "no axis is given or assumed");
 }
 
 #[test]
@@ -123,5 +131,5 @@ fn a_tool_path_of_nx_begins_without_feed_and_axis() {
         "{NX}TOOL PATH/B\nGOTO/1.0,0.0,0.0,0.0,0.0,1.0\nGOTO/2.0,0.0,0.0\n"
     ));
     let paces: Vec<Pace> = moves.iter().rev().take(3).map(|m| m.pace).collect();
-    assert_eq!(paces, [Pace::EvaluateError, Pace::EvaluateError, Pace::Feed(0.25 / 60.0)]);
+    assert_eq!(paces, [Pace::Unknown, Pace::Unknown, Pace::Feed(0.25 / 60.0)]);
 }

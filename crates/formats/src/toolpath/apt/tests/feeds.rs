@@ -34,9 +34,9 @@ fn feed_for_each_turn_follows_the_spindle() {
 }
 
 #[test]
-fn rapid_holds_for_one_goto_and_no_feed_is_told_as_such() {
+fn rapid_applies_to_one_goto_and_a_missing_feed_is_unknown() {
     let (_, _, moves) =
         read_all("UNIT/MM\nRAPID\nGOTO/0,0,0\nGOTO/1.,0,0\nRAPID/\nCUTCOM/OFF\nGOTO/2.,0,0\nFROM/0,0,9.\n");
     let paces: Vec<Pace> = moves.iter().map(|m| m.pace).collect();
-    assert_eq!(paces, [Pace::Rapid, Pace::EvaluateError, Pace::Rapid, Pace::Rapid]);
+    assert_eq!(paces, [Pace::Rapid, Pace::Unknown, Pace::Rapid, Pace::Rapid]);
 }

@@ -3,18 +3,18 @@
 use super::dialects::{NX, SOLIDWORKS};
 use super::{problems, read_all, steps};
 use crate::document::MOST_PROBLEMS;
-use crate::toolpath::apt::{Wanted, words};
+use crate::toolpath::apt::{AptReadOptions, words};
 
 #[test]
-fn what_is_wrong_is_told_with_line_column_and_hint() {
+fn problems_are_reported_with_line_column_and_hint() {
     for (text, part) in [
         ("GOTO/1.,2.,x3", "2:12: `x3` is not a number"),
         ("GOTO/1.,,3.", "2:9: a number is missing here"),
-        ("GOTO/1.,2.", "2:6: 2 numbers of a GOTO"),
+        ("GOTO/1.,2.", "2:6: a GOTO has 2 numbers"),
         ("GOTO/1.,2.,1e300", "is not a number from -1e9 to 1e9"),
         ("GOTO/1.,2.,nan", "`nan` is not a number from"),
         ("GOTO/1.,2.,3.,0,0,0", "has a length of 0.0000, not 1"),
-        ("CIRCLE/0,0,0,0,0,1.\nGOTO/1.,0,0", "an arc from nowhere"),
+        ("CIRCLE/0,0,0,0,0,1.\nGOTO/1.,0,0", "an arc without a start"),
         (
             "GOTO/1.,0,0\nCIRCLE/0,0,0,0,0,1.\nGOTO/0,1.2,0",
             "begins 1.0000 mm from its centre and ends 1.2000 mm",
@@ -27,7 +27,7 @@ fn what_is_wrong_is_told_with_line_column_and_hint() {
             "GOTO/1.,0,0\nCIRCLE/0,0,0,0,0,1.\nCIRCLE/0,0,0,0,0,1.\nGOTO/1.,0,0",
             "3:1: no GOTO ends this CIRCLE",
         ),
-        ("CIRCLE/0,0,0,0,0", "5 parameters of a CIRCLE"),
+        ("CIRCLE/0,0,0,0,0", "a CIRCLE has 5 parameters"),
         ("CIRCLE/0,0,0,0,0,2.", "has a length of 2.0000"),
         (
             "GOTO/1.,0,0\nCIRCLE/0,0,0,0,0,1.,3.\nGOTO/0,1.,0",
@@ -35,15 +35,18 @@ fn what_is_wrong_is_told_with_line_column_and_hint() {
         ),
         ("FEDRAT/100.", "a FEDRAT without unit"),
         ("FEDRAT/MMPM", "a FEDRAT without number"),
-        ("FEDRAT/100.,SFM", "`SFM` is no mode of feed"),
+        ("FEDRAT/100.,SFM", "`SFM` is not a feed mode"),
         ("FEDRAT/0,MMPM", "a feed of 0 MMPM is not above 0"),
         ("SPINDL/-5,RPM", "-5 RPM is not between 0 and"),
-        ("LOAD/TOOL,x", "`x` is no number of a tool"),
+        ("LOAD/TOOL,x", "`x` is not a number of a tool"),
         ("CUTTER/", "the diameter of the tool is missing"),
         ("CUTTER/2.,8.", "a tool of diameter 2 with a corner radius of 8"),
-        ("UNIT/FT", "`FT` is no unit of length"),
-        ("TRNTYP/LOCAL", "TRNTYP/LOCAL: in which system"),
-        ("TRNTYP/WORLD\nCSYS/1,2,3", "3 numbers of a CSYS"),
+        ("UNIT/FT", "`FT` is not a unit of length"),
+        (
+            "TRNTYP/LOCAL",
+            "TRNTYP/LOCAL: the system of the points is not known",
+        ),
+        ("TRNTYP/WORLD\nCSYS/1,2,3", "a CSYS has 3 numbers"),
         (
             "TRNTYP/WORLD\nCSYS/2.,0,0,0,0,1.,0,0,0,0,1.,0",
             "not perpendicular and of length 1",
@@ -54,7 +57,7 @@ fn what_is_wrong_is_told_with_line_column_and_hint() {
         ),
         ("MSYS/0,0,0,1.,0,0,1.,0,0", "not perpendicular"),
         ("MSYS/0,0", "without origin"),
-        ("MSYS/0,0,0,1.", "4 numbers of an MSYS"),
+        ("MSYS/0,0,0,1.", "an MSYS has 4 numbers"),
         ("GOTO/0,0,0\nMSYS/0,0,0,1.,0,0,0,1.,0", "points came before it"),
         (
             "TRNTYP/WORLD\nTOOL PATH/A",
@@ -62,10 +65,10 @@ fn what_is_wrong_is_told_with_line_column_and_hint() {
         ),
         (
             "NURBS/3",
-            "2:1: `NURBS` moves the tool or its points, and is not understood",
+            "2:1: `NURBS` moves the tool or its points and is not supported",
         ),
         ("P1 = POINT/0,0,0", "the source of an APT program"),
-        ("GOTO/0,0,0\nFINI\nGOTO/1.,0,0", "4:1: `GOTO` behind FINI"),
+        ("GOTO/0,0,0\nFINI\nGOTO/1.,0,0", "4:1: `GOTO` after FINI"),
         (
             "GOTO/0,0,0\nGOTO/1.,$",
             "3:1: this statement is continued by `$`, but the file ends",
@@ -75,22 +78,22 @@ fn what_is_wrong_is_told_with_line_column_and_hint() {
         assert!(given.contains(part), "{text}: {given}");
         assert!(given.contains("help: "), "{text}: {given}");
     }
-    assert!(problems("").contains("no GOTO in this file"));
+    assert!(problems("").contains("the file has no GOTO"));
     let endless = format!("UNIT/MM\nGOTO/{}", "0,$\n".repeat(1000));
     assert!(problems(&endless).contains("goes over more than 200 lines"));
 }
 
 #[test]
-fn a_problem_of_a_continued_statement_stands_on_its_own_line() {
+fn a_problem_of_a_continued_statement_is_on_its_own_line() {
     let given = problems("UNIT/MM\nGOTO/1.,$\n  2.,$ y\n  no\n");
     assert!(given.contains("part.apt:4:3: `no` is not a number"), "{given}");
 }
 
 #[test]
-fn all_problems_are_told_at_once_but_no_more_than_the_limit() {
+fn all_problems_are_reported_together_up_to_the_maximum() {
     let given = steps(
         &format!("UNIT/MM\n{}", "GOTO/x,0,0\n".repeat(1000)),
-        &Wanted::default(),
+        &AptReadOptions::default(),
     )
     .unwrap_err();
     assert_eq!(given.as_slice().len(), MOST_PROBLEMS);
@@ -104,7 +107,7 @@ fn unknown_words_are_counted_with_their_first_line() {
         [
             "the word `FOO` is not known (twice, first in line 2)",
             "the word `LOW` of SPINDL is not known (once, first in line 6)",
-            "COOLNT was passed over once, first in line 5",
+            "COOLNT was ignored once, first in line 5",
         ]
     );
     let many: String = (0..5000).map(|k| format!("W{k}/\n")).collect();
@@ -118,14 +121,14 @@ fn unknown_words_are_counted_with_their_first_line() {
 }
 
 #[test]
-fn no_text_makes_it_panic() {
+fn no_text_causes_a_panic() {
     for text in [SOLIDWORKS, NX] {
         for cut in 0..text.len() {
-            let _ = steps(&text[..cut], &Wanted::default());
+            let _ = steps(&text[..cut], &AptReadOptions::default());
             for with in ["$", "/", ",", "\u{e4}", "-", "\n"] {
                 let _ = steps(
                     &format!("{}{with}{}", &text[..cut], &text[cut + 1..]),
-                    &Wanted::default(),
+                    &AptReadOptions::default(),
                 );
             }
         }
@@ -144,12 +147,12 @@ fn no_text_makes_it_panic() {
         "  INSERT",
         "\u{1a}",
     ] {
-        let _ = steps(text, &Wanted::default());
+        let _ = steps(text, &AptReadOptions::default());
     }
 }
 
 #[test]
-fn words_that_are_passed_over_or_refused_stand_in_the_guide() {
+fn ignored_and_refused_words_are_listed_in_the_guide() {
     let page = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/guide/tool-path-words.md");
     let page = std::fs::read_to_string(page).unwrap();
     for word in words::IGNORED.iter().chain(words::REFUSED) {

@@ -1,32 +1,33 @@
-//! What places are worth that somebody else chose: those of a sweep over placements.
+//! Scores of given placements, such as those of a sweep.
 //!
-//! Each is judged on all points of the path, by the goal, the branches and the margin of the study, as if all were known.
+//! Each is evaluated at all points of the path, by the objective, the branches and the margin of the study, without
+//! uncertainty.
 
 use armill_core::kernel::PartPlacement;
-use armill_core::optimize::{Score, Placeable, PlacementObjective, RankBy, ToolTurn, on_part};
+use armill_core::optimize::{Placeable, PlacementObjective, RankBy, Score, ToolTurn, on_part};
 use armill_core::watch::Watch;
 
 use super::freedom::Freedom;
-use super::{Placing, check_rail, rail_of};
+use super::{PlacementSearch, check_rail, rail_of};
 use crate::error::StudyError;
 use crate::file::placement::PlaceTable;
 use crate::run::runner;
 
-/// Where a part lies.
+/// Placement of a part.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PartPlace {
-    /// x, y, z of the plane's centre in the frame that the study counts from, m; heading, tilt and roll of the plane, rad.
+pub struct PlacementParameters {
+    /// x, y, z of the plane's centre in the reference frame of the study, m; heading, tilt and roll of the plane, rad.
     pub part: [f64; 6],
-    /// Turn of the tool about its axis, beside the one it has, rad.
+    /// Spin of the tool about its axis, relative to that of the study, rad.
     pub spin: f64,
-    /// Where the rail stands, m, of an arm on one; `None` where the study has it.
+    /// Position of the rail, m, for a robot on one; `None` for that of the study.
     pub rail: Option<f64>,
 }
 
-/// What places are worth.
+/// Scores of placements.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Worth {
-    /// Of each place; the cost is that of the points that are held, m.
+pub struct PlacementScores {
+    /// Score of each placement; the cost is that of the reachable points, m.
     pub scores: Vec<Score>,
     /// Points of the path.
     pub points: usize,
@@ -34,22 +35,26 @@ pub struct Worth {
     pub cases: usize,
 }
 
-impl Placing<'_> {
-    /// Where the study has the part; with its rail, where the arm stands on one.
-    pub fn drawn(&self) -> PartPlace {
+impl PlacementSearch<'_> {
+    /// The placement in the study; with its rail, if the robot is on one.
+    pub fn nominal_parameters(&self) -> PlacementParameters {
         let [x, y, z, heading, tilt, roll, spin, rail] = self.nominal().values(&[]);
-        PartPlace {
+        PlacementParameters {
             part: [x, y, z, heading, tilt, roll],
             spin,
             rail: rail_of(&self.study.robot.robot).map(|_| rail),
         }
     }
 
-    /// What each of these places is worth; the same on any number of threads.
+    /// The score of each of these placements; the same on any number of threads.
     ///
     /// # Errors
-    /// A rail that is not there, or beyond its limits; what [`Placing::search`] gives.
-    pub fn judge(&self, places: &[PartPlace], watch: Watch<'_>) -> Result<Worth, StudyError> {
+    /// A rail that is not there, or beyond its limits; errors of [`PlacementSearch::search`].
+    pub fn evaluate(
+        &self,
+        places: &[PlacementParameters],
+        watch: Watch<'_>,
+    ) -> Result<PlacementScores, StudyError> {
         let robot = &self.study.robot.robot;
         for rail in places.iter().filter_map(|place| place.rail) {
             check_rail(robot, [rail, rail])?;
@@ -73,22 +78,25 @@ impl Placing<'_> {
             objective,
         };
         let freedom = self.nominal();
-        let placements: Vec<PartPlacement> = places.iter().map(|place| part_placement(&freedom, place)).collect();
+        let placements: Vec<PartPlacement> = places
+            .iter()
+            .map(|place| part_placement(&freedom, place))
+            .collect();
         let scores = placeable.scores(&placements, None, watch)?;
-        // Where no branch is open all points are lost.
+        // If no branch is permitted, no point can be reached.
         let none = Score {
-            lost: path.len(),
+            unreachable: path.len(),
             cost: 0.0,
             branch: None,
         };
-        Ok(Worth {
+        Ok(PlacementScores {
             scores: scores.into_iter().map(|score| score.unwrap_or(none)).collect(),
             points: path.len(),
             cases: path.case_count(),
         })
     }
 
-    /// Nothing free: the place that the study has.
+    /// Nothing free: the placement of the study.
     fn nominal(&self) -> Freedom {
         let setting = &self.analysis.setting;
         Freedom::new(
@@ -99,12 +107,12 @@ impl Placing<'_> {
     }
 }
 
-fn part_placement(freedom: &Freedom, place: &PartPlace) -> PartPlacement {
+fn part_placement(freedom: &Freedom, place: &PlacementParameters) -> PartPlacement {
     let [x, y, z, heading, tilt, roll] = place.part;
     let rail = place.rail.unwrap_or(0.0);
     PartPlacement {
         rail: place.rail,
-        ..freedom.lie_of([x, y, z, heading, tilt, roll, place.spin, rail])
+        ..freedom.placement_of([x, y, z, heading, tilt, roll, place.spin, rail])
     }
 }
 
@@ -134,69 +142,69 @@ circle = {{ radius_mm = 100 }}
         read("study.toml", std::path::Path::new("."), text.as_bytes()).unwrap()
     }
 
-    fn placing(study: &Study) -> Placing<'_> {
-        Placing::new(study, PlaceTable::default(), 0).unwrap()
+    fn placing(study: &Study) -> PlacementSearch<'_> {
+        PlacementSearch::new(study, PlaceTable::default(), 0).unwrap()
     }
 
     #[test]
-    fn the_place_as_drawn_is_that_of_the_study() {
+    fn the_nominal_placement_is_that_of_the_study() {
         let study = study([800.0, 50.0, 700.0], 30.0);
-        let drawn = placing(&study).drawn();
+        let nominal = placing(&study).nominal_parameters();
         let requested = [0.8, 0.05, 0.7, 0.0, 30.0_f64.to_radians(), 0.0];
-        let apart = drawn
+        let apart = nominal
             .part
             .iter()
             .zip(requested)
             .map(|(given, requested)| (given - requested).abs());
         // The last digit, from mm into m.
-        assert!(apart.fold(0.0, f64::max) < 1e-15, "{drawn:?}");
-        assert_eq!((drawn.spin, drawn.rail), (0.0, None));
+        assert!(apart.fold(0.0, f64::max) < 1e-15, "{nominal:?}");
+        assert_eq!((nominal.spin, nominal.rail), (0.0, None));
     }
 
     #[test]
-    fn a_place_costs_what_the_study_says_that_has_the_part_there() {
+    fn the_cost_of_a_placement_is_that_of_a_study_with_the_part_there() {
         let places = [
             ([1000.0, 0.0, 800.0], 0.0),
             ([900.0, 150.0, 750.0], 40.0),
             ([850.0, -200.0, 600.0], 90.0),
         ];
         let studies = places.map(|(centre_mm, tilt_deg)| study(centre_mm, tilt_deg));
-        let part_placement = |study: &Study| placing(study).drawn();
-        let worth = placing(&studies[0])
-            .judge(&studies.each_ref().map(part_placement), Watch::NONE)
+        let part_placement = |study: &Study| placing(study).nominal_parameters();
+        let scores = placing(&studies[0])
+            .evaluate(&studies.each_ref().map(part_placement), Watch::NONE)
             .unwrap();
-        assert_eq!((worth.points, worth.cases), (360, 2));
-        for (score, study) in worth.scores.iter().zip(&studies) {
+        assert_eq!((scores.points, scores.cases), (360, 2));
+        for (score, study) in scores.scores.iter().zip(&studies) {
             let done = run(study, Watch::NONE).unwrap();
             let given = &answer(study, &done).paths[0];
             let max_um = given.max_in_plane_um.unwrap();
-            assert_eq!(score.lost, 0);
-            // The answer is rounded to a thousandth of a micrometre.
+            assert_eq!(score.unreachable, 0);
+            // The result is rounded to a thousandth of a micrometre.
             assert!((score.cost * 1e6 - max_um).abs() < 1e-3, "{score:?} {max_um}");
         }
     }
 
     #[test]
-    fn a_place_out_of_reach_loses_its_points() {
+    fn a_placement_out_of_reach_has_unreachable_points() {
         let study = study([1000.0, 0.0, 800.0], 0.0);
         let placing = placing(&study);
-        let far = PartPlace {
+        let far = PlacementParameters {
             part: [9.0, 0.0, 0.0, 0.0, 0.0, 0.0],
-            ..placing.drawn()
+            ..placing.nominal_parameters()
         };
-        let worth = placing.judge(&[far], Watch::NONE).unwrap();
-        assert_eq!(worth.scores[0].lost, worth.points);
+        let scores = placing.evaluate(&[far], Watch::NONE).unwrap();
+        assert_eq!(scores.scores[0].unreachable, scores.points);
     }
 
     #[test]
     fn a_rail_that_is_not_there_is_refused() {
         let study = study([1000.0, 0.0, 800.0], 0.0);
         let placing = placing(&study);
-        let on_rail = PartPlace {
+        let on_rail = PlacementParameters {
             rail: Some(1.0),
-            ..placing.drawn()
+            ..placing.nominal_parameters()
         };
-        let error = placing.judge(&[on_rail], Watch::NONE).unwrap_err();
-        assert!(error.to_string().contains("stands on no rail"), "{error}");
+        let error = placing.evaluate(&[on_rail], Watch::NONE).unwrap_err();
+        assert!(error.to_string().contains("has no rail"), "{error}");
     }
 }

@@ -1,50 +1,55 @@
-//! The four circles of a profile, as it was measured or after a filter, its waves, and the points that stand out.
+//! The four circles of a profile, as measured or filtered, its harmonics, and its outliers.
 //!
 //! The centre of the least-squares circle of the points as they were measured is that of all angles; a filter works on
-//! the deviations from that circle, and the circles are then put to what it leaves.
+//! the deviations from that circle, and the circles are then fitted to the filtered profile.
 
 use armill_core::roundness::{Harmonic, Plane, Polar, Profile, ReferenceCircle, RoundnessError, Zone};
 use armill_formats::measurement::profile::{MeasuredProfile, Points};
 
 use crate::StudyError;
 
-/// What is asked of a profile.
+/// Settings of the evaluation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Question {
-    /// Cut-off of the Gaussian filter, waves a turn; without it nothing is filtered.
+    /// Cut-off of the Gaussian filter, undulations per revolution; without it the profile is not filtered.
     pub upr: Option<u32>,
-    /// Waves a turn that are told, from 1.
+    /// Number of harmonics reported, from 1.
     pub harmonics: usize,
 }
 
-/// What was found. SI.
+/// Result of the evaluation. SI.
 #[derive(Clone, Debug)]
-pub struct Judged {
+pub struct RoundnessEvaluation {
     /// The plane of points in space.
     pub plane: Option<Plane>,
-    /// Angles and deviations of all points about the least-squares circle of what was judged: filtered, if it was asked.
+    /// Angles and deviations of all points about the least-squares circle of the evaluated profile: filtered, if
+    /// requested.
     pub polar: Polar,
     /// LSCI.
     pub least_squares: ReferenceCircle,
-    /// MZCI, or why there is none.
+    /// MZCI, or the reason why there is none.
     pub zone: Result<Zone, RoundnessError>,
     /// MCCI.
     pub circumscribed: ReferenceCircle,
-    /// MICI, or why there is none.
+    /// MICI, or the reason why there is none.
     pub inscribed: Result<ReferenceCircle, RoundnessError>,
     /// Of the points as they were measured.
     pub harmonics: Vec<Harmonic>,
-    /// Points as they were measured that stand out of their neighbours: which, and how far.
+    /// Outliers of the measured points: index and distance.
     pub outliers: Vec<(usize, f64)>,
-    /// Deviations of the points as they were measured, where a filter was asked for.
+    /// Deviations of the measured points, if a filter was requested.
     pub measured: Option<Polar>,
 }
 
-/// Judges the points of `measured`; `shown` is what problems call their file.
+/// Evaluates the points of `measured`; `shown` is the name of their file in problems.
 ///
 /// # Errors
 /// Points that have no plane or no circle; a filter that they are too sparse for.
-pub fn judge(shown: &str, measured: &MeasuredProfile, question: &Question) -> Result<Judged, StudyError> {
+pub fn evaluate(
+    shown: &str,
+    measured: &MeasuredProfile,
+    question: &Question,
+) -> Result<RoundnessEvaluation, StudyError> {
     let (plane, points) = match &measured.points {
         Points::Plane(points) => (None, points.clone()),
         Points::Space(points) => {
@@ -61,14 +66,14 @@ pub fn judge(shown: &str, measured: &MeasuredProfile, question: &Question) -> Re
         let left = polar.filtered(f64::from(upr)).map_err(|error| {
             StudyError::value(
                 format!("--upr: {shown}: {error}"),
-                "measure more points all round, take a lower cut-off, or leave the filter out",
+                "measure more points all around, use a lower cut-off, or no filter",
             )
         })?;
         Profile::new(polar.with(&left)).map_err(refused)
     });
     let filtered = filtered.transpose()?;
     let profile = filtered.as_ref().unwrap_or(&as_measured);
-    Ok(Judged {
+    Ok(RoundnessEvaluation {
         plane,
         least_squares: profile.least_squares(),
         zone: profile.minimum_zone(),

@@ -1,12 +1,12 @@
-// Where the robot stands, by number: what a click in the scene does, for the keyboard, and to walk along a path.
+// The target of the robot as numbers: the keyboard alternative to a click in the scene, and a way to step along a path.
 
 import { NumberField } from "../controls/field";
 import { fill } from "../dom";
 import type { Live } from "../live";
 import { panel } from "./panel";
 
-export function stand(live: Live): HTMLElement {
-  const { root, body } = panel("stand", "Send the robot");
+export function target(live: Live): HTMLElement {
+  const { root, body } = panel("target", "Send the robot");
   let fields: NumberField[] = [];
   let made = "";
 
@@ -21,19 +21,19 @@ export function stand(live: Live): HTMLElement {
       live.goTo(live.onPlate(place.y_mm, place.z_mm));
     };
     return [
-      new NumberField({ id: "stand-y", label: "y′ on the plate", unit: "mm", range: span(y_mm), step: pitch(y_mm), input: (v) => go({ y_mm: v }) }),
-      new NumberField({ id: "stand-z", label: "z′ on the plate", unit: "mm", range: span(z_mm), step: pitch(z_mm), input: (v) => go({ z_mm: v }) }),
+      new NumberField({ id: "target-y", label: "y′ on the plate", unit: "mm", range: span(y_mm), step: pitch(y_mm), input: (v) => go({ y_mm: v }) }),
+      new NumberField({ id: "target-z", label: "z′ on the plate", unit: "mm", range: span(z_mm), step: pitch(z_mm), input: (v) => go({ z_mm: v }) }),
     ];
   };
   const onPath = (): NumberField[] => {
     const n = live.scene!.points!.xyz_mm.length;
-    return [new NumberField({ id: "stand-point", label: live.answer!.holes.length > 0 ? "Hole" : "Point of the path", unit: "", range: [1, n], step: 1, input: (v) => live.goTo({ point: Math.min(n, Math.max(1, Math.round(v))) - 1 }) })];
+    return [new NumberField({ id: "target-point", label: live.answer!.holes.length > 0 ? "Hole" : "Point of the path", unit: "", range: [1, n], step: 1, input: (v) => live.goTo({ point: Math.min(n, Math.max(1, Math.round(v))) - 1 }) })];
   };
   const draw = () => {
     const { answer, scene, at } = live;
     if (!answer) return;
     const kind = answer.maps.length > 0 ? "map" : scene?.points && answer.volumes.length === 0 ? "path" : "none";
-    const key = `${kind} ${live.ask} ${live.map?.grid.points} ${live.map?.grid.y_mm[0]} ${scene?.points?.xyz_mm.length}`;
+    const key = `${kind} ${live.analysis} ${live.map?.grid.points} ${live.map?.grid.y_mm[0]} ${scene?.points?.xyz_mm.length}`;
     root.hidden = kind === "none";
     if (key !== made) {
       made = key;

@@ -1,4 +1,4 @@
-//! Tests that are wild, that leave springs open, or that tell too little are named.
+//! Outlying tests, tests that leave springs undetermined, and insufficient tests are reported.
 
 use armill_core::identify::effect::State;
 use armill_core::identify::unknown::drives;
@@ -12,7 +12,7 @@ use armill_core::robot::chain::Axis;
 use crate::{Random, arms, loads, measure, usual};
 
 #[test]
-fn one_wild_test_is_named_and_moves_little() {
+fn one_outlying_test_is_reported_and_has_little_influence() {
     let (robot, mut random) = (arms::kr120(), Random(3));
     let unknowns = drives(&robot);
     let truth = vec![6e-7, 5e-7, 9e-7, 2e-6, 3e-6, 5e-6];
@@ -51,9 +51,9 @@ fn one_wild_test_is_named_and_moves_little() {
 }
 
 #[test]
-fn springs_that_act_alike_are_named_together() {
+fn springs_with_equal_effect_are_reported_together() {
     let (robot, mut random) = (arms::mh12(), Random(6));
-    // The link after B bends about y where B itself turns about y: nothing tells them apart.
+    // The link after B bends about y where B itself turns about y: the two are not distinguishable.
     let twin = Unknown::about(Attachment::Joint(4), Axis::Y, Role::Bending);
     let mut unknowns = drives(&robot);
     unknowns.push(twin);
@@ -62,13 +62,13 @@ fn springs_that_act_alike_are_named_together() {
     measure(&robot, &unknowns, &State::of_sizes(truth), &mut tests, || 0.0);
     let found = identify(&robot, &unknowns, &tests, usual()).unwrap();
     assert_eq!(found.together, [vec![4, 6]]);
-    // Their sum is known nonetheless.
+    // Their sum is known.
     let sum = found.estimates[4].value + found.estimates[6].value;
     assert!((sum / 6.0e-5 - 1.0).abs() < 1e-4, "{sum}");
 }
 
 #[test]
-fn a_joint_that_no_test_loads_is_named_and_keeps_its_prior() {
+fn a_joint_that_no_test_loads_is_reported_and_keeps_its_prior() {
     let robot = arms::mh12();
     let unknowns = drives(&robot);
     let mut tests = loads(&robot, 10, &mut Random(7));
@@ -87,7 +87,7 @@ fn a_joint_that_no_test_loads_is_named_and_keeps_its_prior() {
 }
 
 #[test]
-fn tests_that_cannot_tell_are_refused() {
+fn refuses_insufficient_tests() {
     let robot = arms::mh12();
     let unknowns = drives(&robot);
     let mut tests = loads(&robot, 10, &mut Random(8));
@@ -121,7 +121,7 @@ fn tests_that_cannot_tell_are_refused() {
 }
 
 #[test]
-fn wrong_units_show_in_the_size_of_what_was_measured() {
+fn wrong_units_show_in_the_size_of_the_readings() {
     let robot = arms::kr120();
     let unknowns = drives(&robot);
     let mut tests = loads(&robot, 10, &mut Random(9));

@@ -1,4 +1,4 @@
-//! What an answer says besides numbers of points: statements, assumptions, sources, warnings, its sentence.
+//! Content of a result apart from numbers of points: statements, assumptions, sources, warnings, its sentence.
 
 use crate::{PLATE, answered, plate_with, study};
 
@@ -26,7 +26,7 @@ fn a_statement_is_consistent_where_the_largest_deviation_is_within_its_bound() {
 }
 
 #[test]
-fn assumed_compliances_and_their_source_are_told() {
+fn assumed_compliances_and_their_source_are_reported() {
     let own = "compliance = { rad_per_n_m = [1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 1e-6], source = \"a guess of mine\", assumed = true }\n";
     let kuka = PLATE
         .replace("yaskawa/mh12", "kuka/kr120r2500pro")
@@ -53,9 +53,8 @@ fn assumed_compliances_and_their_source_are_told() {
 }
 
 #[test]
-fn a_box_alone_is_told_in_the_sentence_and_what_is_out_of_reach_in_warnings() {
-    let of_box =
-        "[[analysis]]\nkind = \"volume\"\nname = \"v\"\nbox = { half_size_mm = [50, 50, 50], step_mm = 50 }\n";
+fn a_box_alone_is_reported_in_the_sentence_and_what_is_out_of_reach_in_warnings() {
+    let of_box = "[[analysis]]\nkind = \"volume\"\nname = \"v\"\nbox = { half_size_mm = [50, 50, 50], step_mm = 50 }\n";
     let answer = answered(&plate_with(of_box));
     assert!(
         answer.answer.starts_with("v, branch ") && answer.answer.contains("% of the box"),
@@ -83,9 +82,10 @@ fn a_box_alone_is_told_in_the_sentence_and_what_is_out_of_reach_in_warnings() {
 }
 
 #[test]
-fn sources_of_loads_and_of_what_the_tool_holds_stand_in_the_answer() {
+fn sources_of_loads_and_of_the_tool_holder_are_in_the_result() {
     let tool = "tool = { flange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0], mass = [{ at = \"tool\", mass_kg = 5, centre_mm = [0, 0, -50], source = \"weighed\" }] }\n";
-    let analysis = "[[analysis]]\nkind = \"map\"\nload = { cases_n = [[1, 2, 3]], source = \"a dynamometer\" }\n";
+    let analysis =
+        "[[analysis]]\nkind = \"map\"\nload = { cases_n = [[1, 2, 3]], source = \"a dynamometer\" }\n";
     let answer = answered(&plate_with(&format!("{tool}{analysis}")));
     let place = |key: &str| {
         answer

@@ -1,15 +1,15 @@
-//! The points of a path in planes, in the part's axes: made once for each precision, whatever the places.
+//! The points of a path in planes, in the part's axes: computed once per precision, for all placements.
 
 use nalgebra::{Matrix3, Vector3};
 
 use super::block::{BLOCK, Planes, planes};
 use super::real::Float;
-use crate::kernel::placed::{Pushes, Sighted, ToldIn};
+use crate::kernel::placed::{PathWrenches, PlacedPoint, WrenchAxes};
 use crate::spatial::Wrench;
 
-/// The points of a path in planes, and what pushes there.
+/// The points of a path in planes, and their wrenches.
 #[derive(Clone, Debug)]
-pub(in crate::kernel) struct Laid<T> {
+pub(in crate::kernel) struct PlacementPoints<T> {
     pub count: usize,
     pub at: Vec<Planes<T, 3>>,
     /// Empty where all are `still`.
@@ -18,9 +18,9 @@ pub(in crate::kernel) struct Laid<T> {
     /// Empty where all are those of `steady`.
     pub along: Vec<Planes<T, 6>>,
     pub steady: [Vector3<f64>; 2],
-    pub told_in: ToldIn,
+    pub wrench_axes: WrenchAxes,
     pub cases: usize,
-    /// Force and moment, case after case in each block; empty where all points share `cases_of_all`.
+    /// Force and moment, case after case in each block; empty where all points have `cases_of_all`.
     pub wrenches: Vec<Planes<T, 6>>,
     pub cases_of_all: Vec<Wrench>,
     pub moments: bool,
@@ -28,61 +28,57 @@ pub(in crate::kernel) struct Laid<T> {
     pub strongest: [f64; 2],
 }
 
-impl<T: Float> Laid<T> {
-    /// These points under what pushes there.
-    pub fn new(points: &[Sighted], pushes: &Pushes) -> Laid<T> {
-        let rotation = |point: &Sighted| *point.part_from_tool.rotation.to_rotation_matrix().matrix();
+impl<T: Float> PlacementPoints<T> {
+    /// These points with these wrenches.
+    pub fn new(points: &[PlacedPoint], load: &PathWrenches) -> PlacementPoints<T> {
+        let rotation = |point: &PlacedPoint| *point.part_from_tool.rotation.to_rotation_matrix().matrix();
         let still = points.first().map_or_else(Matrix3::identity, rotation);
         let steady = points.first().map_or([Vector3::zeros(); 2], |point| point.along);
         let is_still = points.iter().all(|point| rotation(point) == still);
         let is_steady = points.iter().all(|point| point.along == steady);
-        let of_all = pushes.wrenches.len() == pushes.cases;
+        let of_all = load.wrenches.len() == load.cases;
         let strongest = |of: fn(&Wrench) -> Vector3<f64>| {
-            let norms = pushes.wrenches.iter().map(|wrench| of(wrench).norm());
+            let norms = load.wrenches.iter().map(|wrench| of(wrench).norm());
             norms.fold(0.0, f64::max)
         };
-        let mut laid = Laid {
+        let mut out = PlacementPoints {
             count: points.len(),
             at: Vec::new(),
             rotations: Vec::new(),
             still,
             along: Vec::new(),
             steady,
-            told_in: pushes.told_in,
-            cases: pushes.cases,
+            wrench_axes: load.wrench_axes,
+            cases: load.cases,
             wrenches: Vec::new(),
-            cases_of_all: if of_all {
-                pushes.wrenches.clone()
-            } else {
-                Vec::new()
-            },
-            moments: pushes.wrenches.iter().any(|w| w.moment != Vector3::zeros()),
+            cases_of_all: if of_all { load.wrenches.clone() } else { Vec::new() },
+            moments: load.wrenches.iter().any(|w| w.moment != Vector3::zeros()),
             strongest: [strongest(|w| w.force), strongest(|w| w.moment)],
         };
         for (block, points) in points.chunks(BLOCK).enumerate() {
-            // The rest of a block repeats its last point.
+            // The last block is filled with its last point.
             let last = points.len() - 1;
             let point = |i: usize| &points[i.min(last)];
-            laid.at
+            out.at
                 .push(filled(|i| point(i).part_from_tool.translation.vector.into()));
             if !is_still {
                 // Columns of the transpose are rows of the rotation.
                 let rows = |i: usize| rotation(point(i)).transpose();
-                laid.rotations.push(filled(|i| {
+                out.rotations.push(filled(|i| {
                     let rows = rows(i);
                     std::array::from_fn(|k| rows[k])
                 }));
             }
             if !is_steady {
-                laid.along.push(filled(|i| six(point(i).along)));
+                out.along.push(filled(|i| six(point(i).along)));
             }
-            for case in 0..if of_all { 0 } else { pushes.cases } {
-                let wrench = |i: usize| pushes.wrenches[(block * BLOCK + i.min(last)) * pushes.cases + case];
-                laid.wrenches
+            for case in 0..if of_all { 0 } else { load.cases } {
+                let wrench = |i: usize| load.wrenches[(block * BLOCK + i.min(last)) * load.cases + case];
+                out.wrenches
                     .push(filled(|i| six([wrench(i).force, wrench(i).moment])));
             }
         }
-        laid
+        out
     }
 }
 

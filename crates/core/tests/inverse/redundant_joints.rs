@@ -1,4 +1,4 @@
-//! Rails and seventh axes: which joint stands at home, and how far it leaves it.
+//! Rails and seventh axes: which joint is kept at home, and how far it leaves home.
 
 use armill_core::frame::Isometry;
 use armill_core::robot::inverse::{Inverse, ToolAt, posture_at, postures};
@@ -9,10 +9,10 @@ use crate::arms::{self, Stream, other};
 use crate::{apart, at, flange_of_rows};
 
 #[test]
-fn joint_3_of_an_iiwa_stands_at_home_and_all_eight_postures_of_the_others_are_found() {
+fn joint_3_of_an_iiwa_is_at_home_and_all_eight_postures_of_the_others_are_found() {
     let (robot, tool) = (other::iiwa14(), Isometry::identity());
-    assert!(matches!(robot.inverse(), Inverse::OneStands(_)));
-    assert!(robot.inverse().to_string().contains("joint 3 stands still"));
+    assert!(matches!(robot.inverse(), Inverse::OneFixed(_)));
+    assert!(robot.inverse().to_string().contains("joint 3 is fixed"));
     let (mut stream, mut eights, mut at_home, mut count) = (Stream(11), 0, 0, 0_usize);
     for _ in 0..10_000 {
         let q = stream.joints(&robot);
@@ -41,11 +41,11 @@ fn joint_3_of_an_iiwa_stands_at_home_and_all_eight_postures_of_the_others_are_fo
             );
         }
         eights += usize::from(found.len() == 8);
-        // With joint 3 at zero, where no joint made the pose.
+        // With joint 3 at zero, although no pose was made with it.
         let found = postures(&robot, &made.base_from_tool, at(&tool)).unwrap();
         at_home += usize::from(found[0].joints[2] == 0.0);
-        let stands = found[0].joints[2];
-        assert!(found.iter().all(|p| p.joints[2] == stands), "{found:?}");
+        let position = found[0].joints[2];
+        assert!(found.iter().all(|p| p.joints[2] == position), "{found:?}");
         count += 1;
     }
     println!("{count} poses, {eights} with 8, {at_home} at home");
@@ -54,7 +54,7 @@ fn joint_3_of_an_iiwa_stands_at_home_and_all_eight_postures_of_the_others_are_fo
 }
 
 #[test]
-fn joint_3_leaves_home_only_as_far_as_the_limits_ask_for() {
+fn joint_3_leaves_home_only_as_far_as_the_limits_require() {
     let (robot, tool) = (other::iiwa14(), Isometry::identity());
     let (mut stream, mut left) = (Stream(12), 0);
     let within = |p: &Posture| {
@@ -66,18 +66,18 @@ fn joint_3_leaves_home_only_as_far_as_the_limits_ask_for() {
         let q = stream.joints(&robot);
         let pose = posture_at(&robot, &q, &tool).base_from_tool;
         let found = postures(&robot, &pose, at(&tool)).unwrap();
-        // The joints that made the pose are inside: five degrees and less from them some posture is.
+        // The joint positions of the pose are within the limits: some posture is within five degrees of them.
         let inside = found.iter().find(|p| within(p));
-        let stands = found[0].joints[2];
-        if stands == 0.0 {
+        let position = found[0].joints[2];
+        if position == 0.0 {
             continue;
         }
         assert!(inside.is_some(), "{q:?}");
         left += 1;
-        // Nearer to home it would not stay either.
+        // Nearer to home no posture is within the limits.
         for part in [0.5, 0.9, 0.999] {
             let mut home = [0.0; 7];
-            home[2] = part * stands;
+            home[2] = part * position;
             let nearer = postures(
                 &robot,
                 &pose,
@@ -93,7 +93,7 @@ fn joint_3_leaves_home_only_as_far_as_the_limits_ask_for() {
 }
 
 #[test]
-fn calibrated_railed_and_otherwise_counted_iiwas_hold_their_poses_with_joint_3_at_home() {
+fn calibrated_railed_and_differently_zeroed_iiwas_reach_their_poses_with_joint_3_at_home() {
     let (iiwa, tool) = (other::iiwa14(), Isometry::identity());
     let mut joints = iiwa.joints().to_vec();
     for joint in &mut joints {
@@ -129,21 +129,21 @@ fn calibrated_railed_and_otherwise_counted_iiwas_hold_their_poses_with_joint_3_a
 }
 
 #[test]
-fn a_rail_stands_at_home_and_joints_to_spare_are_drawn_to_it() {
+fn a_rail_is_kept_at_home_and_redundant_joints_are_pulled_to_it() {
     let tool = arms::bent_tool();
     let railed = other::on_rail(&arms::mh12());
     let pose = Isometry::translation(0.0, 2.0, 0.0)
         * posture_at(&arms::mh12(), &[0.2, 0.1, -0.3, 0.4, 0.5, 0.6], &tool).base_from_tool;
-    let stands = |home: Option<&[f64]>| -> f64 {
+    let position = |home: Option<&[f64]>| -> f64 {
         postures(&railed, &pose, ToolAt { home, ..at(&tool) }).unwrap()[0].joints[0]
     };
-    assert_eq!(stands(None), 2.0);
-    assert_eq!(stands(Some(&[2.3, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])), 2.3);
+    assert_eq!(position(None), 2.0);
+    assert_eq!(position(Some(&[2.3, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])), 2.3);
 
     let iiwa = other::iiwa14();
     let q = [0.3, 0.6, -0.4, -1.2, 0.5, 0.9, -0.2];
     let pose = posture_at(&iiwa, &q, &tool).base_from_tool;
-    // Home is a posture that holds the pose: nothing is nearer to it.
+    // Home is a posture of the pose: nothing is nearer to it.
     let found = postures(
         &iiwa,
         &pose,
@@ -154,7 +154,7 @@ fn a_rail_stands_at_home_and_joints_to_spare_are_drawn_to_it() {
     )
     .unwrap();
     assert!(apart(&iiwa, &found[0].joints, &q) < 1e-5, "{:?}", found[0].joints);
-    // Without, the first is the nearest to the middle: a turn of the elbow either way is farther.
+    // Without it, the first is the nearest to the middle: a rotation of the elbow either way is farther.
     let length = |p: &Posture| p.joints.iter().map(|q| q * q).sum::<f64>();
     let found = postures(&iiwa, &pose, at(&tool)).unwrap();
     assert!(found.iter().all(|p| length(p) >= length(&found[0])));

@@ -1,4 +1,4 @@
-//! Springs that made the readings are found again where nothing scatters.
+//! Springs are recovered exactly from readings without noise.
 
 use armill_core::identify::effect::{Effects, State};
 use armill_core::identify::unknown::{base, bending, drives, tool};
@@ -9,7 +9,7 @@ use armill_core::robot::Attachment;
 use crate::{Random, arms, loads, measure, plain, some_sizes, usual};
 
 #[test]
-fn drives_are_found_exactly_where_nothing_scatters() {
+fn drives_are_recovered_exactly_from_readings_without_noise() {
     let (robot, mut random) = (arms::mh12(), Random(1));
     let unknowns = drives(&robot);
     let truth = vec![2.1e-6, 2.5e-6, 4.0e-5, 6.0e-5, 6.0e-5, 8.0e-5];
@@ -24,7 +24,7 @@ fn drives_are_found_exactly_where_nothing_scatters() {
     for method in [plain(), usual()] {
         let found = identify(&robot, &unknowns, &tests, method).unwrap();
         for (estimate, truth) in found.estimates.iter().zip(&truth) {
-            // Residuals of 1e-9 of the largest reading count as rounding.
+            // Residuals of 1e-9 of the largest reading are rounding.
             assert!(
                 (estimate.value / truth - 1.0).abs() < 1e-6,
                 "{estimate:?} against {truth}"
@@ -34,7 +34,7 @@ fn drives_are_found_exactly_where_nothing_scatters() {
 }
 
 #[test]
-fn every_spring_and_both_points_are_found_exactly_where_nothing_scatters() {
+fn every_spring_and_both_points_are_recovered_exactly_from_readings_without_noise() {
     let (robot, mut random) = (arms::kr120(), Random(2));
     let unknowns = [drives(&robot), bending(&robot), base(&robot), tool()].concat();
     let truth = State {
@@ -49,8 +49,8 @@ fn every_spring_and_both_points_are_found_exactly_where_nothing_scatters() {
         ..usual()
     };
     let found = identify(&robot, &unknowns, &tests, method).unwrap();
-    // Three springs of one size about axes through the wrist centre yield alike in every posture: which of drives and
-    // bendings of the wrist yields stays open, and no prediction needs it.
+    // Three springs of one size about axes through the wrist centre have equal effect in every posture: drives and
+    // bendings of the wrist are not distinguishable, and no prediction depends on it.
     let open = |k: &usize| found.together.iter().any(|set| set.contains(k));
     let in_wrist = |k: usize| matches!(unknowns[k].attachment, Attachment::Joint(3..=5));
     assert!(
@@ -63,7 +63,7 @@ fn every_spring_and_both_points_are_found_exactly_where_nothing_scatters() {
         let near = (estimate.value / truth - 1.0).abs() < 1e-4;
         assert!(near || open(&k), "{estimate:?} against {truth}");
     }
-    // Displacements are some mm; residuals below 1e-9 of the largest count as rounding.
+    // Displacements are some mm; residuals below 1e-9 of the largest are rounding.
     let errors = displacement_errors(&tests, found.tests.iter().map(|t| &t.left_out)).unwrap();
     assert!(errors.largest < 1e-8, "{errors:?}");
     let (force, measured) = (found.force_shift.unwrap(), found.measured_shift.unwrap());
@@ -76,8 +76,8 @@ fn every_spring_and_both_points_are_found_exactly_where_nothing_scatters() {
 }
 
 #[test]
-fn the_way_of_the_paper_gives_each_joint_by_itself() {
-    // One link loaded, its turn against the one before read: c = turn / torque, whatever the others do.
+fn the_method_of_the_paper_gives_each_joint_separately() {
+    // One link loaded, its rotation relative to the one before read: c = rotation / torque, whatever the others do.
     let (robot, mut random) = (arms::mh12(), Random(5));
     let unknowns = drives(&robot);
     let truth = [2.1e-6, 2.5e-6, 4.0e-5, 6.0e-5, 6.0e-5, 8.0e-5];

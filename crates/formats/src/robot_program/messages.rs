@@ -1,4 +1,4 @@
-//! What is told of a program besides its moves: problems, and notes of what was passed over.
+//! Messages on a program: problems, and notes on ignored statements and assumptions.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -6,12 +6,12 @@ use std::ops::Range;
 use super::text::ProgramText;
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
 
-/// No more notes of different kinds than these: a list that nobody reads helps nobody.
+/// Maximum number of different notes.
 const MOST_NOTES: usize = 200;
 
-/// Problems and notes, as they are found.
+/// Problems and notes, in order.
 #[derive(Default)]
-pub(super) struct Told {
+pub(super) struct ProgramMessages {
     problems: Vec<Problem>,
     notes: Vec<Note>,
     known: HashMap<String, usize>,
@@ -24,8 +24,8 @@ struct Note {
     times: usize,
 }
 
-impl Told {
-    /// A problem of these bytes; beyond 200 none.
+impl ProgramMessages {
+    /// Adds a problem of these bytes; at most 200 are stored.
     pub fn problem(&mut self, text: &ProgramText, span: Range<usize>, message: String, hint: &str) {
         if self.problems.len() < MOST_PROBLEMS {
             self.problems
@@ -33,17 +33,17 @@ impl Told {
         }
     }
 
-    /// Whether more problems are not looked for.
+    /// Whether the maximum number of problems is reached.
     pub fn is_full(&self) -> bool {
         self.problems.len() >= MOST_PROBLEMS
     }
 
-    /// How many problems there are.
+    /// Number of problems.
     pub fn count(&self) -> usize {
         self.problems.len()
     }
 
-    /// A sentence of what was passed over; said once, with its first line and how often it would be said.
+    /// Adds a note. The same sentence is stored once, with its first line and the number of occurrences.
     pub fn note(&mut self, (text, line): (&ProgramText, u32), sentence: impl Into<String>) {
         let sentence = sentence.into();
         if let Some(index) = self.known.get(&sentence) {
@@ -63,16 +63,16 @@ impl Told {
     /// The notes, or the problems if there are any.
     pub fn finish(self) -> Result<Vec<String>, Problems> {
         Problems::from(self.problems).into_result()?;
-        let more = (self.more > 0).then(|| format!("{} more remarks of other kinds", self.more));
+        let more = (self.more > 0).then(|| format!("{} more notes of other kinds", self.more));
         let notes = self.notes.into_iter().map(|note| match note.times {
             1 => format!("{}: {}", note.place, note.sentence),
-            times => format!("{}: {} ({times} times, here first)", note.place, note.sentence),
+            times => format!("{}: {} ({times} times, first here)", note.place, note.sentence),
         });
         Ok(notes.chain(more).collect())
     }
 }
 
-/// `text` short enough for a sentence.
+/// The beginning of `text`, for messages.
 pub(super) fn shown(text: &str) -> &str {
     let end = text.char_indices().nth(40).map_or(text.len(), |(at, _)| at);
     &text[..end]

@@ -1,4 +1,4 @@
-//! What a program cannot tell itself: the machine it was written for; and what it was read with.
+//! Options for reading a program: properties of the machine for which it was written.
 
 use std::collections::BTreeMap;
 
@@ -9,15 +9,15 @@ use crate::toolpath::LengthUnit;
 /// Gives the text of a subroutine by its name: the reader opens no files itself.
 pub type Lookup<'a> = &'a dyn Fn(&str) -> Option<String>;
 
-/// What a user may say of a program where it is silent.
+/// Options for a program that does not give these values.
 #[derive(Clone, Default)]
-pub struct Wanted<'a> {
+pub struct GcodeReadOptions<'a> {
     /// The unit before the first G20 or G21.
     pub unit: LengthUnit,
     /// The unit of the parameters 5161 to 5386. With a tool table it is not looked at: then they have the unit of the
     /// table.
     pub machine_unit: LengthUnit,
-    /// Parameters as the machine holds them before the program, such as work offsets from 5221 on.
+    /// Parameters of the machine before the program, such as work offsets from 5221 on.
     pub parameters: BTreeMap<u16, f64>,
     /// The tools; without them every tool number is accepted, without length and diameter.
     pub tools: Option<ToolTable>,
@@ -25,13 +25,13 @@ pub struct Wanted<'a> {
     pub rotaries: Option<Rotaries>,
     /// Whether blocks that begin with `/` are left out.
     pub block_delete: bool,
-    /// Lines of loops and subroutines that may be done, repetitions counted; 20 million where nothing is told.
+    /// Maximum number of executed lines in loops and subroutines, repetitions included; the default is 20 million.
     pub most_repeated_lines: Option<usize>,
     /// Subroutines that are not in the program.
     pub subroutines: Option<Lookup<'a>>,
 }
 
-/// What was read and has no part in the path, or was taken for granted.
+/// Ignored words and assumptions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Warning {
     /// No G20 or G21 before the first axis word.
@@ -46,10 +46,10 @@ pub enum Warning {
     UserCode,
     /// Waiting for or setting an input or output.
     Output,
-    /// A tool whose length the tool table does not tell.
+    /// A tool without a length in the tool table.
     LengthUnknown,
     /// A cut in feed per revolution with a spindle that does not turn.
-    SpindleStands,
+    SpindleStopped,
     /// A tapping cycle: the spindle turns back at its bottom.
     Tapping,
 }
@@ -65,12 +65,12 @@ impl Warning {
             Warning::MachineZeroAssumed => {
                 "machine coordinates without work offset: program zero is assumed there"
             }
-            Warning::StartAssumed => "the program begins with an arc: from program zero",
-            Warning::UserCode => "codes of the machine builder are passed over",
-            Warning::Output => "inputs and outputs are passed over",
-            Warning::LengthUnknown => "length of the tool is not told: X Y Z are taken as its tip",
-            Warning::SpindleStands => "feed per revolution with the spindle standing: the feed is not told",
-            Warning::Tapping => "tapping: the feed is taken as told",
+            Warning::StartAssumed => "the program begins with an arc: program zero is used as its start",
+            Warning::UserCode => "codes of the machine builder are ignored",
+            Warning::Output => "inputs and outputs are ignored",
+            Warning::LengthUnknown => "the tool length is not given: X Y Z are read as the tool tip",
+            Warning::SpindleStopped => "feed per revolution with the spindle stopped: the feed is not known",
+            Warning::Tapping => "tapping: the programmed feed is used",
         }
     }
 }

@@ -1,4 +1,4 @@
-//! What a search has found, and the study with its path there.
+//! The result of a search, and the study with its path there.
 
 use armill_core::nalgebra::UnitQuaternion;
 
@@ -9,41 +9,43 @@ use crate::file::resolve::{Study, Subject};
 use crate::output::{Opening, Picture};
 use crate::studies::FoundStudy;
 
-/// What a search has found.
-pub struct Found {
+/// Result of a search.
+pub struct PlacementResult {
     /// In numbers.
     pub answer: PlacementAnswer,
     /// Front and sections.
     pub pictures: Vec<Picture>,
-    /// Which ask was placed.
+    /// Index of the analysis.
     pub(super) analysis: usize,
-    /// The tool on the part at each point, where it turns with it though the study does not say so.
+    /// The tool on the part at each point, if it turns with it though the study does not say so.
     pub(super) with_part: Option<Vec<UnitQuaternion<f64>>>,
 }
 
-impl Found {
-    /// Whether the path is better there than as drawn.
+impl PlacementResult {
+    /// Whether the path is better there than at the nominal placement.
     pub fn is_better(&self) -> bool {
-        let (there, drawn) = (&self.answer.found, &self.answer.nominal);
-        (there.unreachable_points, there.cost_um) < (drawn.unreachable_points, drawn.cost_um)
+        let (there, nominal) = (&self.answer.found, &self.answer.nominal);
+        (there.unreachable_points, there.cost_um) < (nominal.unreachable_points, nominal.cost_um)
     }
 
-    /// What a report about the path there begins with.
+    /// The first section of a report about the path there.
     pub fn opening(&self) -> Opening {
         Opening {
-            heading: "The place",
+            heading: "Placement",
             sentences: self.answer.sentences(),
             pictures: self.pictures.clone(),
         }
     }
 
-    /// The study with its path, alone, laid there and its tool turned as it was judged.
+    /// The study with only its path, placed there, with the spin of the tool of the search.
     ///
     /// # Errors
     /// Every problem of the file, which may have changed since it was read.
     pub fn study(&self, found: &FoundStudy) -> Result<Study, StudyError> {
-        let mut study = found.read_changed(|file| self.lay(file))?;
-        study.analyses.retain(|analysis| analysis.name == self.answer.analysis);
+        let mut study = found.read_changed(|file| self.place_path(file))?;
+        study
+            .analyses
+            .retain(|analysis| analysis.name == self.answer.analysis);
         study.statements.clear();
         for analysis in &mut study.analyses {
             let path = match &mut analysis.subject {
@@ -54,8 +56,8 @@ impl Found {
             if let Some(part_from_tools) = &self.with_part {
                 let track = &path.track;
                 let spins = part_from_tools.iter().enumerate().map(|(index, on_part)| {
-                    let judged = track.base_from_part.rotation * on_part;
-                    let turn = track.stop(index).base_from_tool.rotation.inverse() * judged;
+                    let evaluated = track.base_from_part.rotation * on_part;
+                    let turn = track.stop(index).base_from_tool.rotation.inverse() * evaluated;
                     2.0 * turn.k.atan2(turn.w)
                 });
                 path.track.spins = Some(spins.collect());
@@ -64,8 +66,8 @@ impl Found {
         Ok(study)
     }
 
-    /// Lets the study file lay its path there.
-    fn lay(&self, file: &mut StudyFile) {
+    /// Changes the placement of the path in the study file.
+    fn place_path(&self, file: &mut StudyFile) {
         let place = &self.answer.place;
         let Some(analysis) = file.analysis.get_mut(self.analysis) else {
             return;

@@ -86,16 +86,16 @@ fn question<'a>(robot: &'a Robot, model: &'a StiffnessModel, tool: &'a Isometry)
     }
 }
 
-/// Where the tool stands at these joint positions of the chain, m.
+/// Position of the tip at these joint positions of the chain, m.
 fn tip(robot: &Robot, q: &[f64]) -> Vector3<f64> {
     tool_on(&forward(robot, q), &arms::bent_tool()).translation.vector
 }
 
 #[test]
-fn links_that_lag_by_half_a_gap_put_the_tool_where_forward_kinematics_has_it() {
+fn links_behind_by_half_the_backlash_agree_with_forward_kinematics() {
     let robot = arms::mh12();
     let along = along(&robot, &model(BacklashSide::Motion, GAP), false, push([0.0; 3]));
-    let moved = &along.unloaded.as_ref().unwrap().moved;
+    let moved = &along.backlash_geometry.as_ref().unwrap().displacements;
     let last = along.answers.points.len() - 2;
     let mut given = 0;
     for index in 1..last {
@@ -103,7 +103,7 @@ fn links_that_lag_by_half_a_gap_put_the_tool_where_forward_kinematics_has_it() {
         let motor = |joint, at: usize| robot.theta(joint, along.answers.joints_at(at));
         let (mut lags, mut clear) = (q.to_vec(), true);
         for joint in 0..6 {
-            // Far enough from where it turns back: it has crossed its gap long ago.
+            // Far enough from the reversal: the link has crossed its backlash.
             let before = index.saturating_sub(30);
             let ways = (before..index).map(|at| motor(joint, at + 1) - motor(joint, at));
             let up = ways.clone().all(|by| by > 0.0) && index > 30;
@@ -115,7 +115,7 @@ fn links_that_lag_by_half_a_gap_put_the_tool_where_forward_kinematics_has_it() {
         if clear {
             given += 1;
             let by = tip(&robot, &lags) - tip(&robot, q);
-            // To the first order: gap squared, times a reach of 1 m and six joints.
+            // To first order: backlash squared, times a reach of 1 m and six joints.
             assert!(
                 (moved[2 * index] - by).norm() < 10.0 * GAP * GAP,
                 "{index}: {} {by}",
@@ -125,29 +125,34 @@ fn links_that_lag_by_half_a_gap_put_the_tool_where_forward_kinematics_has_it() {
         }
     }
     assert!(given > 100, "{given}");
-    // Nothing pushes: all of the deviation is backlash.
+    // Without load: all of the deviation is backlash.
     assert_eq!(along.answers.deviations, *moved);
 }
 
 #[test]
-fn the_other_way_round_links_lag_the_other_way() {
+fn in_the_opposite_direction_links_are_on_the_opposite_side() {
     let robot = arms::mh12();
     let [one, other] = [false, true].map(|backwards| {
-        along(&robot, &model(BacklashSide::Motion, GAP), backwards, push([0.0; 3]))
-            .unloaded
-            .unwrap()
-            .moved
+        along(
+            &robot,
+            &model(BacklashSide::Motion, GAP),
+            backwards,
+            push([0.0; 3]),
+        )
+        .backlash_geometry
+        .unwrap()
+        .displacements
     });
     let count = one.len() / 2;
     let opposite = (0..count)
         .filter(|i| (one[2 * i] + other[2 * (count - 1 - i)]).norm() < 1e-9)
         .count();
-    // All but where links cross their gaps: those are behind the reversal, on either side of it.
+    // All points except those where links cross their backlash: after the reversal, on either side of it.
     assert!(opposite * 10 > count * 7, "{opposite} of {count}");
 }
 
 #[test]
-fn a_torque_holds_its_flank_all_around_and_turns_with_the_load() {
+fn a_torque_keeps_its_side_of_the_backlash_and_changes_it_with_the_load() {
     let robot = arms::mh12();
     let along = along(
         &robot,
@@ -155,14 +160,14 @@ fn a_torque_holds_its_flank_all_around_and_turns_with_the_load() {
         false,
         push([30.0, -20.0, -80.0]),
     );
-    for pair in along.unloaded.unwrap().moved.chunks(2) {
+    for pair in along.backlash_geometry.unwrap().displacements.chunks(2) {
         // The second case pushes the other way.
         assert!((pair[0] + pair[1]).norm() < 1e-18 && pair[0].norm() > 2e-5);
     }
 }
 
 #[test]
-fn an_arm_that_is_not_as_believed_is_where_its_own_chain_has_it() {
+fn an_arm_with_geometry_errors_agrees_with_its_actual_chain() {
     let robot = arms::mh12();
     let mut motions = robot.chain().motions().to_vec();
     for motion in &mut motions {
@@ -184,7 +189,7 @@ fn an_arm_that_is_not_as_believed_is_where_its_own_chain_has_it() {
 }
 
 #[test]
-fn a_point_asked_by_itself_deviates_as_on_the_path_and_its_shares_add_up() {
+fn a_single_point_deviates_as_on_the_path_and_its_shares_add_up() {
     let robot = arms::mh12();
     let model = model(BacklashSide::Motion, GAP);
     let load = push([40.0, 10.0, -60.0]);
@@ -200,12 +205,16 @@ fn a_point_asked_by_itself_deviates_as_on_the_path_and_its_shares_add_up() {
             normal: stop.normal,
             ..question(&robot, &model, &tool)
         };
-        let dragged = along.unloaded.as_ref().unwrap().dragged_at(index, 6);
-        let alone = evaluate_on_path(&requested, &stop.base_from_tool, dragged);
+        let link_offsets = along
+            .backlash_geometry
+            .as_ref()
+            .unwrap()
+            .link_offsets_at(index, 6);
+        let alone = evaluate_on_path(&requested, &stop.base_from_tool, link_offsets);
         let (evaluation, there) = (alone.points[0].unwrap(), along.answers.points[index].unwrap());
         assert!((evaluation.in_plane - there.in_plane).abs() < 1e-12);
         assert!((alone.shares_at(0).iter().sum::<f64>() - evaluation.in_plane).abs() < 1e-15);
-        // Gaps that are known to a tenth.
+        // Backlash known to a tenth.
         let exact = StiffnessModel {
             structure: crate::robot::Structure {
                 backlash: model
@@ -223,21 +232,21 @@ fn a_point_asked_by_itself_deviates_as_on_the_path_and_its_shares_add_up() {
             },
             ..model.clone()
         };
-        let sure = Question {
+        let exact = Question {
             arm: Arm {
                 model: &exact,
                 ..requested.arm
             },
             ..requested
         };
-        let sure = evaluate_on_path(&sure, &stop.base_from_tool, dragged).points[0].unwrap();
-        assert!(evaluation.in_plane_uncertainty > sure.in_plane_uncertainty);
+        let exact = evaluate_on_path(&exact, &stop.base_from_tool, link_offsets).points[0].unwrap();
+        assert!(evaluation.in_plane_uncertainty > exact.in_plane_uncertainty);
     }
 }
 
-/// Witness: links on every combination of flanks, each asked as on a path.
+/// Reference: links on every combination of sides, each evaluated as on a path.
 #[test]
-fn at_a_point_by_itself_links_lie_where_they_move_the_tool_farthest() {
+fn a_single_point_uses_the_side_of_the_backlash_with_the_largest_deviation() {
     let robot = arms::mh12();
     let mut model = model(BacklashSide::Motion, GAP);
     model.structure.backlash[1].as_mut().unwrap().side = BacklashSide::Torque;
@@ -255,20 +264,20 @@ fn at_a_point_by_itself_links_lie_where_they_move_the_tool_farthest() {
         };
         let given = evaluate(&requested, 1, |_| stop.base_from_tool, Watch::NONE).unwrap();
         let evaluation = given.points[0].unwrap();
-        let flanks = (0..64).map(|flanks: usize| {
+        let by_sides = (0..64).map(|sides: usize| {
             let placements = |joint: usize| {
-                if flanks >> joint & 1 == 0 {
+                if sides >> joint & 1 == 0 {
                     0.5 * GAP
                 } else {
                     -0.5 * GAP
                 }
             };
-            let dragged: Vec<f64> = (0..6).map(placements).collect();
-            evaluate_on_path(&requested, &stop.base_from_tool, &dragged).points[0]
+            let link_offsets: Vec<f64> = (0..6).map(placements).collect();
+            evaluate_on_path(&requested, &stop.base_from_tool, &link_offsets).points[0]
                 .unwrap()
                 .in_plane
         });
-        let all: Vec<f64> = flanks.collect();
+        let all: Vec<f64> = by_sides.collect();
         let farthest = all.iter().copied().fold(0.0, f64::max);
         let nearest = all.iter().copied().fold(f64::INFINITY, f64::min);
         assert!(
@@ -276,23 +285,28 @@ fn at_a_point_by_itself_links_lie_where_they_move_the_tool_farthest() {
             "{} {farthest}",
             evaluation.in_plane
         );
-        assert!(nearest < 0.9 * farthest, "flanks matter: {nearest} {farthest}");
+        assert!(nearest < 0.9 * farthest, "the side matters: {nearest} {farthest}");
         assert!((given.shares_at(0).iter().sum::<f64>() - evaluation.in_plane).abs() < 1e-15);
     }
 }
 
 #[test]
-fn an_arm_without_play_that_is_as_believed_is_moved_by_its_load_alone() {
+fn an_arm_without_backlash_and_geometry_errors_is_moved_only_by_its_load() {
     let robot = arms::mh12();
     assert!(
         along(&robot, StiffnessModel::DRIVES, false, push([1.0, 2.0, 3.0]))
-            .unloaded
+            .backlash_geometry
             .is_none()
     );
-    // A gap of nothing is none.
+    // Zero backlash has no effect.
     assert!(
-        along(&robot, &model(BacklashSide::Motion, 0.0), false, push([1.0, 2.0, 3.0]))
-            .unloaded
-            .is_none()
+        along(
+            &robot,
+            &model(BacklashSide::Motion, 0.0),
+            false,
+            push([1.0, 2.0, 3.0])
+        )
+        .backlash_geometry
+        .is_none()
     );
 }

@@ -1,4 +1,5 @@
-//! How sure is a cost? Its standard uncertainty, from arms that are one standard uncertainty off.
+//! Ranking of placements, with the standard uncertainty of the cost from arms that are changed by one standard
+//! uncertainty.
 //!
 //! ```text
 //! u^2 = sum_k (J(c + l_k) - J(c))^2 + (J u_F)^2
@@ -6,45 +7,47 @@
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | `J` | cost of a place in its branch | m |
+//! | `J` | cost of a placement in its branch | m |
 //! | `c` | compliances of the joints | rad/(N m), m/N |
-//! | `l_k` | column k of the Cholesky factor of their covariance; of independent ones the standard uncertainty of joint k | as `c` |
+//! | `l_k` | column k of the Cholesky factor of their covariance; for independent ones the standard uncertainty of joint k | as `c` |
 //! | `u_F` | relative standard uncertainty of the load | 1 |
 //!
-//! The propagation is that of JCGM 100:2008, 5.1.3 note 2: with differences in place of derivatives. Springs beside the joints,
-//! components of the force and the length of the tool are not in it.
+//! The propagation is that of JCGM 100:2008, 5.1.3 note 2, with differences instead of derivatives. Compliances other
+//! than those of the joints, components of the force and the length of the tool are not included.
 
 use crate::robot::JointCompliance;
 use crate::source::Arm;
 
-/// What a place is compared by.
+/// The criterion that placements are ranked by.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RankBy {
-    /// Its cost, as if all were known.
+    /// The cost with nominal values.
     Nominal,
-    /// Its cost and two standard uncertainties.
+    /// The cost plus two standard uncertainties.
     PlusTwoSigma,
-    /// How probably its cost is within this limit (m), told as standard uncertainties that it is above it, below zero inside.
-    WithinLimit(f64),
+    /// The probability that the cost is within this tolerance (m), as the number of standard uncertainties above it;
+    /// negative inside.
+    WithinTolerance(f64),
 }
 
 impl RankBy {
-    /// What a place is compared by that costs `cost` (m) with this standard uncertainty (m).
+    /// The value of the criterion for this cost (m) and its standard uncertainty (m).
     pub(super) fn compared(self, cost: f64, uncertainty: f64) -> f64 {
         match self {
             RankBy::Nominal => cost,
             RankBy::PlusTwoSigma => cost + 2.0 * uncertainty,
-            // What is quite sure is as far from the limit as it is near in nanometres: its sign and order count.
-            RankBy::WithinLimit(limit) => (cost - limit) / uncertainty.max(SURE),
+            // With a very small uncertainty the value is the distance from the tolerance in nanometres: only sign and
+            // order matter.
+            RankBy::WithinTolerance(limit) => (cost - limit) / uncertainty.max(SMALLEST),
         }
     }
 }
 
-/// A smaller uncertainty counts as this, m.
-const SURE: f64 = 1e-9;
+/// Smaller uncertainties are replaced by this, m.
+const SMALLEST: f64 = 1e-9;
 
-/// Compliances of the arm, each set one standard uncertainty off along one direction of the covariance; none where all are
-/// sure.
+/// Compliances of the arm, each changed by one standard uncertainty along one direction of the covariance; none where
+/// all uncertainties are zero.
 pub(super) fn one_off(arm: &Arm<'_>) -> Vec<Vec<JointCompliance>> {
     let joints = arm.compliance.len();
     let drives = arm.robot.structure().covariance.as_ref();

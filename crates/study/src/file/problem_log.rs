@@ -1,22 +1,22 @@
-//! Where a value of an ask stands in the file: in the ask itself, or in the study it takes it from.
+//! Where a value of an analysis is in the file: in the analysis itself, or in the study if it is inherited.
 //!
-//! The value `tolerance_um` of the second ask is `analysis[1].tolerance_um` where that ask writes it, else the study's `tolerance_um`;
-//! where neither does, it is missing in the ask.
+//! The value `tolerance_um` of the second analysis is `analysis[1].tolerance_um` if that analysis has it, else the
+//! `tolerance_um` of the study; if neither has it, it is missing in the analysis.
 
 use armill_formats::document::{Document, Problem};
 
-/// Collects problems of one ask (or of the study itself) at the place where each value stands.
-pub(super) struct Places<'a> {
+/// Collects problems of one analysis (or of the study itself), each at the key of its value.
+pub(super) struct ProblemLog<'a> {
     document: &'a Document,
     analysis: Option<usize>,
-    /// What was found so far.
+    /// The problems so far.
     pub problems: Vec<Problem>,
 }
 
-impl<'a> Places<'a> {
-    /// Problems of the ask with this index; of the study itself where there is none.
-    pub(super) fn new(document: &'a Document, analysis: Option<usize>) -> Places<'a> {
-        Places {
+impl<'a> ProblemLog<'a> {
+    /// Problems of the analysis with this index; of the study itself where there is none.
+    pub(super) fn new(document: &'a Document, analysis: Option<usize>) -> ProblemLog<'a> {
+        ProblemLog {
             document,
             analysis,
             problems: Vec::new(),
@@ -30,14 +30,16 @@ impl<'a> Places<'a> {
             .push(self.document.problem(&place, message, Some(hint)));
     }
 
-    /// A problem at the ask itself.
+    /// A problem at the analysis itself.
     pub(super) fn problem_here(&mut self, message: impl Into<String>, hint: &str) {
-        let place = self.analysis.map_or_else(String::new, |index| format!("analysis[{index}]"));
+        let place = self
+            .analysis
+            .map_or_else(String::new, |index| format!("analysis[{index}]"));
         self.problems
             .push(self.document.problem(&place, message, Some(hint)));
     }
 
-    /// The path in the document of the value `path` of this ask.
+    /// The path in the document of the value `path` of this analysis.
     fn place(&self, path: &str) -> String {
         match self.analysis.map(|index| format!("analysis[{index}].{path}")) {
             Some(own) if self.document.contains(&own) || !self.document.contains(path) => own,

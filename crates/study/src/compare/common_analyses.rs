@@ -1,15 +1,15 @@
-//! What cells ask alike: asks of the same name and kind.
+//! Analyses that cells have in common: those of the same name and kind.
 //!
-//! Everything that one cell alone asks is left out and told, so that nothing is run for nothing.
+//! Analyses that only one cell has are left out and reported, so that they are not computed.
 
 use super::cells::Cell;
 use crate::error::StudyError;
-use crate::file::resolve::{Ask, Subject};
+use crate::file::resolve::{Analysis, Subject};
 
-/// Names of asks that an error lists of each study at most.
+/// Greatest number of analyses listed per study in an error.
 const LISTED: usize = 6;
 
-/// The word for what an ask is about.
+/// Name of the kind of an analysis.
 pub(super) fn kind(subject: &Subject) -> &'static str {
     match subject {
         Subject::Map(_) => "map",
@@ -20,16 +20,16 @@ pub(super) fn kind(subject: &Subject) -> &'static str {
     }
 }
 
-/// Takes out of each study what no other study asks; tells what that is, a sentence each.
+/// Removes from each study the analyses that no other study has; returns a sentence for each.
 ///
 /// # Errors
-/// Nothing is left.
+/// No analysis is left.
 pub(super) fn keep(cells: &mut [Cell]) -> Result<Vec<String>, StudyError> {
     let requested: Vec<Vec<(String, &'static str)>> = cells
         .iter()
         .map(|cell| cell.study.analyses.iter().map(named).collect())
         .collect();
-    let others = |cell: usize, analysis: &Ask| {
+    let others = |cell: usize, analysis: &Analysis| {
         let all = requested.iter().enumerate();
         all.filter(|(other, analyses)| *other != cell && analyses.contains(&named(analysis)))
             .count()
@@ -37,10 +37,14 @@ pub(super) fn keep(cells: &mut [Cell]) -> Result<Vec<String>, StudyError> {
     let mut left_out = Vec::new();
     for (index, cell) in cells.iter_mut().enumerate() {
         let name = cell.name.clone();
-        let alone = cell.study.analyses.iter().filter(|analysis| others(index, analysis) == 0);
+        let alone = cell
+            .study
+            .analyses
+            .iter()
+            .filter(|analysis| others(index, analysis) == 0);
         left_out.extend(alone.map(|analysis| {
             format!(
-                "{} `{}` is asked of {name} alone and left out.",
+                "{} `{}` is left out: only {name} has it.",
                 kind(&analysis.subject),
                 analysis.name
             )
@@ -55,16 +59,16 @@ pub(super) fn keep(cells: &mut [Cell]) -> Result<Vec<String>, StudyError> {
                 .map(|(name, kind)| format!("{kind} `{name}`"))
                 .collect();
             let more = if analyses.len() > LISTED { ", ..." } else { "" };
-            format!("{} asks for {}{more}", cell.name, names.join(", "))
+            format!("{} has {}{more}", cell.name, names.join(", "))
         });
         let of: Vec<String> = of.collect();
-        let message = format!("the studies ask for nothing in common: {}", of.join("; "));
-        let hint = "asks are matched by name and kind: give the same path the same `name` in each study";
+        let message = format!("the studies have no analysis in common: {}", of.join("; "));
+        let hint = "analyses are matched by name and kind: give the same path the same `name` in each study";
         return Err(StudyError::value(message, hint));
     }
     Ok(left_out)
 }
 
-fn named(analysis: &Ask) -> (String, &'static str) {
+fn named(analysis: &Analysis) -> (String, &'static str) {
     (analysis.name.clone(), kind(&analysis.subject))
 }

@@ -1,21 +1,22 @@
-//! The strip of material in front of a cutter, from the cells of a stock that it passes over anew.
+//! The strip of material ahead of a cutter, from the cells of a stock that it enters for the first time.
 //!
-//! The cutter is a stack of discs: one of a flat end mill, a few up to the height of the material of any other. The front of
-//! a disc at its last two pitches of the step passes over new cells between two arcs; each of them says whether material
-//! stands there above the disc, at its own distance `y` from the axis. A strip without a cell takes after its neighbours;
-//! the outermost reach to the edge of the disc. So a pass along a wall that is cut already finds nothing, and a slot is
+//! The cutter is a stack of discs: one for a flat end mill, a few up to the height of the material for any other. The
+//! front of a disc at its last two pitches of the step sweeps new cells between two arcs. Each cell shows whether there
+//! is material above the disc, at its distance `y` from the axis. A strip without a cell uses its neighbours; the
+//! outermost ones extend to the edge of the disc. A pass along a finished wall therefore finds nothing, and a slot is
 //! full from 0 to 180 deg.
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | `y` | distance to the left of the tool axis | m |
-//! | `rho` | radius of the cutter where its highest engaged point is; `R` of a flat one | m |
+//! | `rho` | radius of the cutter at its highest engaged point; `R` of a flat one | m |
 //!
-//! Edges of the strip are right to half a pitch and the width of a strip, a quarter of a pitch; straight ahead that is an
-//! angle of `pitch/R`, at the sides one of `sqrt(2 pitch/R)`, where chips are thin. A step shorter than two pitches sees
-//! material up to two pitches early. Of a longer one it is that of its end. A radial depth below a pitch may pass unseen,
-//! and on a ramp down what two pitches of it fall by. The feed is the chord of a step of two pitches or more, else the
-//! direction of the point: round a bend of radius `r` short steps see up to `2 pitch^2/r` of a wall that is cut already.
+//! Edges of the strip have an error of half a pitch plus the width of a strip, a quarter of a pitch; straight ahead
+//! that is an angle of `pitch/R`, at the sides one of `sqrt(2 pitch/R)`, where chips are thin. A step shorter than two
+//! pitches detects material up to two pitches early. For a longer step the engagement is that of its end. A radial
+//! depth below a pitch may be missed, and on a ramp down the descent over two pitches. The feed is the chord of a step
+//! of two pitches or more, otherwise the direction of the point: round a bend of radius `r` short steps detect up to `2
+//! pitch^2/r` of a finished wall.
 //!
 //! Source: ours \[derived\].
 
@@ -27,10 +28,10 @@ use super::engagement::Pass;
 use super::stock::Stock;
 use crate::load::{EndMillBody, Engagement};
 
-/// Where the tool arrives and how it goes there.
+/// Position and direction of the tool at the end of a step.
 pub(super) struct Heading {
     at: Point3<f64>,
-    /// Of length one, seen from above; none where the tool goes straight down or up.
+    /// Unit vector, seen from above; `None` where the tool goes straight down or up.
     feed: Option<Vector2<f64>>,
     /// From the point before, seen from above, m.
     chord: Vector2<f64>,
@@ -42,12 +43,12 @@ pub(super) struct Heading {
 }
 
 /// The widest strip of material in front of the cutter.
-pub(super) struct Front {
-    /// What reaches the rim at its own height goes on beyond it.
+pub(super) struct StripAhead {
+    /// A strip that reaches the rim at its own height continues beyond it.
     pub(super) strip: Engagement,
     /// Across the feed, at its own height, m.
     pub(super) width: f64,
-    /// Where it is deepest, m.
+    /// Largest depth, m.
     pub(super) depth: f64,
     /// Whether it fills the cutter at its height, to a pitch.
     pub(super) is_slot: bool,
@@ -56,23 +57,23 @@ pub(super) struct Front {
 /// Pitches between the two arcs: less, and cells straight ahead could be missed; more, and corners are seen early.
 const WINDOW_PITCHES: f64 = 2.0;
 
-/// Strips a pitch.
+/// Strips per pitch.
 const STRIPS_A_PITCH: f64 = 4.0;
 
-/// Most strips: a cutter that has more of them than this gets wider ones.
+/// Maximum number of strips: a cutter that needs more gets wider ones.
 const MOST_STRIPS: f64 = 4096.0;
 
-/// Discs of a cutter with a rounded bottom, up to the height of the material: the widest is then within a twelfth of the
-/// radius that is engaged.
+/// Discs of a cutter with a rounded bottom, up to the height of the material: the widest disc is then within a twelfth
+/// of the engaged radius.
 const DISCS: usize = 6;
 
-/// Least height that counts as material, m: a micrometre, far below any chip, far above the rounding of heights.
+/// Smallest height of material, m: a micrometre, far below any chip, far above the rounding of heights.
 pub(super) const LEAST_HEIGHT: f64 = 1e-6;
 
-/// Part of a radius that keeps rounding away from cells on the rim itself.
+/// Fraction of a radius that keeps rounding away from cells on the rim itself.
 const RIM: f64 = 1e-9;
 
-/// Below this part of its length the feed has no direction seen from above.
+/// Below this fraction of its length the feed has no direction seen from above.
 const NO_FEED: f64 = 1e-6;
 
 impl Heading {
@@ -99,22 +100,22 @@ impl Heading {
 #[derive(Clone, Copy)]
 struct Disc {
     radius: f64,
-    /// Of the part of the cutter that it stands for, m.
+    /// Of the part of the cutter that it represents, m.
     outer_radius: f64,
     /// Path z of its bottom, m.
     bottom: f64,
-    /// Path z where the part of the cutter that it stands for begins, m.
+    /// Path z at the start of the part of the cutter that it represents, m.
     begins: f64,
 }
 
-/// What stands before a strip of the front: path z of the top of the material, m, or one of two values below any. So
-/// the greatest of what is seen in a strip is what counts.
+/// Material ahead of a strip: path z of its top, m, or one of two values below any. The largest value of a strip is
+/// used.
 type Sight = f64;
 
-/// No material stands there.
+/// No material.
 const AIR: Sight = f64::MIN;
 
-/// No cell of the strip is passed over anew.
+/// No cell of the strip is new.
 const UNSEEN: Sight = f64::NEG_INFINITY;
 
 /// A strip that is engaged.
@@ -125,11 +126,11 @@ struct Strip {
     outer_radius: f64,
 }
 
-/// The widest strip of material ahead; `None` if there is none, or it has no width, and of a dive.
-pub(super) fn front(stock: &Stock, heading: &Heading, cutter: &EndMillBody) -> Option<Front> {
+/// The widest strip of material ahead; `None` if there is none, it has no width, or the tool dives.
+pub(super) fn strip_ahead(stock: &Stock, heading: &Heading, cutter: &EndMillBody) -> Option<StripAhead> {
     let (radius, pitch) = (cutter.radius(), stock.pitch());
     let given = heading.feed.filter(|_| !heading.dives)?;
-    // Where the window lies within the step it follows the chord, as the cutter that clears the way does.
+    // Where the window is within the step it follows the chord, as the cutter that removes the material does.
     let follows = heading.step >= WINDOW_PITCHES * pitch;
     let feed = if follows {
         heading.chord / heading.step
@@ -143,7 +144,7 @@ pub(super) fn front(stock: &Stock, heading: &Heading, cutter: &EndMillBody) -> O
     let mut strips: Vec<Option<Strip>> = vec![None; count as usize];
     let mut sights = vec![UNSEEN; strips.len()];
     for disc in discs(stock, heading, cutter) {
-        // Beyond the disc its strips say nothing.
+        // Beyond the disc its strips are not valid.
         let beyond = ((radius - disc.outer_radius) / width).round() as usize;
         let within = beyond..strips.len().saturating_sub(beyond);
         let Some(strips) = strips.get_mut(within.clone()) else {
@@ -173,10 +174,10 @@ pub(super) fn front(stock: &Stock, heading: &Heading, cutter: &EndMillBody) -> O
     longest_arc(stock, &strips, [radius, width])
 }
 
-/// The discs that stand for a cutter among material as high as it is here, from the tip upwards.
+/// The discs that represent a cutter in material of this height, from the tip upwards.
 fn discs(stock: &Stock, heading: &Heading, cutter: &EndMillBody) -> Vec<Disc> {
-    // Of a climb, what is seen early is met by a tip that has risen until then. Of a ramp down, what the first arc
-    // has left beside the second is no material.
+    // On a climb, material detected early is cut by a tip that has risen until then. On a ramp down, the height left by
+    // the first arc next to the second is not material.
     let window = WINDOW_PITCHES * stock.pitch();
     let early = (window - heading.step).max(0.0);
     let tip = heading.at.z + heading.slope.max(0.0) * early;
@@ -219,8 +220,8 @@ fn discs(stock: &Stock, heading: &Heading, cutter: &EndMillBody) -> Vec<Disc> {
     discs
 }
 
-/// Tells `out` of the cells that the front of a disc passes over anew: how far left of the axis (m), and what
-/// stands there above the disc.
+/// Calls `out` for the new cells in front of a disc: distance left of the axis (m), and the material there above the
+/// disc.
 fn look(
     stock: &Stock,
     (heading, feed): (&Heading, Vector2<f64>),
@@ -232,35 +233,35 @@ fn look(
     let window = WINDOW_PITCHES * pitch;
     let first: Point2<f64> = heading.at.xy() - feed * heading.step.min(window);
     let inside_squared = (radius * (1.0 - RIM)).powi(2);
-    // Two places a pitch along the arc, on two arcs between the first and the last.
+    // Two positions per pitch along the arc, on two arcs between the first and the last.
     let count = (2.0 * PI * radius / pitch).ceil().clamp(8.0, MOST_STRIPS);
     let (turn_sin, turn_cos) = (PI / count).sin_cos();
     let (mut sin, mut cos) = (FRAC_PI_2 / count).sin_cos();
     for _ in 0..count as usize {
         for part in [0.25, 0.75] {
             let at = first + feed * (radius * sin + part * window) + left * (radius * cos);
-            // Beside the box the place itself tells of air.
+            // Outside the box there is air.
             let (centre, height) = stock.cell_at(at).unwrap_or((at, 0.0));
             let off = centre - first;
             let (x, y) = (off.dot(&feed), off.dot(&left));
             let ahead = if x > window { x - window } else { 0.0 };
-            // All of it at once: what a place comes to is hard to guess, and a wrong guess takes longer.
+            // All of it without branches: the result is hard to predict, and a wrong prediction takes longer.
             let passed_before = (x <= 0.0) | (x * x + y * y <= radius * radius);
             if passed_before | (ahead * ahead + y * y >= inside_squared) {
                 continue;
             }
             let height = f64::from(height);
             let top = stock.bottom() + height;
-            let stands = height > LEAST_HEIGHT && top > disc.bottom + LEAST_HEIGHT;
-            out(y, if stands { top } else { AIR });
+            let is_material = height > LEAST_HEIGHT && top > disc.bottom + LEAST_HEIGHT;
+            out(y, if is_material { top } else { AIR });
         }
         (sin, cos) = (sin * turn_cos + cos * turn_sin, cos * turn_cos - sin * turn_sin);
     }
 }
 
-/// The run of engaged strips that is longest round the cutter of this radius; each is so wide (m).
-fn longest_arc(stock: &Stock, strips: &[Option<Strip>], [radius, width]: [f64; 2]) -> Option<Front> {
-    let mut longest: Option<(f64, Front)> = None;
+/// The longest run of engaged strips round the cutter of this radius; each has this width (m).
+fn longest_arc(stock: &Stock, strips: &[Option<Strip>], [radius, width]: [f64; 2]) -> Option<StripAhead> {
+    let mut longest: Option<(f64, StripAhead)> = None;
     let mut first = 0;
     for run in strips.chunk_by(|one, next| one.is_some() == next.is_some()) {
         let (begin, end) = (first, first + run.len());
@@ -270,7 +271,7 @@ fn longest_arc(stock: &Stock, strips: &[Option<Strip>], [radius, width]: [f64; 2
         if rho <= 0.0 {
             continue;
         }
-        // The outermost strip of a disc reaches to its edge.
+        // The outermost strip of a disc extends to its edge.
         let edge = |strip: usize| {
             let y = strip as f64 * width - radius;
             if rho - y.abs() < width { rho.copysign(y) } else { y }
@@ -284,7 +285,7 @@ fn longest_arc(stock: &Stock, strips: &[Option<Strip>], [radius, width]: [f64; 2
         };
         let depth = engaged().map(|strip| strip.top - strip.begins.max(stock.bottom()));
         let full = rho - stock.pitch();
-        let front = Front {
+        let front = StripAhead {
             strip,
             width: left - right,
             depth: depth.fold(0.0, f64::max),
@@ -297,7 +298,7 @@ fn longest_arc(stock: &Stock, strips: &[Option<Strip>], [radius, width]: [f64; 2
     longest.map(|(_, front)| front)
 }
 
-/// Strips without a cell see what the nearest strip sees that has one; the left one of two as near.
+/// Strips without a cell use the nearest strip that has one; the left one of two at the same distance.
 fn take_after_neighbours(sights: &mut [Sight]) {
     let mut known: Option<usize> = None;
     for index in 0..=sights.len() {
@@ -335,7 +336,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tool_dives_that_goes_down_steeper_than_along() {
+    fn a_tool_that_goes_down_steeper_than_along_dives() {
         for (direction, dives) in [
             ([1.0, 0.0, 0.0], false),
             ([0.0, 1.0, -0.99], false),
@@ -352,7 +353,7 @@ mod tests {
     }
 
     #[test]
-    fn strips_without_a_cell_take_after_the_nearest_that_has_one() {
+    fn strips_without_a_cell_use_the_nearest_with_one() {
         let (a, b) = (1.0, 2.0);
         for (mut sights, expected) in [
             (vec![UNSEEN, a, UNSEEN, UNSEEN, b, UNSEEN], vec![a, a, a, b, b, b]),
@@ -368,7 +369,7 @@ mod tests {
     }
 
     #[test]
-    fn of_several_runs_the_one_over_the_longest_arc_is_told_with_its_own_depth() {
+    fn of_several_runs_the_one_with_the_longest_arc_is_reported_with_its_own_depth() {
         let corners = [Point3::new(0.0, 0.0, -0.02), Point3::new(0.01, 0.01, 0.0)];
         let stock = Stock::new(corners, 1e-3).unwrap();
         let strip = |top: f64| {

@@ -1,4 +1,4 @@
-//! What libFuzzer says of a run: how much was tried, how much was reached, where a finding lies.
+//! The output of libFuzzer: how much was tried, how much was reached, where a finding is.
 //!
 //! ```text
 //! #1234  NEW    cov: 567 ft: 890 corp: 12/34Kb lim: 64 exec/s: 1000 rss: 50Mb ...
@@ -13,9 +13,9 @@
 pub const HEADING: &str =
     "target        verdict   executions   per s   edges   features   inputs   most MiB\n";
 
-/// What a run came to; the last line that tells a number decides.
+/// The result of a run; the last line with a number decides.
 #[derive(Debug, Default, PartialEq)]
-pub struct Said {
+pub struct FuzzRun {
     /// Whether it ended without a finding.
     pub passed: bool,
     /// The input of the finding.
@@ -24,7 +24,7 @@ pub struct Said {
     executions: u64,
     /// Inputs tried in a second.
     per_second: u64,
-    /// Branches reached (`cov`), and what libFuzzer tells apart beyond them (`ft`).
+    /// Branches reached (`cov`), and what libFuzzer distinguishes beyond them (`ft`).
     edges: u64,
     features: u64,
     /// Inputs kept since each reached something new.
@@ -33,9 +33,9 @@ pub struct Said {
     most_mib: u64,
 }
 
-impl Said {
-    /// Takes in a line; whether a person wants to see it.
-    pub fn hear(&mut self, line: &str) -> bool {
+impl FuzzRun {
+    /// Reads a line; returns whether it is to be printed.
+    pub fn read_line(&mut self, line: &str) -> bool {
         if let Some((_, file)) = line.split_once("Test unit written to ") {
             self.written = Some(file.trim().to_owned());
             return true;
@@ -81,7 +81,7 @@ impl Said {
         ["INITED", "DONE"].iter().any(|word| progress.contains(word))
     }
 
-    /// One line for a person, under [`HEADING`].
+    /// One line of the report, under [`HEADING`].
     pub fn row(&self, target: &str) -> String {
         format!(
             "{target:<14}{:<10}{:>10}{:>8}{:>8}{:>11}{:>9}{:>11}\n",
@@ -108,12 +108,16 @@ mod tests {
 
     #[test]
     fn counts_are_those_of_the_last_line() {
-        let mut said = Said::default();
-        assert!(!said.hear("#8\tNEW    cov: 2 ft: 3 corp: 2/10b lim: 4 exec/s: 0 rss: 30Mb L: 4/4 MS: 1 X-"));
-        assert!(said.hear("#524288\tDONE   cov: 310 ft: 1200 corp: 45/2Kb lim: 64 exec/s: 9000 rss: 40Mb"));
-        assert!(!said.hear("stat::number_of_executed_units: 524290"));
-        assert!(!said.hear("stat::peak_rss_mb:              41"));
-        let row = said.row("dh");
+        let mut run = FuzzRun::default();
+        assert!(
+            !run.read_line("#8\tNEW    cov: 2 ft: 3 corp: 2/10b lim: 4 exec/s: 0 rss: 30Mb L: 4/4 MS: 1 X-")
+        );
+        assert!(
+            run.read_line("#524288\tDONE   cov: 310 ft: 1200 corp: 45/2Kb lim: 64 exec/s: 9000 rss: 40Mb")
+        );
+        assert!(!run.read_line("stat::number_of_executed_units: 524290"));
+        assert!(!run.read_line("stat::peak_rss_mb:              41"));
+        let row = run.row("dh");
         for number in ["524290", "9000", " 310", "1200", " 45", " 41"] {
             assert!(row.contains(number), "{row}");
         }
@@ -124,10 +128,10 @@ mod tests {
     }
 
     #[test]
-    fn many_processes_tell_the_same_numbers_in_other_words() {
-        let mut said = Said::default();
-        said.hear("#4137: cov: 512 ft: 900 corp: 30 exec/s: 1200 oom/timeout/crash: 0/0/0 time: 4s job: 2 dft_time: 0");
-        let row = said.row("dh");
+    fn the_output_of_many_processes_has_the_same_numbers_in_other_words() {
+        let mut run = FuzzRun::default();
+        run.read_line("#4137: cov: 512 ft: 900 corp: 30 exec/s: 1200 oom/timeout/crash: 0/0/0 time: 4s job: 2 dft_time: 0");
+        let row = run.row("dh");
         for number in ["4137", "1200", " 512", " 900", " 30"] {
             assert!(row.contains(number), "{row}");
         }
@@ -135,9 +139,11 @@ mod tests {
 
     #[test]
     fn a_finding_is_reported_with_its_file() {
-        let mut said = Said::default();
-        assert!(said.hear("artifact_prefix='x/'; Test unit written to target/fuzz/crashes/dh/crash-12ab"));
-        assert_eq!(said.written.as_deref(), Some("target/fuzz/crashes/dh/crash-12ab"));
-        assert!(said.hear("thread '<unnamed>' panicked at src/a.rs:1:2:"));
+        let mut run = FuzzRun::default();
+        assert!(
+            run.read_line("artifact_prefix='x/'; Test unit written to target/fuzz/crashes/dh/crash-12ab")
+        );
+        assert_eq!(run.written.as_deref(), Some("target/fuzz/crashes/dh/crash-12ab"));
+        assert!(run.read_line("thread '<unnamed>' panicked at src/a.rs:1:2:"));
     }
 }

@@ -1,15 +1,15 @@
-//! What tools and work objects mean.
+//! Values of tools and work objects.
 
 use armill_core::frame::Isometry;
 
 use super::read::Reader;
 use super::value::{Node, Value};
+use crate::robot_program::messages::shown;
 use crate::robot_program::program::Frame;
 use crate::robot_program::tokens::Token;
-use crate::robot_program::given::shown;
 
-/// What a move keeps while it lasts.
-pub(super) struct Kept {
+/// Frame and tool of a move.
+pub(super) struct MoveFrames {
     pub frame: Frame,
     pub tool: Frame,
 }
@@ -23,11 +23,11 @@ impl Reader<'_> {
         let Value::List(all) = &found.node.value else {
             return Some(self.unknown_frame(at, node, "tool0"));
         };
-        if all.first().is_some_and(|held| is_word(held, "false")) {
-            return self.stands_still(at);
+        if all.first().is_some_and(|robhold| is_word(robhold, "false")) {
+            return self.stationary_tool(at);
         }
         let pose = all.get(1).and_then(|frame| self.frame(frame, found.text));
-        Some(pose.map_or_else(|| self.unknown_frame(at, node, "tool0"), Frame::Told))
+        Some(pose.map_or_else(|| self.unknown_frame(at, node, "tool0"), Frame::Given))
     }
 
     /// The frame of a work object: user frame times object frame.
@@ -38,8 +38,8 @@ impl Reader<'_> {
         let Value::List(all) = &found.node.value else {
             return Some(self.unknown_frame(at, node, "wobj0"));
         };
-        if all.first().is_some_and(|held| is_word(held, "true")) {
-            return self.stands_still(at);
+        if all.first().is_some_and(|robhold| is_word(robhold, "true")) {
+            return self.stationary_tool(at);
         }
         let is_moved = all.get(1).is_some_and(|fixed| is_word(fixed, "false"));
         let user = all.get(3).and_then(|frame| self.frame(frame, found.text));
@@ -49,31 +49,32 @@ impl Reader<'_> {
                 at,
                 "the work object is moved by another axis, which is not followed".to_owned(),
             );
-            return Some(Frame::EvaluateError);
+            return Some(Frame::Unknown);
         }
         Some(match (user, object) {
-            (Some(user), Some(object)) => Frame::Told(user * object),
+            (Some(user), Some(object)) => Frame::Given(user * object),
             _ => self.unknown_frame(at, node, "wobj0"),
         })
     }
 
-    fn stands_still(&mut self, at: Token) -> Option<Frame> {
-        let message = "the tool stands still here and the workpiece is on the flange".to_owned();
-        let hint = "only programs whose tool is on the flange are read: robhold TRUE of the tool, FALSE of the work object";
-        self.given.problem(self.here(), at.span(), message, hint);
+    fn stationary_tool(&mut self, at: Token) -> Option<Frame> {
+        let message = "the tool is stationary here and the workpiece is on the flange".to_owned();
+        let hint = "only programs with the tool on the flange are supported: robhold TRUE of the tool, FALSE of the \
+            work object";
+        self.messages.problem(self.here(), at.span(), message, hint);
         None
     }
 
     fn unknown_frame(&mut self, at: Token, node: &Node, ready: &str) -> Frame {
         if is_word(node, ready) {
-            return Frame::Told(Isometry::identity());
+            return Frame::Given(Isometry::identity());
         }
         let text = shown(&self.here().text()[node.bytes.clone()]);
         self.note(
             at,
-            format!("`{text}` is not told by numbers: where it lies is not known"),
+            format!("`{text}` is not given as numbers: its pose is not known"),
         );
-        Frame::EvaluateError
+        Frame::Unknown
     }
 
     /// `[[x, y, z], [q1, q2, q3, q4]]`

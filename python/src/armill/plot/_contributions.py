@@ -1,4 +1,4 @@
-"""Which joint the deviation comes from."""
+"""The contribution of each joint to the deviation."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from armill.plot._style import COLOURS, INK, legend_below, number, one, picture,
 
 
 @picture
-def shares(source: Any, ask: str | None = None, *, ax: Axes | None = None) -> Axes:
-    """Result, name of a map or path -> axes: stacked bars, the share of each joint in the in-plane deviation, µm.
+def contributions(source: Any, analysis: str | None = None, *, ax: Axes | None = None) -> Axes:
+    """Result, name of a map or path -> axes: stacked bars, the contribution of each joint to the in-plane deviation, µm.
 
-    Of a map at the largest and least deviation, of a path at its worst points. Shares that make the deviation less stand on the
-    left of zero; all together add up to the deviation, marked by a line.
+    For a map at the largest and smallest deviation, for a path at its worst points. Contributions that reduce the deviation are
+    to the left of zero. All together add up to the deviation, which is marked by a line.
     """
-    answer = _map_or_path(Source(source, "shares"), ask)
+    answer = _map_or_path(Source(source, "contributions"), analysis)
     points = _points(answer)
     names: list[str] = answer["setting"]["contributors"]
     values = np.array([point["joint_share_um"] for _, point in points], dtype=float)
@@ -27,7 +27,7 @@ def shares(source: Any, ask: str | None = None, *, ax: Axes | None = None) -> Ax
     rows = np.arange(len(points))
     beyond, before = np.zeros(len(points)), np.zeros(len(points))
     for i, name in enumerate(names):
-        # Ten contributors at most have eight colours and a hatch.
+        # Up to sixteen contributors: eight colours, then the same hatched.
         pattern = "" if i < len(COLOURS) else "////"
         share = values[:, i]
         start = np.where(share >= 0, beyond, before)
@@ -47,33 +47,33 @@ def shares(source: Any, ask: str | None = None, *, ax: Axes | None = None) -> Ax
     ax.invert_yaxis()
     ax.axvline(0.0, color=INK, linewidth=0.8)
     ax.set_xlim(min(0.0, 1.08 * float(before.min())), 1.16 * float(beyond.max()))
-    ax.set_xlabel("share of the in-plane deviation (µm)")
+    ax.set_xlabel("contribution to the in-plane deviation (µm)")
     ax.tick_params(axis="y", length=0)
     ax.spines[["top", "right"]].set_visible(False)
-    title(ax, f"{answer['name']}: share of each joint", words(answer))
+    title(ax, f"{answer['name']}: contribution of each joint", words(answer))
     legend_below(ax, columns=min(8, len(names) + 1), drop=-0.55 / (1.0 + 0.5 * len(points)))
     return ax
 
 
-def _map_or_path(source: Source, ask: str | None) -> Json:
-    """The first map or path, or the one that is named."""
+def _map_or_path(source: Source, analysis: str | None) -> Json:
+    """The map or path with this name; by default the first."""
     both: list[Json] = [*(source.data.get("maps") or []), *(source.data.get("paths") or [])]
-    named = [each for each in both if ask in (None, each["name"])]
+    named = [each for each in both if analysis in (None, each["name"])]
     if named:
         return named[0]
     if not both:
-        raise Missing("shares: the answer has neither maps nor paths: give that of `armill run`")
+        raise Missing("contributions: the answer has neither maps nor paths: give that of `armill run`")
     names = ", ".join(repr(each["name"]) for each in both)
-    raise Missing(f"shares: no map or path is called {ask!r}; there are {names}")
+    raise Missing(f"contributions: {analysis!r} is not among the maps and paths: {names}")
 
 
 def _points(answer: Json) -> list[tuple[str, Json]]:
     if "worst_points" in answer:
         points = [(f"{i}: at {each['distance_mm']:.0f} mm", each["point"]) for i, each in enumerate(answer["worst_points"], 1)]
     else:
-        points = [(label, answer[key]) for key, label in (("worst", "largest"), ("best", "least")) if answer[key] is not None]
+        points = [(label, answer[key]) for key, label in (("worst", "largest"), ("best", "smallest")) if answer[key] is not None]
     if not points:
-        raise Missing(f"shares: no point of {answer['name']!r} is reached")
+        raise Missing(f"contributions: no point of {answer['name']!r} is reachable")
     return points
 
 
