@@ -53,7 +53,7 @@ fn collect(folder: &Path, endings: &[&str], levels: usize, found: &mut Vec<PathB
     Ok(())
 }
 
-/// A word as libFuzzer reads it: in quotes, whatever is not a plain character as `\xAB`.
+/// A word as libFuzzer reads it: in quotes, all but plain characters as `\xAB`.
 fn line(word: &str) -> String {
     let mut line = String::from("\"");
     for byte in word.bytes() {

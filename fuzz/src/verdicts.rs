@@ -187,8 +187,8 @@ pub fn program(bytes: &[u8]) {
 /// Half of the last digit that controllers keep, m and rad, in every direction, with angles that add up.
 const KEPT: [f64; 2] = [1e-6, 5e-5];
 
-/// A program of a robot, its files parted by a zero byte, in every language: what is read is made of numbers, and,
-/// written again with the poses that it has, reads to the same.
+/// A robot program in every language, its files separated by a zero byte: the numbers read are finite, and, written
+/// again with its poses, it reads the same.
 pub fn robot_program(bytes: &[u8]) {
     let readers = [
         krl::read,

@@ -1,4 +1,4 @@
-// Light or dark: as the system has it, until the user says otherwise.
+// Light or dark: the setting of the system, until the user selects one.
 
 const KEY = "armill-theme";
 const dark = matchMedia("(prefers-color-scheme: dark)");

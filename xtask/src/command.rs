@@ -64,7 +64,7 @@ pub fn run_in_place(mut command: Command) -> ExitCode {
 /// Prints the command and returns its output; its stderr goes to ours.
 ///
 /// # Errors
-/// In a line: it does not start, it failed, or what it printed is not a text.
+/// In a line: it does not start, it failed, or what it printed is not text.
 pub fn printed(command: &mut Command) -> Result<String, String> {
     let line = command_line(command);
     eprintln!("+ {line}");

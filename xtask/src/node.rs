@@ -82,7 +82,7 @@ fn with_path(program: &str) -> Command {
     command
 }
 
-/// Whether `v20.19.1` is not an older than what is requested.
+/// Whether `v20.19.1` is not older than what is requested.
 fn is_new_enough(version: &str) -> bool {
     let mut parts = version.trim().trim_start_matches('v').split('.').map(str::parse);
     match (parts.next(), parts.next()) {

@@ -1,8 +1,7 @@
 //! The command `armill`, for the terminal ([`command`]) and for programs ([`call`]).
 //!
 //! Results go to stdout, progress and messages to stderr. Exit code 0: success; 1: the tolerance is not met and
-//! `--strict`
-//! was given; 2: invalid input; 3: internal error of armill; 130: interrupted.
+//! `--strict` was given; 2: invalid input; 3: internal error of armill; 130: interrupted.
 //!
 //! | step | where |
 //! |---|---|
@@ -12,8 +11,7 @@
 //! | calls by a program | `call`: options by name; `listener` receives the output in place of the terminal |
 //!
 //! The command is thin: no mechanics, no formats, no own JSON except for errors. Clap prints errors in the arguments
-//! (an
-//! unknown option, a missing value) on stderr, with exit code 2 as for any invalid input.
+//! (an unknown option, a missing value) on stderr, with exit code 2 as for any invalid input.
 
 mod arguments;
 mod call;

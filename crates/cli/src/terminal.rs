@@ -9,8 +9,7 @@
 //! Control characters in the input are shown as escapes ([`visible`]), in JSON too.
 //!
 //! JSON of errors is `{"problems": [...]}`: problems of a file with their positions, otherwise one with a `message`
-//! and,
-//! if available, a `hint`.
+//! and, if available, a `hint`.
 
 use std::io::{ErrorKind, IsTerminal, Write};
 

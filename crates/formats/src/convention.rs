@@ -41,7 +41,7 @@ const UNIT: f64 = 1e-2;
 /// No controller shows a larger number, mm or deg; sines and squares of far larger ones are none.
 const LARGEST: f64 = 1e9;
 
-/// Why numbers are no pose.
+/// Why numbers are not a valid pose.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PoseError {
     /// Another count of numbers than the convention has.

@@ -19,10 +19,10 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// A file that is read as a whole may have so many bytes: studies, robots, programs of robots, tables that were typed
+/// A file that is read as a whole may have this many bytes: studies, robots, programs of robots, tables that were typed
 /// have some kB, the largest some MB.
 pub const MOST_BYTES: u64 = 64 << 20;
-/// Any other may have so many: a record of a dynamometer has some 100 MB.
+/// Largest size of any other file, bytes: a record of a dynamometer has some 100 MB.
 pub const MOST_STREAM_BYTES: u64 = 16 << 30;
 
 /// Identifies a file, whatever its name.
@@ -67,7 +67,7 @@ thread_local! {
 }
 
 impl Inputs {
-    /// Those of a command line with these words; words that are no paths do no harm.
+    /// Those of a command line with these words; words that are not paths have no effect.
     pub fn naming<'a>(words: impl IntoIterator<Item = &'a Path>) -> Inputs {
         Inputs {
             named: Arc::new(words.into_iter().filter_map(Identity::of).collect()),

@@ -16,7 +16,7 @@
 //!
 //! `xml` is the ground of all that is XML.
 //!
-//! Nothing in this crate prints, but for the words of Rust itself where a fault of the crates `parquet` and `xacro-rs`
+//! Nothing in this crate prints, except the panic message of Rust if a fault of the crates `parquet` and `xacro-rs`
 //! is caught and reported as a problem of the file. Same input, same bytes.
 
 pub mod convention;

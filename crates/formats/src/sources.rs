@@ -24,7 +24,7 @@ pub struct Source {
     pub licence: String,
 }
 
-/// A source unchanged in a file, below its key.
+/// A source as written in a file, below its key.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SourceEntry {
@@ -62,7 +62,7 @@ pub(crate) fn named(document: &Document) -> Vec<(String, &str)> {
     texts
 }
 
-/// Keys that are named and do not are in the table, and keys of the table that nothing names.
+/// Keys that are named but missing in the table, and keys of the table that nothing names.
 pub(crate) fn problems(document: &Document, table: &SourceTable) -> Vec<Problem> {
     let named = named(document);
     let missing = named.iter().filter(|(_, key)| !table.contains_key(*key));

@@ -70,7 +70,7 @@ pub struct BallbarPlot {
     pub growth: Growth,
     /// The runs.
     pub traces: Vec<BallbarTrace>,
-    /// Rays that are named, such as where joints turn back.
+    /// Rays that are named, such as where joints reverse.
     pub marks: Vec<RayMark>,
 }
 

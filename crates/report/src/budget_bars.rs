@@ -158,7 +158,7 @@ fn end_um(bar: &BudgetBar) -> f64 {
     finite(bar.largest_um) + 2.0 * finite(bar.scatter_um)
 }
 
-/// 0 of what is not a size.
+/// 0 for what is not a size.
 fn finite(um: f64) -> f64 {
     if um.is_finite() { um.max(0.0) } else { 0.0 }
 }

@@ -263,7 +263,7 @@ mod tests {
             tolerance_um: Some(60.0),
             labels: AxisLabels {
                 horizontal: "along the path (mm)".to_owned(),
-                vertical: "turn of the tool (deg)".to_owned(),
+                vertical: "spin of the tool (deg)".to_owned(),
             },
             chosen_word: "turn chosen".to_owned(),
             period: Some(360.0),
@@ -279,7 +279,7 @@ mod tests {
             "{svg}"
         );
         assert!(!svg.contains("singularity") && !svg.contains("NaN") && !svg.contains("inf"));
-        assert!(svg.contains("turn of the tool (deg)") && svg.contains("turn chosen"));
+        assert!(svg.contains("spin of the tool (deg)") && svg.contains("turn chosen"));
     }
 
     #[test]

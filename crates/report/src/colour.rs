@@ -2,7 +2,7 @@
 //!
 //! Fields use viridis (perceptually even, readable in grey); cases use the set of Okabe and Ito (2008).
 //!
-//! | what | how it is reported apart |
+//! | what | how it is distinguished |
 //! |---|---|
 //! | a value in a field | lightness of the scale: low is dark, high is light |
 //! | load cases, joints, series | ten colours by number, then from the first again |

@@ -8,7 +8,7 @@
 //!               distance (mm)
 //! ```
 //!
-//! A set has one colour; before is dashed, after is drawn out. The mean of each line is in the legend.
+//! A set has one colour; before is dashed, after is solid. The mean of each line is in the legend.
 
 use crate::chart::Chart;
 use crate::colour::category;

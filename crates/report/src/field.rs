@@ -180,7 +180,7 @@ fn unreachable_hatch() -> Hatch {
     }
 }
 
-/// Falling lines, over the bands where they stay visible, over grey where a region is reported.
+/// Falling lines, over the bands where they stay visible, over grey where a region is drawn.
 fn outside_hatch(paint: Paint) -> Hatch {
     let ground = match paint {
         Paint::Bands(_) => None,

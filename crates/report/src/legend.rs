@@ -20,7 +20,7 @@ const ENTRY_GAP_PX: f64 = 18.0;
 /// Height of a field in a legend.
 const FIELD_PX: f64 = 13.0;
 
-/// The sign in front of a legend entry, drawn in the style that the thing has on the picture.
+/// The sign in front of a legend entry, drawn in the style of the object on the picture.
 pub(crate) enum Key {
     /// A filled field, as areas and bands have.
     Field(Style),

@@ -1,8 +1,8 @@
 //! A field drawn by its levels, wherever its lattice is on the picture: bands, iso-lines, the line of the tolerance,
 //! and the labels of these lines.
 //!
-//! What knows the lattice (`crate::contours`) thinks in its values, what draws thinks in pixels: here the two
-//! meet, by a function from values to the picture. Maps and charts of any scale share it.
+//! The lattice (`crate::contours`) uses the values of its axes, drawing uses pixels: this module connects
+//! the two by a function from values to the picture. Maps and charts of any scale share it.
 
 use crate::colour::ColourScale;
 use crate::contours::{Lattice, Ring};
@@ -81,7 +81,7 @@ pub(crate) struct LevelLines<'a> {
 }
 
 impl<'a> LevelLines<'a> {
-    /// The lines of a field. No line represents a tolerance that is not finite.
+    /// The lines of a field. A tolerance that is not finite has no line.
     pub(crate) fn of(placed: &Placed<'_>, levels: &'a Levels, tolerance_um: Option<f64>) -> Self {
         let tolerance_um = tolerance_um.filter(|tolerance| tolerance.is_finite());
         let tolerance: Vec<f64> = tolerance_um.into_iter().collect();

@@ -8,7 +8,7 @@ use crate::svg::Point;
 /// Largest distance of an omitted point from the line drawn: at 0.25 the corners of a thick line are visible in print.
 const SEEN_PX: f64 = 0.1;
 
-/// A line without its dispensable points: each kept point is joined to the farthest one for which
+/// A line without the points that make no visible difference: each kept point is joined to the farthest one for which
 /// all points between are in a cone about the line. The first and the last point stay. No point that is left
 /// out is farther than 0.1 px from the line drawn; a line that turns back is kept at its turn.
 pub(crate) fn without_straight(line: &[Point]) -> Vec<Point> {
@@ -67,7 +67,7 @@ pub(crate) fn points_along(line: &[Point]) -> Vec<Point> {
     points
 }
 
-/// A line with the way from its start to each of its points, so that a place on it can be requested by its way.
+/// A line with the arc length from its start to each of its points, so that a place can be found by its arc length.
 pub(crate) struct Stations<'a> {
     /// The corners of the line, as given.
     pub(crate) points: &'a [Point],

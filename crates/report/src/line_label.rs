@@ -17,7 +17,7 @@ use crate::svg::{Anchor, Point, Rect, Style, Svg, Text};
 
 /// Distance of trial places along a line.
 const TRIAL_STEP_PX: f64 = 6.0;
-/// Length of line that each label represents.
+/// Length of line per label.
 const LINE_PER_LABEL_PX: f64 = 560.0;
 /// Least distance of two labels of the same line.
 const SAME_LINE_PX: f64 = 190.0;
@@ -37,7 +37,7 @@ const MOST_COST: f64 = 14.0;
 /// A label turned further clockwise is turned over.
 const STEEPEST_DEG: f64 = 78.0;
 
-/// A line that wants a label.
+/// A line to be labelled.
 pub(crate) struct Labelled {
     /// The line, px.
     pub(crate) points: Vec<Point>,
@@ -206,7 +206,7 @@ impl Wish<'_> {
         })
     }
 
-    /// Whether the label is inside the drawing, where it may be, and clear of other labels.
+    /// Whether the label is inside the drawing, where labels are allowed, and clear of other labels.
     fn is_free(&self, place: &LabelPosition, taken: &[(Point, f64)]) -> bool {
         const OUTLINE: [[f64; 2]; 6] = [
             [-1.0, -1.0],

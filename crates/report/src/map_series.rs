@@ -65,7 +65,7 @@ pub struct MapSeries {
     pub subtitle: String,
     /// The maps in reading order.
     pub panels: Vec<Panel>,
-    /// Panels in a row, 1 to 8; any other number represents the nearer of the two. Fewer panels take fewer
+    /// Panels in a row, 1 to 8; any other number is clamped to this range. Fewer panels take fewer
     /// columns.
     pub columns: usize,
     /// Axis labels with units, shared by all panels.
@@ -223,7 +223,7 @@ fn common_window(grids: &[&Grid]) -> Option<Window> {
     })
 }
 
-/// The panels of a sheet, px.
+/// The positions of the panels of a sheet, px.
 struct Layout {
     window: Window,
     columns: usize,

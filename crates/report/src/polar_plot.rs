@@ -204,7 +204,7 @@ impl PolarPlot {
         }
     }
 
-    /// The ray between two spokes along which the fewest points are where a ring's value is to be written.
+    /// The ray between two spokes with the fewest points where a ring's value is to be written.
     fn clearest_ray_deg(&self, rings: &Rings, numbered_um: &[f64]) -> f64 {
         const HALF_PX: Point = [24.0, 9.0];
         let centre = [0.0, 0.0];

@@ -52,8 +52,8 @@ pub struct RegionMap {
     /// The points and their values in um.
     pub grid: Grid,
     /// Expanded uncertainty of each value, in um, by point, for a coverage of 95 % as the legend
-    /// says; empty where that is not known. Where the tolerance is in between is painted as uncertain. A list of
-    /// another length than the points, or with a number that is not finite, counts as empty.
+    /// says; empty where that is not known. Points whose interval contains the tolerance are painted as undecided.
+    /// A list of another length than the points, or with a number that is not finite, counts as empty.
     pub spread_um: Vec<f64>,
     /// Axis labels with units.
     pub axes: AxisLabels,

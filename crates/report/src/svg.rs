@@ -450,7 +450,7 @@ pub(crate) fn trace(points: &[Point], ends: Ends) -> String {
     data
 }
 
-/// A number as SVG wants it: two decimals at most, never `NaN`, never `-0`.
+/// A number in SVG: two decimals at most, never `NaN`, never `-0`.
 pub(crate) fn num(value: f64) -> String {
     // Pictures are a few thousand pixels wide: anything beyond is out of sight.
     const FAR: f64 = 1e6;

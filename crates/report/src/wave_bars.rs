@@ -7,7 +7,7 @@
 //!                   5°  -80°       phase of the second beyond the first
 //! ```
 //!
-//! Where either amplitude is less than a twentieth of the largest, or no phase is reported, it is left out.
+//! Where either amplitude is less than a twentieth of the largest, or no phase is given, it is left out.
 
 use crate::colour::{GRID, INK, MUTED, category};
 use crate::legend::{Entry, Key};
@@ -21,7 +21,7 @@ const AREA_HEIGHT_PX: f64 = 220.0;
 const WAVE_PX: f64 = 48.0;
 const LEAST_WIDTH_PX: f64 = 420.0;
 const BAR_PX: f64 = 15.0;
-/// Waves of less than this part of the largest have no phase to speak of.
+/// Waves of less than this part of the largest have no meaningful phase.
 const LITTLE: f64 = 0.05;
 
 /// One wave of both.

@@ -517,12 +517,12 @@ fn refuses_invalid_points_with_a_message() {
         xyz_mm: Some([1e10, 0.0, 0.0]),
         ..PoseTarget::default()
     };
-    assert!(refused(far, "rim").contains("beyond"));
+    assert!(refused(far, "rim").contains("is larger than"));
     let beyond = PoseTarget {
         point: Some(360),
         ..PoseTarget::default()
     };
-    assert!(refused(beyond, "rim").contains("from 0 to 359"));
+    assert!(refused(beyond, "rim").contains("point 360 does not exist"));
     let half = PoseTarget {
         y_mm: Some(0.0),
         ..PoseTarget::default()

@@ -223,14 +223,14 @@ fn joints_at_zero_determine_no_sign() {
     let answer = requested(&arm, read(&arm.robot, &[[0.0; 6]], 0.0));
     assert_eq!(answer.verdict, "agrees");
     for joint in ["S", "L", "U", "R", "B", "T"] {
-        let sign = format!("joint {joint} counts the other way");
+        let sign = format!("joint {joint} has the opposite sign");
         assert!(
             answer.unseen.iter().any(|words| words.starts_with(&sign)),
             "{:?}",
             answer.unseen
         );
     }
-    assert!(answer.unseen.iter().any(|words| words.contains("counts L in")));
+    assert!(answer.unseen.iter().any(|words| words.contains("coupled to L")));
 }
 
 #[test]

@@ -27,7 +27,7 @@ pub(crate) struct Cell {
     pub root: PathBuf,
     /// The file on disk; none of an example.
     file: Option<PathBuf>,
-    /// Its text where it is none.
+    /// The text as found at the start; used if there is no file.
     example: Vec<u8>,
     /// Whether the file may be written.
     pub writable: bool,

@@ -25,7 +25,7 @@ pub(crate) struct ConnectionSlot {
     _permit: OwnedSemaphorePermit,
 }
 
-/// The client of a connection, as each of its requests knows it.
+/// The client of a connection, as each of its requests has it.
 #[derive(Clone)]
 pub(crate) struct Client {
     number: u64,
@@ -34,7 +34,7 @@ pub(crate) struct Client {
 }
 
 impl Connections {
-    /// None yet, so many at most.
+    /// None yet, `most` at most.
     pub(crate) fn new(most: usize) -> Arc<Connections> {
         Arc::new(Connections {
             places: Arc::new(Semaphore::new(most)),

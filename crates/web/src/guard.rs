@@ -1,6 +1,6 @@
 //! Which requests are allowed, and the headers of every answer.
 //!
-//! | requested with | refused with |
+//! | request with | refused with |
 //! |---|---|
 //! | a host that is not this server on loopback (another site's name that leads here) | 403 |
 //! | the origin of another site | 403 |
@@ -106,7 +106,7 @@ impl Guard {
     }
 }
 
-/// Every value of a header; `None` for one that is not a text.
+/// Every value of a header; `None` for one that is not text.
 fn all<'a>(headers: &'a HeaderMap, name: &HeaderName) -> Vec<Option<&'a str>> {
     headers
         .get_all(name)

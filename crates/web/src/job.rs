@@ -93,7 +93,7 @@ struct Inner {
 }
 
 impl Job {
-    /// One that waits, with room for so many event streams.
+    /// One that waits, with room for `most_streams` event streams.
     pub(crate) fn new(id: String, task: Task, title: String, most_streams: usize) -> Job {
         Job {
             id,

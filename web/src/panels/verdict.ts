@@ -77,7 +77,7 @@ function blame(live: Live): Child {
   return h(
     "div",
     { class: "extreme still" },
-    h("span", { class: "extreme-name" }, "Largest share at worst"),
+    h("span", { class: "extreme-name" }, "Largest share (worst point)"),
     h("span", { class: "extreme-value" }, names[most] ?? DASH, h("small", {}, ` ${percent(point.joint_share_um[most]! / point.in_plane_um)}`)),
   );
 }

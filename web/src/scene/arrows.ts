@@ -22,7 +22,7 @@ export class Arrow {
     return (this.shaft.material as THREE.MeshBasicMaterial).color;
   }
 
-  /** From `tail` along `vector`, in mm as drawn; `towards`: the head is at `tail`, with the shaft behind it. */
+  /** From `tail` along `vector`, in mm of the scene; `towards`: the head is at `tail`, with the shaft behind it. */
   draw(tail: Vec3, vector: THREE.Vector3, thick: number, towards = false): void {
     const length = vector.length();
     this.group.visible = length > 1;

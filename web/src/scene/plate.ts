@@ -1,4 +1,4 @@
-// The workpiece plate with the deviation map as colour, lines of equal deviation with their values, the limit as a
+// The workpiece plate with the deviation map as colour, lines of equal deviation with their values, the tolerance as a
 // strong line, and the region robustly within it as a dashed one. All of it is drawn in y', z': the position of the plate is
 // the pose of its group, so that a moved plate is not rebuilt.
 

@@ -1,5 +1,5 @@
 // CAD meshes of the robot file, each at the pose given by the server. They are fetched once
-// a robot; until all are there, and where one is none, the arm is drawn from its chain.
+// a robot; until all are there, and if one is not a mesh, the arm is drawn from its chain.
 
 import * as THREE from "three";
 import { STLLoader } from "three/addons/loaders/STLLoader.js";
@@ -71,7 +71,7 @@ export class Shapes {
     try {
       found = shape(await this.fetched(file));
     } catch {
-      // Not there, or no mesh: the arm is drawn from its chain.
+      // Not there, or not a mesh: the arm is drawn from its chain.
     }
     if (of !== this.robot) return;
     this.known.set(file, found);

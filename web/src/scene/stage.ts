@@ -1,7 +1,7 @@
 // The stage: camera, light, ground, axes in mm, standard views. x forward, z up, lengths in mm. Draws on demand only.
 //
 // A graphics card smooths edges as it draws. Without one the processor draws, and smoothing would take most of its time:
-// there a picture that changes is drawn as it is, and one that rests once more, with four points for each of the screen.
+// there a changing picture is drawn without smoothing, and redrawn with four samples per pixel once it no longer changes.
 
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";

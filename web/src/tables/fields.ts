@@ -50,7 +50,7 @@ export class Fields {
     if (!values) return fill(this.root, h("p", { class: "note" }, this.tables ? "The text is not valid TOML: fields are shown when this is corrected." : ""));
     const top = this.fields.filter((f) => f.kind.of !== "table" && f.kind.of !== "tables");
     const rest = this.fields.filter((f) => !top.includes(f));
-    fill(this.root, this.fold("", "study", "What the study says as a whole.", () => this.rows(top, "", values), Object.keys(values).length > 0), ...rest.map((f) => this.child(f, f.key, values[f.key])));
+    fill(this.root, this.fold("", "study", "Settings of the whole study.", () => this.rows(top, "", values), Object.keys(values).length > 0), ...rest.map((f) => this.child(f, f.key, values[f.key])));
     this.mark();
   }
 

@@ -6,7 +6,7 @@ import { fill, h } from "../dom";
 export function testsDialog(chosen: (name: string) => void): { root: HTMLDialogElement; open: () => Promise<void> } {
   const select = h("select", { id: "tests-file" });
   const go = h("button", { type: "submit", class: "primary" }, "Start");
-  const none = h("p", { class: "note" }, "There is no .csv in the study's folder yet: drop the table of tests in Files first.");
+  const none = h("p", { class: "note" }, "The folder of the study has no .csv file yet: drop the table of tests in Files first.");
   const root: HTMLDialogElement = h(
     "dialog",
     { class: "file-dialog", "aria-labelledby": "tests-name" },

@@ -7,7 +7,7 @@
 
 use super::row::{Row, digits};
 
-/// Whose row: how the name begins and ends (a version is between), the work, the threads.
+/// The row: how its name begins and ends (with a version between), the work, the threads.
 struct Side {
     begins: &'static str,
     ends: &'static str,

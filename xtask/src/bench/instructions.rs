@@ -9,7 +9,7 @@
 //! | `instructions_per_pose` | one decimal |
 //! | `compiler` | what `rustc --version` prints; reported, not compared |
 //!
-//! A rise of more than 2 % against the record is a regression and leaves with 1; a fall is reported and needs a new
+//! A rise of more than 2 % against the record is a regression and exits with 1; a fall is reported and needs a new
 //! record only to be kept.
 
 use super::bench_cargo;

@@ -107,7 +107,7 @@ fn options(arguments: &[String]) -> Option<Options> {
     (options.instructions || !options.record).then_some(options)
 }
 
-/// Rows of all who could be had; why others could not.
+/// Rows of all available programs; why others are not available.
 ///
 /// # Errors
 /// A program that is there fails: its rows would be missing without a reason.
@@ -184,7 +184,7 @@ impl Options {
 }
 
 impl BenchRun {
-    /// Takes the rows, and the words of those who could not run, out of what a program printed.
+    /// Reads the rows, and the messages of peers that could not run, from the output of a program.
     fn read(&mut self, printed: &str) {
         for line in printed.lines() {
             if let Some(skipped) = line.strip_prefix("skipped\t") {

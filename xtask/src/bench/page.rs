@@ -1,10 +1,10 @@
 //! The page of a run: what was measured, on what, the rates side by side, the goals, every row.
 //!
 //! ```text
-//! what is measured · machine · rates side by side · goals · tool paths · who is missing and why · every row
+//! what is measured · machine · rates side by side · goals · tool paths · missing peers and why · every row
 //! ```
 //!
-//! A part without rows is left out. Rates are millions a second, in brackets how many times the yardstick's.
+//! A part without rows is left out. Rates are millions per second, in brackets the ratio to the yardstick.
 
 use super::goals;
 use super::row::{Row, digits};

@@ -4,8 +4,8 @@
 //!
 //! | thing | where | made from |
 //! |---|---|---|
-//! | virtual environment | `target/bench-venv` | `bench/python/requirements.txt`, again when that changes |
-//! | programs in C++ | `target/bench-...` | `bench/cpp/`, again when the source is newer |
+//! | virtual environment | `target/bench-venv` | `bench/python/requirements.txt`, reinstalled when that changes |
+//! | programs in C++ | `target/bench-...` | `bench/cpp/`, rebuilt when the source is newer |
 //!
 //! All work on one thread. Nothing outside `target/` is installed.
 
@@ -26,7 +26,7 @@ const BY_HAND: CppPeer = CppPeer {
     source: "bench/cpp/limit.cpp",
     program: "target/bench-limit",
 };
-/// What every thread pool that numpy and others bring obeys.
+/// Environment variables that limit the thread pools of numpy and others.
 const THREADS: &[&str] = &[
     "OMP_NUM_THREADS",
     "MKL_NUM_THREADS",
@@ -73,7 +73,7 @@ impl CppPeer {
         let modified = |path: &str| fs::metadata(path).and_then(|file| file.modified()).ok();
         if modified(self.program) <= modified(self.source) {
             let mut compiler = Command::new("c++");
-            // Warnings about the headers of others are not ours to mend.
+            // Warnings about the headers of other projects cannot be corrected here.
             compiler.args(["-std=c++17", "-O3", "-march=native", "-DNDEBUG", "-w"]);
             arguments(&mut compiler);
             printed(compiler.args([self.source, "-o", self.program]))?;

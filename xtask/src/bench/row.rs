@@ -5,9 +5,9 @@
 //! ```
 //!
 //! Rates are million poses (or points) per second. Lines with another number of fields, or words where numbers
-//! belong, are talk and no rows.
+//! belong, are other output and not rows.
 
-/// A rate of one program at one work, million poses per second.
+/// The rate of one program at one kind of work, million poses per second.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
     /// Name with version.
@@ -25,7 +25,7 @@ pub struct Row {
 }
 
 impl Row {
-    /// The row that is in `line`, if one does.
+    /// The row in `line`, if there is one.
     pub fn read(line: &str) -> Option<Row> {
         let fields: Vec<&str> = line.split('\t').collect();
         let [who, work, threads, median, lower, upper, note] = fields.as_slice() else {

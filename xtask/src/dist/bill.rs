@@ -106,7 +106,7 @@ mod tests {
         assert!(bill.contains(component), "{bill}");
         let used = "{\"ref\": \"pkg:cargo/armill@0.1.0\", \"dependsOn\": [\"pkg:cargo/a@1.0.0\"]}";
         assert!(bill.contains(used), "{bill}");
-        // The application itself is not a component of its own.
+        // The application itself is not one of its components.
         assert_eq!(bill.matches("\"name\": \"armill\"").count(), 1);
         assert_eq!(bill.matches('{').count(), bill.matches('}').count());
     }

@@ -19,7 +19,7 @@ const CRATES: &[&str] = &[
 /// Packs and builds all of them, and gives the paths of the packages.
 ///
 /// # Errors
-/// In a line: one cannot be packed, or does not build separately.
+/// In a line: one cannot be packed, or does not build on its own.
 pub fn package(release: &Release) -> Result<Vec<PathBuf>, String> {
     let mut command = locked(&["package"]);
     command.args(CRATES.iter().flat_map(|name| ["-p", name]));

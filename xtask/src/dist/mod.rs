@@ -14,7 +14,7 @@
 //!
 //! Linux with glibc: linked by zig against glibc 2.17, so that the command and the wheel run on any distribution since
 //! 2014. Elsewhere, and with `--native`, the C library of this machine is the oldest supported one. One commit gives the same
-//! tarball on any folder: names are sorted, times are that of the commit, paths of this machine are cut.
+//! tarball in any folder: names are sorted, times are that of the commit, paths of this machine are cut.
 
 mod bill;
 mod component;

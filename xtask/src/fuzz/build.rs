@@ -9,7 +9,7 @@ use std::ffi::{OsStr, OsString};
 use std::path::Path;
 use std::process::Command;
 
-/// What puts the counters in that libFuzzer reads. All are options of the stable compiler; no sanitizer is linked,
+/// Insert the counters that libFuzzer reads. All are options of the stable compiler; no sanitizer is linked,
 /// since safe Rust needs none to see a fault.
 const FLAGS: &[&str] = &[
     "-Cpasses=sancov-module",
@@ -21,7 +21,7 @@ const FLAGS: &[&str] = &[
     "-Cllvm-args=-sanitizer-coverage-trace-compares",
     // Branches that were folded together could not be distinguished.
     "-Cllvm-args=-simplifycfg-branch-fold-threshold=0",
-    // The pass wants a crate in one piece.
+    // The pass requires a single codegen unit.
     "-Ccodegen-units=1",
     "--cfg=fuzzing",
 ];

@@ -49,7 +49,7 @@ impl Count {
         }
         if line.starts_with("Summary [") {
             let passed = number_before(line, "passed");
-            // Failed, timed out and not started are reported apart there; none of them passed.
+            // Failed, timed out and not started are reported separately there; none of them passed.
             let run = number_before(line, "tests run:").max(number_before(line, "test run:"));
             let skipped = number_before(line, "skipped");
             return Self {

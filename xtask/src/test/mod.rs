@@ -55,7 +55,7 @@ fn steps() -> Vec<Step> {
     steps
 }
 
-/// The target whose back end no test machine of ours can run.
+/// The target whose back end cannot run on our test machines.
 const NEON: &str = "aarch64-unknown-linux-gnu";
 
 /// Whether rustc can compile for `target`; installs what is missing with rustup, and says so if it cannot.

@@ -88,7 +88,7 @@ fn in_package(program: &str, arguments: &[&str]) -> Command {
     command
 }
 
-/// A path of the repository that contains in any folder.
+/// A path of the repository that is valid in any folder.
 fn at_root(path: &str) -> PathBuf {
     env::current_dir().unwrap_or_default().join(path)
 }

@@ -1,4 +1,4 @@
-//! One step of a run: a named command whose output goes through to the reader and is counted on the way.
+//! One step of a run: a named command whose output is passed on and counted.
 //!
 //! Output is passed on unchanged and at once, as if the command ran alone. Standard output and
 //! errors are relayed by a thread each, since a runner may write its summary to either.
@@ -10,7 +10,7 @@ use std::process::{Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// A command and the name that a reader knows it by.
+/// A command and its name in the output.
 pub struct Step {
     name: &'static str,
     command: Command,

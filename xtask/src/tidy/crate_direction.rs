@@ -32,7 +32,7 @@ const USES: &[(&str, &[&str])] = &[
 /// Programs of the repository, on which nothing depends.
 const PROGRAMS: &[&str] = &["validation", "bench", "fuzz", "xtask"];
 
-/// Programs that are no members of the workspace: peers and counters are never built with armill.
+/// Programs that are not members of the workspace: peers and counters are never built with armill.
 const APART: &[&str] = &["bench", "fuzz"];
 
 /// All that the core is built of.
@@ -151,7 +151,7 @@ fn dependencies(text: &str) -> Vec<Dependency<'_>> {
         let name = if let Some(header) = line.strip_prefix('[').and_then(|line| line.strip_suffix(']')) {
             inside = header.ends_with("dependencies") && header != "workspace.dependencies";
             of_tests = header.contains("dev-dependencies") || header.contains("build-dependencies");
-            // `[dependencies.armill-core]` is a dependency alone.
+            // `[dependencies.armill-core]` itself declares a dependency.
             header.rsplit_once("dependencies.").map(|(_, name)| name)
         } else if inside && !line.is_empty() && !line.starts_with('#') {
             line.split(['=', '.', ' ']).next()

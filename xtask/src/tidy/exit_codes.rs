@@ -14,7 +14,7 @@ pub const RULE: Rule = Rule {
     check,
 };
 
-/// Where they are reported; the first is the witness.
+/// Where they are described; the others must match the first.
 const PLACES: &[&str] = &[
     "crates/cli/src/lib.rs",
     "ARCHITECTURE.md",

@@ -55,7 +55,7 @@ struct Rule {
     name: &'static str,
     /// Printed with the violations: what goes wrong without the rule.
     reason: &'static str,
-    /// Looks at the whole tree; no violation, no talk.
+    /// Checks the whole tree and returns all violations.
     check: fn(&Tree) -> Vec<Violation>,
 }
 

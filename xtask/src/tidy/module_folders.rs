@@ -93,7 +93,7 @@ mod tests {
             ("src/c/tests.rs", ""),
             ("src/ab.rs", ""),
         ]);
-        assert_eq!(found, ["src/a.rs its module goes on in `src/a/b.rs`"]);
+        assert_eq!(found, ["src/a.rs its module continues in `src/a/b.rs`"]);
     }
 
     #[test]

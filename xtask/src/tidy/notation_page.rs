@@ -1,7 +1,7 @@
 //! docs/notation.md defines every word once, and every unit that a name may end in.
 //!
 //! Words are those in bold in the first column of the table under `| word |`, suffixes those in backticks under
-//! `| suffix |`. The units are those that the rule of units knows.
+//! `| suffix |`. The units are those of the rule of units.
 
 use super::Rule;
 use super::tree::Tree;

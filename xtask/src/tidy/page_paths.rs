@@ -1,7 +1,7 @@
 //! Every path that ARCHITECTURE.md names in backticks is there.
 //!
-//! A path may be given from the root, or by an end that only one file has: `backend.rs`. NAME and MAKER mean
-//! for any name.
+//! A path may be given from the root, or by an end that only one file has: `backend.rs`. NAME and MAKER are
+//! placeholders for any name.
 
 use super::Rule;
 use super::rust::is_word;
@@ -17,7 +17,7 @@ pub const RULE: Rule = Rule {
 
 const PAGE: &str = "ARCHITECTURE.md";
 
-/// Words in a path that represent any name.
+/// Words in a path that are placeholders for any name.
 const ANY: &[&str] = &["NAME", "MAKER"];
 
 /// Endings of files that the page names without a folder.
@@ -73,7 +73,7 @@ fn leads_to(token: &str, path: &str) -> bool {
         .any(|window| token.iter().zip(window).all(same))
 }
 
-/// Whether `token` counts from the root, or represents several files.
+/// Whether `token` is relative to the root, or matches several files.
 fn is_whole(tree: &Tree, token: &str) -> bool {
     let token = token.trim_end_matches('/');
     let folder = token.rsplit_once('/').map_or("", |(folder, _)| folder);

@@ -15,7 +15,7 @@ use super::violation::Violation;
 /// The rule and its reason.
 pub const RULE: Rule = Rule {
     name: "robot formats",
-    reason: "a format that is only half supported would fail at a user",
+    reason: "a format that is only half supported fails for the first user",
     check,
 };
 

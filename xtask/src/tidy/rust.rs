@@ -102,14 +102,14 @@ pub fn is_word(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }
 
-/// Where `word` first is in `line` as a whole name.
+/// Where `word` first occurs in `line` as a whole name.
 pub fn find_word(line: &str, word: &str) -> Option<usize> {
     line.match_indices(word)
         .map(|(at, _)| at)
         .find(|at| !line[..*at].ends_with(is_word) && !line[at + word.len()..].starts_with(is_word))
 }
 
-/// Whether a file at `path` contains tests or benchmarks alone.
+/// Whether a file at `path` contains only tests or benchmarks.
 fn is_test_path(path: &str) -> bool {
     let mut parts = path.rsplit('/');
     let file = parts.next().unwrap_or_default();

@@ -1,7 +1,7 @@
 //! The native part of the Python package computes nothing: it passes arrays on.
 //!
-//! Looked for are the functions that mechanics is made of, turns between units, and numbers with a fraction but those
-//! that fill arrays.
+//! Looked for are the functions that mechanics is made of, conversions between units, and numbers with a fraction
+//! except those that fill arrays.
 
 use super::Rule;
 use super::rust::{find_word, is_word};

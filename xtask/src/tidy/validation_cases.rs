@@ -87,7 +87,7 @@ fn rows(table: &str) -> Vec<(usize, &str)> {
             continue;
         }
         let cell = line.split('|').nth(1).unwrap_or_default().trim();
-        // A link shows its text; backticks are no part of the name.
+        // A link shows its text; backticks are not part of the name.
         let cell = cell
             .strip_prefix('[')
             .and_then(|cell| cell.split(']').next())

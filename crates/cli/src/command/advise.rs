@@ -1,9 +1,8 @@
 //! `armill advise`: measures that bring a path within its tolerance.
 //!
 //! `--out` (`advice` next to the study) receives the results of the path with all recommended measures, as from
-//! `armill run`,
-//! and before them `advice.json`. Like `armill place` it continues an interrupted search. Stdout has the advice as
-//! text.
+//! `armill run`, and before them `advice.json`. Like `armill place` it continues an interrupted search. Stdout has the
+//! advice as text.
 
 use armill_study::advise::advise;
 use armill_study::output::Opening;

@@ -64,13 +64,13 @@ fn as_text(given: &BudgetAnswer) -> String {
     );
     lines.push(String::new());
     lines.push(format!(
-        "{:<30} {:>10} {:>8} {:>8} {:>10} {:>7} {:>8} {:>9}",
+        "{:<34} {:>10} {:>8} {:>8} {:>10} {:>7} {:>8} {:>9}",
         "contribution", "largest um", "at deg", "rms um", "scatter um", "u um", "alone %", "without %"
     ));
     let percent = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.1}"));
     lines.extend(given.contributions.iter().map(|one| {
         format!(
-            "{:<30} {:>10.2} {:>8.1} {:>8.2} {:>10.2} {:>7} {:>8} {:>9}",
+            "{:<34} {:>10.2} {:>8.1} {:>8.2} {:>10.2} {:>7} {:>8} {:>9}",
             one.name,
             one.largest_um,
             one.largest_at_deg,
@@ -83,7 +83,7 @@ fn as_text(given: &BudgetAnswer) -> String {
     }));
     let sums = &given.sums;
     lines.push(String::new());
-    lines.push(format!("{:<30} {:>10}", "largest of the sum", "um"));
+    lines.push(format!("{:<34} {:>10}", "largest of the sum", "um"));
     lines.extend(
         [
             ("signed sum", sums.as_functions_um),
@@ -93,12 +93,12 @@ fn as_text(given: &BudgetAnswer) -> String {
         .map(|(name, um)| format!("{name:<30} {um:>10.2}")),
     );
     lines.push(format!(
-        "{:<30} {:>10.2}   load {:.2} and path without load {:.2}",
+        "{:<34} {:>10.2}   load {:.2} and path without load {:.2}",
         "plain sum", sums.plain_um, sums.load_um, sums.unloaded_um
     ));
     if let Some(reference) = &given.without_load {
         lines.push(format!(
-            "{:<30} {:>10.2}   at {:.1} deg; measured {:.2} at {:.1} deg, explained {:.1} %; not part of the sums",
+            "{:<34} {:>10.2}   at {:.1} deg; measured {:.2} at {:.1} deg, explained {:.1} %; not part of the sums",
             "without load, predicted",
             reference.predicted_um,
             reference.predicted_at_deg,
@@ -121,11 +121,11 @@ fn of_part(part: &PartAnswer) -> Vec<String> {
     let percent = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.1}"));
     let mut lines = vec![
         format!(
-            "{:<30} {:>10.2}   at {:.1} deg; rms {:.2} um, {} points",
+            "{:<34} {:>10.2}   at {:.1} deg; rms {:.2} um, {} points",
             "part", part.largest_um, part.largest_at_deg, part.rms_um, part.points
         ),
         format!(
-            "{:<30} {:>10.2}   at {:.1} deg; rms {:.2} um, {:.2} um beyond known scatter and uncertainty",
+            "{:<34} {:>10.2}   at {:.1} deg; rms {:.2} um, {:.2} um beyond known scatter and uncertainty",
             "residual",
             part.residual.largest_um,
             part.residual.largest_at_deg,
@@ -138,7 +138,8 @@ fn of_part(part: &PartAnswer) -> Vec<String> {
             part.explained_percent, part.explainable_percent
         ),
         format!(
-            "similarity of shape {} %, best size {} % of the predicted, as good when rotated for {} % of all angles",
+            "similarity of shape {} %, best-fit size {} % of the predicted; a rotated prediction fits as well at {} % \
+             of all angles",
             percent(part.likeness_percent),
             percent(part.best_size_percent),
             percent(part.turns_as_good_percent)

@@ -1,8 +1,7 @@
 //! `armill compare`: the same paths in several cells.
 //!
-//! Files go into `--out` (`compare` next to the first study). Stdout has one table per analysis, paths first, each
-//! with its
-//! ranking as text, the differences, and what limits the comparison; or with `--json` all of `result.json`.
+//! Files go into `--out` (`compare` next to the first study). Stdout has one table per analysis, paths first, each with
+//! its ranking as text, the differences, and what limits the comparison; or with `--json` all of `result.json`.
 
 use armill_study::StudyError;
 use armill_study::compare::{

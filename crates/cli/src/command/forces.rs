@@ -1,8 +1,7 @@
 //! `armill forces`: a dynamometer record before and after removal of drift and filtering.
 //!
 //! `--rate-hz`, `--columns` and `--channels` control how the file is read, `--air-s` or `--no-drift`, `--low-pass-hz`
-//! and
-//! `--spindle-rpm` how it is processed. Stdout has a [`ForcesAnswer`], as text or JSON; `--out` receives tables and
+//! and `--spindle-rpm` how it is processed. Stdout has a [`ForcesAnswer`], as text or JSON; `--out` receives tables and
 //! pictures.
 //!
 //! ```text

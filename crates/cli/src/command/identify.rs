@@ -1,10 +1,8 @@
 //! `armill identify`: springs from load tests, and plans of tests.
 //!
 //! A table of tests gives an [`Answer`] on stdout and, with `--out`, the robot with its identified compliances;
-//! `--plan`
-//! gives a table to fill in, on stdout or in `--out`, and on stderr the expected result. `--unknowns`, `--points`,
-//! `--prior` and
-//! `--tool-mm` are the [`Question`] of both.
+//! `--plan` gives a table to fill in, on stdout or in `--out`, and on stderr the expected result. `--unknowns`,
+//! `--points`, `--prior` and `--tool-mm` are the [`Question`] of both.
 //!
 //! | `--plan` | stdout | `--out` | stderr |
 //! |---|---|---|---|

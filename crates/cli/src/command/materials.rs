@@ -1,6 +1,5 @@
-//! `armill materials`: the material library, one line per material ([`MaterialRow`]), or one material with all sets
-//! and the
-//! values used ([`MaterialDetails`]); as text or JSON on stdout.
+//! `armill materials`: the material library, one line per material ([`MaterialRow`]), or one material with all sets and
+//! the values used ([`MaterialDetails`]); as text or JSON on stdout.
 
 use armill_study::materials::{KienzleDetails, MaterialDetails, MaterialRow, MechanisticDetails};
 use armill_study::number::{decimals, digits};

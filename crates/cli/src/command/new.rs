@@ -1,8 +1,7 @@
 //! `armill new`: a commented study that runs.
 //!
 //! Its text is from [`armill_study::new`] for `--robot`, or all files of an example from [`armill_study::library`];
-//! here
-//! they are written into `DIR`, all or none. Stderr reports the next steps; stdout is empty, or has the paths as
+//! here they are written into `DIR`, all or none. Stderr reports the next steps; stdout is empty, or has the paths as
 //! JSON.
 
 use std::path::PathBuf;

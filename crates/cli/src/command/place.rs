@@ -1,11 +1,8 @@
 //! `armill place`: the placement of the part for the least deviation along a path.
 //!
 //! `--out` (`place` next to the study) receives the results of the path at the best placement, as from `armill run`,
-//! and
-//! before them `placement.json` with the pictures of the search. During the search `place.rounds` there stores its
-//! state:
-//! an interrupted search continues from it. Stdout has the placement as text, and the lines of a
-//! study for it.
+//! and before them `placement.json` with the pictures of the search. During the search `place.rounds` there stores its
+//! state: an interrupted search continues from it. Stdout has the placement as text, and the lines of a study for it.
 
 use armill_study::file::placement::PlaceTable;
 use armill_study::place::{Journal, PlacementSearch};

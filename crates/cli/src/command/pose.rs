@@ -1,10 +1,8 @@
 //! `armill pose`: all postures of one pose, as text or as a [`PoseAnswer`] on stdout.
 //!
 //! `--joints-deg`, or `--at-mm` with `--axis` (or `--tilt-deg`) and `--spin-deg`, gives the pose of the tool;
-//! `--tool-mm` its
-//! position relative to the flange, `--wrench-n` the load; `--compliance-...` replaces the values of the robot file.
-//! `--drawing` draws
-//! the postures found.
+//! `--tool-mm` its position relative to the flange, `--wrench-n` the load; `--compliance-...` replaces the values of
+//! the robot file. `--drawing` draws the postures found.
 //!
 //! ```text
 //! yaskawa/mh12, positions in base_link

@@ -2,8 +2,7 @@
 //!
 //! `--unit` and `--radius-mm` control how a file is read, `--upr` and `--harmonics` the evaluation. Stdout has a
 //! [`RoundnessAnswer`], as text or JSON: one for a file, a list of them for several. `--out` receives tables and
-//! pictures,
-//! with one folder per file if there are several.
+//! pictures, with one folder per file if there are several.
 //!
 //! ```text
 //! bore.csv: table, 3600 points, largest gap 0.10 deg                 file, format

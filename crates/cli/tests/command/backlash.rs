@@ -249,5 +249,5 @@ fn refuses_invalid_values() {
         "short.csv",
         format!("# radius_mm: 150\nangle_deg,radius_dev_um,direction,run\n{rows}"),
     );
-    refused(&[], &["a circle of 150 mm, `flat` has 100 mm"]);
+    refused(&[], &["a radius of 150 mm, `flat` has 100 mm"]);
 }

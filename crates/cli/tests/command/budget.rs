@@ -242,7 +242,7 @@ fn all_problems_are_reported_together_at_their_positions() {
     };
     let err = refused("analysis = \"grove\"\npart = \"bad.csv\"\nballbar = [\"none.csv\", \"nor.csv\"]\n");
     for said in [
-        "nothing called `grove`",
+        "no analysis called `grove`",
         "file none.csv not found",
         "file nor.csv not found",
         "bad.csv:3",

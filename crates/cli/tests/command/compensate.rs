@@ -28,7 +28,11 @@ fn cell(program: &str, rest: &str) -> Cell {
 fn the_commanded_path_read_again_deviates_onto_the_nominal_one() {
     let cell = cell("file = \"ring.ngc\", limits = false", "");
     let said = cell.armill(&["compensate", "study.toml"]).fine();
-    assert!(said.out.starts_with("ring: the tool goes "), "{}", said.out);
+    assert!(
+        said.out.starts_with("ring: largest deviation of the tool "),
+        "{}",
+        said.out
+    );
     let given = cell.armill(&["compensate", "study.toml", "--json"]).fine().json();
     let path = &given["paths"][0];
     let (before, after) = (

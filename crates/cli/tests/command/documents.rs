@@ -85,46 +85,55 @@ fn readme_runs() {
     run_page("README.md");
 }
 
-#[test]
-fn guide_runs() {
-    for page in [
-        "install",
-        "predict",
-        "your-robot",
-        "measure-stiffness",
-        "study-file",
-        "robot-file",
-        "results",
-        "tool-path",
-        "tool-path-words",
-        "placement",
-        "compare",
-        "holes",
-        "material-file",
-        "measured-forces",
-        "roundness",
-        "ballbar",
-        "calibrate",
-        "budget",
-        "live-page",
-        "python",
-        "cam-to-robot",
-        "many-machines",
-        "plotting",
-        "ballbar-day",
-        "how-far-to-trust-it",
-        "README",
-    ] {
-        run_page(&format!("docs/guide/{page}.md"));
-    }
+/// One test per page of the guide, so that pages run in parallel and a failure names its page.
+macro_rules! guide {
+    ($($name:ident: $page:literal),* $(,)?) => {
+        $(#[test]
+        fn $name() {
+            run_page(concat!("docs/guide/", $page, ".md"));
+        })*
+
+        #[test]
+        fn every_page_of_the_guide_is_run() {
+            let folder = std::fs::read_dir(repository().join("docs/guide")).unwrap();
+            let mut pages: Vec<String> = folder
+                .map(|page| page.unwrap().file_name().into_string().unwrap())
+                .collect();
+            let mut run: Vec<String> = [$($page),*].map(|page| format!("{page}.md")).to_vec();
+            pages.sort();
+            run.sort();
+            assert_eq!(pages, run, "add the new page to `guide!`");
+        }
+    };
 }
 
-#[test]
-fn every_page_of_the_guide_is_run() {
-    let pages = std::fs::read_dir(repository().join("docs/guide"))
-        .unwrap()
-        .count();
-    assert_eq!(pages, 26, "name the new page in `guide_runs`");
+guide! {
+    guide_install: "install",
+    guide_predict: "predict",
+    guide_your_robot: "your-robot",
+    guide_measure_stiffness: "measure-stiffness",
+    guide_study_file: "study-file",
+    guide_robot_file: "robot-file",
+    guide_results: "results",
+    guide_tool_path: "tool-path",
+    guide_tool_path_words: "tool-path-words",
+    guide_placement: "placement",
+    guide_compare: "compare",
+    guide_holes: "holes",
+    guide_material_file: "material-file",
+    guide_measured_forces: "measured-forces",
+    guide_roundness: "roundness",
+    guide_ballbar: "ballbar",
+    guide_calibrate: "calibrate",
+    guide_budget: "budget",
+    guide_live_page: "live-page",
+    guide_python: "python",
+    guide_cam_to_robot: "cam-to-robot",
+    guide_many_machines: "many-machines",
+    guide_plotting: "plotting",
+    guide_ballbar_day: "ballbar-day",
+    guide_how_far_to_trust_it: "how-far-to-trust-it",
+    guide_readme: "README",
 }
 
 #[test]

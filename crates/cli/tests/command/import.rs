@@ -13,7 +13,7 @@ fn an_imported_urdf_poses_as_the_urdf_does() {
         .armill(&["robots", "import", "arm.urdf", "--out", "arm.toml"])
         .fine();
     assert!(
-        said.err.contains("made arm.toml") && said.err.contains("6 joints; inverse: closed form"),
+        said.err.contains("created arm.toml") && said.err.contains("6 joints; inverse: closed form"),
         "{}",
         said.err
     );
@@ -35,7 +35,7 @@ fn a_robot_of_the_library_is_copied_with_its_comments_and_compliances() {
         .armill(&["robots", "import", "yaskawa/mh12", "--out", "mine.toml"])
         .fine();
     assert!(
-        said.err.contains("made mine.toml") && !said.err.contains("missing"),
+        said.err.contains("created mine.toml") && !said.err.contains("missing"),
         "{}",
         said.err
     );

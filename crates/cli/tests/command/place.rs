@@ -52,7 +52,7 @@ fn the_placement_is_reported_in_text_files_and_lines_for_the_study() {
     let report = std::fs::read_to_string(cell.at("place/report.html")).unwrap();
     let first = said.out.lines().next().unwrap();
     assert!(
-        report.contains("<h2 id=\"s1\">The place</h2>") && report.contains(first),
+        report.contains("<h2 id=\"s1\">Placement</h2>") && report.contains(first),
         "{first}"
     );
     // Where nothing is kept that the search needed on its way.
@@ -259,7 +259,11 @@ posture.search.step_deg = 45
         "0,60",
     ];
     let said = cell.armill(&args).fine();
-    assert!(said.out.starts_with("rim: at most "), "{}", said.out);
+    assert!(
+        said.out.starts_with("rim: largest in-plane deviation "),
+        "{}",
+        said.out
+    );
     let placed = placement(&cell, "place");
     let cost = number(&placed["found"]["cost_um"]);
     assert!(cost < number(&placed["nominal"]["cost_um"]), "{placed}");

@@ -95,7 +95,7 @@ fn pictures_have_the_lattice() {
     cell.file("study.toml", CELL);
     cell.armill(&["posture", "study.toml", "--step-deg", "30", "--out", "found"])
         .fine();
-    assert!(text(&cell, "found/ring-turns.svg").contains("turn of the tool (deg)"));
+    assert!(text(&cell, "found/ring-turns.svg").contains("spin of the tool (deg)"));
     assert!(text(&cell, "found/report.html").contains("for each spin of the tool"));
 }
 

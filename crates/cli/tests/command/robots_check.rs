@@ -47,7 +47,7 @@ fn a_wrong_sign_and_the_base_are_named_in_the_words_of_the_file() {
     let said = cell.armill(&check("arm.toml", &[])).fine();
     for words in [
         "joint U has the opposite sign: sign = -1 in place of 1",
-        "a base 450.00 mm above base_link, its frame `controller`",
+        "450.00 mm above base_link, its frame `controller`",
     ] {
         assert!(said.out.contains(words), "no `{words}` in:\n{}", said.out);
     }
@@ -79,7 +79,7 @@ fn one_reading_at_zero_is_reported_as_insufficient() {
     let said = Cell::new().armill(&[&arguments[..], &[pose]].concat()).fine();
     assert!(
         said.out.contains("These readings do not show whether")
-            && said.out.contains("joint L counts the other way"),
+            && said.out.contains("joint L has the opposite sign"),
         "{}",
         said.out
     );

@@ -237,7 +237,7 @@ fn a_plane_out_of_reach_is_a_result_with_its_counts() {
     assert!(
         cell.result("out")["warnings"]
             .to_string()
-            .contains("coordinates in mm")
+            .contains("coordinates are in mm")
     );
 }
 
@@ -419,7 +419,7 @@ fn a_statement_is_read_against_maps_sections_and_paths() {
         );
     }
     assert!(
-        said.out.contains("consistent") && said.out.contains("not confirmed"),
+        said.out.contains("consistent") && said.out.contains("does not mean confirmed"),
         "{}",
         said.out
     );

@@ -1,7 +1,7 @@
 //! Loads on the tool.
 //!
 //! [`cases`]: a set of given wrenches, the same at every point. [`along`]: wrenches that turn with the feed, or change
-//! from point to point. [`InputUncertainty`]: their uncertainty.
+//! from point to point. `input_uncertainty`: their uncertainty.
 //!
 //! Cutting forces: [`end_mill_body`] and [`cutter`] (the edge on it), [`engagement`] and [`arc`] (where it cuts and the
 //! chip thickness), [`mechanistic`] and [`kienzle`] (force of a chip; [`law`] is either, [`sets`] several of one

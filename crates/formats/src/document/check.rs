@@ -1,9 +1,8 @@
 //! Compares a document's tree with the shape it should have and collects every difference.
 //!
 //! Value by value from the root: a value of the wrong kind is reported and not looked into; of a table, its fields,
-//! then what is unknown, then what is missing. Where a value may have several shapes, the problems of that one are
-//! reported which has the fewest. Numbers that are not finite are reported everywhere, also where any value is
-//! accepted.
+//! then what is unknown, then what is missing. Where a value may have several shapes, the problems of the one with the
+//! fewest are reported. Numbers that are not finite are reported everywhere, also where any value is accepted.
 //!
 //! | part of the tree | what is compared |
 //! |---|---|
@@ -394,7 +393,7 @@ impl Checker<'_> {
     }
 }
 
-/// Whether a value is this choice; a whole number is none that the schema writes with a point.
+/// Whether a value is this choice; an integer does not match a number that the schema writes with a decimal point.
 fn same(choice: &Json, given: &Value) -> bool {
     match given {
         Value::Text(text) => choice.as_str() == Some(text),

@@ -10,7 +10,7 @@
 //! | `FF FE`, `FE FF` at the start of the file | UTF-16: refused |
 //! | `00` at the end of a line | dropped |
 //! | tab, `0C` (form feed), `1A` (end of a text in DOS) | kept in the line |
-//! | any other below `20`, and `7F` | refused: the file is not a text |
+//! | any other below `20`, and `7F` | refused: the file is not text |
 
 use std::io::{self, BufRead, ErrorKind};
 use std::ops::Range;
@@ -207,7 +207,7 @@ impl<R: BufRead> Lines<R> {
         // 0x1a ends a text in DOS.
         let strange = |c: char| c.is_ascii_control() && !matches!(c, '\t' | '\x0c' | '\x1a');
         if let Some((at, c)) = line.text.char_indices().find(|(_, c)| strange(*c)) {
-            let message = format!("not a text: it contains the byte 0x{:02x}", u32::from(c));
+            let message = format!("not a text file: it contains the byte 0x{:02x}", u32::from(c));
             let hint = "a text file is required: this is a file of another kind";
             return Err(line.problem(&self.name, at..at + 1, message, hint).into());
         }
@@ -272,7 +272,7 @@ mod tests {
     #[test]
     fn refuses_bytes_that_are_not_text_with_their_place() {
         let refused = |bytes: &[u8]| lines(bytes).unwrap_err().to_string();
-        assert!(refused(b"a\nb\x01\n").contains("a.txt:2:2: not a text: it contains the byte 0x01"));
+        assert!(refused(b"a\nb\x01\n").contains("a.txt:2:2: not a text file: it contains the byte 0x01"));
         assert!(refused(b"\xff\xfea\0").contains("UTF-16"));
         let long = vec![b'x'; LONGEST_LINE + 1];
         assert!(refused(&long).contains("a.txt:1:1: line 1 is longer than 65536 bytes"));

@@ -1,7 +1,7 @@
 //! Shapes put together: alternatives into a choice, and the fields of flattened tables into one table.
 //!
 //! schemars writes an enum as alternatives (`oneOf`, `anyOf`) and serde's `flatten` as fields next to a reference.
-//! Problems are reported better of simpler shapes: of names `one of "a", "b"`, of a tagged table the fields of its one
+//! Messages are clearer for simpler shapes: for names `one of "a", "b"`, for a tagged table the fields of its one
 //! variant, so both are brought together here, where a schema is read, and not where a document is checked.
 
 use std::collections::BTreeSet;

@@ -5,10 +5,10 @@
 //! plane) the caller checks, and reports through [`Document::problem`], which finds the place of a value by its path.
 //!
 //! In reading order: `source` (the text), `problem` (what is reported of it), `tree` (its values, each with its place),
-//! `path` (finds a value), `limits` (refuses what would nest too deep); `shape` and `merge` (what a schema wants),
-//! `check` (compares tree and shape), `unit` and `words` (units of names, and how both are said); [`edit`] (changes
-//! values of a text and leaves the rest) with `entries` (list entries: added and removed); `lines` (text that is not
-//! TOML, line by line).
+//! `path` (finds a value), `limits` (refuses what would nest too deep); `shape` and `merge` (the types of a schema),
+//! `check` (compares tree and shape), `unit` and `words` (units of names, and how both are written in messages);
+//! [`edit`] (changes values of a text and leaves the rest) with `entries` (list entries: added and removed); `lines`
+//! (text that is not TOML, line by line).
 //!
 //! ```
 //! use armill_formats::document::Document;
@@ -55,9 +55,9 @@ pub use self::source::Source;
 /// More syntax problems than this are not listed: after the first few, one mistake begets the next.
 const MOST_SYNTAX_PROBLEMS: usize = 20;
 
-/// A TOML file as text and as a tree in which every key and value knows its place.
+/// A TOML file as text and as a tree in which every key and value has its place.
 ///
-/// Not checked: whether the tree is what anybody wants; that is [`Document::read`].
+/// Not checked: whether the tree is a valid value; [`Document::read`] checks that.
 #[derive(Debug, Clone)]
 pub struct Document {
     source: Source,
@@ -141,7 +141,7 @@ impl Document {
         path::exists(&self.root, path)
     }
 
-    /// The paths of all values at or below `path` that are no tables, such as `centre_mm` and `half_size_mm` below
+    /// The paths of all values at or below `path` that are not tables, such as `centre_mm` and `half_size_mm` below
     /// `plane`; counted from there, in the order of the alphabet.
     pub fn keys(&self, path: &str) -> Vec<String> {
         let mut found = Vec::new();

@@ -31,7 +31,7 @@ const MOST_SHOWN: usize = 100;
 /// The columns a line of source may take before it is cut around its problem.
 const SHOWN_WIDTH: usize = 140;
 
-/// One thing that is wrong, with its place in the file.
+/// One problem, with its place in the file.
 ///
 /// Serialised it has `file`, `line`, `column`, `span` (bytes), `message` and `hint`.
 /// `Display` gives one line: `path:line:column: message`.
@@ -45,7 +45,7 @@ pub struct Problem {
     pub(super) column: usize,
     /// The offending bytes of the text.
     pub(super) span: Range<usize>,
-    /// The thing, its value, the limit and the unit.
+    /// The key, its value, the limit and the unit.
     pub(super) message: String,
     /// What to do about it, where that is known.
     pub(super) hint: Option<String>,
@@ -118,7 +118,7 @@ impl Problem {
         self.span.clone()
     }
 
-    /// The thing, its value, the limit and the unit.
+    /// The key, its value, the limit and the unit.
     pub fn message(&self) -> &str {
         &self.message
     }

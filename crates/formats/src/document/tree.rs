@@ -89,7 +89,7 @@ pub(super) fn json(node: &Node) -> serde_json::Value {
     match &node.value {
         Value::Text(text) | Value::Date(text) => Json::from(text.as_str()),
         Value::Whole(whole) => i64::try_from(*whole).map_or(Json::Null, Json::from),
-        // JSON knows no number that is infinite or none.
+        // JSON has neither infinite numbers nor NaN.
         Value::Real(real) => Json::from(*real),
         Value::Flag(flag) => Json::from(*flag),
         Value::List(entries) => entries.iter().map(json).collect(),

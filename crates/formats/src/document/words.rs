@@ -76,7 +76,7 @@ fn plural(shapes: &Shapes, shape: &Shape) -> &'static str {
     }
 }
 
-/// What the entries of an inner list are called, where that is said at all.
+/// What the entries of an inner list are called, if they have a name.
 fn plural_of_entries(shapes: &Shapes, list: &ListShape) -> &'static str {
     match shapes.resolved(list.first.first().unwrap_or(&list.others)) {
         Shape::Number(_) => "numbers",

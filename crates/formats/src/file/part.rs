@@ -34,7 +34,7 @@ pub struct PartFile {
 }
 
 impl PartFile {
-    /// Writes `bytes` to `path`; see [`write_atomically`].
+    /// Writes `bytes` to a temporary file next to `path`; see [`write_atomically`].
     ///
     /// # Errors
     /// The operation that failed; then no temporary file remains.
@@ -145,7 +145,7 @@ impl From<io::Error> for Failure {
     }
 }
 
-/// What failed while so many bytes were written to `path`, as a situation with advice.
+/// The failure of writing `bytes` bytes to `path`, as a known situation with advice.
 fn named_error<T>(path: &Path, bytes: usize, result: Result<T, Failure>) -> Result<T, FileError> {
     result.map_err(|failure| match failure {
         Failure::Named(error) => error,

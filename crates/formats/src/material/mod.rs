@@ -2,9 +2,9 @@
 //!
 //! A material has sets of mechanistic coefficients (N/mm2, N/mm), each identified by one source with one tool, and
 //! sets of Kienzle values. A set may lack a coefficient; no force is computed from it then. Where several sets of one
-//! material are whole, their mean represents the material and their scatter for its uncertainty.
+//! material are whole, their mean is the value of the material, and their scatter its uncertainty.
 //!
-//! `file` is the file unchanged; here it is checked and turned into SI.
+//! `file` has the tables as written; here they are checked and converted to SI.
 //!
 //! | in the file | here |
 //! |---|---|

@@ -154,7 +154,7 @@ pub struct RobotReadOptions {
 /// A given format takes precedence over ending and content. Only xacro reads other files: those that it includes.
 ///
 /// # Errors
-/// Bytes that are no text, an empty file, an unknown format, and the problems of the format.
+/// Bytes that are not text, an empty file, an unknown format, and the problems of the format.
 pub fn read(
     path: &Path,
     id: &str,
@@ -230,7 +230,7 @@ fn text_of(shown: &str, bytes: &[u8]) -> Result<String, Problems> {
         };
         return refused(
             at,
-            format!("not a text: it contains the byte 0x{:02x}", u32::from(c)),
+            format!("not a text file: it contains the byte 0x{:02x}", u32::from(c)),
             hint,
         );
     }

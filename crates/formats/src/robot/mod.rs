@@ -29,8 +29,8 @@ pub mod xacro;
 
 mod description;
 
-/// More joints than this are no serial arm, and what looks at pairs of joints would take long: the longest snake robots
-/// have about thirty. The schema of our own robot file says the same.
+/// More joints are not accepted, since checks of pairs of joints would take long: the longest snake robots
+/// have about thirty. The schema of our own robot file has the same limit.
 const MOST_JOINTS: usize = 64;
 
 /// An angle in rad beyond two turns is one in degrees under the wrong name.

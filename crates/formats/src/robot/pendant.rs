@@ -13,7 +13,7 @@ pub enum PendantError {
     /// A word that is not a number.
     #[error("`{0}` is not a finite number")]
     NotANumber(String),
-    /// Numbers that are no pose.
+    /// Numbers that are not a valid pose.
     #[error(transparent)]
     Pose(#[from] PoseError),
 }

@@ -2,7 +2,7 @@
 //!
 //! | value | cell |
 //! |---|---|
-//! | number | the decimals of its column that mean something, without zeros at the end; where the column does not say, the fewest digits that give the same number back: `0.1`, `1e300` |
+//! | number | the significant decimals of its column, without zeros at the end; if the column does not specify them, the fewest digits that give the same number back: `0.1`, `1e300` |
 //! | missing | empty; `""` where the table has a single column, since readers skip empty lines |
 //! | flag | `true`, `false` |
 //! | category | its label |

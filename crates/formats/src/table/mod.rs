@@ -82,7 +82,7 @@ pub enum ColumnData {
 /// Why columns do not make a table.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TableError {
-    /// There is not a column.
+    /// There is no column.
     #[error("table `{table}` has no columns: at least 1 is needed")]
     NoColumns {
         /// The name of the table.

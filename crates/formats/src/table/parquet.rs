@@ -6,7 +6,7 @@
 //! | integer, flag | INT64, BOOLEAN |
 //! | text, category | BYTE_ARRAY of UTF-8 text; of a category its labels |
 //!
-//! Numbers of a column that says how many decimals mean something are kept to a power of two below the last decimal
+//! Numbers of a column with a given number of significant decimals are rounded to a power of two below the last decimal
 //! (1/1024 for three decimals): the bytes that are then zero take no room. Numbers are split into streams of bytes
 //! (`BYTE_STREAM_SPLIT`), except where few differ: there a dictionary is shorter.
 //!
@@ -163,7 +163,7 @@ fn chunk(
     Ok((sink.into_inner()?, closed))
 }
 
-/// Gives the writer of a column the values of these rows; missing ones are reported by a level of 0 in place of a
+/// Gives the writer of a column the values of these rows; missing ones are marked by a level of 0 in place of a
 /// value.
 fn write_values(
     writer: &mut ColumnWriter<'_>,
@@ -277,11 +277,11 @@ fn field(column: &Column) -> Result<TypePtr, ParquetError> {
     Ok(Arc::new(field.build()?))
 }
 
-/// What is kept of a number when so many decimals mean something: multiples of the largest power of two that is not
+/// Rounds a number with this number of significant decimals: to multiples of the largest power of two that is not
 /// above the last decimal.
 ///
-/// A number is off by half a step at most. Kept whole are numbers of columns that do not say their decimals, or say 12
-/// or more, and numbers so large that hardly any of their digits is below the step.
+/// A number is off by half a step at most. Not rounded are numbers of columns that do not specify decimals, or specify
+/// 12 or more, and numbers so large that hardly any of their digits is below the step.
 fn kept(decimals: Option<u8>) -> impl Fn(f64) -> f64 {
     // Adding a number whose last bit equals the step rounds to it; subtracting it again is exact.
     let large = decimals.filter(|decimals| *decimals < 12).map(|decimals| {
@@ -307,7 +307,7 @@ pub fn read(bytes: &[u8]) -> Result<(Table, Metadata), ParquetError> {
     std::panic::catch_unwind(|| read_trusting(bytes)).unwrap_or(Err(ParquetError::Damaged))
 }
 
-/// What the file says, if the crate survives it; a column of which the metadata says nothing has no unit.
+/// The content of the file, if the crate does not panic; a column without metadata has no unit.
 fn read_trusting(bytes: &[u8]) -> Result<(Table, Metadata), ParquetError> {
     let file = SerializedFileReader::new(Bytes::copy_from_slice(bytes))?;
     let described = file.metadata().file_metadata();
@@ -333,7 +333,7 @@ fn read_trusting(bytes: &[u8]) -> Result<(Table, Metadata), ParquetError> {
 /// Column `index` in all row groups.
 ///
 /// # Errors
-/// Another type than [`write()`] makes, values that are missing where none may be, texts that are no labels.
+/// Another type than [`write()`] makes, values that are missing where none may be, texts that are not labels.
 fn read_column(
     file: &SerializedFileReader<Bytes>,
     (index, described): (usize, &ColumnDescPtr),

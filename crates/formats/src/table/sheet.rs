@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use super::csv::is_formula;
 
-/// One cell: what it says, and where in its line, bytes.
+/// One cell: its text, and its position in the line, bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Cell<'a> {
     /// Without blanks and quotes round it, and without the apostrophe that keeps a spreadsheet from running it.
@@ -25,7 +25,7 @@ pub(crate) fn separator_of(names: &str) -> char {
         .unwrap_or(',')
 }
 
-/// Whether a line says nothing: it is empty, or begins with `#`.
+/// Whether a line has no content: it is empty, or begins with `#`.
 pub(crate) fn is_remark(line: &str) -> bool {
     let line = line.trim_start();
     line.is_empty() || line.starts_with('#')

@@ -65,7 +65,7 @@ fn report(pictures: &[(&str, String)]) -> String {
         .answer("Yes, on 62 % of the plate; the largest part that fits is 420 × 260 mm.")
         .warning("The compliances are made up: this report shows the layout, not a robot.")
         .section("Numbers")
-        .paragraph("Every picture below is drawn from made-up values.")
+        .paragraph("Every picture below is drawn from synthetic values.")
         .table(&table)
         .inputs([input])
         .section("Pictures");

@@ -147,7 +147,7 @@ enum Item<'a> {
     Path,
 }
 
-/// Height that a drawing of this width wants, border included, between `least_px` and `most_px`.
+/// Preferred height of a drawing of this width, border included, between `least_px` and `most_px`.
 pub(crate) fn wanted_height_px(
     scene: &Scene,
     view: View,

@@ -36,7 +36,6 @@ pub use path::{
     CutAnswer, FeatureAnswer, LimitAnswer, LimitsAnswer, MeasuredAnswer, OperationAnswer, PathAnswer,
     ProgramAnswer, RestAnswer, SearchAnswer, StatisticsAnswer, StockAnswer, WorstPoint,
 };
-pub(crate) use point::GEOMETRY;
 pub use point::{PointAnswer, SettingAnswer};
 pub(crate) use sentence::{largest_contributor, micrometres};
 pub use statement::{Reading, StatementAnswer};

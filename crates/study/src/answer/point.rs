@@ -92,9 +92,6 @@ impl SettingAnswer {
     }
 }
 
-/// The contributor for the difference between the calibrated arm and the nominal model of its controller.
-pub(crate) const GEOMETRY: &str = "geometry";
-
 /// A reached point.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PointAnswer {
@@ -120,8 +117,8 @@ pub struct PointAnswer {
     pub normal_um: f64,
     /// Largest length of the deviation of all cases.
     pub full_um: f64,
-    /// Share of each of `contributors` in the in-plane deviation; their sum is the deviation (load-dependent: nearly;
-    /// the geometry of a `calibrated_robot` is in none).
+    /// Share of each of `contributors` in the in-plane deviation; their sum is the deviation (nearly, with a
+    /// load-dependent model).
     pub joint_share_um: Vec<f64>,
     /// Force that meets the tolerance in the direction of the worst case; none if that case has no force or
     /// no in-plane deviation.
@@ -131,20 +128,14 @@ pub struct PointAnswer {
 }
 
 impl PointAnswer {
-    /// The contributor with the largest share, by size, or `geometry`, which is the remainder; and its part of the
-    /// in-plane deviation, if there is any. A share may be opposite to the others.
+    /// Which of `contributors` has the largest share, by size, and its part of the in-plane deviation, if there is any. A
+    /// share may be opposite to the others.
     pub(crate) fn mostly_by<'a>(&self, contributors: &'a [String]) -> Option<(&'a str, Option<f64>)> {
         let shares = contributors
             .iter()
             .map(String::as_str)
             .zip(self.joint_share_um.iter().copied());
         let (name, share) = shares.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
-        let in_nobodys = self.in_plane_um - self.joint_share_um.iter().sum::<f64>();
-        let (name, share) = if in_nobodys.abs() > share.abs() {
-            (GEOMETRY, in_nobodys)
-        } else {
-            (name, share)
-        };
         Some((name, (self.in_plane_um > 0.0).then(|| share / self.in_plane_um)))
     }
 

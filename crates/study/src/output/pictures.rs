@@ -19,7 +19,7 @@ use rayon::prelude::*;
 
 use super::arm::arm_posture;
 use super::plates::{axes, base_y, map_pictures, section_panel, sheet, slices, subtitle};
-use crate::answer::{GEOMETRY, HolesAnswer, MapAnswer, PathAnswer, PointAnswer, StudyAnswer};
+use crate::answer::{HolesAnswer, MapAnswer, PathAnswer, PointAnswer, StudyAnswer};
 use crate::file::resolve::{Setting, Study, Subject};
 use crate::run::{AnalysisData, AnalysisResult};
 
@@ -194,28 +194,18 @@ pub(super) fn share_bar(label: &str, point: &PointAnswer) -> ShareBar {
     }
 }
 
-/// Bars of several points; the contribution of a calibrated arm, which is in no share, as a part of its own.
+/// Bars of several points.
 pub(super) fn shares(
     study: &Study,
     title: &str,
     (setting, quantity): (&Setting, &str),
-    mut bars: Vec<ShareBar>,
+    bars: Vec<ShareBar>,
 ) -> String {
-    let mut parts = setting.model.contributor_names(study.robot.robot.joints());
-    if setting.model.actual.is_some() {
-        parts.push(GEOMETRY.to_owned());
-        for ShareBar {
-            shares_um, total_um, ..
-        } in &mut bars
-        {
-            shares_um.push(total_um.unwrap_or_default() - shares_um.iter().sum::<f64>());
-        }
-    }
     let picture = ShareBars {
         title: title.to_owned(),
         subtitle: subtitle(setting),
         quantity: quantity.to_owned(),
-        parts,
+        parts: setting.model.contributor_names(study.robot.robot.joints()),
         bars,
     };
     picture.to_svg()

@@ -72,7 +72,7 @@ fn a_program_of_a_robot_has_the_numbers_of_the_same_path_in_gcode_wherever_its_f
             "{notes}"
         );
         assert_eq!(
-            notes.contains("the plane of the study does not move it"),
+            notes.contains("the plane of the study does not change it"),
             !program.contains("part_from") && !program.contains("frame_mm")
         );
     }
@@ -144,8 +144,8 @@ fn errors_of_a_robot_program_are_reported_with_a_hint() {
             "",
             &longer,
             &[
-                "its tip at 0, 0, 152 mm",
-                "2.000 mm from that of the study's",
+                "tool is at 0, 0, 152 mm",
+                "2.000 mm from the tip of the study's tool",
                 "[0, 0, 152, 0, 0, 0]",
             ],
         ),

@@ -1,4 +1,4 @@
-//! A client that sends what a test wants, right or wrong, and never waits for long.
+//! A client that sends any request of a test, valid or not, and never waits for long.
 
 use std::io::{Read, Write};
 use std::net::TcpStream;

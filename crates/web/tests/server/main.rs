@@ -1,6 +1,6 @@
 //! The server over real sockets on loopback: what it answers, and what it refuses.
 
-// A panic is how a test says that its claim is false; helper functions too.
+// Tests and their helper functions fail by a panic.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 mod client;

@@ -1,4 +1,4 @@
-//! What the server refuses: strangers, other sites, paths that lead out, and more than it can contain.
+//! What the server refuses: strangers, other sites, paths that lead out, and requests that are too large.
 
 use std::io::{Read, Write};
 use std::time::{Duration, Instant};

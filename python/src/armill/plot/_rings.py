@@ -51,7 +51,7 @@ def nominal(ax: Axes, division: float, what: str = "nominal circle") -> None:
 
 
 def closed(angles: Floats, values: Floats) -> tuple[Floats, Floats]:
-    """The same once more at the beginning, where points go all round."""
+    """The points with the first one repeated at the end, if they form a full circle."""
     order = np.argsort(angles, kind="stable")
     angles, values = angles[order], values[order]
     steps = np.diff(angles)

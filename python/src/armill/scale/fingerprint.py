@@ -101,7 +101,7 @@ def _function_words(function: types.FunctionType, depth: int) -> str:
 
 def _named(value: Any) -> str:
     name = f"{value.__module__}.{value.__qualname__}"
-    # The version of armill represents all of its source.
+    # The version of armill identifies all of its source.
     own = name.startswith(("armill.", "builtins."))
     return name if own or not isinstance(value, type) else f"{name}, {_hashed(_source(value))}"
 

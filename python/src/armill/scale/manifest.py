@@ -3,7 +3,7 @@
 ====================  ==================================================================================
 ``format``            1
 ``fingerprint``       SHA-256 of the request
-``request``             the request: texts by name (``fingerprint.py``)
+``request``           the request: texts by name (``fingerprint.py``)
 ``item_count``,       the sweep and its parts
 ``items_per_part``
 ``evaluation_count``

@@ -53,7 +53,7 @@ class Progress:
         return "\r\x1b[K" if self._terminal and self._any else ""
 
     def line(self, now: float) -> str:
-        """now -> what the bar says: how far, of how many, how fast, how long still."""
+        """now -> the text of the bar: finished, total, rate, remaining time."""
         part = self._done / self._all
         rate = (self._done - self._before) / max(now - self._began, 1e-9)
         filled = int(part * WIDTH)

@@ -1,8 +1,8 @@
 //! `armill robots check`: compares a robot file with poses read from its pendant.
 //!
 //! Each `--pose` is a reading of the pendant in the angles of `--convention`, with the tool `--tool-mm` active,
-//! relative to
-//! `--base`; `--within-mm` and `--within-deg` are the limits of agreement. The verdict is data: it goes to stdout.
+//! relative to `--base`; `--within-mm` and `--within-deg` are the limits of agreement. The verdict is data: it goes to
+//! stdout.
 
 use armill_core::robot::convention::PoseDifference;
 use armill_core::watch::Watch;

@@ -1,8 +1,7 @@
 //! `armill robots import`: converts a robot file of another format, or copies one of the library for editing.
 //!
 //! The file goes to `--out`, or to stdout; with `--json` stdout has an [`ImportedRobot`]. Stderr reports what was
-//! assumed and
-//! what is missing. A file that could not be read again is not written.
+//! assumed and what is missing. A file that could not be read again is not written.
 
 use std::path::Path;
 

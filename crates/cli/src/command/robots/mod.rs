@@ -1,8 +1,7 @@
 //! `armill robots`: information on robots.
 //!
-//! Without a name `list` prints the library, one line per robot; with a name `show` prints everything, with
-//! `structure` for
-//! springs and masses apart from the drives. `import` converts other formats, `check` compares a robot with its
+//! Without a name `list` prints the library, one line per robot; with a name `show` prints everything, with `structure`
+//! for springs and masses apart from the drives. `import` converts other formats, `check` compares a robot with its
 //! pendant.
 
 mod check;

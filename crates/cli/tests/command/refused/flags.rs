@@ -77,7 +77,7 @@ fn flags_that_contradict_each_other_are_refused() {
 
 #[test]
 fn an_axis_without_length_and_an_unknown_frame_are_reported() {
-    pose(&["--at-mm", "900,0,800", "--axis", "0,0,0"]).refused(&["--axis", "points nowhere"]);
+    pose(&["--at-mm", "900,0,800", "--axis", "0,0,0"]).refused(&["--axis", "has no direction"]);
     pose(&["--at-mm", "900,0,800", "--base", "flor"]).refused(&["no frame `flor`", "base_link, controller"]);
 }
 

@@ -18,7 +18,7 @@ fn all_problems_are_reported_at_once_in_the_order_of_the_text() {
             "study.toml:2:11: `version` is the number 2: must be 1",
             "study.toml:4:1: unknown field `plane.step`",
             "study.toml:6:8: `analysis[0].kind` is the string \"mapp\": must be one of \"map\", \"path\", \"again\"",
-            "study.toml:9:12: `analysis[1].tolerance_um` is nan: must be a finite number",
+            "study.toml:9:16: `analysis[1].tolerance_um` is nan: must be a finite number",
         ]
     );
 }
@@ -129,7 +129,7 @@ fn the_fields_of_a_flattened_struct_and_enum_are_known() {
         "{problems}"
     );
     assert!(
-        problems.contains("a.toml:4:12: `tolerance_um`: expected a number in um"),
+        problems.contains("a.toml:4:16: `tolerance_um`: expected a number in um"),
         "{problems}"
     );
 }

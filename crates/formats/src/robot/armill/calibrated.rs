@@ -113,7 +113,7 @@ fn table(motion: &Motion) -> InlineTable {
     };
     let mut table = InlineTable::new();
     table.insert(word, axis.letter().to_string().into());
-    // Written so that it comes back unchanged here.
+    // Written so that the same value is read back.
     let rounded: f64 = format!("{by:.PLACES$}").parse().unwrap_or(by);
     table.insert(field, (rounded + 0.0).into());
     table.insert("symbol", KEY.into());

@@ -168,7 +168,7 @@ impl Checks<'_> {
         joints
     }
 
-    /// A turning joint is reported in degrees, a sliding one in millimetres.
+    /// A revolute joint is given in degrees, a prismatic one in millimetres.
     ///
     /// Decided by the motion that names the joint; a joint that no motion names is reported as such elsewhere.
     fn units(&mut self, path: &str, entry: &JointEntry, motions: &[MotionEntry]) {
@@ -288,7 +288,7 @@ impl Checks<'_> {
         let mut known = Vec::new();
         for (index, entry) in file.joint.iter().enumerate() {
             let path = format!("joint[{index}]");
-            // Where a torque curve is in place of a compliance, its slope without load is reported for it.
+            // Where a torque curve replaces a compliance, its slope without load is given instead.
             let points = entry.torque_curve_n_m_rad.clone();
             let curve = points.and_then(|points| TorqueCurve::new(points).ok());
             let value = entry.compliance();
@@ -319,7 +319,7 @@ impl Checks<'_> {
         (known.len() == file.joint.len()).then_some(known)
     }
 
-    /// The branch that represents the robot where none is requested.
+    /// The default branch of the robot.
     ///
     /// Front and elbow up where the file does not say.
     pub(super) fn nominal(&mut self, file: &RobotFile) -> BranchPattern {

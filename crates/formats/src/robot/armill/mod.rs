@@ -4,7 +4,7 @@
 //! deflects and has mass in addition to the drives (springs, masses, compensator, torque curves, covariance) is read by
 //! `structure`.
 //!
-//! In reading order: `file` (the file unchanged), `checks` (what no schema can say, and SI), `structure`; `write` (a
+//! In reading order: `file` (the tables as written), `checks` (what no schema can say, and SI), `structure`; `write` (a
 //! robot of another format as such a file), `identified` (such a file with compliances that were identified),
 //! `calibrated` (with small motions that were).
 //!

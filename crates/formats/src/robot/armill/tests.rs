@@ -315,7 +315,11 @@ fn backlash_is_read_in_the_unit_of_its_joint_and_needs_a_source() {
             &sourced("backlash_deg = 0.01")[..],
             "joint B slides: `backlash_deg` does not fit it",
         ),
-        ("backlash_u_deg = 0.01", "", "a backlash that is not there"),
+        (
+            "backlash_u_deg = 0.01",
+            "",
+            "backlash details are given without a backlash",
+        ),
         (&sourced("backlash_deg = -0.01")[..], "", "-0.01"),
         (
             &sourced("backlash_deg = 0.01\nbacklash_side = \"gravity\"")[..],
@@ -380,7 +384,11 @@ fn a_wrong_structure_is_refused_with_place_and_hint() {
             "of = [\"A\", \"A\"]",
             "is given twice",
         ),
-        ("of = [\"A about x\", \"A\"]", "of = [\"B\", \"A\"]", "`B` slides"),
+        (
+            "of = [\"A about x\", \"A\"]",
+            "of = [\"B\", \"A\"]",
+            "`B` is a translation",
+        ),
         (
             "of = [\"A about x\", \"A\"]",
             "of = [\"A\"]",

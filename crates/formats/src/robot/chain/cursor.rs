@@ -1,4 +1,4 @@
-//! Walks over a text character by character and knows where it is.
+//! Walks over a text character by character and keeps its position.
 //!
 //! Offsets are bytes of the whole text, so that a range between two of them is the place of a problem. It never passes
 //! the end of its range, and a search without result does not move it.

@@ -95,7 +95,7 @@ fn every_word_that_is_not_a_factor_is_reported() {
         "the bracket of `Ry` is not closed",
         "`A7` is not an elementary motion",
         "`q2` is a second joint in one factor",
-        "no number, joint or symbol",
+        "a number, joint or symbol is missing here",
         "1000000000 mm is beyond 1000000 mm",
     ] {
         assert!(text.contains(words), "no `{words}` in {text}");

@@ -37,7 +37,7 @@ use crate::document::{Problems, Source};
 /// A row of type `fixed` moves nothing and gives constant motions alone. The flange is the frame behind the last row.
 ///
 /// # Errors
-/// No convention, columns that are missing, unknown or without unit, cells that are no number.
+/// No convention, columns that are missing, unknown or without unit, cells that are not numbers.
 pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Problems> {
     let file = Source::new(path, text);
     let table = table::read(&file)?;

@@ -53,7 +53,7 @@ fn refuses_binary_files() {
     );
     let text = read_as("a.urdf", b"<robot>\n\0\x01</robot>").unwrap_err();
     assert!(
-        text.contains("a.urdf:2:1: not a text: it contains the byte 0x00"),
+        text.contains("a.urdf:2:1: not a text file: it contains the byte 0x00"),
         "{text}"
     );
     let text = read_as("a.urdf", b"\xff\xfe<\0r\0").unwrap_err();

@@ -10,7 +10,7 @@
 //! | `velocity`, or `velocity="0"` | not known |
 //! | `<limit>` of a `continuous` joint | always none |
 //!
-//! `inf`, and numbers beyond 1000, represent an open end.
+//! `inf`, and numbers beyond 1000, mean an open end.
 
 use std::ops::Range;
 
@@ -54,7 +54,7 @@ pub(super) struct JointElement {
     pub rpy: [f64; 3],
     /// Direction in its own frame, of any length, zero included.
     pub axis: [f64; 3],
-    /// Lower and upper end as they are reported, infinite where open; `None` where there are none.
+    /// Lower and upper end as given, infinite where open; `None` where there are none.
     pub limits: Option<[f64; 2]>,
     /// Greatest speed, rad/s or m/s.
     pub velocity: Option<f64>,
@@ -66,7 +66,7 @@ pub(super) struct JointElement {
     pub child_place: Range<usize>,
 }
 
-/// More joints than this are no machine: a whole cell has a few hundred.
+/// More joints than this are not accepted: a whole cell has a few hundred.
 const MOST_ELEMENTS: usize = 10_000;
 
 /// Every `<joint>` below the root.
@@ -92,8 +92,8 @@ pub(super) fn read(file: &Source, root: Node<'_, '_>) -> Result<Vec<JointElement
 /// One `<joint>` element.
 ///
 /// # Errors
-/// The first thing that is missing or no number. An axis of length zero is reported later, and only of a joint of the
-/// chain.
+/// The first thing that is missing or not a number. An axis of length zero is reported later, and only of a joint of
+/// the chain.
 fn joint(file: &Source, node: Node<'_, '_>) -> Result<JointElement, Problems> {
     let name = required(file, node, "name")?.to_owned();
     let kind = match required(file, node, "type")? {
@@ -153,7 +153,7 @@ fn joint(file: &Source, node: Node<'_, '_>) -> Result<JointElement, Problems> {
 /// The direction of an axis, of any length up to [`LARGEST_AXIS`].
 ///
 /// # Errors
-/// Components that are no numbers, or beyond it.
+/// Components that are not numbers, or beyond it.
 fn axis_of(file: &Source, axis: Node<'_, '_>) -> Result<[f64; 3], Problems> {
     let xyz = numbers(file, axis, "xyz", [1.0, 0.0, 0.0])?;
     match xyz.iter().find(|part| part.abs() > LARGEST_AXIS) {
@@ -166,7 +166,7 @@ fn axis_of(file: &Source, axis: Node<'_, '_>) -> Result<[f64; 3], Problems> {
     }
 }
 
-/// A number of `<limit>`, infinite where it represents an open end; zero where it is left out.
+/// A number of `<limit>`, infinite where it means an open end; zero where it is left out.
 ///
 /// # Errors
 /// What is not a number; `inf` and `-inf` are two.

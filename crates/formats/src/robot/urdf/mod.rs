@@ -2,9 +2,9 @@
 //!
 //! The chain runs from the root link to a tip: the one requested, or the one with the most moving joints
 //! (`tool0` among equals). Side branches are left out, as are masses, meshes and collision shapes. `origin rpy`
-//! turns about fixed axes: `R = Rz(y) Ry(p) Rx(r)`. An axis that counts against a coordinate axis becomes a joint
-//! of negative sign. URDF knows no compliance; `effort="0"` and `velocity="0"` mean not given. A link `base` that
-//! hangs rigidly on the root is where the controller counts from (ROS-Industrial): it becomes the frame
+//! turns about fixed axes: `R = Rz(y) Ry(p) Rx(r)`. An axis opposite to a coordinate axis becomes a joint
+//! of negative sign. URDF has no compliance; `effort="0"` and `velocity="0"` mean not given. A link `base` that
+//! hangs rigidly on the root is the reference of the controller (ROS-Industrial): it becomes the frame
 //! `controller`.
 //!
 //! In reading order: `joints` (the elements as written), `tree` (links, joints and the chain to a tip), here the

@@ -180,7 +180,7 @@ fn unreachable<'a>(root: &'a str, joints: &'a [JointElement], links: &BTreeSet<&
     links.difference(&reached).copied().collect()
 }
 
-/// What to look for where links and joints are no tree.
+/// What to look for where links and joints do not form a tree.
 const LOOP: &str = "a serial arm has one root link and joints that lead away from it without a loop";
 
 /// Whether a joint has a position of its own.

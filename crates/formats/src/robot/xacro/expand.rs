@@ -27,7 +27,7 @@ const LONGEST_BYTES: usize = 4 << 20;
 /// The expanded text.
 ///
 /// # Errors
-/// The expression or macro that cannot be evaluated, where it is in `main` or in a file that it includes.
+/// The expression or macro that cannot be evaluated, at its place in `main` or in a file that it includes.
 pub(super) fn expand(main: &Source, path: &Path, flat: &Flat) -> Result<String, Problems> {
     let (xml, included) = (&flat.xml, &flat.sources[..]);
     if xml.len() > LONGEST_BYTES {

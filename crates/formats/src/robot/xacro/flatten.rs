@@ -50,7 +50,7 @@ pub(super) struct Flat {
     pub sources: Vec<Source>,
     /// Files that were not found and are not needed.
     pub remarks: Vec<String>,
-    /// Calls of `load_yaml`, in the order of the properties that represent their data.
+    /// Calls of `load_yaml`, in the order of the properties that contain their data.
     pub calls: Vec<Call>,
 }
 

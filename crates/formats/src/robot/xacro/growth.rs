@@ -1,4 +1,4 @@
-//! How much a xacro can grow to, evaluated before anything is expanded: a macro that calls another twice, which does
+//! How much a xacro can grow to, computed before anything is expanded: a macro that calls another twice, which does
 //! the same, is a few lines that fill any memory.
 //!
 //! ```text
@@ -29,9 +29,9 @@ use super::load_yaml::Data;
 
 /// More text than this is not a robot: what a macro of ROS-Industrial expands to has 10 kB without meshes.
 const MOST_BYTES: u64 = 1 << 20;
-/// A longer value is not a name and no list of numbers.
+/// A longer value is neither a name nor a list of numbers.
 pub(super) const LONGEST_VALUE: u64 = 64 << 10;
-/// A longer expression is none that a person wrote; the evaluator calls itself for each sign.
+/// A longer expression was not written by hand; the evaluator recurses for each character.
 const LONGEST_EXPRESSION: usize = 2000;
 /// Digits of a number, sign and exponent included.
 const NUMBER: u64 = 32;
@@ -198,7 +198,7 @@ impl<'a> Lengths<'a> {
         Ok(lengths)
     }
 
-    /// How long a text can get: any name in it may be for its value.
+    /// How long a text can get: any name in it may be replaced by its value.
     ///
     /// Without a `$` its own letters. With one, every word is taken as a name that may be one of the file's, and every
     /// `$` as a number in addition.

@@ -185,9 +185,8 @@ impl Placed {
         if let (Some((Frame::Given(frame), line)), None) = (self.first, self.replaced) {
             let numbers = mm_deg(&frame).join(", ");
             notes.push(format!(
-                "line {line}: the program defines its frame ({numbers} mm, deg, relative to the controller's \
-                 reference frame); the plane of the study \
-                 does not change it"
+                "line {line}: the program defines its frame ({numbers} mm, deg, in the reference frame of the \
+                 controller); the plane of the study does not change it"
             ));
         }
         for number in &self.taken {

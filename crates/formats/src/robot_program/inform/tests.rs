@@ -323,7 +323,7 @@ fn refuses_values_outside_the_ranges_of_controllers() {
         change(&mut draft);
         write(&draft).unwrap_err().to_string()
     };
-    assert!(broken(|draft| draft.name = "x".repeat(33)).contains("32 characters in all"));
+    assert!(broken(|draft| draft.name = "x".repeat(33)).contains("at most 32 characters"));
     assert!(broken(|draft| draft.frame_number = 0).contains("frame 0 is outside 1 to 63"));
     assert!(broken(|draft| draft.points[0].joints.push(0.0)).contains("7 joints"));
     assert!(broken(|draft| draft.points[1].speed = Some(1e-5)).contains("the speed is 0.00001"));

@@ -80,7 +80,7 @@ fn problems_are_reported_with_line_column_and_hint() {
     }
     assert!(problems("").contains("the file has no GOTO"));
     let endless = format!("UNIT/MM\nGOTO/{}", "0,$\n".repeat(1000));
-    assert!(problems(&endless).contains("goes over more than 200 lines"));
+    assert!(problems(&endless).contains("has more than 200 lines"));
 }
 
 #[test]
