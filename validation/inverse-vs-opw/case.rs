@@ -4,7 +4,7 @@
 //! the rest on either side is unmatched. For any order of the two lists, the sets are equal if
 //! nothing is unmatched.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::TAU;
 
 use rs_opw_kinematics::glam::{DQuat, DVec3};
 use rs_opw_kinematics::kinematic_traits::{Kinematics, Pose};
@@ -56,50 +56,7 @@ fn arm(title: &'static str, robot: Robot, parameters: Parameters) -> Arm {
 
 /// Three arms that differ in what goes wrong easily, see README.md.
 fn arms() -> [Arm; 3] {
-    // opw_parameters_mh12.yaml of ros-industrial/motoman (433be15f).
-    let mh12 = Parameters {
-        a1: 0.155,
-        a2: -0.200,
-        b: 0.0,
-        c1: 0.450,
-        c2: 0.614,
-        c3: 0.640,
-        c4: 0.100,
-        offsets: [0.0, 0.0, -FRAC_PI_2, 0.0, 0.0, PI],
-        sign_corrections: [1, 1, -1, -1, -1, -1],
-        dof: 6,
-    };
-    // opw_parameters_kr150r3100_2.yaml of ros-industrial/kuka_experimental (e78bbd15).
-    let kr150 = Parameters {
-        a1: 0.330,
-        a2: -0.115,
-        b: 0.0,
-        c1: 0.645,
-        c2: 1.350,
-        c3: 1.420,
-        c4: 0.215,
-        offsets: [0.0, -FRAC_PI_2, 0.0, 0.0, 0.0, 0.0],
-        sign_corrections: [-1, 1, 1, -1, 1, -1],
-        dof: 6,
-    };
-    // opw_parameters_tx2_90.yaml of ros-industrial/staubli_experimental (256a71ac).
-    let tx2_90 = Parameters {
-        a1: 0.050,
-        a2: 0.0,
-        b: 0.050,
-        c1: 0.478,
-        c2: 0.425,
-        c3: 0.425,
-        c4: 0.100,
-        offsets: [0.0; 6],
-        sign_corrections: [1; 6],
-        dof: 6,
-    };
-    [
-        arm("Yaskawa MH12", arms::mh12(), mh12),
-        arm("KUKA KR 150 R3100-2", arms::kr150(), kr150),
-        arm("Staubli TX2-90", arms::tx2_90(), tx2_90),
-    ]
+    arms::with_opw_parameters().map(|(title, robot, parameters)| arm(title, robot, parameters))
 }
 
 /// What came out of many poses.

@@ -4,7 +4,9 @@
 //! in rad, each by a constant or by the position of a joint; signs and couplings lead from the controller's
 //! positions to those of the chain. Each arm names the file and the commit that its numbers were typed from.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use rs_opw_kinematics::parameters::opw_kinematics::Parameters;
 
 use armill_core::robot::joint::{Coupling, Sign};
 use armill_core::robot::{Amount, Axis, Joint, JointCompliance, Motion, Robot};
@@ -196,4 +198,51 @@ fn with_stiffness(robot: Robot, stiffness_n_m_per_rad: [f64; 6]) -> Robot {
     robot
         .with_compliance(joints.to_vec())
         .expect("stiffness is positive")
+}
+
+/// Three arms, and the same as seven lengths, offsets and signs of an ortho-parallel arm with spherical wrist.
+pub fn with_opw_parameters() -> [(&'static str, Robot, Parameters); 3] {
+    let mh12_parameters = Parameters {
+        a1: 0.155,
+        a2: -0.200,
+        b: 0.0,
+        c1: 0.450,
+        c2: 0.614,
+        c3: 0.640,
+        c4: 0.100,
+        offsets: [0.0, 0.0, -FRAC_PI_2, 0.0, 0.0, PI],
+        sign_corrections: [1, 1, -1, -1, -1, -1],
+        dof: 6,
+    };
+    // opw_parameters_kr150r3100_2.yaml of ros-industrial/kuka_experimental (e78bbd15).
+    let kr150_parameters = Parameters {
+        a1: 0.330,
+        a2: -0.115,
+        b: 0.0,
+        c1: 0.645,
+        c2: 1.350,
+        c3: 1.420,
+        c4: 0.215,
+        offsets: [0.0, -FRAC_PI_2, 0.0, 0.0, 0.0, 0.0],
+        sign_corrections: [-1, 1, 1, -1, 1, -1],
+        dof: 6,
+    };
+    // opw_parameters_tx2_90.yaml of ros-industrial/staubli_experimental (256a71ac).
+    let tx2_90_parameters = Parameters {
+        a1: 0.050,
+        a2: 0.0,
+        b: 0.050,
+        c1: 0.478,
+        c2: 0.425,
+        c3: 0.425,
+        c4: 0.100,
+        offsets: [0.0; 6],
+        sign_corrections: [1; 6],
+        dof: 6,
+    };
+    [
+        ("Yaskawa MH12", mh12(), mh12_parameters),
+        ("KUKA KR 150 R3100-2", kr150(), kr150_parameters),
+        ("Staubli TX2-90", tx2_90(), tx2_90_parameters),
+    ]
 }

@@ -52,6 +52,8 @@ mod nist_circles;
 mod path_accuracy;
 #[path = "../plane-split/case.rs"]
 mod plane_split;
+#[path = "../thermal-growth/case.rs"]
+mod thermal_growth;
 #[path = "../tx200-compliance/case.rs"]
 mod tx200_compliance;
 #[path = "../ur10-pose-accuracy/case.rs"]
@@ -121,6 +123,10 @@ pub const CASES: &[Case] = &[
     Case {
         folder: "inverse-vs-opw",
         checks: inverse_vs_opw::checks,
+    },
+    Case {
+        folder: "thermal-growth",
+        checks: thermal_growth::checks,
     },
     Case {
         folder: "compliance-two-ways",

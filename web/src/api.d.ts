@@ -21,7 +21,7 @@ export interface paths {
             };
             requestBody?: never;
             responses: {
-                /** @description as asked */
+                /** @description success */
                 200: {
                     headers: {
                         [name: string]: unknown;
@@ -30,7 +30,7 @@ export interface paths {
                         "application/json": components["schemas"]["StudyOnDisk"];
                     };
                 };
-                /** @description what is wrong */
+                /** @description error */
                 default: {
                     headers: {
                         [name: string]: unknown;
@@ -51,11 +51,11 @@ export interface paths {
             };
             requestBody: {
                 content: {
-                    "application/json": components["schemas"]["Written"];
+                    "application/json": components["schemas"]["StudyUpdate"];
                 };
             };
             responses: {
-                /** @description as asked */
+                /** @description success */
                 200: {
                     headers: {
                         [name: string]: unknown;
@@ -64,7 +64,7 @@ export interface paths {
                         "application/json": components["schemas"]["StudyOnDisk"];
                     };
                 };
-                /** @description what is wrong */
+                /** @description error */
                 default: {
                     headers: {
                         [name: string]: unknown;
@@ -101,11 +101,11 @@ export interface paths {
             };
             requestBody: {
                 content: {
-                    "application/json": components["schemas"]["Checked"];
+                    "application/json": components["schemas"]["CheckRequest"];
                 };
             };
             responses: {
-                /** @description as asked */
+                /** @description success */
                 200: {
                     headers: {
                         [name: string]: unknown;
@@ -114,7 +114,7 @@ export interface paths {
                         "application/json": components["schemas"]["OutlineAnswer"];
                     };
                 };
-                /** @description what is wrong */
+                /** @description error */
                 default: {
                     headers: {
                         [name: string]: unknown;
@@ -150,11 +150,11 @@ export interface paths {
             };
             requestBody: {
                 content: {
-                    "application/json": components["schemas"]["Changes"];
+                    "application/json": components["schemas"]["ChangeRequest"];
                 };
             };
             responses: {
-                /** @description as asked */
+                /** @description success */
                 200: {
                     headers: {
                         [name: string]: unknown;
@@ -163,7 +163,7 @@ export interface paths {
                         "application/json": components["schemas"]["ChangedAnswer"];
                     };
                 };
-                /** @description what is wrong */
+                /** @description error */
                 default: {
                     headers: {
                         [name: string]: unknown;
@@ -199,11 +199,11 @@ export interface paths {
             };
             requestBody: {
                 content: {
-                    "application/json": components["schemas"]["Checked"];
+                    "application/json": components["schemas"]["CheckRequest"];
                 };
             };
             responses: {
-                /** @description as asked */
+                /** @description success */
                 200: {
                     headers: {
                         [name: string]: unknown;
@@ -212,7 +212,7 @@ export interface paths {
                         "application/json": components["schemas"]["TablesAnswer"];
                     };
                 };
-                /** @description what is wrong */
+                /** @description error */
                 default: {
                     headers: {
                         [name: string]: unknown;
@@ -246,7 +246,7 @@ export interface paths {
             };
             requestBody?: never;
             responses: {
-                /** @description as asked */
+                /** @description success */
                 200: {
                     headers: {
                         [name: string]: unknown;
@@ -255,7 +255,7 @@ export interface paths {
                         "application/json": Record<string, never>;
                     };
                 };
-                /** @description what is wrong */
+                /** @description error */
                 default: {
                     headers: {
                         [name: string]: unknown;
@@ -283,7 +283,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** Answer, values and scene of an ask after values are changed */
+        /** Answer, values and scene of an analysis after values are changed */
         post: {
             parameters: {
                 query?: never;
@@ -293,11 +293,11 @@ export interface paths {
             };
             requestBody: {
                 content: {
-                    "application/json": components["schemas"]["OfView"];
+                    "application/json": components["schemas"]["ViewRequest"];
                 };
             };
             responses: {
-                /** @description as asked */
+                /** @description success */
                 200: {
                     headers: {
                         [name: string]: unknown;
@@ -306,7 +306,7 @@ export interface paths {
                         "application/json": components["schemas"]["ViewAnswer"];
                     };
                 };
-                /** @description what is wrong */
+                /** @description error */
                 default: {
                     headers: {
                         [name: string]: unknown;
@@ -342,11 +342,11 @@ export interface paths {
             };
             requestBody: {
                 content: {
-                    "application/json": components["schemas"]["OfMesh"];
+                    "application/json": components["schemas"]["MeshRequest"];
                 };
             };
             responses: {
-                /** @description as asked */
+                /** @description success */
                 200: {
                     headers: {
                         [name: string]: unknown;
@@ -355,7 +355,7 @@ export interface paths {
                         "model/stl": string;
                     };
                 };
-                /** @description what is wrong */
+                /** @description error */
                 default: {
                     headers: {
                         [name: string]: unknown;
@@ -381,7 +381,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** The answer to an ask */
+        /** The answer to an analysis */
         post: {
             parameters: {
                 query?: never;
@@ -391,11 +391,11 @@ export interface paths {
             };
             requestBody: {
                 content: {
-                    "application/json": components["schemas"]["OfAnalysis"];
+                    "application/json": components["schemas"]["AnalysisRequest"];
                 };
             };
             responses: {
-                /** @description as asked */
+                /** @description success */
                 200: {
                     headers: {
                         [name: string]: unknown;
@@ -404,7 +404,7 @@ export interface paths {
                         "application/json": components["schemas"]["StudyAnswer"];
                     };
                 };
-                /** @description what is wrong */
+                /** @description error */
                 default: {
                     headers: {
                         [name: string]: unknown;
@@ -430,7 +430,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** The settings of an ask */
+        /** The settings of an analysis */
         post: {
             parameters: {
                 query?: never;
@@ -440,11 +440,11 @@ export interface paths {
             };
             requestBody: {
                 content: {
-                    "application/json": components["schemas"]["OfAnalysis"];
+                    "application/json": components["schemas"]["AnalysisRequest"];
                 };
             };
             responses: {
-                /** @description as asked */
+                /** @description success */
                 200: {
                     headers: {
                         [name: string]: unknown;
@@ -453,7 +453,7 @@ export interface paths {
                         "application/json": components["schemas"]["ValuesAnswer"];
                     };
                 };
-                /** @description what is wrong */
+                /** @description error */
                 default: {
                     headers: {
                         [name: string]: unknown;
@@ -489,11 +489,11 @@ export interface paths {
             };
             requestBody: {
                 content: {
-                    "application/json": components["schemas"]["OfPlace"];
+                    "application/json": components["schemas"]["PosturesRequest"];
                 };
             };
             responses: {
-                /** @description as asked */
+                /** @description success */
                 200: {
                     headers: {
                         [name: string]: unknown;
@@ -502,7 +502,7 @@ export interface paths {
                         "application/json": components["schemas"]["PosturesAnswer"];
                     };
                 };
-                /** @description what is wrong */
+                /** @description error */
                 default: {
                     headers: {
                         [name: string]: unknown;
@@ -528,7 +528,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** What can be drawn of an ask */
+        /** The geometry of an analysis for drawing */
         post: {
             parameters: {
                 query?: never;
@@ -538,11 +538,11 @@ export interface paths {
             };
             requestBody: {
                 content: {
-                    "application/json": components["schemas"]["OfAnalysis"];
+                    "application/json": components["schemas"]["AnalysisRequest"];
                 };
             };
             responses: {
-                /** @description as asked */
+                /** @description success */
                 200: {
                     headers: {
                         [name: string]: unknown;
@@ -551,7 +551,7 @@ export interface paths {
                         "application/json": components["schemas"]["SceneAnswer"];
                     };
                 };
-                /** @description what is wrong */
+                /** @description error */
                 default: {
                     headers: {
                         [name: string]: unknown;
@@ -577,7 +577,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** The table of an ask */
+        /** The table of an analysis */
         post: {
             parameters: {
                 query?: never;
@@ -587,11 +587,11 @@ export interface paths {
             };
             requestBody: {
                 content: {
-                    "application/json": components["schemas"]["OfTable"];
+                    "application/json": components["schemas"]["TableRequest"];
                 };
             };
             responses: {
-                /** @description as asked */
+                /** @description success */
                 200: {
                     headers: {
                         [name: string]: unknown;
@@ -600,7 +600,7 @@ export interface paths {
                         "text/csv": string;
                     };
                 };
-                /** @description what is wrong */
+                /** @description error */
                 default: {
                     headers: {
                         [name: string]: unknown;
@@ -626,7 +626,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** The pictures of an ask */
+        /** The pictures of an analysis */
         post: {
             parameters: {
                 query?: never;
@@ -636,11 +636,11 @@ export interface paths {
             };
             requestBody: {
                 content: {
-                    "application/json": components["schemas"]["OfAnalysis"];
+                    "application/json": components["schemas"]["AnalysisRequest"];
                 };
             };
             responses: {
-                /** @description as asked */
+                /** @description success */
                 200: {
                     headers: {
                         [name: string]: unknown;
@@ -649,7 +649,7 @@ export interface paths {
                         "application/json": components["schemas"]["PicturesAnswer"];
                     };
                 };
-                /** @description what is wrong */
+                /** @description error */
                 default: {
                     headers: {
                         [name: string]: unknown;
@@ -685,11 +685,11 @@ export interface paths {
             };
             requestBody: {
                 content: {
-                    "application/json": components["schemas"]["OfPicture"];
+                    "application/json": components["schemas"]["PictureRequest"];
                 };
             };
             responses: {
-                /** @description as asked */
+                /** @description success */
                 200: {
                     headers: {
                         [name: string]: unknown;
@@ -698,7 +698,7 @@ export interface paths {
                         "image/png": string;
                     };
                 };
-                /** @description what is wrong */
+                /** @description error */
                 default: {
                     headers: {
                         [name: string]: unknown;
@@ -732,7 +732,7 @@ export interface paths {
             };
             requestBody?: never;
             responses: {
-                /** @description as asked */
+                /** @description success */
                 200: {
                     headers: {
                         [name: string]: unknown;
@@ -741,7 +741,7 @@ export interface paths {
                         "application/json": components["schemas"]["RobotRow"][];
                     };
                 };
-                /** @description what is wrong */
+                /** @description error */
                 default: {
                     headers: {
                         [name: string]: unknown;
@@ -777,7 +777,7 @@ export interface paths {
             };
             requestBody?: never;
             responses: {
-                /** @description as asked */
+                /** @description success */
                 200: {
                     headers: {
                         [name: string]: unknown;
@@ -786,7 +786,7 @@ export interface paths {
                         "application/json": components["schemas"]["JobList"];
                     };
                 };
-                /** @description what is wrong */
+                /** @description error */
                 default: {
                     headers: {
                         [name: string]: unknown;
@@ -812,7 +812,7 @@ export interface paths {
                 };
             };
             responses: {
-                /** @description as asked */
+                /** @description success */
                 202: {
                     headers: {
                         [name: string]: unknown;
@@ -821,7 +821,7 @@ export interface paths {
                         "application/json": components["schemas"]["JobBegun"];
                     };
                 };
-                /** @description what is wrong */
+                /** @description error */
                 default: {
                     headers: {
                         [name: string]: unknown;
@@ -857,7 +857,7 @@ export interface paths {
             };
             requestBody?: never;
             responses: {
-                /** @description as asked */
+                /** @description success */
                 200: {
                     headers: {
                         [name: string]: unknown;
@@ -866,7 +866,7 @@ export interface paths {
                         "application/json": components["schemas"]["JobAnswer"];
                     };
                 };
-                /** @description what is wrong */
+                /** @description error */
                 default: {
                     headers: {
                         [name: string]: unknown;
@@ -891,7 +891,7 @@ export interface paths {
             };
             requestBody?: never;
             responses: {
-                /** @description as asked */
+                /** @description success */
                 200: {
                     headers: {
                         [name: string]: unknown;
@@ -900,7 +900,7 @@ export interface paths {
                         "application/json": components["schemas"]["JobAnswer"];
                     };
                 };
-                /** @description what is wrong */
+                /** @description error */
                 default: {
                     headers: {
                         [name: string]: unknown;
@@ -923,7 +923,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** How a job goes on: events `job` */
+        /** Progress of a job: events `job` */
         get: {
             parameters: {
                 query?: never;
@@ -935,7 +935,7 @@ export interface paths {
             };
             requestBody?: never;
             responses: {
-                /** @description as asked */
+                /** @description success */
                 200: {
                     headers: {
                         [name: string]: unknown;
@@ -944,7 +944,7 @@ export interface paths {
                         "text/event-stream": string;
                     };
                 };
-                /** @description what is wrong */
+                /** @description error */
                 default: {
                     headers: {
                         [name: string]: unknown;
@@ -980,7 +980,7 @@ export interface paths {
             };
             requestBody?: never;
             responses: {
-                /** @description as asked */
+                /** @description success */
                 200: {
                     headers: {
                         [name: string]: unknown;
@@ -989,7 +989,7 @@ export interface paths {
                         "application/json": components["schemas"]["Files"];
                     };
                 };
-                /** @description what is wrong */
+                /** @description error */
                 default: {
                     headers: {
                         [name: string]: unknown;
@@ -1027,7 +1027,7 @@ export interface paths {
             };
             requestBody?: never;
             responses: {
-                /** @description as asked */
+                /** @description success */
                 200: {
                     headers: {
                         [name: string]: unknown;
@@ -1036,7 +1036,7 @@ export interface paths {
                         "application/octet-stream": string;
                     };
                 };
-                /** @description what is wrong */
+                /** @description error */
                 default: {
                     headers: {
                         [name: string]: unknown;
@@ -1047,7 +1047,7 @@ export interface paths {
                 };
             };
         };
-        /** Takes a file in */
+        /** Uploads a file */
         put: {
             parameters: {
                 query?: never;
@@ -1059,16 +1059,16 @@ export interface paths {
             };
             requestBody?: never;
             responses: {
-                /** @description as asked */
+                /** @description success */
                 201: {
                     headers: {
                         [name: string]: unknown;
                     };
                     content: {
-                        "application/json": components["schemas"]["TakenIn"];
+                        "application/json": components["schemas"]["UploadedFile"];
                     };
                 };
-                /** @description what is wrong */
+                /** @description error */
                 default: {
                     headers: {
                         [name: string]: unknown;
@@ -1103,7 +1103,7 @@ export interface paths {
             };
             requestBody?: never;
             responses: {
-                /** @description as asked */
+                /** @description success */
                 200: {
                     headers: {
                         [name: string]: unknown;
@@ -1112,7 +1112,7 @@ export interface paths {
                         "application/json": Record<string, never>;
                     };
                 };
-                /** @description what is wrong */
+                /** @description error */
                 default: {
                     headers: {
                         [name: string]: unknown;
@@ -1135,71 +1135,71 @@ export interface paths {
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
-        /** @description A text that is to be written. */
-        Written: {
+        /** @description A text to be written. */
+        StudyUpdate: {
             /** @description The text. */
             text: string;
-            /** @description Which state of the file it comes from. */
+            /** @description The state of the file that it is based on. */
             version: string;
         };
-        /** @description A text that is to be looked at. */
-        Checked: {
+        /** @description A text to be checked. */
+        CheckRequest: {
             /** @description The text. */
             text: string;
         };
-        /** @description A text that is to be changed. */
-        Changes: {
+        /** @description A text to be changed. */
+        ChangeRequest: {
             /** @description The text. */
             text: string;
-            /** @description The ask whose values they are; those of the study where none is named. */
-            ask?: string | null;
-            /** @description What changes. */
+            /** @description The analysis whose values they are; the study itself if left out. */
+            analysis?: string | null;
+            /** @description The changes. */
             changes: components["schemas"]["ChangedValue"][];
         };
-        /** @description A value that is to be another. */
+        /** @description A new value of a key. */
         ChangedValue: {
-            /** @description Which: `plane.centre_mm`, `program.feature[1]`. */
+            /** @description The key: `plane.centre_mm`, `program.feature[1]`. */
             key: string;
-            /** @description What it is to be; `null` takes it away. The entry behind the last of a list is a new one. */
+            /** @description The new value; `null` removes the key. The index after the last of a list adds an entry. */
             value: unknown;
             /**
-             * @description Whether it is one of the study, also where an ask is named.
+             * @description Whether the key is one of the study, even if an analysis is named.
              * @default false
              */
             whole: boolean;
         };
-        /** @description An ask of a text in which values are changed first. */
-        OfView: {
+        /** @description An analysis of a text in which values are changed first. */
+        ViewRequest: {
             /** @description The text of the study. */
             text: string;
-            /** @description Its ask, whose values they are; the first where none is named. */
-            ask?: string | null;
-            /** @description What changes; nothing if left out. */
+            /** @description Name of its analysis, whose values are changed; the first if left out. */
+            analysis?: string | null;
+            /** @description The changes; none if left out. */
             changes?: components["schemas"]["ChangedValue"][];
-            /** @description Where the arm is to stand in it; nowhere if left out. */
+            /** @description The requested pose of the arm; none if left out. */
             arm?: components["schemas"]["PoseRequest"] | null;
         };
-        /** @description Where the arm is to stand. */
+        /** @description The pose of the arm to show. */
         PoseRequest: {
-            /** @description At which point. */
+            /** @description The point that the arm follows. */
             follow: components["schemas"]["Follow"];
-            /** @description The place, where that is followed. */
+            /** @description The target, for `place`. */
             at?: components["schemas"]["PoseTarget"] | null;
             /**
              * Format: uint
-             * @description Of sections the one whose worst or best point is meant, from 0.
+             * @description Of sections the one whose worst or best point is used, from 0.
              * @default 0
              */
             section: number;
             /**
              * Format: uint
-             * @description Load case, from 1; if left out the one that decides at the worst or best point, at a place the first.
+             * @description Load case, from 1; if left out the worst case at the worst or best point, and the first at a target.
              */
             case?: number | null;
         };
         /** @description What the arm follows while values change. */
         Follow: "worst" | "best" | "place";
-        /** @description Where the tool is: one of these. */
+        /** @description A target of the tool: one of these. */
         PoseTarget: {
             /**
              * Format: double
@@ -1211,9 +1211,9 @@ export interface components {
              * @description In the plane, together with `y_mm`.
              */
             z_mm?: number | null;
-            /** @description Joint positions as the robot file counts them; mm for sliding ones. */
+            /** @description Joint positions in the convention of the robot file; mm for prismatic joints. */
             joints_deg?: number[] | null;
-            /** @description TCP in the frame that coordinates count from. */
+            /** @description TCP in the reference frame. */
             xyz_mm?: [
                 number,
                 number,
@@ -1231,26 +1231,26 @@ export interface components {
             section?: number | null;
         };
         /** @description A shape of the robot. */
-        OfMesh: {
+        MeshRequest: {
             /** @description The text of the study. */
             text: string;
             /** @description The file, as the robot's file names it. */
             file: string;
         };
-        /** @description An ask of a text. */
-        OfAnalysis: {
+        /** @description An analysis of a text. */
+        AnalysisRequest: {
             /** @description The text of the study. */
             text: string;
-            /** @description Its ask; all of them, or the first, where none is named. */
-            ask?: string | null;
+            /** @description Name of its analysis; all of them, or the first, if left out. */
+            analysis?: string | null;
         };
-        /** @description A place of an ask. */
-        OfPlace: {
+        /** @description A place of an analysis. */
+        PosturesRequest: {
             /** @description The text of the study. */
             text: string;
-            /** @description Its ask; the first where none is named. */
-            ask?: string | null;
-            /** @description Where the tool is. */
+            /** @description Name of its analysis; the first if left out. */
+            analysis?: string | null;
+            /** @description The target position of the tool. */
             at: components["schemas"]["PoseTarget"];
             /**
              * Format: uint
@@ -1259,90 +1259,90 @@ export interface components {
              */
             case: number;
         };
-        /** @description The table of an ask. */
-        OfTable: {
+        /** @description The table of an analysis. */
+        TableRequest: {
             /** @description The text of the study. */
             text: string;
-            /** @description Its ask; the first where none is named. */
-            ask?: string | null;
-            /** @description How it is written. */
+            /** @description Name of its analysis; the first if left out. */
+            analysis?: string | null;
+            /** @description Its format. */
             format?: components["schemas"]["TableFormat"];
             /**
-             * @description In its place that of the budget of what was measured.
+             * @description Instead, the table of the error budget of the measurements.
              * @default false
              */
             measured: boolean;
         };
-        /** @description How a table is written. */
+        /** @description Formats of a table. */
         TableFormat: "csv";
-        /** @description One picture of an ask. */
-        OfPicture: {
+        /** @description One picture of an analysis. */
+        PictureRequest: {
             /** @description The text of the study. */
             text: string;
-            /** @description Its ask; all of them where none is named. */
-            ask?: string | null;
+            /** @description Name of its analysis; all of them if left out. */
+            analysis?: string | null;
             /** @description The name of the picture. */
             name: string;
         };
-        /** @description What a job does. */
+        /** @description The task of a job. */
         Task: {
             /** @constant */
             kind: "run";
             /** @description The text of the study. */
             text: string;
-            /** @description What of it. */
+            /** @description Options of the run. */
             options?: components["schemas"]["RunOptions"];
         } | {
             /** @constant */
             kind: "posture";
             /** @description The text of the study. */
             text: string;
-            /** @description What is tried; as the study says where nothing is told. */
+            /** @description The options of the search; those of the study if left out. */
             options?: components["schemas"]["SearchTable"] | null;
         } | {
             /** @constant */
             kind: "place";
             /** @description The text of the study. */
             text: string;
-            /** @description What may move. */
+            /** @description Options of the placement. */
             options?: components["schemas"]["PlaceOptions"];
         } | {
             /** @constant */
             kind: "identify";
             /** @description The text of the study, whose robot was loaded. */
             text: string;
-            /** @description Which tests. */
+            /** @description Options of the identification. */
             options: components["schemas"]["IdentifyOptions"];
         };
-        /** @description What of a study is run. */
+        /** @description Options of a run. */
         RunOptions: {
-            /** @description Only this ask. */
-            ask?: string | null;
+            /** @description Only this analysis. */
+            analysis?: string | null;
             /**
              * @description Tables only: no pictures, no report.
              * @default false
              */
             no_pictures: boolean;
         };
-        /** @description The best turn of the tool and branch along a path, in place of those of the study. */
+        /** @description The search for the best spin of the tool and branch along a path. */
         SearchTable: {
-            /** @description First and last turn of the tool about its axis, beside the one it has; -180 to 180 if left out. */
+            /** @description First and last spin of the tool about its axis, relative to its present one; -180 to 180 if left out. */
             turns_deg?: [
                 number,
                 number
             ] | null;
             /**
              * Format: double
-             * @description From one turn to the next; 5 if left out.
+             * @description Step between spins; 5 if left out.
              */
             step_deg?: number | null;
-            /** @description Which part of the deviation counts; `in-plane` if left out. */
-            counts?: components["schemas"]["ComponentName"] | null;
-            /** @description What shall be least; `worst` if left out. */
-            goal?: components["schemas"]["ObjectiveName"] | null;
+            /** @description Component of the deviation that is evaluated; `in-plane` if left out. */
+            component?: components["schemas"]["ComponentName"] | null;
+            /** @description The objective; `worst` if left out. */
+            objective?: components["schemas"]["ObjectiveName"] | null;
             /**
              * Format: double
-             * @description How much the tool may turn along the path; 1 if left out.
+             * @description Largest change of spin along the path; 1 if left out.
              */
             turn_deg_per_mm?: number | null;
             /**
@@ -1352,17 +1352,17 @@ export interface components {
             least_wrist_deg?: number | null;
             /**
              * Format: double
-             * @description What a joint that turns back weighs: as much as so much more deviation over 1 mm of the path; 0 if left out.
+             * @description Penalty for the reversal of a joint: as much as this additional deviation over 1 mm of the path; 0 if left out.
              */
             reversal_um_mm?: number | null;
         };
-        /** @description Which part of the deviation counts. */
+        /** @description Component of the deviation that is evaluated. */
         ComponentName: "in-plane" | "cross-track" | "axial";
-        /** @description What shall be least. */
+        /** @description The objective: the quantity to minimise. */
         ObjectiveName: "worst" | "mean" | "above-tolerance";
-        /** @description What may move. */
+        /** @description Options of a placement. */
         PlaceOptions: {
-            /** @description As `[place]` of a study; what it leaves out the study says. */
+            /** @description As `[place]` of a study, whose values are used for what is left out. */
             place?: components["schemas"]["PlaceTable"];
             /**
              * Format: uint32
@@ -1370,10 +1370,10 @@ export interface components {
              */
             seed?: number | null;
         };
-        /** @description Where the part may lie, and what shall be least there; for `armill place`. */
+        /** @description The permitted placements of the part and the objective, for `armill place`. */
         PlaceTable: {
-            /** @description Name of the path that is placed; needed where the study asks for several. */
-            ask?: string | null;
+            /** @description Name of the path that is placed; required if the study has several. */
+            analysis?: string | null;
             /** @description Least and greatest x of the plane's centre. */
             x_mm?: [
                 number,
@@ -1389,47 +1389,48 @@ export interface components {
                 number,
                 number
             ] | null;
-            /** @description Least and greatest heading: turn of the part about the vertical, beside where it lies. */
+            /** @description Least and greatest heading: rotation of the part about the vertical, relative to its present placement. */
             heading_deg?: [
                 number,
                 number
             ] | null;
-            /** @description Least and greatest tilt: `plane.tilt_deg` itself, or of a plane told by `rotation_deg` beside where it lies. */
+            /** @description Least and greatest tilt: absolute as `plane.tilt_deg`, or for a plane given by `rotation_deg` relative to it. */
             tilt_deg?: [
                 number,
                 number
             ] | null;
-            /** @description Least and greatest turn of the part about the plane's normal, beside where it lies. */
+            /** @description Least and greatest rotation of the part about the normal of the plane, relative to its present placement. */
             roll_deg?: [
                 number,
                 number
             ] | null;
-            /** @description Least and greatest turn of the tool about its axis, the same all along, beside the one it has. */
+            /** @description Least and greatest spin of the tool, constant along the path, relative to its present value. */
             spin_deg?: [
                 number,
                 number
             ] | null;
-            /** @description Where the rail under the robot may stand: its first joint that slides. */
+            /** @description Range of the rail under the robot: its first prismatic joint. */
             rail_mm?: [
                 number,
                 number
             ] | null;
-            /** @description Places that there are, in place of x, y, z, heading and tilt. */
+            /** @description Available fixtures, in place of x, y, z, heading and tilt. */
             fixture?: components["schemas"]["FixtureTable"][];
-            /** @description Branches that may be taken: words of a branch, or `any`; those that the study leaves open if left out. */
+            /** @description Permitted branches: words of a branch, or `any`; if left out, those that the study permits. */
             branch?: string | null;
-            /** @description Which part of the deviation counts; `in-plane` if left out. */
-            counts?: components["schemas"]["ComponentName"] | null;
-            /** @description What shall be least; `worst` if left out. */
-            goal?: components["schemas"]["ObjectiveName"] | null;
+            /** @description Component of the deviation that is evaluated; `in-plane` if left out. */
+            component?: components["schemas"]["ComponentName"] | null;
+            /** @description The objective; `worst` if left out. */
+            objective?: components["schemas"]["ObjectiveName"] | null;
             /**
-             * @description What places are compared by: the goal as if all were known, with two standard uncertainties more, or how probably it
-             *     keeps the limit; `nominal` if left out.
+             * @description Criterion that placements are compared by: the nominal objective, the objective plus two standard uncertainties,
+             *     or the probability that it is within the tolerance; `nominal` if left out.
              */
-            sure?: components["schemas"]["RankByName"] | null;
+            rank_by?: components["schemas"]["RankByName"] | null;
             /**
              * Format: double
-             * @description How far every joint stays from its limits, the elbow from stretched and the wrist from straight; 0 if left out.
+             * @description Distance of every joint from its limits, of the elbow from stretched and of the wrist from straight; 0 if left
+             *     out.
              */
             margin_deg?: number | null;
             /**
@@ -1442,7 +1443,7 @@ export interface components {
         FixtureTable: {
             /** @description What it is called. */
             name: string;
-            /** @description Where the centre of the plane comes to lie there. */
+            /** @description Position of the centre of the plane in this fixture. */
             centre_mm: [
                 number,
                 number,
@@ -1460,39 +1461,39 @@ export interface components {
                 number
             ] | null;
         };
-        /** @description What places are compared by. */
+        /** @description Criterion that placements are compared by. */
         RankByName: "nominal" | "plus-two-sigma" | "within-tolerance";
-        /** @description Which tests springs are found from. */
+        /** @description Options of an identification. */
         IdentifyOptions: {
             /** @description The table of tests, a file of the folder. */
             tests: string;
             /** @description Groups of unknowns with `+` between; `drives+bending+base` if left out. */
             unknowns?: string | null;
-            /** @description What is known of the two points: `known`, `common` or `separate`; `known` if left out. */
+            /** @description Model of the two points: `known`, `common` or `separate`; `known` if left out. */
             points?: components["schemas"]["PointsName"];
             /**
              * Format: double
              * @description Standard uncertainty of points that are not known.
              */
             point_u_mm?: number | null;
-            /** @description Where force and displacement are unless a test says otherwise, flange frame. */
+            /** @description Default point of force and displacement, flange frame. */
             tool_mm?: [
                 number,
                 number,
                 number
             ] | null;
         };
-        /** @description What is known of the two points. */
+        /** @description Model of the two points. */
         PointsName: "known" | "common" | "separate";
         /** @description The study as it is on disk. */
         StudyOnDisk: {
-            /** @description What problems call its file. */
+            /** @description The name of its file in messages. */
             file: string;
-            /** @description The folder where its files lie. */
+            /** @description The folder of its files. */
             folder: string;
             /** @description Whether it may be written; an example may not. */
             writable: boolean;
-            /** @description What tells this state of the file from another. */
+            /** @description Identifies this state of the file. */
             version: string;
             /** @description Its text. */
             text: string;
@@ -1500,14 +1501,14 @@ export interface components {
             title: string | null;
             /** @description The robot, as the study names it. */
             robot: string | null;
-            /** @description Its asks, in order. */
-            asks: components["schemas"]["OutlinedAnalysis"][];
-            /** @description Everything that is wrong. */
+            /** @description Its analyses, in order. */
+            analyses: components["schemas"]["OutlinedAnalysis"][];
+            /** @description All problems of the text. */
             problems: components["schemas"]["Problem"][];
             /** @description Version of armill. */
             armill: string;
         };
-        /** @description One ask. */
+        /** @description One analysis. */
         OutlinedAnalysis: {
             /** @description Its name. */
             name: string;
@@ -1517,7 +1518,7 @@ export interface components {
             keys: string[];
         };
         /**
-         * @description One thing that is wrong, with its place in the file.
+         * @description One problem, with its place in the file.
          *
          *     Serialised it has `file`, `line`, `column`, `span` (bytes), `message` and `hint`.
          *     `Display` gives one line: `path:line:column: message`.
@@ -1537,7 +1538,7 @@ export interface components {
             column: number;
             /** @description The offending bytes of the text. */
             span: components["schemas"]["Range_of_uint"];
-            /** @description The thing, its value, the limit and the unit. */
+            /** @description The key, its value, the limit and the unit. */
             message: string;
             /** @description What to do about it, where that is known. */
             hint: string | null;
@@ -1548,73 +1549,73 @@ export interface components {
             /** Format: uint */
             end: number;
         };
-        /** @description What is in a text; a text that is broken has problems, and as much of the rest as can be told. */
+        /** @description The contents of a text; an invalid text has problems, and as much of the contents as can be read. */
         OutlineAnswer: {
             /** @description Title of the study. */
             title: string | null;
             /** @description The robot, as the study names it. */
             robot: string | null;
-            /** @description Its asks, in order; one map where it has none. */
-            asks: components["schemas"]["OutlinedAnalysis"][];
-            /** @description Everything that is wrong, as `armill check --json` tells it. */
+            /** @description Its analyses, in order; one map if it has none. */
+            analyses: components["schemas"]["OutlinedAnalysis"][];
+            /** @description All problems, as in `armill check --json`. */
             problems: components["schemas"]["Problem"][];
         };
-        /** @description A text that was changed, and what is in it now. */
+        /** @description A changed text and its contents. */
         ChangedAnswer: {
             /** @description The text. */
             text: string;
-            /** @description Its asks. */
-            asks: components["schemas"]["OutlinedAnalysis"][];
-            /** @description Everything that is wrong with it. */
+            /** @description Its analyses. */
+            analyses: components["schemas"]["OutlinedAnalysis"][];
+            /** @description All its problems. */
             problems: components["schemas"]["Problem"][];
         };
         /** @description The values of a text. */
         TablesAnswer: {
-            /** @description All tables and values as they stand, keys as in the schema of a study; `null` where the text is no TOML. */
+            /** @description All tables and values as written, keys as in the schema of a study; `null` if the text is not valid TOML. */
             values: unknown;
-            /** @description Where each value stands. */
+            /** @description The position of each value. */
             places: components["schemas"]["ValueLocation"][];
-            /** @description Everything that is wrong, as `armill check --json` tells it. */
+            /** @description All problems, as in `armill check --json`. */
             problems: components["schemas"]["Problem"][];
         };
-        /** @description Where a value stands. */
+        /** @description The position of a value in the text. */
         ValueLocation: {
-            /** @description Which: `place.x_mm`, `analysis[1].circle.radius_mm`; a list is one value, but for lists of tables. */
+            /** @description Its key: `place.x_mm`, `analysis[1].circle.radius_mm`; a list is one value, except for lists of tables. */
             path: string;
-            /** @description Its bytes in the text: the first, and the one behind the last. */
+            /** @description Its range of bytes in the text, the end excluded. */
             bytes: [
                 number,
                 number
             ];
         };
-        /** @description What is shown of one ask. */
+        /** @description Everything shown of one analysis. */
         ViewAnswer: {
-            /** @description The text with the changes made in it. */
+            /** @description The text with the changes. */
             text: string;
-            /** @description Its asks. */
-            asks: components["schemas"]["OutlinedAnalysis"][];
-            /** @description The settings that the ask resolves to. */
+            /** @description Its analyses. */
+            analyses: components["schemas"]["OutlinedAnalysis"][];
+            /** @description The settings that the analysis resolves to. */
             values: components["schemas"]["ValuesAnswer"];
-            /** @description What of it can be drawn in space. */
+            /** @description What can be drawn in space. */
             scene: components["schemas"]["SceneAnswer"];
-            /** @description As `armill run --json` tells it of that ask. */
+            /** @description Its answer, as in `armill run --json`. */
             answer: components["schemas"]["StudyAnswer"];
-            /** @description Where its worst and best points are: of sections those of each, else of one. */
+            /** @description Its worst and best points: of sections those of each, else of one. */
             extremes: components["schemas"]["ExtremesAnswer"][];
-            /** @description The arm where it was to stand; `null` where nobody asked, and where there is no such place. */
+            /** @description The arm at the requested point; `null` if none was requested, and if there is no such point. */
             arm: components["schemas"]["PoseAtTarget"] | null;
         };
-        /** @description Every setting of one ask; `null` where there is none. */
+        /** @description Every setting of one analysis; `null` if it has none. */
         ValuesAnswer: {
-            /** @description Name of the ask. */
-            ask: string;
+            /** @description Name of the analysis. */
+            analysis: string;
             /** @description `map`, `sections`, `volume`, `path` or `holes`. */
             kind: string;
             /** @description The robot, as the study names it. */
             robot: string;
-            /** @description Frame that coordinates count from. */
+            /** @description Reference frame of coordinates. */
             base: string;
-            /** @description Frames that they may count from. */
+            /** @description Available reference frames. */
             bases: string[];
             /** @description Centre of the plane. */
             centre_mm: [
@@ -1624,10 +1625,10 @@ export interface components {
             ];
             /**
              * Format: double
-             * @description Its tilt; `null` where it is told by turns.
+             * @description Its tilt; `null` if it is given by `rotation_deg`.
              */
             tilt_deg: number | null;
-            /** @description Its turns; `null` where it is told by its tilt. */
+            /** @description Its rotation; `null` if it is given by its tilt. */
             rotation_deg: [
                 number,
                 number,
@@ -1643,7 +1644,7 @@ export interface components {
              * @description Pitch of its grid; of a path that of its points.
              */
             step_mm: number;
-            /** @description Flange to tool centre point, as the file tells it. */
+            /** @description Flange to tool centre point, as in the file. */
             flange_from_tool_mm_deg: [
                 number,
                 number,
@@ -1657,7 +1658,7 @@ export interface components {
              * @description Distance of the TCP from the flange.
              */
             tool_length_mm: number;
-            /** @description Axes that forces are told in; `null` where they come with a cut. */
+            /** @description Axes of the forces; `null` if they come with a cut. */
             load_frame: string | null;
             /** @description Forces on the tool, one a case. */
             cases_n: [
@@ -1670,15 +1671,15 @@ export interface components {
              * @description The tolerance.
              */
             tolerance_um: number;
-            /** @description Posture as the file asks for it: words of a branch, `nominal` or `best`. */
+            /** @description Requested posture as in the file: words of a branch, `nominal` or `best`. */
             branch: string;
             /** @description The branch that this means. */
             branch_meant: string;
-            /** @description Names of branches that the robot has; none where they have no names. */
+            /** @description Names of branches that the robot has; none if they have no names. */
             branches: string[];
             /**
              * Format: double
-             * @description Turn of the tool about its axis; of paths alone.
+             * @description Spin of the tool about its axis; of paths alone.
              */
             spin_deg: number | null;
             /** @description Sections: the x coordinate of the plane's centre, one a section. */
@@ -1715,11 +1716,11 @@ export interface components {
                 ][]
             ];
         };
-        /** @description What can be drawn of one ask, base. */
+        /** @description The parts of one analysis that can be drawn, base. */
         SceneAnswer: {
             /** @description Name of the robot. */
             robot: string;
-            /** @description Where the frame stands that coordinates count from. */
+            /** @description The reference frame of coordinates. */
             base_mm: [
                 number,
                 number,
@@ -1777,7 +1778,7 @@ export interface components {
                 number,
                 number
             ];
-            /** @description Where y' and z' count from. */
+            /** @description Origin of y' and z'. */
             centre_mm: [
                 number,
                 number,
@@ -1786,12 +1787,12 @@ export interface components {
         };
         /** @description One of several planes. */
         SectionInScene: {
-            /** @description What tells it from the others. */
+            /** @description Its label. */
             label: string;
-            /** @description Where it lies. */
+            /** @description Its plane. */
             plate: components["schemas"]["PlateInScene"];
         };
-        /** @description Points with some columns of their table: of each as many as there are points, `null` where one has none. */
+        /** @description Points with some columns of their table: each column has as many values as there are points, `null` if one has none. */
         PointsInScene: {
             /** @description Where they are. */
             xyz_mm: [
@@ -1799,7 +1800,7 @@ export interface components {
                 number,
                 number
             ][];
-            /** @description Deviation under the deciding case, base. */
+            /** @description Deviation under the worst case, base. */
             deviation_um: ([
                 number,
                 number,
@@ -1807,7 +1808,7 @@ export interface components {
             ] | null)[];
             /**
              * @description `state`, `branch`, `in_plane_um`, `normal_um`, `full_um`, of a path `along_um`, `cross_um`, `axial_um`, `line`,
-             *     `distance_mm`: see the table of the ask.
+             *     `distance_mm`: see the table of the analysis.
              */
             columns: {
                 [key: string]: unknown;
@@ -1853,7 +1854,7 @@ export interface components {
              * @description Version of this format.
              */
             format: number;
-            /** @description Version of armill that gave it. */
+            /** @description Version of armill that produced it. */
             armill: string;
             /** @description Title of the study. */
             title: string;
@@ -1861,7 +1862,7 @@ export interface components {
             question: string | null;
             /** @description The answer in one sentence. */
             answer: string;
-            /** @description The robot and what its joints yield. */
+            /** @description The robot and the compliance of its joints. */
             robot: components["schemas"]["RobotAnswer"];
             /** @description Every plane, sections included. */
             maps: components["schemas"]["MapAnswer"][];
@@ -1871,16 +1872,16 @@ export interface components {
             volumes: components["schemas"]["VolumeAnswer"][];
             /** @description Every set of holes. */
             holes: components["schemas"]["HolesAnswer"][];
-            /** @description What others state, beside what was found here. */
+            /** @description Published statements, compared with these results. */
             statements: components["schemas"]["StatementAnswer"][];
-            /** @description What was measured on a circle, beside its prediction; none where nothing was. */
+            /** @description The measurement of a circle, compared with its prediction; none without a measurement. */
             measured: components["schemas"]["BudgetAnswer"] | null;
-            /** @description What a user should know before trusting it. */
+            /** @description What a user should know before relying on it. */
             warnings: string[];
-            /** @description Where the numbers come from. */
+            /** @description Sources of the numbers. */
             sources: components["schemas"]["Source"][];
         };
-        /** @description The robot and what its joints yield. */
+        /** @description The robot and the compliance of its joints. */
         RobotAnswer: {
             /** @description Name in the library, or of the file. */
             name: string;
@@ -1892,17 +1893,17 @@ export interface components {
             joints: components["schemas"]["JointAnswer"][];
         };
         /**
-         * @description What a joint yields.
+         * @description The compliance of a joint.
          *
-         *     Of the two pairs of compliance and uncertainty the one of its kind has numbers, the other is `null`; both are where
-         *     nothing is known.
+         *     Of the two pairs of compliance and uncertainty, the one of the joint's kind has numbers, the other is `null`; both
+         *     are `null` if nothing is known.
          */
         JointAnswer: {
             /** @description Its name. */
             name: string;
             /**
              * Format: double
-             * @description Compliance of a joint that turns.
+             * @description Compliance of a revolute joint.
              */
             compliance_rad_per_n_m: number | null;
             /**
@@ -1912,7 +1913,7 @@ export interface components {
             compliance_u_rad_per_n_m: number | null;
             /**
              * Format: double
-             * @description Compliance of a joint that slides.
+             * @description Compliance of a prismatic joint.
              */
             compliance_um_per_n: number | null;
             /**
@@ -1920,19 +1921,19 @@ export interface components {
              * @description Its standard uncertainty.
              */
             compliance_u_um_per_n: number | null;
-            /** @description Where the compliance comes from. */
+            /** @description Source of the compliance. */
             compliance_source: string;
         };
         /** @description A map of one plane. */
         MapAnswer: {
-            /** @description Its name: of the ask, with the label of the section. */
+            /** @description Its name: of the analysis, with the label of the section. */
             name: string;
-            /** @description Posture asked for: words of a branch, or `best`. */
+            /** @description Requested posture: words of a branch, or `best`. */
             branch: string;
             /**
              * Format: double
-             * @description Points within the limit over all points. A named branch is judged whether its joints stand inside their
-             *     limits or not; `best` only takes postures inside.
+             * @description Points within the tolerance over all points. A named branch is evaluated whether its joints are inside their
+             *     limits or not; `best` only uses postures inside.
              */
             fraction_within: number;
             /**
@@ -1950,11 +1951,11 @@ export interface components {
              * @description Least in-plane deviation of all reached points.
              */
             min_in_plane_um: number | null;
-            /** @description Points by reason; they add up to all points. */
+            /** @description Points by reason; their sum is the total. */
             counts: components["schemas"]["CountsAnswer"];
             /**
              * Format: uint
-             * @description Points with a posture that stands outside joint limits.
+             * @description Points with a posture outside joint limits.
              */
             outside_joint_limits: number;
             /**
@@ -1966,25 +1967,25 @@ export interface components {
             worst: components["schemas"]["PointAnswer"] | null;
             /** @description The point with the least in-plane deviation. */
             best: components["schemas"]["PointAnswer"] | null;
-            /** @description The region within the limit, inside the joint limits. */
+            /** @description The region within the tolerance, inside the joint limits. */
             region: components["schemas"]["RegionAnswer"];
-            /** @description How sure that is: points outside joint limits count as not held. */
+            /** @description Uncertainty of the region: points outside joint limits are treated as out of tolerance. */
             certainty: components["schemas"]["CertaintyAnswer"];
-            /** @description What all points share. */
+            /** @description The common setting of all points. */
             setting: components["schemas"]["SettingAnswer"];
             /** @description The points. */
             grid: components["schemas"]["GridAnswer"];
         };
-        /** @description Points by reason; they add up to all points. */
+        /** @description Points by reason; their sum is the total. */
         CountsAnswer: {
             /**
              * Format: uint
-             * @description In-plane deviation within the limit.
+             * @description In-plane deviation within the tolerance.
              */
             within: number;
             /**
              * Format: uint
-             * @description In-plane deviation over the limit.
+             * @description In-plane deviation above the tolerance.
              */
             above_tolerance: number;
             /**
@@ -2009,13 +2010,13 @@ export interface components {
             unverified: number;
             /**
              * Format: uint
-             * @description A posture holds the point, but the arm finds no stable rest under the load.
+             * @description A posture reaches the point, but the arm has no stable equilibrium under the load.
              */
             unstable: number;
         };
-        /** @description A point where the arm holds the tool. */
+        /** @description A reached point. */
         PointAnswer: {
-            /** @description TCP in the frame that positions count from. */
+            /** @description TCP in the reference frame. */
             xyz_mm: [
                 number,
                 number,
@@ -2026,17 +2027,17 @@ export interface components {
                 number,
                 number
             ];
-            /** @description Name of the posture: words of a branch, or the sides on which its joints stand. */
+            /** @description Name of the posture: words of a branch, or the side of the middle of each joint. */
             branch: string;
             /** @description Joint positions. */
             joints_deg: number[];
-            /** @description Whether every joint stands inside its limits. */
+            /** @description Whether every joint is inside its limits. */
             within_limits: boolean;
             /** @description Near which singularity, if any. */
             singularity: string | null;
             /**
              * Format: uint
-             * @description Load case that decides, from 1.
+             * @description Worst load case, from 1.
              */
             worst_case: number;
             /**
@@ -2060,27 +2061,27 @@ export interface components {
              */
             full_um: number;
             /**
-             * @description Share of each of `contributors` in the in-plane deviation; they add up to it (load-dependent: nearly; the
-             *     geometry of an `calibrated_robot` is in none).
+             * @description Share of each of `contributors` in the in-plane deviation; their sum is the deviation (nearly, with a
+             *     load-dependent model).
              */
             joint_share_um: number[];
             /**
              * Format: double
-             * @description Force that keeps the limit in the direction of the deciding case; none where that case has no force or
-             *     moves nothing in the plane.
+             * @description Force that meets the tolerance in the direction of the worst case; none if that case has no force or
+             *     no in-plane deviation.
              */
             permissible_along_load_n: number | null;
             /**
              * Format: double
-             * @description Force that keeps the limit whatever its direction.
+             * @description Force that meets the tolerance in any direction.
              */
             permissible_any_direction_n: number | null;
         };
-        /** @description The region within the limit. In-plane coordinates y', z' from the plane's centre. */
+        /** @description The region within the tolerance. In-plane coordinates y', z' from the plane's centre. */
         RegionAnswer: {
             /**
              * Format: double
-             * @description Area, following the limit between points.
+             * @description Area, with the tolerance interpolated between points.
              */
             area_mm2: number;
             /** @description Its boundary: polylines, closed ones repeat their first point. */
@@ -2110,31 +2111,31 @@ export interface components {
              */
             circle_radius_mm: number | null;
         };
-        /** @description How sure the region is, from the standard uncertainties of the points. */
+        /** @description Uncertainty of the region, from the standard uncertainties of the points. */
         CertaintyAnswer: {
             /**
              * Format: double
-             * @description Multiple of the standard uncertainty that counts as sure.
+             * @description Coverage factor of the bounds: multiple of the standard uncertainty.
              */
             coverage_factor: number;
             /**
              * Format: double
-             * @description Points that hold the limit with so much to spare, over all points.
+             * @description Points within the tolerance with the expanded uncertainty added, over all points.
              */
             fraction_robustly_within: number;
             /**
              * Format: double
-             * @description Points that would hold it with so much taken away, over all points.
+             * @description Points within the tolerance with the expanded uncertainty subtracted, over all points.
              */
             fraction_possibly_within: number;
             /**
              * Format: double
-             * @description Mean probability of all points to be within.
+             * @description Mean probability of all points to be within the tolerance.
              */
             fraction_expected_within: number;
             /**
              * Format: double
-             * @description Area that surely holds the limit.
+             * @description Area within the tolerance with the expanded uncertainty added.
              */
             area_robust_mm2: number;
             /** @description Its boundary. */
@@ -2144,7 +2145,7 @@ export interface components {
             ][][];
             /**
              * Format: double
-             * @description Area that possibly holds it.
+             * @description Area within the tolerance with the expanded uncertainty subtracted.
              */
             area_possibly_mm2: number;
             /** @description Its boundary. */
@@ -2153,9 +2154,9 @@ export interface components {
                 number
             ][][];
         };
-        /** @description What all points of an ask share. Positions count from the frame `base`. */
+        /** @description The common setting of all points of an analysis. Positions are relative to the frame `base`. */
         SettingAnswer: {
-            /** @description Frame that positions count from. */
+            /** @description Reference frame of positions. */
             base: string;
             /** @description Centre of the plane. */
             centre_mm: [
@@ -2165,7 +2166,7 @@ export interface components {
             ];
             /**
              * Format: double
-             * @description Tilt of the plane from the vertical; none where the plane was given by a frame.
+             * @description Tilt of the plane from the vertical; none if the plane was given by a rotation.
              */
             tilt_deg: number | null;
             /** @description Outward normal of the plane, in base axes. */
@@ -2179,9 +2180,9 @@ export interface components {
              * @description Distance of the TCP from the flange.
              */
             tool_length_mm: number;
-            /** @description Axes that forces and moments are told in: `base_link`, or `feed` where they turn with it. */
+            /** @description Axes of forces and moments: `base_link`, or `feed` if they turn with it. */
             load_frame: string;
-            /** @description Forces on the tool, one a case; none where they come with the path. */
+            /** @description Forces on the tool, one a case; none if they come with the path. */
             cases_n: [
                 number,
                 number,
@@ -2193,14 +2194,14 @@ export interface components {
                 number,
                 number
             ][];
-            /** @description Where the load comes from, in the user's words. */
+            /** @description Source of the load, in the user's words. */
             load_source: string | null;
             /**
              * Format: double
              * @description Standard uncertainty of the size of the load.
              */
             load_u_percent: number;
-            /** @description Standard uncertainties of the force along three directions: vectors so long, base axes. */
+            /** @description Standard uncertainties of the force along three directions: vectors of that length, base axes. */
             load_u_n: [
                 [
                     number,
@@ -2220,17 +2221,17 @@ export interface components {
             ];
             /**
              * Format: double
-             * @description Standard uncertainty of the place of the TCP along the tool axis.
+             * @description Standard uncertainty of the position of the TCP along the tool axis.
              */
             tool_length_u_mm: number;
             /**
              * Format: double
-             * @description Standard deviation of where the tool comes to rest from time to time, along any axis; zero where it is not known.
+             * @description Standard deviation of the repeated position of the tool, along any axis; zero if it is not known.
              */
             scatter_um: number;
             /**
              * Format: double
-             * @description Standard uncertainty of what the model predicts, beside that of its compliances; zero where it is not known.
+             * @description Standard uncertainty of the model, in addition to that of its compliances; zero if it is not known.
              */
             model_error_percent: number;
             /**
@@ -2238,9 +2239,9 @@ export interface components {
              * @description The tolerance.
              */
             tolerance_um: number;
-            /** @description Parts of the stiffness model that were on. */
+            /** @description Active parts of the stiffness model. */
             model: string[];
-            /** @description Whom shares are told for: the joints, then base, flange and tool where springs sit. */
+            /** @description The contributors of `share_um`: the joints, then base, flange and tool if springs are attached there. */
             contributors: string[];
         };
         /** @description The points of a map, row by row along z', in each row along y'. */
@@ -2258,29 +2259,32 @@ export interface components {
             in_plane_um: (number | null)[];
             /** @description Its standard uncertainty. */
             in_plane_u_um: (number | null)[];
-            /** @description Probability that it is within the limit. */
+            /** @description Probability that it is within the tolerance. */
             probability_within: (number | null)[];
             /** @description Deviation along the outward normal. */
             normal_um: (number | null)[];
             /** @description Length of the deviation. */
             full_um: (number | null)[];
-            /** @description Why there is no posture, or that it stands outside joint limits, by point; points not named are fine. */
+            /**
+             * @description Points without a posture, outside joint limits or near a singularity, with the reason; points not named are
+             *     fine.
+             */
             flags: components["schemas"]["PointFlag"][];
         };
-        /** @description Something about some points. */
+        /** @description A flag of some points. */
         PointFlag: {
             /** @description One word. */
             reason: string;
-            /** @description Indices of the points it holds for. */
+            /** @description Indices of the flagged points. */
             points: number[];
         };
         /** @description A path. */
         PathAnswer: {
             /** @description Its name. */
             name: string;
-            /** @description Posture asked for: words of a branch, or `best`. */
+            /** @description Requested posture: words of a branch, or `best`. */
             branch: string;
-            /** @description Branch in which the whole path is followed; none of an arm whose branches have no names. */
+            /** @description Branch in which the whole path is followed; none for an arm whose branches have no names. */
             followed_branch: string | null;
             /**
              * Format: uint
@@ -2294,7 +2298,7 @@ export interface components {
             unreachable: number;
             /**
              * Format: uint
-             * @description Points with a posture that stands outside joint limits.
+             * @description Points with a posture outside joint limits.
              */
             outside_joint_limits: number;
             /**
@@ -2324,17 +2328,17 @@ export interface components {
             max_along_um: number | null;
             /**
              * Format: double
-             * @description Largest deviation across the track, by size: what walls get.
+             * @description Largest deviation across the track, by size: the error of walls.
              */
             max_cross_um: number | null;
             /**
              * Format: double
-             * @description Largest deviation along the tool, by size: what floors get.
+             * @description Largest deviation along the tool, by size: the error of floors.
              */
             max_axial_um: number | null;
             /**
              * Format: double
-             * @description Points within the limit over all points.
+             * @description Points within the tolerance over all points.
              */
             fraction_within: number;
             /**
@@ -2345,37 +2349,37 @@ export interface components {
             roundness_um: number | null;
             /** @description On a circle: each case. */
             circle_cases: components["schemas"]["CircleCase"][];
-            /** @description What became of the features asked for. */
+            /** @description Deviations of the requested features. */
             features: components["schemas"]["FeatureAnswer"][];
             /** @description The point with the largest in-plane deviation. */
             worst: components["schemas"]["PointAnswer"] | null;
-            /** @description Where it is worst, each from another part of the path. */
+            /** @description The worst points, each from another part of the path. */
             worst_points: components["schemas"]["WorstPoint"][];
-            /** @description Where a joint jumps from one point to the next. */
+            /** @description Jumps of a joint from one point to the next. */
             jumps: string[];
-            /** @description What all points share. */
+            /** @description The common setting of all points. */
             setting: components["schemas"]["SettingAnswer"];
-            /** @description Range of each joint (mm for sliding joints) along the path; empty where no point is reached. */
+            /** @description Range of each joint (mm for prismatic joints) along the path; empty if no point is reached. */
             joint_range_deg: [
                 number,
                 number
             ][];
-            /** @description What cuts or drills, where the forces were computed from it. */
+            /** @description The cut or drill, if the forces were computed from it. */
             cut: components["schemas"]["CutAnswer"] | null;
-            /** @description The record that the forces come from; none where they were not measured. */
+            /** @description The record of the forces; none if they were not measured. */
             measured: components["schemas"]["MeasuredAnswer"] | null;
-            /** @description What keeps the tolerance everywhere. */
+            /** @description The process limits that meet the tolerance everywhere. */
             limits: components["schemas"]["LimitsAnswer"] | null;
-            /** @description The program that tells the path; none of a shape. */
+            /** @description The program of the path; none for a shape. */
             program: components["schemas"]["ProgramAnswer"] | null;
-            /** @description Turns of the tool and branches that were searched for; none where nothing was. */
+            /** @description The search for spins of the tool and branches; none without a search. */
             search: components["schemas"]["SearchAnswer"] | null;
-            /** @description What backlash and geometry make of the deviations; none where load and gravity alone move the tool. */
+            /** @description Effect of backlash and geometry on the deviations; none if load and gravity alone move the tool. */
             unloaded: components["schemas"]["UnloadedAnswer"] | null;
-            /** @description What was passed over, or taken for granted. */
+            /** @description What was skipped or assumed. */
             notes: string[];
         };
-        /** @description What becomes of a circle under one load case. */
+        /** @description The deviation of a circle under one load case. */
         CircleCase: {
             /**
              * Format: uint
@@ -2403,7 +2407,7 @@ export interface components {
              */
             roundness_um: number;
         };
-        /** @description What became of a feature under one load case. */
+        /** @description The deviations of a feature under one load case. */
         FeatureAnswer: {
             /** @description Its name. */
             name: string;
@@ -2426,11 +2430,11 @@ export interface components {
             radius_mm: number | null;
             /**
              * Format: double
-             * @description Circle: what it became larger by.
+             * @description Circle: increase of the radius.
              */
             radius_change_um: number | null;
             /**
-             * @description How far its centre, axis or middle was moved; path axes. Of a line without the part along it, of a plane along
+             * @description Shift of its centre, axis or middle; path axes. Of a line without the component along it, of a plane along
              *     the tool.
              */
             shift_um: [
@@ -2461,7 +2465,7 @@ export interface components {
             /** @description Why there is no result. */
             missing: string | null;
         };
-        /** @description A point where the deviation is large, and why. */
+        /** @description A point with a large deviation, and why. */
         WorstPoint: {
             /**
              * Format: uint32
@@ -2475,7 +2479,7 @@ export interface components {
             distance_mm: number;
             /**
              * Format: double
-             * @description Deviation of the deciding case along the track.
+             * @description Deviation of the worst case along the track.
              */
             along_um: number;
             /**
@@ -2488,36 +2492,36 @@ export interface components {
              * @description Along the tool, from the part towards the spindle.
              */
             axial_um: number;
-            /** @description What makes it large. */
+            /** @description Why it is large. */
             cause: string;
             /** @description The point. */
             point: components["schemas"]["PointAnswer"];
         };
-        /** @description What cuts or drills along a path, and the forces of it. */
+        /** @description The cut or drill along a path, and its forces. */
         CutAnswer: {
             /** @description Material that the forces are those of. */
             material: string;
             /**
              * Format: double
-             * @description Largest mean force of a revolution along the path, of the cut as drawn.
+             * @description Largest mean force of a revolution along the path, of the nominal cut.
              */
             largest_mean_n: number;
             /**
              * Format: double
-             * @description Largest force within a revolution, likewise.
+             * @description Largest force within a revolution, of the nominal cut.
              */
             largest_peak_n: number;
             /**
              * Format: uint
-             * @description Points whose cut has no force: plunges and steep dives, where the bottom of the cutter is not modelled.
+             * @description Points whose cut has no force: plunges and steep ramps, where the bottom of the cutter is not modelled.
              */
             points_without_force: number;
-            /** @description What the tool met in the stock, where the study tells one. */
+            /** @description Engagement in the stock, if the study has one. */
             stock: components["schemas"]["StockAnswer"] | null;
-            /** @description How the force of the cut gave way with the tool. */
+            /** @description Force-deflection equilibrium of the cut. */
             rest: components["schemas"]["RestAnswer"] | null;
         };
-        /** @description What the tool met in the stock. */
+        /** @description Engagement of the tool in the stock. */
         StockAnswer: {
             /**
              * Format: uint
@@ -2526,12 +2530,12 @@ export interface components {
             points_in_air: number;
             /**
              * Format: uint
-             * @description Points with material over its whole width.
+             * @description Points with full-width engagement.
              */
             points_in_slot: number;
             /**
              * Format: uint
-             * @description Points at which it leans, with the engagement of the study.
+             * @description Points at which it is tilted, with the engagement of the study.
              */
             points_leaning: number;
             /**
@@ -2546,20 +2550,20 @@ export interface components {
             largest_radial_depth_mm: number;
             /**
              * Format: double
-             * @description Taken away in all.
+             * @description Volume removed in total.
              */
             removed_mm3: number;
         };
-        /** @description How the force gave way with the tool. */
+        /** @description The force-deflection equilibrium. */
         RestAnswer: {
             /**
              * Format: double
-             * @description Largest deviation across the tool if the force stayed as drawn.
+             * @description Largest deviation across the tool if the force stayed nominal.
              */
             nominal_max_in_plane_um: number;
             /**
              * Format: uint
-             * @description Points at which force and tool do not rest: the cut draws the tool in.
+             * @description Points without force-deflection equilibrium: the cut pulls the tool in.
              */
             points_unsettled: number;
             /**
@@ -2568,19 +2572,19 @@ export interface components {
              */
             first_unsettled_line: number | null;
         };
-        /** @description The record that forces come from. */
+        /** @description The record of the forces. */
         MeasuredAnswer: {
-            /** @description Its file, as the study calls it. */
+            /** @description Its file, as named in the study. */
             file: string;
             /** @description The format it is in. */
             format: string;
-            /** @description What its numbers act on: `tool` or `part`. */
+            /** @description What its forces act on: `tool` or `part`. */
             acts_on: string;
-            /** @description Axes that the sensor stands along. */
+            /** @description Axes of the sensor. */
             frame: string;
             /**
              * Format: double
-             * @description By what angle it is turned about z of them.
+             * @description Rotation of the sensor about z of them.
              */
             sensor_turned_deg: number;
             /** @description First and last instant of the record. */
@@ -2590,7 +2594,7 @@ export interface components {
             ];
             /**
              * Format: double
-             * @description Time in the record at which the first cut of the program begins.
+             * @description Time in the record at which the first cut of the program starts.
              */
             start_s: number;
             /**
@@ -2598,33 +2602,33 @@ export interface components {
              * @description Time in the record at which the last cut ends.
              */
             end_s: number;
-            /** @description How the begin was found: `told`, `threshold` or `predicted`. */
+            /** @description How the start was determined: `given`, `threshold` or `predicted`. */
             synchronised: string;
             /**
              * Format: double
-             * @description How like the prediction the record is there, to 1; none without prediction.
+             * @description Correlation with the prediction there, at most 1; none without prediction.
              */
             likeness: number | null;
             /**
              * Format: double
-             * @description From 0 to 1: how far that likeness stands out from the second best.
+             * @description From 0 to 1: by how much that correlation exceeds the second best.
              */
             confidence: number | null;
-            /** @description What was taken off, on the tool, in the axes of `frame`; none where the drift was to stay. */
+            /** @description The drift that was removed, on the tool, in the axes of `frame`; none if drift removal is off. */
             drift: components["schemas"]["DriftAnswer"] | null;
             /**
              * Format: double
-             * @description Slower than this was kept.
+             * @description Cut-off of the low-pass filter.
              */
             low_pass_hz: number | null;
             /**
              * Format: double
-             * @description Speed of the spindle that turns were counted by.
+             * @description Spindle speed that defines the revolutions.
              */
             spindle_rpm: number | null;
             /**
              * Format: uint
-             * @description Samples between begin and end of the program.
+             * @description Samples between start and end of the program.
              */
             samples_used: number;
             /**
@@ -2634,11 +2638,11 @@ export interface components {
             largest_n: number;
             /**
              * Format: double
-             * @description Largest force within a turn, where that is a load case.
+             * @description Largest force within a revolution, if that is a load case.
              */
             largest_peak_n: number | null;
         };
-        /** @description Drift that was taken off. */
+        /** @description The drift removed. */
         DriftAnswer: {
             /** @description Of the force at the first instant. */
             offset_n: [
@@ -2652,12 +2656,12 @@ export interface components {
                 number,
                 number
             ];
-            /** @description Stretches where nothing is cut. */
+            /** @description Intervals without cutting. */
             air_s: [
                 number,
                 number
             ][];
-            /** @description Whether these were found, not told. */
+            /** @description Whether these were detected, not given. */
             air_found: boolean;
             /**
              * Format: uint
@@ -2665,14 +2669,14 @@ export interface components {
              */
             samples: number;
         };
-        /** @description What keeps the tolerance on the whole of a program: the least of its points. */
+        /** @description The process limits that meet the tolerance on a whole program: the least of its points. */
         LimitsAnswer: {
             /**
              * Format: uint
-             * @description Points that were asked: spread over the path, the worst among them.
+             * @description Points that were evaluated: spread over the path, the worst among them.
              */
             points: number;
-            /** @description Force that every direction permits. */
+            /** @description Force permitted in every direction. */
             any_direction: components["schemas"]["LimitAnswer"] | null;
             /** @description Force along the feed. */
             along: components["schemas"]["LimitAnswer"] | null;
@@ -2680,23 +2684,23 @@ export interface components {
             cross: components["schemas"]["LimitAnswer"] | null;
             /** @description Force along the tool. */
             axial: components["schemas"]["LimitAnswer"] | null;
-            /** @description Axial depth of the cut, all else as the study has it. */
+            /** @description Axial depth of the cut, everything else as in the study. */
             axial_depth: components["schemas"]["LimitAnswer"] | null;
-            /** @description Radial depth, likewise; none of a slot. */
+            /** @description Radial depth; none of a slot. */
             radial_depth: components["schemas"]["LimitAnswer"] | null;
-            /** @description Feed per tooth, likewise. */
+            /** @description Feed per tooth. */
             feed_per_tooth: components["schemas"]["LimitAnswer"] | null;
         };
-        /** @description A limit, and where it comes from. */
+        /** @description A limit, and the line that determines it. */
         LimitAnswer: {
             /**
              * Format: double
-             * @description How much.
+             * @description Its value.
              */
             value: number;
             /** @description Its unit. */
             unit: string;
-            /** @description `up to`, `at least` (more was not looked at), or `nothing`. */
+            /** @description `up to`, `at least` (larger values were not evaluated), or `nothing`. */
             verdict: string;
             /**
              * Format: uint32
@@ -2704,9 +2708,9 @@ export interface components {
              */
             line: number;
         };
-        /** @description The program that tells a path. */
+        /** @description The program of a path. */
         ProgramAnswer: {
-            /** @description Its file, as the study calls it. */
+            /** @description Its file, as named in the study. */
             file: string;
             /** @description The format it is in. */
             format: string;
@@ -2717,7 +2721,7 @@ export interface components {
             moves: number;
             /**
              * Format: double
-             * @description Time of the cuts whose feed is told.
+             * @description Time of the cuts with a known feed.
              */
             cutting_time_s: number;
             /** @description Stretches with the same tool and spindle speed. */
@@ -2725,7 +2729,7 @@ export interface components {
         };
         /** @description A stretch with the same tool and spindle speed. */
         OperationAnswer: {
-            /** @description What the program calls it. */
+            /** @description Its name in the program. */
             name: string | null;
             /**
              * Format: uint32
@@ -2734,7 +2738,7 @@ export interface components {
             tool: number | null;
             /**
              * Format: uint32
-             * @description Line where it begins.
+             * @description First line.
              */
             line: number;
             /**
@@ -2748,32 +2752,32 @@ export interface components {
              */
             max_in_plane_um: number | null;
         };
-        /** @description Turns and branches that were searched for along a path. */
+        /** @description The search for spins and branches along a path. */
         SearchAnswer: {
-            /** @description Which part of the deviation counted: `in-plane`, `cross-track`, `axial`. */
-            counts: string;
-            /** @description What was to be least: `worst`, `mean`, `above-tolerance`. */
-            goal: string;
+            /** @description Component of the deviation that was minimised: `in-plane`, `cross-track`, `axial`. */
+            component: string;
+            /** @description The objective: `worst`, `mean`, `above-tolerance`. */
+            objective: string;
             /**
              * Format: uint
-             * @description Turns that were tried at each point.
+             * @description Spins that were tried at each point.
              */
             turns: number;
-            /** @description Least and greatest turn of the tool that was chosen, beside the one it has without. */
+            /** @description Least and greatest chosen spin of the tool, relative to the one it has without the search. */
             turn_range_deg: [
                 number,
                 number
             ];
             /** @description The path without the search. */
             without: components["schemas"]["StatisticsAnswer"];
-            /** @description The path with what was found. */
+            /** @description The path with the result of the search. */
             with: components["schemas"]["StatisticsAnswer"];
-            /** @description Stretches of the path where no turn and branch stands, and why. */
+            /** @description Stretches of the path without a usable spin and branch, and why. */
             unreachable_stretches: components["schemas"]["UnreachableStretch"][];
-            /** @description Lines at which the arm has to stop and take another posture. */
+            /** @description Lines at which the arm has to stop and change its posture. */
             breaks: number[];
         };
-        /** @description A path in some numbers. */
+        /** @description Statistics of a path. */
         StatisticsAnswer: {
             /**
              * Format: double
@@ -2787,7 +2791,7 @@ export interface components {
             mean_in_plane_um: number | null;
             /**
              * Format: double
-             * @description Points within the limit over all points.
+             * @description Points within the tolerance over all points.
              */
             fraction_within: number;
             /**
@@ -2805,10 +2809,10 @@ export interface components {
              * @description Points near a singularity.
              */
             near_singularity: number;
-            /** @description Times that each joint turns back. */
+            /** @description Number of reversals of each joint. */
             reversals: number[];
         };
-        /** @description Points that follow on each other without a posture that stands. */
+        /** @description Consecutive points without a usable posture. */
         UnreachableStretch: {
             /**
              * Format: uint32
@@ -2825,10 +2829,10 @@ export interface components {
              * @description How many.
              */
             points: number;
-            /** @description What stands in the way of most turns and branches of the first. */
+            /** @description Why most spins and branches of the first are not usable. */
             reason: string;
         };
-        /** @description What moves the tool beside its load; the deviations of the path have it too. */
+        /** @description Displacements in addition to those by the load; they are included in the deviations of the path. */
         UnloadedAnswer: {
             /**
              * Format: double
@@ -2840,40 +2844,40 @@ export interface components {
              * @description Largest length of it.
              */
             max_full_um: number;
-            /** @description Every joint that has play. */
+            /** @description Every joint with backlash. */
             joints: components["schemas"]["JointBacklash"][];
-            /** @description Whether the arm differs from the one that its controller reckons with. */
+            /** @description Whether the arm differs from the nominal model of its controller. */
             measured_arm: boolean;
         };
-        /** @description The play of one joint. */
+        /** @description The backlash of one joint. */
         JointBacklash: {
             /** @description Its name. */
             name: string;
             /**
              * Format: double
-             * @description The whole gap of a joint that turns.
+             * @description The whole backlash of a revolute joint.
              */
             backlash_deg: number | null;
             /**
              * Format: double
-             * @description The whole gap of a joint that slides.
+             * @description The whole backlash of a prismatic joint.
              */
             backlash_mm: number | null;
             /**
              * Format: uint
-             * @description Times that the joint turns back on the cuts of the path.
+             * @description Number of reversals of the joint on the cuts of the path.
              */
             reversals: number;
         };
-        /** @description A box of points, the tool held as on the plane. */
+        /** @description A box of points, the tool oriented as on the plane. */
         VolumeAnswer: {
             /** @description Its name. */
             name: string;
-            /** @description Posture asked for: words of a branch, or `best`. */
+            /** @description Requested posture: words of a branch, or `best`. */
             branch: string;
             /**
              * Format: double
-             * @description Points within the limit over all points.
+             * @description Points within the tolerance over all points.
              */
             fraction_within: number;
             /**
@@ -2883,12 +2887,12 @@ export interface components {
             fraction_within_and_inside_joint_limits: number;
             /**
              * Format: double
-             * @description Volume of the points within, each standing for one cell.
+             * @description Volume of the points within, each representing one cell.
              */
             volume_within_mm3: number;
-            /** @description Points by reason; they add up to all points. */
+            /** @description Points by reason; their sum is the total. */
             counts: components["schemas"]["CountsAnswer"];
-            /** @description Points along x, y, z of the frame that positions count from. */
+            /** @description Points along x, y, z of the reference frame. */
             point_counts: [
                 number,
                 number,
@@ -2899,7 +2903,7 @@ export interface components {
              * @description Pitch.
              */
             step_mm: number;
-            /** @description The corner with the least coordinates, in the frame that positions count from. */
+            /** @description The corner with the least coordinates, in the reference frame. */
             origin_mm: [
                 number,
                 number,
@@ -2909,14 +2913,14 @@ export interface components {
             best: components["schemas"]["PointAnswer"] | null;
             /** @description The point with the largest in-plane deviation. */
             worst: components["schemas"]["PointAnswer"] | null;
-            /** @description What all points share. */
+            /** @description The common setting of all points. */
             setting: components["schemas"]["SettingAnswer"];
         };
         /** @description A set of holes. */
         HolesAnswer: {
             /** @description Its name. */
             name: string;
-            /** @description Branches that were open: words, or `best`. */
+            /** @description Permitted branches: words, or `best`. */
             branch: string;
             /**
              * Format: uint
@@ -2928,17 +2932,17 @@ export interface components {
              * @description Holes without posture inside joint limits.
              */
             unreachable: number;
-            /** @description Holes by reason; they add up to all. */
+            /** @description Holes by reason; their sum is the total. */
             counts: components["schemas"]["CountsAnswer"];
             /**
              * Format: uint
-             * @description Holes that no turn and branch holds clear of singularities and inside joint limits; they are told in a posture that
-             *     is refused.
+             * @description Holes without a usable spin and branch, clear of singularities and inside joint limits; they are evaluated in a
+             *     rejected posture.
              */
             refused: number;
             /**
              * Format: double
-             * @description Holes within the limit in a posture that is not refused, over all holes.
+             * @description Holes within the tolerance in a usable posture, over all holes.
              */
             fraction_within: number;
             /**
@@ -2958,28 +2962,28 @@ export interface components {
             max_depth_um: number | null;
             /**
              * Format: uint
-             * @description Turns that were tried at each hole.
+             * @description Spins that were tried at each hole.
              */
             turns: number;
-            /** @description What all holes share. */
+            /** @description The common setting of all holes. */
             setting: components["schemas"]["SettingAnswer"];
-            /** @description File of the holes; none where the study lists them. */
+            /** @description File of the holes; none if the study lists them. */
             file: string | null;
-            /** @description Material that is drilled, where thrust and torque were computed from it. */
+            /** @description Material that is drilled, if thrust and torque were computed from it. */
             material: string | null;
             /**
              * Format: double
-             * @description Largest thrust, likewise.
+             * @description Largest thrust, if computed.
              */
             largest_thrust_n: number | null;
-            /** @description Where the deviation is largest, and whose share that is; at most five. */
+            /** @description The holes with the largest deviation, with contributions; at most five. */
             worst_holes: components["schemas"]["WorstHole"][];
             /** @description Every hole: first those that are not reached, then the largest deviation first. */
             each: components["schemas"]["HoleAnswer"][];
-            /** @description What was passed over, or taken for granted. */
+            /** @description What was skipped or assumed. */
             notes: string[];
         };
-        /** @description A hole where the deviation is large. */
+        /** @description A hole with a large deviation. */
         WorstHole: {
             /**
              * Format: uint
@@ -3001,7 +3005,7 @@ export interface components {
              * @description Line of its file, or its number in the list.
              */
             line: number;
-            /** @description Where the tip stands at its end, in the frame that positions count from. */
+            /** @description Position of the tip at its end, in the reference frame. */
             xyz_mm: [
                 number,
                 number,
@@ -3015,18 +3019,18 @@ export interface components {
             ];
             /** @description `within`, `above_tolerance`, or why there is no posture. */
             state: string;
-            /** @description Why no posture stands, in words; none where one does. */
+            /** @description Why there is no posture, in words; none if there is one. */
             reason: string | null;
             /**
-             * @description What is against the posture that is told where no turn and branch stands: `singular`, `outside_joint_limits`; none
-             *     where one does.
+             * @description Why the reported posture is rejected, if no spin and branch is usable: `singular`, `outside_joint_limits`; none
+             *     otherwise.
              */
             blocked_by: string | null;
             /** @description Branch of the posture. */
             branch: string | null;
             /**
              * Format: double
-             * @description Turn of the tool about its axis, beside the one that it has unturned.
+             * @description Spin of the tool about its axis, relative to its nominal one.
              */
             turn_deg: number | null;
             /**
@@ -3054,11 +3058,11 @@ export interface components {
              * @description Its standard uncertainty.
              */
             in_plane_u_um: number | null;
-            /** @description Joint positions (mm for sliding joints). */
+            /** @description Joint positions (mm for prismatic joints). */
             joints_deg: number[];
             /**
              * Format: double
-             * @description Least distance of a joint to its limit (mm for a sliding joint).
+             * @description Least distance of a joint to its limit (mm for a prismatic joint).
              */
             limit_margin_deg: number | null;
             /** @description Which joint that is. */
@@ -3075,46 +3079,46 @@ export interface components {
         StatementAnswer: {
             /** @description The statement in words. */
             text: string;
-            /** @description Where it stands. */
+            /** @description Where it was published. */
             source: string;
             /**
              * Format: double
              * @description The stated bound of the in-plane deviation.
              */
             at_most_um: number;
-            /** @description What was found under each reading. */
+            /** @description The result of each reading. */
             readings: components["schemas"]["Reading"][];
         };
         /** @description One reading of a statement. */
         Reading: {
             /** @description Name of the map or path. */
             name: string;
-            /** @description Posture asked for. */
+            /** @description Requested posture. */
             branch: string;
-            /** @description Least and largest in-plane deviation; none where nothing was reached. */
+            /** @description Least and largest in-plane deviation; none if nothing was reached. */
             in_plane_um: [
                 number,
                 number
             ] | null;
-            /** @description Whether every point stands inside joint limits. */
+            /** @description Whether every point is inside joint limits. */
             inside_joint_limits: boolean;
             /** @description Whether the largest is within the stated bound. */
             consistent: boolean;
         };
-        /** @description What the error of a circle is made of. */
+        /** @description Contributions to the error of a circle. */
         BudgetAnswer: {
             /** @description Name of the path. */
-            ask: string;
-            /** @description Posture asked for: words of a branch, or `best`. */
+            analysis: string;
+            /** @description Requested posture: words of a branch, or `best`. */
             branch: string;
             /**
              * Format: double
              * @description Nominal radius of the circle.
              */
             radius_mm: number;
-            /** @description The files that were measured, and what they are of. */
+            /** @description The measured files, and their kind. */
             files: components["schemas"]["FileAnswer"][];
-            /** @description What every curve counts from. */
+            /** @description Datum of all curves. */
             datum: components["schemas"]["DatumAnswer"];
             /**
              * Format: uint
@@ -3123,7 +3127,7 @@ export interface components {
             angles: number;
             /**
              * Format: double
-             * @description How much of a turn they cover.
+             * @description The arc that they cover.
              */
             arc_deg: number;
             /** @description Each part of the error. */
@@ -3133,26 +3137,27 @@ export interface components {
              * @description Load cases that the deviation under load was predicted for.
              */
             load_cases: number;
-            /** @description Least and greatest deviation that the load makes of all of them, from the nominal circle. */
+            /** @description Least and greatest deviation under load over all cases, from the nominal circle. */
             load_envelope_um: [
                 number,
                 number
             ];
             /**
              * Format: double
-             * @description Standard deviation of ball-bar runs the same way; where no way has two, of the arm as robot file or study tell it;
-             *     none where neither does.
+             * @description Standard deviation of ball-bar runs of the same direction; if no direction has two, that of the robot file or
+             *     study;
+             *     none if neither gives it.
              */
             repeatability_um: number | null;
-            /** @description What they make together. */
+            /** @description Their combinations. */
             sums: components["schemas"]["SumsAnswer"];
-            /** @description What is predicted of the path without load beside what the ball-bar saw; none where either is missing. */
+            /** @description The path without load, predicted and measured by the ball-bar; none if either is missing. */
             without_load: components["schemas"]["WithoutLoadAnswer"] | null;
-            /** @description The part beside them; none where it was not measured. */
+            /** @description The measured part; none if it was not measured. */
             part: components["schemas"]["PartAnswer"] | null;
             /** @description What a user must know, each a sentence. */
             warnings: string[];
-            /** @description Where definitions and methods come from. */
+            /** @description Sources of definitions and methods. */
             sources: string[];
         };
         /** @description A file that was measured. */
@@ -3162,11 +3167,11 @@ export interface components {
             /** @description `part`, `path without load` or `forces`. */
             of: string;
         };
-        /** @description What curves count from. */
+        /** @description Datum of the curves. */
         DatumAnswer: {
             /** @description `least-squares` of each curve, or `as-measured`. */
             centre: string;
-            /** @description Likewise. */
+            /** @description The same values. */
             radius: string;
         };
         /** @description One part of the error. */
@@ -3192,7 +3197,7 @@ export interface components {
             rms_um: number;
             /**
              * Format: double
-             * @description Standard uncertainty of the bias, root mean square round the circle, where it is known.
+             * @description Standard uncertainty of the bias, root mean square over the circle, if known.
              */
             bias_u_um: number | null;
             /**
@@ -3200,37 +3205,37 @@ export interface components {
              * @description Root mean square of the standard deviation of one cut.
              */
             scatter_um: number;
-            /** @description Centre that was taken off, along y' and z'. */
+            /** @description Centre that was removed, along y' and z'. */
             centre_um: [
                 number,
                 number
             ];
             /**
              * Format: double
-             * @description Radius that was taken off, beyond the nominal one.
+             * @description Radius that was removed, relative to the nominal one.
              */
             radius_um: number;
             /**
              * Format: double
-             * @description What it explains of the part alone; none without part or bias.
+             * @description Percentage of the part explained by it alone; none without part or bias.
              */
             explained_alone_percent: number | null;
             /**
              * Format: double
-             * @description What the others explain without it, likewise.
+             * @description Percentage explained by the others without it; none without part or bias.
              */
             explained_without_percent: number | null;
         };
-        /** @description What the parts make together. */
+        /** @description Their combinations. */
         SumsAnswer: {
             /**
              * Format: double
-             * @description Largest bias of what the load does.
+             * @description Largest bias of the load.
              */
             load_um: number;
             /**
              * Format: double
-             * @description Largest bias of the path without load, the way it was cut.
+             * @description Largest bias of the path without load, in the cutting direction.
              */
             unloaded_um: number;
             /**
@@ -3245,7 +3250,7 @@ export interface components {
             with_scatter_um: number;
             /**
              * Format: double
-             * @description Standard uncertainty of the biases together, root mean square round the circle, as far as it is known.
+             * @description Standard uncertainty of the combined bias, root mean square over the circle, as far as it is known.
              */
             u_um: number;
             /**
@@ -3259,7 +3264,7 @@ export interface components {
              */
             plain_um: number;
         };
-        /** @description The path without load, predicted (gravity, backlash, geometry) and measured the way it was cut. */
+        /** @description The path without load, predicted (gravity, backlash, geometry) and measured in the cutting direction. */
         WithoutLoadAnswer: {
             /**
              * Format: double
@@ -3298,11 +3303,11 @@ export interface components {
             explained_percent: number;
             /**
              * Format: double
-             * @description How alike the shapes are.
+             * @description Similarity of the shapes.
              */
             likeness_percent: number | null;
         };
-        /** @description The part beside its prediction. */
+        /** @description The part and its prediction. */
         PartAnswer: {
             /**
              * Format: uint
@@ -3324,39 +3329,39 @@ export interface components {
              * @description Root mean square.
              */
             rms_um: number;
-            /** @description Centre in the axes of its file, where deviations count from it. */
+            /** @description Centre in the axes of its file, if deviations are measured from it. */
             centre_mm: [
                 number,
                 number
             ] | null;
             /**
              * Format: double
-             * @description Radius beyond the nominal one, where it was taken off.
+             * @description Radius relative to the nominal one, if it was removed.
              */
             radius_um: number;
             /**
              * Format: double
-             * @description Standard uncertainty of a point, as the study tells it.
+             * @description Standard uncertainty of a point, from the study.
              */
             u_um: number;
             /**
              * Format: double
-             * @description How much of its mean square all contributions explain.
+             * @description Percentage of its mean square explained by all contributions.
              */
             explained_percent: number;
             /**
              * Format: double
-             * @description How much could be explained: the rest is known scatter.
+             * @description Percentage that can be explained: the rest is known scatter.
              */
             explainable_percent: number;
             /**
              * Format: double
-             * @description How alike the shapes are, whatever the size: 100 alike, 0 unlike, -100 upside down.
+             * @description Similarity of the shapes, independent of their size: 100 equal, 0 unrelated, -100 inverted.
              */
             likeness_percent: number | null;
             /**
              * Format: double
-             * @description The size that would explain most, of the predicted one.
+             * @description The scale of the prediction that explains most.
              */
             best_size_percent: number | null;
             /**
@@ -3368,7 +3373,7 @@ export interface components {
             residual: components["schemas"]["ResidualAnswer"];
             /**
              * Format: double
-             * @description Waves of less amplitude are none: they have no phase, and no share.
+             * @description Harmonics of less amplitude have no phase and no percentage.
              */
             least_wave_um: number;
             /** @description Wave by wave. */
@@ -3393,11 +3398,11 @@ export interface components {
             largest_at_deg: number;
             /**
              * Format: double
-             * @description Root mean square beyond all known scatter and uncertainty: what has another cause.
+             * @description Root mean square beyond all known scatter and uncertainty: from another cause.
              */
             beyond_known_um: number;
         };
-        /** @description One wave of the part and of its prediction. */
+        /** @description One harmonic of the part and of its prediction. */
         WaveAnswer: {
             /**
              * Format: uint
@@ -3411,7 +3416,7 @@ export interface components {
             measured_um: number;
             /**
              * Format: double
-             * @description Its phase: a crest lies at this over `waves`; none where there is no wave.
+             * @description Its phase: a crest is at this over `waves`; none if there is no such harmonic.
              */
             measured_phase_deg: number | null;
             /**
@@ -3421,17 +3426,17 @@ export interface components {
             predicted_um: number;
             /**
              * Format: double
-             * @description Its phase, likewise.
+             * @description Its phase; none if there is no such harmonic.
              */
             predicted_phase_deg: number | null;
             /**
              * Format: double
-             * @description Phase of the prediction beyond that of the part, where both are there.
+             * @description Phase of the prediction relative to that of the part, if both have one.
              */
             phase_difference_deg: number | null;
             /**
              * Format: double
-             * @description How much of this wave of the part is explained; none where there is no wave.
+             * @description Percentage of this harmonic of the part that is explained; none if there is no such harmonic.
              */
             explained_percent: number | null;
         };
@@ -3441,21 +3446,21 @@ export interface components {
             key: string;
             /** @description What was taken. */
             what: string;
-            /** @description Where it stands. */
+            /** @description Its position. */
             where: string;
             /** @description Under which licence, or that it is a fact. */
             licence: string;
         };
-        /** @description The places of the worst and the best point; none where no point is reached, no best along a path and of holes. */
+        /** @description The worst and the best point; none if no point is reached, no best along a path and of holes. */
         ExtremesAnswer: {
             /** @description Where the deviation is largest. */
             worst: components["schemas"]["PoseTarget"] | null;
             /** @description Where it is least. */
             best: components["schemas"]["PoseTarget"] | null;
         };
-        /** @description The arm where it was to stand. */
+        /** @description The arm at its target. */
         PoseAtTarget: {
-            /** @description The place. */
+            /** @description The target. */
             at: components["schemas"]["PoseTarget"];
             /**
              * Format: uint
@@ -3465,19 +3470,19 @@ export interface components {
             /** @description Every posture there, as `/api/pose` answers. */
             pose: components["schemas"]["PosturesAnswer"];
         };
-        /** @description Every posture at one place, as `armill pose --json` tells it, and how each is drawn. */
+        /** @description Every posture at one target, as in `armill pose --json`, and its drawing. */
         PosturesAnswer: {
-            /** @description The postures under the load case asked for, with every source: the same totals as `in_plane`. */
+            /** @description The postures under the requested load case, with every source: the same totals as `in_plane`. */
             answer: components["schemas"]["PoseAnswer"];
             /** @description The arm in each posture. */
             drawings: components["schemas"]["DrawnPosture"][];
             /** @description Limits of the joints. */
             limits: components["schemas"]["JointLimits"][];
-            /** @description Joints of each posture as the chain of the robot counts them, in place of its controller. */
+            /** @description Joints of each posture in the convention of the chain, not of the controller. */
             chain: components["schemas"]["ChainPosition"][][];
             /**
-             * @description Deviation of each posture under each load case; `null` where the arm finds no rest, or no compliance is known. Along a
-             *     path backlash and geometry are in that of the posture that it is followed in.
+             * @description Deviation of each posture under each load case; `null` if the arm has no equilibrium, or no compliance is known.
+             *     Along a path, backlash and geometry are included for the posture in which it is followed.
              */
             in_plane: (components["schemas"]["CaseAnswer"] | null)[][];
         };
@@ -3489,39 +3494,39 @@ export interface components {
             base: string;
             /** @description Names of the joints. */
             joint_names: string[];
-            /** @description Units of their positions and of their distances to limits: deg, of a joint that slides mm. */
+            /** @description Units of their positions and of their distances to limits: deg, of a prismatic joint mm. */
             joint_units: string[];
             /** @description Whether the joint compliances are assumed, not measured. */
             compliance_assumed: boolean;
             /** @description Parts of the stiffness model that were on. */
             model: string[];
-            /** @description Whom shares are told for: the joints, then base, flange and tool where springs sit. */
+            /** @description The contributors of `share_um`: the joints, then base, flange and tool if springs are attached there. */
             contributors: string[];
-            /** @description Every posture; empty where unreachable. */
+            /** @description Every posture; empty if the pose is unreachable. */
             postures: components["schemas"]["PostureAnswer"][];
             /** @description Why there is no posture. */
             unreachable: components["schemas"]["UnreachableAnswer"] | null;
-            /** @description What a user should know before trusting it, and what is missing. */
+            /** @description Notes for the user, also on missing data. */
             notes: string[];
-            /** @description Where the numbers of the robot come from. */
+            /** @description Sources of the numbers of the robot. */
             sources: components["schemas"]["Source"][];
         };
         /** @description One posture. */
         PostureAnswer: {
-            /** @description Its name: words of a branch; without named branches the side of the middle on which each joint stands. */
+            /** @description Its name: words of a branch; without named branches the side of the middle of each joint. */
             branch: string;
-            /** @description Joint positions (mm for sliding joints), in the robot file's own signs and zeros. */
+            /** @description Joint positions (mm for prismatic joints), in the robot file's own signs and zeros. */
             joints_deg: number[];
-            /** @description Whether every joint stands inside its limits. */
+            /** @description Whether every joint is inside its limits. */
             within_limits: boolean;
             /**
              * Format: double
-             * @description Least distance of a joint to its limit, negative outside; none where no joint has limits.
+             * @description Least distance of a joint to its limit, negative outside; none if no joint has limits.
              */
             limit_margin_deg: number | null;
-            /** @description The joint that has it. */
+            /** @description The joint with that margin. */
             limit_joint: string | null;
-            /** @description Where the tool is. */
+            /** @description Pose of the tool. */
             tool: components["schemas"]["ToolAnswer"];
             /** @description Near which singularity, if any. */
             singularity: string | null;
@@ -3532,12 +3537,12 @@ export interface components {
             manipulability: number;
             /**
              * Format: double
-             * @description Of the Jacobian, with rotations weighed by a length of 1 m; none where singular.
+             * @description Of the Jacobian, with rotations weighed by a length of 1 m; none if singular.
              */
             condition_number: number | null;
             /** @description 6 x n: TCP twist per unit of joint position, translation first, base axes, SI. */
             jacobian: number[][];
-            /** @description 6 x 6 at the TCP, translation first, base axes, SI; none where joint compliances are not known. */
+            /** @description 6 x 6 at the TCP, translation first, base axes, SI; none if joint compliances are not known. */
             compliance: [
                 [
                     number,
@@ -3588,7 +3593,7 @@ export interface components {
                     number
                 ][]
             ] | null;
-            /** @description What follows from the compliance. */
+            /** @description Results that follow from the compliance. */
             stiffness: components["schemas"]["StiffnessAnswer"] | null;
             /** @description The same under the load, tangent to it; of a load-dependent model only. */
             loaded_compliance: [
@@ -3641,7 +3646,7 @@ export interface components {
                     number
                 ][]
             ] | null;
-            /** @description Why the arm finds no rest under the load; none where it does. */
+            /** @description Why the arm finds no rest under the load; none if it does. */
             unstable: string | null;
             /** @description Displacement of the TCP under the load; none without load or compliance. */
             deviation_um: [
@@ -3661,14 +3666,17 @@ export interface components {
                 number,
                 number
             ][] | null;
-            /** @description Standard uncertainty of the displacement, from those of the compliances, the repeatability of the arm and the error of its model. */
+            /**
+             * @description Standard uncertainty of the displacement, from those of the compliances, the repeatability of the arm and the
+             *     error of its model.
+             */
             deviation_u_um: [
                 number,
                 number,
                 number
             ] | null;
         };
-        /** @description Where the tool is. */
+        /** @description Pose of the tool. */
         ToolAnswer: {
             /** @description TCP in the frame that positions count from. */
             xyz_mm: [
@@ -3684,7 +3692,7 @@ export interface components {
                 number
             ];
         };
-        /** @description What follows from the compliance of a posture. */
+        /** @description Results that follow from the compliance of a posture. */
         StiffnessAnswer: {
             /** @description 6 x 6, the (pseudo-)inverse of the compliance, SI. // unit: SI matrix */
             stiffness: [
@@ -3739,7 +3747,7 @@ export interface components {
             ];
             /**
              * Format: uint
-             * @description Directions in which the arm yields: 6 where the stiffness is a true inverse.
+             * @description Compliant directions of the arm: 6 if the stiffness is a true inverse.
              */
             rank: number;
             /**
@@ -3788,7 +3796,7 @@ export interface components {
             amount_mm: number;
             /**
              * Format: double
-             * @description By what angle the tool of a search misses.
+             * @description Orientation error of the tool in a numerical search.
              */
             amount_deg: number | null;
             /** @description In words. */
@@ -3816,13 +3824,13 @@ export interface components {
                 number,
                 number
             ];
-            /** @description The arm as a line: from its foot over the joints and the flange to the TCP. */
+            /** @description The arm as a line: from its base through the joints and the flange to the TCP. */
             links_mm: [
                 number,
                 number,
                 number
             ][];
-            /** @description The shapes of its links, where the robot's file names them and all are there. */
+            /** @description The meshes of its links, if the robot file names them and all exist. */
             meshes: components["schemas"]["DrawnMesh"][];
         };
         /** @description A joint in a drawing. */
@@ -3848,7 +3856,7 @@ export interface components {
         DrawnMesh: {
             /** @description Its link. */
             link: string;
-            /** @description Its file, as the robot's file names it. */
+            /** @description Its file, as in the robot file. */
             file: string;
             /** @description Millimetres for one unit of the file, along its axes. */
             scale_mm: [
@@ -3856,13 +3864,13 @@ export interface components {
                 number,
                 number
             ];
-            /** @description Where it stands. */
+            /** @description Its position. */
             xyz_mm: [
                 number,
                 number,
                 number
             ];
-            /** @description How it stands there, unit quaternion. */
+            /** @description Its orientation, unit quaternion. */
             quaternion_wxyz: [
                 number,
                 number,
@@ -3870,54 +3878,55 @@ export interface components {
                 number
             ];
         };
-        /** @description Limits of a joint as the robot file counts; `null` where they are not known. */
+        /** @description Limits of a joint in the convention of the robot file; `null` if they are not known. */
         JointLimits: {
             /** @description Its name. */
             name: string;
             /**
              * Format: double
-             * @description Least position, mm of a joint that slides.
+             * @description Lower limit, mm for a prismatic joint.
              */
             lower_deg: number | null;
             /**
              * Format: double
-             * @description Greatest position, likewise.
+             * @description Upper limit, mm for a prismatic joint.
              */
             upper_deg: number | null;
             /** @description `deg` or `mm`. */
             unit: string;
         };
         /**
-         * @description A joint as the chain counts it: by the right hand about the axes of the chain, from where the chain is straight. What
-         *     the robot file tells of signs, zeros and coupled joints is in it; mm of a joint that slides.
+         * @description A joint in the convention of the chain: right-handed about the axes of the chain, zero where the chain is straight.
+         *     The signs, zeros and couplings of the robot file are applied; mm for a prismatic joint.
          */
         ChainPosition: {
             /**
              * Format: double
-             * @description Where it stands.
+             * @description Its position.
              */
             at_deg: number;
             /**
              * Format: double
-             * @description Least position; `null` where it has no limits. Limits of a coupled joint move with the other.
+             * @description Lower limit; `null` if it has none. Limits of a coupled joint move with the other.
              */
             lower_deg: number | null;
             /**
              * Format: double
-             * @description Greatest position, likewise.
+             * @description Upper limit; `null` if it has none.
              */
             upper_deg: number | null;
         };
-        /** @description A deviation seen from the plane; what is not told of such a posture is `null`. */
+        /** @description A deviation relative to the plane; values that are not known for such a posture are `null`. */
         CaseAnswer: {
             /**
              * Format: double
-             * @description Length of its part in the plane.
+             * @description Length of its component in the plane.
              */
             in_plane_um: number;
             /**
              * Format: double
-             * @description Its standard uncertainty, from compliances, load, tool length, repeatability and model error; of postures with a name.
+             * @description Its standard uncertainty, from compliances, load, tool length, repeatability and model error; of postures with a
+             *     name.
              */
             in_plane_u_um: number | null;
             /**
@@ -3930,26 +3939,30 @@ export interface components {
              * @description Its length.
              */
             full_um: number;
-            /** @description All of it, of the TCP, base axes. */
+            /** @description The whole vector, of the TCP, base axes. */
             deviation_um: [
                 number,
                 number,
                 number
             ];
-            /** @description Share of each of `answer.contributors` in the in-plane deviation; they add up to it. Of postures with a name. */
+            /**
+             * @description Share of each of `answer.contributors` in the in-plane deviation; their sum is the deviation. Of postures with a
+             *     name.
+             */
             share_um: number[] | null;
             /**
              * Format: double
-             * @description Force that keeps the limit in the direction of this case; none where it has no force or moves nothing in the plane.
+             * @description Force that meets the tolerance in the direction of this case; none without a force or without an in-plane
+             *     deviation.
              */
             permissible_along_load_n: number | null;
             /**
              * Format: double
-             * @description Force that keeps the limit whatever its direction.
+             * @description Force that meets the tolerance in any direction.
              */
             permissible_any_direction_n: number | null;
         };
-        /** @description The pictures of an ask. */
+        /** @description The pictures of an analysis. */
         PicturesAnswer: {
             /** @description In the order of the report. */
             pictures: components["schemas"]["PictureAnswer"][];
@@ -3960,7 +3973,7 @@ export interface components {
             name: string;
             /** @description What it shows, in a sentence. */
             title: string;
-            /** @description Whether its numbers are those of the budget of what was measured, not of the table of the ask. */
+            /** @description Whether its numbers are those of the error budget of the measurement, not of the table of the analysis. */
             measured: boolean;
             /** @description The picture. */
             svg: string;
@@ -3978,17 +3991,17 @@ export interface components {
             payload_kg: number | null;
             /**
              * Format: double
-             * @description Reach of the wrist centre from axis 1, to a micrometre; none of an arm without wrist centre.
+             * @description Reach of the wrist centre from axis 1, to a micrometre; none for a robot without wrist centre.
              */
             reach_mm: number | null;
-            /** @description How its postures are found: `closed_form`, `polished`, `searched`. */
+            /** @description Method of the inverse kinematics: `closed_form`, `polished`, `searched`. */
             inverse: string;
             /** @description Whether its joint compliances are known. */
             compliance: boolean;
         };
-        /** @description What a new job is called. */
+        /** @description Name of a new job. */
         JobBegun: {
-            /** @description Behind `/api/jobs/`. */
+            /** @description The last part of its path below `/api/jobs/`. */
             id: string;
         };
         /** @description All jobs, newest first. */
@@ -3996,62 +4009,62 @@ export interface components {
             /** @description Without their answers. */
             jobs: components["schemas"]["JobAnswer"][];
         };
-        /** @description A job, as it is told. */
+        /** @description A job. */
         JobAnswer: {
-            /** @description What it is called. */
+            /** @description Its name. */
             id: string;
             /** @description `run`, `posture`, `place` or `identify`. */
             kind: string;
             /** @description Title of the study. */
             title: string;
-            /** @description How it stands. */
+            /** @description Its state. */
             state: components["schemas"]["JobState"];
             /**
              * Format: uint
-             * @description What is finished of `of`.
+             * @description Finished items, of `of`.
              */
             done: number;
             /**
              * Format: uint
-             * @description What there is to do; 0 while that is not known.
+             * @description Items in total; 0 while that is not known.
              */
             of: number;
-            /** @description The best so far, or what is being written. */
+            /** @description The best so far, or the current step. */
             best: string | null;
             /**
              * Format: double
-             * @description Since it was asked for.
+             * @description Time since it was requested.
              */
             started_s_ago: number;
             /**
              * Format: double
-             * @description How long it has computed.
+             * @description Time of computing.
              */
             seconds: number;
             /** @description Why it failed. */
-            error: components["schemas"]["Wrong"] | null;
-            /** @description Its answer, as the command's JSON; only where one job is asked for. */
+            error: components["schemas"]["ErrorDetail"] | null;
+            /** @description Its answer, as the command's JSON; only where one job is requested. */
             answer: unknown;
             /** @description Files that it wrote, in the folder. */
             files: string[];
         };
-        /** @description How a job stands. */
+        /** @description The state of a job. */
         JobState: "waiting" | "running" | "done" | "failed" | "cancelled";
-        /** @description What is wrong. */
-        Wrong: {
+        /** @description An error. */
+        ErrorDetail: {
             /**
              * @description `invalid-input`, `cancelled`, `internal`, `unauthorised`, `forbidden`, `not-found`, `conflict`, `superseded`,
              *     `too-large` or `too-many`.
              */
             kind: string;
-            /** @description In words. */
+            /** @description The message. */
             message: string;
-            /** @description What to do about it, where that is known. */
+            /** @description How to correct it, where that is known. */
             hint: string | null;
             /** @description Problems of the study, each with its place. */
             problems: components["schemas"]["Problem"][];
         };
-        /** @description What lies in the folder. */
+        /** @description The content of the folder. */
         Files: {
             /** @description By name; at most 2000. */
             files: components["schemas"]["FileRow"][];
@@ -4067,12 +4080,12 @@ export interface components {
             bytes: number;
             /**
              * Format: double
-             * @description Since it was written.
+             * @description Time since it was written.
              */
             modified_s_ago: number;
         };
-        /** @description A file that was taken in. */
-        TakenIn: {
+        /** @description A file that was uploaded. */
+        UploadedFile: {
             /** @description Its name in the folder. */
             name: string;
             /**
@@ -4080,17 +4093,17 @@ export interface components {
              * @description Its size.
              */
             bytes: number;
-            /** @description What it seems to be. */
+            /** @description Its detected kind. */
             kind: components["schemas"]["FileKind"];
-            /** @description How a study names such a file. */
+            /** @description Example of the lines of a study that use such a file. */
             hint: string;
         };
-        /** @description What a file seems to be. */
+        /** @description The probable kind of a file. */
         FileKind: "robot" | "path" | "forces" | "ballbar" | "profile" | "unknown";
-        /** @description What is wrong. */
+        /** @description An error. */
         ErrorBody: {
-            /** @description What is wrong. */
-            error: components["schemas"]["Wrong"];
+            /** @description The error. */
+            error: components["schemas"]["ErrorDetail"];
         };
     };
     responses: never;

@@ -5,13 +5,21 @@
 //!
 //! ```text
 //! pose -> posture -> screws s_i        load -> wrench w
-//! deviation = elastic(s_i, c_i, w) + gravity(s_i, c_i, masses) + geometric + backlash(s_i, u_i)
+//! deviation = elastic(s_i, c_i, w) + gravity(s_i, c_i, masses) + geometric + thermal + backlash(s_i, b_i)
 //! ```
 //!
-//! Maps, holes, searches and single poses use this sum. Along a path, geometry and backlash are added in a second step:
-//! friction decides from point to point on which side of the backlash the links are.
-//! [`elastic::predict`](crate::source::elastic::predict) is the simple model on its own.
-//! Reference point: TCP. Basis: base. Deviation = attained position of the tool minus its commanded position.
+//! `c_i` is the compliance of joint i (rad/(N m)), `b_i` its backlash from one side to the other (rad). The posture is
+//! in `arm_state`. `links` are the positions of the links within their backlash (rad, or m for prismatic joints); they
+//! are written here where they are unknown. Repeatability adds uncertainty only.
+//!
+//! Maps, holes and single poses use the whole sum. Searches for placements and for the posture of a path use load and
+//! gravity only. Along a path geometry, thermal growth and backlash are added in a second step
+//! (`map/backlash_geometry.rs`), because friction decides from point to point at which side of its backlash each link
+//! rests. `kernel/lanes/deviation.rs` repeats the drives-only part for many points per instruction; it is tested
+//! against this function. [`elastic::predict`](crate::source::elastic::predict) is the simple model: joint drives only.
+//!
+//! Deviation: attained minus commanded position of the tool. Reference point: TCP. Basis: base. Unit: metres here,
+//! micrometres in the answers of `study`.
 
 pub use crate::source::Deviation;
 use crate::source::{ArmState, Links, Unstable, repeatability};
@@ -51,7 +59,8 @@ pub(crate) fn deviation_of(
     })
 }
 
-/// Deviation by geometry and backlash, with the `links` at these positions within their backlash, rad (m).
+/// Deviation by geometry, thermal growth and backlash; the `links` are at these positions within their backlash,
+/// rad (m).
 pub(crate) fn geometry_and_backlash(arm_state: &ArmState<'_>, links: &[f64], wrench: &Wrench) -> Twist {
-    arm_state.geometric() + arm_state.backlash(links, wrench)
+    arm_state.geometric() + arm_state.thermal() + arm_state.backlash(links, wrench)
 }

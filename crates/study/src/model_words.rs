@@ -53,6 +53,10 @@ pub fn parts(robot: &Robot, model: &StiffnessModel) -> Vec<String> {
     if model.actual.is_some() {
         parts.push("the calibrated arm".to_owned());
     }
+    if let Some(thermal) = model.thermal {
+        let growth = without_rounding(thermal.growth * 1e6);
+        parts.push(format!("thermal growth of the links by {growth} um/m"));
+    }
     if structure.repeatability > 0.0 {
         parts.push("repeatability in the uncertainty".to_owned());
     }

@@ -31,7 +31,7 @@ pub const UNITS: &[&str] = &[
     "um", "mm", "m", "mm2", "mm3", "m2", // lengths, areas, volumes
     "deg", "rad", "urad", "rad2", "rpm", "hz", // angles, turning
     "n", "n2", "kg", // forces, torques, masses
-    "s", "gpa", "percent", // times, stresses, shares of a hundred
+    "s", "gpa", "percent", "k", // times, stresses, shares of a hundred, temperature differences
 ];
 
 /// Last words that are a unit only after `per`: alone, `min` is the smallest, `tooth` a thing.
@@ -115,8 +115,10 @@ fn says_its_unit(name: &str) -> bool {
     let words: Vec<&str> = name.split('_').collect();
     match words.as_slice() {
         [.., unit, "per", last] if UNITS_AFTER_PER.contains(last) => UNITS.contains(unit),
-        // `force_per_mm` does not say force in what.
-        [.., unit, "per", last] if UNITS.contains(last) => UNITS.contains(unit) || *unit == "one",
+        // `force_per_mm` does not say force in what; an expansion is relative.
+        [.., unit, "per", last] if UNITS.contains(last) => {
+            UNITS.contains(unit) || *unit == "one" || *unit == "expansion"
+        }
         [.., last] => UNITS.contains(last) || (words.len() > 1 && NO_UNIT_ENDINGS.contains(last)),
         [] => false,
     }

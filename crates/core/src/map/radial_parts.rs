@@ -93,6 +93,7 @@ fn backlash_uncertainties(
         .collect();
     let mut arm_state = ArmState::new(*arm);
     let mut curves = vec![Vec::with_capacity(track.len()); unsure.len()];
+    let mut thermal = Vec::with_capacity(track.len());
     for index in 0..track.len() {
         arm_state.set_joints(found.answers.joints_at(index));
         let outward = outwards(track, index, centre);
@@ -101,6 +102,14 @@ fn backlash_uncertainties(
             let moved = arm_state.backlash_of(*joint, link_offsets, &Wrench::ZERO).linear;
             curve.push(moved.dot(&outward) * relative);
         }
+        thermal.push(arm_state.thermal_uncertainty().dot(&outward));
+    }
+    if arm
+        .model
+        .thermal
+        .is_some_and(|thermal| thermal.standard_uncertainty > 0.0)
+    {
+        curves.push(thermal);
     }
     curves
 }

@@ -9,10 +9,12 @@ pub enum Contributor {
     At(Attachment),
     /// The calibrated arm differs from the model in its controller.
     Geometry,
+    /// Thermal growth of the links since the calibration.
+    Thermal,
 }
 
 impl Contributor {
-    /// Its name: of a joint as its maker calls it, else `base`, `flange`, `tool`, `geometry`.
+    /// Its name: of a joint as its maker calls it, else `base`, `flange`, `tool`, `geometry`, `thermal`.
     pub fn name(self, joints: &[Joint]) -> String {
         match self {
             Contributor::At(Attachment::Joint(index)) => joints[index].name.clone(),
@@ -20,6 +22,7 @@ impl Contributor {
             Contributor::At(Attachment::Flange) => "flange".to_owned(),
             Contributor::At(Attachment::Tool) => "tool".to_owned(),
             Contributor::Geometry => "geometry".to_owned(),
+            Contributor::Thermal => "thermal".to_owned(),
         }
     }
 }

@@ -4,7 +4,7 @@
 //! [`gravity`]: torques of the masses on drives and springs. [`equilibrium`]: equilibrium of an arm that the load
 //! changes.
 //! [`backlash`]: positions of the links within their backlash. [`geometric`]: the arm differs from the model in its
-//! controller. [`repeatability`]: scatter of repeated poses.
+//! controller. [`thermal`]: growth of the links since the calibration. [`repeatability`]: scatter of repeated poses.
 //! [`arm_state`]: one arm in one posture, and the effect of each source there; `predict.rs` adds them.
 //!
 //! `deviation`: the sum of all sources; `contributor`: what it is shared out to. `linear_system`: small systems of equations in reused memory.
@@ -20,9 +20,11 @@ pub mod gravity;
 mod linear_system;
 pub mod repeatability;
 pub mod stiffness_model;
+pub mod thermal;
 
 pub use arm_state::{ArmState, Links};
 pub use contributor::Contributor;
 pub use deviation::Deviation;
 pub use equilibrium::Unstable;
 pub use stiffness_model::{Arm, Gravity, StiffnessModel};
+pub use thermal::ThermalGrowth;

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use nalgebra::Vector3;
 
 use super::contributor::Contributor;
+use super::thermal::ThermalGrowth;
 use crate::frame::Isometry;
 use crate::robot::{Attachment, Joint, JointCompliance, Robot, Structure};
 
@@ -34,6 +35,8 @@ pub struct StiffnessModel {
     pub load_dependent: bool,
     /// The calibrated arm, where it differs from the model in its controller.
     pub actual: Option<Arc<Robot>>,
+    /// Thermal growth of the links; `None` neglects it.
+    pub thermal: Option<ThermalGrowth>,
 }
 
 impl StiffnessModel {
@@ -43,6 +46,7 @@ impl StiffnessModel {
         gravity: None,
         load_dependent: false,
         actual: None,
+        thermal: None,
     };
 
     /// Whether only drive springs contribute to the deviation, each with an independent uncertainty.
@@ -59,13 +63,15 @@ impl StiffnessModel {
         !self.load_dependent && self.structure.curves.iter().all(Option::is_none)
     }
 
-    /// Whether the tool has deviations that do not depend on the load: backlash, or geometry.
+    /// Whether the tool has deviations that do not depend on the load: backlash, geometry, thermal growth.
     pub fn has_unloaded_deviation(&self) -> bool {
-        self.structure.joints_with_backlash().next().is_some() || self.actual.is_some()
+        self.structure.joints_with_backlash().next().is_some()
+            || self.actual.is_some()
+            || self.thermal.is_some()
     }
 
     /// The contributors to the deviation: every joint, then base, flange and tool where they have springs, then the
-    /// geometry where it is calibrated.
+    /// geometry and thermal growth where they are included.
     pub fn contributors(&self, joints: usize) -> Vec<Contributor> {
         let others = [Attachment::Base, Attachment::Flange, Attachment::Tool];
         let has_spring = |attachment: &Attachment| {
@@ -79,6 +85,7 @@ impl StiffnessModel {
             .chain(others.into_iter().filter(has_spring))
             .map(Contributor::At)
             .chain(self.actual.as_ref().map(|_| Contributor::Geometry))
+            .chain(self.thermal.map(|_| Contributor::Thermal))
             .collect()
     }
 

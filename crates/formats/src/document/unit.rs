@@ -27,6 +27,7 @@ const POSE_LENGTHS: usize = 3;
 /// The first that fits counts, so units of several words come first.
 const ATOMS: &[(&str, &str, Option<&str>)] = &[
     (POSE_SUFFIX, POSE, None),
+    ("per_k", "1/K", None),
     ("n_m", "N m", Some("torques")),
     ("m", "m", Some("lengths")),
     ("mm", "mm", Some("lengths")),
@@ -50,6 +51,7 @@ const ATOMS: &[(&str, &str, Option<&str>)] = &[
     ("pa", "Pa", None),
     ("mpa", "MPa", None),
     ("gpa", "GPa", None),
+    ("k", "K", Some("temperature differences")),
     ("percent", "%", Some("shares")),
     ("tooth", "tooth", None),
     ("rev", "rev", None),
@@ -60,7 +62,7 @@ const ATOMS: &[(&str, &str, Option<&str>)] = &[
 pub(super) struct Unit {
     /// As people read it: `mm/min`.
     pub(super) shown: String,
-    /// What it measures, in the plural, where one word says it.
+    /// What it measures, in the plural, if there is one word for it.
     pub(super) quantity: Option<&'static str>,
 }
 

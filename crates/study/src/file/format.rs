@@ -3,6 +3,7 @@
 //! The in-plane coordinates are y' (along base y on a tilted plane) and z', measured from the centre of the plane.
 
 use armill_core::load::LoadFrame;
+use armill_core::source::thermal;
 use armill_formats::robot::spring_tables::{MassTable, SpringTable};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -41,6 +42,8 @@ pub struct StudyFile {
     pub positioner: Option<PositionerTable>,
     /// Gravity on the masses of robot and tool; neglected without this table.
     pub gravity: Option<GravityTable>,
+    /// Thermal growth of the links since the calibration of the arm; neglected without this table.
+    pub thermal: Option<ThermalTable>,
     /// Load-dependent stiffness: the load acts on the deflected arm instead of the undeflected one.
     #[serde(default)]
     pub load_dependent: bool,
@@ -158,6 +161,28 @@ pub struct GravityTable {
     /// Direction of gravity in base, of any length; down the z axis if left out.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub direction: Option<[f64; 3]>,
+}
+
+/// Thermal growth of the links: the robot is warmer or colder than when it was calibrated, and its controller does not know
+/// it. Tool and part do not grow.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ThermalTable {
+    /// Temperature of the robot minus that of its calibration.
+    #[schemars(range(min = -100.0, max = 100.0))]
+    pub difference_k: f64,
+    /// Coefficient of linear thermal expansion of the links; that of steel if left out.
+    #[schemars(range(min = 0.0, max = 1e-4))]
+    #[serde(default = "steel")]
+    pub expansion_per_k: f64,
+    /// Standard uncertainty of the temperature difference; 0 if left out.
+    #[schemars(range(min = 0.0, max = 100.0))]
+    #[serde(default)]
+    pub u_k: f64,
+}
+
+fn steel() -> f64 {
+    thermal::STEEL
 }
 
 /// The workpiece plane and its grid of points.

@@ -8,6 +8,7 @@
 //! | `[gravity]` | joint positions when the tool was set, and the direction of gravity |
 //! | `repeatability_mm` | how the arm scatters, in place of the robot file's |
 //! | `load_dependent` | whether the load acts on the deflected arm |
+//! | `[thermal]` | thermal growth of the links since the calibration |
 //! | `calibrated_robot` | the calibrated arm, if its controller uses a nominal model |
 
 use std::sync::Arc;
@@ -16,7 +17,7 @@ use armill_core::nalgebra::Vector3;
 use armill_core::robot::spring::cutter_springs;
 use armill_core::robot::{Robot, Structure};
 use armill_core::source::stiffness_model::FREE_FALL;
-use armill_core::source::{Gravity, StiffnessModel, repeatability};
+use armill_core::source::{Gravity, StiffnessModel, ThermalGrowth, repeatability};
 use armill_formats::robot::spring_tables::SpringTableError;
 
 use super::format::{CutterMaterial, GravityTable, StudyFile, ToolTable};
@@ -47,6 +48,10 @@ pub(super) fn model(
         gravity,
         load_dependent: file.load_dependent,
         actual: actual.cloned(),
+        thermal: file
+            .thermal
+            .as_ref()
+            .map(|table| ThermalGrowth::new(table.expansion_per_k, table.difference_k, table.u_k)),
     })
 }
 

@@ -98,7 +98,7 @@ fn lengths_that_must_be_above_0_are_refused_otherwise() {
         "must be",
     ]);
     check("tolerance_um = 130", "tolerance_um = -1").refused(&[
-        "study.toml:4:12",
+        "study.toml:4:16",
         "`tolerance_um` is -1 um",
         "at least 0 um",
     ]);
@@ -372,7 +372,7 @@ fn every_problem_of_a_file_is_reported_at_once() {
     ]);
     let fields = SMALL
         .replace("step_mm", "step")
-        .replace("tolerance_um", "limit")
+        .replace("tolerance_um", "tolerance")
         .replace("[1000, 0, 800]", "[1000, \"0\"]");
     check_text(fields).refused(&["write `step_mm`", "write `tolerance_um`", "study.toml:7:"]);
 }
@@ -388,7 +388,11 @@ fn a_value_used_by_several_analyses_is_reported_once() {
 
 #[test]
 fn problems_as_json_have_file_line_and_hint() {
-    let cell = Cell::with_study(&SMALL.replace("step_mm", "step").replace("tolerance_um", "limit"));
+    let cell = Cell::with_study(
+        &SMALL
+            .replace("step_mm", "step")
+            .replace("tolerance_um", "tolerance"),
+    );
     for command in ["check", "run"] {
         let said = cell.armill(&[command, "study.toml", "--json"]).refused(&[]);
         let problems = said.json()["problems"].clone();
@@ -496,4 +500,14 @@ fn a_statement_without_an_analysis_is_reported() {
     of("plat").refused(&["no analysis is called `plat`"]);
     of("distances").refused(&["`distances` is a series of sections", "`distances: x = 900 mm`"]);
     of("space").refused(&["`space` is a volume"]);
+}
+
+#[test]
+fn a_thermal_growth_out_of_range_is_refused_with_its_unit() {
+    let with = |table: &str| check_text(format!("{SMALL}[thermal]\n{table}\n"));
+    with("difference_k = 500").refused(&["`thermal.difference_k` is 500 K", "at most 100 K"]);
+    with("u_k = 1").refused(&["missing field `thermal.difference_k`"]);
+    with("difference_k = 5\nexpansion_per_k = 12")
+        .refused(&["`thermal.expansion_per_k` is 12 1/K", "0.0001 1/K"]);
+    with("difference_k = 5\nu = 1").refused(&["unknown field `thermal.u`", "write `u_k`"]);
 }

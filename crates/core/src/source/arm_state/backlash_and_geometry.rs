@@ -1,7 +1,7 @@
 //! Deviations of the tool that no load causes: backlash of the joints, and an arm that differs from the model in its
 //! controller.
 
-use nalgebra::{Matrix3, Vector2, Vector3};
+use nalgebra::{Matrix3, Point3, Vector2, Vector3};
 
 use super::ArmState;
 use crate::robot::Attachment;
@@ -47,11 +47,39 @@ impl ArmState<'_> {
         })
     }
 
+    /// Displacement of the tool because the links have grown since the calibration.
+    pub fn thermal(&self) -> Twist {
+        let thermal = self.arm.model.thermal;
+        thermal.map_or(Twist::ZERO, |thermal| {
+            thermal.displacement(&self.constant_lengths())
+        })
+    }
+
+    /// Standard uncertainty of [`ArmState::thermal`], m, base: its components are fully correlated.
+    pub(crate) fn thermal_uncertainty(&self) -> Vector3<f64> {
+        let thermal = self.arm.model.thermal;
+        thermal.map_or_else(Vector3::zeros, |thermal| {
+            thermal.uncertainty(&self.constant_lengths())
+        })
+    }
+
+    /// From the base to the flange without the travel of prismatic joints, m, base.
+    fn constant_lengths(&self) -> Vector3<f64> {
+        let tool_from_flange = self.arm.flange_from_tool.inverse().translation.vector;
+        let flange = self.base_from_tool * Point3::from(tool_from_flange);
+        let travel = |(joint, theta): (usize, &f64)| {
+            let slides = self.arm.robot.slides(joint);
+            slides.then(|| self.screws[joint].linear * *theta)
+        };
+        let travelled: Vector3<f64> = self.theta.iter().enumerate().filter_map(travel).sum();
+        flange.coords - travelled
+    }
+
     /// Writes the worst-case positions of the links where load and gravity displace the tool by `by_load` (m, base).
     pub(crate) fn settle(&self, links: &mut Links<'_>, by_load: &Vector3<f64>, wrench: &Wrench) {
         if let Links::Farthest(along, positions) = links {
             positions.fill(0.0);
-            let known = self.geometric() + self.backlash(positions, wrench);
+            let known = self.geometric() + self.thermal() + self.backlash(positions, wrench);
             self.place_farthest((&(by_load + known.linear), along), wrench, positions);
         }
     }
@@ -132,6 +160,9 @@ impl ArmState<'_> {
         }
         if self.arm.model.actual.is_some() {
             take(Contributor::Geometry, self.geometric(), Vector3::zeros());
+        }
+        if self.arm.model.thermal.is_some() {
+            take(Contributor::Thermal, self.thermal(), self.thermal_uncertainty());
         }
     }
 
