@@ -284,7 +284,7 @@ fn best_is_the_least_of_all_branches_inside_limits() {
         let least = inside.map(envelope).min_by(f64::total_cmp);
         match (point, least) {
             (Ok(evaluation), Some(least)) => {
-                assert!((evaluation.in_plane - least).abs() < 1e-15 && evaluation.within_limits())
+                assert!((evaluation.in_plane - least).abs() < 1e-15 && evaluation.within_limits());
             }
             (Err(_), None) => {}
             (point, least) => panic!("point {index}: {point:?} against {least:?}"),

@@ -208,10 +208,9 @@ fn the_same_point_has_the_same_total_and_parts_on_every_surface() {
         case: 1,
     };
     let shown = postures(text, &question, Watch::NONE).unwrap();
-    let branches = shown.answer.postures.iter().zip(&shown.in_plane);
+    let mut branches = shown.answer.postures.iter().zip(&shown.in_plane);
     let (posture, cases) = branches
-        .filter(|(posture, _)| posture.branch == "front elbow-up no-flip")
-        .next()
+        .find(|(posture, _)| posture.branch == "front elbow-up no-flip")
         .unwrap();
     let cases: Vec<Point> = cases
         .iter()

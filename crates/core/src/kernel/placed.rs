@@ -240,7 +240,7 @@ impl PlacementEvaluator<'_> {
         let mut least = Vec::with_capacity(path.len());
         match &mut self.method {
             PlacementMethod::Lanes(placer) => {
-                placer.least_of_each(&path.double, (placement, spins), is_open, &mut least)
+                placer.least_of_each(&path.double, (placement, spins), is_open, &mut least);
             }
             PlacementMethod::General(columns) => {
                 let named = columns.slots_are_branches();

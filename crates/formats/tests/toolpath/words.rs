@@ -131,7 +131,7 @@ fn apt(program: &str) -> Result<(Summary, Vec<Step>), Problems> {
         ..apt::AptReadOptions::default()
     };
     let summary = apt::read("p.cls", program.as_bytes(), &expected, &mut |step| {
-        steps.push(step)
+        steps.push(step);
     })?;
     Ok((summary, steps))
 }

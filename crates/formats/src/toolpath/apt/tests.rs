@@ -14,7 +14,7 @@ use super::*;
 fn steps(text: &str, expected: &AptReadOptions) -> Result<(Summary, Vec<Step>), Problems> {
     let mut steps = Vec::new();
     let summary = read("part.apt", text.as_bytes(), expected, &mut |step| {
-        steps.push(step)
+        steps.push(step);
     })?;
     Ok((summary, steps))
 }
