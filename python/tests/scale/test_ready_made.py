@@ -67,7 +67,7 @@ def test_any_number_of_threads_gives_equal_costs(ring: armill.Study) -> None:
         (np.zeros((3, 5)), r"places: expected shape \(n, 6\), \(n, 7\) or \(n, 8\)"),
         (np.zeros((2, 3, 6)), "expected shape"),
         ([[0, 0, np.nan, 0, 0, 0]], r"places\[0, 2\] is"),
-        (np.zeros((1, 8)), "is not on a rail"),
+        (np.zeros((1, 8)), "has no rail"),
     ],
 )
 def test_refuses_invalid_places(ring: armill.Study, places: Any, message: str) -> None:
@@ -187,7 +187,7 @@ def test_studies_with_robots_and_changes(ring: armill.Study, tmp_path: Path) -> 
 
 
 def test_reports_an_invalid_change_before_the_first_run(ring: armill.Study) -> None:
-    with pytest.raises(armill.InputError, match="limit"):
+    with pytest.raises(armill.InputError, match="tolerance_um"):
         scale.studies([ring], [{}, {"tolerance_um": -1}])
 
 

@@ -11,9 +11,9 @@ export function branches(live: Live): HTMLElement {
   const draw = () => {
     const pose = live.pose;
     if (!pose || pose.answer.postures.length === 0) return show(h("p", { class: "note" }, live.pose_error ?? "All postures at the point are listed here."));
-    const limit = live.setting?.tolerance_um ?? 0;
+    const tolerance = live.setting?.tolerance_um ?? 0;
     const worst = pose.in_plane.map((c) => envelope(c)?.in_plane_um ?? null);
-    const top = Math.max(limit * 1.15, ...worst.map((w) => w ?? 0));
+    const top = Math.max(tolerance * 1.15, ...worst.map((w) => w ?? 0));
     const order = pose.answer.postures.map((_, i) => i).sort((a, b) => (worst[a] ?? 1e9) - (worst[b] ?? 1e9));
     show(
       h(
@@ -30,8 +30,8 @@ export function branches(live: Live): HTMLElement {
             h(
               "button",
               { type: "button", class: "branch", "data-key": `show ${name}`, "aria-pressed": String(i === live.posture), title: "Show this posture", onclick: () => live.choosePosture(i) },
-              h("span", { class: "branch-name" }, name, posture.within_limits ? null : h("em", { title: "outside its joint limits" }, ` · ${posture.limit_joint ?? "a joint"} beyond limit`)),
-              h("span", { class: "branch-track", "aria-hidden": "true" }, h("i", { class: value <= limit ? "bar good" : "bar", style: `width:${(100 * value) / top}%` }), h("i", { class: "limit-mark", style: `left:${(100 * limit) / top}%` })),
+              h("span", { class: "branch-name" }, name, posture.within_limits ? null : h("em", { title: "outside its joint limits" }, ` · ${posture.limit_joint ?? "a joint"} beyond tolerance`)),
+              h("span", { class: "branch-track", "aria-hidden": "true" }, h("i", { class: value <= tolerance ? "bar good" : "bar", style: `width:${(100 * value) / top}%` }), h("i", { class: "limit-mark", style: `left:${(100 * tolerance) / top}%` })),
               h("span", { class: "branch-value" }, um(worst[i]), h("small", {}, " µm")),
             ),
             used

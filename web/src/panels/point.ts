@@ -15,8 +15,8 @@ export function point(live: Live): HTMLElement {
     const u = values.in_plane_u_um ?? answered?.in_plane_u_um ?? null;
     const along = values.permissible_along_load_n ?? answered?.permissible_along_load_n;
     const any = values.permissible_any_direction_n ?? answered?.permissible_any_direction_n;
-    const limit = live.setting?.tolerance_um ?? Infinity;
-    const over = values.in_plane_um > limit;
+    const tolerance = live.setting?.tolerance_um ?? Infinity;
+    const over = values.in_plane_um > tolerance;
     show(
       h(
         "div",

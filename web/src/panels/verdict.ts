@@ -10,7 +10,7 @@ export function verdict(live: Live): HTMLElement {
   const draw = () => {
     const { answer, setting } = live;
     if (!answer || !setting) return renew(root, h("div", { class: "verdict-main" }, h("p", { class: "verdict-line" }, "…")));
-    const limit = `${trimmed(setting.tolerance_um, 1)}\u00a0µm`;
+    const tolerance = `${trimmed(setting.tolerance_um, 1)}\u00a0µm`;
     const { share, what, extra } = fractionWithin(live);
     const state = share >= 1 ? "good" : share > 0 ? "part" : "none";
     renew(
@@ -18,7 +18,7 @@ export function verdict(live: Live): HTMLElement {
       h(
         "div",
         { class: "verdict-main" },
-        h("p", { class: `verdict-line ${state}` }, h("span", { class: "verdict-mark", "aria-hidden": "true" }, state === "good" ? "✓" : state === "part" ? "◐" : "✕"), sentence(share, what, limit)),
+        h("p", { class: `verdict-line ${state}` }, h("span", { class: "verdict-mark", "aria-hidden": "true" }, state === "good" ? "✓" : state === "part" ? "◐" : "✕"), sentence(share, what, tolerance)),
         h("div", { class: "meter", role: "img", "aria-label": `${percent(share)} within tolerance` }, h("span", { style: `width:${(100 * share).toFixed(2)}%` })),
       ),
       h("div", { class: "verdict-points" }, extreme(live, "worst", live.worst), extreme(live, "best", live.best), blame(live)),

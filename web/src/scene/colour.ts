@@ -28,13 +28,13 @@ export interface Scale {
   levels: number[];
 }
 
-/** A scale of round numbers about the values; it reaches to the limit where that costs less than half the colours. */
-export function scaleOf(least: number, largest: number, limit: number): Scale {
+/** A scale of round numbers about the values; it reaches to the tolerance where that costs less than half the colours. */
+export function scaleOf(least: number, largest: number, tolerance: number): Scale {
   let low = least;
   let high = Math.max(largest, least + 1e-9);
   const span = high - low || Math.abs(high) || 1;
-  if (limit < low && low - limit < span) low = limit;
-  if (limit > high && limit - high < span) high = limit;
+  if (tolerance < low && low - tolerance < span) low = tolerance;
+  if (tolerance > high && tolerance - high < span) high = tolerance;
   const step = niceStep(high - low || span, 8);
   const first = Math.floor(low / step + 1e-9) * step;
   const last = Math.ceil(high / step - 1e-9) * step;

@@ -83,18 +83,18 @@ export function overlay(view: SceneView, live: Live): HTMLElement {
 
 const times = (n: number): string => `× ${trimmed(n, 0)}`;
 
-/** The colour bar, with ticks at the lines' levels and the limit marked. */
+/** The colour bar, with ticks at the lines' levels and the tolerance marked. */
 function legend(box: HTMLElement, view: SceneView, live: Live): void {
   const scale = view.scale;
-  const limit = live.setting?.tolerance_um;
-  if (!scale || limit === undefined) return;
+  const tolerance = live.setting?.tolerance_um;
+  if (!scale || tolerance === undefined) return;
   const W = 280;
   const at = (value: number) => 14 + (W - 28) * along(scale, value);
   const stops = Array.from({ length: 21 }, (_, i) => s("stop", { offset: i / 20, "stop-color": css(viridis(i / 20)) }));
   const every = Math.ceil(scale.levels.length / 6);
-  const inside = limit >= scale.low && limit <= scale.high;
+  const inside = tolerance >= scale.low && tolerance <= scale.high;
   const cases = live.setting!.cases_n.length;
-  box.setAttribute("aria-label", `Colours from ${um(scale.low)} to ${um(scale.high)} micrometres; limit ${um(limit)}`);
+  box.setAttribute("aria-label", `Colours from ${um(scale.low)} to ${um(scale.high)} micrometres; tolerance ${um(tolerance)}`);
   renew(
     box,
     h("p", { class: "legend-name" }, "In-plane deviation ", h("b", {}, "µm"), cases > 1 ? h("small", {}, ` largest of ${cases} load cases`) : null),
@@ -108,8 +108,8 @@ function legend(box: HTMLElement, view: SceneView, live: Live): void {
         s("text", { x: at(level), y: 43, "text-anchor": "middle" }, trimmed(level, 1)),
       ]),
       inside
-        ? [s("path", { d: `M${at(limit)} 29 V13 m-5 -7 h10 l-5 7 z`, class: "limit" }), s("text", { x: at(limit) > W - 90 ? at(limit) - 9 : at(limit) + 9, y: 10, class: "limit-text", "text-anchor": at(limit) > W - 90 ? "end" : "start" }, `limit ${trimmed(limit, 1)}`)]
-        : [s("text", { x: limit < scale.low ? 14 : W - 14, y: 10, class: "limit-text", "text-anchor": limit < scale.low ? "start" : "end" }, limit < scale.low ? `◀ limit ${trimmed(limit, 1)}, all above it` : `limit ${trimmed(limit, 1)}, all below it ▶`)],
+        ? [s("path", { d: `M${at(tolerance)} 29 V13 m-5 -7 h10 l-5 7 z`, class: "limit" }), s("text", { x: at(tolerance) > W - 90 ? at(tolerance) - 9 : at(tolerance) + 9, y: 10, class: "limit-text", "text-anchor": at(tolerance) > W - 90 ? "end" : "start" }, `tolerance ${trimmed(tolerance, 1)}`)]
+        : [s("text", { x: tolerance < scale.low ? 14 : W - 14, y: 10, class: "limit-text", "text-anchor": tolerance < scale.low ? "start" : "end" }, tolerance < scale.low ? `◀ tolerance ${trimmed(tolerance, 1)}, all above it` : `tolerance ${trimmed(tolerance, 1)}, all below it ▶`)],
     ),
   );
 }
@@ -122,7 +122,7 @@ function hover(tip: HTMLElement, live: Live, under: Under, x: number, y: number,
     const grid = live.map!.grid;
     const i = under.index;
     const flags = grid.flags.filter((r) => r.points.includes(i)).map((r) => r.reason.replaceAll("_", " "));
-    rows.push(["y′, z′", `${mm(under.y_mm)}, ${mm(under.z_mm)} mm`], ["In plane", `${um(grid.in_plane_um[i])} ± ${um(grid.in_plane_u_um[i])} µm`], ["Normal", `${um(grid.normal_um[i])} µm`], ["Full", `${um(grid.full_um[i])} µm`], ["Within limit", `probability ${percent(grid.probability_within[i])}`]);
+    rows.push(["y′, z′", `${mm(under.y_mm)}, ${mm(under.z_mm)} mm`], ["In plane", `${um(grid.in_plane_um[i])} ± ${um(grid.in_plane_u_um[i])} µm`], ["Normal", `${um(grid.normal_um[i])} µm`], ["Full", `${um(grid.full_um[i])} µm`], ["Within the tolerance", `probability ${percent(grid.probability_within[i])}`]);
     for (const flag of flags) rows.push(["", flag]);
   } else {
     const points = live.scene!.points!;

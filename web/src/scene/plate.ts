@@ -25,7 +25,7 @@ export class PlateView {
   readonly surface: THREE.Mesh<THREE.BufferGeometry, THREE.MeshBasicMaterial>;
   private readonly iso = new Lines({ width: 1.4, colour: 0xffffff, opacity: 0.75 });
   private readonly casing = new Lines({ width: 6.5, colour: 0x10151b, opacity: 0.85 });
-  private readonly limit = new Lines({ width: 3.4, colour: 0xffffff, opacity: 1 });
+  private readonly tolerance = new Lines({ width: 3.4, colour: 0xffffff, opacity: 1 });
   private readonly robust = new Lines({ width: 2, colour: 0xffffff, opacity: 0.95, dashed: true });
   private readonly largest = new Lines({ width: 2, colour: 0xffb14a, opacity: 1 });
   private readonly frame = new Lines({ width: 1.6, colour: 0x6b7683, opacity: 1 });
@@ -34,10 +34,10 @@ export class PlateView {
 
   constructor(private readonly labels: Labels, private readonly name: string) {
     this.surface = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshBasicMaterial({ vertexColors: true, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2 }));
-    this.group.add(this.surface, ...[this.frame, this.iso, this.casing, this.limit, this.robust, this.largest].map((lines) => lines.object));
+    this.group.add(this.surface, ...[this.frame, this.iso, this.casing, this.tolerance, this.robust, this.largest].map((lines) => lines.object));
     this.group.matrixAutoUpdate = false;
     this.casing.object.renderOrder = 1;
-    this.limit.object.renderOrder = 2;
+    this.tolerance.object.renderOrder = 2;
     this.robust.object.renderOrder = 2;
   }
 
@@ -51,12 +51,12 @@ export class PlateView {
     const [bound, ...iso] = contours(grid, [map.setting.tolerance_um, ...(options.lines ? levels : [])]) as [Line[], ...Line[][]];
     this.iso.draw(iso.flat());
     this.casing.draw(bound);
-    this.limit.draw(bound);
+    this.tolerance.draw(bound);
     this.robust.draw(options.certainty && map.certainty ? map.certainty.boundary_robust_mm : []);
     this.labels.group(this.name);
     const corners = options.rectangle ? map.region.rectangle_mm : null;
     this.largest.draw(corners ? [rectangle(...corners)] : []);
-    this.tag(bound, `limit ${trimmed(map.setting.tolerance_um, 1)} µm`, "limit-tag", 1);
+    this.tag(bound, `tolerance ${trimmed(map.setting.tolerance_um, 1)} µm`, "limit-tag", 1);
     iso.forEach((lines, i) => this.tag(lines, trimmed(levels[i]!, 1), "iso", 2));
   }
 
@@ -64,7 +64,7 @@ export class PlateView {
   outline(map: MapAnswer, plate: Plate): void {
     this.moveTo(plate);
     this.build(map.grid);
-    for (const part of [this.iso, this.casing, this.limit, this.robust, this.largest]) part.object.visible = false;
+    for (const part of [this.iso, this.casing, this.tolerance, this.robust, this.largest]) part.object.visible = false;
     this.surface.visible = false;
     this.labels.group(this.name);
   }

@@ -27,7 +27,7 @@ const fine = (page) => page.waitForSelector(".problems .fine");
 test("[place] by fields: made, changed, wrong, taken away; the comments stay", async () => {
   const page = await open(browser, server.url);
   await page.click("#tab-jobs");
-  await page.getByRole("button", { name: "What may move: [place]" }).click();
+  await page.getByRole("button", { name: "Bounds: [place]" }).click();
   await fine(page);
   const text = () => page.inputValue("#study-text");
   const before = await text();

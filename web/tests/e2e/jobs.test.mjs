@@ -53,7 +53,7 @@ test("a small placement runs to its end: its place is told, shown, and lies in t
     await page.waitForSelector(".job.done", { timeout: 240_000 });
     const placed = json(folder, "place/placement.json");
     const words = await page.locator(".job.done").innerText();
-    assert.ok(words.includes(`at most ${placed.found.cost_um.toFixed(1)} ± `), `${words} tells ${placed.found.cost_um}`);
+    assert.ok(words.includes(`deviation ${placed.recommended.cost_um.toFixed(1)} ± `), `${words} does not report ${placed.recommended.cost_um}`);
     for (const name of ["place/placement.json", "place/result.json", "place/report.html"]) assert.ok(existsSync(join(folder, name)), name);
     assert.ok(!existsSync(join(folder, "place/place.rounds")));
     // Every file of the card can be opened.
@@ -66,7 +66,7 @@ test("a small placement runs to its end: its place is told, shown, and lies in t
     assert.notEqual(placed.place.centre_mm[0], 1000);
     // The path there is what the placement found.
     const worst = await page.locator("[data-follow=worst] .extreme-value").innerText();
-    assert.ok(worst.startsWith(um(placed.found.cost_um)), `${worst}, ${placed.found.cost_um}`);
+    assert.ok(worst.startsWith(um(placed.recommended.cost_um)), `${worst}, ${placed.recommended.cost_um}`);
   }));
 
 test("a placement goes on over a reload and is shown again; cancelled it leaves no answer, and the next one ends", () =>

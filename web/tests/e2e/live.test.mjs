@@ -107,14 +107,14 @@ kind = "holes"
 name = "rivets"
 holes = { at_mm = [[-50, 0, 0], [0, 0, 0], [50, 0, 0]] }
 `;
-test("holes: verdict, limit and the robot at the worst", async () => {
+test("holes: verdict, tolerance and the robot at the worst", async () => {
   const own = await serve(() => HOLES);
   const page = await open(browser, own.url);
   const { holes } = await client(own.url)("POST", "/api/answer", { text: HOLES, analysis: "rivets" });
   assert.match(await page.locator(".verdict-line").innerText(), /holes? (is|are) within 90\u00a0µm/);
   assert.equal(await extreme(page, "worst"), `${um(holes[0].worst_holes[0].point.in_plane_um)} ± ${um(holes[0].worst_holes[0].point.in_plane_u_um)} µm`);
   assert.equal(await page.inputValue("#target-point"), String(holes[0].worst_holes[0].hole));
-  assert.match(await page.locator(".legend").innerText(), /limit 90/);
+  assert.match(await page.locator(".legend").innerText(), /tolerance 90/);
   assert.deepEqual(page.complaints, []);
   await page.context().close();
   await own.stop();

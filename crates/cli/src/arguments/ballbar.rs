@@ -49,7 +49,7 @@ pub(crate) struct BallbarArguments {
     /// Lobes per revolution that are fitted and reported
     #[arg(long, value_name = "N", default_value_t = 6)]
     pub lobes: usize,
-    /// Search for a cyclic error along the axes: its period in mm, or `found`
+    /// Search for a cyclic error along the axes: its period in mm, or `search`
     #[arg(long, value_name = "MM|found")]
     pub cyclic: Option<String>,
     /// An angle where another drive reverses, in both directions (repeatable)

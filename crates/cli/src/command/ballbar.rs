@@ -189,12 +189,12 @@ fn question(arguments: &BallbarArguments) -> Result<Question, StudyError> {
     finite("--reversal-deg", &arguments.reversal_deg)?;
     let cyclic = match arguments.cyclic.as_deref() {
         None => Cyclic::None,
-        Some("found") => Cyclic::Search,
+        Some("search") => Cyclic::Search,
         Some(word) => {
             let period = word.parse().map_err(|_| {
                 StudyError::value(
                     format!("--cyclic: `{word}` is not a period"),
-                    "millimetres such as 10, or `found`",
+                    "millimetres such as 10, or `search`",
                 )
             })?;
             Cyclic::Period(above_zero("--cyclic", period)? * 1e-3)

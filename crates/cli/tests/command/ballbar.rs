@@ -317,7 +317,7 @@ fn an_error_that_repeats_is_found_with_its_period() {
     let wave = |a: f64| 2.0 * (TAU * 100.0 * a.to_radians().cos() / 20.0).sin() * a.to_radians().cos();
     let text = format!("{HEAD}{NAMES}{}{}", rows("CW", 1, wave), rows("CCW", 1, wave));
     std::fs::write(folder.path().join("wave.csv"), text).unwrap();
-    let found = reported(folder.path(), &["wave.csv", "--cyclic", "found"]);
+    let found = reported(folder.path(), &["wave.csv", "--cyclic", "search"]);
     number(&found["parts"]["cyclic_period_mm"], 20.0, 0.1);
     let given = reported(folder.path(), &["wave.csv", "--cyclic", "20"]);
     number(&part(&given, "cyclic along X, sine")["value_um"], 2.0, 0.05);

@@ -44,7 +44,7 @@ fn the_placement_is_reported_in_text_files_and_lines_for_the_study() {
     assert!(said.out.contains("; nominal: 1"), "{}", said.out);
     assert!(said.out.contains("None is better of "), "{}", said.out);
     let placed = placement(&cell, "place");
-    let cost = number(&placed["found"]["cost_um"]);
+    let cost = number(&placed["recommended"]["cost_um"]);
     assert!(cost < 0.5 * number(&placed["nominal"]["cost_um"]), "{placed}");
     for picture in ["placement-margin.svg", "placement-x-tilt.svg", "report.html"] {
         assert!(cell.at(&format!("place/{picture}")).exists(), "{picture}");
@@ -144,7 +144,7 @@ fn a_path_without_a_reachable_placement_is_reported() {
         said.out
     );
     let placed = placement(&cell, "place");
-    assert_eq!(placed["found"]["unreachable_points"], placed["points"]);
+    assert_eq!(placed["recommended"]["unreachable_points"], placed["points"]);
     assert_eq!(placed["by_margin"].as_array().unwrap().len(), 0);
 }
 
@@ -265,7 +265,7 @@ posture.search.step_deg = 45
         said.out
     );
     let placed = placement(&cell, "place");
-    let cost = number(&placed["found"]["cost_um"]);
+    let cost = number(&placed["recommended"]["cost_um"]);
     assert!(cost < number(&placed["nominal"]["cost_um"]), "{placed}");
     // The run there has the same postures, computed by the code for holes.
     let largest = number(&cell.result("place")["holes"][0]["max_in_plane_um"]);
@@ -300,7 +300,7 @@ fn a_rail_moves_the_robot_as_far_as_the_part_would_move() {
     assert!(said.out.contains(", rail at "), "{}", said.out);
     assert!(said.out.contains("posture.home_deg = ["), "{}", said.out);
     let placed = placement(&cell, "place");
-    assert_eq!(placed["found"]["unreachable_points"], 0);
+    assert_eq!(placed["recommended"]["unreachable_points"], 0);
     // The same arm without a rail, and the part moved in place of it: by lanes, not one pose after the other.
     cell.file("plain.toml", CELL.replace("step_mm = 10\n", "step_mm = 60\n"));
     let moved = [
@@ -317,10 +317,10 @@ fn a_rail_moves_the_robot_as_far_as_the_part_would_move() {
     let rail = number(&placed["place"]["rail_mm"]);
     let y = number(&moved["place"]["centre_mm"][1]);
     assert!((700.0 - rail - y).abs() < 5.0, "{rail} {y}");
-    let costs = [&placed, &moved].map(|of| number(&of["found"]["cost_um"]));
+    let costs = [&placed, &moved].map(|of| number(&of["recommended"]["cost_um"]));
     assert!((costs[0] - costs[1]).abs() < 1e-3 * costs[1], "{costs:?}");
     let largest = number(&cell.result("place")["paths"][0]["max_in_plane_um"]);
-    let cost = number(&placed["found"]["cost_um"]);
+    let cost = number(&placed["recommended"]["cost_um"]);
     assert!((largest - cost).abs() < 1e-3 * cost, "{largest} {cost}");
     cell.armill(&["place", "study.toml", "--rail-mm", "0,2500"])
         .refused(&["`rail_mm` ranges from 0 to 2500 mm, joint rail from -1000 to 2000 mm"]);

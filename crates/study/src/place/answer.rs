@@ -28,7 +28,7 @@ pub struct PlacementAnswer {
     /// Where the study has the part, in the branches that it has there.
     pub nominal: OutcomeAnswer,
     /// At the best placement.
-    pub found: OutcomeAnswer,
+    pub recommended: OutcomeAnswer,
     /// Its fixture, if fixtures are given.
     pub fixture: Option<String>,
     /// The place.
@@ -79,7 +79,7 @@ pub struct FreeAnswer {
     pub greatest: f64,
     /// The value at the best placement.
     // unit: that of its degree
-    pub found: f64,
+    pub value: f64,
     /// Whether it is at one of its bounds: wider bounds may allow a better placement.
     pub at_bound: bool,
 }
@@ -137,13 +137,13 @@ impl PlacementAnswer {
                 .as_deref()
                 .map_or(String::new(), |branch| format!(" in {branch}"))
         };
-        let mut lines = vec![match self.found.unreachable_points {
+        let mut lines = vec![match self.recommended.unreachable_points {
             0 => format!(
                 "{}: {what} {} deviation {}{} at {}; nominal: {}{}.",
                 self.analysis,
                 self.component,
-                value(&self.found),
-                branch(&self.found),
+                value(&self.recommended),
+                branch(&self.recommended),
                 self.place_in_words(),
                 value(&self.nominal),
                 branch(&self.nominal),
@@ -153,7 +153,7 @@ impl PlacementAnswer {
                 self.analysis,
                 self.place_in_words(),
                 self.points,
-                branch(&self.found),
+                branch(&self.recommended),
             ),
         }];
         if self.tool_turns_with_part {
@@ -181,7 +181,7 @@ impl PlacementAnswer {
         };
         let [near, wide] = [&self.certificate.near, &self.certificate.wide];
         if let Some(above) = self
-            .found
+            .recommended
             .probability_above_tolerance
             .filter(|_| self.rank_by == "within-tolerance")
         {
@@ -232,7 +232,7 @@ impl PlacementAnswer {
 
     /// Lines of a study file for this placement; none if not all points can be reached.
     pub fn study_lines(&self) -> String {
-        if self.found.unreachable_points > 0 {
+        if self.recommended.unreachable_points > 0 {
             return String::new();
         }
         let place = &self.place;
@@ -247,7 +247,7 @@ impl PlacementAnswer {
         if let Some(rotation) = place.rotation_deg {
             lines += &format!("plane.rotation_deg = {}\n", list(&rotation));
         }
-        if let Some(branch) = &self.found.branch {
+        if let Some(branch) = &self.recommended.branch {
             lines += &format!("posture.branch = \"{branch}\"\n");
         }
         if let Some(home) = &self.home_deg {

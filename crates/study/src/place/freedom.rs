@@ -132,7 +132,7 @@ impl Freedom {
                 degree: NAMES[degree],
                 least: decimals(unit(least), 4),
                 greatest: decimals(unit(greatest), 4),
-                found: decimals(unit(values[degree]), 4),
+                value: decimals(unit(values[degree]), 4),
                 at_bound: values[degree] < least + edge || values[degree] > greatest - edge,
             }
         };

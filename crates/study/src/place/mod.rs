@@ -262,7 +262,7 @@ impl<'a> PlacementSearch<'a> {
             margin_deg: decimals(objective.margin.to_degrees(), 4),
             rank_by: rank_by_name(objective.rank_by),
             nominal: outcome(&drawn, as_requested, &[]),
-            found: outcome(&of(best).freedom, objective, &best.spot.at),
+            recommended: outcome(&of(best).freedom, objective, &best.spot.at),
             fixture: of(best).name.map(str::to_owned),
             home_deg: place.rail_mm.and_then(|rail| self.home_with_rail(rail)),
             place,

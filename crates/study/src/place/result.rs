@@ -24,7 +24,7 @@ pub struct PlacementResult {
 impl PlacementResult {
     /// Whether the path is better there than at the nominal placement.
     pub fn is_better(&self) -> bool {
-        let (there, nominal) = (&self.answer.found, &self.answer.nominal);
+        let (there, nominal) = (&self.answer.recommended, &self.answer.nominal);
         (there.unreachable_points, there.cost_um) < (nominal.unreachable_points, nominal.cost_um)
     }
 
@@ -81,7 +81,7 @@ impl PlacementResult {
         let whole = file.posture.as_ref();
         let own = analysis.posture.as_ref();
         analysis.posture = Some(PostureTable {
-            branch: self.answer.found.branch.clone().or_else(|| {
+            branch: self.answer.recommended.branch.clone().or_else(|| {
                 let own = own.and_then(|posture| posture.branch.clone());
                 own.or_else(|| whole.and_then(|posture| posture.branch.clone()))
             }),

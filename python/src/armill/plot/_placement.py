@@ -36,7 +36,7 @@ def placement(
     """`placement.json`, costs over free coordinates -> [front, one axes per coordinate]: cost of placements, µm.
 
     The front is the smallest deviation over the margin to joint limits and singularities. `costs` has the values and costs of
-    coordinates such as `x_mm`, with all others as found; NaN where the path is not reachable. `source` is the folder that
+    coordinates such as `x_mm`, with all others as recommended; NaN where the path is not reachable. `source` is the folder that
     `armill place` wrote, its `placement.json`, or the dict of it.
     """
     answer = Source(source, "placement", file="placement.json")
@@ -63,11 +63,11 @@ def _front(ax: Axes, answer: Json, by_margin: list[Json], tolerance_um: float | 
     known = [each for each in by_margin if each["cost_um"] is not None]
     margins = [each["margin_deg"] for each in known]
     ax.plot(margins, [each["cost_um"] for each in known], "o-", color=BLUE, markersize=5, label="smallest, by margin")
-    found: Json = answer["found"]
-    spread = 2 * found["cost_u_um"] if found["cost_u_um"] is not None else None
+    recommended: Json = answer["recommended"]
+    spread = 2 * recommended["cost_u_um"] if recommended["cost_u_um"] is not None else None
     ax.errorbar(
-        answer["margin_deg"], found["cost_um"], yerr=spread, fmt="D", color=INK, markerfacecolor=AMBER, markersize=7, capsize=4,
-        zorder=4, label="placement found, ± 2 u",
+        answer["margin_deg"], recommended["cost_um"], yerr=spread, fmt="D", color=INK, markerfacecolor=AMBER, markersize=7, capsize=4,
+        zorder=4, label="recommended placement, ± 2 u",
     )
     drawn: Json = answer["nominal"]
     if drawn["unreachable_points"] == 0:
@@ -79,7 +79,7 @@ def _front(ax: Axes, answer: Json, by_margin: list[Json], tolerance_um: float | 
     ax.set_ylabel(_what(answer))
     x, y, z = answer["place"]["centre_mm"]
     place = f"({x:.0f}, {y:.0f}, {z:.0f}) mm"
-    title(ax, f"{answer['analysis']}: cost of the margin", f"{number(found['cost_um'])} µm at {place}, {found['branch'] or 'best branch'}")
+    title(ax, f"{answer['analysis']}: cost of the margin", f"{number(recommended['cost_um'])} µm at {place}, {recommended['branch'] or 'best branch'}")
     legend_below(ax, columns=2, drop=-0.2)
 
 
@@ -88,14 +88,14 @@ def _degree(ax: Axes, answer: Json, degree: str, curve: tuple[Any, Any], toleran
     if values.shape != cost.shape or values.ndim != 1:
         raise Missing(f"placement: costs: {degree} has {values.shape} values and {cost.shape} costs: give the same number of both")
     free = {each["degree"]: each for each in answer["free"]}
-    ax.plot(values, cost, color=BLUE, label="others as found")
+    ax.plot(values, cost, color=BLUE, label="others as recommended")
     unreachable = values[~np.isfinite(cost)]
     if len(unreachable):
         ax.plot(unreachable, np.zeros(len(unreachable)), "x", color=INK, markersize=4, label="not reachable everywhere", clip_on=False)
     if degree in free:
-        range_found: Json = free[degree]
-        ax.axvline(range_found["found"], color=AMBER, linewidth=2.0, label=f"found {range_found['found']:.1f}")
-        for i, bound in enumerate((range_found["least"], range_found["greatest"])):
+        degree_of_freedom: Json = free[degree]
+        ax.axvline(degree_of_freedom["value"], color=AMBER, linewidth=2.0, label=f"recommended {degree_of_freedom['value']:.1f}")
+        for i, bound in enumerate((degree_of_freedom["least"], degree_of_freedom["greatest"])):
             if values.min() <= bound <= values.max():
                 ax.axvline(bound, color=GREY, linestyle=":", label="bound" if i == 0 else None)
     _tolerance(ax, tolerance_um)
@@ -103,7 +103,7 @@ def _degree(ax: Axes, answer: Json, degree: str, curve: tuple[Any, Any], toleran
     ax.grid(True, color=FAINT, linewidth=0.6)
     ax.set_xlabel(_NAMES[degree])
     ax.set_ylabel(_what(answer))
-    title(ax, f"Over {_NAMES[degree].split(' (')[0]}", "all other coordinates as found")
+    title(ax, f"Over {_NAMES[degree].split(' (')[0]}", "all other coordinates as recommended")
     legend_below(ax, columns=2, drop=-0.2)
 
 
