@@ -8,7 +8,7 @@
 //! - [`sources`]: where the numbers of these files come from.
 //! - [`table`]: columns of results as CSV, Parquet and VTK.
 //! - [`toolpath`]: tool path programs in.
-//! - [`robot_program`]: programs of robot controllers, in and out.
+//! - [`language`]: the languages of robot controllers, and how to recognise them.
 //! - [`measurement`]: records of forces, tables of load tests, points of round profiles and circular tests in.
 //! - [`file`](mod@file): files that are written: whole or not at all, never over what is not ours.
 //! - [`input`]: files that are read: which ones, how far.
@@ -23,10 +23,10 @@ pub mod convention;
 pub mod document;
 pub mod file;
 pub mod input;
+pub mod language;
 pub mod material;
 pub mod measurement;
 pub mod robot;
-pub mod robot_program;
 pub mod sources;
 pub mod table;
 pub mod toolpath;

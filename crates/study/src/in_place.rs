@@ -19,7 +19,7 @@ use armill_core::nalgebra::{Point3, Translation3, Vector3};
 use armill_core::optimize::{Shares, fitted, residual_of};
 use armill_core::path::{Move, Sampler, Sampling, Spin, Track};
 use armill_formats::file::ResultFolder;
-use armill_formats::robot_program::{Motion, Moved, ProgramText, RobotMove, Spelled, Target, follow};
+use armill_programs::{Motion, Moved, ProgramText, RobotMove, Spelled, Target, follow, read_as};
 use serde::Serialize;
 
 use crate::compensate::{ErrorAnswer, paths};
@@ -321,7 +321,7 @@ impl Writer<'_> {
     /// The path of these files, point for point; `None` if it is another path.
     fn track_of(&self, runner: &Runner<'_>, files: &Files) -> Option<Track> {
         let texts = files.iter().map(|(name, bytes)| ProgramText::new(name, bytes));
-        let again = self.robot.program.language.read(texts.collect()).ok()?;
+        let again = read_as(self.robot.program.language, texts.collect()).ok()?;
         let found = follow(&again, runner.robot, &self.robot.cell).ok()?;
         if found.moves.len() != self.robot.followed.moves.len() {
             return None;

@@ -18,7 +18,7 @@ use armill_core::kernel::Answers;
 use armill_core::nalgebra::Translation3;
 use armill_core::path::{Pace, Thinning, Track, thinned};
 use armill_core::robot::inverse::{ToolAt, postures};
-use armill_formats::robot_program::{Draft, DraftPoint, Language, Written, write};
+use armill_programs::{Draft, DraftPoint, Language, Written, write};
 
 use crate::error::StudyError;
 use crate::file::resolve::{Setting, Study};

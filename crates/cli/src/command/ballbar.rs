@@ -15,7 +15,7 @@
 use std::path::PathBuf;
 
 use armill_formats::measurement::ballbar::{BallbarReadOptions, direction_of};
-use armill_formats::robot_program::Written;
+use armill_programs::Written;
 use armill_study::StudyError;
 use armill_study::ballbar::answer::{LobeAnswer, PartAnswer, ShownAnswer};
 use armill_study::ballbar::results::FeatureAnswer;

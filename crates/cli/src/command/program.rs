@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use armill_formats::file::{Writer, create_folder};
-use armill_formats::robot_program::{Language, Written};
+use armill_programs::{Language, Written};
 use armill_study::StudyError;
 use armill_study::program_out::ProgramSettings;
 

@@ -484,7 +484,7 @@ circle = { radius_mm = 100 }
 
 #[test]
 fn the_corrected_circle_is_written_as_a_program_through_every_point() {
-    use armill_formats::robot_program::{Motion, ProgramText, Speed, Target, read};
+    use armill_programs::{Motion, ProgramText, Speed, Target, read};
     let folder = folder();
     let at = folder.path();
     std::fs::write(at.join("study.toml"), CIRCLE).unwrap();

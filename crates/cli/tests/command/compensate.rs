@@ -109,7 +109,7 @@ fn turns_that_are_searched_for_are_part_of_the_path() {
 
 #[test]
 fn a_robot_program_follows_the_commanded_path_and_retracts_between_cuts() {
-    use armill_formats::robot_program::{Frame, Motion, ProgramText, Speed, Target, read};
+    use armill_programs::{Frame, Motion, ProgramText, Speed, Target, read};
     let cell = cell("file = \"ring.ngc\", limits = false", "");
     // Two cuts with a rapid between them.
     cell.file(
@@ -194,7 +194,7 @@ const KRL: &str = "&ACCESS RVP\r\nDEF part ( ) ; \u{fc}ber\r\n$BASE={X 1000,Y 0,
 
 #[test]
 fn a_robot_program_is_rewritten_with_changed_targets_only() {
-    use armill_formats::robot_program::{ProgramText, read};
+    use armill_programs::{ProgramText, read};
     let cell = cell("file = \"part.src\", limits = false", "");
     cell.file("part.src", KRL);
     // A force that stays as it is: only what the posture changes is left between the targets.

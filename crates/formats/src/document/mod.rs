@@ -47,9 +47,8 @@ use serde::de::DeserializeOwned;
 use toml::de::DeTable;
 
 pub(crate) use self::path::joined;
-pub(crate) use self::problem::MOST_PROBLEMS;
 pub(crate) use self::problem::unreadable;
-pub use self::problem::{Problem, Problems};
+pub use self::problem::{MOST_PROBLEMS, Problem, Problems};
 pub use self::source::Source;
 
 /// More syntax problems than this are not listed: after the first few, one mistake begets the next.

@@ -23,7 +23,7 @@ use serde::Serialize;
 use crate::visible::visible;
 
 /// More problems of one file than this are not looked for, where a file of any length is read.
-pub(crate) const MOST_PROBLEMS: usize = 200;
+pub const MOST_PROBLEMS: usize = 200;
 
 /// More problems than this are counted, not shown; `--json` has them all.
 const MOST_SHOWN: usize = 100;

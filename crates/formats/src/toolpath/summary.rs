@@ -3,7 +3,6 @@
 use armill_core::path::{Course, Move, Step};
 
 use super::format::Format;
-use crate::robot_program::{Followed, RobotProgram};
 
 /// Content of a program.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -35,13 +34,17 @@ impl Summary {
         }
     }
 
-    /// Of a program of a robot, as it is followed.
-    pub fn of_robot(program: &RobotProgram, followed: &Followed) -> Summary {
-        let mut summary = Summary::new(Format::Robot(program.language));
-        for found in &followed.moves {
-            summary.count(&Step::Move(found.next));
+    /// Of moves of a program in this format.
+    pub fn of_moves<'a>(
+        format: Format,
+        moves: impl IntoIterator<Item = &'a Move>,
+        notes: Vec<String>,
+    ) -> Summary {
+        let mut summary = Summary::new(format);
+        for next in moves {
+            summary.count(&Step::Move(*next));
         }
-        summary.notes = [program.notes.as_slice(), &followed.notes].concat();
+        summary.notes = notes;
         summary
     }
 

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use armill_core::nalgebra::{Point3, Rotation3, Vector3};
 use armill_core::path::{Course, Move, Pace, Step};
-use armill_formats::robot_program::Language;
+use armill_formats::language::Language;
 use armill_formats::toolpath::Summary;
 use armill_formats::toolpath::apt::{self, AptReadOptions};
 use armill_formats::toolpath::format::Format;

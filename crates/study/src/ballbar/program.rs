@@ -21,7 +21,7 @@ use armill_core::nalgebra::Vector2;
 use armill_core::path::{Shape, Track};
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
-use armill_formats::robot_program::Written;
+use armill_programs::Written;
 
 use super::teach::TaughtCircle;
 use crate::compensate::paths;

@@ -3,7 +3,7 @@
 //! Lines come without blanks round them; capitals do not count. Many lines of a program are known by none of the tests;
 //! one line that is known decides.
 
-use crate::robot_program::Language;
+use crate::language::Language;
 use crate::table::sheet::{cells, separator_of};
 
 /// Line beginnings of robot languages that are not supported.

@@ -10,7 +10,7 @@
 //! | program of a robot | lines that only its language has | those of its [`Language`] |
 //!
 //! The path of a robot program depends on its robot: it is only recognised here, and read by
-//! [`robot_program`](crate::robot_program). `known_by`: what lines of a program show.
+//! the crate `armill-programs`. `known_by`: what lines of a program show.
 
 mod known_by;
 
@@ -23,7 +23,7 @@ use self::known_by::{Robots, is_apt, is_gcode, is_header, robot_language};
 use super::gcode::{self, Lookup, Rotaries, ToolTable};
 use super::{LengthUnit, Summary, apt, csv};
 use crate::document::{Problem, Problems};
-use crate::robot_program::Language;
+use crate::language::Language;
 use crate::table::sheet::is_remark;
 
 /// A kind of tool path file.
@@ -101,7 +101,7 @@ pub fn read(
         Format::Robot(language) => Err(Problem::of_file(
             path,
             format!("this is a robot program ({})", language.title()),
-            "a robot program gives a path only with its robot: use `robot_program::read`, then `follow`",
+            "a robot program gives a path only with its robot: use `armill_programs::read`, then `follow`",
         )
         .into()),
     }

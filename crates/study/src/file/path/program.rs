@@ -19,10 +19,10 @@ use armill_core::nalgebra::Vector3;
 use armill_core::path::{Placing, SampledPath, Sampling, Spin, TooManyPoints};
 use armill_core::robot::Robot;
 use armill_formats::input;
-use armill_formats::robot_program::Language;
 use armill_formats::toolpath::Summary;
 use armill_formats::toolpath::format::{Format, HEAD_BYTES};
 use armill_formats::toolpath::gcode::Rotaries;
+use armill_programs::Language;
 use schemars::JsonSchema;
 use serde::Deserialize;
 

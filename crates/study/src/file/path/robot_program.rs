@@ -16,10 +16,10 @@ use armill_core::kernel::BranchChoice;
 use armill_core::path::{Pace, PathBuilder, SampledPath, Sampling, Step, TooManyPoints};
 use armill_core::robot::{BranchPattern, Robot};
 use armill_formats::input;
-use armill_formats::robot_program::{
-    Cell, FollowError, Followed, FollowedMove, Language, ProgramText, RobotProgram, follow,
-};
 use armill_formats::toolpath::Summary;
+use armill_programs::{
+    Cell, FollowError, Followed, FollowedMove, Language, ProgramText, RobotProgram, follow, read_as,
+};
 
 use super::program::{FILE_HINT, MOST_POINTS, ProgramFile, ProgramTable, ReadProgram};
 use crate::StudyError;
@@ -81,7 +81,7 @@ pub(super) fn read(
     let Some(texts) = texts(log, &file.path, language) else {
         return Ok(None);
     };
-    let program = language.read(texts)?;
+    let program = read_as(language, texts)?;
     let clean = log.problems.is_empty();
     let Some((robot, setting)) = cell.filter(|_| clean) else {
         return Ok(None);
@@ -106,7 +106,7 @@ pub(super) fn read(
     };
     Ok(Some(ReadProgram {
         path,
-        summary: Summary::of_robot(&program, &followed),
+        summary: followed.summary(&program),
         robot: Some(Box::new(RobotPath {
             program,
             followed,

@@ -1,0 +1,194 @@
+//! Moves and their arguments.
+
+use armill_core::frame::Isometry;
+
+use super::frames::MoveFrames;
+use super::read::Reader;
+use super::statement::is_move;
+use super::value::{Argument, Node, Value};
+use crate::messages::shown;
+use crate::program::{Frame, Motion, RobotMove, Speed, Target};
+use crate::tokens::{Cursor, Token};
+
+/// Joint moves to a pose, straight moves, circular moves.
+const JOINT: [&str; 6] = ["MOVEJ", "MOVEJAO", "MOVEJDO", "MOVEJGO", "MOVEJSYNC", "TRIGGJ"];
+const LINEAR: [&str; 12] = [
+    "MOVEL",
+    "MOVELAO",
+    "MOVELDO",
+    "MOVELGO",
+    "MOVELSYNC",
+    "TRIGGL",
+    "ARCL",
+    "ARCLSTART",
+    "ARCLEND",
+    "DISPL",
+    "PAINTL",
+    "CAPL",
+];
+const CIRCULAR: [&str; 11] = [
+    "MOVEC",
+    "MOVECAO",
+    "MOVECDO",
+    "MOVECGO",
+    "MOVECSYNC",
+    "TRIGGC",
+    "ARCC",
+    "ARCCSTART",
+    "ARCCEND",
+    "DISPC",
+    "CAPC",
+];
+/// Moves that end at a signal, and unsupported moves.
+const SEARCHING: [&str; 4] = ["SEARCHL", "SEARCHC", "TRIGGLIOS", "STARTMOVETO"];
+
+impl<'a> Reader<'a> {
+    /// The move named by this word, with its arguments at the cursor. Returns whether it is a move.
+    pub fn motion(&mut self, (at, word): (Token, &str), mut cursor: Cursor<'a>) -> bool {
+        let name = &self.here().text()[at.span()];
+        let is_circular = CIRCULAR.contains(&word);
+        let is_known = is_circular || word == "MOVEABSJ" || JOINT.contains(&word) || LINEAR.contains(&word);
+        if word == "MOVEEXTJ" {
+            self.note(
+                at,
+                "`MoveExtJ` moves only external axes: it is left out".to_owned(),
+            );
+            return true;
+        }
+        if !is_known {
+            let moves = is_move(word) || SEARCHING.contains(&word);
+            if moves {
+                let message = format!("`{name}` is an unsupported move");
+                let hint =
+                    "supported: MoveAbsJ, MoveJ, MoveL, MoveC and their variants with signals, TriggL, ArcL";
+                self.messages.problem(self.here(), at.span(), message, hint);
+            }
+            return moves;
+        }
+        let before = self.messages.count();
+        let arguments = self.arguments(&mut cursor, 0);
+        if self.messages.count() > before {
+            return true;
+        }
+        if cursor.peek().is_some() {
+            let message = format!("one closing bracket too many in this {name}");
+            let hint = "close every bracket, in the order in which they were opened";
+            self.messages.problem(self.here(), cursor.place(), message, hint);
+            return true;
+        }
+        let plain: Vec<&Node> = arguments
+            .iter()
+            .filter(|argument| argument.name.is_none())
+            .filter_map(|argument| argument.value.as_ref())
+            .collect();
+        let (via, rest) = match (is_circular, plain.as_slice()) {
+            (true, [via, rest @ ..]) => (Some(*via), rest),
+            (_, rest) => (None, rest),
+        };
+        let [end, speed, .., last] = rest else {
+            return self.too_few((at, name), plain.len());
+        };
+        let tool = if is_move(word) { rest.get(3) } else { Some(last) };
+        let Some(tool) = tool.filter(|_| rest.len() >= 4) else {
+            return self.too_few((at, name), plain.len());
+        };
+        if let Some((motion, target)) = self.goal((at, word), via, end) {
+            let is_joint = motion == Motion::Joint;
+            let kept = self.kept((at, tool), named(&arguments, "wobj"));
+            let Some(MoveFrames { frame, tool }) = kept else {
+                return true;
+            };
+            let speed = match is_joint {
+                true => Speed::Joints,
+                false => self.speed((at, speed), &arguments),
+            };
+            self.moves.push(RobotMove {
+                motion,
+                target,
+                frame,
+                tool,
+                speed,
+                line: at.line,
+            });
+        }
+        true
+    }
+
+    fn too_few(&mut self, (at, name): (Token, &str), found: usize) -> bool {
+        let message = format!("{found} arguments of `{name}`");
+        let hint = "a move has target, speed, zone and tool: `MoveL p10,v100,z1,tool1\\WObj:=wobj1;`";
+        self.messages.problem(self.here(), at.span(), message, hint);
+        true
+    }
+
+    fn goal(
+        &mut self,
+        (at, word): (Token, &str),
+        via: Option<&Node>,
+        end: &Node,
+    ) -> Option<(Motion, Target)> {
+        if word == "MOVEABSJ" {
+            return Some((Motion::Joint, Target::Joints(self.joints(at, end)?)));
+        }
+        let via = via.map(|via| self.robtarget(at, via));
+        let end = self.robtarget(at, end)?;
+        let motion = match via {
+            Some(via) => Motion::Circular { via: via? },
+            None if JOINT.contains(&word) => Motion::Joint,
+            None => Motion::Linear,
+        };
+        Some((motion, end))
+    }
+
+    /// The tip speed: `\V`, or the first number of a speeddata, mm/s.
+    fn speed(&mut self, (at, node): (Token, &Node), arguments: &[Argument]) -> Speed {
+        if named(arguments, "t").is_some() {
+            return Speed::Joints;
+        }
+        let node = named(arguments, "v").unwrap_or(node);
+        let found = self.names.look(node, self.text);
+        let given = found.and_then(|found| match &found.node.value {
+            Value::Number(speed) => Some(*speed),
+            Value::List(all) => self.number(all.first()?, found.text),
+            _ => None,
+        });
+        let ready = || match &node.value {
+            Value::Name(reference) if reference.name == "vmax" => Some(Speed::Joints),
+            Value::Name(reference) => {
+                let digits = reference.name.strip_prefix('v')?;
+                let speed: u32 = digits.parse().ok()?;
+                Some(Speed::Tip(f64::from(speed) * 1e-3))
+            }
+            _ => None,
+        };
+        match given {
+            Some(speed) if speed > 0.0 => Speed::Tip(speed * 1e-3),
+            _ => ready().unwrap_or_else(|| {
+                let text = shown(&self.here().text()[node.bytes.clone()]);
+                self.note(
+                    at,
+                    format!("the speed `{text}` is not defined: the tip speed is not known"),
+                );
+                Speed::Unknown
+            }),
+        }
+    }
+
+    /// Work object and tool; `None` if one of them is not valid, which has been reported.
+    fn kept(&mut self, (at, tool): (Token, &Node), work: Option<&Node>) -> Option<MoveFrames> {
+        let tool = self.tool(at, tool)?;
+        let frame = match work {
+            Some(work) => self.work(at, work)?,
+            None => Frame::Given(Isometry::identity()),
+        };
+        Some(MoveFrames { frame, tool })
+    }
+}
+
+/// The value of the optional argument with this name.
+fn named<'n>(arguments: &'n [Argument], name: &str) -> Option<&'n Node> {
+    let found = arguments
+        .iter()
+        .find(|argument| argument.name.as_deref() == Some(name))?;
+    found.value.as_ref()
+}

@@ -1,0 +1,285 @@
+//! A draft as a listing: frame and tool are set through a register, the first position is given in joints; long
+//! programs are split.
+
+use armill_core::frame::Isometry;
+
+use crate::draft::{Bounds, Draft, DraftError, DraftPoint, Written};
+use crate::number::fixed;
+use crate::posture::Configuration;
+use crate::spelling::in_pieces;
+use armill_formats::convention::Convention;
+
+/// Maximum number of positions in one program. `[recalled]`
+const MOST_POSITIONS: usize = 5000;
+
+/// Maximum length of a remark, and of the comment in the header. `[recalled]`
+const LONGEST_REMARK: usize = 30;
+const LONGEST_COMMENT: usize = 16;
+
+/// Maximum length of a name: 8 on old controllers, 36 since R-30iA; three characters number the parts of a long
+/// program. `[recalled]`
+const LONGEST_NAME: [usize; 3] = [8, 36, 33];
+
+/// The register through which frame and tool are set.
+const REGISTER: u32 = 9;
+
+/// Joint speed in percent of the maximum: slow, for a first approach.
+const JOINT_SPEED: u32 = 10;
+
+/// Maximum tip speed, mm/s. Source: FANUC's manual of options.
+const FASTEST: f64 = 2000.0;
+
+const END: &str = "\r\n";
+
+/// Writes `draft` as one listing, or as several listings called by a main one.
+///
+/// # Errors
+/// Values outside the ranges of the language or its controllers.
+pub fn write(draft: &Draft) -> Result<Written, DraftError> {
+    let split = draft.points.len() > MOST_POSITIONS;
+    draft.check(&Bounds {
+        language: "FANUC TP",
+        longest_name: if split { LONGEST_NAME[2] } else { LONGEST_NAME[1] },
+        names: "a letter, then letters, digits and underscores, at most 36 characters; 33 if the program is split \
+            into several parts",
+        joints: 6..=6,
+        frames: 1..=9,
+        tools: 1..=10,
+    })?;
+    for (at, point) in draft.points.iter().enumerate().skip(1) {
+        if let Some(value) = point.speed.filter(|speed| feed(*speed).is_none()) {
+            return Err(DraftError::NotWritable {
+                index: at + 1,
+                what: "the speed",
+                value,
+            });
+        }
+    }
+    let mut files = Vec::new();
+    if split {
+        let parts: Vec<String> = (1..=draft.points.len().div_ceil(MOST_POSITIONS))
+            .map(|number| format!("{}{number:03}", draft.name))
+            .collect();
+        let calls = parts.iter().map(|part| format!("  CALL {part} ;"));
+        let lines: Vec<String> = head(draft).into_iter().chain(calls).collect();
+        files.push(listing(draft, &draft.name, (&lines, "")));
+        for (at, (name, points)) in parts.iter().zip(draft.points.chunks(MOST_POSITIONS)).enumerate() {
+            let mut lines = chosen(draft);
+            lines.extend(moves(draft, (at == 0, points)));
+            files.push(listing(
+                draft,
+                name,
+                (&lines, &positions(draft, (at == 0, points))),
+            ));
+        }
+    } else {
+        let mut lines = head(draft);
+        lines.extend(moves(draft, (true, &draft.points)));
+        let positions = positions(draft, (true, &draft.points));
+        files.push(listing(draft, &draft.name, (&lines, &positions)));
+    }
+    Ok(Written {
+        files,
+        notes: notes(draft, split),
+    })
+}
+
+fn notes(draft: &Draft, split: bool) -> Vec<String> {
+    let mut notes = vec![
+        format!(
+            "the program sets user frame {} and tool {} through PR[{REGISTER}] and overwrites it: make sure that it \
+             is not used elsewhere",
+            draft.frame_number, draft.tool_number
+        ),
+        "the first position is given in joints as this arm's controller reports them (FANUC measures axis 3 from the \
+         horizontal): test it \
+         at low speed"
+            .to_owned(),
+        "CONFIG has the turns of axes 1, 4 and 6; check that the controller uses the same axes".to_owned(),
+        "to load listings (.LS) the controller needs the ASCII upload option".to_owned(),
+    ];
+    if draft.points.iter().any(|point| point.blend > 0.0) {
+        notes.push(
+            "moves without exact stop have CNT100: the blend distance depends on their speed".to_owned(),
+        );
+    }
+    if draft.points.iter().any(|point| point.branch.is_none()) {
+        notes.push("where no posture is given, CONFIG says no flip, up, front".to_owned());
+    }
+    if draft
+        .points
+        .iter()
+        .any(|point| point.speed.is_some_and(|speed| speed * 1e3 > FASTEST))
+    {
+        notes.push(format!("speeds above {FASTEST} mm/s are refused by controllers"));
+    }
+    if draft.name.len() + if split { 3 } else { 0 } > LONGEST_NAME[0] {
+        notes.push("old controllers allow names of at most 8 characters".to_owned());
+    }
+    notes
+}
+
+/// Remarks, the values of frame and tool, and their selection.
+fn head(draft: &Draft) -> Vec<String> {
+    let mut lines = Vec::new();
+    for remark in &draft.remarks {
+        for piece in in_pieces(&remark.replace(';', ","), LONGEST_REMARK) {
+            lines.push(format!("  !{piece} ;"));
+        }
+    }
+    let mut set = |what: &str, number: u32, pose: &Isometry| {
+        for (element, value) in (1..).zip(Convention::Fanuc.numbers_of(pose)) {
+            let said = fixed(value, super::DECIMALS);
+            let said = if said.starts_with('-') {
+                format!("({said})")
+            } else {
+                said
+            };
+            lines.push(format!("  PR[{REGISTER},{element}]={said} ;"));
+        }
+        lines.push(format!("  {what}[{number}]=PR[{REGISTER}] ;"));
+    };
+    set("UFRAME", draft.frame_number, &draft.base_from_frame);
+    set("UTOOL", draft.tool_number, &draft.flange_from_tool);
+    lines.extend(chosen(draft));
+    lines
+}
+
+fn chosen(draft: &Draft) -> Vec<String> {
+    vec![
+        format!("  UFRAME_NUM={} ;", draft.frame_number),
+        format!("  UTOOL_NUM={} ;", draft.tool_number),
+    ]
+}
+
+fn moves(draft: &Draft, (begins, points): (bool, &[DraftPoint])) -> Vec<String> {
+    let one = |(at, point): (usize, &DraftPoint)| {
+        let end = if draft.blend(point) > 0.0 {
+            "CNT100"
+        } else {
+            "FINE"
+        };
+        let speed = point.speed.filter(|_| !(begins && at == 0)).and_then(feed);
+        match speed {
+            Some(speed) => format!("L P[{}] {speed} {end} ;", at + 1),
+            None => format!("J P[{}] {JOINT_SPEED}% {end} ;", at + 1),
+        }
+    };
+    points.iter().enumerate().map(one).collect()
+}
+
+/// A speed in m/s as controllers write it: a whole number in the coarser unit that fits; `None` if it is too slow.
+fn feed(speed: f64) -> Option<String> {
+    let mm_per_second = speed * 1e3;
+    let cm_per_minute = (mm_per_second * 6.0).round();
+    if (mm_per_second - mm_per_second.round()).abs() < 1e-6 && mm_per_second >= 0.5 {
+        return Some(format!("{}mm/sec", fixed(mm_per_second, 0)));
+    }
+    (cm_per_minute >= 1.0).then(|| format!("{}cm/min", fixed(cm_per_minute, 0)))
+}
+
+fn positions(draft: &Draft, (begins, points): (bool, &[DraftPoint])) -> String {
+    let mut out = String::new();
+    for (at, point) in points.iter().enumerate() {
+        out.push_str(&format!("P[{}]{{{END}   GP1:{END}", at + 1));
+        let numbers = format!("\tUF : {}, UT : {},", draft.frame_number, draft.tool_number);
+        if begins && at == 0 {
+            let joints: Vec<String> = (1..)
+                .zip(&point.joints)
+                .map(|(axis, value)| {
+                    format!("J{axis}= {:>9} deg", fixed(value.to_degrees(), super::DECIMALS))
+                })
+                .collect();
+            let rows: Vec<String> = joints
+                .chunks(3)
+                .map(|row| format!("\t{}", row.join(",\t")))
+                .collect();
+            out.push_str(&format!(
+                "{numbers}\t{END}{}{END}}};{END}",
+                rows.join(&format!(",{END}"))
+            ));
+            continue;
+        }
+        let fields: Vec<String> = super::KEYS
+            .iter()
+            .zip(Convention::Fanuc.numbers_of(&point.frame_from_tool))
+            .enumerate()
+            .map(|(index, (key, value))| {
+                let unit = if index < 3 { " mm" } else { "deg" };
+                format!("{key} = {:>9} {unit}", fixed(value, super::DECIMALS))
+            })
+            .collect();
+        let rows: Vec<String> = fields
+            .chunks(3)
+            .map(|row| format!("\t{}", row.join(",\t")))
+            .collect();
+        out.push_str(&format!(
+            "{numbers}\t\tCONFIG : '{}',{END}{}{END}}};{END}",
+            configuration(point),
+            rows.join(&format!(",{END}"))
+        ));
+    }
+    out
+}
+
+/// Configuration: flip, elbow, shoulder, then the turns of axes 1, 4, 6.
+fn configuration(point: &DraftPoint) -> String {
+    let said = point.branch.map(Configuration::of).unwrap_or_default();
+    let letter = |set: Option<bool>, [not, yes]: [char; 2]| if set == Some(true) { yes } else { not };
+    let turn = |joint: usize| {
+        let deg = point.joints.get(joint).copied().unwrap_or(0.0).to_degrees();
+        let turns = ((deg.abs() + 180.0) / 360.0).floor();
+        fixed(turns.copysign(deg), 0)
+    };
+    format!(
+        "{} {} {}, {}, {}, {}",
+        letter(said.flip, ['N', 'F']),
+        letter(said.lower, ['U', 'D']),
+        letter(said.rear, ['T', 'B']),
+        turn(0),
+        turn(3),
+        turn(5)
+    )
+}
+
+/// A listing with these lines and positions.
+fn listing(draft: &Draft, name: &str, (lines, positions): (&[String], &str)) -> (String, Vec<u8>) {
+    let comment = in_pieces(draft.remarks.first().map_or("", String::as_str), LONGEST_COMMENT);
+    let comment = comment.first().map_or("", String::as_str).replace('"', "'");
+    // No time stamp: the same draft gives the same bytes.
+    let date = "DATE 00-01-01  TIME 00:00:00";
+    let count = lines.len();
+    let head = [
+        format!("/PROG  {name}"),
+        "/ATTR".to_owned(),
+        "OWNER\t\t= MNEDITOR;".to_owned(),
+        format!("COMMENT\t\t= \"{comment}\";"),
+        "PROG_SIZE\t= 0;".to_owned(),
+        format!("CREATE\t\t= {date};"),
+        format!("MODIFIED\t= {date};"),
+        "FILE_NAME\t= ;".to_owned(),
+        "VERSION\t\t= 0;".to_owned(),
+        format!("LINE_COUNT\t= {count};"),
+        "MEMORY_SIZE\t= 0;".to_owned(),
+        "PROTECT\t\t= READ_WRITE;".to_owned(),
+        "TCD:  STACK_SIZE\t= 0,".to_owned(),
+        "      TASK_PRIORITY\t= 50,".to_owned(),
+        "      TIME_SLICE\t= 0,".to_owned(),
+        "      BUSY_LAMP_OFF\t= 0,".to_owned(),
+        "      ABORT_REQUEST\t= 0,".to_owned(),
+        "      PAUSE_REQUEST\t= 0;".to_owned(),
+        "DEFAULT_GROUP\t= 1,*,*,*,*;".to_owned(),
+        "CONTROL_CODE\t= 00000000 00000000;".to_owned(),
+        "/MN".to_owned(),
+    ];
+    let mut out = String::new();
+    let numbered = (1..)
+        .zip(lines)
+        .map(|(number, line)| format!("{number:>4}:{line}"));
+    for line in head.into_iter().chain(numbered) {
+        out.push_str(&line);
+        out.push_str(END);
+    }
+    out.push_str(&format!("/POS{END}{positions}/END{END}"));
+    (format!("{name}.LS"), out.into_bytes())
+}

@@ -1,0 +1,62 @@
+//! A pose as `p[x, y, z, rx, ry, rz]`.
+
+use armill_core::frame::Isometry;
+
+use super::SYNTAX;
+use crate::number::{fixed, write_fixed};
+use crate::spelling::Respelling;
+use crate::tokens::{Cursor, decimals, tokens};
+use armill_formats::convention::Convention;
+
+/// Minimum number of decimals, of m and rad: a micrometre, and as in the posts.
+pub(super) const DECIMALS: usize = 6;
+const MOST_DECIMALS: usize = 12;
+
+/// The numbers of a pose, m and rad.
+pub(super) fn numbers(pose: &Isometry) -> [f64; 6] {
+    let of = Convention::Ur.numbers_of(pose);
+    std::array::from_fn(|index| if index < 3 { of[index] * 1e-3 } else { of[index] })
+}
+
+/// A complete pose.
+pub(super) fn whole(pose: &Isometry, out: &mut String) {
+    let numbers = numbers(pose).map(|number| fixed(number, DECIMALS));
+    out.push_str(&format!("p[{}]", numbers.join(", ")));
+}
+
+/// Writes a pose in place of `before`: number for number if it has six numbers, otherwise as a new pose.
+pub(crate) fn spell((pose, respelling): (&Isometry, Respelling), before: &str, out: &mut String) {
+    match places(before) {
+        Some(places) => {
+            let mut done = 0;
+            let all = places.into_iter().zip(numbers(pose)).enumerate();
+            for (_, (place, number)) in all.filter(|(index, _)| respelling.includes(*index)) {
+                out.push_str(&before[done..place.start]);
+                write_fixed(
+                    out,
+                    number,
+                    decimals(&before[place.clone()], DECIMALS, MOST_DECIMALS),
+                );
+                done = place.end;
+            }
+            out.push_str(&before[done..]);
+        }
+        None => whole(pose, out),
+    }
+}
+
+/// Byte ranges of the six numbers of `p[...]`, if it has this form.
+fn places(before: &str) -> Option<Vec<std::ops::Range<usize>>> {
+    let found = tokens(before, &SYNTAX);
+    let mut cursor = Cursor::new(before, &found);
+    cursor.word().filter(|word| word == "P")?;
+    cursor.pass('[').then_some(())?;
+    let mut places = Vec::new();
+    for index in 0..6 {
+        let start = cursor.place().start;
+        cursor.number()?;
+        places.push(start..cursor.before());
+        cursor.pass(if index < 5 { ',' } else { ']' }).then_some(())?;
+    }
+    cursor.peek().is_none().then_some(places)
+}
