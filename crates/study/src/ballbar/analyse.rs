@@ -170,7 +170,7 @@ fn period_of(test: &CircularTest, period: f64) -> Result<f64, StudyError> {
         decimals(least * 1e3, 3),
         decimals(most * 1e3, 3)
     );
-    Err(StudyError::value(message, "give the period in mm, or `found`"))
+    Err(StudyError::value(message, "give the period in mm, or `search`"))
 }
 
 /// The runs without the outliers that belong to no reversal.

@@ -16,7 +16,6 @@ use armill_core::kernel::BranchChoice;
 use armill_core::path::{Pace, PathBuilder, SampledPath, Sampling, Step, TooManyPoints};
 use armill_core::robot::{BranchPattern, Robot};
 use armill_formats::input;
-use armill_formats::toolpath::Summary;
 use armill_programs::{
     Cell, FollowError, Followed, FollowedMove, Language, ProgramText, RobotProgram, follow, read_as,
 };
