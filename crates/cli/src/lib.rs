@@ -25,10 +25,10 @@ use std::path::Path;
 
 use armill_formats::input::Inputs;
 use armill_formats::visible::visible;
-use armill_study::{ErrorKind, StudyError};
 use clap::Parser;
 
 use arguments::{Arguments, Command};
+use armill_study::{ErrorKind, StudyError};
 
 pub use call::{Answer, Call, OptionOf, OptionValue, Refused, call, options_of};
 pub use listener::Listener;

@@ -3,8 +3,9 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use super::text::ProgramText;
 use armill_formats::document::{MOST_PROBLEMS, Problem, Problems};
+
+use super::text::ProgramText;
 
 /// Maximum number of different notes.
 const MOST_NOTES: usize = 200;

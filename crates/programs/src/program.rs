@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use armill_core::frame::Isometry;
 use armill_core::robot::BranchPattern;
+use armill_formats::language::Language;
 
 use super::text::ProgramText;
-use armill_formats::language::Language;
 
 /// A program of a robot. Lengths m, angles rad, speeds m/s.
 #[derive(Clone, Debug)]

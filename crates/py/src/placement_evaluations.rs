@@ -1,9 +1,9 @@
 //! The class `PlacementEvaluations`: the cost of a path for each of many placements of its part.
 
 use armill_core::optimize::Score;
+use armill_plan::place::{PlacementParameters, PlacementScores, PlacementSearch};
 use armill_study::Study;
 use armill_study::file::placement::PlaceTable;
-use armill_study::place::{PlacementParameters, PlacementScores, PlacementSearch};
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 

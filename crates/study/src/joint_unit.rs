@@ -1,6 +1,9 @@
 //! The units of a joint: degrees and rad/(N m) if it is revolute, millimetres and µm/N if it is prismatic.
 
 use armill_core::robot::Robot;
+use armill_formats::robot::RobotDescription;
+
+use crate::error::StudyError;
 
 /// The units of one joint at the boundary.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,6 +43,35 @@ impl JointUnit {
             JointUnit::TURNING
         }
     }
+}
+
+/// Joint positions in rad (m) from those given in deg (mm).
+///
+/// # Errors
+/// Not one a joint.
+pub fn joint_positions(described: &RobotDescription, given: &[f64]) -> Result<Vec<f64>, StudyError> {
+    let robot = &described.robot;
+    let names: Vec<&str> = robot.joints().iter().map(|joint| joint.name.as_str()).collect();
+    if given.len() != names.len() {
+        let message = format!(
+            "{} joint positions for the {} joints of `{}`",
+            given.len(),
+            names.len(),
+            robot.name()
+        );
+        return Err(StudyError::value(
+            message,
+            format!("one each for {}", names.join(", ")),
+        ));
+    }
+    let to_si = |(i, value): (usize, &f64)| {
+        if robot.slides(i) {
+            value * 1e-3
+        } else {
+            value.to_radians()
+        }
+    };
+    Ok(given.iter().enumerate().map(to_si).collect())
 }
 
 #[cfg(test)]

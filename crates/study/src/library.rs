@@ -182,7 +182,7 @@ pub fn find_material(name: &str) -> Result<Material, StudyError> {
 }
 
 /// Suggestion if no material is called `name`.
-pub(crate) fn hint_of_material(name: &str) -> String {
+pub fn hint_of_material(name: &str) -> String {
     spelt_like(MATERIALS, &name.to_lowercase()).map_or_else(
         || "`armill materials` lists all".to_owned(),
         |like| format!("did you mean `{like}`? `armill materials` lists all"),

@@ -26,7 +26,7 @@ pub fn base_from_reference(robot: &Robot, name: &str) -> Result<Isometry, String
 const CONTROLLER: &str = "controller";
 
 /// Reference frame of the controller of this robot, in base.
-pub(crate) fn base_from_controller(robot: &Robot) -> Isometry {
+pub fn base_from_controller(robot: &Robot) -> Isometry {
     base_from_reference(robot, CONTROLLER).unwrap_or_else(|_| Isometry::identity())
 }
 
@@ -34,7 +34,7 @@ pub(crate) fn base_from_controller(robot: &Robot) -> Isometry {
 ///
 /// # Errors
 /// The word that names no branch.
-pub(crate) fn branch_choice(words: &str, nominal: BranchPattern) -> Result<BranchChoice, String> {
+pub fn branch_choice(words: &str, nominal: BranchPattern) -> Result<BranchChoice, String> {
     match words.trim() {
         "best" => Ok(BranchChoice::Best),
         "nominal" => Ok(BranchChoice::Of(nominal)),

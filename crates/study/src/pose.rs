@@ -27,7 +27,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::StudyError;
-use crate::joint_unit::JointUnit;
+use crate::joint_unit::{JointUnit, joint_positions};
 use crate::model_words::{left_out, parts};
 
 /// A query for one pose.
@@ -345,35 +345,6 @@ fn posture_deflection(
         Err(unstable) => found.unstable = Some(unstable),
     }
     found
-}
-
-/// Joint positions in rad (m) from those given in deg (mm).
-///
-/// # Errors
-/// Not one a joint.
-pub(crate) fn joint_positions(described: &RobotDescription, given: &[f64]) -> Result<Vec<f64>, StudyError> {
-    let robot = &described.robot;
-    let names: Vec<&str> = robot.joints().iter().map(|joint| joint.name.as_str()).collect();
-    if given.len() != names.len() {
-        let message = format!(
-            "{} joint positions for the {} joints of `{}`",
-            given.len(),
-            names.len(),
-            robot.name()
-        );
-        return Err(StudyError::value(
-            message,
-            format!("one each for {}", names.join(", ")),
-        ));
-    }
-    let to_si = |(i, value): (usize, &f64)| {
-        if robot.slides(i) {
-            value * 1e-3
-        } else {
-            value.to_radians()
-        }
-    };
-    Ok(given.iter().enumerate().map(to_si).collect())
 }
 
 /// One posture in the units of the answer; without `deflection` no joint compliance is known.

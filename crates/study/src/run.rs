@@ -110,7 +110,7 @@ pub struct PointDetail {
 /// Number of worst points that are reported.
 const WORST: usize = 5;
 /// Number of jumps that are reported.
-pub(crate) const MOST_JUMPS: usize = 10;
+pub const MOST_JUMPS: usize = 10;
 
 /// The number of points of the study.
 ///
@@ -130,7 +130,7 @@ pub fn point_count(study: &Study) -> usize {
 /// The number of passes over a path: a stock is cut in a separate pass. A search also evaluates the
 /// path without it and passes over the lattice once or twice; if reversals have a penalty, once more, and evaluates
 /// two chains.
-pub(crate) fn passes(path: &PathAnalysis) -> usize {
+pub fn passes(path: &PathAnalysis) -> usize {
     let searched = path.setting.search.map_or(0, |search| {
         let worst = usize::from(search.objective == Objective::Worst);
         2 + worst + if search.back_price > 0.0 { 3 } else { 0 }
@@ -160,7 +160,7 @@ pub fn run<'a>(study: &'a Study, watch: Watch<'_>) -> Result<Vec<AnalysisResult<
 ///
 /// # Errors
 /// A robot without compliance.
-pub(crate) fn runner<'a>(study: &'a Study, watch: Watch<'a>) -> Result<Runner<'a>, StudyError> {
+pub fn runner<'a>(study: &'a Study, watch: Watch<'a>) -> Result<Runner<'a>, StudyError> {
     let robot = &study.robot.robot;
     let compliance = robot.compliance().ok_or_else(|| {
         let message = format!("robot `{}` has no joint compliance", robot.name());
@@ -193,7 +193,7 @@ fn nothing_cut(analysis: &PathAnalysis, stock: &Stock) -> StudyError {
 }
 
 /// The robot of the study, and the watch.
-pub(crate) struct Runner<'a> {
+pub struct Runner<'a> {
     /// The arm.
     pub robot: &'a Robot,
     compliance: &'a [JointCompliance],
@@ -202,7 +202,7 @@ pub(crate) struct Runner<'a> {
 }
 
 /// A path as it is followed.
-pub(crate) struct Followed {
+pub struct Followed {
     /// The path with the spins that a search found; `None` without a search.
     pub turned: Option<Track>,
     /// The answers along it.
@@ -244,7 +244,7 @@ impl Runner<'_> {
     }
 
     /// The answers along a path, and all that follows from them in the branch that was followed.
-    pub(crate) fn path(&self, analysis: &PathAnalysis) -> Result<PathResult, StudyError> {
+    pub fn path(&self, analysis: &PathAnalysis) -> Result<PathResult, StudyError> {
         let (load, forces) = self.pushed(analysis)?;
         let question = self.question(&analysis.setting);
         let Followed {
@@ -286,7 +286,7 @@ impl Runner<'_> {
     }
 
     /// The path under this load, with the spins of the search if one is requested.
-    pub(crate) fn follow(&self, analysis: &PathAnalysis, load: PathLoad) -> Result<Followed, StudyError> {
+    pub fn follow(&self, analysis: &PathAnalysis, load: PathLoad) -> Result<Followed, StudyError> {
         let question = self.question(&analysis.setting);
         let Some(search) = &analysis.setting.search else {
             let along = along_path(&question, &analysis.track, load, self.watch)?;
@@ -322,10 +322,7 @@ impl Runner<'_> {
     }
 
     /// The load along a path: of a cut in a stock from the engagement of the tool there.
-    pub(crate) fn pushed(
-        &self,
-        analysis: &PathAnalysis,
-    ) -> Result<(PathLoad, Option<ForceSummary>), StudyError> {
+    pub fn pushed(&self, analysis: &PathAnalysis) -> Result<(PathLoad, Option<ForceSummary>), StudyError> {
         let in_stock = analysis
             .cut
             .as_ref()
@@ -387,7 +384,7 @@ impl Runner<'_> {
     }
 
     /// The question for the core under this setting.
-    pub(crate) fn question<'q>(&'q self, setting: &'q Setting) -> Question<'q> {
+    pub fn question<'q>(&'q self, setting: &'q Setting) -> Question<'q> {
         Question {
             arm: Arm {
                 robot: self.robot,

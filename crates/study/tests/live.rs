@@ -8,6 +8,7 @@ use std::path::Path;
 use armill_core::watch::Watch;
 use armill_formats::file::Writer;
 use armill_study::answer::answer;
+use armill_study::file_names;
 use armill_study::live::{
     ChangedValue, Follow, PoseRequest, PoseTarget, PostureQuestion, StudyText, answer_json, changed, outline,
     pictures, postures, scene, table_csv, values, view,
@@ -51,14 +52,14 @@ fn answer_table_and_pictures_are_the_files_of_a_run() {
     let map = study.analyses.iter().find(|analysis| {
         folder
             .path()
-            .join(format!("{}.csv", output::slug(&analysis.name)))
+            .join(format!("{}.csv", file_names::slug(&analysis.name)))
             .is_file()
     });
     let name = &map.unwrap().name;
     let csv = table_csv(text(&found), Some(name), Watch::NONE).unwrap();
     assert_eq!(
         String::from_utf8(csv).unwrap(),
-        file(&format!("{}.csv", output::slug(name)))
+        file(&format!("{}.csv", file_names::slug(name)))
     );
 }
 

@@ -1,7 +1,8 @@
-//! Which crate may depend on which: core <- formats <- study <- web <- cli <- py, report <- study; programs separately.
+//! Which crate may depend on which; the programs of the repository separately.
 //!
 //! ```text
-//! core <- formats <- study <- web <- cli <- py  report <- study        validation, bench, fuzz, xtask: no crate uses them
+//! core <- formats <- programs <- study <- {measure, plan} <- web <- cli <- py        report <- study
+//! validation, bench, fuzz, xtask: no crate uses them
 //! ```
 //!
 //! Direct dependencies alone are read, in any table of a `Cargo.toml`, tests included: a test may not turn the
@@ -23,10 +24,18 @@ const USES: &[(&str, &[&str])] = &[
     ("core", &[]),
     ("formats", &["core"]),
     ("report", &[]),
-    ("study", &["core", "formats", "report"]),
-    ("web", &["core", "formats", "study"]),
-    ("cli", &["core", "formats", "report", "study", "web"]),
-    ("py", &["cli", "core", "formats", "study"]),
+    ("programs", &["core", "formats"]),
+    ("study", &["core", "formats", "programs", "report"]),
+    ("measure", &["core", "formats", "programs", "report", "study"]),
+    ("plan", &["core", "formats", "programs", "report", "study"]),
+    ("web", &["core", "formats", "measure", "plan", "study"]),
+    (
+        "cli",
+        &[
+            "core", "formats", "measure", "plan", "programs", "report", "study", "web",
+        ],
+    ),
+    ("py", &["cli", "core", "formats", "plan", "study"]),
 ];
 
 /// Programs of the repository, on which nothing depends.

@@ -4,9 +4,9 @@
 //! `armill run`, and before them `advice.json`. Like `armill place` it continues an interrupted search. Stdout has the
 //! advice as text.
 
-use armill_study::advise::advise;
+use armill_plan::advise::advise;
+use armill_plan::place::{Journal, PlacementSearch};
 use armill_study::output::Opening;
-use armill_study::place::{Journal, PlacementSearch};
 use armill_study::{StudyError, output, studies};
 
 use super::place::requested;

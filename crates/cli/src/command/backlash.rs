@@ -8,13 +8,15 @@
 //! joint   backlash   +-   inflation   robot file                        from all circles together
 //! ```
 
-use armill_study::StudyError;
-use armill_study::backlash::answer::{CircleAnswer, JointAnswer, ReversalAnswer};
-use armill_study::backlash::plan::{ExpectedAnswer, IdentifiabilityAnswer, ProposedAnswer, candidate_count};
-use armill_study::backlash::{
+use armill_measure::backlash::answer::{CircleAnswer, JointAnswer, ReversalAnswer};
+use armill_measure::backlash::plan::{
+    ExpectedAnswer, IdentifiabilityAnswer, ProposedAnswer, candidate_count,
+};
+use armill_measure::backlash::{
     BacklashAnswer, EstimateOptions, PlanAnswer, PlanOptions, SimulatedFile, SimulationOptions, estimate,
     output, plan, simulate,
 };
+use armill_study::StudyError;
 use armill_study::{Study, studies};
 
 use super::numbers::{above_zero, finite};

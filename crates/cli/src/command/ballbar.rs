@@ -15,16 +15,16 @@
 use std::path::PathBuf;
 
 use armill_formats::measurement::ballbar::{BallbarReadOptions, direction_of};
+use armill_measure::ballbar::answer::{LobeAnswer, PartAnswer, ShownAnswer};
+use armill_measure::ballbar::results::FeatureAnswer;
+use armill_measure::ballbar::teach::ComparedQuantity;
+use armill_measure::ballbar::{
+    BallbarAnalysis, BallbarAnswer, Centring, CirclePlacement, Cyclic, Question, TaughtAnswer, TaughtCircle,
+    analyse, answer, before, output, points_within, sagitta, taught_program, teach,
+};
 use armill_programs::Written;
 use armill_study::StudyError;
-use armill_study::ballbar::answer::{LobeAnswer, PartAnswer, ShownAnswer};
-use armill_study::ballbar::results::FeatureAnswer;
-use armill_study::ballbar::teach::ComparedQuantity;
-use armill_study::ballbar::{
-    BallbarAnalysis, BallbarAnswer, Centring, CirclePlacement, Cyclic, FileOptions, Measured, Question,
-    TaughtAnswer, TaughtCircle, analyse, answer, before, output, points_within, read, sagitta,
-    taught_program, teach,
-};
+use armill_study::measured::circular_test::{FileOptions, MeasuredTest, read};
 use armill_study::number::decimals;
 use armill_study::studies;
 
@@ -99,7 +99,7 @@ type Program = (PathBuf, Written);
 /// The corrected circle, if requested, and its program.
 fn taught(
     arguments: &BallbarArguments,
-    (measured, found): (&Measured, &BallbarAnalysis),
+    (measured, found): (&MeasuredTest, &BallbarAnalysis),
 ) -> Result<Option<(TaughtAnswer, TaughtCircle, Option<Program>)>, StudyError> {
     let file_feed = measured.feed.map(|feed| feed * 60e3);
     let program = program::requested(&arguments.program, arguments.feed_mm_per_min.or(file_feed))?;

@@ -13,7 +13,8 @@
 
 use armill_study::StudyError;
 use armill_study::budget::answer::PartAnswer;
-use armill_study::budget::{BudgetAnswer, budget, output, point_count};
+use armill_study::budget::{BudgetAnswer, budget, point_count};
+use armill_study::output;
 use armill_study::studies;
 
 use crate::Outcome;
@@ -30,7 +31,7 @@ pub(crate) fn run(arguments: &BudgetArguments) -> Result<Outcome, StudyError> {
     let progress = Progress::new(point_count(&study)?);
     let (combined, given) = progress.watch(|watch| budget(&study, watch))?;
     if let Some(out) = &arguments.out {
-        output::write(
+        output::budget::write(
             &given,
             &combined,
             &arguments.writing.writer("budget").folder(out)?,

@@ -12,8 +12,8 @@
 //! ```
 
 use armill_core::calibrate::{ParameterSet, Prior};
-use armill_study::calibrate::answer::ParameterAnswer;
-use armill_study::calibrate::{
+use armill_measure::calibrate::answer::ParameterAnswer;
+use armill_measure::calibrate::{
     CalibrateAnswer, SetAnswer, ValidationPoses, answer, calibrate, drawing, read, residuals, robot_file,
 };
 use armill_study::{StudyError, robots};

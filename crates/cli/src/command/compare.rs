@@ -3,10 +3,10 @@
 //! Files go into `--out` (`compare` next to the first study). Stdout has one table per analysis, paths first, each with
 //! its ranking as text, the differences, and what limits the comparison; or with `--json` all of `result.json`.
 
-use armill_study::StudyError;
-use armill_study::compare::{
+use armill_plan::compare::{
     CellNumbers, ComparedAnswer, ComparisonAnswer, cells, comparable, compare, write,
 };
+use armill_study::StudyError;
 use armill_study::output::Pictures;
 use armill_study::studies;
 

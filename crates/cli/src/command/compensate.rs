@@ -7,8 +7,8 @@ use std::fmt::Write as _;
 
 use armill_core::optimize::Compensation;
 use armill_core::source::StiffnessModel;
-use armill_study::compensate::{CompensatedPath, CompensationAnswer, compensate};
-use armill_study::in_place::allow_programs;
+use armill_plan::compensate::in_place::allow_programs;
+use armill_plan::compensate::{CompensatedPath, CompensationAnswer, compensate};
 use armill_study::program_out::program;
 use armill_study::{StudyError, studies};
 
@@ -33,7 +33,7 @@ pub(crate) fn run(arguments: &CompensateArguments) -> Result<Outcome, StudyError
     };
     let out = folder.path().to_owned();
     allow_programs(&study, arguments.analysis.as_deref(), &folder)?;
-    let progress = Progress::new(armill_study::compensate::point_count(
+    let progress = Progress::new(armill_plan::compensate::point_count(
         &study,
         arguments.analysis.as_deref(),
     ));

@@ -16,11 +16,11 @@
 
 use armill_core::load::ActsOn;
 use armill_formats::measurement::format::ForceReadOptions;
+use armill_measure::forces::{ForcesAnswer, RangeAnswer, SummaryAnswer, answer, output};
 use armill_study::StudyError;
-use armill_study::forces::{
-    Air, DriftAnswer, ForcesAnswer, RangeAnswer, Refusal, SummaryAnswer, Treatment, Unread, answer, output,
-    read, treat,
-};
+use armill_study::answer::path::measured::DriftAnswer;
+use armill_study::measured::force_record::{Unread, read};
+use armill_study::measured::treatment::{Air, Refusal, Treatment, treat};
 use armill_study::number::decimals;
 
 use crate::Outcome;

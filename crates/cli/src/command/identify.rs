@@ -19,9 +19,9 @@ use armill_core::nalgebra::Vector3;
 use armill_formats::input;
 use armill_formats::measurement::load_tests;
 use armill_formats::robot::RobotDescription;
-use armill_study::identify::answer::{ErrorsAnswer, PointAnswer};
-use armill_study::identify::robot_file::robot_file;
-use armill_study::identify::{
+use armill_measure::identify::answer::{ErrorsAnswer, PointAnswer};
+use armill_measure::identify::robot_file::robot_file;
+use armill_measure::identify::{
     Answer, PlanAnswer, PointsModel, PriorModel, Question, SpringAnswer, Units, answer, plan,
 };
 use armill_study::{StudyError, robots};

@@ -6,8 +6,8 @@
 //! RT     largest, where
 //! ```
 
+use armill_measure::path_accuracy::{PathAccuracyAnswer, PlaceAnswer, answer, drawing, points, read};
 use armill_study::StudyError;
-use armill_study::path_accuracy::{PathAccuracyAnswer, PlaceAnswer, answer, drawing, points, read};
 
 use crate::Outcome;
 use crate::arguments::PathAccuracyArguments;

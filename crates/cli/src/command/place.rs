@@ -4,8 +4,8 @@
 //! and before them `placement.json` with the pictures of the search. During the search `place.rounds` there stores its
 //! state: an interrupted search continues from it. Stdout has the placement as text, and the lines of a study for it.
 
+use armill_plan::place::{Journal, PlacementSearch};
 use armill_study::file::placement::PlaceTable;
-use armill_study::place::{Journal, PlacementSearch};
 use armill_study::{StudyError, output, studies};
 
 use super::run::{folder, in_pool, results};

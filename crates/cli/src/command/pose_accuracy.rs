@@ -9,8 +9,8 @@
 //! ```
 
 use armill_core::calibrate::ParameterSet;
-use armill_study::calibrate::read;
-use armill_study::pose_accuracy::{PoseAccuracyAnswer, answer};
+use armill_measure::calibrate::read;
+use armill_measure::pose_accuracy::{PoseAccuracyAnswer, answer};
 use armill_study::{StudyError, robots};
 
 use super::poses::{errors_head, errors_text, frames_text, question};

@@ -3,9 +3,9 @@
 use armill_core::calibrate::ParameterSet;
 use armill_core::nalgebra::Vector3;
 use armill_formats::measurement::poses::{PoseReadOptions, TurnOrder};
+use armill_measure::calibrate::answer::FrameAnswer;
+use armill_measure::calibrate::{ErrorsAnswer, Question};
 use armill_study::StudyError;
-use armill_study::calibrate::answer::FrameAnswer;
-use armill_study::calibrate::{ErrorsAnswer, Question};
 
 use super::numbers::{above_zero, three};
 use crate::arguments::{PosesOptions, TurnArgument};

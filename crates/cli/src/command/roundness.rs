@@ -17,9 +17,10 @@
 use std::path::Path;
 
 use armill_formats::measurement::profile::ProfileReadOptions;
+use armill_measure::roundness::{Question, RoundnessAnswer, answer, evaluate, output};
 use armill_study::StudyError;
+use armill_study::measured::profile::read;
 use armill_study::number::decimals;
-use armill_study::roundness::{Question, RoundnessAnswer, answer, evaluate, output, read};
 
 use crate::Outcome;
 use crate::arguments::RoundnessArguments;

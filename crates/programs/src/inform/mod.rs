@@ -28,9 +28,9 @@ mod read;
 mod write;
 
 use armill_core::frame::Isometry;
+use armill_formats::convention::Convention;
 
 use super::spelling::{Part, Respelling, respelled};
-use armill_formats::convention::Convention;
 
 pub use read::read;
 pub use write::write;

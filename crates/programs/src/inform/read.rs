@@ -1,13 +1,14 @@
 //! The instructions of a job: moves, and the instructions between them that are ignored.
 
+use armill_formats::document::{Problem, Problems};
+use armill_formats::language::Language;
+
 use super::position::{Position, Positions};
 use crate::arc_row::ArcRow;
 use crate::messages::ProgramMessages;
 use crate::program::{RobotMove, RobotProgram, Target};
 use crate::spelling::{Line, Part, lines};
 use crate::text::ProgramText;
-use armill_formats::document::{Problem, Problems};
-use armill_formats::language::Language;
 
 /// Maximum nesting of job calls.
 const DEEPEST: usize = 30;

@@ -1,12 +1,12 @@
 //! A draft as a relative job: positions in a user frame, RCONF for each; long programs are split.
 
 use armill_core::frame::Isometry;
+use armill_formats::convention::Convention;
 
 use crate::draft::{Bounds, Draft, DraftError, DraftPoint, Written};
 use crate::number::fixed;
 use crate::posture::Configuration;
 use crate::spelling::in_pieces;
-use armill_formats::convention::Convention;
 
 /// Maximum number of positions in one job; posts write 2000 to 9500. Source: posts.
 const MOST_POSITIONS: usize = 2000;

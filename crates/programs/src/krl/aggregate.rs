@@ -3,13 +3,13 @@
 use std::ops::Range;
 
 use armill_core::frame::Isometry;
+use armill_formats::convention::Convention;
 
 use super::SYNTAX;
 use crate::number::{fixed, write_fixed};
 use crate::posture::Configuration;
 use crate::spelling::Respelling;
 use crate::tokens::{Cursor, Kind, decimals, tokens};
-use armill_formats::convention::Convention;
 
 /// The components of a pose, in the order of [`Convention::Kuka`].
 pub(super) const POSE: [&str; 6] = ["X", "Y", "Z", "A", "B", "C"];

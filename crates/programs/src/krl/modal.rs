@@ -1,6 +1,7 @@
 //! Modal settings: frame, tool, tip speed, and whether the tool or the workpiece is on the flange.
 
 use armill_core::frame::Isometry;
+use armill_formats::convention::Convention;
 
 use super::aggregate::{Aggregate, POSE, Value};
 use super::points::{PointValue, Reference};
@@ -8,7 +9,6 @@ use super::read::Reader;
 use crate::messages::shown;
 use crate::program::{Frame, Speed};
 use crate::tokens::{Cursor, Kind, Token};
-use armill_formats::convention::Convention;
 
 /// Predefined frames; all are the base of the robot if `$ROBROOT` is null.
 const NULL_FRAMES: [&str; 3] = ["$NULLFRAME", "$WORLD", "$ROBROOT"];

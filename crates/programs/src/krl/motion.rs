@@ -1,12 +1,13 @@
 //! Moves: their targets by components, by name, relative to the previous move, or composed of frames.
 
+use armill_formats::convention::Convention;
+
 use super::aggregate::{AXES, Aggregate, POSE};
 use super::points::{PointValue, Reference};
 use super::read::Reader;
 use super::relative::composed;
 use crate::program::{Frame, Motion, RobotMove, Speed, Spelled, Target};
 use crate::tokens::{Cursor, Kind, Token};
-use armill_formats::convention::Convention;
 
 /// End of the previous move: default of missing components.
 #[derive(Clone, Debug)]

@@ -2,6 +2,9 @@
 
 use std::collections::HashSet;
 
+use armill_formats::document::{Problem, Problems};
+use armill_formats::language::Language;
+
 use super::SYNTAX;
 use super::modal::Modal;
 use super::motion::Former;
@@ -10,8 +13,6 @@ use crate::messages::ProgramMessages;
 use crate::program::{RobotMove, RobotProgram};
 use crate::text::ProgramText;
 use crate::tokens::{Cursor, Kind, Token, tokens};
-use armill_formats::document::{Problem, Problems};
-use armill_formats::language::Language;
 
 /// Words of control flow: their bodies are read once.
 const CONTROL: [&str; 7] = ["IF", "FOR", "WHILE", "LOOP", "REPEAT", "SWITCH", "GOTO"];

@@ -1,13 +1,13 @@
 //! Moves relative to the end of the previous move, and poses relative to poses.
 
 use armill_core::frame::Isometry;
+use armill_formats::convention::Convention;
 
 use super::aggregate::{AXES, Aggregate, POSE};
 use super::motion::{Former, KrlTarget};
 use super::read::Reader;
 use crate::program::Motion;
 use crate::tokens::{Cursor, Token};
-use armill_formats::convention::Convention;
 
 impl<'a> Reader<'a> {
     /// A move relative to the end of the previous move: in the frame or, after `#TOOL`, in the tool.

@@ -6,12 +6,12 @@
 use std::fmt::Write;
 
 use armill_core::frame::Isometry;
+use armill_formats::convention::Convention;
 
 use super::aggregate::whole;
 use crate::draft::{Bounds, Draft, DraftError, DraftPoint, Written, latin1};
 use crate::number::fixed;
 use crate::posture::Configuration;
-use armill_formats::convention::Convention;
 
 /// `[recalled]` Longest name of a module; number of frames and tools of newer systems, older ones have 32 and 16.
 const LONGEST_NAME: usize = 24;

@@ -2,6 +2,9 @@
 
 use std::collections::HashSet;
 
+use armill_formats::document::{Problem, Problems};
+use armill_formats::language::Language;
+
 use super::SYNTAX;
 use super::names::Names;
 use super::statement::statements;
@@ -9,8 +12,6 @@ use crate::messages::ProgramMessages;
 use crate::program::{RobotMove, RobotProgram};
 use crate::text::ProgramText;
 use crate::tokens::{Cursor, Kind, Token, tokens};
-use armill_formats::document::{Problem, Problems};
-use armill_formats::language::Language;
 
 /// Words of control flow: their bodies are read once.
 const CONTROL: [&str; 8] = ["IF", "ELSEIF", "ELSE", "FOR", "WHILE", "TEST", "GOTO", "ERROR"];

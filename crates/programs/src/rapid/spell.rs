@@ -3,12 +3,12 @@
 use std::ops::Range;
 
 use armill_core::frame::Isometry;
+use armill_formats::convention::Convention;
 
 use super::SYNTAX;
 use crate::number::{fixed, write_fixed};
 use crate::spelling::Respelling;
 use crate::tokens::{Cursor, Kind, decimals, tokens};
-use armill_formats::convention::Convention;
 
 /// Minimum and maximum number of decimals of mm and of a quaternion.
 const MM: usize = 3;

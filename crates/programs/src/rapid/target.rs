@@ -3,6 +3,7 @@
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::{Translation3, UnitQuaternion, Vector3};
 use armill_core::robot::BranchPattern;
+use armill_formats::convention::Convention;
 
 use super::read::Reader;
 use super::value::{Argument, Node, Value};
@@ -10,7 +11,6 @@ use crate::messages::shown;
 use crate::posture::Configuration;
 use crate::program::{Spelled, Target};
 use crate::tokens::Token;
-use armill_formats::convention::Convention;
 
 /// Maximum nesting of offsets.
 const MOST_LINKS: usize = 16;

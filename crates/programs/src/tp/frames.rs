@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 
 use armill_core::frame::Isometry;
+use armill_formats::convention::Convention;
 
 use super::position::Position;
 use super::statement::index;
 use crate::program::Frame;
 use crate::spelling::number;
-use armill_formats::convention::Convention;
 
 /// Frame or tool.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

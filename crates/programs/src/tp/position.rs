@@ -3,12 +3,13 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+use armill_formats::convention::Convention;
+
 use crate::messages::ProgramMessages;
 use crate::posture::Configuration;
 use crate::program::{Spelled, Target};
 use crate::spelling::{Line, Part, number};
 use crate::text::ProgramText;
-use armill_formats::convention::Convention;
 
 /// A position of the first group.
 #[derive(Clone, Debug)]

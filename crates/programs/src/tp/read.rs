@@ -2,6 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use armill_formats::document::{Problem, Problems};
+use armill_formats::language::Language;
+
 use super::frames::Frames;
 use super::motion::TpTarget;
 use super::position::{Position, positions};
@@ -11,8 +14,6 @@ use crate::messages::ProgramMessages;
 use crate::program::{RobotMove, RobotProgram};
 use crate::spelling::Part;
 use crate::text::ProgramText;
-use armill_formats::document::{Problem, Problems};
-use armill_formats::language::Language;
 
 /// Maximum nesting of program calls.
 const DEEPEST: usize = 30;

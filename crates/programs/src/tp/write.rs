@@ -2,12 +2,12 @@
 //! programs are split.
 
 use armill_core::frame::Isometry;
+use armill_formats::convention::Convention;
 
 use crate::draft::{Bounds, Draft, DraftError, DraftPoint, Written};
 use crate::number::fixed;
 use crate::posture::Configuration;
 use crate::spelling::in_pieces;
-use armill_formats::convention::Convention;
 
 /// Maximum number of positions in one program. `[recalled]`
 const MOST_POSITIONS: usize = 5000;

@@ -2,14 +2,15 @@
 
 use std::collections::{HashMap, HashSet};
 
+use armill_formats::document::{Problem, Problems};
+use armill_formats::language::Language;
+
 use super::SYNTAX;
 use super::value::Value;
 use crate::messages::ProgramMessages;
 use crate::program::{Frame, RobotMove, RobotProgram};
 use crate::text::ProgramText;
 use crate::tokens::{Cursor, Kind, Token, tokens};
-use armill_formats::document::{Problem, Problems};
-use armill_formats::language::Language;
 
 /// Words of control flow, which end with a colon.
 const CONTROL: [&str; 5] = ["if", "elif", "while", "for", "thread"];

@@ -1,12 +1,12 @@
 //! A pose as `p[x, y, z, rx, ry, rz]`.
 
 use armill_core::frame::Isometry;
+use armill_formats::convention::Convention;
 
 use super::SYNTAX;
 use crate::number::{fixed, write_fixed};
 use crate::spelling::Respelling;
 use crate::tokens::{Cursor, decimals, tokens};
-use armill_formats::convention::Convention;
 
 /// Minimum number of decimals, of m and rad: a micrometre, and as in the posts.
 pub(super) const DECIMALS: usize = 6;

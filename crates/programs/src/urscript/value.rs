@@ -3,11 +3,11 @@
 use std::ops::Range;
 
 use armill_core::frame::Isometry;
+use armill_formats::convention::Convention;
 
 use super::read::Reader;
 use crate::program::Spelled;
 use crate::tokens::{Cursor, Kind};
-use armill_formats::convention::Convention;
 
 /// Maximum nesting of brackets.
 const MOST_LEVELS: usize = 40;

@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use armill_core::frame::Isometry;
 use armill_core::robot::BranchPattern;
+use armill_formats::convention::Convention;
 
 use super::tags::{Attribute, Piece, attributes, pieces, value};
 use crate::messages::ProgramMessages;
@@ -12,7 +13,6 @@ use crate::posture::Configuration;
 use crate::program::{Spelled, Target};
 use crate::spelling::number;
 use crate::text::ProgramText;
-use armill_formats::convention::Convention;
 
 /// Maximum nesting of frames.
 const DEEPEST: usize = 30;

@@ -28,10 +28,10 @@ mod tags;
 mod write;
 
 use armill_core::frame::Isometry;
+use armill_formats::convention::Convention;
 
 use super::number::fixed;
 use super::spelling::{Part, Respelling, respelled};
-use armill_formats::convention::Convention;
 
 pub use read::read;
 pub use write::write;

@@ -2,6 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use armill_formats::document::Problems;
+use armill_formats::language::Language;
+
 use super::code::{Event, EventKind, LineCount, Program, events, programs};
 use super::data::{Data, Datum, Reference};
 use super::tags::{Piece, attributes, pieces, value};
@@ -9,8 +12,6 @@ use crate::messages::ProgramMessages;
 use crate::program::{Frame, Motion, RobotMove, RobotProgram, Speed, Target};
 use crate::spelling::Part;
 use crate::text::ProgramText;
-use armill_formats::document::Problems;
-use armill_formats::language::Language;
 
 /// Maximum nesting of program calls.
 const DEEPEST: usize = 30;

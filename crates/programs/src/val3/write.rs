@@ -1,12 +1,12 @@
 //! A draft as a project: data with frame, tool and points, and programs with the moves; long programs are split.
 
 use armill_core::frame::Isometry;
+use armill_formats::convention::Convention;
 
 use crate::draft::{Bounds, Draft, DraftError, DraftPoint, Written};
 use crate::number::fixed;
 use crate::posture::Configuration;
 use crate::spelling::in_pieces;
-use armill_formats::convention::Convention;
 
 /// Maximum number of moves in one program. `[recalled]`
 const MOST_MOVES: usize = 2000;

@@ -69,7 +69,7 @@ pub struct CountsAnswer {
 
 impl CountsAnswer {
     /// The counts of the core under the names of the answer.
-    pub(crate) fn of(counts: &Counts) -> CountsAnswer {
+    pub fn of(counts: &Counts) -> CountsAnswer {
         CountsAnswer {
             within: counts.within,
             above_tolerance: counts.above_tolerance,

@@ -22,11 +22,11 @@
 //! them.
 
 mod cautions;
-pub(crate) mod holes;
+pub mod holes;
 mod map;
-pub(crate) mod path;
+pub mod path;
 mod point;
-pub(crate) mod sentence;
+pub mod sentence;
 mod statement;
 mod volume;
 
@@ -37,7 +37,7 @@ pub use path::{
     ProgramAnswer, RestAnswer, SearchAnswer, StatisticsAnswer, StockAnswer, WorstPoint,
 };
 pub use point::{PointAnswer, SettingAnswer};
-pub(crate) use sentence::{largest_contributor, micrometres};
+pub use sentence::{largest_contributor, micrometres};
 pub use statement::{Reading, StatementAnswer};
 pub use volume::VolumeAnswer;
 

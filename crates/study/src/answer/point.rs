@@ -130,7 +130,7 @@ pub struct PointAnswer {
 impl PointAnswer {
     /// Which of `contributors` has the largest share, by size, and its part of the in-plane deviation, if there is any. A
     /// share may be opposite to the others.
-    pub(crate) fn mostly_by<'a>(&self, contributors: &'a [String]) -> Option<(&'a str, Option<f64>)> {
+    pub fn mostly_by<'a>(&self, contributors: &'a [String]) -> Option<(&'a str, Option<f64>)> {
         let shares = contributors
             .iter()
             .map(String::as_str)

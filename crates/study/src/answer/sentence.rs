@@ -164,7 +164,7 @@ fn of_holes(study: &Study, holes: &HolesAnswer) -> String {
 }
 
 /// The largest contributor and its share.
-pub(crate) fn largest_contributor(study: &Study, point: &PointAnswer, contributors: &[String]) -> String {
+pub fn largest_contributor(study: &Study, point: &PointAnswer, contributors: &[String]) -> String {
     point
         .mostly_by(contributors)
         .map_or_else(String::new, |(name, part)| {
@@ -178,7 +178,7 @@ pub(crate) fn largest_contributor(study: &Study, point: &PointAnswer, contributo
 }
 
 /// A deviation with its significant digits.
-pub(crate) fn micrometres(um: f64) -> String {
+pub fn micrometres(um: f64) -> String {
     if um == um.round() && um < 1e6 {
         format!("{um:.0}")
     } else if um.abs() < 10.0 {

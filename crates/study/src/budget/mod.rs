@@ -11,7 +11,6 @@
 
 pub mod answer;
 pub mod combine;
-pub mod output;
 pub mod parts;
 
 pub use answer::{BudgetAnswer, answer};

@@ -25,9 +25,9 @@ use serde::Deserialize;
 
 use super::problem_log::ProblemLog;
 use super::resolve::{Analysis, Subject};
-use crate::ballbar::{self, FileOptions};
 use crate::error::StudyError;
-use crate::roundness;
+use crate::measured::circular_test::{self, FileOptions, MeasuredTest};
+use crate::measured::profile;
 
 /// Measurements of one circle: the machined part, the path without load.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -252,7 +252,7 @@ fn part(
         else_radius_mm: radius_mm,
         unit: None,
     };
-    let given = roundness::read((&shown, &path), &requested);
+    let given = profile::read((&shown, &path), &requested);
     let measured = taken(log, key, given)?;
     let count = measured.points.count();
     let points = match measured.points {
@@ -343,7 +343,7 @@ pub(super) fn bar(
     (key, files): (&str, &[String]),
     (folder, radius_mm): (&Path, Option<f64>),
     notes: &mut Vec<String>,
-) -> Option<ballbar::Measured> {
+) -> Option<MeasuredTest> {
     let mut all_there = true;
     for (index, file) in files.iter().enumerate() {
         if !folder.join(file).is_file() {
@@ -363,7 +363,7 @@ pub(super) fn bar(
         },
         ..FileOptions::default()
     };
-    let measured = taken(log, key, ballbar::read(&files, &requested))?;
+    let measured = taken(log, key, circular_test::read(&files, &requested))?;
     notes.extend(measured.notes.iter().cloned());
     Some(measured)
 }
@@ -373,7 +373,7 @@ pub(super) fn bar(
 pub(super) fn turned_test(
     log: &mut ProblemLog<'_>,
     key: &str,
-    measured: &ballbar::Measured,
+    measured: &MeasuredTest,
     (turned, takes_centre): (AngleMapping, bool),
 ) -> Option<CircularTest> {
     let of_test = || -> Result<CircularTest, RunError> {

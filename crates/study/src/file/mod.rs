@@ -6,7 +6,7 @@
 //!
 //! [`format`](mod@format) is the file as written; [`resolve`] checks it and resolves each analysis (`analysis`,
 //! [`path`], [`holes`], `names`, `memory`), its [`quantities`] in SI, its [`compliance`] and [`stiffness`], and the
-//! [`positioner`]. `calibrated` is the calibrated arm; `other_robot` replaces the robot. [`posture_search`] is the
+//! [`positioner`]. `calibrated` is the calibrated arm; [`posture_search`] is the
 //! search for spin and branch along paths, [`placement`] the permitted placements of a part, [`experiment`] the
 //! measurements of a circle, [`circles`] circular tests for the backlash of joints. `problem_log` reports problems at
 //! their keys.
@@ -28,5 +28,4 @@ pub(crate) mod analysis;
 mod calibrated;
 mod memory;
 mod names;
-pub(crate) mod other_robot;
 mod problem_log;

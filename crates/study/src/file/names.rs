@@ -1,6 +1,6 @@
 //! Names of analyses: valid as file names, unique, and found by the statements that refer to them.
 //!
-//! The letters and digits of a name become a part of file names (`output::slug`). There must be at least one of
+//! The letters and digits of a name become a part of file names (`file_names::slug`). There must be at least one of
 //! them and not more than systems take; and no two analyses, nor one analysis and a picture of another, may give the
 //! same file.
 
@@ -93,7 +93,7 @@ pub(super) fn unfit_names(document: &Document, file: &StudyFile) -> Vec<Problem>
         .enumerate()
         .map(|(index, analysis)| name_of(analysis, index))
         .collect();
-    let slugs: Vec<String> = names.iter().map(|name| crate::output::slug(name)).collect();
+    let slugs: Vec<String> = names.iter().map(|name| crate::file_names::slug(name)).collect();
     let problem = |i: usize| {
         let (message, hint) = if slugs[i].is_empty() {
             (
@@ -113,7 +113,7 @@ pub(super) fn unfit_names(document: &Document, file: &StudyFile) -> Vec<Problem>
                 "use a shorter name; `title` and `question` may have any length",
             )
         } else if let Some(other) =
-            (0..slugs.len()).find(|j| crate::output::is_picture_of(&slugs[i], &slugs[*j]))
+            (0..slugs.len()).find(|j| crate::file_names::is_picture_of(&slugs[i], &slugs[*j]))
         {
             let message = format!("`{}` would overwrite a picture of `{}`", names[i], names[other]);
             (

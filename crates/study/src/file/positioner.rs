@@ -29,7 +29,7 @@ use super::format::PositionerTable;
 use super::problem_log::ProblemLog;
 use super::quantities::pose_mm_deg;
 use crate::error::StudyError;
-use crate::pose::joint_positions;
+use crate::joint_unit::joint_positions;
 use crate::robots;
 
 /// The name of its table as a reference frame.

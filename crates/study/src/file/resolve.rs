@@ -67,6 +67,18 @@ impl Study {
             .is_some_and(|own| own.caution.is_some())
     }
 
+    /// The paths of the study with their names, or the one called `name`.
+    pub fn paths<'a>(&'a self, name: Option<&str>) -> impl Iterator<Item = (&'a str, &'a PathAnalysis)> {
+        self.analyses
+            .iter()
+            .filter_map(move |analysis| match &analysis.subject {
+                Subject::Path(path) if name.is_none_or(|name| name == analysis.name) => {
+                    Some((analysis.name.as_str(), &**path))
+                }
+                _ => None,
+            })
+    }
+
     /// What the points of each analysis share, by analysis.
     ///
     /// The first section represents all: sections differ in the plane alone.

@@ -6,8 +6,8 @@ use serde::Serialize;
 
 use super::StudyText;
 use crate::answer::answer;
-use crate::budget::output::is_of_budget;
 use crate::error::StudyError;
+use crate::output::budget::is_of_budget;
 use crate::output::{self, Picture};
 use crate::run::run;
 
@@ -65,7 +65,7 @@ pub fn table_csv(
 /// As of [`answer_json`]; a study without a measurement.
 pub fn measured_csv(text: StudyText<'_>, watch: Watch<'_>) -> Result<Vec<u8>, StudyError> {
     let (combined, given) = crate::budget::budget(&text.study(None)?, watch)?;
-    crate::budget::output::table_csv(&given, &combined)
+    output::budget::table_csv(&given, &combined)
 }
 
 /// The pictures of this analysis, or of all, as `armill run` draws them.

@@ -27,9 +27,10 @@ use super::{StudyText, setting};
 use crate::error::StudyError;
 use crate::file::resolve::{Parsed, Setting, Study, Subject};
 use crate::joint_unit::JointUnit;
+use crate::joint_unit::joint_positions;
 use crate::number::without_rounding;
 use crate::output::arm_posture;
-use crate::pose::{At, PoseAnswer, PoseContext, PoseQuestion, answer_in, joint_positions};
+use crate::pose::{At, PoseAnswer, PoseContext, PoseQuestion, answer_in};
 use crate::run::AnalysisResult;
 
 /// A target of the tool: one of these.

@@ -7,31 +7,31 @@ const MOST_POINTS: usize = 1200;
 
 /// The points of a path in groups, each of one point if they are few.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct PointGroups {
+pub struct PointGroups {
     points: usize,
     each: usize,
 }
 
 impl PointGroups {
     /// For so many points.
-    pub(crate) fn of(points: usize) -> PointGroups {
+    pub fn of(points: usize) -> PointGroups {
         let each = points.div_ceil(MOST_POINTS).max(1);
         PointGroups { points, each }
     }
 
     /// Whether each group is one point, whose value is shown with its sign.
-    pub(crate) fn are_points(self) -> bool {
+    pub fn are_points(self) -> bool {
         self.each == 1
     }
 
     /// Distance along the path of the first of each, mm.
-    pub(crate) fn positions_mm(self, points: &[PathPoint]) -> Vec<f64> {
+    pub fn positions_mm(self, points: &[PathPoint]) -> Vec<f64> {
         let first = points.iter().step_by(self.each);
         first.map(|point| point.along * 1e3).collect()
     }
 
     /// The largest absolute value in each group; of single points the value itself. NaN if none is a number.
-    pub(crate) fn largest(self, of: impl Fn(usize) -> f64) -> Vec<f64> {
+    pub fn largest(self, of: impl Fn(usize) -> f64) -> Vec<f64> {
         let firsts = (0..self.points).step_by(self.each);
         let of_handful = |first: usize| {
             let points = first..(first + self.each).min(self.points);

@@ -13,7 +13,7 @@ const WAITING: usize = 4;
 const QUEUE: usize = 64;
 
 /// A folder that accepts files from any thread.
-pub(crate) struct Folder<'a> {
+pub struct Folder<'a> {
     out: &'a ResultFolder,
     queue: SyncSender<(String, PartFile)>,
 }
@@ -23,7 +23,7 @@ impl Folder<'_> {
     ///
     /// # Errors
     /// The file cannot be written; one that cannot be renamed is reported by [`write_together`].
-    pub(crate) fn save(&self, name: &str, bytes: &[u8]) -> Result<(), StudyError> {
+    pub fn save(&self, name: &str, bytes: &[u8]) -> Result<(), StudyError> {
         let part = self.out.part(name, bytes)?;
         // The other end is open as long as this one.
         let _ = self.queue.send((name.to_owned(), part));

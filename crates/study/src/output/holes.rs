@@ -27,7 +27,7 @@ pub(super) fn pictures(
     (given, found): (&HolesAnswer, &HolesFound),
 ) -> Vec<Picture> {
     let named = |what: &str, caption: &str, svg: String| Picture {
-        name: format!("{}-{what}", super::slug(&given.name)),
+        name: format!("{}-{what}", crate::file_names::slug(&given.name)),
         caption: format!("{}: {caption}", given.name),
         svg,
     };

@@ -71,7 +71,7 @@ pub(super) fn picture(
         marks: Vec::new(),
     };
     Some(Picture {
-        name: format!("{}-turns", super::slug(name)),
+        name: format!("{}-turns", crate::file_names::slug(name)),
         caption: format!(
             "{name}: deviation at each point of the path for each spin of the tool about its axis, in the branch chosen there, and the chosen spin."
         ),

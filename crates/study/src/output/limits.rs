@@ -168,7 +168,7 @@ pub(super) fn picture(
         drawn: drawn(found),
     };
     Some(Picture {
-        name: format!("{}-process", super::slug(name)),
+        name: format!("{}-process", crate::file_names::slug(name)),
         caption: format!(
             "{name}: largest deviation of the program over axial depth and feed per tooth, everything else as in the study."
         ),

@@ -14,19 +14,22 @@
 //! .armill-files           which of these files armill made
 //! ```
 //!
-//! `NAME` is the `slug` of the analysis's name. `folder`: which files; `rows`: the points; `tables`, `pictures`,
-//! `plates`, `path` with `along`, `holes`, `lattice`, `limits`, `arm`, `report`: their contents.
+//! `NAME` is the [`slug`] of the analysis's name. `folder`: which files; `rows`: the points; `tables`, `pictures`,
+//! `plates`, `path` with `along` and `force_picture`, `holes`, `lattice`, `limits`, `arm`, `budget`, `report`: their
+//! contents.
 
-pub(crate) mod along;
+pub mod along;
 mod arm;
-mod folder;
+pub mod budget;
+pub mod folder;
+pub mod force_picture;
 mod holes;
 mod lattice;
 mod limits;
 mod path;
 mod pictures;
 mod plates;
-pub(crate) mod report;
+pub mod report;
 mod rows;
 mod tables;
 
@@ -44,6 +47,7 @@ use serde::Serialize;
 use crate::answer::StudyAnswer;
 use crate::error::StudyError;
 use crate::file::resolve::Study;
+use crate::file_names::slug;
 use crate::run::AnalysisResult;
 
 /// What to write in addition to `result.json`, Parquet and VTK.
@@ -104,34 +108,6 @@ pub enum Pictures {
 #[cfg(feature = "png")]
 const PNG_SCALE: f64 = 2.0;
 
-/// Suffixes of the names of pictures of an analysis.
-const PICTURES: [&str; 16] = [
-    "budget", "measured", "waves", "holes", "cells", "turns", "region", "shares", "ellipse", "arm",
-    "vectors", "along", "polar", "track", "process", "forces",
-];
-
-/// Whether files called `slug` could be pictures of the analysis called `analysis`.
-pub(crate) fn is_picture_of(slug: &str, analysis: &str) -> bool {
-    slug.strip_prefix(analysis)
-        .and_then(|rest| rest.strip_prefix('-'))
-        .is_some_and(|rest| PICTURES.contains(&rest))
-}
-
-/// A part of a file name that is valid on every system: letters (of any script), digits and hyphens.
-///
-/// Different names may give the same; a name without letters and digits gives nothing.
-pub fn slug(name: &str) -> String {
-    let mut slug = String::new();
-    for c in name.chars() {
-        if c.is_alphanumeric() {
-            slug.extend(c.to_lowercase());
-        } else if !slug.ends_with('-') {
-            slug.push('-');
-        }
-    }
-    slug.trim_matches('-').to_owned()
-}
-
 /// Whether the tables, report and answer of this study may be written into `out`, before any work is done.
 ///
 /// # Errors
@@ -188,7 +164,7 @@ pub fn write(
 ///
 /// # Errors
 /// Files that may not be replaced, before anything is written; that of `work`; a file cannot be written.
-pub(crate) fn replace<T: Serialize>(
+pub fn replace<T: Serialize>(
     (out, names): (&ResultFolder, &[String]),
     (answer, note): (&T, &(dyn Fn(&str) + Sync)),
     work: impl FnOnce(&folder::Folder<'_>) -> Result<(), StudyError>,
@@ -217,9 +193,9 @@ struct WrittenAnswer<'a, T> {
 }
 
 /// The name of the answer, written last.
-pub(crate) const RESULT: &str = "result.json";
+pub const RESULT: &str = "result.json";
 /// The name of the report, if pictures are drawn.
-pub(crate) const REPORT: &str = "report.html";
+pub const REPORT: &str = "report.html";
 
 /// The names of all files, the answer last.
 fn names(study: &Study, drawn: &[Picture], requested: OutputOptions) -> Vec<String> {
@@ -238,7 +214,7 @@ fn names(study: &Study, drawn: &[Picture], requested: OutputOptions) -> Vec<Stri
 }
 
 /// The files of a picture.
-pub(crate) fn picture_files(picture: &Picture) -> impl Iterator<Item = String> {
+pub fn picture_files(picture: &Picture) -> impl Iterator<Item = String> {
     let png = cfg!(feature = "png").then(|| format!("{}.png", picture.name));
     std::iter::once(format!("{}.svg", picture.name)).chain(png)
 }
@@ -247,7 +223,7 @@ pub(crate) fn picture_files(picture: &Picture) -> impl Iterator<Item = String> {
 ///
 /// # Errors
 /// A picture that cannot be drawn, a file that cannot be written.
-pub(crate) fn save_pictures(drawn: &[Picture], files: &folder::Folder<'_>) -> Result<(), StudyError> {
+pub fn save_pictures(drawn: &[Picture], files: &folder::Folder<'_>) -> Result<(), StudyError> {
     drawn.par_iter().with_max_len(1).try_for_each(|picture| {
         #[cfg(feature = "png")]
         files.save(&format!("{}.png", picture.name), &png(&picture.svg)?)?;
@@ -307,30 +283,12 @@ pub fn json(answer: &StudyAnswer) -> Result<String, StudyError> {
 }
 
 /// A column whose every row has a number.
-pub(crate) fn column(
-    name: &str,
-    unit: &str,
-    description: &str,
-    (decimals, values): (u8, Vec<f64>),
-) -> Column {
+pub fn column(name: &str, unit: &str, description: &str, (decimals, values): (u8, Vec<f64>)) -> Column {
     Column {
         name: name.to_owned(),
         unit: Some(unit.to_owned()),
         description: description.to_owned(),
         decimals: Some(decimals),
         data: ColumnData::Float(values),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn slugs_are_plain_and_keep_different_names_apart() {
-        assert_eq!(slug("Table 4: x = 600 mm"), "table-4-x-600-mm");
-        assert_eq!(slug("--Ä--"), "ä");
-        assert_ne!(slug("größe"), slug("grüße"));
-        assert_eq!(slug("../?"), "");
     }
 }

@@ -24,6 +24,7 @@ use armill_report::{
 
 use super::along::PointGroups;
 use super::arm::arm_posture;
+use super::force_picture::plot;
 use super::pictures::{Picture, share_bar, shares};
 use super::plates::{axes, base_y, subtitle};
 use crate::answer::PathAnswer;
@@ -92,7 +93,7 @@ impl Drawing<'_> {
     /// A picture of this path: `what` ends its file name, `caption` follows the name of the path.
     fn picture(&self, what: &str, caption: &str, svg: String) -> Picture {
         Picture {
-            name: format!("{}-{what}", super::slug(&self.given.name)),
+            name: format!("{}-{what}", crate::file_names::slug(&self.given.name)),
             caption: format!("{}: {caption}", self.given.name),
             svg,
         }
@@ -348,7 +349,7 @@ impl Drawing<'_> {
             let _ = write!(subtitle, "; mean of each revolution at {rpm} rpm");
         }
         let title = format!("{}: measured force", self.given.name);
-        let mut plot = crate::forces::output::plot((title, subtitle), &measured.treated);
+        let mut plot = plot((title, subtitle), &measured.treated);
         let [from, to] = measured.program;
         plot.marks_s = vec![
             (from, "first cut starts".to_owned()),

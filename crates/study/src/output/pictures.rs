@@ -62,7 +62,7 @@ pub(super) fn draw(study: &Study, done: &[AnalysisResult<'_>], answer: &StudyAns
         .flat_map_iter(|(done, maps, others)| pictures_of(study, done, maps, others))
         .collect();
     if let Some(Ok((combined, given))) = crate::budget::of_results(study, done) {
-        pictures.extend(crate::budget::output::pictures(&given, &combined));
+        pictures.extend(crate::output::budget::pictures(&given, &combined));
     }
     pictures
 }
@@ -155,7 +155,7 @@ fn worst_point(study: &Study, setting: &Setting, given: &MapAnswer, map: &PlaneM
         let [x, y, z] = point.xyz_mm;
         share_bar(&format!("{which} ({x:.0}, {y:.0}, {z:.0}) mm"), point)
     });
-    let slug = super::slug(&given.name);
+    let slug = crate::file_names::slug(&given.name);
     vec![
         Picture {
             name: format!("{slug}-shares"),

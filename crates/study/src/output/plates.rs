@@ -168,7 +168,7 @@ pub(super) fn map_pictures(
                 radius_mm,
             }),
     };
-    let slug = super::slug(&answer.name);
+    let slug = crate::file_names::slug(&answer.name);
     [
         Picture {
             name: slug.clone(),
@@ -207,7 +207,7 @@ pub(super) fn sheet(name: &str, panels: Vec<Panel>, setting: &Setting, axes: Axi
         show_regions: true,
     };
     Picture {
-        name: super::slug(name),
+        name: crate::file_names::slug(name),
         caption: format!(
             "{name}: in-plane deviation above, the region within {:.0} µm below.",
             setting.tolerance * 1e6

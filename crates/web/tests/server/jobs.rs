@@ -5,9 +5,9 @@ use std::time::{Duration, Instant};
 
 use armill_core::nalgebra::Vector3;
 use armill_core::watch::Watch;
+use armill_measure::identify::{self, PointsModel, PriorModel, Question, Units};
+use armill_plan::place::{Journal, PlacementSearch};
 use armill_study::file::placement::PlaceTable;
-use armill_study::identify::{self, PointsModel, PriorModel, Question, Units};
-use armill_study::place::{Journal, PlacementSearch};
 use armill_study::studies;
 use serde_json::{Value, json};
 

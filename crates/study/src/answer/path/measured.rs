@@ -1,11 +1,12 @@
 //! Measured forces in the answer: the record, its treatment, and the start of the program in it.
 
+use armill_core::load::record::drift::Drift;
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::file::path::MeasuredForces;
 use crate::file::path::measured::{ActsOnName, SynchroniseName};
-use crate::forces::DriftAnswer;
+use crate::measured::treatment::Air;
 
 /// The record of the forces.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -45,6 +46,34 @@ pub struct MeasuredAnswer {
     pub largest_n: f64,
     /// Largest force within a revolution, if that is a load case.
     pub largest_peak_n: Option<f64>,
+}
+
+/// The drift removed.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct DriftAnswer {
+    /// Of the force at the first instant.
+    pub offset_n: [f64; 3],
+    /// Its growth.
+    pub rate_n_per_s: [f64; 3],
+    /// Intervals without cutting.
+    pub air_s: Vec<[f64; 2]>,
+    /// Whether these were detected, not given.
+    pub air_found: bool,
+    /// Samples in them.
+    pub samples: usize,
+}
+
+impl DriftAnswer {
+    /// The drift removed, and whether `air` was detected.
+    pub fn of(drift: &Drift, air: &Air) -> DriftAnswer {
+        DriftAnswer {
+            offset_n: drift.offset.into(),
+            rate_n_per_s: drift.rate.into(),
+            air_s: drift.through.clone(),
+            air_found: *air == Air::Detected,
+            samples: drift.samples,
+        }
+    }
 }
 
 impl MeasuredAnswer {
@@ -98,7 +127,7 @@ pub(super) fn notes(measured: &MeasuredForces) -> Vec<String> {
             .iter()
             .map(|[from, to]| format!("{from:.3} to {to:.3} s"));
         let how = match measured.air {
-            crate::forces::Air::Detected => "the quietest intervals",
+            Air::Detected => "the quietest intervals",
             _ => "the air cuts",
         };
         format!(

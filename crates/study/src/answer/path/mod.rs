@@ -13,9 +13,9 @@
 mod cut;
 mod feature;
 pub(crate) mod limits;
-mod measured;
+pub mod measured;
 mod program;
-pub(crate) mod search;
+pub mod search;
 mod unloaded;
 mod worst;
 

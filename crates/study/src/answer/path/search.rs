@@ -163,7 +163,7 @@ fn unreachable_stretches(points: &[PathPoint], lost: &[(usize, PostureStatus)]) 
 }
 
 /// Its name in the study.
-pub(crate) fn component_name(component: Component) -> &'static str {
+pub fn component_name(component: Component) -> &'static str {
     match component {
         Component::InPlane => "in-plane",
         Component::CrossTrack => "cross-track",
@@ -172,7 +172,7 @@ pub(crate) fn component_name(component: Component) -> &'static str {
 }
 
 /// Its name in the study.
-pub(crate) fn objective_name(objective: Objective) -> &'static str {
+pub fn objective_name(objective: Objective) -> &'static str {
     match objective {
         Objective::Worst => "worst",
         Objective::Mean => "mean",

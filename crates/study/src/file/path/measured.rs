@@ -22,7 +22,8 @@ use super::cut::Cut;
 use crate::StudyError;
 use crate::file::format::LoadFrameName;
 use crate::file::problem_log::ProblemLog;
-use crate::forces::{Air, Measured, ProcessedRecord, Refusal, Treatment, Unread, read, treat};
+use crate::measured::force_record::{SensorRecord, Unread, read};
+use crate::measured::treatment::{Air, ProcessedRecord, Refusal, Treatment, treat};
 
 /// A record of measured forces.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -187,7 +188,7 @@ pub(super) fn along(
 /// forces at its points.
 fn forces(
     table: &MeasuredTable,
-    measured: Measured,
+    measured: SensorRecord,
     track: &Track,
     cut: Option<&Cut>,
 ) -> Result<(PathLoad, MeasuredForces), Refusal> {

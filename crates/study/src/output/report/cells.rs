@@ -6,10 +6,10 @@
 use armill_report::html::{Align, Column, Input, Table};
 
 /// The unit of a column of dimensionless numbers.
-pub(crate) const COUNT: &str = "count";
+pub const COUNT: &str = "count";
 
 /// Columns by name and unit: those with a unit contain numbers, except for the first.
-pub(crate) fn columns(names: &[(&str, &str)]) -> Vec<Column> {
+pub fn columns(names: &[(&str, &str)]) -> Vec<Column> {
     let column = |(i, (name, unit)): (usize, &(&str, &str))| Column {
         name: (*name).to_owned(),
         unit: if *unit == COUNT { "" } else { *unit }.to_owned(),
@@ -23,20 +23,20 @@ pub(crate) fn columns(names: &[(&str, &str)]) -> Vec<Column> {
 }
 
 /// A number with one decimal; a dash if there is none.
-pub(crate) fn um(value: Option<f64>) -> String {
+pub fn um(value: Option<f64>) -> String {
     value.map_or_else(|| NONE.to_owned(), |value| format!("{value:.1}"))
 }
 
 /// The text of a missing number.
-pub(crate) const NONE: &str = "–";
+pub const NONE: &str = "–";
 
 /// A fraction in percent.
-pub(crate) fn percent(fraction: f64) -> String {
+pub fn percent(fraction: f64) -> String {
     format!("{:.1}", fraction * 100.0)
 }
 
 /// One input number.
-pub(crate) fn input(name: &str, value: String, unit: &str, source: &str) -> Input {
+pub fn input(name: &str, value: String, unit: &str, source: &str) -> Input {
     Input {
         name: name.to_owned(),
         value,
@@ -46,7 +46,7 @@ pub(crate) fn input(name: &str, value: String, unit: &str, source: &str) -> Inpu
 }
 
 /// The table without empty columns.
-pub(crate) fn without_empty_columns(mut table: Table) -> Table {
+pub fn without_empty_columns(mut table: Table) -> Table {
     let empty = |k: usize| {
         let mut cells = table.rows.iter().filter_map(|row| row.get(k));
         !table.rows.is_empty() && cells.all(|cell| cell.is_empty() || cell == NONE)

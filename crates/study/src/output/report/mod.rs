@@ -5,7 +5,7 @@
 //! A file for each chapter: `statements`, `planes`, `volumes`, `paths`, `holes`, `inputs` with `cut`; `cells`: numbers
 //! in tables.
 
-pub(crate) mod cells;
+pub mod cells;
 mod cut;
 mod holes;
 mod inputs;
@@ -19,7 +19,6 @@ use armill_report::html::Report;
 use super::Opening;
 use super::pictures::Picture;
 use crate::answer::StudyAnswer;
-use crate::budget;
 use crate::file::resolve::Study;
 
 /// The whole page: chapters only for the analyses of the study, pictures in the order given.
@@ -66,8 +65,8 @@ pub(super) fn html(
     }
     if let Some(given) = &answer.measured {
         report = report.section("Measurement and prediction");
-        report = report.paragraph(&budget::output::in_words(given));
-        for table in budget::output::tables(given) {
+        report = report.paragraph(&crate::output::budget::in_words(given));
+        for table in crate::output::budget::tables(given) {
             report = report.table(&table);
         }
     }

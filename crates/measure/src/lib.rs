@@ -1,0 +1,15 @@
+//! What a measurement says of a robot.
+//!
+//! [`identify`] determines joint compliances from load tests, [`calibrate`] the geometry from measured poses,
+//! [`backlash`] the backlash of the joints from circular tests. [`ballbar`] evaluates circular tests, [`roundness`]
+//! round profiles, [`forces`] records of a dynamometer, [`pose_accuracy`] and [`path_accuracy`] measured poses and
+//! paths.
+
+pub mod backlash;
+pub mod ballbar;
+pub mod calibrate;
+pub mod forces;
+pub mod identify;
+pub mod path_accuracy;
+pub mod pose_accuracy;
+pub mod roundness;

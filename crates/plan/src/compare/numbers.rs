@@ -1,0 +1,182 @@
+//! One analysis in one cell, in numbers.
+//!
+//! `95 %`: the deviation that 95 of 100 reached points do not exceed (nearest rank). Points have equal weight,
+//! independent
+//! apart.
+
+use armill_core::kernel::Answers;
+use armill_core::map::Counts;
+use armill_study::answer::{
+    CountsAnswer, HolesAnswer, MapAnswer, PathAnswer, PointAnswer, SettingAnswer, VolumeAnswer,
+};
+use armill_study::file::path::PathAnalysis;
+use serde::Serialize;
+
+/// One analysis in one cell.
+#[derive(Clone, Debug, Serialize)]
+pub struct CellNumbers {
+    /// Which cell.
+    pub cell: String,
+    /// Its robot.
+    pub robot: String,
+    /// Whether the joint compliances of its robot are assumed, not measured.
+    pub compliance_assumed: bool,
+    /// Branch that was followed, or requested.
+    pub branch: String,
+    /// How many points.
+    pub points: usize,
+    /// Points with a posture.
+    pub reached: usize,
+    /// Points with a posture inside the joint limits.
+    pub inside_joint_limits: usize,
+    /// Points by reason.
+    pub counts: CountsAnswer,
+    /// The tolerance.
+    pub tolerance_um: f64,
+    /// Mean of the in-plane deviations.
+    pub mean_in_plane_um: Option<f64>,
+    /// The in-plane deviation that 95 of 100 points keep.
+    pub p95_in_plane_um: Option<f64>,
+    /// Largest in-plane deviation.
+    pub max_in_plane_um: Option<f64>,
+    /// Its standard uncertainty; none if not known.
+    pub max_in_plane_u_um: Option<f64>,
+    /// Largest deviation along the normal (along the tool, of a path), by size.
+    pub max_normal_um: Option<f64>,
+    /// Points within the tolerance over all points.
+    pub fraction_within: f64,
+    /// The same, of points inside the joint limits only.
+    pub fraction_within_and_inside_joint_limits: f64,
+    /// Largest contributor where the deviation is largest: a joint, or base, flange or tool.
+    pub mostly_by: Option<String>,
+    /// Its share there.
+    pub mostly_by_percent: Option<f64>,
+}
+
+/// The result of one analysis in one cell.
+pub(super) struct AnalysisNumbers {
+    /// Its name; of a section with the label.
+    pub name: String,
+    /// `path`, `holes`, `map` or `volume`.
+    pub kind: &'static str,
+    /// Its numbers; cell and robot are still to be named.
+    pub numbers: CellNumbers,
+}
+
+impl AnalysisNumbers {
+    /// A path.
+    pub(super) fn path(
+        given: &PathAnswer,
+        (analysis, answers): (&PathAnalysis, &Answers),
+    ) -> AnalysisNumbers {
+        let branch = given.followed_branch.as_ref().unwrap_or(&given.branch);
+        AnalysisNumbers {
+            name: given.name.clone(),
+            kind: "path",
+            numbers: numbers(
+                (branch, analysis.setting.tolerance),
+                answers,
+                given.worst.as_ref(),
+                &given.setting,
+            ),
+        }
+    }
+
+    /// A set of holes and its tolerance, m.
+    pub(super) fn holes(given: &HolesAnswer, limit: f64, answers: &Answers) -> AnalysisNumbers {
+        let worst = given.worst_holes.first().map(|worst| &worst.point);
+        AnalysisNumbers {
+            name: given.name.clone(),
+            kind: "holes",
+            numbers: numbers((&given.branch, limit), answers, worst, &given.setting),
+        }
+    }
+
+    /// A plane and its tolerance, m.
+    pub(super) fn map(given: &MapAnswer, limit: f64, answers: &Answers) -> AnalysisNumbers {
+        AnalysisNumbers {
+            name: given.name.clone(),
+            kind: "map",
+            numbers: numbers(
+                (&given.branch, limit),
+                answers,
+                given.worst.as_ref(),
+                &given.setting,
+            ),
+        }
+    }
+
+    /// A box and its tolerance, m.
+    pub(super) fn volume(given: &VolumeAnswer, limit: f64, answers: &Answers) -> AnalysisNumbers {
+        AnalysisNumbers {
+            name: given.name.clone(),
+            kind: "volume",
+            numbers: numbers(
+                (&given.branch, limit),
+                answers,
+                given.worst.as_ref(),
+                &given.setting,
+            ),
+        }
+    }
+}
+
+/// Points `answers` and their tolerance (m), worst at `worst`.
+fn numbers(
+    (branch, limit): (&str, f64),
+    answers: &Answers,
+    worst: Option<&PointAnswer>,
+    setting: &SettingAnswer,
+) -> CellNumbers {
+    let counts = Counts::of(answers, limit);
+    let mut deviations: Vec<f64> = answers
+        .evaluations()
+        .map(|(_, evaluation)| evaluation.in_plane * 1e6)
+        .collect();
+    deviations.sort_by(f64::total_cmp);
+    let reached = deviations.len();
+    let normal = answers
+        .evaluations()
+        .map(|(_, evaluation)| evaluation.normal.abs() * 1e6);
+    let share = worst.and_then(|worst| worst.mostly_by(&setting.contributors));
+    CellNumbers {
+        cell: String::new(),
+        robot: String::new(),
+        compliance_assumed: false,
+        branch: branch.to_owned(),
+        points: answers.points.len(),
+        reached,
+        inside_joint_limits: reached - counts.outside_joint_limits,
+        tolerance_um: setting.tolerance_um,
+        mean_in_plane_um: (reached > 0).then(|| deviations.iter().sum::<f64>() / reached as f64),
+        p95_in_plane_um: nearest_rank(&deviations, 0.95),
+        max_in_plane_um: deviations.last().copied(),
+        max_in_plane_u_um: worst.map(|worst| worst.in_plane_u_um).filter(|u| *u > 0.0),
+        max_normal_um: normal.max_by(f64::total_cmp),
+        fraction_within: counts.fraction_within(),
+        fraction_within_and_inside_joint_limits: counts.fraction_within_and_inside_joint_limits(),
+        counts: CountsAnswer::of(&counts),
+        mostly_by: share.map(|(name, _)| name.to_owned()),
+        mostly_by_percent: share.and_then(|(_, part)| part).map(|part| part * 100.0),
+    }
+}
+
+/// The least of `sorted` that at least this part of them does not exceed.
+fn nearest_rank(sorted: &[f64], part: f64) -> Option<f64> {
+    let rank = (part * sorted.len() as f64).ceil() as usize;
+    sorted.get(rank.max(1) - 1).copied()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_rank_of_95_percent_is_that_of_the_textbook() {
+        let numbers: Vec<f64> = (1..=20).map(f64::from).collect();
+        assert_eq!(nearest_rank(&numbers, 0.95), Some(19.0));
+        assert_eq!(nearest_rank(&numbers[..3], 0.95), Some(3.0));
+        assert_eq!(nearest_rank(&numbers[..1], 0.95), Some(1.0));
+        assert_eq!(nearest_rank(&[], 0.95), None);
+    }
+}

@@ -1,0 +1,320 @@
+//! The path to command so that the tool follows the nominal path: the deviation before and after, and the path as a
+//! table that armill reads again.
+//!
+//! | column of the table | unit | meaning |
+//! |---|---|---|
+//! | `x_mm`, `y_mm`, `z_mm` | mm | the tip, in the frame of the program |
+//! | `i`, `j`, `k` | - | from the tip towards the spindle, same frame |
+//! | `spin_deg` | deg | spin of the tool about its axis, for `spin = "given"` |
+//! | `feed_mm_per_min` | mm/min | speed towards the point; empty if the program does not specify it |
+//! | `rapid` | - | 1 where a rapid leads to the point |
+//!
+//! For a path from a robot program, that program is returned too, with changed targets ([`in_place`]).
+//!
+//! `error_answer`: the distances from the path; `in_place`: the program that a path is from, rewritten.
+//!
+//! The correction is the elastic deviation (and that of gravity, backlash and the calibrated robot, if known)
+//! under the mean of the load cases, of a cut under its nominal force; the difference of the cases is reported as
+//! residual.
+
+pub mod error_answer;
+pub mod in_place;
+
+pub use error_answer::ErrorAnswer;
+
+use armill_core::frame::tool_orientation;
+use armill_core::kernel::Answers;
+use armill_core::nalgebra::{UnitQuaternion, Vector3};
+use armill_core::optimize::{Compensated, Compensation, compensated};
+use armill_core::path::{Pace, Shape, Track};
+use armill_core::watch::Watch;
+use armill_formats::table::{Column, ColumnData, Table, csv};
+use armill_report::{PathPlot, Series};
+use armill_study::error::StudyError;
+use armill_study::file::path::PathAnalysis;
+use armill_study::file::resolve::{Setting, Study};
+use armill_study::run::{Runner, passes, runner};
+use serde::Serialize;
+
+use self::in_place::{RewrittenProgram, RewrittenProgramAnswer, in_place};
+
+/// Result of the compensation of the paths of a study.
+#[derive(Clone, Debug, Serialize)]
+pub struct CompensationAnswer {
+    /// Every path that was compensated.
+    pub paths: Vec<CompensatedPath>,
+    /// Whether the joint compliances are assumed, not measured: so are the corrections then.
+    pub compliance_assumed: bool,
+    /// Whether the robot file gives the backlash of its joints: the correction then includes it.
+    pub backlash: bool,
+    /// Whether the study names the calibrated robot: its geometry is then part of the correction.
+    pub geometry: bool,
+}
+
+/// One path, before and after.
+#[derive(Clone, Debug, Serialize)]
+pub struct CompensatedPath {
+    /// Its name.
+    pub name: String,
+    /// How many points.
+    pub points: usize,
+    /// Deviation of the tool from the nominal path without compensation.
+    pub before: ErrorAnswer,
+    /// And with it, as predicted.
+    pub after: ErrorAnswer,
+    /// Largest move of a point.
+    pub largest_correction_um: f64,
+    /// Rounds of the fixed point.
+    pub rounds: usize,
+    /// Largest move of a point in the last round.
+    pub last_round_um: f64,
+    /// What that was of the one before; none after one round.
+    pub contraction_ratio: Option<f64>,
+    /// Points without posture, which are not changed.
+    pub unreachable: usize,
+    /// Points outside joint limits after the correction.
+    pub outside_joint_limits: usize,
+    /// File of the commanded path.
+    pub file: String,
+    /// The program that the path is from, with changed targets; none for another path, or if `notes` give a reason.
+    pub in_place: Option<RewrittenProgramAnswer>,
+    /// What a user must know, each a sentence.
+    pub notes: Vec<String>,
+}
+
+/// Result for one path.
+#[derive(Clone, Debug)]
+pub struct Commanded<'a> {
+    /// Its analysis.
+    pub setting: &'a Setting,
+    /// The path to command, and its postures.
+    pub path: (Track, Answers),
+    /// In numbers.
+    pub given: CompensatedPath,
+    /// The table, as CSV.
+    pub csv: Vec<u8>,
+    /// Before and after along the path, as SVG.
+    pub picture: String,
+    /// Files of the program that the path came from, with its targets moved.
+    pub program: Vec<(String, Vec<u8>)>,
+}
+
+/// Compensates every path of the study, or the one called `name`. A circle is closed: its first point is commanded
+/// again at
+/// its end.
+///
+/// # Errors
+/// No such path; a robot without compliance; a path that misses its stock; cancelled by the watch.
+pub fn compensate<'a>(
+    study: &'a Study,
+    name: Option<&str>,
+    compensation: Compensation,
+    watch: Watch<'_>,
+) -> Result<Vec<Commanded<'a>>, StudyError> {
+    let runner = runner(study, watch)?;
+    let all: Vec<Commanded<'a>> = study
+        .paths(name)
+        .map(|(name, path)| of_path(&runner, (name, path), compensation))
+        .collect::<Result<_, _>>()?;
+    if all.is_empty() {
+        let message = match name {
+            Some(name) => format!("the study has no path called `{name}`"),
+            None => "the study has no path that could be compensated".to_owned(),
+        };
+        return Err(StudyError::value(
+            message,
+            "[[analysis]] kind = \"path\" with a program or a shape",
+        ));
+    }
+    Ok(all)
+}
+
+/// Points that the progress of [`compensate`] ends at: a path is followed once, and about
+/// three times more to determine the commanded one.
+pub fn point_count(study: &Study, name: Option<&str>) -> usize {
+    let of = |(_, path): (&str, &PathAnalysis)| {
+        let again = usize::from(path.source.robot().is_some());
+        (passes(path) + 3 + again) * path.track.len()
+    };
+    study.paths(name).map(of).sum()
+}
+
+fn of_path<'a>(
+    runner: &Runner<'_>,
+    (name, path): (&str, &'a PathAnalysis),
+    compensation: Compensation,
+) -> Result<Commanded<'a>, StudyError> {
+    let closed;
+    let analysis = match path.shape() {
+        Some(Shape::Circle { .. }) => {
+            closed = PathAnalysis {
+                track: path.track.closed(path.length()),
+                load: path.load.closed(),
+                ..path.clone()
+            };
+            &closed
+        }
+        _ => path,
+    };
+    let (load, _) = runner.pushed(analysis)?;
+    let followed = runner.follow(analysis, load.clone())?;
+    let drawn = followed.turned.as_ref().unwrap_or(&analysis.track);
+    let question = runner.question(&analysis.setting);
+    let found = compensated(
+        &question,
+        (drawn, &load),
+        &followed.along.choices,
+        compensation,
+        runner.watch,
+    )?;
+    let rewritten = in_place(runner, analysis, (&followed, &load), &found.track)?;
+    let (in_place, notes) = match rewritten {
+        None => (None, Vec::new()),
+        Some(Ok(written)) => (Some(written), Vec::new()),
+        Some(Err(why)) => (
+            None,
+            vec![format!(
+                "{}: the program itself is not written again: {why}",
+                analysis.shown()
+            )],
+        ),
+    };
+    let before = &followed.along.answers;
+    let file = format!("{}.commanded.csv", armill_study::file_names::slug(name));
+    let correction = |index: usize| {
+        let moved = found.track.path.points[index].at - drawn.path.points[index].at;
+        moved.norm() * 1e6
+    };
+    let given = CompensatedPath {
+        name: name.to_owned(),
+        points: drawn.len(),
+        before: ErrorAnswer::of(drawn, &before.deviations, before.case_count),
+        after: ErrorAnswer::of(drawn, &found.residual, found.along.answers.case_count),
+        largest_correction_um: (0..drawn.len()).map(correction).fold(0.0, f64::max),
+        rounds: found.rounds,
+        last_round_um: found.last_move * 1e6,
+        contraction_ratio: found.contraction,
+        unreachable: found.unmoved,
+        outside_joint_limits: found
+            .along
+            .answers
+            .evaluations()
+            .filter(|(_, evaluation)| !evaluation.within_limits())
+            .count(),
+        file,
+        in_place: in_place.as_ref().map(|written| written.given.clone()),
+        notes,
+    };
+    Ok(Commanded {
+        picture: picture(
+            name,
+            drawn,
+            (&before.deviations, before.case_count),
+            (&found, in_place.as_ref()),
+        ),
+        csv: csv::write(&table(name, &found.track)?),
+        setting: &path.setting,
+        path: (found.track, found.along.answers),
+        given,
+        program: in_place.map_or_else(Vec::new, |written| written.files),
+    })
+}
+
+/// The path as a table of points.
+fn table(name: &str, track: &Track) -> Result<Table, StudyError> {
+    let points = &track.path.points;
+    let column = |name: &str, unit: Option<&str>, (decimals, data): (u8, ColumnData)| Column {
+        name: name.to_owned(),
+        unit: unit.map(str::to_owned),
+        description: String::new(),
+        decimals: Some(decimals),
+        data,
+    };
+    let mut columns = Vec::new();
+    for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
+        let values = points.iter().map(|point| point.at[axis] * 1e3).collect();
+        columns.push(column(
+            &format!("{letter}_mm"),
+            Some("mm"),
+            (6, ColumnData::Float(values)),
+        ));
+    }
+    for (axis, letter) in ["i", "j", "k"].into_iter().enumerate() {
+        let values = points
+            .iter()
+            .map(|point| track.placing.path_spindle(point)[axis])
+            .collect();
+        columns.push(column(letter, None, (9, ColumnData::Float(values))));
+    }
+    let spins = (0..points.len())
+        .map(|index| spin(track, index).to_degrees())
+        .collect();
+    columns.push(column("spin_deg", Some("deg"), (6, ColumnData::Float(spins))));
+    let feed = |pace: Pace| match pace {
+        Pace::Feed(speed) => Some(speed * 60e3),
+        Pace::Rapid | Pace::Unknown => None,
+    };
+    let feeds = points.iter().map(|point| feed(point.pace)).collect();
+    columns.push(column(
+        "feed_mm_per_min",
+        Some("mm/min"),
+        (3, ColumnData::OptionalFloat(feeds)),
+    ));
+    let rapid = |index: usize| i64::from(track.path.begins(index));
+    let rapids = (0..points.len()).map(rapid).collect();
+    columns.push(column("rapid", None, (0, ColumnData::Integer(rapids))));
+    Ok(Table::new(name, columns)?)
+}
+
+/// Spin of the tool about its axis at a point, relative to [`tool_orientation`], rad.
+fn spin(track: &Track, index: usize) -> f64 {
+    let stop = track.stop(index);
+    let unspun = tool_orientation(-stop.normal, 0.0);
+    let turn: UnitQuaternion<f64> = unspun.inverse() * stop.base_from_tool.rotation;
+    2.0 * turn.k.atan2(turn.w)
+}
+
+/// Points that the picture has at most.
+const MOST_POINTS: usize = 1200;
+
+/// Distance from the nominal path along it, before and after: the largest of the load cases, and of points in one mark.
+fn picture(
+    name: &str,
+    drawn: &Track,
+    (before, cases): (&[Vector3<f64>], usize),
+    (found, in_place): (&Compensated, Option<&RewrittenProgram>),
+) -> String {
+    let points = &drawn.path.points;
+    let handful = points.len().div_ceil(MOST_POINTS).max(1);
+    let series = |name: &str, errors: &[Vector3<f64>], cases: usize| Series {
+        name: name.to_owned(),
+        position: points
+            .iter()
+            .step_by(handful)
+            .map(|point| point.along * 1e3)
+            .collect(),
+        deviation_um: errors
+            .chunks(handful * cases)
+            .map(|some| some.iter().map(Vector3::norm).fold(0.0, f64::max) * 1e6)
+            .collect(),
+    };
+    let after = found.along.answers.case_count;
+    let mut all = vec![
+        series("nominal", before, cases),
+        series("compensated", &found.residual, after),
+    ];
+    all.extend(
+        in_place.map(|written| series("compensated in the program's own moves", &written.residual, after)),
+    );
+    PathPlot {
+        title: format!("{name}: compensated"),
+        subtitle: "predicted distance of the tool from the nominal path; the largest of the load cases"
+            .to_owned(),
+        position_label: "along the path (mm)".to_owned(),
+        quantity: "distance from the nominal path (µm)".to_owned(),
+        series: all,
+        envelope: None,
+        tolerance_um: None,
+    }
+    .to_svg()
+}

@@ -1,0 +1,273 @@
+//! The best placement, as values of a result.
+
+use armill_core::optimize::{PlacementEvaluation, RankBy};
+use armill_study::answer::micrometres;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::certificate::CertificateAnswer;
+use super::freedom::PlaceAnswer;
+
+/// Where a path deviates least.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct PlacementAnswer {
+    /// Version of this format.
+    pub format: u32,
+    /// The path.
+    pub analysis: String,
+    /// Component of the deviation: `in-plane`, `cross-track`, `axial`.
+    pub component: &'static str,
+    /// What was to be least: `worst`, `mean`, `above-tolerance`.
+    pub objective: &'static str,
+    /// What places were compared by: `nominal`, `plus-two-sigma`, `within-tolerance`.
+    pub rank_by: &'static str,
+    /// Margin of every joint to its limits, of the elbow to stretched and the wrist to straight.
+    pub margin_deg: f64,
+    /// Points of the path.
+    pub points: usize,
+    /// Where the study has the part, in the branches that it has there.
+    pub nominal: OutcomeAnswer,
+    /// At the best placement.
+    pub recommended: OutcomeAnswer,
+    /// Its fixture, if fixtures are given.
+    pub fixture: Option<String>,
+    /// The place.
+    pub place: PlaceAnswer,
+    /// `posture.home_deg` there, where the rail may move.
+    pub home_deg: Option<Vec<f64>>,
+    /// What was free.
+    pub free: Vec<FreeAnswer>,
+    /// Placements on grids, compared with the best.
+    pub certificate: CertificateAnswer,
+    /// The best place for each margin.
+    pub by_margin: Vec<MarginAnswer>,
+    /// Seed of the search.
+    pub seed: u64,
+    /// Whether the tool turns with the part though the study does not say so: its inclination varies from point to
+    /// point, and
+    /// its spin is relative to the axes of base. The table of the path then has its spin at each point.
+    pub tool_turns_with_part: bool,
+    /// Rounds that an earlier run, which was stopped, had done.
+    pub rounds_taken_up: usize,
+}
+
+/// Result at a placement.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct OutcomeAnswer {
+    /// The objective, over the reachable points.
+    pub cost_um: f64,
+    /// Its standard uncertainty, from those of the joints' compliances and of the size of the load.
+    pub cost_u_um: f64,
+    /// Probability that it is above the tolerance, if it is not certain.
+    pub probability_above_tolerance: Option<f64>,
+    /// Points that the robot does not reach inside its limits and away from singularities.
+    pub unreachable_points: usize,
+    /// The branch; none for robots without named branches.
+    pub branch: Option<String>,
+}
+
+/// A degree that was free.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct FreeAnswer {
+    /// Its key in the study, with the unit of the numbers.
+    pub degree: &'static str,
+    /// Least value.
+    // unit: that of its degree
+    pub least: f64,
+    /// Greatest value.
+    // unit: that of its degree
+    pub greatest: f64,
+    /// The value at the best placement.
+    // unit: that of its degree
+    pub value: f64,
+    /// Whether it is at one of its bounds: wider bounds may allow a better placement.
+    pub at_bound: bool,
+}
+
+/// The best place for one margin.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct MarginAnswer {
+    /// Margin of every joint to its limits, of the elbow to stretched and the wrist to straight.
+    pub margin_deg: f64,
+    /// What was to be least.
+    pub cost_um: f64,
+    /// Its fixture, if fixtures are given.
+    pub fixture: Option<String>,
+    /// The place.
+    pub place: PlaceAnswer,
+}
+
+impl OutcomeAnswer {
+    /// The result for an evaluated placement and this tolerance, m.
+    pub(super) fn of(evaluated: &PlacementEvaluation, limit: f64) -> OutcomeAnswer {
+        let PlacementEvaluation { score, uncertainty } = evaluated;
+        let cost = if score.cost.is_finite() { score.cost } else { 0.0 };
+        OutcomeAnswer {
+            cost_um: cost * 1e6,
+            cost_u_um: uncertainty * 1e6,
+            probability_above_tolerance: evaluated.probability_above(limit),
+            unreachable_points: score.unreachable,
+            branch: score.branch.map(|branch| branch.to_string()),
+        }
+    }
+}
+
+impl PlacementAnswer {
+    /// The result as sentences.
+    pub fn sentences(&self) -> Vec<String> {
+        let what = match self.objective {
+            "worst" => "largest",
+            "mean" => "mean",
+            _ => "cost (mean excess over the tolerance plus a thousandth of the mean) of the",
+        };
+        let value = |outcome: &OutcomeAnswer| match outcome.unreachable_points {
+            0 => format!(
+                "{}{} µm",
+                micrometres(outcome.cost_um),
+                match outcome.cost_u_um {
+                    0.0 => String::new(),
+                    u => format!(" ± {}", micrometres(u)),
+                }
+            ),
+            lost => format!("no posture at {lost} of {} points", self.points),
+        };
+        let branch = |outcome: &OutcomeAnswer| {
+            outcome
+                .branch
+                .as_deref()
+                .map_or(String::new(), |branch| format!(" in {branch}"))
+        };
+        let mut lines = vec![match self.recommended.unreachable_points {
+            0 => format!(
+                "{}: {what} {} deviation {}{} at {}; nominal: {}{}.",
+                self.analysis,
+                self.component,
+                value(&self.recommended),
+                branch(&self.recommended),
+                self.place_in_words(),
+                value(&self.nominal),
+                branch(&self.nominal),
+            ),
+            lost => format!(
+                "{}: no placement was found at which all points can be reached; the best, {}, has no posture at {lost} of {} points{}.",
+                self.analysis,
+                self.place_in_words(),
+                self.points,
+                branch(&self.recommended),
+            ),
+        }];
+        if self.tool_turns_with_part {
+            lines.push(
+                "The tool turns with the part; in a study use spin = \"along-feed\", otherwise column turn_deg of the table has its spin.".to_owned(),
+            );
+        }
+        let edges: Vec<&str> = self
+            .free
+            .iter()
+            .filter(|free| free.at_bound)
+            .map(|free| free.degree)
+            .collect();
+        if !edges.is_empty() {
+            lines.push(format!(
+                "At a bound: {}. Wider bounds may allow a better placement.",
+                edges.join(", ")
+            ));
+        }
+        let grid = |grid: &super::GridAnswer| {
+            format!(
+                "{} placements every {:.0} mm and {:.1} deg",
+                grid.places, grid.pitch_mm, grid.pitch_deg
+            )
+        };
+        let [near, wide] = [&self.certificate.near, &self.certificate.wide];
+        if let Some(above) = self
+            .recommended
+            .probability_above_tolerance
+            .filter(|_| self.rank_by == "within-tolerance")
+        {
+            lines.push(format!(
+                "It is above the tolerance with a probability of {:.1} %.",
+                100.0 * above
+            ));
+        }
+        if self.free.is_empty() {
+            return lines;
+        }
+        lines.push(match near.better + wide.better {
+            0 => format!(
+                "None is better of {} near it, nor of {} over the whole range.",
+                grid(near),
+                grid(wide)
+            ),
+            better => {
+                format!("{better} placements of the grids are better: search again with another --seed.")
+            }
+        });
+        lines
+    }
+
+    /// The placement as text: `centre (700.0, 0.0, 1028.7) mm, tilt 90.0 deg`.
+    pub fn place_in_words(&self) -> String {
+        let place = &self.place;
+        let [x, y, z] = place.centre_mm;
+        let mut words = match &self.fixture {
+            Some(name) => format!("fixture `{name}`, "),
+            None => String::new(),
+        };
+        words += &format!("centre ({x:.1}, {y:.1}, {z:.1}) mm");
+        if let Some(tilt) = place.tilt_deg {
+            words += &format!(", tilt {tilt:.1} deg");
+        }
+        if let Some([rx, ry, rz]) = place.rotation_deg {
+            words += &format!(", rotated by ({rx:.1}, {ry:.1}, {rz:.1}) deg");
+        }
+        if let Some(rail) = place.rail_mm {
+            words += &format!(", rail at {rail:.1} mm");
+        }
+        if place.spin_deg != 0.0 {
+            words += &format!(", tool spin changed by {:.1} deg", place.spin_deg);
+        }
+        words
+    }
+
+    /// Lines of a study file for this placement; none if not all points can be reached.
+    pub fn study_lines(&self) -> String {
+        if self.recommended.unreachable_points > 0 {
+            return String::new();
+        }
+        let place = &self.place;
+        let list = |values: &[f64]| {
+            let values: Vec<String> = values.iter().map(|value| format!("{value:.4}")).collect();
+            format!("[{}]", values.join(", "))
+        };
+        let mut lines = format!("plane.centre_mm = {}\n", list(&place.centre_mm));
+        if let Some(tilt) = place.tilt_deg {
+            lines += &format!("plane.tilt_deg = {tilt:.4}\n");
+        }
+        if let Some(rotation) = place.rotation_deg {
+            lines += &format!("plane.rotation_deg = {}\n", list(&rotation));
+        }
+        if let Some(branch) = &self.recommended.branch {
+            lines += &format!("posture.branch = \"{branch}\"\n");
+        }
+        if let Some(home) = &self.home_deg {
+            lines += &format!("posture.home_deg = {}\n", list(home));
+        }
+        if place.spin_deg != 0.0 {
+            lines += &format!(
+                "spin_deg = {:.4} # of a program: add this to program.spin_deg\n",
+                place.spin_deg
+            );
+        }
+        lines
+    }
+}
+
+/// Its name in the study.
+pub(super) fn rank_by_name(rank_by: RankBy) -> &'static str {
+    match rank_by {
+        RankBy::Nominal => "nominal",
+        RankBy::PlusTwoSigma => "plus-two-sigma",
+        RankBy::WithinTolerance(_) => "within-tolerance",
+    }
+}

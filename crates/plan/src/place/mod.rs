@@ -1,0 +1,485 @@
+//! Search for the placement of the part with the least deviation along the path.
+//!
+//! ```text
+//! free degrees -> placements spread over them -> best regions -> local search on all points -> certificate -> the study there
+//! ```
+//!
+//! `freedom`: free degrees; `search`: from spread placements to the best; `certificate`: whether grids contain a
+//! better one; `rounds`: all of that for every fixture and margin; [`journal`]: state of an interrupted
+//! search; [`answer`]: the values of the result; `result`: the study at the placement; `pictures`; [`evaluate`]:
+//! scores of
+//! given placements. Theory: `docs/theory/placement.md`.
+//!
+//! If fixtures are given each is searched separately, and the best is used. For the margin to limits and singularities
+//! the search is repeated for several margins, with the previous placement as an additional start.
+
+pub mod answer;
+mod certificate;
+pub mod evaluate;
+mod freedom;
+pub mod journal;
+mod pictures;
+mod result;
+mod rounds;
+mod search;
+
+pub use answer::{FreeAnswer, MarginAnswer, OutcomeAnswer, PlacementAnswer};
+pub use certificate::{CertificateAnswer, GridAnswer};
+pub use evaluate::{PlacementParameters, PlacementScores};
+pub use freedom::PlaceAnswer;
+pub use journal::Journal;
+pub use result::PlacementResult;
+
+use armill_core::frame::from_xyz_and_fixed_angles;
+use armill_core::kernel::{BranchChoice, PartPlacement};
+use armill_core::nalgebra::{Point3, UnitQuaternion, Vector3};
+use armill_core::optimize::{PlacementObjective, PostureSearch, PostureSelection, ToolTurn, on_part};
+use armill_core::path::Spin;
+use armill_core::robot::{BranchPattern, Robot};
+use armill_core::watch::Watch;
+use armill_core::workpiece::Plane;
+
+use answer::rank_by_name;
+use armill_study::ENOUGH_JOINTS;
+use armill_study::answer::path::search::{component_name, objective_name};
+use armill_study::error::StudyError;
+use armill_study::file::path::PathAnalysis;
+use armill_study::file::placement::{ANY, FixtureTable, PlaceTable, RankByName};
+use armill_study::file::posture_search::{ComponentName, ObjectiveName};
+use armill_study::file::resolve::{Setting, Study, Subject};
+use armill_study::joint_unit::JointUnit;
+use armill_study::number::decimals;
+use armill_study::run::runner;
+use freedom::Freedom;
+use rounds::{Best, MARGINS_DEG, Prepared, Site};
+use search::Effort;
+
+/// Default range of the part in each direction, mm.
+const USUAL_MM: f64 = 300.0;
+/// Default least angle of the wrist from straight, deg.
+const USUAL_WRIST_DEG: f64 = 3.0;
+
+/// A prepared search.
+pub struct PlacementSearch<'a> {
+    study: &'a Study,
+    /// Index of the analysis.
+    index: usize,
+    name: &'a str,
+    analysis: &'a PathAnalysis,
+    /// Spins and branches that each point may have, for a set of holes.
+    holes: Option<&'a PostureSearch>,
+    table: PlaceTable,
+    seed: u64,
+}
+
+impl<'a> PlacementSearch<'a> {
+    /// For the path named in `requested`, or in the table of the study, or the only one; what `requested` does not
+    /// give is
+    /// taken from the study, else the default.
+    ///
+    /// # Errors
+    /// No such path, or several; empty bounds; words that name no branch.
+    pub fn new(
+        study: &'a Study,
+        requested: PlaceTable,
+        seed: u64,
+    ) -> Result<PlacementSearch<'a>, StudyError> {
+        let mut table = requested.or(study.place.clone().unwrap_or_default());
+        let (index, chosen) = chosen(study, table.analysis.as_deref())?;
+        let (name, (analysis, holes)) = (chosen.0, chosen.1);
+        let stays = analysis
+            .source
+            .robot()
+            .is_some_and(|robot| robot.cell.base_from_path.is_none());
+        if stays {
+            let message =
+                format!("`{name}` is from a robot program, which is placed where its frame is given");
+            let hint = "program.part_from_path_mm_deg = [0, 0, 0, 0, 0, 0] places its frame on the plane, which can be moved";
+            return Err(StudyError::value(message, hint));
+        }
+        if let Some([least, greatest]) = table.rail_mm {
+            check_rail(&study.robot.robot, [least * 1e-3, greatest * 1e-3])?;
+        }
+        if holes.is_some() && table.spin_deg.is_some() {
+            let message =
+                "`spin_deg` changes the spin at all points alike, but each hole has its own best spin";
+            return Err(StudyError::value(
+                message,
+                "posture.search.turns_deg bounds the spin of holes",
+            ));
+        }
+        let faults = table.faults();
+        if let Some((_, _, hint)) = faults.first() {
+            let messages: Vec<&str> = faults.iter().map(|(_, message, _)| message.as_str()).collect();
+            return Err(StudyError::value(messages.join("; "), *hint));
+        }
+        if !table.is_free() {
+            let at = analysis
+                .setting
+                .in_reference(&analysis.setting.plane.at(Point3::origin().xy()));
+            let about = |at: f64| Some([at * 1e3 - USUAL_MM, at * 1e3 + USUAL_MM]);
+            (table.x_mm, table.y_mm, table.z_mm) = (about(at.x), about(at.y), about(at.z));
+        }
+        Ok(PlacementSearch {
+            study,
+            index,
+            name,
+            analysis,
+            holes,
+            table,
+            seed,
+        })
+    }
+
+    /// Name of the path.
+    pub fn name(&self) -> &str {
+        self.name
+    }
+
+    /// Whether it is a set of holes.
+    pub fn is_of_holes(&self) -> bool {
+        self.holes.is_some()
+    }
+
+    /// Approximate number of placements evaluated: the end of its progress.
+    pub fn place_count(&self) -> usize {
+        let effort = self.effort();
+        let margins = MARGINS_DEG.len() - 1;
+        let sites = self.table.fixture.len().max(1);
+        sites * (effort.most() + margins * effort.cheaper().most() + effort.grid)
+    }
+
+    fn effort(&self) -> Effort {
+        let robot = &self.study.robot.robot;
+        let effort = match robot.ortho_parallel().is_some() && self.analysis.setting.model.is_drives_alone() {
+            true => Effort::lanes(self.analysis.track.len()),
+            false => Effort::ONE_BY_ONE,
+        };
+        effort.shared_by(self.holes.map_or(1, |search| search.spins.count))
+    }
+
+    /// Searches; `given` receives the best so far, `watch` every placement.
+    ///
+    /// # Errors
+    /// A robot without compliance; a path that misses its stock; cancelled by the watch; a journal that cannot be
+    /// written.
+    pub fn search(
+        &self,
+        journal: &mut Journal<'_>,
+        watch: Watch<'_>,
+        given: &dyn Fn(&str),
+    ) -> Result<PlacementResult, StudyError> {
+        let quiet = Watch {
+            finished: &|_| (),
+            ..watch
+        };
+        let runner = runner(self.study, quiet)?;
+        let (load, _) = runner.pushed(self.analysis)?;
+        let objective = self.objective()?;
+        let track = &self.analysis.track;
+        let effort = self.effort();
+        let all: Vec<usize> = (0..track.len()).collect();
+        let stride = track.len().div_ceil(effort.points).max(1);
+        let some: Vec<usize> = all.iter().copied().step_by(stride).collect();
+        let on_part = |indices: &[usize]| on_part((track, &load), objective.component, indices);
+        let question = runner.question(&self.analysis.setting);
+        let (all, some) = (on_part(&all), on_part(&some));
+        let turn = ToolTurn::of(track);
+        let sites = self.sites(turn);
+        let prepared = Prepared {
+            of: self,
+            question: &question,
+            paths: [&some, &all],
+            sites: &sites,
+            effort,
+            watch,
+            given,
+        };
+        journal.take_up(prepared.fingerprint(&objective));
+        let mut best = prepared.best((objective, effort), "", None, journal)?;
+        let mut front = prepared.front(objective, &best, journal)?;
+        if let Some((_, first)) = front.first() {
+            best = first.clone();
+        }
+        let (best, certificate) = prepared.certified(best, objective, journal)?;
+        if let Some((_, first)) = front.first_mut() {
+            *first = best.clone();
+        }
+        let answer = self.answer(
+            &prepared,
+            objective,
+            (&best, certificate, &front),
+            journal.taken(),
+        );
+        let freedom = &sites[best.site].freedom;
+        let mut pictures = prepared
+            .searched(freedom, objective, effort)
+            .sections(&best.spot, &answer, watch)?;
+        pictures.extend(pictures::front(&answer, self.analysis.setting.tolerance));
+        Ok(PlacementResult {
+            with_part: answer
+                .tool_turns_with_part
+                .then(|| self.tool_on_part(&freedom.part_placement(&best.spot.at))),
+            analysis: self.index,
+            answer,
+            pictures,
+        })
+    }
+
+    /// The values of the result.
+    fn answer(
+        &self,
+        prepared: &Prepared<'_>,
+        objective: PlacementObjective,
+        (best, certificate, front): (&Best, CertificateAnswer, &[(f64, Best)]),
+        rounds_taken_up: usize,
+    ) -> PlacementAnswer {
+        let (track, setting) = (&self.analysis.track, &self.analysis.setting);
+        let turn = ToolTurn::of(track);
+        let rail = self.rail();
+        let drawn = Freedom::new((setting, rail), turn, &PlaceTable::default());
+        let as_requested = PlacementObjective {
+            branches: match setting.choice {
+                BranchChoice::Of(pattern) => pattern,
+                BranchChoice::Best => BranchPattern::default(),
+            },
+            ..objective
+        };
+        let outcome = |freedom: &Freedom, objective: PlacementObjective, at: &[f64]| {
+            let searched = prepared.searched(freedom, objective, prepared.effort);
+            OutcomeAnswer::of(
+                &searched.all.evaluated(&freedom.part_placement(at)),
+                setting.tolerance,
+            )
+        };
+        let of = |best: &Best| &prepared.sites[best.site];
+        let place = of(best).freedom.answer(&best.spot.at);
+        PlacementAnswer {
+            format: 1,
+            analysis: self.name.to_owned(),
+            component: component_name(objective.component),
+            objective: objective_name(objective.objective),
+            margin_deg: decimals(objective.margin.to_degrees(), 4),
+            rank_by: rank_by_name(objective.rank_by),
+            nominal: outcome(&drawn, as_requested, &[]),
+            recommended: outcome(&of(best).freedom, objective, &best.spot.at),
+            fixture: of(best).name.map(str::to_owned),
+            home_deg: place.rail_mm.and_then(|rail| self.home_with_rail(rail)),
+            place,
+            free: of(best).freedom.reported(&best.spot.at),
+            certificate,
+            by_margin: front
+                .iter()
+                .map(|(margin, best)| MarginAnswer {
+                    margin_deg: decimals(margin.to_degrees(), 4),
+                    cost_um: outcome(&of(best).freedom, objective, &best.spot.at).cost_um,
+                    fixture: of(best).name.map(str::to_owned),
+                    place: of(best).freedom.answer(&best.spot.at),
+                })
+                .collect(),
+            seed: self.seed,
+            points: track.len(),
+            rounds_taken_up,
+            tool_turns_with_part: turn == ToolTurn::WithPart
+                && !matches!(track.placing.spin, Spin::AlongFeed(_)),
+        }
+    }
+
+    /// `posture.home_deg` of the study with its rail at `rail_mm`.
+    fn home_with_rail(&self, rail_mm: f64) -> Option<Vec<f64>> {
+        let robot = &self.study.robot.robot;
+        let rail = rail_of(robot)?;
+        let home = self.analysis.setting.home.as_deref();
+        let given = |joint: usize| {
+            let middle = robot.joints()[joint].limits.map_or(0.0, |limits| limits.middle());
+            home.map_or(middle, |home| home[joint]) * JointUnit::of(robot, joint).scale
+        };
+        let mut all: Vec<f64> = (0..robot.joints().len()).map(given).collect();
+        all[rail] = rail_mm;
+        Some(all)
+    }
+
+    /// The tool on the part at each point, with its spin at this placement.
+    fn tool_on_part(&self, part_placement: &PartPlacement) -> Vec<UnitQuaternion<f64>> {
+        let track = &self.analysis.track;
+        let part_from_base = track.base_from_part.inverse().rotation;
+        let spin = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), part_placement.spin);
+        let at = |index: usize| part_from_base * track.stop(index).base_from_tool.rotation * spin;
+        (0..track.len()).map(at).collect()
+    }
+
+    fn objective(&self) -> Result<PlacementObjective, StudyError> {
+        let table = &self.table;
+        let setting = &self.analysis.setting;
+        let branches = match table.branch.as_deref() {
+            None => self.holes.map_or(setting.open, |search| search.branches),
+            Some(ANY) => BranchPattern::default(),
+            Some(words) => words.parse().map_err(|error| {
+                let message = format!("place.branch: {error}");
+                StudyError::value(message, "words of a branch, or `any`")
+            })?,
+        };
+        Ok(PlacementObjective {
+            component: match (table.component, self.holes) {
+                (Some(component), _) => component.component(),
+                (None, Some(search)) => search.component,
+                (None, None) => ComponentName::InPlane.component(),
+            },
+            objective: table
+                .objective
+                .unwrap_or(ObjectiveName::Worst)
+                .objective(setting.tolerance),
+            branches,
+            margin: table.margin_deg.unwrap_or(0.0).to_radians(),
+            selection: match self.holes {
+                Some(search) => PostureSelection::PerPoint(search.spins),
+                None => PostureSelection::ForPath,
+            },
+            rank_by: table
+                .rank_by
+                .unwrap_or(RankByName::Nominal)
+                .rank_by(setting.tolerance),
+            wrist: match (table.least_wrist_deg, self.holes) {
+                (Some(least), _) => least.to_radians(),
+                (None, Some(search)) => search.wrist,
+                (None, None) => USUAL_WRIST_DEG.to_radians(),
+            },
+        })
+    }
+
+    /// Position of the rail in the study, m; 0 without one.
+    fn rail(&self) -> f64 {
+        let robot = &self.study.robot.robot;
+        let home = self.analysis.setting.home.as_deref();
+        let at = |joint: usize| match home {
+            Some(home) => home[joint],
+            None => robot.joints()[joint].limits.map_or(0.0, |limits| limits.middle()),
+        };
+        rail_of(robot).map_or(0.0, at)
+    }
+
+    fn sites(&self, turn: ToolTurn) -> Vec<Site<'_>> {
+        let setting = &self.analysis.setting;
+        if self.table.fixture.is_empty() {
+            return vec![Site {
+                name: None,
+                freedom: Freedom::new((setting, self.rail()), turn, &self.table),
+            }];
+        }
+        let at = |fixture: &'_ FixtureTable| {
+            let (plane, tilt) = plane_of(fixture, setting);
+            let there = Setting {
+                plane,
+                tilt,
+                ..setting.clone()
+            };
+            Freedom::new((&there, self.rail()), turn, &self.table)
+        };
+        let sites = self.table.fixture.iter().map(|fixture| Site {
+            name: Some(&fixture.name),
+            freedom: at(fixture),
+        });
+        sites.collect()
+    }
+}
+
+/// The joint that is the rail: the first prismatic joint of a robot with redundant joints.
+fn rail_of(robot: &Robot) -> Option<usize> {
+    let joints = robot.joints().len();
+    (0..joints).find(|joint| joints > ENOUGH_JOINTS && robot.slides(*joint))
+}
+
+/// Refuses a rail that is not there, or bounds (m) outside its limits.
+fn check_rail(robot: &Robot, [least, greatest]: [f64; 2]) -> Result<(), StudyError> {
+    let Some(rail) = rail_of(robot) else {
+        let message = format!("`rail_mm`: robot `{}` has no rail", robot.name());
+        return Err(StudyError::value(
+            message,
+            "a rail is a prismatic joint before the six of the robot",
+        ));
+    };
+    let joint = &robot.joints()[rail];
+    match joint.limits {
+        Some(limits) if least < limits.lower || greatest > limits.upper => {
+            let message = format!(
+                "`rail_mm` ranges from {} to {} mm, joint {} from {} to {} mm",
+                least * 1e3,
+                greatest * 1e3,
+                joint.name,
+                limits.lower * 1e3,
+                limits.upper * 1e3
+            );
+            Err(StudyError::value(message, "bounds inside those of the joint"))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// A path, or a set of holes with the permitted spins.
+type Placed<'a> = (&'a PathAnalysis, Option<&'a PostureSearch>);
+
+/// The analysis that is placed: its index, its name, and its path.
+fn chosen<'a>(
+    study: &'a Study,
+    requested: Option<&str>,
+) -> Result<(usize, (&'a str, Placed<'a>)), StudyError> {
+    let all: Vec<(usize, (&str, Placed<'_>))> = study
+        .analyses
+        .iter()
+        .enumerate()
+        .filter_map(|(index, analysis)| {
+            let about: Placed<'_> = match &analysis.subject {
+                Subject::Path(path) => (path, None),
+                Subject::Holes(holes) => (&holes.path, Some(&holes.search)),
+                _ => return None,
+            };
+            Some((index, (analysis.name.as_str(), about)))
+        })
+        .collect();
+    let names = || {
+        let names = all.iter().map(|(_, (name, _))| format!("`{name}`"));
+        names.collect::<Vec<_>>().join(", ")
+    };
+    match (requested, &all[..]) {
+        (None, []) => Err(StudyError::value(
+            "the study has no path that could be placed",
+            "[[analysis]] kind = \"path\" with a program or a shape, or kind = \"holes\"",
+        )),
+        (None, [one]) => Ok(*one),
+        (None, _) => {
+            let message = format!("the study has several paths: {}", names());
+            Err(StudyError::value(
+                message,
+                "select one: --analysis NAME, or `place.analysis`",
+            ))
+        }
+        (Some(requested), _) => all
+            .iter()
+            .find(|(_, (name, _))| *name == requested)
+            .copied()
+            .ok_or_else(|| {
+                let message = format!("the study has no path called `{requested}`");
+                StudyError::value(message, format!("its paths: {}", names()))
+            }),
+    }
+}
+
+/// The plane in this fixture, base, and its tilt if it is given by one.
+fn plane_of(fixture: &FixtureTable, setting: &Setting) -> (Plane, Option<f64>) {
+    let centre = Vector3::from(fixture.centre_mm) * 1e-3;
+    let reference_from_part = match fixture.rotation_deg {
+        Some(angles) => from_xyz_and_fixed_angles(centre, Vector3::from(angles).map(f64::to_radians)),
+        None => {
+            let tilt = fixture.tilt_deg.unwrap_or(0.0).to_radians();
+            Plane::tilted(centre.into(), tilt).base_from_part
+        }
+    };
+    let plane = Plane {
+        base_from_part: setting.base_from_reference * reference_from_part,
+    };
+    let tilt = fixture
+        .rotation_deg
+        .is_none()
+        .then(|| fixture.tilt_deg.unwrap_or(0.0).to_radians());
+    (plane, tilt)
+}
