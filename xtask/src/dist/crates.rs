@@ -10,8 +10,11 @@ use std::path::PathBuf;
 const CRATES: &[&str] = &[
     "armill-core",
     "armill-formats",
+    "armill-programs",
     "armill-report",
     "armill-study",
+    "armill-measure",
+    "armill-plan",
     "armill-web",
     "armill",
 ];

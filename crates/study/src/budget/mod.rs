@@ -7,7 +7,7 @@
 //! [`parts`](mod@parts): the effect of the load, and the path without it. [`combine`](mod@combine): predicted and
 //! measured
 //! curves at common angles. [`answer`](mod@answer): the values of the result.
-//! [`output`]: its table and pictures.
+//! Table and pictures: [`crate::output::budget`].
 
 pub mod answer;
 pub mod combine;

@@ -22,7 +22,7 @@ impl Folder<'_> {
     /// Writes a file under a temporary name; it is renamed soon after.
     ///
     /// # Errors
-    /// The file cannot be written; one that cannot be renamed is reported by [`write_together`].
+    /// The file cannot be written; one that cannot be renamed is reported when all are written.
     pub fn save(&self, name: &str, bytes: &[u8]) -> Result<(), StudyError> {
         let part = self.out.part(name, bytes)?;
         // The other end is open as long as this one.
