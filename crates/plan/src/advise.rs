@@ -8,14 +8,15 @@
 
 use armill_core::optimize::Compensation;
 use armill_core::watch::Watch;
-use armill_study::answer::{
-    LimitsAnswer, PathAnswer, SearchAnswer, StatisticsAnswer, largest_contributor, micrometres,
-};
+use armill_study::analysis::path::PathAnalysis;
+use armill_study::analysis::path::run::PathResult;
+use armill_study::analysis::words::{largest_contributor, micrometres};
+use armill_study::analysis::{AnalysisData, AnalysisResult};
+use armill_study::answer::{LimitsAnswer, PathAnswer, SearchAnswer, StatisticsAnswer};
 use armill_study::error::StudyError;
-use armill_study::file::path::PathAnalysis;
 use armill_study::file::resolve::Study;
 use armill_study::output::Picture;
-use armill_study::run::{AnalysisData, AnalysisResult, PathResult, run};
+use armill_study::run::run;
 use armill_study::studies::FoundStudy;
 use serde::Serialize;
 
@@ -249,8 +250,9 @@ fn out_of_tolerance(
             max_in_plane_um: evaluation
                 .map(|evaluation| evaluation.in_plane * 1e6)
                 .fold(0.0, f64::max),
-            mostly_by: worst
-                .map(|(_, worst)| largest_contributor(study, &worst.point, &path.setting.contributors)),
+            mostly_by: worst.map(|(_, worst)| {
+                largest_contributor(&study.robot.robot, &worst.point, &path.setting.contributors)
+            }),
         })
     };
     let mut all: Vec<StretchAnswer> = stretches

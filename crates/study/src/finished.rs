@@ -12,11 +12,14 @@ use armill_core::watch::Watch;
 use armill_formats::file::ResultFolder;
 use armill_formats::table::Table;
 
+use crate::analysis::path::run::PathResult;
+use crate::analysis::sections::Section;
+use crate::analysis::{Analysis, AnalysisData, AnalysisResult, Subject};
 use crate::answer::{StudyAnswer, answer};
 use crate::error::StudyError;
-use crate::file::resolve::{Analysis, Study, Subject};
+use crate::file::resolve::Study;
 use crate::output::{self, OutputOptions, Picture};
-use crate::run::{AnalysisData, AnalysisResult, PathResult, Section, run};
+use crate::run::run;
 
 /// A study with its results.
 #[derive(Debug)]

@@ -12,6 +12,7 @@
 //!
 //! Command line, Python and web return the same bytes.
 
+pub mod analysis;
 pub mod answer;
 pub mod budget;
 pub mod compliance_class;
@@ -19,6 +20,7 @@ pub mod error;
 pub mod file;
 pub mod file_names;
 pub mod finished;
+pub mod input;
 pub mod joint_unit;
 pub mod library;
 pub mod live;

@@ -21,7 +21,8 @@ use armill_core::robot::inverse::{ToolAt, postures};
 use armill_programs::{Draft, DraftPoint, Language, Written, write};
 
 use crate::error::StudyError;
-use crate::file::resolve::{Setting, Study};
+use crate::file::resolve::Study;
+use crate::input::setting::Setting;
 use crate::naming::base_from_controller;
 
 /// How the program is to be.

@@ -196,8 +196,7 @@ fn the_values_of_an_analysis_are_its_own_or_those_of_the_study() {
 fn a_posture_in_the_plane_has_the_deviation_of_the_map() {
     let found = example("mh12-groove");
     let map = found.read().unwrap().analyses.iter().find_map(|analysis| {
-        matches!(analysis.subject, armill_study::file::resolve::Subject::Map(_))
-            .then(|| analysis.name.clone())
+        matches!(analysis.subject, armill_study::analysis::Subject::Map(_)).then(|| analysis.name.clone())
     });
     let map = map.unwrap();
     let whole: Value =

@@ -12,10 +12,11 @@ use armill_core::map::AlongPath;
 use armill_core::nalgebra::{Rotation3, Vector3};
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
+use armill_study::analysis::AnalysisData;
+use armill_study::analysis::path::PathAnalysis;
 use armill_study::answer::{MeasuredAnswer, StudyAnswer, answer};
-use armill_study::file::path::PathAnalysis;
 use armill_study::file::resolve::{Study, read};
-use armill_study::run::{AnalysisData, run};
+use armill_study::run::run;
 
 /// A horizontal plate in front of an MH12.
 const CELL: &str = r#"format = 1

@@ -8,9 +8,10 @@ use std::path::Path;
 use armill_core::map::PlaneMap;
 use armill_core::nalgebra::Vector3;
 use armill_core::watch::Watch;
+use armill_study::analysis::AnalysisData;
 use armill_study::answer::{StudyAnswer, answer};
 use armill_study::file::resolve::{Study, read};
-use armill_study::run::{AnalysisData, run};
+use armill_study::run::run;
 
 /// 5 x 5 points in front of an MH12; tool along base x, tables can be appended.
 const PLATE: &str = r#"format = 1

@@ -1,6 +1,6 @@
 //! `armill posture STUDY`: the best spin of the tool and branch along the paths of a study.
 
-use armill_study::file::posture_search::{ComponentName, ObjectiveName};
+use armill_study::input::posture_search::{ComponentName, ObjectiveName};
 use clap::{Args, ValueEnum};
 
 use super::run::RunOptions;

@@ -14,8 +14,7 @@
 use armill_study::StudyError;
 use armill_study::budget::answer::PartAnswer;
 use armill_study::budget::{BudgetAnswer, budget, point_count};
-use armill_study::output;
-use armill_study::studies;
+use armill_study::{output, studies};
 
 use crate::Outcome;
 use crate::arguments::BudgetArguments;

@@ -6,9 +6,8 @@
 use armill_plan::compare::{
     CellNumbers, ComparedAnswer, ComparisonAnswer, cells, comparable, compare, write,
 };
-use armill_study::StudyError;
 use armill_study::output::Pictures;
-use armill_study::studies;
+use armill_study::{StudyError, studies};
 
 use super::run::in_pool;
 use crate::Outcome;

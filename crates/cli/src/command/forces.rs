@@ -18,7 +18,7 @@ use armill_core::load::ActsOn;
 use armill_formats::measurement::format::ForceReadOptions;
 use armill_measure::forces::{ForcesAnswer, RangeAnswer, SummaryAnswer, answer, output};
 use armill_study::StudyError;
-use armill_study::answer::path::measured::DriftAnswer;
+use armill_study::analysis::path::answer::measured::DriftAnswer;
 use armill_study::measured::force_record::{Unread, read};
 use armill_study::measured::treatment::{Air, Refusal, Treatment, treat};
 use armill_study::number::decimals;

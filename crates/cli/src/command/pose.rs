@@ -22,7 +22,7 @@ use armill_core::robot::{JointCompliance, RobotError};
 use armill_core::spatial::Wrench;
 use armill_core::workpiece::Plane;
 use armill_formats::robot::RobotDescription;
-use armill_study::file::quantities::pose_mm_deg;
+use armill_study::input::quantities::pose_mm_deg;
 use armill_study::joint_unit::JointUnit;
 use armill_study::output::posture_drawing;
 use armill_study::pose::{At, PoseAnswer, PoseQuestion, PostureAnswer, answer};

@@ -4,7 +4,7 @@
 //! (`posture` next to the study). Stdout has one sentence per path: before and after.
 
 use armill_study::answer::StudyAnswer;
-use armill_study::file::posture_search::{ComponentName, ObjectiveName, SearchTable};
+use armill_study::input::posture_search::{ComponentName, ObjectiveName, SearchTable};
 use armill_study::{StudyError, studies};
 
 use super::run::{folder, results};

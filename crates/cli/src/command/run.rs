@@ -7,7 +7,8 @@
 use armill_formats::file::ResultFolder;
 use armill_study::answer::{StudyAnswer, answer};
 use armill_study::output::{self, Csv, Opening, OutputOptions, Pictures};
-use armill_study::run::{point_count, run as run_study};
+use armill_study::run::point_count;
+use armill_study::run::run as run_study;
 use armill_study::studies::{self, FoundStudy};
 use armill_study::{Study, StudyError};
 

@@ -6,10 +6,11 @@ use armill_core::measure::ballbar::joints::{Circle, Followed, NotFollowed, follo
 use armill_core::nalgebra::Point3;
 use armill_core::path::Shape;
 use armill_core::watch::Watch;
+use armill_study::analysis::Subject;
+use armill_study::analysis::path::PathAnalysis;
+use armill_study::analysis::runner::Runner;
 use armill_study::error::StudyError;
-use armill_study::file::path::PathAnalysis;
-use armill_study::file::resolve::{Study, Subject};
-use armill_study::run::{Runner, runner};
+use armill_study::file::resolve::Study;
 
 /// A circle of a study.
 #[derive(Clone, Copy, Debug)]
@@ -84,7 +85,7 @@ pub(super) fn followed(
     circle: &CircleAnalysis<'_>,
     watch: Watch<'_>,
 ) -> Result<Followed, StudyError> {
-    let runner = runner(study, watch)?;
+    let runner = Runner::new(&study.robot.robot, watch)?;
     // The branch is the one that the study follows the path in, under its load.
     let (load, _) = runner.pushed(circle.path)?;
     let along = runner.follow(circle.path, load)?.along;

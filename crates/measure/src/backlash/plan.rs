@@ -6,10 +6,10 @@ use armill_core::measure::ballbar::joints::{CirclePlanOptions, Domain, Followed,
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::Robot;
 use armill_core::watch::Watch;
+use armill_study::analysis::runner::Runner;
 use armill_study::error::StudyError;
 use armill_study::file::resolve::Study;
 use armill_study::number::decimals;
-use armill_study::run::runner;
 use serde::Serialize;
 
 use super::circles::{circles, followed, question};
@@ -133,7 +133,7 @@ pub fn plan(study: &Study, expected: &PlanOptions, watch: Watch<'_>) -> Result<P
             given => given.to_vec(),
         },
     };
-    let runner = runner(study, watch)?;
+    let runner = Runner::new(&study.robot.robot, watch)?;
     let robot = runner.robot;
     let requested = CirclePlanOptions {
         count: expected.count,

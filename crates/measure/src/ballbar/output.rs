@@ -22,9 +22,9 @@ use armill_formats::file::ResultFolder;
 use armill_formats::table::{Column, ColumnData, Table, csv};
 use armill_report::html::{Report, Table as Rows};
 use armill_report::{BallbarPlot, BallbarTrace, Growth, PathPlot, Sense, Series};
+use armill_study::analysis::cells::{columns, input, um};
 use armill_study::error::StudyError;
 use armill_study::measured::circular_test::MeasuredTest;
-use armill_study::output::report::cells::{columns, input, um};
 use armill_study::output::{Picture, REPORT, RESULT, picture_files, replace, save_pictures};
 
 use super::analyse::BallbarAnalysis;

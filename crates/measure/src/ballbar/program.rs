@@ -22,11 +22,11 @@ use armill_core::path::{Shape, Track};
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
 use armill_programs::Written;
+use armill_study::analysis::path::PathAnalysis;
+use armill_study::analysis::runner::Runner;
 use armill_study::error::StudyError;
-use armill_study::file::path::PathAnalysis;
 use armill_study::file::resolve::Study;
 use armill_study::program_out::{ProgramSettings, program};
-use armill_study::run::runner;
 
 use super::teach::TaughtCircle;
 
@@ -106,7 +106,7 @@ pub fn taught_program(
         frame: LoadFrame::Base,
         cases: vec![Wrench::ZERO],
     });
-    let runner = runner(study, Watch::NONE)?;
+    let runner = Runner::new(&study.robot.robot, Watch::NONE)?;
     let along = along_path(&runner.question(&analysis.setting), &track, nothing, Watch::NONE)?;
     let expected = ProgramSettings {
         within: ALL,

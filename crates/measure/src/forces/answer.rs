@@ -5,7 +5,7 @@
 
 use armill_core::load::Record;
 use armill_core::nalgebra::Vector3;
-use armill_study::answer::path::measured::DriftAnswer;
+use armill_study::analysis::path::answer::measured::DriftAnswer;
 use armill_study::measured::force_record::SensorRecord;
 use armill_study::measured::treatment::{ProcessedRecord, Treatment};
 use schemars::JsonSchema;

@@ -13,8 +13,8 @@ use armill_core::nalgebra::Vector3;
 use armill_formats::file::ResultFolder;
 use armill_formats::table::{Column, Table, csv};
 use armill_study::StudyError;
+use armill_study::measured::force_picture::plot;
 use armill_study::measured::treatment::ProcessedRecord;
-use armill_study::output::force_picture::plot;
 use armill_study::output::{Picture, column, picture_files, write_pictures};
 
 use super::ForcesAnswer;

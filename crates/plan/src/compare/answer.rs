@@ -7,9 +7,9 @@
 use std::cmp::Ordering;
 
 use armill_formats::sources::Source;
+use armill_study::analysis::Subject;
+use armill_study::analysis::path::PathAnalysis;
 use armill_study::answer::StudyAnswer;
-use armill_study::file::path::PathAnalysis;
-use armill_study::file::resolve::Subject;
 use serde::Serialize;
 
 use super::cells::Cell;

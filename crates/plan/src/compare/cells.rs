@@ -14,9 +14,8 @@ use armill_formats::document::{Problem, Problems};
 use armill_formats::robot::RobotDescription;
 use armill_study::error::StudyError;
 use armill_study::file::resolve::Study;
-use armill_study::library;
-use armill_study::robots;
 use armill_study::studies::{self, FoundStudy};
+use armill_study::{library, robots};
 
 use super::other_robot;
 

@@ -2,8 +2,8 @@
 //!
 //! Analyses that only one cell has are left out and reported, so that they are not computed.
 
+use armill_study::analysis::{Analysis, Subject};
 use armill_study::error::StudyError;
-use armill_study::file::resolve::{Analysis, Subject};
 
 use super::cells::Cell;
 

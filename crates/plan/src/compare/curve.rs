@@ -1,8 +1,8 @@
 //! The in-plane deviation along a path, short enough for a chart.
 
 use armill_core::kernel::Answers;
-use armill_study::file::path::PathAnalysis;
-use armill_study::output::along::PointGroups;
+use armill_study::analysis::path::PathAnalysis;
+use armill_study::analysis::path::point_groups::PointGroups;
 
 /// Deviation over distance.
 #[derive(Clone, Debug)]

@@ -34,10 +34,12 @@ pub use traits::TraitAnswer;
 
 use armill_core::watch::Watch;
 
-use armill_study::answer::{StudyAnswer, answer as answer_study};
+use armill_study::analysis::{AnalysisData, AnalysisResult};
+use armill_study::answer::StudyAnswer;
+use armill_study::answer::answer as answer_study;
 use armill_study::error::StudyError;
 use armill_study::file::resolve::Study;
-use armill_study::run::{AnalysisData, AnalysisResult, point_count, run};
+use armill_study::run::{point_count, run};
 use curve::Curve;
 use numbers::AnalysisNumbers;
 

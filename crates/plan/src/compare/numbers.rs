@@ -6,10 +6,10 @@
 
 use armill_core::kernel::Answers;
 use armill_core::map::Counts;
+use armill_study::analysis::path::PathAnalysis;
 use armill_study::answer::{
     CountsAnswer, HolesAnswer, MapAnswer, PathAnswer, PointAnswer, SettingAnswer, VolumeAnswer,
 };
-use armill_study::file::path::PathAnalysis;
 use serde::Serialize;
 
 /// One analysis in one cell.

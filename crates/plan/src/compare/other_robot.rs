@@ -11,7 +11,8 @@
 use armill_formats::robot::RobotDescription;
 use armill_study::compliance_class::ComplianceClass;
 use armill_study::error::StudyError;
-use armill_study::file::format::{ComplianceTable, PostureTable, StudyFile};
+use armill_study::file::format::{ComplianceTable, StudyFile};
+use armill_study::input::tables::PostureTable;
 
 /// Changes `file` to this robot, which was found as `name`.
 ///

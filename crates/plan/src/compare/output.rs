@@ -14,9 +14,9 @@ use armill_formats::file::ResultFolder;
 use armill_formats::table::{Column, ColumnData, Table, csv};
 use armill_report::html::{Report, Table as Rows};
 use armill_report::{ComparedCell, Comparison, PathPlot, Series};
+use armill_study::analysis::cells::{COUNT, columns, input, percent, um, without_empty_columns};
 use armill_study::error::StudyError;
 use armill_study::file_names::slug;
-use armill_study::output::report::cells::{COUNT, columns, input, percent, um, without_empty_columns};
 use armill_study::output::{Picture, Pictures, REPORT, RESULT, picture_files, replace, save_pictures};
 
 use super::answer::{ComparedAnswer, ComparisonAnswer};

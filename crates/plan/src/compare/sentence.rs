@@ -9,7 +9,7 @@
 //! is reported with its own.
 
 use armill_core::map::COVERAGE;
-use armill_study::answer::sentence::micrometres;
+use armill_study::analysis::words::micrometres;
 
 use super::numbers::CellNumbers;
 

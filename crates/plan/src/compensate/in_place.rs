@@ -20,11 +20,12 @@ use armill_core::optimize::{Shares, fitted, residual_of};
 use armill_core::path::{Move, Sampler, Sampling, Spin, Track};
 use armill_formats::file::ResultFolder;
 use armill_programs::{Motion, Moved, ProgramText, RobotMove, Spelled, Target, follow, read_as};
+use armill_study::analysis::path::robot_program::Span;
+use armill_study::analysis::path::run::Followed;
+use armill_study::analysis::path::{PathAnalysis, RobotPath};
+use armill_study::analysis::runner::Runner;
 use armill_study::error::StudyError;
-use armill_study::file::path::robot_program::Span;
-use armill_study::file::path::{PathAnalysis, RobotPath};
 use armill_study::file::resolve::Study;
-use armill_study::run::{Followed, Runner};
 use serde::Serialize;
 
 use super::error_answer::ErrorAnswer;

@@ -30,10 +30,12 @@ use armill_core::path::{Pace, Shape, Track};
 use armill_core::watch::Watch;
 use armill_formats::table::{Column, ColumnData, Table, csv};
 use armill_report::{PathPlot, Series};
+use armill_study::analysis::path::PathAnalysis;
+use armill_study::analysis::path::run::passes;
+use armill_study::analysis::runner::Runner;
 use armill_study::error::StudyError;
-use armill_study::file::path::PathAnalysis;
-use armill_study::file::resolve::{Setting, Study};
-use armill_study::run::{Runner, passes, runner};
+use armill_study::file::resolve::Study;
+use armill_study::input::setting::Setting;
 use serde::Serialize;
 
 use self::in_place::{RewrittenProgram, RewrittenProgramAnswer, in_place};
@@ -111,7 +113,7 @@ pub fn compensate<'a>(
     compensation: Compensation,
     watch: Watch<'_>,
 ) -> Result<Vec<Commanded<'a>>, StudyError> {
-    let runner = runner(study, watch)?;
+    let runner = Runner::new(&study.robot.robot, watch)?;
     let all: Vec<Commanded<'a>> = study
         .paths(name)
         .map(|(name, path)| of_path(&runner, (name, path), compensation))

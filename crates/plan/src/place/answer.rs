@@ -1,7 +1,7 @@
 //! The best placement, as values of a result.
 
 use armill_core::optimize::{PlacementEvaluation, RankBy};
-use armill_study::answer::micrometres;
+use armill_study::analysis::words::micrometres;
 use schemars::JsonSchema;
 use serde::Serialize;
 

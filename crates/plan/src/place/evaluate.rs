@@ -6,9 +6,9 @@
 use armill_core::kernel::PartPlacement;
 use armill_core::optimize::{Placeable, PlacementObjective, RankBy, Score, ToolTurn, on_part};
 use armill_core::watch::Watch;
+use armill_study::analysis::runner::Runner;
 use armill_study::error::StudyError;
 use armill_study::file::placement::PlaceTable;
-use armill_study::run::runner;
 
 use super::freedom::Freedom;
 use super::{PlacementSearch, check_rail, rail_of};
@@ -63,7 +63,7 @@ impl PlacementSearch<'_> {
             finished: &|_| (),
             ..watch
         };
-        let runner = runner(self.study, quiet)?;
+        let runner = Runner::new(&self.study.robot.robot, quiet)?;
         let (load, _) = runner.pushed(self.analysis)?;
         let objective = PlacementObjective {
             rank_by: RankBy::Nominal,
@@ -120,7 +120,8 @@ fn part_placement(freedom: &Freedom, place: &PlacementParameters) -> PartPlaceme
 mod tests {
     use super::*;
     use armill_study::answer::answer;
-    use armill_study::file::resolve::{Study, read};
+    use armill_study::file::resolve::Study;
+    use armill_study::file::resolve::read;
     use armill_study::run::run;
 
     /// A circle with this plane under two cases.

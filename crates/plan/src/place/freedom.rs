@@ -5,7 +5,7 @@ use armill_core::kernel::PartPlacement;
 use armill_core::nalgebra::{Translation3, Unit, UnitQuaternion, Vector3};
 use armill_core::optimize::ToolTurn;
 use armill_study::file::placement::PlaceTable;
-use armill_study::file::resolve::Setting;
+use armill_study::input::setting::Setting;
 use armill_study::number::decimals;
 use schemars::JsonSchema;
 use serde::Serialize;

@@ -41,15 +41,17 @@ use armill_core::workpiece::Plane;
 
 use answer::rank_by_name;
 use armill_study::ENOUGH_JOINTS;
-use armill_study::answer::path::search::{component_name, objective_name};
+use armill_study::analysis::Subject;
+use armill_study::analysis::path::PathAnalysis;
+use armill_study::analysis::path::answer::search::{component_name, objective_name};
+use armill_study::analysis::runner::Runner;
 use armill_study::error::StudyError;
-use armill_study::file::path::PathAnalysis;
 use armill_study::file::placement::{ANY, FixtureTable, PlaceTable, RankByName};
-use armill_study::file::posture_search::{ComponentName, ObjectiveName};
-use armill_study::file::resolve::{Setting, Study, Subject};
+use armill_study::file::resolve::Study;
+use armill_study::input::posture_search::{ComponentName, ObjectiveName};
+use armill_study::input::setting::Setting;
 use armill_study::joint_unit::JointUnit;
 use armill_study::number::decimals;
-use armill_study::run::runner;
 use freedom::Freedom;
 use rounds::{Best, MARGINS_DEG, Prepared, Site};
 use search::Effort;
@@ -173,7 +175,7 @@ impl<'a> PlacementSearch<'a> {
             finished: &|_| (),
             ..watch
         };
-        let runner = runner(self.study, quiet)?;
+        let runner = Runner::new(&self.study.robot.robot, quiet)?;
         let (load, _) = runner.pushed(self.analysis)?;
         let objective = self.objective()?;
         let track = &self.analysis.track;

@@ -1,9 +1,12 @@
 //! The result of a search, and the study with its path there.
 
 use armill_core::nalgebra::UnitQuaternion;
+use armill_study::analysis::Subject;
+use armill_study::analysis::table::AnalysisKind;
 use armill_study::error::StudyError;
-use armill_study::file::format::{AnalysisKind, PlaneChange, PostureTable, StudyFile};
-use armill_study::file::resolve::{Study, Subject};
+use armill_study::file::format::StudyFile;
+use armill_study::file::resolve::Study;
+use armill_study::input::tables::{PlaneChange, PostureTable};
 use armill_study::output::{Opening, Picture};
 use armill_study::studies::FoundStudy;
 

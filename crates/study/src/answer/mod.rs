@@ -18,28 +18,21 @@
 //! warnings[]    what to know before relying on it; sources[]: where its numbers come from
 //! ```
 //!
-//! A file for each part: `map`, `volume`, `path`, `holes`, `point`; `statement`, `cautions` and `sentence` interpret
-//! them.
+//! The parts are those of the kinds of [`crate::analysis`]; `statement` and `sentence` interpret them.
 
-mod cautions;
-pub mod holes;
-mod map;
-pub mod path;
-mod point;
-pub mod sentence;
+mod sentence;
 mod statement;
-mod volume;
 
-pub use holes::{HoleAnswer, HolesAnswer, WorstHole};
-pub use map::{CountsAnswer, GridAnswer, MapAnswer, RegionAnswer};
-pub use path::{
+pub use statement::{Reading, StatementAnswer};
+
+pub use crate::analysis::holes::answer::{HoleAnswer, HolesAnswer, WorstHole};
+pub use crate::analysis::map::answer::{CountsAnswer, GridAnswer, MapAnswer, RegionAnswer};
+pub use crate::analysis::path::answer::{
     CutAnswer, FeatureAnswer, LimitAnswer, LimitsAnswer, MeasuredAnswer, OperationAnswer, PathAnswer,
     ProgramAnswer, RestAnswer, SearchAnswer, StatisticsAnswer, StockAnswer, WorstPoint,
 };
-pub use point::{PointAnswer, SettingAnswer};
-pub use sentence::{largest_contributor, micrometres};
-pub use statement::{Reading, StatementAnswer};
-pub use volume::VolumeAnswer;
+pub use crate::analysis::point::{PointAnswer, SettingAnswer};
+pub use crate::analysis::volume::answer::VolumeAnswer;
 
 use armill_core::load::CuttingLaw;
 use armill_core::robot::BacklashSide;
@@ -49,12 +42,15 @@ use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::analysis;
+use crate::analysis::path::{Cut, PathAnalysis};
+use crate::analysis::sections::Section;
+use crate::analysis::{AnalysisData, AnalysisResult, Subject};
 use crate::budget::{self, BudgetAnswer};
-use crate::file::path::{Cut, PathAnalysis};
-use crate::file::resolve::{Setting, Study, Subject};
+use crate::file::resolve::Study;
+use crate::input::setting::Setting;
 use crate::joint_unit::JointUnit;
 use crate::model_words::left_out;
-use crate::run::{AnalysisData, AnalysisResult, Section};
 
 /// The whole answer.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -135,26 +131,30 @@ enum AnswerKind {
 /// `done` is the result of `run` for this study, in the order of its analyses; the answer has that order on any number
 /// of threads.
 pub fn answer(study: &Study, done: &[AnalysisResult<'_>]) -> StudyAnswer {
+    let robot = &study.robot.robot;
     let given = |done: &AnalysisResult<'_>| match &done.found {
-        AnalysisData::Map(sheet, map) => {
-            AnswerKind::Maps(vec![map::answer(study, done.name, &sheet.setting, map)])
-        }
+        AnalysisData::Map(sheet, map) => AnswerKind::Maps(vec![analysis::map::answer::answer(
+            robot,
+            done.name,
+            &sheet.setting,
+            map,
+        )]),
         AnalysisData::Sections(sections) => {
             let section = |section: &Section<'_>| {
                 let name = format!("{}: {}", done.name, section.label);
-                map::answer(study, &name, &section.sheet.setting, &section.map)
+                analysis::map::answer::answer(robot, &name, &section.sheet.setting, &section.map)
             };
             AnswerKind::Maps(sections.par_iter().map(section).collect())
         }
-        AnalysisData::Volume(setting, volume) => {
-            AnswerKind::Volume(Box::new(volume::answer(study, done.name, setting, volume)))
-        }
-        AnalysisData::Path(analysis, found) => {
-            AnswerKind::Path(Box::new(path::answer(study, done.name, analysis, found)))
-        }
-        AnalysisData::Holes(analysis, found) => {
-            AnswerKind::Holes(Box::new(holes::answer(study, done.name, analysis, found)))
-        }
+        AnalysisData::Volume(setting, volume) => AnswerKind::Volume(Box::new(
+            analysis::volume::answer::answer(robot, done.name, setting, volume),
+        )),
+        AnalysisData::Path(analysis, found) => AnswerKind::Path(Box::new(analysis::path::answer::answer(
+            robot, done.name, analysis, found,
+        ))),
+        AnalysisData::Holes(analysis, found) => AnswerKind::Holes(Box::new(analysis::holes::answer::answer(
+            robot, done.name, analysis, found,
+        ))),
     };
     let all: Vec<AnswerKind> = done.par_iter().map(given).collect();
     let (mut maps, mut paths, mut volumes) = (Vec::new(), Vec::new(), Vec::new());
@@ -338,8 +338,8 @@ fn warnings(
             volume.name, volume.setting.base
         ));
     }
-    warnings.extend(paths.iter().flat_map(cautions::of_path));
-    warnings.extend(holes.iter().flat_map(cautions::of_holes));
+    warnings.extend(paths.iter().flat_map(analysis::path::warnings::warnings));
+    warnings.extend(holes.iter().flat_map(analysis::holes::warnings::warnings));
     for analysis in &study.analyses {
         if let Subject::Path(path) = &analysis.subject {
             let uncertain = path.measured.as_ref().and_then(|measured| measured.warning());

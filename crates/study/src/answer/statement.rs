@@ -6,8 +6,8 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::map::MapAnswer;
-use super::path::PathAnswer;
+use crate::analysis::map::answer::MapAnswer;
+use crate::analysis::path::answer::PathAnswer;
 use crate::file::resolve::Study;
 
 /// A statement and every reading of it.

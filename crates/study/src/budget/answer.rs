@@ -9,9 +9,9 @@ use armill_core::budget::{Comparison, Contribution, Datum, Origin, Share, WavePa
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::combine::{CombinedCurves, UnloadedPath};
+use crate::analysis::path::PathAnalysis;
+use crate::budget::combine::{CombinedCurves, UnloadedPath};
 use crate::file::experiment::Experiment;
-use crate::file::path::PathAnalysis;
 
 /// Contributions to the error of a circle.
 #[derive(Clone, Debug, Serialize, JsonSchema)]

@@ -21,12 +21,12 @@ use armill_core::measure::ballbar::profile::{STATIONS, station};
 use armill_core::measure::ballbar::{CircularTest, Direction, Profile};
 use armill_core::watch::Watch;
 
-use super::parts::{DeviationParts, parts};
+use crate::analysis::path::PathAnalysis;
+use crate::analysis::path::run::PathResult;
+use crate::budget::parts::{DeviationParts, parts};
 use crate::error::StudyError;
 use crate::file::experiment::Experiment;
-use crate::file::path::PathAnalysis;
 use crate::file::resolve::Study;
-use crate::run::PathResult;
 
 /// Curves at common angles. SI.
 #[derive(Clone, Debug)]

@@ -18,11 +18,13 @@ pub use combine::{CombinedCurves, combine};
 
 use armill_core::watch::Watch;
 
+use crate::analysis::path::PathAnalysis;
+use crate::analysis::path::run::passes;
+use crate::analysis::runner::Runner;
+use crate::analysis::{AnalysisData, AnalysisResult, Subject};
 use crate::error::StudyError;
 use crate::file::experiment::Experiment;
-use crate::file::path::PathAnalysis;
-use crate::file::resolve::{Study, Subject};
-use crate::run::{AnalysisData, AnalysisResult, passes, runner};
+use crate::file::resolve::Study;
 
 /// The measurements, and the path on which they were made.
 fn circle(study: &Study) -> Result<(&Experiment, &PathAnalysis), StudyError> {
@@ -58,7 +60,7 @@ pub fn point_count(study: &Study) -> Result<usize, StudyError> {
 /// A study without measurements; errors of the path; curves that have too few angles in common.
 pub fn budget(study: &Study, watch: Watch<'_>) -> Result<(CombinedCurves, BudgetAnswer), StudyError> {
     let (experiment, path) = circle(study)?;
-    let found = runner(study, watch)?.path(path)?;
+    let found = Runner::new(&study.robot.robot, watch)?.path(path)?;
     let combined = combine((study, experiment), (path, &found), watch)?;
     let given = answer(experiment, path, &combined);
     Ok((combined, given))

@@ -7,10 +7,11 @@ use armill_core::nalgebra::Point2;
 use armill_core::path::{Shape, Track};
 use armill_core::watch::Watch;
 
+use crate::analysis::path::PathAnalysis;
+use crate::analysis::path::run::PathResult;
+use crate::analysis::runner::Runner;
 use crate::error::StudyError;
-use crate::file::path::PathAnalysis;
 use crate::file::resolve::Study;
-use crate::run::{PathResult, runner};
 
 /// Outward deviations at the points of the circle, m.
 #[derive(Clone, Debug, Default)]
@@ -37,7 +38,7 @@ pub fn parts(
         Some(Shape::Circle { centre, .. }) => *centre,
         _ => Point2::origin(),
     };
-    let runner = runner(study, watch)?;
+    let runner = Runner::new(&study.robot.robot, watch)?;
     let question = runner.question(&path.setting);
     let turned: Option<Track> = found
         .searched

@@ -9,9 +9,9 @@ use armill_core::source::geometric::displacement;
 use armill_formats::robot::RobotDescription;
 use armill_formats::sources::Source;
 
-use super::format::StudyFile;
-use super::problem_log::ProblemLog;
 use crate::error::StudyError;
+use crate::file::format::StudyFile;
+use crate::input::problem_log::ProblemLog;
 use crate::number::decimals;
 use crate::robots;
 

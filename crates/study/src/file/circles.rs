@@ -1,6 +1,6 @@
 //! `ballbar`: circular tests on circles of the study, in which joints turn back.
 //!
-//! Angles of the files are converted to those of the circle as in [`super::experiment`].
+//! Angles of the files are converted to those of the circle as in [`crate::file::experiment`].
 
 use std::path::Path;
 
@@ -8,9 +8,9 @@ use armill_core::measure::ballbar::CircularTest;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::experiment::{AngleMapping, bar, circle, turned_test};
-use super::problem_log::ProblemLog;
-use super::resolve::Analysis;
+use crate::analysis::Analysis;
+use crate::file::experiment::{AngleMapping, bar, circle, turned_test};
+use crate::input::problem_log::ProblemLog;
 
 /// A circular test on one circle of the study.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]

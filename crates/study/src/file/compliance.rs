@@ -8,10 +8,10 @@
 
 use armill_core::robot::{JointCompliance, Robot};
 
-use super::format::{ComplianceTable, StudyFile};
-use super::problem_log::ProblemLog;
 use crate::compliance_class::CLASSES;
 use crate::error::StudyError;
+use crate::file::format::{ComplianceTable, StudyFile};
+use crate::input::problem_log::ProblemLog;
 
 /// Largest compliance of a joint of an arm, rad/(N m).
 const MOST_COMPLIANT: f64 = 1.0;

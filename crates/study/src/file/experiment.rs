@@ -23,9 +23,9 @@ use armill_formats::measurement::profile::{Points, ProfileReadOptions};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::problem_log::ProblemLog;
-use super::resolve::{Analysis, Subject};
+use crate::analysis::{Analysis, Subject};
 use crate::error::StudyError;
+use crate::input::problem_log::ProblemLog;
 use crate::measured::circular_test::{self, FileOptions, MeasuredTest};
 use crate::measured::profile;
 

@@ -1,112 +1,17 @@
-//! The memory of the answers of a study: estimated, and refused if it is too much, before anything is allocated.
-//!
-//! ```text
-//! bytes = sum over analyses of  points (answers of a point + tables and fields of a point) + cases (columns of a case)
-//! ```
-//!
-//! At most 4 GiB for each plane, box or path, and for all together. Both parts of a point grow with joints, shares and
-//! load cases; the comments of the constants list their contents. Measured (MH12, peak resident size, without pictures)
-//! and estimated, bytes a point:
-//!
-//! | | 1 case | 8 cases |
-//! |---|---|---|
-//! | volume of 531 441 points | 721, estimated 826 | 1657, estimated 1778 |
-//! | map of 361 201 points | 1135, estimated 1162 | 2102, estimated 2366 |
-//! | path of 314 160 points | 1165, estimated 1224 | 2416, estimated 2512 |
-//!
-//! Points are counted in floating point: a grid that is too large may overflow an index. Not included: `--csv` of boxes
-//! and sections.
+//! Whether the answers of all analyses fit into memory together.
 
-use armill_core::kernel::Answers;
 use armill_formats::robot::RobotDescription;
 
-use super::format::AnalysisKind;
-use super::path::PathAnalysis;
-use super::problem_log::ProblemLog;
-use super::resolve::{Analysis, Setting, Subject};
-
-/// Bytes in a GiB.
-pub(super) const GIB: f64 = 1024.0 * 1024.0 * 1024.0;
-/// Most memory that the answers of a study may take: available on a laptop.
-pub(super) const MOST_BYTES: f64 = 4.0 * GIB;
-/// Minimum of the bytes of a point in addition to its answers.
-pub(super) const LEAST_EXTRA_BYTES: usize = OF_FIELD.point;
-
-/// Bytes of tables and fields in addition to the answers: of a point, of each of its joints and shares, of each of its
-/// load cases. A number is 16 in a column that may lack some, about 11 in a field's file and 12 in CSV.
-struct ExtraBytes {
-    point: usize,
-    joint_or_share: usize,
-    case: usize,
-}
-
-/// Boxes and sections: position (24) and 13 columns in the table (148), four numbers in the field and its file (107),
-/// and temporary copies (50). Of a case three columns (48), a vector in the field (32) and in its file (32).
-const OF_FIELD: ExtraBytes = ExtraBytes {
-    point: 330,
-    joint_or_share: 16,
-    case: 112,
-};
-/// Maps: also CSV.
-const OF_MAP: ExtraBytes = ExtraBytes {
-    point: 330 + 13 * 12,
-    joint_or_share: 16 + 12,
-    case: 112 + 36,
-};
-/// Paths and holes: also the points of the path and their columns, and the load at each.
-const OF_PATH: ExtraBytes = ExtraBytes {
-    point: 330 + 350,
-    joint_or_share: 16,
-    case: 112 + 48,
-};
-/// Names, descriptions and buffers of the columns of one load case, independent of the points; measured 13 kB.
-const BYTES_PER_CASE: usize = 16 << 10;
-
-/// Hint for an analysis that is too large.
-const HINT: &str = "use a larger step, a smaller plane, or fewer load cases";
-
-/// Whether `points` of this setting under so many load cases fit; a problem at `path` if not.
-pub(super) fn check_points(
-    log: &mut ProblemLog<'_>,
-    path: &str,
-    (kind, points): (AnalysisKind, f64),
-    (robot, setting, cases): (&RobotDescription, &Setting, usize),
-) -> Option<()> {
-    let bytes = bytes(kind, points, (robot, setting, cases));
-    if bytes <= MOST_BYTES {
-        return Some(());
-    }
-    let (gib, most) = (bytes / GIB, MOST_BYTES / GIB);
-    let under = match cases {
-        1 => String::new(),
-        cases => format!(" under {cases} load cases"),
-    };
-    let message =
-        format!("{points:.0} points{under} would take {gib:.1} GiB of memory, more than {most:.0} GiB");
-    log.problem(path, message, HINT);
-    None
-}
+use crate::analysis::Analysis;
+use crate::input::memory::{GIB, MOST_BYTES};
+use crate::input::problem_log::ProblemLog;
 
 /// A problem if all analyses do not fit into memory together: their answers are in memory at the same time.
 pub(super) fn check_analyses(log: &mut ProblemLog<'_>, robot: &RobotDescription, analyses: &[Analysis]) {
-    let of = |kind: AnalysisKind, setting: &Setting, points: usize| {
-        bytes(kind, points as f64, (robot, setting, setting.cases.len()))
-    };
-    let of_path = |kind: AnalysisKind, path: &PathAnalysis| {
-        let cases = path.load.case_count();
-        bytes(kind, path.track.len() as f64, (robot, &path.setting, cases))
-    };
-    let of_analysis = |analysis: &Analysis| match &analysis.subject {
-        Subject::Map(sheet) => of(AnalysisKind::Map, &sheet.setting, sheet.grid.len()),
-        Subject::Sections(all) => all
-            .iter()
-            .map(|(_, sheet)| of(AnalysisKind::Sections, &sheet.setting, sheet.grid.len()))
-            .sum(),
-        Subject::Volume(setting, grid) => of(AnalysisKind::Volume, setting, grid.len()),
-        Subject::Holes(holes) => of_path(AnalysisKind::Holes, &holes.path),
-        Subject::Path(path) => of_path(AnalysisKind::Path, path),
-    };
-    let bytes: f64 = analyses.iter().map(of_analysis).sum();
+    let bytes: f64 = analyses
+        .iter()
+        .map(|analysis| analysis.subject.bytes(robot))
+        .sum();
     if bytes > MOST_BYTES {
         let (gib, most) = (bytes / GIB, MOST_BYTES / GIB);
         let message =
@@ -117,24 +22,4 @@ pub(super) fn check_analyses(log: &mut ProblemLog<'_>, robot: &RobotDescription,
             "use larger steps, smaller planes, or several studies",
         );
     }
-}
-
-/// Bytes of so many points: their answers in the core, and their tables and fields.
-fn bytes(
-    kind: AnalysisKind,
-    points: f64,
-    (robot, setting, cases): (&RobotDescription, &Setting, usize),
-) -> f64 {
-    let extra = match kind {
-        AnalysisKind::Map => OF_MAP,
-        AnalysisKind::Sections | AnalysisKind::Volume => OF_FIELD,
-        AnalysisKind::Path | AnalysisKind::Holes => OF_PATH,
-    };
-    let joints = robot.robot.joints().len();
-    let shares = setting.model.contributors(joints).len();
-    let point = Answers::bytes_per_point(joints, shares, cases)
-        + extra.point
-        + extra.joint_or_share * (joints + shares)
-        + extra.case * cases;
-    points * point as f64 + (cases * BYTES_PER_CASE) as f64
 }

@@ -6,10 +6,10 @@
 
 use armill_formats::document::{Document, Problem};
 
-use super::analysis::kind_name;
-use super::format::{AnalysisKind, AnalysisTable, StudyFile};
-use super::problem_log::ProblemLog;
-use super::resolve::{Analysis, Subject};
+use crate::analysis::table::{AnalysisKind, AnalysisTable};
+use crate::analysis::{Analysis, Subject};
+use crate::file::format::StudyFile;
+use crate::input::problem_log::ProblemLog;
 
 /// Longest part of a file name that an analysis may give, bytes: systems take 255, sections and pictures add to it.
 const LONGEST_SLUG: usize = 160;
@@ -19,7 +19,7 @@ pub(super) fn name_of(table: &AnalysisTable, index: usize) -> String {
     table
         .name
         .clone()
-        .unwrap_or_else(|| format!("{} {}", kind_name(table.kind), index + 1))
+        .unwrap_or_else(|| format!("{} {}", table.kind.name(), index + 1))
 }
 
 /// Problems of statements that speak of no map, section or path.

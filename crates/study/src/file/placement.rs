@@ -18,7 +18,7 @@ use armill_core::robot::BranchPattern;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::posture_search::{ComponentName, ObjectiveName};
+use crate::input::posture_search::{ComponentName, ObjectiveName};
 
 /// The permitted placements of the part and the objective, for `armill place`.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]

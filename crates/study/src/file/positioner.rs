@@ -25,10 +25,10 @@ use armill_core::spatial::Twist;
 use armill_formats::robot::RobotDescription;
 use armill_formats::sources::Source;
 
-use super::format::PositionerTable;
-use super::problem_log::ProblemLog;
-use super::quantities::pose_mm_deg;
 use crate::error::StudyError;
+use crate::file::format::PositionerTable;
+use crate::input::problem_log::ProblemLog;
+use crate::input::quantities::pose_mm_deg;
 use crate::joint_unit::joint_positions;
 use crate::robots;
 

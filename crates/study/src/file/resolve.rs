@@ -6,34 +6,26 @@
 use std::borrow::Cow;
 use std::path::Path;
 
-use armill_core::frame::Isometry;
-use armill_core::kernel::BranchChoice;
-use armill_core::load::{InputUncertainty, LoadCases};
-use armill_core::map::BoxGrid;
-use armill_core::nalgebra::{Matrix6, Point3};
-use armill_core::optimize::PostureSearch;
-use armill_core::robot::{BranchPattern, Robot};
-use armill_core::source::{Arm, ArmState, StiffnessModel};
-use armill_core::spatial::Wrench;
-use armill_core::workpiece::{Grid, Plane};
 use armill_formats::document::{Document, Problem, Problems};
 use armill_formats::input::Inputs;
 use armill_formats::robot::RobotDescription;
 
-use super::analysis::Resolver;
-use super::calibrated::find_calibrated;
-use super::circles::MeasuredCircle;
-use super::compliance::{self, OwnCompliance};
-use super::experiment::Experiment;
-use super::format::{AnalysisTable, StatementTable, StudyFile};
-use super::holes::HolesAnalysis;
 use super::memory;
-use super::names::{check_statements, name_of, unfit_names};
-use super::path::PathAnalysis;
-use super::placement::PlaceTable;
-use super::positioner;
-use super::problem_log::ProblemLog;
+use crate::analysis::path::PathAnalysis;
+use crate::analysis::resolve::Resolver;
+use crate::analysis::table::AnalysisTable;
+use crate::analysis::{Analysis, Subject};
 use crate::error::StudyError;
+use crate::file::calibrated::find_calibrated;
+use crate::file::circles::MeasuredCircle;
+use crate::file::compliance::OwnCompliance;
+use crate::file::experiment::Experiment;
+use crate::file::format::{StatementTable, StudyFile};
+use crate::file::names::{check_statements, name_of, unfit_names};
+use crate::file::placement::PlaceTable;
+use crate::file::{compliance, positioner};
+use crate::input::problem_log::ProblemLog;
+use crate::input::setting::Setting;
 use crate::robots;
 
 /// A study that can be run.
@@ -85,111 +77,7 @@ impl Study {
     pub fn settings(&self) -> impl Iterator<Item = &Setting> {
         self.analyses
             .iter()
-            .filter_map(|analysis| match &analysis.subject {
-                Subject::Map(sheet) => Some(&sheet.setting),
-                Subject::Sections(sections) => sections.first().map(|(_, sheet)| &sheet.setting),
-                Subject::Volume(setting, _) => Some(setting),
-                Subject::Path(path) => Some(&path.setting),
-                Subject::Holes(holes) => Some(&holes.path.setting),
-            })
-    }
-}
-
-/// One resolved analysis.
-#[derive(Clone, Debug)]
-pub struct Analysis {
-    /// Its name.
-    pub name: String,
-    /// What it is about.
-    pub subject: Subject,
-}
-
-/// The subject of an analysis.
-#[derive(Clone, Debug)]
-pub enum Subject {
-    /// One plane.
-    Map(Sheet),
-    /// Several planes, each with its label.
-    Sections(Vec<(String, Sheet)>),
-    /// A box of points.
-    Volume(Setting, BoxGrid),
-    /// A path.
-    Path(Box<PathAnalysis>),
-    /// Holes.
-    Holes(Box<HolesAnalysis>),
-}
-
-/// A plane with its grid.
-#[derive(Clone, Debug)]
-pub struct Sheet {
-    /// How the points are evaluated.
-    pub setting: Setting,
-    /// Which points.
-    pub grid: Grid,
-}
-
-/// Everything needed to evaluate a point, SI, base.
-#[derive(Clone, Debug)]
-pub struct Setting {
-    /// Name of the frame that coordinates count from.
-    pub base_name: String,
-    /// That frame in base.
-    pub base_from_reference: Isometry,
-    /// Flange to tool centre point.
-    pub flange_from_tool: Isometry,
-    /// Compliances and masses in addition to the drives.
-    pub model: StiffnessModel,
-    /// The workpiece plane.
-    pub plane: Plane,
-    /// Its tilt as given, rad, if it was given by one.
-    pub tilt: Option<f64>,
-    /// Load cases as given; none if the forces come with a path.
-    pub load: LoadCases,
-    /// The same in base; a load that turns with the feed as if the feed were along x of the part.
-    pub cases: Vec<Wrench>,
-    /// Where the load comes from, in the user's words.
-    pub load_source: Option<String>,
-    /// Where springs and masses of the tool come from, in the user's words.
-    pub tool_sources: Vec<String>,
-    /// Uncertainty of load and tool.
-    pub uncertainty: InputUncertainty,
-    /// The tolerance, m.
-    pub tolerance: f64,
-    /// Which posture.
-    pub choice: BranchChoice,
-    /// Position of a rail and preferred positions of redundant joints, rad (m).
-    pub home: Option<Vec<f64>>,
-    /// Branches that the words of the study leave open; all where it has none.
-    pub open: BranchPattern,
-    /// Along a path: which turns and branches are tried.
-    pub search: Option<PostureSearch>,
-}
-
-impl Setting {
-    /// Name of the requested posture: words of a branch, or `best`.
-    pub fn branch(&self) -> String {
-        match self.choice {
-            BranchChoice::Of(pattern) if pattern == BranchPattern::default() => "nominal".to_owned(),
-            BranchChoice::Of(pattern) => pattern.to_string(),
-            BranchChoice::Best => "best".to_owned(),
-        }
-    }
-
-    /// Compliance of the unloaded arm at joint positions `q` (rad, m), SI; zeros if the arm is not stable.
-    pub fn compliance_at(&self, robot: &Robot, q: &[f64]) -> Matrix6<f64> {
-        let mut arm_state = ArmState::new(Arm {
-            robot,
-            compliance: robot.compliance().unwrap_or_default(),
-            model: &self.model,
-            flange_from_tool: &self.flange_from_tool,
-        });
-        arm_state.set_joints(q);
-        arm_state.compliance().unwrap_or_else(Matrix6::zeros)
-    }
-
-    /// A point of base relative to the reference frame of the study, m.
-    pub fn in_reference(&self, in_base: &Point3<f64>) -> Point3<f64> {
-        self.base_from_reference.inverse_transform_point(in_base)
+            .filter_map(|analysis| analysis.subject.setting(0))
     }
 }
 
@@ -283,6 +171,7 @@ impl Parsed {
             Some(robot) => find_calibrated(&mut log, file, (robot, folder))?,
             None => None,
         };
+        let common = file.common();
         let mut problems = std::mem::take(&mut log.problems);
         let mut analyses = Vec::new();
         let chosen = tables.iter().enumerate();
@@ -292,7 +181,7 @@ impl Parsed {
             let own = (!file.analysis.is_empty()).then_some(index);
             let mut log = ProblemLog::new(document, own);
             let resolver = Resolver {
-                file,
+                common: &common,
                 robot: robot.as_ref(),
                 actual: actual.as_ref().map(|actual| &actual.robot),
                 table,

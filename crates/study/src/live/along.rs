@@ -16,13 +16,14 @@ use armill_core::optimize::hole_postures;
 use armill_core::path::Track;
 use armill_core::watch::Watch;
 
-use super::posture::{ToolTarget, is_same};
+use crate::analysis::holes::resolve::HolesAnalysis;
+use crate::analysis::path::PathAnalysis;
+use crate::analysis::runner::Runner;
+use crate::analysis::{AnalysisData, AnalysisResult};
 use crate::error::StudyError;
-use crate::file::holes::HolesAnalysis;
-use crate::file::path::PathAnalysis;
 use crate::file::resolve::Study;
+use crate::live::posture::{ToolTarget, is_same};
 use crate::pose::At;
-use crate::run::{AnalysisData, AnalysisResult, runner};
 
 /// The pose of the arm at a point in the answer.
 pub(super) struct AnsweredPose {
@@ -52,7 +53,7 @@ pub(super) fn on_path(
     let (along, searched) = match done.map(|done| &done.found) {
         Some(AnalysisData::Path(_, found)) => (&found.along, found.searched.as_ref()),
         _ => {
-            let runner = runner(study, watch)?;
+            let runner = Runner::new(&study.robot.robot, watch)?;
             let (load, _) = runner.pushed(path)?;
             of_now = runner.follow(path, load)?;
             (&of_now.along, of_now.searched.as_ref())
@@ -80,7 +81,7 @@ pub(super) fn at_hole(
     let found = match done.map(|done| &done.found) {
         Some(AnalysisData::Holes(_, found)) => found.as_ref(),
         _ => {
-            let runner = runner(study, watch)?;
+            let runner = Runner::new(&study.robot.robot, watch)?;
             of_now = hole_postures(&runner.question(&holes.path.setting), of, &holes.search, watch)?;
             &of_now
         }

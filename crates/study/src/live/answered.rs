@@ -4,9 +4,9 @@ use armill_core::watch::Watch;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::StudyText;
 use crate::answer::answer;
 use crate::error::StudyError;
+use crate::live::StudyText;
 use crate::output::budget::is_of_budget;
 use crate::output::{self, Picture};
 use crate::run::run;

@@ -4,12 +4,12 @@ use armill_core::watch::Watch;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::StudyText;
-use super::posture::{PoseTarget, PosturesAnswer, postures_of};
+use crate::analysis::{AnalysisData, AnalysisResult};
 use crate::answer::{PointAnswer, StudyAnswer};
 use crate::error::{ErrorKind, StudyError};
 use crate::file::resolve::{Parsed, Study};
-use crate::run::{AnalysisData, AnalysisResult};
+use crate::live::StudyText;
+use crate::live::posture::{PoseTarget, PosturesAnswer, postures_of};
 
 /// The pose of the arm to show.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]

@@ -14,9 +14,9 @@ use armill_formats::robot::xacro;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::StudyText;
 use crate::error::StudyError;
 use crate::file::resolve::Parsed;
+use crate::live::StudyText;
 use crate::number::without_rounding;
 
 /// The extension of meshes that a page can draw.

@@ -60,7 +60,8 @@ pub use view::{ViewAnswer, view};
 use std::path::Path;
 
 use crate::error::StudyError;
-use crate::file::resolve::{Parsed, Setting, Study, Subject};
+use crate::file::resolve::{Parsed, Study};
+use crate::input::setting::Setting;
 
 /// The text of a study.
 #[derive(Clone, Copy, Debug)]
@@ -98,12 +99,6 @@ fn setting(study: &Study, section: usize) -> Result<&Setting, StudyError> {
     let found = study
         .analyses
         .first()
-        .and_then(|analysis| match &analysis.subject {
-            Subject::Map(sheet) => Some(&sheet.setting),
-            Subject::Sections(sections) => sections.get(section).map(|(_, sheet)| &sheet.setting),
-            Subject::Volume(setting, _) => Some(setting),
-            Subject::Path(path) => Some(&path.setting),
-            Subject::Holes(holes) => Some(&holes.path.setting),
-        });
+        .and_then(|analysis| analysis.subject.setting(section));
     found.ok_or_else(|| StudyError::value(format!("there is no section {section}"), "sections count from 0"))
 }

@@ -5,10 +5,9 @@ use armill_formats::document::edit::{self, Change};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::StudyText;
 use crate::error::StudyError;
-use crate::file::analysis::kind_name;
 use crate::file::resolve::Parsed;
+use crate::live::StudyText;
 
 /// The contents of a text; an invalid text has problems, and as much of the contents as can be read.
 #[derive(Clone, Debug, Default, Serialize, JsonSchema)]
@@ -134,10 +133,10 @@ pub(super) fn analyses(parsed: &Parsed) -> Vec<OutlinedAnalysis> {
     let tables = parsed.analysis_tables();
     let names = parsed.analysis_names();
     let one = |(index, (table, name)): (usize, (_, String))| {
-        let table: &crate::file::format::AnalysisTable = table;
+        let table: &crate::analysis::table::AnalysisTable = table;
         OutlinedAnalysis {
             name,
-            kind: kind_name(table.kind),
+            kind: table.kind.name(),
             keys: parsed.keys(&format!("analysis[{index}]")),
         }
     };

@@ -21,17 +21,17 @@ use armill_core::workpiece::Split;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::along::{AnsweredPose, at_hole, on_path};
-use super::meshes::{DrawnMesh, Shapes};
-use super::{StudyText, setting};
+use crate::analysis::arm::arm_posture;
+use crate::analysis::{AnalysisResult, Subject};
 use crate::error::StudyError;
-use crate::file::resolve::{Parsed, Setting, Study, Subject};
-use crate::joint_unit::JointUnit;
-use crate::joint_unit::joint_positions;
+use crate::file::resolve::{Parsed, Study};
+use crate::input::setting::Setting;
+use crate::joint_unit::{JointUnit, joint_positions};
+use crate::live::along::{AnsweredPose, at_hole, on_path};
+use crate::live::meshes::{DrawnMesh, Shapes};
+use crate::live::{StudyText, setting};
 use crate::number::without_rounding;
-use crate::output::arm_posture;
 use crate::pose::{At, PoseAnswer, PoseContext, PoseQuestion, answer_in};
-use crate::run::AnalysisResult;
 
 /// A target of the tool: one of these.
 #[derive(Clone, Debug, Default, Deserialize, Serialize, JsonSchema)]

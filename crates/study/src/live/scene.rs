@@ -11,14 +11,16 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
-use super::StudyText;
+use crate::analysis::resolve::plane_of;
+use crate::analysis::{AnalysisData, AnalysisResult, Sheet, Subject};
 use crate::error::StudyError;
-use crate::file::analysis::plane_of;
-use crate::file::format::{HalfSize, PlaneTable};
-use crate::file::resolve::{Parsed, Setting, Sheet, Study, Subject};
+use crate::file::resolve::{Parsed, Study};
+use crate::input::setting::Setting;
+use crate::input::tables::{HalfSize, PlaneTable};
+use crate::live::StudyText;
 use crate::number::without_rounding;
 use crate::output;
-use crate::run::{AnalysisData, AnalysisResult, run};
+use crate::run::run;
 
 /// The parts of one analysis that can be drawn, base.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -130,8 +132,8 @@ pub(super) fn scene_of(
     (study, done): (&Study, &[AnalysisResult<'_>]),
 ) -> Result<SceneAnswer, StudyError> {
     let tables = parsed.analysis_tables();
-    let plane = plane_of(&parsed.file, &tables[parsed.index_of(name)?]);
-    let setting = super::setting(study, 0)?;
+    let plane = plane_of(&parsed.file.plane, &tables[parsed.index_of(name)?]);
+    let setting = crate::live::setting(study, 0)?;
     let (mut sections, mut in_box) = (Vec::new(), None);
     let of_sheet = |sheet: &Sheet| {
         let half = |count: usize| 0.5 * (count as f64 - 1.0) * sheet.grid.step;

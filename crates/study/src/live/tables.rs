@@ -5,8 +5,8 @@ use armill_formats::document::{Document, Problem};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::StudyText;
-use super::outline::outline;
+use crate::live::StudyText;
+use crate::live::outline::outline;
 
 /// The values of a text.
 #[derive(Clone, Debug, Serialize, JsonSchema)]

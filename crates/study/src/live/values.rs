@@ -7,12 +7,14 @@ use armill_core::robot::Branch;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::scene::{PlateInScene, half_of};
-use super::{StudyText, setting};
+use crate::analysis::resolve::plane_of;
+use crate::analysis::table::AnalysisTable;
 use crate::error::StudyError;
-use crate::file::analysis::{kind_name, plane_of};
-use crate::file::format::{AnalysisTable, HalfSize, StudyFile};
+use crate::file::format::StudyFile;
 use crate::file::resolve::{Parsed, Study};
+use crate::input::tables::HalfSize;
+use crate::live::scene::{PlateInScene, half_of};
+use crate::live::{StudyText, setting};
 use crate::number::without_rounding;
 
 /// Every setting of one analysis; `null` if it has none.
@@ -82,7 +84,7 @@ pub(super) fn values_of(parsed: &Parsed, name: String, study: &Study) -> Result<
     let file = &parsed.file;
     let setting = setting(study, 0)?;
     let robot = &study.robot.robot;
-    let plane = plane_of(file, table);
+    let plane = plane_of(&file.plane, table);
     let half_size_mm = match plane.half_size_mm {
         HalfSize::Square(half) => [half; 2],
         HalfSize::Oblong(halves) => halves,
@@ -92,7 +94,7 @@ pub(super) fn values_of(parsed: &Parsed, name: String, study: &Study) -> Result<
     let frames = robot.frames().iter().map(|frame| frame.name.clone());
     let upright = plane.rotation_deg.is_none();
     Ok(ValuesAnswer {
-        kind: kind_name(table.kind),
+        kind: table.kind.name(),
         robot: file.robot.clone(),
         base: setting.base_name.clone(),
         bases: std::iter::once(crate::BASE_LINK.to_owned())
@@ -136,7 +138,7 @@ fn branch_words(file: &StudyFile, table: &AnalysisTable) -> String {
 fn spin(table: &AnalysisTable) -> Option<f64> {
     match (&table.program, table.kind) {
         (Some(program), _) => Some(program.spin_deg.unwrap_or(0.0)),
-        (None, crate::file::format::AnalysisKind::Path) => Some(table.spin_deg.unwrap_or(0.0)),
+        (None, crate::analysis::table::AnalysisKind::Path) => Some(table.spin_deg.unwrap_or(0.0)),
         _ => None,
     }
 }

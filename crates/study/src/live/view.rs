@@ -5,13 +5,13 @@ use armill_core::watch::Watch;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::arm::{ExtremesAnswer, PoseAtTarget, PoseRequest, extremes_of, pose_at_target};
-use super::outline::{analyses, changed_text};
-use super::scene::scene_of;
-use super::values::values_of;
-use super::{ChangedValue, OutlinedAnalysis, SceneAnswer, StudyText, ValuesAnswer};
 use crate::answer::{StudyAnswer, answer};
 use crate::error::StudyError;
+use crate::live::arm::{ExtremesAnswer, PoseAtTarget, PoseRequest, extremes_of, pose_at_target};
+use crate::live::outline::{analyses, changed_text};
+use crate::live::scene::scene_of;
+use crate::live::values::values_of;
+use crate::live::{ChangedValue, OutlinedAnalysis, SceneAnswer, StudyText, ValuesAnswer};
 use crate::run::run;
 
 /// Everything shown of one analysis.

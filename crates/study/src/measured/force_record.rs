@@ -7,8 +7,8 @@ use armill_core::load::{ActsOn, Record};
 use armill_formats::input;
 use armill_formats::measurement::format::{self, ForceReadOptions};
 
-use super::treatment::Refusal;
 use crate::error::StudyError;
+use crate::measured::treatment::Refusal;
 
 /// A record as its file has it.
 #[derive(Clone, Debug)]

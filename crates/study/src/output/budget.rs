@@ -18,10 +18,10 @@ use armill_report::html;
 use armill_report::{BudgetBar, BudgetBars, BudgetGroup, Growth, PolarPlot, RadialSeries, WaveBar, WaveBars};
 
 use crate::StudyError;
+use crate::analysis::cells::columns;
 use crate::budget::answer::{BudgetAnswer, PartAnswer, WithoutLoadAnswer};
 use crate::budget::combine::CombinedCurves;
 use crate::file_names::slug;
-use crate::output::report::cells::columns;
 use crate::output::{Picture, picture_files, write_pictures};
 
 /// The table.

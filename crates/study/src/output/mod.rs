@@ -18,23 +18,15 @@
 //! `plates`, `path` with `along` and `force_picture`, `holes`, `lattice`, `limits`, `arm`, `budget`, `report`: their
 //! contents.
 
-pub mod along;
 mod arm;
 pub mod budget;
 pub mod folder;
-pub mod force_picture;
-mod holes;
-mod lattice;
-mod limits;
-mod path;
 mod pictures;
-mod plates;
 pub mod report;
-mod rows;
 mod tables;
 
-pub use arm::{arm_drawing, arm_posture, posture_drawing};
-pub use pictures::Picture;
+pub use crate::analysis::picture::Picture;
+pub use arm::{arm_drawing, posture_drawing};
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -44,11 +36,11 @@ use armill_formats::table::{Column, ColumnData, Table, csv};
 use rayon::prelude::*;
 use serde::Serialize;
 
+use crate::analysis::AnalysisResult;
 use crate::answer::StudyAnswer;
 use crate::error::StudyError;
 use crate::file::resolve::Study;
 use crate::file_names::slug;
-use crate::run::AnalysisResult;
 
 /// What to write in addition to `result.json`, Parquet and VTK.
 #[derive(Clone, Copy, Debug)]

@@ -17,9 +17,10 @@ mod statements;
 use std::path::Path;
 
 use armill_core::watch::Watch;
+use armill_study::analysis::AnalysisResult;
 use armill_study::answer::{MapAnswer, StudyAnswer, answer};
 use armill_study::file::resolve::{Study, read};
-use armill_study::run::{AnalysisResult, run};
+use armill_study::run::run;
 
 /// 9 x 9 points in front of an MH12; tables can be appended.
 const PLATE: &str = r#"format = 1

@@ -1,6 +1,6 @@
 //! Shapes on the plane: where they begin, their roundness, in which branch they are followed.
 
-use armill_study::run::AnalysisData;
+use armill_study::analysis::AnalysisData;
 
 use crate::{answered, found, plate_with};
 

@@ -1,7 +1,7 @@
 //! The same points computed in two ways: as map, section, volume or path; in two branches, axes or frames.
 
+use armill_study::analysis::AnalysisData;
 use armill_study::answer::answer;
-use armill_study::run::AnalysisData;
 
 use crate::{SAME, answered, found, map, plate_with};
 

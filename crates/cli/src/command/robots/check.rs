@@ -8,7 +8,7 @@ use armill_core::robot::convention::PoseDifference;
 use armill_core::watch::Watch;
 use armill_formats::convention::Convention;
 use armill_formats::robot::pendant::reading;
-use armill_study::file::quantities::pose_mm_deg;
+use armill_study::input::quantities::pose_mm_deg;
 use armill_study::pendant::{PendantAnswer, PendantQuestion, check};
 use armill_study::{StudyError, robots};
 

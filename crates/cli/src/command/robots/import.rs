@@ -5,9 +5,8 @@
 
 use std::path::Path;
 
-use armill_formats::robot::RobotDescription;
-use armill_formats::robot::armill;
 use armill_formats::robot::format::RobotReadOptions;
+use armill_formats::robot::{RobotDescription, armill};
 use armill_study::robot_answers::ImportedRobot;
 use armill_study::{StudyError, library, robots};
 

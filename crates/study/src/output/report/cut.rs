@@ -8,11 +8,12 @@ use std::f64::consts::TAU;
 use armill_core::load::{Cutter, CuttingLaw, Estimate, Hand, Immersion};
 use armill_report::html::Input;
 
-use super::cells::input;
-use super::inputs::{THE_STUDY, place};
+use crate::analysis::Subject;
+use crate::analysis::cells::input;
+use crate::analysis::path::{Cut, PathAnalysis};
 use crate::answer::{StudyAnswer, sources_of_cut};
-use crate::file::path::{Cut, PathAnalysis};
-use crate::file::resolve::{Study, Subject};
+use crate::file::resolve::Study;
+use crate::output::report::inputs::{THE_STUDY, place};
 
 /// The rows of every cut of the study; of equal ones the first. Where several differ each row names its program.
 pub(super) fn rows(study: &Study, answer: &StudyAnswer) -> Vec<Input> {

@@ -5,11 +5,11 @@
 
 use armill_report::html::Input;
 
-use super::cells::input;
-use super::cut;
+use crate::analysis::cells::input;
 use crate::answer::{SettingAnswer, StudyAnswer};
 use crate::file::resolve::Study;
 use crate::joint_unit::JointUnit;
+use crate::output::report::cut;
 
 /// Robot and compliances, load or cut, tolerance, tool, stiffness model.
 pub(super) fn rows(study: &Study, answer: &StudyAnswer) -> Vec<Input> {

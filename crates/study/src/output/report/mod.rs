@@ -2,24 +2,19 @@
 //!
 //! It contains its pictures and needs no other file.
 //!
-//! A file for each chapter: `statements`, `planes`, `volumes`, `paths`, `holes`, `inputs` with `cut`; `cells`: numbers
-//! in tables.
+//! The chapters of the kinds of analysis are theirs; those of the study: `statements`, `inputs` with `cut`.
 
-pub mod cells;
 mod cut;
-mod holes;
 mod inputs;
-mod paths;
-mod planes;
 mod statements;
-mod volumes;
 
 use armill_report::html::Report;
 
-use super::Opening;
-use super::pictures::Picture;
+use crate::analysis;
+use crate::analysis::picture::Picture;
 use crate::answer::StudyAnswer;
 use crate::file::resolve::Study;
+use crate::output::Opening;
 
 /// The whole page: chapters only for the analyses of the study, pictures in the order given.
 pub(super) fn html(
@@ -52,16 +47,20 @@ pub(super) fn html(
         }
     }
     if !answer.maps.is_empty() {
-        report = report.section("Planes").table(&planes::table(answer));
+        report = report
+            .section("Planes")
+            .table(&analysis::map::report::table(&answer.maps));
     }
     if !answer.paths.is_empty() {
-        report = paths::add_section(report, &answer.paths);
+        report = analysis::path::report::add_section(report, &answer.paths);
     }
     for set in &answer.holes {
-        report = holes::add_section(report, set);
+        report = analysis::holes::report::add_section(report, set);
     }
     if !answer.volumes.is_empty() {
-        report = report.section("Volumes").table(&volumes::table(answer));
+        report = report
+            .section("Volumes")
+            .table(&analysis::volume::report::table(&answer.volumes));
     }
     if let Some(given) = &answer.measured {
         report = report.section("Measurement and prediction");

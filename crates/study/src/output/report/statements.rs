@@ -2,7 +2,7 @@
 
 use armill_report::html::Table;
 
-use super::cells::columns;
+use crate::analysis::cells::columns;
 use crate::answer::{StatementAnswer, StudyAnswer};
 
 /// A row a reading: its range of deviations against the stated bound.

@@ -1,0 +1,35 @@
+//! Columns that only holes have: number and line, the spin that was found, the bend of the wrist, and the deviation in
+//! the axes of the hole.
+
+use armill_core::optimize::HolesFound;
+use armill_core::robot::Robot;
+use armill_core::robot::jacobian::wrist_bend;
+
+use crate::analysis::columns::Numbers;
+use crate::analysis::holes::answer::error;
+use crate::analysis::holes::resolve::HolesAnalysis;
+use crate::analysis::quantity::{self, Quantity};
+
+/// Number, line, turn and bend, and the deviation in the axes of each hole.
+pub fn columns<'a>(robot: &'a Robot, analysis: &'a HolesAnalysis, found: &'a HolesFound) -> Vec<Numbers<'a>> {
+    let points = &analysis.path.track.path.points;
+    let part = |quantity: &'static Quantity, axis: usize| {
+        Numbers::of(quantity, move |_, index, evaluation| {
+            error(analysis, found, (index, evaluation))[axis] * 1e6
+        })
+    };
+    vec![
+        Numbers::of(&quantity::HOLE, |_, index, _| index as f64 + 1.0),
+        Numbers::of(&quantity::LINE, move |_, index, _| f64::from(points[index].line)),
+        Numbers::of(&quantity::TURN, move |_, index, _| {
+            found.spins[index].to_degrees()
+        }),
+        Numbers::of(&quantity::WRIST_BEND, move |rows, index, _| {
+            let bend = wrist_bend(robot, rows.answers.joints_at(index));
+            bend.map_or(f64::NAN, f64::to_degrees)
+        }),
+        part(&quantity::HOLE_X, 0),
+        part(&quantity::HOLE_Y, 1),
+        part(&quantity::DEPTH, 2),
+    ]
+}

@@ -1,0 +1,51 @@
+//! The answer in one sentence.
+
+use armill_core::robot::Robot;
+
+use crate::analysis::map::answer::MapAnswer;
+use crate::analysis::words::{largest_contributor, micrometres};
+
+/// Fraction of a plane, least and largest deviation, and how many points are outside joint limits.
+pub fn sentence(robot: &Robot, map: &MapAnswer) -> String {
+    let (Some(worst), Some(best)) = (&map.worst, &map.best) else {
+        return format!(
+            "The robot reaches no point of the plane ({}, branch {}).",
+            map.name, map.branch
+        );
+    };
+    let evaluation = match map.fraction_within {
+        0.0 => format!(
+            "no point on the plane is within {} µm",
+            micrometres(map.setting.tolerance_um)
+        ),
+        1.0 => format!(
+            "the whole plane is within {} µm",
+            micrometres(map.setting.tolerance_um)
+        ),
+        fraction => format!(
+            "{:.1} % of the plane is within {} µm",
+            fraction * 100.0,
+            micrometres(map.setting.tolerance_um)
+        ),
+    };
+    let limits = match map.outside_joint_limits {
+        0 => String::new(),
+        n => format!(
+            " ({:.1} % inside joint limits: {n} of {} points are outside)",
+            map.fraction_within_and_inside_joint_limits * 100.0,
+            map.grid.points
+        ),
+    };
+    format!(
+        "{}, branch {}: {evaluation}{limits}; the in-plane deviation ranges from {} to {} µm (u = {} µm) and is largest at ({:.0}, {:.0}, {:.0}) mm; largest contribution: {}.",
+        map.name,
+        map.branch,
+        micrometres(best.in_plane_um),
+        micrometres(worst.in_plane_um),
+        micrometres(worst.in_plane_u_um),
+        worst.xyz_mm[0],
+        worst.xyz_mm[1],
+        worst.xyz_mm[2],
+        largest_contributor(robot, worst, &map.setting.contributors),
+    )
+}

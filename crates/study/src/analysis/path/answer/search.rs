@@ -1,0 +1,181 @@
+//! The result of the search for spins of the tool and branches: the path before and after.
+//!
+//! `turn_range_deg` is relative to the spin that the tool has without the search. Unreachable points have no posture
+//! inside limits and away from singularities at any spin; the path is evaluated there regardless.
+
+use armill_core::kernel::{Answers, PostureStatus};
+use armill_core::optimize::{Component, Objective, reversals};
+use armill_core::path::PathPoint;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::analysis::path::PathAnalysis;
+use crate::analysis::path::run::PathResult;
+use crate::analysis::words::micrometres;
+use crate::number::decimals;
+
+/// The search for spins and branches along a path.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct SearchAnswer {
+    /// Component of the deviation that was minimised: `in-plane`, `cross-track`, `axial`.
+    pub component: &'static str,
+    /// The objective: `worst`, `mean`, `above-tolerance`.
+    pub objective: &'static str,
+    /// Spins that were tried at each point.
+    pub turns: usize,
+    /// Least and greatest chosen spin of the tool, relative to the one it has without the search.
+    pub turn_range_deg: [f64; 2],
+    /// The path without the search.
+    pub without: StatisticsAnswer,
+    /// The path with the result of the search.
+    pub with: StatisticsAnswer,
+    /// Stretches of the path without a usable spin and branch, and why.
+    pub unreachable_stretches: Vec<UnreachableStretch>,
+    /// Lines at which the arm has to stop and change its posture.
+    pub breaks: Vec<u32>,
+}
+
+/// Statistics of a path.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct StatisticsAnswer {
+    /// Largest in-plane deviation.
+    pub max_in_plane_um: Option<f64>,
+    /// Mean of the points.
+    pub mean_in_plane_um: Option<f64>,
+    /// Points within the tolerance over all points.
+    pub fraction_within: f64,
+    /// Points without posture.
+    pub unreachable: usize,
+    /// Points with a posture outside joint limits.
+    pub outside_joint_limits: usize,
+    /// Points near a singularity.
+    pub near_singularity: usize,
+    /// Number of reversals of each joint.
+    pub reversals: Vec<usize>,
+}
+
+/// Consecutive points without a usable posture.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct UnreachableStretch {
+    /// Line of the first.
+    pub first_line: u32,
+    /// Line of the last.
+    pub last_line: u32,
+    /// How many.
+    pub points: usize,
+    /// Why most spins and branches of the first are not usable.
+    pub reason: &'static str,
+}
+
+impl SearchAnswer {
+    /// The result along this path; `None` without a search.
+    pub fn of(analysis: &PathAnalysis, found: &PathResult) -> Option<SearchAnswer> {
+        let (search, searched) = (analysis.setting.search.as_ref()?, found.searched.as_ref()?);
+        let spins = searched.posture.spins.iter().map(|spin| spin.to_degrees());
+        let least = spins.clone().fold(f64::INFINITY, f64::min);
+        let points = &analysis.track.path.points;
+        Some(SearchAnswer {
+            component: component_name(search.component),
+            objective: objective_name(search.objective),
+            turns: search.spins.count,
+            turn_range_deg: [least, spins.fold(f64::NEG_INFINITY, f64::max)],
+            without: StatisticsAnswer::of(analysis, &searched.without_search),
+            with: StatisticsAnswer::of(analysis, &found.along.answers),
+            unreachable_stretches: unreachable_stretches(points, &searched.posture.unreachable),
+            breaks: searched
+                .posture
+                .breaks
+                .iter()
+                .map(|index| points[*index].line)
+                .collect(),
+        })
+    }
+
+    /// The result, a sentence.
+    pub fn sentence(&self) -> String {
+        let worst = |of: &StatisticsAnswer| match of.max_in_plane_um {
+            Some(um) => format!("{} µm", micrometres(um)),
+            None => "nothing".to_owned(),
+        };
+        let turned = self.turn_range_deg.map(|deg| format!("{:.0}", decimals(deg, 0)));
+        let [from, to] = &turned;
+        let turn = if from == to {
+            format!("turned by {from} deg")
+        } else {
+            format!("turned by {from} to {to} deg")
+        };
+        let share = |of: &StatisticsAnswer| format!("{:.1} %", 100.0 * of.fraction_within);
+        let backs = |of: &StatisticsAnswer| of.reversals.iter().sum::<usize>();
+        format!(
+            "{turn}, the tool deviates by at most {} instead of {}; {} of the points are within the tolerance, {} before; the joints reverse {} times, {} before",
+            worst(&self.with),
+            worst(&self.without),
+            share(&self.with),
+            share(&self.without),
+            backs(&self.with),
+            backs(&self.without)
+        )
+    }
+}
+
+impl StatisticsAnswer {
+    /// The statistics of these answers along this path.
+    pub fn of(analysis: &PathAnalysis, answers: &Answers) -> StatisticsAnswer {
+        let evaluation = || answers.evaluations().map(|(_, evaluation)| evaluation);
+        let count = evaluation().count();
+        let within = evaluation()
+            .filter(|evaluation| evaluation.in_plane <= analysis.setting.tolerance)
+            .count();
+        StatisticsAnswer {
+            max_in_plane_um: answers.worst().map(|(_, evaluation)| evaluation.in_plane * 1e6),
+            mean_in_plane_um: (count > 0).then(|| {
+                evaluation().map(|evaluation| evaluation.in_plane).sum::<f64>() / count as f64 * 1e6
+            }),
+            fraction_within: within as f64 / answers.points.len().max(1) as f64,
+            unreachable: answers.points.len() - count,
+            outside_joint_limits: evaluation()
+                .filter(|evaluation| !evaluation.within_limits())
+                .count(),
+            near_singularity: evaluation()
+                .filter(|evaluation| evaluation.singularity.is_some())
+                .count(),
+            reversals: reversals(&analysis.track.path, answers),
+        }
+    }
+}
+
+/// Consecutive points as one stretch each.
+fn unreachable_stretches(points: &[PathPoint], lost: &[(usize, PostureStatus)]) -> Vec<UnreachableStretch> {
+    let stretches = lost.chunk_by(|(a, _), (b, _)| a + 1 == *b);
+    let given = |stretch: &[(usize, PostureStatus)]| {
+        let [(first, status), ..] = stretch else {
+            return None;
+        };
+        let last = first + stretch.len() - 1;
+        Some(UnreachableStretch {
+            first_line: points[*first].line,
+            last_line: points[last].line,
+            points: stretch.len(),
+            reason: status.word(),
+        })
+    };
+    stretches.filter_map(given).collect()
+}
+
+/// Its name in the study.
+pub fn component_name(component: Component) -> &'static str {
+    match component {
+        Component::InPlane => "in-plane",
+        Component::CrossTrack => "cross-track",
+        Component::Axial => "axial",
+    }
+}
+
+/// Its name in the study.
+pub fn objective_name(objective: Objective) -> &'static str {
+    match objective {
+        Objective::Worst => "worst",
+        Objective::Mean => "mean",
+        Objective::Above(_) => "above-tolerance",
+    }
+}

@@ -1,0 +1,54 @@
+//! Columns that only a path has: line, distance and feed, the spin that a search found, and the components of the
+//! deviation of the worst case relative to the track, with their part due to backlash and geometry.
+
+use armill_core::path::{Pace, Parts, Track};
+
+use crate::analysis::columns::Numbers;
+use crate::analysis::path::run::PathResult;
+use crate::analysis::quantity::{self, Quantity};
+
+/// Line, distance and feed, and the deviation relative to the track.
+pub fn columns<'a>(track: &'a Track, found: &'a PathResult) -> Vec<Numbers<'a>> {
+    let points = &track.path.points;
+    let part = |quantity: &'static Quantity, of: fn(Parts) -> f64| {
+        Numbers::of(quantity, move |rows, index, evaluation| {
+            let deviation = rows.answers.deviations_at(index)[evaluation.worst_case];
+            of(track.parts(index, &deviation)) * 1e6
+        })
+    };
+    let mut columns = vec![
+        Numbers::of(&quantity::LINE, move |_, index, _| f64::from(points[index].line)),
+        Numbers::of(&quantity::DISTANCE, move |_, index, _| points[index].along * 1e3),
+        Numbers::of(&quantity::FEED, move |_, index, _| match points[index].pace {
+            Pace::Feed(speed) => speed * 1e3,
+            _ => f64::NAN,
+        }),
+        part(&quantity::ALONG, |parts| parts.along),
+        part(&quantity::CROSS, |parts| parts.cross),
+        part(&quantity::AXIAL, |parts| parts.axial),
+    ];
+    columns.extend(found.searched.as_ref().map(|searched| {
+        let spins = &searched.posture.spins;
+        Numbers::of(&quantity::TURN, move |_, index, _| spins[index].to_degrees())
+    }));
+    columns.extend(unloaded(track, found));
+    columns
+}
+
+/// The part of the deviation without load; none if all of it is due to the load.
+fn unloaded<'a>(track: &'a Track, found: &'a PathResult) -> Vec<Numbers<'a>> {
+    let Some(unloaded) = &found.along.backlash_geometry else {
+        return Vec::new();
+    };
+    let part = |quantity: &'static Quantity, of: fn(Parts) -> f64| {
+        Numbers::of(quantity, move |rows, index, evaluation| {
+            let moved = unloaded.displacements[index * rows.answers.case_count + evaluation.worst_case];
+            of(track.parts(index, &moved)) * 1e6
+        })
+    };
+    vec![
+        part(&quantity::UNLOADED_ALONG, |parts| parts.along),
+        part(&quantity::UNLOADED_CROSS, |parts| parts.cross),
+        part(&quantity::UNLOADED_AXIAL, |parts| parts.axial),
+    ]
+}

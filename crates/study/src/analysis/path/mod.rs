@@ -1,0 +1,140 @@
+//! The deviation along a path: a shape on the plane or a program, its placement in the cell, and its load.
+//!
+//! ```text
+//! circle | line | polyline_mm | rectangle   part x, y on the plane, tool against its normal
+//! program.file                              part_from_path_mm_deg, tool_axis, spin
+//! ```
+//!
+//! `shape` and [`program`] (`machine_program`, [`robot_program`]) give its points, [`feature`] marks stretches of them;
+//! `load` puts on the load: given cases, a [`cut`], a [`drill`], or [`measured`] forces; `shape_tables`: the tables of
+//! shapes. [`resolve`](mod@resolve) joins these, [`run`] evaluates the path. [`answer`], [`sentence`], [`warnings`] are its answer;
+//! [`columns`], [`pictures`] (with [`point_groups`], `turns`, [`process_limits`]) and [`report`] its files.
+
+pub mod answer;
+pub mod columns;
+pub mod cut;
+pub mod drill;
+pub mod feature;
+pub mod load;
+mod machine_program;
+pub mod measured;
+pub mod pictures;
+pub mod point_groups;
+pub mod process_limits;
+pub mod program;
+pub mod report;
+pub mod resolve;
+pub mod robot_program;
+pub mod run;
+pub mod sentence;
+mod shape;
+pub mod shape_tables;
+mod turns;
+pub mod warnings;
+
+pub use cut::Cut;
+pub use drill::DrillCut;
+pub use feature::FeatureTable;
+pub use load::{LoadSource, put_on};
+pub use measured::MeasuredForces;
+pub use robot_program::RobotPath;
+
+use armill_core::load::PathLoad;
+use armill_core::path::{ForceSummary, Shape, Track};
+use armill_formats::toolpath::Summary;
+
+use crate::input::setting::Setting;
+
+/// A path with its load.
+#[derive(Clone, Debug)]
+pub struct PathAnalysis {
+    /// How its points are evaluated; cases in base as far as they do not turn with the feed.
+    pub setting: Setting,
+    /// Source of the points.
+    pub source: PathSource,
+    /// The points and their placement.
+    pub track: Track,
+    /// The load; of a cut in a stock as if the engagement were constant.
+    pub load: PathLoad,
+    /// The cut of the forces, in place of given cases.
+    pub cut: Option<Cut>,
+    /// The drill, if there is one.
+    pub drill: Option<DrillCut>,
+    /// Statistics of the forces of either.
+    pub forces: Option<ForceSummary>,
+    /// The record of the forces.
+    pub measured: Option<Box<MeasuredForces>>,
+    /// Whether the process limits that meet the tolerance are requested.
+    pub wants_limits: bool,
+    /// Requested features.
+    pub features: Vec<FeatureTable>,
+}
+
+/// Source of the points of a path.
+#[derive(Clone, Debug)]
+pub enum PathSource {
+    /// A shape on the plane.
+    Shape(Shape),
+    /// A program.
+    Program {
+        /// Its file, as the study calls it.
+        file: String,
+        /// What was read.
+        summary: Summary,
+        /// What only a robot program has.
+        robot: Option<Box<RobotPath>>,
+    },
+    /// A list of holes, which no path joins.
+    Holes {
+        /// Its file, as named in the study; none if the study lists them itself.
+        file: Option<String>,
+    },
+}
+
+impl PathSource {
+    /// The robot program, if it is one.
+    pub fn robot(&self) -> Option<&RobotPath> {
+        match self {
+            PathSource::Program { robot, .. } => robot.as_deref(),
+            PathSource::Shape(_) | PathSource::Holes { .. } => None,
+        }
+    }
+}
+
+impl PathAnalysis {
+    /// Whether the process limits are requested and can be computed.
+    ///
+    /// A model in which the load changes the arm permits no limits.
+    pub fn reports_limits(&self) -> bool {
+        self.wants_limits && self.setting.model.is_affine()
+    }
+
+    /// Whether its cut specifies the stock.
+    pub fn has_stock(&self) -> bool {
+        self.cut.as_ref().is_some_and(|cut| cut.stock.is_some())
+    }
+
+    /// Its name in messages: its file, or its shape.
+    pub fn shown(&self) -> &str {
+        match &self.source {
+            PathSource::Shape(Shape::Circle { .. }) => "circle",
+            PathSource::Shape(Shape::Polyline(_)) => "line",
+            PathSource::Program { file, .. } => file,
+            PathSource::Holes { file } => file.as_deref().unwrap_or("holes"),
+        }
+    }
+
+    /// Length of all cuts, or of the shape, m.
+    pub fn length(&self) -> f64 {
+        self.shape()
+            .map_or_else(|| self.track.path.length(), Shape::length)
+    }
+
+    /// The shape, if it is one.
+    pub fn shape(&self) -> Option<&Shape> {
+        match &self.source {
+            PathSource::Shape(shape) => Some(shape),
+            PathSource::Program { .. } | PathSource::Holes { .. } => None,
+        }
+    }
+}

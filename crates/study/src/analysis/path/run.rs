@@ -1,0 +1,249 @@
+//! A path with the core: its load, the postures along it, and all that follows from them.
+//!
+//! `along_path` or `postures_along`, then `worst_points`, `jumps`, `radial_deviations`, `program_limits` of the core.
+
+use armill_core::frame::Isometry;
+use armill_core::kernel::{Answers, evaluate, evaluate_on_path};
+use armill_core::load::PathLoad;
+use armill_core::map::{
+    AlongPath, Jump, ProgramLimits, RadialDeviation, along_path, along_postures, jumps, program_limits,
+    radial_deviations, worst_points,
+};
+use armill_core::nalgebra::{Point3, Translation3, UnitQuaternion};
+use armill_core::optimize::{Objective, PostureFound, PostureSearch, postures_along};
+use armill_core::path::{ForceSummary, NoForces, Shape, Stock, Track};
+use armill_core::spatial::Wrench;
+use armill_core::watch::{Cancelled, Watch};
+use armill_core::workpiece::Plane;
+
+use crate::analysis::path::PathAnalysis;
+use crate::analysis::runner::Runner;
+use crate::error::StudyError;
+use crate::input::setting::Setting;
+
+/// The result along a path.
+#[derive(Clone, Debug)]
+pub struct PathResult {
+    /// Its deviation.
+    pub along: AlongPath,
+    /// The worst points, worst first, each from another part of the path.
+    pub worst: Vec<PointDetail>,
+    /// Where the arm jumps, as many as are reported and one more.
+    pub jumps: Vec<Jump>,
+    /// On a circle that is a shape: its deviation under each load case.
+    pub radial: Vec<RadialDeviation>,
+    /// Statistics of its forces, if a cut or drill produces them.
+    pub forces: Option<ForceSummary>,
+    /// The process limits, if they were requested and can be computed.
+    pub limits: Option<ProgramLimits>,
+    /// The search for spins and branches, if there was one.
+    pub searched: Option<SearchResult>,
+}
+
+/// A search for spins of the tool and branches along a path.
+#[derive(Clone, Debug)]
+pub struct SearchResult {
+    /// The result of the search.
+    pub posture: PostureFound,
+    /// The path with the spin and the branch that it has without the search.
+    pub without_search: Answers,
+}
+
+/// One point of a path, evaluated with shares and uncertainty on a plane across the tool.
+#[derive(Clone, Debug)]
+pub struct PointDetail {
+    /// Which point.
+    pub index: usize,
+    /// Its setting.
+    pub setting: Setting,
+    /// Its answer.
+    pub answers: Answers,
+}
+
+/// Number of worst points that are reported.
+const WORST: usize = 5;
+
+/// Number of jumps that are reported.
+pub const MOST_JUMPS: usize = 10;
+
+/// The number of passes over a path: a stock is cut in a separate pass. A search also evaluates the
+/// path without it and passes over the lattice once or twice; if reversals have a penalty, once more, and evaluates
+/// two chains.
+pub fn passes(path: &PathAnalysis) -> usize {
+    let searched = path.setting.search.map_or(0, |search| {
+        let worst = usize::from(search.objective == Objective::Worst);
+        2 + worst + if search.back_price > 0.0 { 3 } else { 0 }
+    });
+    1 + searched + usize::from(path.has_stock())
+}
+
+/// Hint for a program that does not meet its stock.
+const STOCK_HINT: &str = "check the position of the stock relative to the program";
+
+/// A path that misses its stock would be within any tolerance.
+fn nothing_cut(analysis: &PathAnalysis, stock: &Stock) -> StudyError {
+    let mm = |corners: [Point3<f64>; 2]| {
+        let [low, high] =
+            corners.map(|at| format!("({:.1}, {:.1}, {:.1})", at.x * 1e3, at.y * 1e3, at.z * 1e3));
+        format!("{low} to {high} mm")
+    };
+    let message = format!(
+        "{}: the program cuts nothing of its stock: the cuts extend from {}, the stock from {}",
+        analysis.shown(),
+        mm(analysis.track.path.corners()),
+        mm(stock.corners())
+    );
+    StudyError::value(message, STOCK_HINT)
+}
+
+/// A path as it is followed.
+pub struct Followed {
+    /// The path with the spins that a search found; `None` without a search.
+    pub turned: Option<Track>,
+    /// The answers along it.
+    pub along: AlongPath,
+    /// The result of the search.
+    pub searched: Option<SearchResult>,
+}
+
+impl Runner<'_> {
+    /// The answers along a path, and all that follows from them in the branch that was followed.
+    pub fn path(&self, analysis: &PathAnalysis) -> Result<PathResult, StudyError> {
+        let (load, forces) = self.pushed(analysis)?;
+        let question = self.question(&analysis.setting);
+        let Followed {
+            turned,
+            along,
+            searched,
+        } = self.follow(analysis, load)?;
+        let track = turned.as_ref().unwrap_or(&analysis.track);
+        let limits = match analysis.reports_limits() {
+            true => program_limits(
+                &question,
+                &analysis.track,
+                &along,
+                analysis.setting.tolerance,
+                self.watch,
+            )?,
+            false => None,
+        };
+        let worst = worst_points(&analysis.track, &along.answers, WORST);
+        Ok(PathResult {
+            worst: worst
+                .into_iter()
+                .map(|index| self.in_full((analysis, track), &along, index))
+                .collect::<Result<_, Cancelled>>()?,
+            jumps: jumps(self.robot, &analysis.track.path, &along.answers)
+                .take(MOST_JUMPS + 1)
+                .collect(),
+            radial: match analysis.shape() {
+                Some(Shape::Circle { centre, .. }) => {
+                    radial_deviations(&analysis.track, &along.answers, *centre)
+                }
+                _ => Vec::new(),
+            },
+            along,
+            forces,
+            limits,
+            searched,
+        })
+    }
+
+    /// The path under this load, with the spins of the search if one is requested.
+    pub fn follow(&self, analysis: &PathAnalysis, load: PathLoad) -> Result<Followed, StudyError> {
+        let question = self.question(&analysis.setting);
+        let Some(search) = &analysis.setting.search else {
+            let along = along_path(&question, &analysis.track, load, self.watch)?;
+            return Ok(Followed {
+                turned: None,
+                along,
+                searched: None,
+            });
+        };
+        let searched = self.search(analysis, &load, search)?;
+        let turned = searched.posture.turned(&analysis.track);
+        let choices = searched.posture.choices();
+        Ok(Followed {
+            along: along_postures(&question, (&turned, load), choices, self.watch)?,
+            turned: Some(turned),
+            searched: Some(searched),
+        })
+    }
+
+    /// The best spins and branches along a path, and the path without them.
+    fn search(
+        &self,
+        analysis: &PathAnalysis,
+        load: &PathLoad,
+        search: &PostureSearch,
+    ) -> Result<SearchResult, StudyError> {
+        let question = self.question(&analysis.setting);
+        let without_search = along_path(&question, &analysis.track, load.clone(), self.watch)?;
+        Ok(SearchResult {
+            without_search: without_search.answers,
+            posture: postures_along(&question, (&analysis.track, load), search, self.watch)?,
+        })
+    }
+
+    /// The load along a path: of a cut in a stock from the engagement of the tool there.
+    pub fn pushed(&self, analysis: &PathAnalysis) -> Result<(PathLoad, Option<ForceSummary>), StudyError> {
+        let in_stock = analysis
+            .cut
+            .as_ref()
+            .and_then(|cut| Some((cut, cut.stock.clone()?)));
+        let Some((cut, mut stock)) = in_stock else {
+            return Ok((analysis.load.clone(), analysis.forces));
+        };
+        let (path, placing) = (&analysis.track.path, &analysis.track.placing);
+        let found = cut.cutting.along(path, placing, Some(&mut stock), self.watch);
+        let found = found.map_err(|error| match error {
+            NoForces::Cancelled => StudyError::Cancelled(Cancelled),
+            error => StudyError::value(format!("{}: {error}", analysis.shown()), STOCK_HINT),
+        })?;
+        if found.cuts.points.iter().all(|here| here.cut.is_none()) {
+            return Err(nothing_cut(analysis, &stock));
+        }
+        Ok((PathLoad::Cuts(found.cuts), Some(found.summary)))
+    }
+
+    /// One point of a path evaluated separately: under the forces found there, in the branch that was followed, on a
+    /// plane through the TCP across the tool, so that shares and uncertainty are available.
+    fn in_full(
+        &self,
+        (analysis, track): (&PathAnalysis, &Track),
+        along: &AlongPath,
+        index: usize,
+    ) -> Result<PointDetail, Cancelled> {
+        let mut cases = vec![Wrench::ZERO; along.answers.case_count];
+        track.wrenches(&along.load, index, &mut cases);
+        let stop = track.stop(index);
+        let across = Plane {
+            base_from_part: Isometry::from_parts(
+                Translation3::from(stop.base_from_tool.translation.vector),
+                UnitQuaternion::from_rotation_matrix(&track.base_from_feed(index)),
+            ),
+        };
+        let setting = Setting {
+            plane: across,
+            tilt: None,
+            cases,
+            choice: along.choice_at(index),
+            // The posture is that of the path, whatever the redundant joints.
+            home: Some(along.answers.joints_at(index).to_vec()),
+            ..analysis.setting.clone()
+        };
+        let question = self.question(&setting);
+        let answers = match &along.backlash_geometry {
+            Some(unloaded) => {
+                let link_offsets = unloaded.link_offsets_at(index, along.answers.joint_count);
+                evaluate_on_path(&question, &stop.base_from_tool, link_offsets)
+            }
+            None => evaluate(&question, 1, |_| stop.base_from_tool, Watch::NONE)?,
+        };
+        Ok(PointDetail {
+            index,
+            setting,
+            answers,
+        })
+    }
+}

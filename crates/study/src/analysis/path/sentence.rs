@@ -1,0 +1,37 @@
+//! The answer in one sentence.
+
+use armill_core::robot::Robot;
+
+use crate::analysis::path::answer::PathAnswer;
+use crate::analysis::words::{largest_contributor, micrometres};
+
+/// Largest deviation along a path with its line, roundness of a circle, and the fraction within the tolerance.
+pub fn sentence(robot: &Robot, path: &PathAnswer) -> String {
+    let Some(worst) = &path.worst else {
+        return format!(
+            "The robot reaches no point of the path ({}, branch {}).",
+            path.name, path.branch
+        );
+    };
+    let (where_to, circle, line) = match &path.program {
+        None => ("in the plane", "the circle", String::new()),
+        Some(_) => {
+            let line = path.worst_points.first().map(|worst| worst.line);
+            let line = line.map_or(String::new(), |line| format!(" (line {line})"));
+            ("across its axis", "a circle", line)
+        }
+    };
+    let roundness = path.roundness_um.map_or(String::new(), |r| {
+        format!("; the roundness deviation of {circle} is {} µm", micrometres(r))
+    });
+    format!(
+        "{}, branch {}: the tool deviates by up to {} µm (u = {} µm) {where_to}{line}{roundness}; largest contribution: {}; {:.1} % of the path is within {} µm.",
+        path.name,
+        path.followed_branch.as_ref().unwrap_or(&path.branch),
+        micrometres(worst.in_plane_um),
+        micrometres(worst.in_plane_u_um),
+        largest_contributor(robot, worst, &path.setting.contributors),
+        path.fraction_within * 100.0,
+        micrometres(path.setting.tolerance_um),
+    )
+}

@@ -1,0 +1,64 @@
+//! Warnings of a path: out of reach, outside joint limits, jumps of the arm, points without force.
+
+use crate::analysis::path::answer::PathAnswer;
+
+/// Stretches without posture that are reported at most.
+const MOST_STRETCHES: usize = 5;
+
+/// Warnings of a path that a user should know before relying on it.
+///
+/// In this order: points out of reach with what may be the reason, points outside joint limits, jumps, points whose
+/// deviation is zero only because no force is known there.
+pub fn warnings(path: &PathAnswer) -> Vec<String> {
+    let name = &path.name;
+    let mut warnings = Vec::new();
+    if path.unreachable > 0 {
+        let hint = match path.program {
+            Some(_) => "check the placement of the program (part_from_path_mm_deg)",
+            None => "check that its coordinates are in mm, and the placement of the plane",
+        };
+        warnings.push(format!(
+            "{name}: {} of {} points are out of reach; {hint}.",
+            path.unreachable, path.points
+        ));
+    }
+    if path.outside_joint_limits > 0 {
+        warnings.push(format!(
+            "{name}: {} of {} points are outside joint limits in the branch {}.",
+            path.outside_joint_limits,
+            path.points,
+            path.followed_branch.as_ref().unwrap_or(&path.branch)
+        ));
+    }
+    if !path.jumps.is_empty() {
+        warnings.push(format!(
+            "{name}: the arm cannot follow without a stop: {}.",
+            path.jumps.join("; ")
+        ));
+    }
+    if let Some(search) = &path.search {
+        warnings.extend(search.unreachable_stretches.iter().take(MOST_STRETCHES).map(|stretch| {
+            format!(
+                "{name}: no spin of the tool and branch is usable at {} points from line {} to {} ({}).",
+                stretch.points,
+                stretch.first_line,
+                stretch.last_line,
+                stretch.reason.replace('_', " ")
+            )
+        }));
+        if let Some(first) = search.breaks.first() {
+            warnings.push(format!(
+                "{name}: the arm has to stop and change its posture {} times, first in line {first}: no spin of the tool continues within the speed of the joints.",
+                search.breaks.len()
+            ));
+        }
+    }
+    let without_force = path.cut.as_ref().map_or(0, |cut| cut.points_without_force);
+    if without_force > 0 {
+        warnings.push(format!(
+            "{name}: the deviation is reported as zero at {without_force} of {} points without a known force (a cutter that plunges or ramps steeply cuts with its bottom, a drill that moves sideways does not drill).",
+            path.points
+        ));
+    }
+    warnings
+}

@@ -1,0 +1,117 @@
+//! What the pictures of every kind of analysis share: titles, axes, grids of points, bars of contributors.
+//!
+//! Planes are drawn as seen from the tool side: part x to the right, which is base y to the left on a tilted plane.
+
+use armill_core::kernel::Evaluation;
+use armill_core::map::PlaneMap;
+use armill_core::robot::{Robot, Unreachable};
+use armill_report::{AxisLabels, Grid, PointState, ShareBar, ShareBars};
+
+use crate::analysis::point::PointAnswer;
+use crate::input::setting::Setting;
+
+/// The quantity of the colours.
+pub const QUANTITY: &str = "in-plane deviation (µm)";
+
+/// A picture with its file name (without extension) and caption.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// File name without extension.
+    pub name: String,
+    /// What it shows, in a sentence.
+    pub caption: String,
+    /// The picture.
+    pub svg: String,
+}
+
+/// The axes of a plane: base y if it is given by a tilt, else its own y'.
+pub fn axes(setting: &Setting) -> AxisLabels {
+    let along_base_y = setting.tilt.is_some();
+    AxisLabels {
+        horizontal: if along_base_y {
+            "base y (mm)"
+        } else {
+            "along the plane, y′ (mm)"
+        }
+        .to_owned(),
+        vertical: "along the plane, z′ (mm)".to_owned(),
+    }
+}
+
+/// One line under the title: posture, load, tool, tilt.
+pub fn subtitle(setting: &Setting) -> String {
+    let tool = match setting.flange_from_tool.translation.vector.norm() * 1e3 {
+        0.0 => "bare flange".to_owned(),
+        length => format!("TCP {length:.0} mm from the flange"),
+    };
+    let tilt = setting
+        .tilt
+        .map_or(String::new(), |tilt| format!(", tilt {:.0}°", tilt.to_degrees()));
+    let cases = setting.cases.len();
+    let worst = match cases {
+        // Forces of the cut are not cases of the study.
+        0 => "the force of the cut".to_owned(),
+        1 => "1 load case".to_owned(),
+        _ => format!("worst of {cases} load cases"),
+    };
+    format!(
+        "{}{tilt}, {tool}, {worst}, heights relative to {}",
+        setting.branch(),
+        setting.base_name
+    )
+}
+
+/// Base y of the plane's centre where the horizontal axis is base y, otherwise 0; mm.
+pub fn base_y(setting: &Setting) -> f64 {
+    let centre = setting.in_reference(&setting.plane.base_from_part.translation.vector.into());
+    if setting.tilt.is_some() {
+        centre.y * 1e3
+    } else {
+        0.0
+    }
+}
+
+/// The bar of a point: shares of joints, whole deviation, its standard uncertainty.
+pub fn share_bar(label: &str, point: &PointAnswer) -> ShareBar {
+    ShareBar {
+        label: label.to_owned(),
+        shares_um: point.joint_share_um.clone(),
+        total_um: Some(point.in_plane_um),
+        total_uncertainty_um: Some(point.in_plane_u_um),
+    }
+}
+
+/// Bars of several points.
+pub fn shares(robot: &Robot, title: &str, setting: &Setting, quantity: &str, bars: Vec<ShareBar>) -> String {
+    let picture = ShareBars {
+        title: title.to_owned(),
+        subtitle: subtitle(setting),
+        quantity: quantity.to_owned(),
+        parts: setting.model.contributor_names(robot.joints()),
+        bars,
+    };
+    picture.to_svg()
+}
+
+/// The points of a map for a picture: row by row, mm.
+pub fn grid(map: &PlaneMap, setting: &Setting) -> Grid {
+    let y0 = base_y(setting);
+    Grid {
+        horizontal_mm: (0..map.grid.columns)
+            .map(|i| y0 - map.grid.coordinate(i, map.grid.columns) * 1e3)
+            .collect(),
+        vertical_mm: (0..map.grid.rows)
+            .map(|i| map.grid.coordinate(i, map.grid.rows) * 1e3)
+            .collect(),
+        points: map.answers.points.iter().map(state).collect(),
+    }
+}
+
+/// The state of a point: its deviation, marked if outside joint limits, or that it is not reached.
+pub fn state(point: &Result<Evaluation, Unreachable>) -> PointState {
+    match point {
+        Ok(evaluation) if evaluation.within_limits() => PointState::Reached(evaluation.in_plane * 1e6),
+        Ok(evaluation) => PointState::OutsideJointLimits(evaluation.in_plane * 1e6),
+        Err(_) => PointState::Unreachable,
+    }
+}

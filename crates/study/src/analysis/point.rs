@@ -1,0 +1,196 @@
+//! One point of an answer, and the setting that all points of an analysis share.
+//!
+//! | part of the deviation | meaning |
+//! |---|---|
+//! | in-plane | across the normal of the plane: largest length of all load cases, compared with the tolerance |
+//! | normal | along the outward normal, with its sign, of the case where it is largest by size |
+//! | full | largest length of all cases |
+//!
+//! Along a path the normal is the axis of the tool.
+
+use armill_core::compliance::{by_force, permissible_force, permissible_force_in_worst_direction};
+use armill_core::kernel::{Answers, Evaluation};
+use armill_core::load::LoadFrame;
+use armill_core::nalgebra::{Point3, Unit};
+use armill_core::workpiece::Plane;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::input::setting::Setting;
+use crate::model_words::parts;
+use crate::number::without_rounding;
+use armill_core::robot::Robot;
+
+/// The common setting of all points of an analysis. Positions are relative to the frame `base`.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct SettingAnswer {
+    /// Reference frame of positions.
+    pub base: String,
+    /// Centre of the plane.
+    pub centre_mm: [f64; 3],
+    /// Tilt of the plane from the vertical; none if the plane was given by a rotation.
+    pub tilt_deg: Option<f64>,
+    /// Outward normal of the plane, in base axes.
+    pub normal_axis: [f64; 3],
+    /// Distance of the TCP from the flange.
+    pub tool_length_mm: f64,
+    /// Axes of forces and moments: `base_link`, or `feed` if they turn with it.
+    pub load_frame: &'static str,
+    /// Forces on the tool, one a case; none if they come with the path.
+    pub cases_n: Vec<[f64; 3]>,
+    /// Moments on the tool at the TCP, one a case.
+    pub moments_n_m: Vec<[f64; 3]>,
+    /// Source of the load, in the user's words.
+    pub load_source: Option<String>,
+    /// Standard uncertainty of the size of the load.
+    pub load_u_percent: f64,
+    /// Standard uncertainties of the force along three directions: vectors of that length, base axes.
+    pub load_u_n: [[f64; 3]; 3],
+    /// Standard uncertainty of the position of the TCP along the tool axis.
+    pub tool_length_u_mm: f64,
+    /// Standard deviation of the repeated position of the tool, along any axis; zero if it is not known.
+    pub scatter_um: f64,
+    /// Standard uncertainty of the model, in addition to that of its compliances; zero if it is not known.
+    pub model_error_percent: f64,
+    /// The tolerance.
+    pub tolerance_um: f64,
+    /// Active parts of the stiffness model.
+    pub model: Vec<String>,
+    /// The contributors of `share_um`: the joints, then base, flange and tool if springs are attached there.
+    pub contributors: Vec<String>,
+}
+
+impl SettingAnswer {
+    /// The setting in the reference frame of the study; a load that turns with the feed in axes of the feed.
+    pub fn of(robot: &Robot, setting: &Setting) -> SettingAnswer {
+        let robot = &robot;
+        let turns = setting.load.frame == LoadFrame::Feed;
+        let cases = if turns {
+            &setting.load.cases
+        } else {
+            &setting.cases
+        };
+        let centre = setting.in_reference(&setting.plane.base_from_part.translation.vector.into());
+        SettingAnswer {
+            base: setting.base_name.clone(),
+            centre_mm: clean(centre.coords.map(|c| c * 1e3).into()),
+            tilt_deg: setting.tilt.map(f64::to_degrees).map(without_rounding),
+            normal_axis: clean(setting.plane.normal().into_inner().into()),
+            tool_length_mm: without_rounding(setting.flange_from_tool.translation.vector.norm() * 1e3),
+            load_frame: if turns { "feed" } else { crate::BASE_LINK },
+            cases_n: cases.iter().map(|w| clean(w.force.into())).collect(),
+            moments_n_m: cases.iter().map(|w| clean(w.moment.into())).collect(),
+            load_source: setting.load_source.clone(),
+            load_u_percent: without_rounding(setting.uncertainty.relative * 100.0),
+            load_u_n: setting.uncertainty.forces.map(|u| clean(u.into())),
+            tool_length_u_mm: without_rounding(setting.uncertainty.tool_length * 1e3),
+            scatter_um: setting.model.structure.repeatability * 1e6,
+            model_error_percent: without_rounding(setting.model.structure.model_error * 100.0),
+            tolerance_um: without_rounding(setting.tolerance * 1e6),
+            model: parts(robot, &setting.model),
+            contributors: setting.model.contributor_names(robot.joints()),
+        }
+    }
+}
+
+/// A reached point.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct PointAnswer {
+    /// TCP in the reference frame.
+    pub xyz_mm: [f64; 3],
+    /// In-plane coordinates y', z' from the plane's centre.
+    pub in_plane_mm: [f64; 2],
+    /// Name of the posture: words of a branch, or the side of the middle of each joint.
+    pub branch: String,
+    /// Joint positions.
+    pub joints_deg: Vec<f64>,
+    /// Whether every joint is inside its limits.
+    pub within_limits: bool,
+    /// Near which singularity, if any.
+    pub singularity: Option<String>,
+    /// Worst load case, from 1.
+    pub worst_case: usize,
+    /// Largest in-plane deviation of all cases.
+    pub in_plane_um: f64,
+    /// Its standard uncertainty, from compliances, load, tool length, repeatability and model error.
+    pub in_plane_u_um: f64,
+    /// Deviation along the outward normal, of the case where it is largest.
+    pub normal_um: f64,
+    /// Largest length of the deviation of all cases.
+    pub full_um: f64,
+    /// Share of each of `contributors` in the in-plane deviation; their sum is the deviation (nearly, with a
+    /// load-dependent model).
+    pub joint_share_um: Vec<f64>,
+    /// Force that meets the tolerance in the direction of the worst case; none if that case has no force or
+    /// no in-plane deviation.
+    pub permissible_along_load_n: Option<f64>,
+    /// Force that meets the tolerance in any direction.
+    pub permissible_any_direction_n: Option<f64>,
+}
+
+impl PointAnswer {
+    /// Which of `contributors` has the largest share, by size, and its part of the in-plane deviation, if there is any. A
+    /// share may be opposite to the others.
+    pub fn mostly_by<'a>(&self, contributors: &'a [String]) -> Option<(&'a str, Option<f64>)> {
+        let shares = contributors
+            .iter()
+            .map(String::as_str)
+            .zip(self.joint_share_um.iter().copied());
+        let (name, share) = shares.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+        Some((name, (self.in_plane_um > 0.0).then(|| share / self.in_plane_um)))
+    }
+
+    /// y', z' of a point of base from the centre of `plane`.
+    pub fn in_plane_mm(plane: &Plane, at: &Point3<f64>) -> [f64; 2] {
+        let in_part = plane.base_from_part.inverse_transform_point(at);
+        [
+            without_rounding(-in_part.x * 1e3),
+            without_rounding(in_part.y * 1e3),
+        ]
+    }
+
+    /// The point `at`: index among `answers`, its evaluation, TCP (m, base). Permitted forces follow from the
+    /// compliance of the unloaded arm there.
+    pub fn of(
+        robot: &Robot,
+        setting: &Setting,
+        answers: &Answers,
+        at: (usize, &Evaluation, Point3<f64>),
+    ) -> PointAnswer {
+        let (index, evaluation, tcp) = at;
+        let robot = &robot;
+        let position = |(i, q): (usize, &f64)| if robot.slides(i) { q * 1e3 } else { q.to_degrees() };
+        let compliance = by_force(&setting.compliance_at(robot, answers.joints_at(index)));
+        let normal = setting.plane.normal();
+        // A case that is a moment alone has no direction.
+        let along = Unit::try_new(setting.cases[evaluation.worst_case].force, 1e-12)
+            .map(|f| permissible_force(&compliance, normal, f, setting.tolerance));
+        let any = permissible_force_in_worst_direction(&compliance, normal, setting.tolerance).0;
+        PointAnswer {
+            xyz_mm: clean(setting.in_reference(&tcp).coords.map(|c| c * 1e3).into()),
+            in_plane_mm: PointAnswer::in_plane_mm(&setting.plane, &tcp),
+            branch: evaluation.name.to_string(),
+            joints_deg: answers
+                .joints_at(index)
+                .iter()
+                .enumerate()
+                .map(position)
+                .collect(),
+            within_limits: evaluation.within_limits(),
+            singularity: evaluation.singularity.map(|s| s.to_string()),
+            worst_case: evaluation.worst_case + 1,
+            in_plane_um: evaluation.in_plane * 1e6,
+            in_plane_u_um: evaluation.in_plane_uncertainty * 1e6,
+            normal_um: evaluation.normal * 1e6,
+            full_um: evaluation.full * 1e6,
+            joint_share_um: answers.shares_at(index).iter().map(|share| share * 1e6).collect(),
+            permissible_along_load_n: along.filter(|n| n.is_finite()),
+            permissible_any_direction_n: Some(any).filter(|n| n.is_finite()),
+        }
+    }
+}
+
+/// Three numbers without the rounding of frame changes.
+fn clean(values: [f64; 3]) -> [f64; 3] {
+    values.map(without_rounding)
+}

@@ -1,0 +1,319 @@
+//! What is known of a point of an analysis: the closed list of quantities.
+//!
+//! Tables, VTK files and the page take their columns from it. Each quantity names the function that computes it, the
+//! page of the theory with its equations, and the case that compares it with the numbers of others: from any number
+//! to its proof in three steps. The page `docs/guide/quantities.md` is made from this list.
+//!
+//! Capitals in a key stand for a name or number: `share_NAME_um` is one column for each contributor.
+
+/// A quantity of a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Quantity {
+    /// Its key in tables and results, which ends in its unit.
+    pub key: &'static str,
+    /// Unit of its values.
+    pub unit: Option<&'static str>,
+    /// Significant decimals in text formats: a nanometre of deviation, a degree of 1e-6 (some 0.02 um at an arm's
+    /// length), a position as given.
+    pub decimals: u8,
+    /// What it is, for people.
+    pub words: &'static str,
+    /// Where it comes from; none of a quantity that is an input.
+    pub origin: Option<Origin>,
+}
+
+/// Where a quantity comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Origin {
+    /// The file that computes it, below `crates/core/src/`.
+    pub file: &'static str,
+    /// The function there.
+    pub function: &'static str,
+    /// The page of `docs/theory/` with its equations.
+    pub theory: &'static str,
+    /// The folder of `validation/` that compares it with the numbers of others; none if nothing does yet.
+    pub validation: Option<&'static str>,
+}
+
+/// A deviation, from the sum of all sources.
+const fn deviation(key: &'static str, words: &'static str, origin: Origin) -> Quantity {
+    Quantity {
+        key,
+        unit: Some("um"),
+        decimals: 3,
+        words,
+        origin: Some(origin),
+    }
+}
+
+/// An angle.
+const fn angle(key: &'static str, words: &'static str, origin: Origin) -> Quantity {
+    Quantity {
+        key,
+        unit: Some("deg"),
+        decimals: 6,
+        words,
+        origin: Some(origin),
+    }
+}
+
+/// A number of the input.
+const fn input(key: &'static str, unit: Option<&'static str>, decimals: u8, words: &'static str) -> Quantity {
+    Quantity {
+        key,
+        unit,
+        decimals,
+        words,
+        origin: None,
+    }
+}
+
+const SUM: Origin = Origin {
+    file: "predict.rs",
+    function: "predict",
+    theory: "deviation",
+    validation: Some("force-to-deflection"),
+};
+const ON_PLANE: Origin = Origin {
+    file: "workpiece.rs",
+    function: "of",
+    theory: "deviation",
+    validation: Some("plane-split"),
+};
+const ALONG_TRACK: Origin = Origin {
+    file: "path/track.rs",
+    function: "parts",
+    theory: "deviation",
+    validation: Some("plane-split"),
+};
+const WITHOUT_LOAD: Origin = Origin {
+    file: "predict.rs",
+    function: "geometry_and_backlash",
+    theory: "unloaded",
+    validation: Some("joint-backlash-closed-forms"),
+};
+const POSTURE: Origin = Origin {
+    file: "robot/inverse/mod.rs",
+    function: "postures",
+    theory: "inverse",
+    validation: Some("inverse-vs-opw"),
+};
+const SPIN: Origin = Origin {
+    file: "optimize/posture.rs",
+    function: "postures_along",
+    theory: "placement",
+    validation: None,
+};
+
+/// Distance to the joint limits.
+pub const LIMIT_MARGIN: Quantity = angle(
+    "limit_margin_deg",
+    "least distance of a joint to its limit (mm for a prismatic joint), negative outside",
+    Origin {
+        file: "robot/model.rs",
+        function: "limit_margin",
+        theory: "inverse",
+        validation: Some("mh12-readings"),
+    },
+);
+/// The load case of the envelope.
+pub const WORST_CASE: Quantity = Quantity {
+    unit: None,
+    decimals: 0,
+    ..deviation(
+        "worst_case",
+        "load case with the largest in-plane deviation, from 1",
+        ON_PLANE,
+    )
+};
+/// The envelope across the normal.
+pub const IN_PLANE: Quantity = deviation(
+    "in_plane_um",
+    "largest in-plane deviation of all cases",
+    Origin {
+        validation: Some("mh12-readings"),
+        ..ON_PLANE
+    },
+);
+/// Its uncertainty.
+pub const IN_PLANE_U: Quantity = deviation(
+    "in_plane_u_um",
+    "standard uncertainty of the in-plane deviation",
+    Origin {
+        validation: None,
+        ..SUM
+    },
+);
+/// The probability to be within the tolerance.
+pub const PROBABILITY_WITHIN: Quantity = Quantity {
+    unit: None,
+    decimals: 4,
+    ..deviation(
+        "probability_within",
+        "probability that the in-plane deviation is within the tolerance",
+        Origin {
+            file: "map/certainty.rs",
+            function: "probability_within",
+            theory: "deviation",
+            validation: None,
+        },
+    )
+};
+/// Along the normal.
+pub const NORMAL: Quantity = deviation(
+    "normal_um",
+    "deviation along the outward normal, of the case where it is largest",
+    ON_PLANE,
+);
+/// The whole length.
+pub const FULL: Quantity = deviation(
+    "full_um",
+    "largest length of the deviation of all cases",
+    Origin {
+        validation: Some("mh12-readings"),
+        ..SUM
+    },
+);
+/// Positions of revolute joints.
+pub const JOINT_DEG: Quantity = angle(
+    "joint_NAME_deg",
+    "joint position in the convention of the robot file",
+    POSTURE,
+);
+/// Positions of prismatic joints.
+pub const JOINT_MM: Quantity = Quantity {
+    unit: Some("mm"),
+    ..angle("joint_NAME_mm", JOINT_DEG.words, POSTURE)
+};
+/// Shares of the contributors.
+pub const SHARE: Quantity = deviation(
+    "share_NAME_um",
+    "share of the joint (base, flange, tool, geometry, thermal growth) in the in-plane deviation; the sum of the shares is the deviation",
+    Origin {
+        validation: Some("tx200-compliance"),
+        ..SUM
+    },
+);
+/// The deviation under each case.
+pub const OF_CASE: Quantity = deviation(
+    "deviation_AXIS_case_NUMBER_um",
+    "deviation under this load case, base axes",
+    SUM,
+);
+
+/// Line of a program.
+pub const LINE: Quantity = input(
+    "line",
+    None,
+    0,
+    "line of the program or file, or piece of the shape",
+);
+/// Distance along a path.
+pub const DISTANCE: Quantity = input("distance_mm", Some("mm"), 6, "distance along all cuts before");
+/// Speed of the tip.
+pub const FEED: Quantity = input(
+    "feed_mm_per_s",
+    Some("mm/s"),
+    6,
+    "speed of the tip, if the program specifies it",
+);
+/// Spin of a search.
+pub const TURN: Quantity = angle(
+    "turn_deg",
+    "spin of the tool about its axis that was found, relative to the one without the search",
+    SPIN,
+);
+/// Along the track.
+pub const ALONG: Quantity = deviation(
+    "along_um",
+    "deviation of the worst case along the track",
+    ALONG_TRACK,
+);
+/// Across the track.
+pub const CROSS: Quantity = deviation(
+    "cross_um",
+    "deviation of the worst case across the track, to the left",
+    ALONG_TRACK,
+);
+/// Along the tool.
+pub const AXIAL: Quantity = deviation(
+    "axial_um",
+    "deviation of the worst case along the tool, away from the part",
+    ALONG_TRACK,
+);
+/// The part without load, along the track.
+pub const UNLOADED_ALONG: Quantity = deviation(
+    "unloaded_along_um",
+    "part of along_um due to backlash and geometry",
+    WITHOUT_LOAD,
+);
+/// The part without load, across the track.
+pub const UNLOADED_CROSS: Quantity = deviation(
+    "unloaded_cross_um",
+    "part of cross_um due to backlash and geometry",
+    WITHOUT_LOAD,
+);
+/// The part without load, along the tool.
+pub const UNLOADED_AXIAL: Quantity = deviation(
+    "unloaded_axial_um",
+    "part of axial_um due to backlash and geometry",
+    WITHOUT_LOAD,
+);
+
+/// Number of a hole.
+pub const HOLE: Quantity = input("hole", None, 0, "number in the order given, from 1");
+/// Bend of the wrist.
+pub const WRIST_BEND: Quantity = angle(
+    "wrist_bend_deg",
+    "angle between axes 4 and 6; empty for an arm without named branches",
+    Origin {
+        file: "robot/jacobian.rs",
+        function: "wrist_bend",
+        theory: "inverse",
+        validation: None,
+    },
+);
+/// Across a hole.
+pub const HOLE_X: Quantity = deviation(
+    "hole_x_um",
+    "deviation across the hole, along x of the part projected into its plane",
+    ON_PLANE,
+);
+/// Across a hole.
+pub const HOLE_Y: Quantity = deviation(
+    "hole_y_um",
+    "deviation across the hole, to the left of its x",
+    ON_PLANE,
+);
+/// Along a hole.
+pub const DEPTH: Quantity = deviation("depth_um", "deviation out of the part: too shallow", ON_PLANE);
+
+/// All quantities, in the order of the tables: of a path, of holes, of every analysis.
+pub const ALL: [&Quantity; 26] = [
+    &LINE,
+    &DISTANCE,
+    &FEED,
+    &ALONG,
+    &CROSS,
+    &AXIAL,
+    &TURN,
+    &UNLOADED_ALONG,
+    &UNLOADED_CROSS,
+    &UNLOADED_AXIAL,
+    &HOLE,
+    &WRIST_BEND,
+    &HOLE_X,
+    &HOLE_Y,
+    &DEPTH,
+    &LIMIT_MARGIN,
+    &WORST_CASE,
+    &IN_PLANE,
+    &IN_PLANE_U,
+    &PROBABILITY_WITHIN,
+    &NORMAL,
+    &FULL,
+    &JOINT_DEG,
+    &JOINT_MM,
+    &SHARE,
+    &OF_CASE,
+];

@@ -1,0 +1,352 @@
+//! One analysis resolved against its study: what it does not specify is taken from the study.
+//!
+//! | key of the analysis | effect on that of the study |
+//! |---|---|
+//! | `plane`, `posture` | merged key by key; one specification of the rotation of a plane replaces the other |
+//! | `tool`, `load`, `cut`, `base`, `tolerance_um` | replaced as a whole |
+//!
+//! Every part is checked even if others have problems, so that all problems of an analysis are reported at once. Along
+//! a path the cut of the study takes precedence over its load.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use armill_core::frame::Isometry;
+use armill_core::kernel::BranchChoice;
+use armill_core::load::{InputUncertainty, LoadCases, LoadFrame};
+use armill_core::optimize::PostureSearch;
+use armill_core::robot::{BranchPattern, Robot};
+use armill_core::workpiece::Grid;
+use armill_formats::robot::RobotDescription;
+
+use crate::StudyError;
+use crate::analysis::holes;
+use crate::analysis::path::LoadSource;
+use crate::analysis::path::cut::CutTable;
+use crate::analysis::table::{AnalysisKind, AnalysisTable};
+use crate::analysis::{Sheet, Subject, path};
+use crate::input::memory::{OF_FIELD, OF_MAP, OF_PATH};
+use crate::input::problem_log::ProblemLog;
+use crate::input::quantities::{grid, load_cases, plane_at, pose_mm_deg};
+use crate::input::setting::Setting;
+use crate::input::stiffness::StiffnessTables;
+use crate::input::tables::LoadTable;
+use crate::input::tables::{LoadFrameName, PlaneTable, PostureTable, ToolTable};
+use crate::input::{memory, stiffness};
+
+/// The plane of the study with the changes of the analysis.
+pub fn plane_of(plane: &PlaneTable, analysis: &AnalysisTable) -> PlaneTable {
+    let mut plane = plane.clone();
+    if let Some(change) = &analysis.plane {
+        plane.centre_mm = change.centre_mm.unwrap_or(plane.centre_mm);
+        if change.tilt_deg.is_some() || change.rotation_deg.is_some() {
+            (plane.tilt_deg, plane.rotation_deg) = (change.tilt_deg, change.rotation_deg);
+        }
+        plane.half_size_mm = change.half_size_mm.unwrap_or(plane.half_size_mm);
+        plane.step_mm = change.step_mm.unwrap_or(plane.step_mm);
+    }
+    plane
+}
+
+/// What the study gives to every analysis, as written.
+#[derive(Clone, Copy, Debug)]
+pub struct Common<'a> {
+    /// Reference frame of coordinates.
+    pub base: Option<&'a str>,
+    /// The tool.
+    pub tool: Option<&'a ToolTable>,
+    /// The plane.
+    pub plane: &'a PlaneTable,
+    /// The load.
+    pub load: Option<&'a LoadTable>,
+    /// The cut.
+    pub cut: Option<&'a CutTable>,
+    /// The posture.
+    pub posture: Option<&'a PostureTable>,
+    /// The tolerance.
+    pub tolerance_um: f64,
+    /// Parts of the stiffness model.
+    pub stiffness: StiffnessTables<'a>,
+}
+
+/// One analysis and its study.
+pub struct Resolver<'a> {
+    /// What the study gives to every analysis.
+    pub common: &'a Common<'a>,
+    /// The robot, if it was found.
+    pub robot: Option<&'a RobotDescription>,
+    /// The calibrated robot, where the controller uses the nominal model `robot`.
+    pub actual: Option<&'a Arc<Robot>>,
+    /// The analysis as written.
+    pub table: &'a AnalysisTable,
+    /// Where files of the study are looked for.
+    pub folder: &'a Path,
+}
+
+impl Resolver<'_> {
+    /// The subject of the analysis; `None` if it has problems.
+    ///
+    /// # Errors
+    /// The problems of a file that the analysis names.
+    pub fn subject(&self, log: &mut ProblemLog<'_>) -> Result<Option<Subject>, StudyError> {
+        self.refuse_keys_of_other_kinds(log);
+        let push = LoadSource::of(self.common, self.table);
+        if push.is_none() {
+            let hint = "[load] cases_n = [[3, 5, 5]]: force on the tool, x, y, z; along a path [cut] can be used instead";
+            log.problem("load", "no force on the tool: the study has no `load`", hint);
+        }
+        LoadSource::refuse_two(log, self.table);
+        let plane = self.plane_table();
+        let grid = grid(log, &plane);
+        let setting = self.setting(log, &plane, push);
+        // Each is checked even if others have problems: all problems are reported at once.
+        Ok(match self.table.kind {
+            AnalysisKind::Map => setting
+                .zip(grid)
+                .and_then(|(setting, grid)| self.sheet(log, setting, grid))
+                .map(Subject::Map),
+            AnalysisKind::Sections => self.sections(log, setting.and(push), grid).map(Subject::Sections),
+            AnalysisKind::Volume => self
+                .volume(log, setting)
+                .map(|(setting, grid)| Subject::Volume(setting, grid)),
+            AnalysisKind::Path => {
+                let table = (self.table, plane.step_mm);
+                let cell = (self.folder, self.robot.map(|found| &found.robot));
+                let path = path::resolve::resolve(log, table, cell, (setting, push))?;
+                path.and_then(|path| {
+                    let of = (self.robot?, &path.setting, path.load.case_count());
+                    let points = (&OF_PATH, path.track.len() as f64);
+                    memory::check_points(log, "step_mm", points, of)?;
+                    Some(Subject::Path(Box::new(path)))
+                })
+            }
+            AnalysisKind::Holes => {
+                let search = setting
+                    .as_ref()
+                    .and_then(|setting| self.hole_search(log, setting));
+                let cell = (self.folder, self.robot.map(|found| &found.robot));
+                let holes = holes::resolve::resolve(log, self.table, cell, (setting, push, search))?;
+                holes.and_then(|holes| {
+                    let path = &holes.path;
+                    let of = (self.robot?, &path.setting, path.load.case_count());
+                    let points = (&OF_PATH, path.track.len() as f64);
+                    memory::check_points(log, "holes", points, of)?;
+                    Some(Subject::Holes(Box::new(holes)))
+                })
+            }
+        })
+    }
+
+    /// Reports keys that are not valid for this kind of analysis, and a load that turns with the feed where there is no
+    /// feed: no key is ignored silently.
+    fn refuse_keys_of_other_kinds(&self, log: &mut ProblemLog<'_>) {
+        let t = self.table;
+        let search = t.posture.as_ref().and_then(|posture| posture.search.as_ref());
+        // Keys of two kinds are attributed to the kind of this analysis.
+        let with_tool = match t.kind {
+            AnalysisKind::Holes => AnalysisKind::Holes,
+            _ => AnalysisKind::Path,
+        };
+        let given = [
+            ("distances_mm", AnalysisKind::Sections, t.distances_mm.is_some()),
+            ("tilts_deg", AnalysisKind::Sections, t.tilts_deg.is_some()),
+            ("box", AnalysisKind::Volume, t.in_box.is_some()),
+            ("circle", AnalysisKind::Path, t.circle.is_some()),
+            ("line", AnalysisKind::Path, t.line.is_some()),
+            ("polyline_mm", AnalysisKind::Path, t.polyline_mm.is_some()),
+            ("rectangle", AnalysisKind::Path, t.rectangle.is_some()),
+            ("step_mm", AnalysisKind::Path, t.step_mm.is_some()),
+            ("program", with_tool, t.program.is_some()),
+            ("spin_deg", AnalysisKind::Path, t.spin_deg.is_some()),
+            ("cut", AnalysisKind::Path, t.cut.is_some()),
+            ("posture.search", with_tool, search.is_some()),
+            ("holes", AnalysisKind::Holes, t.holes.is_some()),
+        ];
+        let load = t.load.as_ref().or(self.common.load);
+        if t.kind != with_tool && load.and_then(|load| load.frame) == Some(LoadFrameName::Feed) {
+            let message = format!(
+                "`feed` is not valid for a {}, which has no feed direction",
+                t.kind.noun()
+            );
+            log.problem(
+                "load.frame",
+                message,
+                "use `base` or `part`; `feed` is valid along a path",
+            );
+        }
+        for (key, kind, _) in given.iter().filter(|(_, kind, given)| *given && *kind != t.kind) {
+            let message = format!("`{key}` is not valid for a {}", t.kind.noun());
+            let hint = format!(
+                "it belongs to kind = \"{}\"; the grid of a map is plane.step_mm",
+                kind.name()
+            );
+            log.problem(key, message, &hint);
+        }
+    }
+
+    /// The plane of the study with the changes of the analysis.
+    pub fn plane_table(&self) -> PlaneTable {
+        plane_of(self.common.plane, self.table)
+    }
+
+    /// What all points of the analysis share; `None` if part of it has problems, which are reported at their keys. If
+    /// the forces come with a path, the cases are empty.
+    pub fn setting(
+        &self,
+        log: &mut ProblemLog<'_>,
+        plane: &PlaneTable,
+        push: Option<LoadSource<'_>>,
+    ) -> Option<Setting> {
+        let base_name = self
+            .table
+            .base
+            .clone()
+            .or_else(|| self.common.base.map(str::to_owned));
+        let base_name = base_name.unwrap_or_else(|| crate::BASE_LINK.to_owned());
+        let base_from_reference = self.base_from_reference(log, &base_name);
+        let choice = self.choice(log);
+        let home = self.home(log);
+        // Words bound a search; without any, each branch is tried.
+        let reported = self.of_posture(|posture| posture.branch.as_ref());
+        let open = match (reported, choice) {
+            (Some(_), Some(BranchChoice::Of(pattern))) => pattern,
+            _ => BranchPattern::default(),
+        };
+        let search = self.search(log, open);
+        let tolerance_um = self.table.tolerance_um.unwrap_or(self.common.tolerance_um);
+        let plane = plane_at(
+            log,
+            plane,
+            &base_from_reference.unwrap_or_else(Isometry::identity),
+        );
+        // Other forces come with the path.
+        let given = match push {
+            Some(LoadSource::Load(table)) => Some(table),
+            _ => None,
+        };
+        let load = match given {
+            Some(table) => load_cases(log, table),
+            None => Some(LoadCases {
+                frame: LoadFrame::Base,
+                cases: Vec::new(),
+            }),
+        };
+        let tool = self.table.tool.as_ref().or(self.common.tool);
+        let model = self.robot.and_then(|found| {
+            stiffness::model(log, &self.common.stiffness, tool, (&found.robot, self.actual))
+        });
+        let (base_from_reference, choice, (plane, tilt)) = (base_from_reference?, choice?, plane?);
+        let (model, load) = (model?, load?);
+        let uncertainty = InputUncertainty {
+            relative: given.and_then(|load| load.u_percent).unwrap_or(0.0) / 100.0,
+            tool_length: tool.and_then(|t| t.length_u_mm).unwrap_or(0.0) * 1e-3,
+            ..InputUncertainty::NONE
+        };
+        let u_n = given.and_then(|load| load.u_n).unwrap_or_default();
+        // What turns with the feed turns on the path; here it is as if the feed went along x of the part.
+        let frame = match load.frame {
+            LoadFrame::Feed => LoadFrame::Part,
+            reported => reported,
+        };
+        let with_frame = LoadCases {
+            frame,
+            ..load.clone()
+        };
+        let uncertainty = uncertainty.of_components(u_n, frame, &plane.base_from_part)?;
+        let cases = with_frame.in_base(&plane.base_from_part)?;
+        let flange_from_tool =
+            tool.map_or_else(Isometry::identity, |t| pose_mm_deg(&t.flange_from_tool_mm_deg));
+        let tolerance = tolerance_um * 1e-6;
+        Some(Setting {
+            base_name,
+            base_from_reference,
+            flange_from_tool,
+            model,
+            plane,
+            tilt,
+            load,
+            cases,
+            load_source: given.and_then(|load| load.source.clone()),
+            tool_sources: tool.map_or_else(Vec::new, ToolTable::sources),
+            uncertainty,
+            tolerance,
+            choice,
+            home,
+            open,
+            search,
+        })
+    }
+
+    /// What is searched for along a path; `None` also where that is wrong.
+    fn search(&self, log: &mut ProblemLog<'_>, open: BranchPattern) -> Option<PostureSearch> {
+        let table = self.of_posture(|posture| posture.search.as_ref());
+        let table = table.filter(|_| self.table.kind == AnalysisKind::Path)?;
+        let tolerance_um = self.table.tolerance_um.unwrap_or(self.common.tolerance_um);
+        table.resolve(log, tolerance_um * 1e-6, open)
+    }
+
+    /// The frame that coordinates count from, in base.
+    fn base_from_reference(&self, log: &mut ProblemLog<'_>, name: &str) -> Option<Isometry> {
+        let robot = &self.robot?.robot;
+        let found = crate::base_from_reference(robot, name);
+        let report = |known: String| {
+            let message = format!("robot `{}` has no frame `{name}`", robot.name());
+            log.problem("base", message, &format!("it has: {known}"));
+        };
+        found.map_err(report).ok()
+    }
+
+    /// The value of the analysis for a key of the posture, else that of the study.
+    pub fn of_posture<T>(&self, get: impl Fn(&'_ PostureTable) -> Option<&T>) -> Option<&T> {
+        let own = self.table.posture.as_ref().and_then(&get);
+        own.or_else(|| self.common.posture.and_then(&get))
+    }
+
+    /// The requested posture, checked against this robot if it is known.
+    fn choice(&self, log: &mut ProblemLog<'_>) -> Option<BranchChoice> {
+        let words = self.of_posture(|posture| posture.branch.as_ref());
+        let words = words.map_or("nominal", String::as_str);
+        let choice = match self.robot {
+            Some(found) => crate::branch_choice_of(&found.robot, words),
+            None => crate::naming::branch_choice(words, BranchPattern::FRONT_ELBOW_UP),
+        };
+        let report = |message| log.problem("posture.branch", message, "or write `nominal` or `best`");
+        choice.map_err(report).ok()
+    }
+
+    /// The position of a rail and the preferred positions of redundant joints; `None` also if that has problems.
+    fn home(&self, log: &mut ProblemLog<'_>) -> Option<Vec<f64>> {
+        let given = self.of_posture(|posture| posture.home_deg.as_ref())?;
+        match crate::joint_unit::joint_positions(self.robot?, given) {
+            Ok(home) => Some(home),
+            Err(StudyError::Value { message, hint }) => {
+                log.problem("posture.home_deg", message, &hint);
+                None
+            }
+            Err(_) => None,
+        }
+    }
+
+    /// The plane with its grid, if its answers fit into memory.
+    pub fn sheet(&self, log: &mut ProblemLog<'_>, setting: Setting, grid: Grid) -> Option<Sheet> {
+        let points = grid.columns as f64 * grid.rows as f64;
+        self.enough_memory(log, "plane.step_mm", points, &setting)?;
+        Some(Sheet { setting, grid })
+    }
+
+    /// `None`, and a problem at `path`, where so many points take more memory than a study may.
+    pub fn enough_memory(
+        &self,
+        log: &mut ProblemLog<'_>,
+        path: &str,
+        points: f64,
+        setting: &Setting,
+    ) -> Option<()> {
+        let of = (self.robot?, setting, setting.cases.len());
+        let extra = match self.table.kind {
+            AnalysisKind::Map => &OF_MAP,
+            _ => &OF_FIELD,
+        };
+        memory::check_points(log, path, (extra, points), of)
+    }
+}

@@ -1,0 +1,73 @@
+//! A volume in the answer: the part of a box within the tolerance.
+//!
+//! Its points are counted, not listed: the tables contain them all. The tool is oriented as on the plane of the
+//! setting, whose normal defines in-plane and normal deviation.
+
+use armill_core::map::VolumeMap;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::analysis::map::answer::CountsAnswer;
+use crate::analysis::point::{PointAnswer, SettingAnswer};
+use crate::input::setting::Setting;
+use armill_core::robot::Robot;
+
+/// A box of points, the tool oriented as on the plane.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct VolumeAnswer {
+    /// Its name.
+    pub name: String,
+    /// Requested posture: words of a branch, or `best`.
+    pub branch: String,
+    /// Points within the tolerance over all points.
+    pub fraction_within: f64,
+    /// The same, of points inside the joint limits only.
+    pub fraction_within_and_inside_joint_limits: f64,
+    /// Volume of the points within, each representing one cell.
+    pub volume_within_mm3: f64,
+    /// Points by reason; their sum is the total.
+    pub counts: CountsAnswer,
+    /// Points along x, y, z of the reference frame.
+    pub point_counts: [usize; 3],
+    /// Pitch.
+    pub step_mm: f64,
+    /// The corner with the least coordinates, in the reference frame.
+    pub origin_mm: [f64; 3],
+    /// The point with the least in-plane deviation.
+    pub best: Option<PointAnswer>,
+    /// The point with the largest in-plane deviation.
+    pub worst: Option<PointAnswer>,
+    /// The common setting of all points.
+    pub setting: SettingAnswer,
+}
+
+/// The result of the box of the analysis called `name`.
+pub fn answer(robot: &Robot, name: &str, setting: &Setting, volume: &VolumeMap) -> VolumeAnswer {
+    let counts = volume.counts(setting.tolerance);
+    let point = |(index, evaluation)| {
+        PointAnswer::of(
+            robot,
+            setting,
+            &volume.answers,
+            (index, evaluation, volume.grid.point(index)),
+        )
+    };
+    VolumeAnswer {
+        name: name.to_owned(),
+        branch: setting.branch(),
+        fraction_within: counts.fraction_within(),
+        fraction_within_and_inside_joint_limits: counts.fraction_within_and_inside_joint_limits(),
+        volume_within_mm3: volume.volume_within(setting.tolerance) * 1e9,
+        counts: CountsAnswer::of(&counts),
+        point_counts: volume.grid.counts,
+        step_mm: volume.grid.step * 1e3,
+        origin_mm: setting
+            .in_reference(&volume.grid.corner())
+            .coords
+            .map(|c| crate::number::without_rounding(c * 1e3))
+            .into(),
+        best: volume.answers.best().map(point),
+        worst: volume.answers.worst().map(point),
+        setting: SettingAnswer::of(robot, setting),
+    }
+}

@@ -1,0 +1,29 @@
+//! The answer in one sentence.
+
+use armill_core::robot::Robot;
+
+use crate::analysis::volume::answer::VolumeAnswer;
+use crate::analysis::words::{largest_contributor, micrometres};
+
+/// Fraction of a box, and where in it the deviation is largest.
+pub fn sentence(robot: &Robot, volume: &VolumeAnswer) -> String {
+    let Some(worst) = &volume.worst else {
+        return format!(
+            "The robot reaches no point of the box ({}, branch {}).",
+            volume.name, volume.branch
+        );
+    };
+    format!(
+        "{}, branch {}: {:.1} % of the box is within {} µm; the in-plane deviation is at most {} µm (u = {} µm), at ({:.0}, {:.0}, {:.0}) mm; largest contribution: {}.",
+        volume.name,
+        volume.branch,
+        volume.fraction_within * 100.0,
+        micrometres(volume.setting.tolerance_um),
+        micrometres(worst.in_plane_um),
+        micrometres(worst.in_plane_u_um),
+        worst.xyz_mm[0],
+        worst.xyz_mm[1],
+        worst.xyz_mm[2],
+        largest_contributor(robot, worst, &volume.setting.contributors),
+    )
+}

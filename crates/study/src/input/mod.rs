@@ -1,0 +1,13 @@
+//! What a study file gives to any analysis, checked and in SI.
+//!
+//! [`tables`] the tables as written; [`problem_log`] reports problems at their keys; [`quantities`] lengths, planes and
+//! loads in SI; [`stiffness`] the stiffness model; [`posture_search`] the search for spin and branch; [`memory`] the
+//! estimate of what the answers take; [`setting`] all of it for the points of an analysis.
+
+pub mod memory;
+pub mod posture_search;
+pub mod problem_log;
+pub mod quantities;
+pub mod setting;
+pub mod stiffness;
+pub mod tables;

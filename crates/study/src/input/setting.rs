@@ -1,0 +1,76 @@
+//! What all points of an analysis share, in SI and in the base of the robot.
+
+use armill_core::frame::Isometry;
+use armill_core::kernel::BranchChoice;
+use armill_core::load::{InputUncertainty, LoadCases};
+use armill_core::nalgebra::{Matrix6, Point3};
+use armill_core::optimize::PostureSearch;
+use armill_core::robot::{BranchPattern, Robot};
+use armill_core::source::{Arm, ArmState, StiffnessModel};
+use armill_core::spatial::Wrench;
+use armill_core::workpiece::Plane;
+
+/// Everything needed to evaluate a point, SI, base.
+#[derive(Clone, Debug)]
+pub struct Setting {
+    /// Name of the frame that coordinates count from.
+    pub base_name: String,
+    /// That frame in base.
+    pub base_from_reference: Isometry,
+    /// Flange to tool centre point.
+    pub flange_from_tool: Isometry,
+    /// Compliances and masses in addition to the drives.
+    pub model: StiffnessModel,
+    /// The workpiece plane.
+    pub plane: Plane,
+    /// Its tilt as given, rad, if it was given by one.
+    pub tilt: Option<f64>,
+    /// Load cases as given; none if the forces come with a path.
+    pub load: LoadCases,
+    /// The same in base; a load that turns with the feed as if the feed were along x of the part.
+    pub cases: Vec<Wrench>,
+    /// Where the load comes from, in the user's words.
+    pub load_source: Option<String>,
+    /// Where springs and masses of the tool come from, in the user's words.
+    pub tool_sources: Vec<String>,
+    /// Uncertainty of load and tool.
+    pub uncertainty: InputUncertainty,
+    /// The tolerance, m.
+    pub tolerance: f64,
+    /// Which posture.
+    pub choice: BranchChoice,
+    /// Position of a rail and preferred positions of redundant joints, rad (m).
+    pub home: Option<Vec<f64>>,
+    /// Branches that the words of the study leave open; all where it has none.
+    pub open: BranchPattern,
+    /// Along a path: which turns and branches are tried.
+    pub search: Option<PostureSearch>,
+}
+
+impl Setting {
+    /// Name of the requested posture: words of a branch, or `best`.
+    pub fn branch(&self) -> String {
+        match self.choice {
+            BranchChoice::Of(pattern) if pattern == BranchPattern::default() => "nominal".to_owned(),
+            BranchChoice::Of(pattern) => pattern.to_string(),
+            BranchChoice::Best => "best".to_owned(),
+        }
+    }
+
+    /// Compliance of the unloaded arm at joint positions `q` (rad, m), SI; zeros if the arm is not stable.
+    pub fn compliance_at(&self, robot: &Robot, q: &[f64]) -> Matrix6<f64> {
+        let mut arm_state = ArmState::new(Arm {
+            robot,
+            compliance: robot.compliance().unwrap_or_default(),
+            model: &self.model,
+            flange_from_tool: &self.flange_from_tool,
+        });
+        arm_state.set_joints(q);
+        arm_state.compliance().unwrap_or_else(Matrix6::zeros)
+    }
+
+    /// A point of base relative to the reference frame of the study, m.
+    pub fn in_reference(&self, in_base: &Point3<f64>) -> Point3<f64> {
+        self.base_from_reference.inverse_transform_point(in_base)
+    }
+}
