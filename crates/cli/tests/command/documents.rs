@@ -115,6 +115,7 @@ guide! {
     guide_study_file: "study-file",
     guide_robot_file: "robot-file",
     guide_results: "results",
+    guide_quantities: "quantities",
     guide_tool_path: "tool-path",
     guide_tool_path_words: "tool-path-words",
     guide_placement: "placement",
