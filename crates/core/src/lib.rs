@@ -4,7 +4,7 @@
 //!
 //! Read [`predict`] first: it is the main idea in one function. Then, in the order of the computation:
 //! [`frame`] and [`spatial`] (poses, twists, wrenches), [`roundness`] (circles of measured points, without a
-//! robot), [`robot`] (chain, postures), [`compliance`],
+//! robot), [`marching_squares`] (level lines and areas on a grid), [`robot`] (chain, postures), [`compliance`],
 //! [`load`], [`source`] (sources of the deviation), [`workpiece`] and [`path`] (points), [`kernel`] (many
 //! points at once), [`map`] (planes, sections, volumes, the region within a tolerance),
 //! [`optimize`] (the posture along a path), [`identify`] (joint compliances from load tests), [`calibrate`] (geometry
@@ -21,6 +21,7 @@ pub mod identify;
 pub mod kernel;
 pub mod load;
 pub mod map;
+pub mod marching_squares;
 pub mod measure;
 pub mod optimize;
 pub mod path;

@@ -59,7 +59,7 @@ pub(crate) fn draw_field(svg: &mut Svg, plane: &Plane, grid: &Grid, look: &Field
     let surface = Surface::refine(grid, steps);
     let at = |mm: [f64; 2]| plane.at(mm);
     let placed = Placed {
-        lattice: surface.lattice(),
+        field: surface.field(),
         at: &at,
         area: plane.area,
     };
@@ -81,7 +81,7 @@ pub(crate) fn draw_field(svg: &mut Svg, plane: &Plane, grid: &Grid, look: &Field
             let samples = zone(|p| matches!(p, PointState::OutsideJointLimits(_)));
             let fill = svg.hatch(&outside_hatch(look.paint));
             svg.layer("outside-joint-limits", 1.0, |svg| {
-                draw_zone(svg, &placed.with(grid.lattice(&samples)), &fill);
+                draw_zone(svg, &placed.with(grid.sampled(&samples)), &fill);
             });
         }
         lines.draw_tolerance(svg, &[tolerance::ground_style(), tolerance::style()]);
@@ -89,7 +89,7 @@ pub(crate) fn draw_field(svg: &mut Svg, plane: &Plane, grid: &Grid, look: &Field
             let samples = zone(|p| p.value_um().is_none());
             let fill = svg.hatch(&unreachable_hatch());
             svg.layer("unreachable", 1.0, |svg| {
-                draw_zone(svg, &placed.with(grid.lattice(&samples)), &fill);
+                draw_zone(svg, &placed.with(grid.sampled(&samples)), &fill);
             });
         }
     });
@@ -114,9 +114,7 @@ fn draw_region(svg: &mut Svg, values: &Placed<'_>, look: &FieldStyle<'_>, steps:
         Some([least, greatest]) => {
             for (grid, colour) in [(greatest, UNDECIDED), (least, OVER)] {
                 let surface = Surface::refine(grid, steps);
-                values
-                    .with(surface.lattice())
-                    .fill_from(svg, tolerance_um, colour);
+                values.with(surface.field()).fill_from(svg, tolerance_um, colour);
             }
         }
         None => values.fill_from(svg, tolerance_um, OVER),
@@ -126,7 +124,7 @@ fn draw_region(svg: &mut Svg, values: &Placed<'_>, look: &FieldStyle<'_>, steps:
 /// Fills the zone around the points whose sample is 1, half-way to their neighbours.
 fn draw_zone(svg: &mut Svg, zone: &Placed<'_>, fill: &str) {
     zone.fill_from(svg, 0.5, fill);
-    for line in zone.lines_at(&[0.5]).into_iter().flatten() {
+    for line in zone.lines_at(0.5) {
         svg.polyline(&line, &Style::line("#6f6f6f", 0.9));
     }
 }

@@ -7,7 +7,7 @@
 //!               horizontal_mm[0]  [1]  ...   [nx - 1]
 //! ```
 
-use crate::contours::Lattice;
+use armill_core::marching_squares::ScalarField;
 
 /// What is known at one grid point. A point out of reach is a state, not a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,11 +95,11 @@ impl Grid {
     }
 
     /// Samples of these points, one each, in their order.
-    pub(crate) fn lattice<'a>(&'a self, samples: &'a [f64]) -> Lattice<'a> {
-        Lattice {
-            horizontal: &self.horizontal_mm,
-            vertical: &self.vertical_mm,
-            samples,
+    pub(crate) fn sampled<'a>(&'a self, samples: &'a [f64]) -> ScalarField<'a, f64> {
+        ScalarField {
+            x: &self.horizontal_mm,
+            y: &self.vertical_mm,
+            values: samples,
         }
     }
 

@@ -1,11 +1,12 @@
-//! A field drawn by its levels, wherever its lattice is on the picture: bands, iso-lines, the line of the tolerance,
+//! A field drawn by its levels, wherever its grid is on the picture: bands, iso-lines, the line of the tolerance,
 //! and the labels of these lines.
 //!
-//! The lattice (`crate::contours`) uses the values of its axes, drawing uses pixels: this module connects
+//! The field has the values of its axes, drawing uses pixels: this module connects
 //! the two by a function from values to the picture. Maps and charts of any scale share it.
 
+use armill_core::marching_squares::{Polyline, ScalarField};
+
 use crate::colour::ColourScale;
-use crate::contours::{Lattice, Ring};
 use crate::levels::Levels;
 use crate::line::without_straight;
 use crate::line_label::Labelled;
@@ -15,58 +16,52 @@ use crate::tolerance;
 /// A line that coincides with the tolerance, within this part of a step, carries the tolerance's label alone.
 const COINCIDES: f64 = 0.05;
 
-/// A lattice of samples, and where it is on the picture.
+/// A field, and where it is on the picture.
 #[derive(Clone, Copy)]
 pub(crate) struct Placed<'a> {
-    pub(crate) lattice: Lattice<'a>,
-    /// Where a point of the lattice, in the values of its axes, is on the picture.
+    pub(crate) field: ScalarField<'a, f64>,
+    /// Where a point of the field, in the values of its axes, is on the picture.
     pub(crate) at: &'a dyn Fn([f64; 2]) -> Point,
-    /// What the lattice covers, px.
+    /// What the field covers, px.
     pub(crate) area: Rect,
 }
 
 impl<'a> Placed<'a> {
-    /// Other samples in the same place.
-    pub(crate) fn with(&self, lattice: Lattice<'a>) -> Placed<'a> {
-        Placed { lattice, ..*self }
+    /// Another field in the same place.
+    pub(crate) fn with(&self, field: ScalarField<'a, f64>) -> Placed<'a> {
+        Placed { field, ..*self }
     }
 
     /// One colour a band: the lowest covers the whole area, each further one is painted over it from its lower
     /// edge up.
     pub(crate) fn draw_bands(&self, svg: &mut Svg, levels: &Levels, scale: ColourScale) {
         svg.rect(self.area, &Style::fill(levels.colour(0, scale)));
-        for (band, rings) in self.lattice.areas_from(levels.inner_um()).iter().enumerate() {
-            self.fill(svg, rings, &levels.colour(band + 1, scale));
+        for (band, level) in levels.inner_um().iter().enumerate() {
+            self.fill_from(svg, *level, &levels.colour(band + 1, scale));
         }
     }
 
     /// Fills where the samples are at least `level`; `colour` is any value of a `fill`.
     pub(crate) fn fill_from(&self, svg: &mut Svg, level: f64, colour: &str) {
-        for rings in self.lattice.areas_from(&[level]) {
-            self.fill(svg, &rings, colour);
-        }
-    }
-
-    /// For each level the lines along which the samples equal it, px.
-    pub(crate) fn lines_at(&self, levels: &[f64]) -> Vec<Vec<Vec<Point>>> {
-        let all = self.lattice.lines_at(levels);
-        let on_picture = |lines: &Vec<Ring>| lines.iter().map(|line| self.on_picture(line)).collect();
-        all.iter().map(on_picture).collect()
-    }
-
-    /// A line in pixels, without the points that would not be seen.
-    fn on_picture(&self, line: &[[f64; 2]]) -> Vec<Point> {
-        let line: Vec<Point> = line.iter().map(|values| (self.at)(*values)).collect();
-        without_straight(&line)
-    }
-
-    /// Fills the rings of one area, holes left out.
-    fn fill(&self, svg: &mut Svg, rings: &[Ring], colour: &str) {
-        let data: String = rings
+        let data: String = self
+            .field
+            .area_from(level)
             .iter()
             .map(|ring| trace(&self.on_picture(ring), Ends::Closed))
             .collect();
         svg.path(&data, &Style::fill(colour));
+    }
+
+    /// The lines along which the samples equal `level`, px.
+    pub(crate) fn lines_at(&self, level: f64) -> Vec<Vec<Point>> {
+        let lines = self.field.lines_at(level);
+        lines.iter().map(|line| self.on_picture(line)).collect()
+    }
+
+    /// A line in pixels, without the points that would not be seen.
+    fn on_picture(&self, line: &Polyline) -> Vec<Point> {
+        let line: Vec<Point> = line.iter().map(|values| (self.at)(*values)).collect();
+        without_straight(&line)
     }
 }
 
@@ -84,12 +79,11 @@ impl<'a> LevelLines<'a> {
     /// The lines of a field. A tolerance that is not finite has no line.
     pub(crate) fn of(placed: &Placed<'_>, levels: &'a Levels, tolerance_um: Option<f64>) -> Self {
         let tolerance_um = tolerance_um.filter(|tolerance| tolerance.is_finite());
-        let tolerance: Vec<f64> = tolerance_um.into_iter().collect();
         Self {
             levels,
             tolerance_um,
-            iso: placed.lines_at(levels.inner_um()),
-            tolerance: placed.lines_at(&tolerance).into_iter().flatten().collect(),
+            iso: levels.inner_um().iter().map(|um| placed.lines_at(*um)).collect(),
+            tolerance: tolerance_um.map_or_else(Vec::new, |um| placed.lines_at(um)),
         }
     }
 

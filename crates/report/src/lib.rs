@@ -64,7 +64,6 @@ pub mod raster;
 mod cell_map;
 mod chart;
 mod colour_bar;
-mod contours;
 mod field;
 mod levels;
 mod levels_drawing;

@@ -3,11 +3,12 @@
 //! The quantities may be any two of a cut, such as depth and feed, each in its own unit. Values go straight
 //! between the points of the lattice, not in curves as on a map.
 
+use armill_core::marching_squares::ScalarField;
+
 use crate::axis::extent;
 use crate::chart::Chart;
 use crate::colour::{ColourScale, INK};
 use crate::colour_bar::ColourBar;
-use crate::contours::Lattice;
 use crate::grid::is_steady;
 use crate::legend::{Entry, Key, diamond};
 use crate::levels::Levels;
@@ -106,10 +107,10 @@ impl ProcessMap {
     fn draw_field(&self, svg: &mut Svg, chart: &Chart, levels: &Levels, shown: &[f64]) {
         let at = |values: [f64; 2]| chart.at(values);
         let placed = Placed {
-            lattice: Lattice {
-                horizontal: &self.horizontal,
-                vertical: &self.vertical,
-                samples: shown,
+            field: ScalarField {
+                x: &self.horizontal,
+                y: &self.vertical,
+                values: shown,
             },
             at: &at,
             area: chart.area,

@@ -9,8 +9,9 @@
 //! For a smooth field on a grid of equal steps h the error between the points goes with h^3, and with h^2 next to an
 //! extremum, where the slope is set to zero.
 
+use armill_core::marching_squares::ScalarField;
+
 use crate::axis::extent;
-use crate::contours::Lattice;
 use crate::grid::{Grid, PointState};
 
 /// Fine steps along the longer side of a picture.
@@ -54,11 +55,11 @@ impl Surface {
     }
 
     /// The values.
-    pub(crate) fn lattice(&self) -> Lattice<'_> {
-        Lattice {
-            horizontal: &self.horizontal_mm,
-            vertical: &self.vertical_mm,
-            samples: &self.value_um,
+    pub(crate) fn field(&self) -> ScalarField<'_, f64> {
+        ScalarField {
+            x: &self.horizontal_mm,
+            y: &self.vertical_mm,
+            values: &self.value_um,
         }
     }
 

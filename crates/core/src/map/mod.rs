@@ -7,7 +7,7 @@
 //! [`depth_by_feed`]: depth over feed; [`region`]: the part of a plane within the tolerance, its area, boundary and
 //! inscribed shapes; [`certainty`]: its uncertainty.
 //!
-//! `marching_squares`, `inscribed`: boundaries, and inscribed shapes; `turns`: whole turns of joints along a path.
+//! `inscribed`: inscribed shapes; `turns`: whole turns of joints along a path.
 
 pub mod along;
 pub mod backlash_geometry;
@@ -16,7 +16,6 @@ pub mod depth_by_feed;
 mod inscribed;
 mod jumps;
 pub mod limits;
-mod marching_squares;
 pub mod plane;
 pub mod radial;
 pub mod radial_parts;

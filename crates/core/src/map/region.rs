@@ -7,7 +7,7 @@ use nalgebra::Point2;
 
 pub use super::inscribed::{Disc, Rectangle};
 use super::inscribed::{largest_disc, largest_rectangle};
-use super::marching_squares::within_level;
+use crate::marching_squares::{ScalarField, enclosed_area};
 use crate::workpiece::Grid;
 
 /// The part of a plane where the deviation is within the tolerance.
@@ -15,7 +15,7 @@ use crate::workpiece::Grid;
 pub struct Region {
     /// Area, m^2.
     pub area: f64,
-    /// Polylines in part x and y (m), the region to their left; closed ones repeat their first point.
+    /// Closed polylines in part x and y (m), the region to their left; each repeats its first point.
     pub boundary: Vec<Vec<Point2<f64>>>,
     /// Largest axis-parallel rectangle inside.
     pub rectangle: Option<Rectangle>,
@@ -26,10 +26,19 @@ pub struct Region {
 /// The region of `grid` where `values` (by grid index, `None` where unreachable) are at most `limit`, the tolerance.
 pub fn region_within(grid: &Grid, values: &[Option<f64>], limit: f64) -> Region {
     let within: Vec<bool> = values.iter().map(|v| v.is_some_and(|v| v <= limit)).collect();
-    let shape = within_level(grid, values, limit);
+    let axis = |count: usize| -> Vec<f64> { (0..count).map(|k| grid.coordinate(k, count)).collect() };
+    let field = ScalarField {
+        x: &axis(grid.columns),
+        y: &axis(grid.rows),
+        values,
+    };
+    let boundary = field.area_up_to(limit);
     Region {
-        area: shape.area,
-        boundary: shape.boundary,
+        area: enclosed_area(&boundary),
+        boundary: boundary
+            .into_iter()
+            .map(|ring| ring.into_iter().map(Point2::from).collect())
+            .collect(),
         rectangle: largest_rectangle(grid, &within),
         disc: largest_disc(grid, &within),
     }
