@@ -7,9 +7,10 @@
 use crate::axis::plain;
 use crate::chart::runs;
 use crate::colour::category;
+use crate::font::SMALL_PX;
 use crate::legend::{Entry, Key};
 use crate::line::without_straight;
-use crate::page::{BORDER_PX, Heading, SMALL_PX};
+use crate::page::{BORDER_PX, Heading};
 use crate::plane::Growth;
 use crate::polar_plot::{PolarPlot, RADIUS_PX, RadialSeries, WIDTH_PX, nominal_style};
 use crate::svg::{Style, Svg, Text};

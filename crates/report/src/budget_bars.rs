@@ -11,8 +11,9 @@
 //! The three groups have a colour each. Two times the scatter is drawn as a whisker from the end of its bar.
 
 use crate::colour::{GRID, INK, category};
+use crate::font::SMALL_PX;
 use crate::legend::{Entry, Key};
-use crate::page::{BORDER_PX, Heading, SMALL_PX};
+use crate::page::{BORDER_PX, Heading};
 use crate::rows::{Rows, left_px};
 use crate::svg::{Rect, Style, Text};
 

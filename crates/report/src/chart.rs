@@ -13,7 +13,8 @@
 
 use crate::axis::extent;
 use crate::colour::INK;
-use crate::page::{BODY_PX, BORDER_PX, SMALL_PX};
+use crate::font::{BODY_PX, SMALL_PX};
+use crate::page::BORDER_PX;
 use crate::plane::{AxisLabels, LABEL_BELOW_PX, LABEL_LEFT_PX, LEFT_PX};
 use crate::svg::{Point, Rect, Style, Svg, Text};
 use crate::ticks::{Across, Axis, Overhang, Ticks};

@@ -13,9 +13,8 @@
 
 use crate::axis::plain;
 use crate::colour::{ColourScale, INK};
-use crate::font::{Weight, text_width_px, wrap};
+use crate::font::{BODY_PX, SMALL_PX, Weight, text_width_px, wrap};
 use crate::levels::Levels;
-use crate::page::{BODY_PX, SMALL_PX};
 use crate::svg::{Rect, Style, Svg, Text};
 use crate::tolerance;
 

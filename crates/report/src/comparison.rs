@@ -11,9 +11,9 @@
 //! the axis. Cells have the colours that series of the same number have on a [`crate::PathPlot`].
 
 use crate::colour::{INK, MUTED, category};
-use crate::font::{Weight, text_width_px};
+use crate::font::{SMALL_PX, Weight, text_width_px};
 use crate::legend::{Entry, Key, diamond};
-use crate::page::{BORDER_PX, Heading, SMALL_PX};
+use crate::page::{BORDER_PX, Heading};
 use crate::rows::{Rows, left_px};
 use crate::svg::{Rect, Style, Svg, Text};
 use crate::tolerance;

@@ -18,9 +18,9 @@
 use crate::arrow::draw_arrow;
 use crate::axis::three_digits;
 use crate::colour::{FAINT, INK, SIGNAL, category};
-use crate::font::{Weight, text_width_px};
+use crate::font::{SMALL_PX, Weight, text_width_px};
 use crate::legend::{Entry, Key};
-use crate::page::{BORDER_PX, Heading, SMALL_PX, text_box};
+use crate::page::{BORDER_PX, Heading, text_box};
 use crate::plane::{AxisLabels, Growth, Plane, Window};
 use crate::svg::{Anchor, Point, Rect, Style, Svg, Text};
 

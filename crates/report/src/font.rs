@@ -1,22 +1,23 @@
-//! How wide a text is when set in DejaVu Sans, so that labels can keep out of each other's way.
-//!
-//! The widths are the advance widths of the two embedded fonts (`fonts/`), in thousandths of the font size; kerning is
-//! left out.
+//! The two embedded fonts (`fonts/`), the sizes of texts, and how wide a text is in DejaVu Sans.
 //!
 //! A picture is laid out before it is rendered: whether two labels meet, where a line of the title breaks and
-//! how wide the numbers of an axis are has to be known without a font engine.
+//! how wide the numbers of an axis are has to be known without a renderer. Widths are the advance widths of the fonts in
+//! whole thousandths of the font size; kerning is left out.
 
-use crate::advances::RUNS;
+use std::sync::LazyLock;
 
-/// A run of characters that follow each other in Unicode, with their advance widths in thousandths of the font size.
-pub(crate) struct Run {
-    /// Code of the first character.
-    pub(crate) first: u32,
-    /// Widths in the regular font, one for each character of the run.
-    pub(crate) regular: &'static [u16],
-    /// Widths in the bold font, as many as regular ones.
-    pub(crate) bold: &'static [u16],
-}
+use read_fonts::tables::{cmap::Cmap, hmtx::Hmtx};
+use read_fonts::types::GlyphId;
+use read_fonts::{FontRef, ReadError, TableProvider};
+
+/// The subsets of `DejaVu Sans` with the characters that pictures use; their licence is next to them.
+pub(crate) const REGULAR: &[u8] = include_bytes!("../fonts/DejaVuSans.subset.ttf");
+pub(crate) const BOLD: &[u8] = include_bytes!("../fonts/DejaVuSans-Bold.subset.ttf");
+
+/// Font sizes: title, everything else, ticks and labels inside the drawing.
+pub(crate) const TITLE_PX: f64 = 15.0;
+pub(crate) const BODY_PX: f64 = 12.0;
+pub(crate) const SMALL_PX: f64 = 11.0;
 
 /// Weight of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,11 +29,15 @@ pub(crate) enum Weight {
 }
 
 /// Width of a character that the embedded font lacks: that of a capital letter.
-const UNKNOWN_ADVANCE: u16 = 700;
+const UNKNOWN_ADVANCE: f64 = 700.0;
+
+/// The widths of both fonts, regular and bold, read once.
+static ADVANCES: LazyLock<[Option<Advances>; 2]> =
+    LazyLock::new(|| [REGULAR, BOLD].map(|font| Advances::read(font).ok()));
 
 /// Width of `text` in pixels at `size_px`.
 pub(crate) fn text_width_px(text: &str, size_px: f64, weight: Weight) -> f64 {
-    let thousandths: f64 = text.chars().map(|c| f64::from(advance(c, weight))).sum();
+    let thousandths: f64 = text.chars().map(|c| advance(c, weight)).sum();
     thousandths * size_px / 1000.0
 }
 
@@ -53,18 +58,42 @@ pub(crate) fn wrap(text: &str, size_px: f64, weight: Weight, width_px: f64) -> V
 }
 
 /// The width of one character in thousandths of the font size.
-fn advance(c: char, weight: Weight) -> u16 {
-    let code = u32::from(c);
-    let after = RUNS.partition_point(|run| run.first <= code);
-    let found = after.checked_sub(1).and_then(|i| {
-        let run = &RUNS[i];
-        let widths = match weight {
-            Weight::Regular => run.regular,
-            Weight::Bold => run.bold,
-        };
-        usize::try_from(code - run.first).ok().and_then(|k| widths.get(k))
-    });
-    found.copied().unwrap_or(UNKNOWN_ADVANCE)
+fn advance(c: char, weight: Weight) -> f64 {
+    let [regular, bold] = &*ADVANCES;
+    let advances = match weight {
+        Weight::Regular => regular,
+        Weight::Bold => bold,
+    };
+    let known = advances.as_ref().and_then(|advances| advances.of(c));
+    known.unwrap_or(UNKNOWN_ADVANCE)
+}
+
+/// The tables of a font that its widths are read from.
+struct Advances {
+    glyphs: Cmap<'static>,
+    widths: Hmtx<'static>,
+    units_per_em: f64,
+}
+
+impl Advances {
+    fn read(font: &'static [u8]) -> Result<Self, ReadError> {
+        let font = FontRef::new(font)?;
+        Ok(Self {
+            glyphs: font.cmap()?,
+            widths: font.hmtx()?,
+            units_per_em: f64::from(font.head()?.units_per_em()),
+        })
+    }
+
+    /// Thousandths of the font size; `None` where the font lacks the character.
+    fn of(&self, c: char) -> Option<f64> {
+        let glyph = self
+            .glyphs
+            .map_codepoint(c)
+            .filter(|glyph| *glyph != GlyphId::NOTDEF)?;
+        let units = self.widths.advance(glyph)?;
+        Some((f64::from(units) * 1000.0 / self.units_per_em).round())
+    }
 }
 
 #[cfg(test)]
@@ -72,9 +101,39 @@ mod tests {
     use super::*;
 
     #[test]
-    fn runs_are_in_order_of_code_points() {
-        assert!(RUNS.windows(2).all(|w| w[0].first < w[1].first));
-        assert!(RUNS.iter().all(|r| r.regular.len() == r.bold.len()));
+    fn widths_are_those_of_the_fonts() {
+        let pinned = [
+            (' ', 318.0, 348.0),
+            ('0', 636.0, 696.0),
+            ('M', 863.0, 995.0),
+            ('i', 278.0, 343.0),
+            ('ß', 630.0, 719.0),
+            ('µ', 636.0, 736.0),
+            ('°', 500.0, 500.0),
+            ('≤', 838.0, 838.0),
+            ('⊥', 871.0, 914.0),
+            ('■', 945.0, 945.0),
+            ('日', UNKNOWN_ADVANCE, UNKNOWN_ADVANCE),
+        ];
+        for (c, regular, bold) in pinned {
+            assert_eq!(advance(c, Weight::Regular), regular, "{c}");
+            assert_eq!(advance(c, Weight::Bold), bold, "{c}");
+        }
+        assert!((text_width_px("0i0", 20.0, Weight::Regular) - 31.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn characters_of_pictures_are_in_both_fonts() {
+        for c in [
+            'µ', 'μ', '−', '°', '±', '≤', '≥', '×', '→', '²', '‰', '–', 'α', 'δ',
+        ] {
+            for advances in &*ADVANCES {
+                assert!(
+                    advances.as_ref().is_some_and(|advances| advances.of(c).is_some()),
+                    "{c}"
+                );
+            }
+        }
     }
 
     #[test]
@@ -83,15 +142,6 @@ mod tests {
             text_width_px("deviation", 12.0, Weight::Bold)
                 > text_width_px("deviation", 12.0, Weight::Regular)
         );
-    }
-
-    #[test]
-    fn micro_and_minus_are_in_the_table() {
-        for c in [
-            'µ', 'μ', '−', '°', '±', '≤', '≥', '×', '→', '²', '‰', '–', 'α', 'δ',
-        ] {
-            assert_ne!(advance(c, Weight::Regular), UNKNOWN_ADVANCE, "{c}");
-        }
     }
 
     #[test]

@@ -8,8 +8,7 @@
 //! Entries keep their order; one that does not fit into a row begins the next.
 
 use crate::colour::KEY_EDGE;
-use crate::font::{Weight, text_width_px};
-use crate::page::SMALL_PX;
+use crate::font::{SMALL_PX, Weight, text_width_px};
 use crate::svg::{Point, Rect, Style, Svg, Text};
 
 const ROW_PX: f64 = 20.0;

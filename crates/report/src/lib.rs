@@ -74,7 +74,6 @@ mod rows;
 mod surface;
 mod tolerance;
 
-mod advances;
 mod arrow;
 mod axis;
 mod colour;

@@ -15,11 +15,11 @@
 use crate::colour::{ColourScale, EMPTY, MUTED, OVER, WITHIN};
 use crate::colour_bar::ColourBar;
 use crate::field::{FieldStyle, IsoLines, Paint, draw_field, window_of, zone_entries};
-use crate::font::{Weight, text_width_px, wrap};
+use crate::font::{BODY_PX, SMALL_PX, Weight, text_width_px, wrap};
 use crate::grid::Grid;
 use crate::legend::{Entry, Key};
 use crate::levels::Levels;
-use crate::page::{BODY_PX, BORDER_PX, Heading, SMALL_PX};
+use crate::page::{BORDER_PX, Heading};
 use crate::plane::{AxisLabels, Marks, Plane, Window};
 use crate::svg::{Rect, Style, Svg, Text};
 use crate::ticks::Overhang;

@@ -3,8 +3,8 @@
 //! A marker is a place in the plane, not a measure: its sign has the same size at every scale.
 
 use crate::colour::INK;
+use crate::font::SMALL_PX;
 use crate::legend::{Entry, Key, diamond};
-use crate::page::SMALL_PX;
 use crate::plane::Plane;
 use crate::svg::{Point, Style, Svg, Text};
 

@@ -14,16 +14,12 @@
 //! ```
 
 use crate::colour::{EMPTY, INK, MUTED};
-use crate::font::{Weight, text_width_px, wrap};
+use crate::font::{BODY_PX, TITLE_PX, Weight, text_width_px, wrap};
 use crate::legend::{Entry, draw_legend};
 use crate::svg::{Anchor, Point, Rect, Style, Svg, Text};
 
 /// Blank border of every picture.
 pub(crate) const BORDER_PX: f64 = 18.0;
-/// Font sizes: title, everything else, ticks and labels inside the drawing.
-pub(crate) const TITLE_PX: f64 = 15.0;
-pub(crate) const BODY_PX: f64 = 12.0;
-pub(crate) const SMALL_PX: f64 = 11.0;
 /// A map is at least this wide, for its title and legend.
 pub(crate) const LEAST_WIDTH_PX: f64 = 430.0;
 

@@ -5,9 +5,9 @@
 
 use crate::chart::{Chart, range, runs};
 use crate::colour::{INK, category};
-use crate::font::{Weight, text_width_px};
+use crate::font::{SMALL_PX, Weight, text_width_px};
 use crate::legend::Entry;
-use crate::page::{BORDER_PX, Heading, SMALL_PX};
+use crate::page::{BORDER_PX, Heading};
 use crate::plane::AxisLabels;
 use crate::svg::{Point, Style, Svg};
 use crate::tolerance;

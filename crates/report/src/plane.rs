@@ -14,8 +14,8 @@
 
 use crate::axis::{nice_step, tick_label};
 use crate::colour::INK;
-use crate::font::{Weight, text_width_px};
-use crate::page::{BODY_PX, BORDER_PX, SMALL_PX};
+use crate::font::{BODY_PX, SMALL_PX, Weight, text_width_px};
+use crate::page::BORDER_PX;
 use crate::svg::{Point, Rect, Style, Svg, Text};
 use crate::ticks::{Across, Axis, Overhang, Ticks};
 

@@ -9,8 +9,9 @@
 use crate::axis::{extent, nice_step};
 use crate::chart::runs;
 use crate::colour::{FAINT, GRID, INK, MUTED, category};
+use crate::font::SMALL_PX;
 use crate::legend::{Entry, draw_cross};
-use crate::page::{BORDER_PX, Heading, SMALL_PX};
+use crate::page::{BORDER_PX, Heading};
 use crate::plane::Growth;
 use crate::svg::{Point, Style, Svg, Text};
 use crate::ticks::Ticks;

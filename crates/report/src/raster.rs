@@ -8,10 +8,7 @@ use std::sync::Arc;
 use resvg::{tiny_skia, usvg};
 
 use crate::error::ReportError;
-
-/// The subsets of `DejaVu Sans` with the characters that pictures use; their licence is next to them.
-const REGULAR: &[u8] = include_bytes!("../fonts/DejaVuSans.subset.ttf");
-const BOLD: &[u8] = include_bytes!("../fonts/DejaVuSans-Bold.subset.ttf");
+use crate::font::{BOLD, REGULAR};
 
 /// Longest side in pixels; a square picture of this size takes 400 MB.
 const LARGEST_PX: u32 = 10_000;
@@ -83,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn the_table_of_widths_is_that_of_the_embedded_fonts() {
+    fn texts_are_rendered_in_the_widths_of_the_embedded_fonts() {
         const SIZE_PX: f64 = 40.0;
         for weight in [Weight::Regular, Weight::Bold] {
             let text = match weight {

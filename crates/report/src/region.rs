@@ -12,12 +12,13 @@
 use crate::axis::plain;
 use crate::colour::{INK, OVER, UNDECIDED, WITHIN};
 use crate::field::{FieldStyle, IsoLines, Paint, draw_field, window_of, zone_entries};
+use crate::font::SMALL_PX;
 use crate::grid::Grid;
 use crate::legend::{Entry, Key};
 use crate::levels::Levels;
 use crate::line_label::points_under;
 use crate::marker::write_on_map;
-use crate::page::{BORDER_PX, Heading, LEAST_WIDTH_PX, SMALL_PX};
+use crate::page::{BORDER_PX, Heading, LEAST_WIDTH_PX};
 use crate::plane::{AxisLabels, BELOW_PX, Plane};
 use crate::svg::{Point, Style, Svg};
 use crate::tolerance;

@@ -9,8 +9,8 @@
 //! Values are um, lengths pixels of the picture.
 
 use crate::colour::{GRID, INK};
-use crate::font::{Weight, text_width_px};
-use crate::page::{BODY_PX, BORDER_PX, SMALL_PX};
+use crate::font::{BODY_PX, SMALL_PX, Weight, text_width_px};
+use crate::page::BORDER_PX;
 use crate::svg::{Rect, Style, Svg, Text};
 use crate::ticks::Ticks;
 

@@ -12,9 +12,9 @@
 use crate::axis::number;
 use crate::chart::range;
 use crate::colour::{INK, category};
-use crate::font::{Weight, text_width_px};
+use crate::font::{SMALL_PX, Weight, text_width_px};
 use crate::legend::{Entry, Key, diamond};
-use crate::page::{BORDER_PX, Heading, SMALL_PX};
+use crate::page::{BORDER_PX, Heading};
 use crate::rows::{Rows, left_px};
 use crate::svg::{Point, Rect, Style, Svg, Text};
 

@@ -5,8 +5,8 @@
 
 use crate::axis::{extent, plain};
 use crate::colour::TOLERANCE;
+use crate::font::SMALL_PX;
 use crate::legend::Entry;
-use crate::page::SMALL_PX;
 use crate::svg::{Style, Text};
 
 /// The line of the tolerance, on drawings and in their legends.

@@ -7,8 +7,9 @@
 use crate::arrow::draw_arrow;
 use crate::axis::{extent, nice_below, plain};
 use crate::colour::{INK, NOMINAL, category};
+use crate::font::SMALL_PX;
 use crate::legend::Entry;
-use crate::page::{BORDER_PX, Heading, LEAST_WIDTH_PX, SMALL_PX};
+use crate::page::{BORDER_PX, Heading, LEAST_WIDTH_PX};
 use crate::plane::{AxisLabels, BELOW_PX, Growth, Plane, Window};
 use crate::svg::{Point, Style, Svg, Text};
 

@@ -10,8 +10,9 @@
 //! Where either amplitude is less than a twentieth of the largest, or no phase is given, it is left out.
 
 use crate::colour::{GRID, INK, MUTED, category};
+use crate::font::{BODY_PX, SMALL_PX};
 use crate::legend::{Entry, Key};
-use crate::page::{BODY_PX, BORDER_PX, Heading, SMALL_PX};
+use crate::page::{BORDER_PX, Heading};
 use crate::svg::{Rect, Style, Text};
 use crate::ticks::Ticks;
 

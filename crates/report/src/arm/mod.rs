@@ -20,7 +20,8 @@ mod view;
 
 pub use view::View;
 
-use crate::page::{BORDER_PX, Heading, SMALL_PX};
+use crate::font::SMALL_PX;
+use crate::page::{BORDER_PX, Heading};
 use crate::svg::{Rect, Text};
 use scene::{Scene, draw_scene, wanted_height_px};
 

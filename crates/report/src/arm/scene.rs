@@ -13,8 +13,7 @@ use super::{ArmDrawing, ArmPosture, is_finite};
 use crate::arrow::draw_arrow;
 use crate::axis::{extent, multiples, nice_step};
 use crate::colour::{INK, MUTED, SIGNAL};
-use crate::font::{Weight, text_width_px};
-use crate::page::SMALL_PX;
+use crate::font::{SMALL_PX, Weight, text_width_px};
 use crate::svg::{Point, Rect, Style, Svg, Text};
 
 /// Everything that is drawn, in the base frame; what is not finite is left out.
