@@ -27,7 +27,7 @@ pub struct Quantity {
 pub struct Origin {
     /// The file that computes it, below `crates/core/src/`.
     pub file: &'static str,
-    /// The function there.
+    /// The function there, behind the name of its type if it has one.
     pub function: &'static str,
     /// The page of `docs/theory/` with its equations.
     pub theory: &'static str,
@@ -76,13 +76,13 @@ const SUM: Origin = Origin {
 };
 const ON_PLANE: Origin = Origin {
     file: "workpiece.rs",
-    function: "of",
+    function: "Split::of",
     theory: "deviation",
     validation: Some("plane-split"),
 };
 const ALONG_TRACK: Origin = Origin {
     file: "path/track.rs",
-    function: "parts",
+    function: "Track::parts",
     theory: "deviation",
     validation: Some("plane-split"),
 };
@@ -111,7 +111,7 @@ pub const LIMIT_MARGIN: Quantity = angle(
     "least distance of a joint to its limit (mm for a prismatic joint), negative outside",
     Origin {
         file: "robot/model.rs",
-        function: "limit_margin",
+        function: "Robot::limit_margin",
         theory: "inverse",
         validation: Some("mh12-readings"),
     },
