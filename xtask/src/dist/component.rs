@@ -9,6 +9,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
 
 /// Something that is built in.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -56,7 +58,7 @@ pub fn all(release: &Release) -> Result<Components, String> {
     .arg(&release.target);
     let mut components = read_tree(&printed(&mut tree)?);
     let lock = fs::read_to_string("Cargo.lock").map_err(|error| format!("Cargo.lock: {error}"))?;
-    let checksums = checksums(&lock);
+    let checksums = checksums(&lock).ok_or("Cargo.lock lists no packages")?;
     for (url, component) in &mut components {
         component.sha256 = checksums.get(url).cloned();
         // Ours have none.
@@ -118,19 +120,17 @@ fn cargo_url(name: &str, version: &str) -> String {
 }
 
 /// The checksums of `Cargo.lock` by package URLs.
-fn checksums(lock: &str) -> BTreeMap<String, String> {
-    let packages = lock.split("[[package]]");
-    let value = |package: &str, key: &str| {
-        let mut lines = package.lines();
-        let line = lines.find_map(|line| line.strip_prefix(key)?.strip_prefix(" = \""));
-        Some(line?.trim_end_matches('"').to_owned())
+fn checksums(lock: &str) -> Option<BTreeMap<String, String>> {
+    let lock = DeTable::parse(lock).ok()?;
+    let packages = lock.get_ref().get("package")?.get_ref().as_array()?;
+    let checksum = |package: &Spanned<DeValue<'_>>| {
+        let value = |key| package.get_ref().get(key)?.get_ref().as_str();
+        Some((
+            cargo_url(value("name")?, value("version")?),
+            value("checksum")?.to_owned(),
+        ))
     };
-    packages
-        .filter_map(|package| {
-            let url = cargo_url(&value(package, "name")?, &value(package, "version")?);
-            Some((url, value(package, "checksum")?))
-        })
-        .collect()
+    Some(packages.iter().filter_map(checksum).collect())
 }
 
 /// A package of the page, from a line of [`PAGE_PACKAGES`], with its package URL.
@@ -249,7 +249,7 @@ mod tests {
     fn checksums_are_those_of_the_very_version() {
         let lock = "version = 4\n\n[[package]]\nname = \"a\"\nversion = \"1.0.0\"\nsource = \"r\"\nchecksum = \"0f\"\n\
                     dependencies = [\n \"b\",\n]\n\n[[package]]\nname = \"armill\"\nversion = \"0.1.0\"\n";
-        let found: Vec<_> = checksums(lock).into_iter().collect();
+        let found: Vec<_> = checksums(lock).unwrap().into_iter().collect();
         assert_eq!(found, [("pkg:cargo/a@1.0.0".to_owned(), "0f".to_owned())]);
     }
 

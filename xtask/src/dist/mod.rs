@@ -31,6 +31,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 use std::time::Instant;
 use std::{env, fs};
+use toml::de::DeTable;
 use tools::Tools;
 
 /// Description in the list of tasks.
@@ -140,7 +141,7 @@ fn prepared(options: &Options) -> Result<Release, String> {
     let rustc = printed(Command::new("rustc").arg("-vV"))?;
     let target = host(&rustc).ok_or("rustc -vV reports no host")?.to_owned();
     let manifest = fs::read_to_string("Cargo.toml").map_err(|error| format!("Cargo.toml: {error}"))?;
-    let version = version(&manifest).ok_or("Cargo.toml has no version")?.to_owned();
+    let version = version(&manifest).ok_or("Cargo.toml has no version")?;
     let committed_s = printed(Command::new("git").args(["log", "-1", "--format=%ct"]))?;
     fs::create_dir_all(&options.out).map_err(|error| format!("{}: {error}", options.out.display()))?;
     let zig = !options.native && target.ends_with("-linux-gnu");
@@ -260,12 +261,10 @@ fn host(given: &str) -> Option<&str> {
 }
 
 /// The version of the workspace in its Cargo.toml.
-fn version(manifest: &str) -> Option<&str> {
-    let (_, package) = manifest.split_once("[workspace.package]")?;
-    let line = package
-        .lines()
-        .find_map(|line| line.strip_prefix("version = \""))?;
-    line.strip_suffix('"')
+fn version(manifest: &str) -> Option<String> {
+    let manifest = DeTable::parse(manifest).ok()?;
+    let package = manifest.get_ref().get("workspace")?.get_ref().get("package")?;
+    Some(package.get_ref().get("version")?.get_ref().as_str()?.to_owned())
 }
 
 #[cfg(test)]
@@ -309,7 +308,7 @@ mod tests {
         let printed_text = "rustc 1.95.0\nbinary: rustc\nhost: x86_64-unknown-linux-gnu\nrelease: 1.95.0\n";
         assert_eq!(host(printed_text), Some("x86_64-unknown-linux-gnu"));
         let manifest = "[workspace]\nversion = \"9\"\n[workspace.package]\nversion = \"0.1.0\"\n";
-        assert_eq!(version(manifest), Some("0.1.0"));
+        assert_eq!(version(manifest).unwrap(), "0.1.0");
         assert_eq!(version("[package]\nversion = \"1\"\n"), None);
     }
 }

@@ -1,9 +1,12 @@
 //! Fields that cross a boundary: those of types that a file, a result or a command line is made of.
 //!
 //! A type crosses where it derives serde's traits, a JSON schema or clap's: its field names are then keys or
-//! options. Found in the text by its brackets, without a parser; types made by macros are not seen.
+//! options. Types made by macros are not seen.
 
-use super::rust::{RustFile, find_word, is_word};
+use super::rust::{RustFile, is_punct, item_length, tokens};
+use proc_macro2::TokenTree;
+use syn::spanned::Spanned;
+use syn::{Data, DeriveInput};
 
 /// Deriving one of these makes the names of the fields part of a format that users see.
 const BOUNDARY_DERIVES: &[&str] = &[
@@ -27,97 +30,55 @@ pub struct Field {
 }
 
 /// The named fields of all structs and enums of `file` that derive what makes them a format.
-pub fn boundary_fields(file: &RustFile<'_>) -> Vec<Field> {
-    let text = file.code.join("\n");
+pub fn boundary_fields(file: &RustFile) -> Vec<Field> {
     let mut fields = Vec::new();
-    for keyword in ["struct ", "enum "] {
-        for (at, _) in text.match_indices(keyword) {
-            let whole_word = !text[..at].ends_with(is_word);
-            if whole_word && derives_a_format(&text[..at]) {
-                fields.extend(
-                    body(&text, at)
-                        .into_iter()
-                        .flat_map(|(begin, end)| fields_in(&text, begin, end)),
-                );
-            }
-        }
-    }
+    read_items(&file.trees, &mut fields);
     fields
 }
 
-/// Whether the attributes at the end of `before` derive one of [`BOUNDARY_DERIVES`].
-fn derives_a_format(before: &str) -> bool {
-    let attributes = before
-        .rfind([';', '}', '{'])
-        .map_or(before, |at| &before[at + 1..]);
-    attributes.contains("derive(")
-        && BOUNDARY_DERIVES
+/// Adds the fields of the types in `trees`, inside of modules and functions too.
+fn read_items(trees: &[TokenTree], fields: &mut Vec<Field>) {
+    for (at, tree) in trees.iter().enumerate() {
+        let TokenTree::Group(group) = tree else { continue };
+        let inside: Vec<TokenTree> = group.stream().into_iter().collect();
+        if at > 0 && is_punct(&trees[at - 1], '#') && derives_a_format(&inside) {
+            let item = &trees[at - 1..];
+            let item = item[..item_length(item)].iter().cloned().collect();
+            fields.extend(syn::parse2(item).map(fields_of).unwrap_or_default());
+        }
+        read_items(&inside, fields);
+    }
+}
+
+/// Whether an attribute derives one of [`BOUNDARY_DERIVES`].
+fn derives_a_format(attribute: &[TokenTree]) -> bool {
+    let words = tokens(attribute.iter().cloned());
+    words.iter().any(|word| word.text == "derive")
+        && words
             .iter()
-            .any(|name| find_word(attributes, name).is_some())
+            .any(|word| BOUNDARY_DERIVES.contains(&word.text.as_str()))
 }
 
-/// Where the text between the braces of the type at `at` begins and ends; nothing for a tuple or unit struct.
-fn body(text: &str, at: usize) -> Option<(usize, usize)> {
-    let open = at + text[at..].find(['{', ';', '('])?;
-    text[open..]
-        .starts_with('{')
-        .then(|| (open + 1, closing(text, open)))
-}
-
-/// Where the bracket that opens at `open` closes.
-fn closing(text: &str, open: usize) -> usize {
-    let mut depth = 0;
-    for (at, c) in text[open..].char_indices() {
-        match c {
-            '{' | '[' | '(' => depth += 1,
-            '}' | ']' | ')' => depth -= 1,
-            _ => {}
-        }
-        if depth == 0 {
-            return open + at;
-        }
-    }
-    text.len()
-}
-
-/// The `name: type` pairs between `begin` and `end`, also those inside the variants of an enum.
-fn fields_in(text: &str, begin: usize, end: usize) -> Vec<Field> {
-    let mut fields = Vec::new();
-    let mut at = begin;
-    while at < end {
-        let rest = &text[at..end];
-        let name_length = rest.find(|c: char| !is_word(c)).unwrap_or(rest.len());
-        let after_name = rest[name_length..].trim_start();
-        if rest.starts_with("#[") {
-            at = closing(text, at + 1) + 1;
-        } else if name_length > 0 && after_name.starts_with(':') && !after_name.starts_with("::") {
-            let type_begin = end - after_name.len() + 1;
-            let length = type_length(&text[type_begin..end]);
-            fields.push(Field {
-                line: 1 + text[..at].matches('\n').count(),
-                name: rest[..name_length].to_owned(),
-                of_type: text[type_begin..type_begin + length].trim().to_owned(),
-            });
-            at = type_begin + length;
-        } else {
-            at += name_length.max(rest.chars().next().map_or(1, char::len_utf8));
-        }
-    }
-    fields
-}
-
-/// How far a type goes: to the comma or the brace that does not belong to it.
-fn type_length(text: &str) -> usize {
-    let mut depth = 0;
-    for (at, c) in text.char_indices() {
-        match c {
-            ',' | '}' if depth == 0 => return at,
-            '<' | '[' | '(' | '{' => depth += 1,
-            '>' | ']' | ')' | '}' => depth -= 1,
-            _ => {}
-        }
-    }
-    text.len()
+/// The named fields of a type, of an enum those of its variants.
+fn fields_of(item: DeriveInput) -> Vec<Field> {
+    let fields: Vec<syn::Field> = match item.data {
+        Data::Struct(content) => content.fields.into_iter().collect(),
+        Data::Enum(content) => content
+            .variants
+            .into_iter()
+            .flat_map(|variant| variant.fields)
+            .collect(),
+        Data::Union(_) => Vec::new(),
+    };
+    let field = |field: syn::Field| {
+        let name = field.ident?;
+        Some(Field {
+            line: name.span().start().line,
+            name: name.to_string(),
+            of_type: field.ty.span().source_text().unwrap_or_default(),
+        })
+    };
+    fields.into_iter().filter_map(field).collect()
 }
 
 #[cfg(test)]
@@ -125,7 +86,7 @@ mod tests {
     use super::*;
 
     fn fields(text: &str) -> Vec<(usize, String, String)> {
-        let fields = boundary_fields(&RustFile::read("a.rs", text)).into_iter();
+        let fields = boundary_fields(&RustFile::read("a.rs", text).unwrap()).into_iter();
         fields
             .map(|field| (field.line, field.name, field.of_type))
             .collect()

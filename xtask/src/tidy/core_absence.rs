@@ -11,7 +11,7 @@
 //! Tests may do all of it. Found by name: a type that is renamed by `use ... as` is not seen.
 
 use super::Rule;
-use super::rust::{RustFile, find_word};
+use super::rust::RustFile;
 use super::tree::Tree;
 use super::violation::Violation;
 
@@ -65,73 +65,41 @@ const NAMES: &[(&str, &str)] = &[
 const STATE: &str = "there is no global state: pass values as arguments and return them";
 
 /// The only static, and where: a flag that is never set.
-const NEVER: (&str, &str) = ("crates/core/src/watch.rs", "static NEVER: AtomicBool");
+const NEVER: (&str, &str) = ("crates/core/src/watch.rs", "NEVER");
 
 /// Looks at the core without its tests; comments and literals may name these things.
 fn check(tree: &Tree) -> Vec<Violation> {
-    tree.rust_files("crates/core/src/")
-        .iter()
-        .flat_map(check_file)
-        .collect()
+    tree.rust_files("crates/core/src/").flat_map(check_file).collect()
 }
 
 /// What one file of the core does that it should not.
-fn check_file(file: &RustFile<'_>) -> Vec<Violation> {
+fn check_file(file: &RustFile) -> Vec<Violation> {
     let mut violations = Vec::new();
+    let mut found = |line: usize, what: String, hint: &str| {
+        violations.push(Violation::new(&file.path, line, what, hint));
+    };
     for (line, name) in file.names_after("std") {
         if let Some((module, hint)) = STD_MODULES.iter().find(|(module, _)| *module == name) {
-            violations.push(Violation::new(
-                file.path,
-                line,
-                format!("std::{module} in the core"),
-                *hint,
-            ));
+            found(line, format!("std::{module} in the core"), hint);
         }
     }
-    for (index, code) in file.code.iter().enumerate() {
-        if is_static(code) && !(file.path == NEVER.0 && code.contains(NEVER.1)) {
-            violations.push(Violation::new(
-                file.path,
-                index + 1,
-                "a static in the core",
-                STATE,
-            ));
-        }
-        for name in PRINTING {
-            if find_word(code, name).is_some_and(|at| code[at + name.len()..].starts_with('!')) {
-                let hint = "return the value, or report progress to the Watch";
-                violations.push(Violation::new(
-                    file.path,
-                    index + 1,
-                    format!("{name}! in the core"),
-                    hint,
-                ));
-            }
-        }
-        for (name, hint) in NAMES {
-            // `rand` can be a word of prose in an identifier, but as a crate it is followed by its path.
-            let found =
-                find_word(code, name).filter(|at| *name != "rand" || code[at + 4..].starts_with("::"));
-            if found.is_some() {
-                violations.push(Violation::new(
-                    file.path,
-                    index + 1,
-                    format!("{name} in the core"),
-                    *hint,
-                ));
-            }
+    for (at, token) in file.tokens.iter().enumerate() {
+        let next = file.tokens.get(at + 1).map_or("", |next| &next.text);
+        let text = token.text.as_str();
+        if text == "static" && (file.path.as_str(), next) != NEVER {
+            found(token.line, "a static in the core".to_owned(), STATE);
+        } else if next == "!" && PRINTING.contains(&text) {
+            let hint = "return the value, or report progress to the Watch";
+            found(token.line, format!("{text}! in the core"), hint);
+        } else if let Some((_, hint)) = NAMES.iter().find(|(name, _)| *name == text)
+            // `rand` can be a word of its own, but as a crate it is followed by its path.
+            && (text != "rand" || next == ":")
+        {
+            found(token.line, format!("{text} in the core"), hint);
         }
     }
+    violations.dedup();
     violations
-}
-
-/// Whether a line declares a static; `'static` is a lifetime.
-fn is_static(code: &str) -> bool {
-    let words = code
-        .trim_start()
-        .trim_start_matches("pub ")
-        .trim_start_matches("pub(crate) ");
-    words.starts_with("static ")
 }
 
 #[cfg(test)]

@@ -21,13 +21,13 @@ const IDEA: (&str, usize) = ("crates/core/src/predict.rs", 80);
 
 /// Looks at all Rust; files that are tests alone may be longer.
 fn check(tree: &Tree) -> Vec<Violation> {
-    let files = tree.rust_files("").into_iter();
+    let files = tree.rust_files("");
     let long = files.filter_map(|file| {
         let limit = if file.path == IDEA.0 { IDEA.1 } else { LIMIT };
-        let lines = file.code.len();
+        let lines = file.lines.len();
         (lines > limit).then(|| {
             let what = format!("{lines} lines before the tests, limit {limit}");
-            Violation::new(file.path, limit + 1, what, "split it by idea")
+            Violation::new(&file.path, limit + 1, what, "split it by idea")
         })
     });
     long.collect()

@@ -10,7 +10,7 @@
 // The repository as the rules see it.
 mod boundary_fields;
 mod rust;
-mod toml_lines;
+mod toml_tables;
 mod tree;
 mod violation;
 

@@ -5,7 +5,7 @@
 //! need no introduction.
 
 use super::Rule;
-use super::rust::{RustFile, find_word};
+use super::rust::{RustFile, Token, find_word};
 use super::tree::Tree;
 use super::violation::Violation;
 
@@ -18,7 +18,7 @@ pub const RULE: Rule = Rule {
 
 /// Looks at all Rust that ships; the tests of a module may be in a folder next to it.
 fn check(tree: &Tree) -> Vec<Violation> {
-    let files = tree.rust_files("");
+    let files: Vec<&RustFile> = tree.rust_files("").collect();
     let mut violations = Vec::new();
     for file in &files {
         let stem = file.path.trim_end_matches(".rs");
@@ -31,7 +31,7 @@ fn check(tree: &Tree) -> Vec<Violation> {
         if let Some(folder_file) = folder_file {
             let what = format!("its module continues in `{}`", folder_file.path);
             let hint = format!("move it to {stem}/mod.rs");
-            violations.push(Violation::new(file.path, 1, what, hint));
+            violations.push(Violation::new(&file.path, 1, what, hint));
         }
         if file.path.ends_with("/mod.rs") {
             violations.extend(unnamed(file));
@@ -41,34 +41,36 @@ fn check(tree: &Tree) -> Vec<Violation> {
 }
 
 /// Modules that a `mod.rs` neither names in its header nor introduces by a comment over their group.
-fn unnamed(file: &RustFile<'_>) -> Vec<Violation> {
+fn unnamed(file: &RustFile) -> Vec<Violation> {
     let header: Vec<&str> = file
-        .raw
+        .lines
         .iter()
         .filter_map(|line| line.strip_prefix("//!"))
         .collect();
     let header = header.join("\n");
-    let declared = file.code.iter().enumerate().filter_map(|(index, line)| {
-        let is_test = index > 0 && file.code[index - 1].trim() == "#[cfg(test)]";
-        let name = line[find_word(line, "mod")? + 3..].trim().strip_suffix(';')?;
-        (!is_test && !has_comment(&file.raw[..index])).then_some((index, name))
+    let declared = file
+        .tokens
+        .windows(3)
+        .filter(|row| row[0].text == "mod" && row[2].text == ";");
+    let unnamed = declared.filter(|row| {
+        let before = &file.lines[..row[0].line - 1];
+        let is_test = before.last().is_some_and(|line| line.trim() == "#[cfg(test)]");
+        !is_test && !has_comment(before) && find_word(&header, &row[1].text).is_none()
     });
-    declared
-        .filter(|(_, name)| find_word(&header, name).is_none())
-        .map(|(index, name)| {
-            let what = format!("the header does not name `{name}`");
-            Violation::new(
-                file.path,
-                index + 1,
-                what,
-                "say what it answers, in reading order",
-            )
-        })
-        .collect()
+    let violation = |row: &[Token]| {
+        let what = format!("the header does not name `{}`", row[1].text);
+        Violation::new(
+            &file.path,
+            row[0].line,
+            what,
+            "say what it answers, in reading order",
+        )
+    };
+    unnamed.map(violation).collect()
 }
 
 /// Whether the group of lines that `before` ends in begins with a comment.
-fn has_comment(before: &[&str]) -> bool {
+fn has_comment(before: &[String]) -> bool {
     let group = before.iter().rev().take_while(|line| !line.is_empty());
     group.last().is_some_and(|line| line.starts_with("// "))
 }

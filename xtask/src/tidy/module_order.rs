@@ -28,18 +28,18 @@ fn check(tree: &Tree) -> Vec<Violation> {
     let order = reading_order(tree);
     let mut violations = against_root(tree, &order);
     for file in tree.rust_files(SOURCE_FOLDER) {
-        let Some((module, depth)) = module_and_depth(file.path) else {
+        let Some((module, depth)) = module_and_depth(&file.path) else {
             continue;
         };
         let place = order.iter().position(|name| *name == module);
         if place.is_none() && !FOR_ALL.contains(&module) {
             let what = format!("module `{module}` is missing in the reading order");
             let hint = "give it a row in the table of modules of ARCHITECTURE.md";
-            violations.push(Violation::new(file.path, 1, what, hint));
+            violations.push(Violation::new(&file.path, 1, what, hint));
             continue;
         }
         let before = &order[..place.unwrap_or(0)];
-        for (line, used) in names_from_root(&file, depth) {
+        for (line, used) in names_from_root(file, depth) {
             if used == module || before.contains(&used.as_str()) || FOR_ALL.contains(&used.as_str()) {
                 continue;
             }
@@ -50,7 +50,7 @@ fn check(tree: &Tree) -> Vec<Violation> {
                 let what = format!("`crate::{used}` hides the module it comes from");
                 (what, "name the module, so that the order is visible")
             };
-            violations.push(Violation::new(file.path, line, what, hint));
+            violations.push(Violation::new(&file.path, line, what, hint));
         }
     }
     violations
@@ -100,7 +100,7 @@ fn module_and_depth(path: &str) -> Option<(&str, usize)> {
 }
 
 /// What the file takes from the root of the core, through `crate::` or through enough `super::`.
-fn names_from_root(file: &RustFile<'_>, depth: usize) -> Vec<(usize, String)> {
+fn names_from_root(file: &RustFile, depth: usize) -> Vec<(usize, String)> {
     let mut names = file.names_after("crate");
     names.extend(file.names_after(&vec!["super"; depth].join("::")));
     names.retain(|(_, name)| name != "self");

@@ -35,7 +35,7 @@ mod tests {
 
     #[test]
     fn a_rule_that_is_not_listed_is_reported() {
-        let rule = "pub const RULE: Rule = Rule {\n";
+        let rule = "pub const RULE: Rule = Rule {};\n";
         let tree = Tree::of(&[
             (
                 "xtask/src/tidy/mod.rs",

@@ -31,11 +31,11 @@ fn check(tree: &Tree) -> Vec<Violation> {
     let gallery: String = tree.texts_in(GALLERY, ".rs").map(|(_, text)| text).collect();
     let mut violations = Vec::new();
     for file in tree.rust_files(FOLDER) {
-        for (index, name) in pictures(&file.code) {
+        for (index, name) in pictures(&file.lines) {
             if !table.contains(&format!("[`{name}`]")) {
                 let what = format!("`{name}` is not in the table of {TABLE}");
                 violations.push(Violation::new(
-                    file.path,
+                    &file.path,
                     index + 1,
                     what,
                     "say which question it answers",
@@ -43,7 +43,7 @@ fn check(tree: &Tree) -> Vec<Violation> {
             }
             if find_word(&gallery, name).is_none() {
                 let what = format!("`{name}` is not in {GALLERY}");
-                violations.push(Violation::new(file.path, index + 1, what, "show one there"));
+                violations.push(Violation::new(&file.path, index + 1, what, "show one there"));
             }
         }
     }

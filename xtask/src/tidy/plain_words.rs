@@ -61,11 +61,12 @@ fn check(tree: &Tree) -> Vec<Violation> {
         if !ENDINGS.iter().any(|ending| path.ends_with(ending)) || GENERATED.contains(&path) {
             continue;
         }
+        let text = text.to_lowercase();
+        let words: Vec<_> = words.iter().filter(|(word, _)| text.contains(word)).collect();
         for (index, line) in text.lines().enumerate() {
-            let line = line.to_lowercase();
             for (word, instead) in &words {
                 let excepted = EXCEPTIONS.iter().any(|(at, of, _)| *at == path && of == word);
-                if !excepted && contains_word(&line, word) {
+                if !excepted && contains_word(line, word) {
                     let hint = format!("write: {instead}");
                     violations.push(Violation::new(path, index + 1, format!("`{word}`"), hint));
                 }

@@ -9,7 +9,7 @@
 //! All slips of a file are reported in the order of its lines.
 
 use super::Rule;
-use super::toml_lines::{Table, tables};
+use super::toml_tables::{Table, tables};
 use super::tree::Tree;
 use super::violation::Violation;
 

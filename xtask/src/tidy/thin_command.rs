@@ -3,7 +3,6 @@
 //! Looked for is the macro of serde that writes JSON in place; answers are types that serialise.
 
 use super::Rule;
-use super::rust::find_word;
 use super::tree::Tree;
 use super::violation::Violation;
 
@@ -20,14 +19,14 @@ const PROBLEMS: &str = "crates/cli/src/terminal.rs";
 /// Looks at the command without its tests.
 fn check(tree: &Tree) -> Vec<Violation> {
     let mut violations = Vec::new();
-    let files = tree.rust_files("crates/cli/src/").into_iter();
-    for file in files.filter(|file| file.path != PROBLEMS) {
-        for (index, line) in file.code.iter().enumerate() {
-            if find_word(line, "json").is_some_and(|at| line[at + 4..].starts_with('!')) {
-                let hint = "give armill-study a type that serialises";
-                violations.push(Violation::new(file.path, index + 1, "json! by hand", hint));
-            }
-        }
+    let files = tree
+        .rust_files("crates/cli/src/")
+        .filter(|file| file.path != PROBLEMS);
+    for file in files {
+        violations.extend(file.find(&["json", "!"]).map(|token| {
+            let hint = "give armill-study a type that serialises";
+            Violation::new(&file.path, token.line, "json! by hand", hint)
+        }));
     }
     violations
 }

@@ -4,7 +4,7 @@
 //! except those that fill arrays.
 
 use super::Rule;
-use super::rust::{find_word, is_word};
+use super::rust::Token;
 use super::tree::Tree;
 use super::violation::Violation;
 
@@ -34,34 +34,26 @@ const MECHANICS: &[&str] = &[
 fn check(tree: &Tree) -> Vec<Violation> {
     let mut violations = Vec::new();
     for file in tree.rust_files("crates/py/src/") {
-        for (index, line) in file.code.iter().enumerate() {
-            let mut given = |what: String| {
-                let hint = "the core or armill-study computes it, for every surface";
-                violations.push(Violation::new(file.path, index + 1, what, hint));
+        for Token { text, line } in &file.tokens {
+            let what = match text.as_str() {
+                word if MECHANICS.contains(&word) => format!("`{word}`"),
+                number if is_fraction(number) => format!("the number {number}"),
+                _ => continue,
             };
-            for word in MECHANICS {
-                if find_word(line, word).is_some() {
-                    given(format!("`{word}`"));
-                }
-            }
-            for number in fractions(line) {
-                given(format!("the number {number}"));
-            }
+            let hint = "the core or armill-study computes it, for every surface";
+            violations.push(Violation::new(&file.path, *line, what, hint));
         }
     }
     violations
 }
 
-/// Numbers with a fraction or an exponent, but for 0.0 and 1.0.
-fn fractions(line: &str) -> impl Iterator<Item = &str> {
-    let numbers = line.split(|c: char| !is_word(c) && c != '.');
-    numbers.filter(|word| {
-        let is_number = word.starts_with(|c: char| c.is_ascii_digit());
-        is_number
-            && !["0.0", "1.0"].contains(word)
-            && word.parse::<u64>().is_err()
-            && word.parse::<f64>().is_ok()
-    })
+/// Whether `word` is a number with a fraction or an exponent, other than 0.0 and 1.0.
+fn is_fraction(word: &str) -> bool {
+    let is_number = word.starts_with(|c: char| c.is_ascii_digit());
+    is_number
+        && !["0.0", "1.0"].contains(&word)
+        && word.parse::<u64>().is_err()
+        && word.parse::<f64>().is_ok()
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 //! Read once; rules share it and touch no disk. For the tests of a rule a tree is made of a few files in
 //! memory.
 
-use super::rust::RustFile;
+use super::rust::{RustFile, is_test_path};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::process::Command;
@@ -13,13 +13,15 @@ use std::{fs, io};
 pub struct Tree {
     /// No text where a file is not UTF-8: a picture, a font.
     files: BTreeMap<String, Option<String>>,
+    /// The Rust files that ship, in the order of their paths.
+    rust: Vec<RustFile>,
 }
 
 impl Tree {
     /// Reads the checkout at `root`; ignored files are not part of it.
     ///
     /// # Errors
-    /// When git does not answer, or a listed file cannot be read.
+    /// When git does not answer, a listed file cannot be read, or a Rust file is not Rust.
     pub fn read(root: &Path) -> io::Result<Self> {
         let mut git = Command::new("git");
         git.current_dir(root)
@@ -38,7 +40,20 @@ impl Tree {
                 files.insert(path.to_owned(), String::from_utf8(fs::read(file)?).ok());
             }
         }
-        Ok(Self { files })
+        Self::with(files).map_err(io::Error::other)
+    }
+
+    /// A tree of these files, or the first that is not Rust.
+    fn with(files: BTreeMap<String, Option<String>>) -> Result<Self, String> {
+        let texts = files
+            .iter()
+            .filter(|(path, _)| path.ends_with(".rs") && !is_test_path(path));
+        let texts = texts.filter_map(|(path, text)| Some((path, text.as_deref()?)));
+        let rust: Result<Vec<_>, _> = texts.map(|(path, text)| RustFile::read(path, text)).collect();
+        let mut rust = rust?;
+        let declared_tests: BTreeSet<String> = rust.iter().flat_map(RustFile::test_files).collect();
+        rust.retain(|file| !file.only_tests && !declared_tests.contains(&file.path));
+        Ok(Self { files, rust })
     }
 
     /// All paths.
@@ -84,16 +99,8 @@ impl Tree {
     }
 
     /// The Rust files in `folder` that ship, that is, are not tests from their first line to their last.
-    pub fn rust_files(&self, folder: &str) -> Vec<RustFile<'_>> {
-        let files: Vec<RustFile<'_>> = self
-            .texts_in(folder, ".rs")
-            .map(|(path, text)| RustFile::read(path, text))
-            .collect();
-        let declared_tests: BTreeSet<String> = files.iter().flat_map(RustFile::test_files).collect();
-        files
-            .into_iter()
-            .filter(|file| !file.only_tests && !declared_tests.contains(file.path))
-            .collect()
+    pub fn rust_files(&self, folder: &str) -> impl Iterator<Item = &RustFile> {
+        self.rust.iter().filter(move |file| file.path.starts_with(folder))
     }
 }
 
@@ -102,9 +109,7 @@ impl Tree {
     /// A made-up repository.
     pub fn of(files: &[(&str, &str)]) -> Self {
         let file = |(path, text): &(&str, &str)| ((*path).to_owned(), Some((*text).to_owned()));
-        Self {
-            files: files.iter().map(file).collect(),
-        }
+        Self::with(files.iter().map(file).collect()).unwrap()
     }
 }
 
@@ -130,7 +135,7 @@ mod tests {
             ("src/samples.rs", ""),
             ("tests/all.rs", ""),
         ]);
-        let shipped: Vec<&str> = tree.rust_files("").iter().map(|file| file.path).collect();
+        let shipped: Vec<&str> = tree.rust_files("").map(|file| file.path.as_str()).collect();
         assert_eq!(shipped, ["src/lib.rs", "src/real.rs"]);
     }
 }

@@ -81,11 +81,11 @@ const EXEMPTION: &str = "// unit:";
 /// Looks at every floating-point field, also inside options, lists, arrays and maps.
 fn check(tree: &Tree) -> Vec<Violation> {
     let files = BOUNDARY_FOLDERS.iter().flat_map(|folder| tree.rust_files(folder));
-    files.flat_map(|file| check_file(&file)).collect()
+    files.flat_map(check_file).collect()
 }
 
 /// The fields of one file that do not say their unit.
-fn check_file(file: &RustFile<'_>) -> Vec<Violation> {
+fn check_file(file: &RustFile) -> Vec<Violation> {
     let fields = boundary_fields(file).into_iter();
     let unclear = fields.filter(|field| has_numbers(field) && !says_its_unit(&field.name));
     unclear
@@ -93,7 +93,7 @@ fn check_file(file: &RustFile<'_>) -> Vec<Violation> {
         .map(|field| {
             let what = format!("`{}: {}` does not say its unit", field.name, field.of_type);
             let hint = "end the name in one (_mm, _deg, _n_m, _rad_per_n_m), or write `// unit: ...` above";
-            Violation::new(file.path, field.line, what, hint)
+            Violation::new(&file.path, field.line, what, hint)
         })
         .collect()
 }
@@ -125,8 +125,8 @@ fn says_its_unit(name: &str) -> bool {
 }
 
 /// Whether the line, or the comments and attributes right above it, say the unit in words.
-fn is_exempt(file: &RustFile<'_>, line: usize) -> bool {
-    let lines = &file.raw[..line.min(file.raw.len())];
+fn is_exempt(file: &RustFile, line: usize) -> bool {
+    let lines = &file.lines[..line.min(file.lines.len())];
     let Some((own, above)) = lines.split_last() else {
         return false;
     };

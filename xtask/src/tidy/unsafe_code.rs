@@ -5,7 +5,6 @@
 //! one too many.
 
 use super::Rule;
-use super::rust::find_word;
 use super::tree::Tree;
 use super::violation::Violation;
 
@@ -30,11 +29,9 @@ fn check(tree: &Tree) -> Vec<Violation> {
     for file in tree.rust_files("") {
         let allowed = ALLOWED.iter().find(|(path, _)| *path == file.path);
         let allowed = allowed.map_or(0, |(_, count)| *count);
-        let lines = file.code.iter().enumerate();
-        let found = lines.filter(|(_, line)| find_word(line, "unsafe").is_some());
-        violations.extend(found.skip(allowed).map(|(index, _)| {
+        violations.extend(file.find(&["unsafe"]).skip(allowed).map(|token| {
             let what = format!("`unsafe`, more than the {allowed} of this file");
-            Violation::new(file.path, index + 1, what, "do it safely")
+            Violation::new(&file.path, token.line, what, "do it safely")
         }));
     }
     violations

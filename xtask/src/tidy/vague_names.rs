@@ -3,7 +3,6 @@
 //! Compared are whole names, up to their first dot: `common.rs` and `common/` are vague, `uncommon.rs` is not.
 
 use super::Rule;
-use super::rust::find_word;
 use super::tree::Tree;
 use super::violation::Violation;
 use std::collections::BTreeSet;
@@ -38,15 +37,10 @@ fn check(tree: &Tree) -> Vec<Violation> {
         }
     }
     for file in tree.rust_files("") {
-        for (index, line) in file.code.iter().enumerate() {
-            let name = find_word(line, "mod").and_then(|at| line[at + 3..].trim().strip_suffix('{'));
-            if let Some(name) = name.map(str::trim).filter(|name| VAGUE.contains(name)) {
-                violations.push(Violation::new(
-                    file.path,
-                    index + 1,
-                    format!("`mod {name}` says nothing"),
-                    HINT,
-                ));
+        for row in file.tokens.windows(3) {
+            if row[0].text == "mod" && row[2].text == "{" && VAGUE.contains(&row[1].text.as_str()) {
+                let what = format!("`mod {}` says nothing", row[1].text);
+                violations.push(Violation::new(&file.path, row[0].line, what, HINT));
             }
         }
     }
