@@ -21,20 +21,17 @@ use armill_study::live::{
 };
 use armill_study::robot_answers::library_rows;
 use armill_study::{StudyError, output};
-use axum::Router;
 use axum::body::Bytes;
 use axum::extract::State as Shared;
 use axum::http::HeaderMap;
 use axum::response::Response;
-use axum::routing::{get, post};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::body::{JsonBody, check_text, typed};
+use crate::body::{JsonBody, check_text};
 use crate::error::{Answered, ApiError};
-use crate::server::State;
-
-const JSON: &str = "application/json";
+use crate::reply::{JSON, typed};
+use crate::state::State;
 
 /// An analysis of a text.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -127,20 +124,6 @@ pub(crate) struct PictureRequest {
     pub name: String,
 }
 
-pub(crate) fn routes() -> Router<Arc<State>> {
-    Router::new()
-        .route("/answer", post(answer))
-        .route("/view", post(of_view))
-        .route("/values", post(of_values))
-        .route("/pose", post(pose))
-        .route("/scene", post(of_scene))
-        .route("/mesh", post(mesh))
-        .route("/table", post(table))
-        .route("/pictures", post(of_pictures))
-        .route("/picture.png", post(picture_png))
-        .route("/robots", get(robots))
-}
-
 /// The result of `work` on this text, as an answer of this type.
 async fn answered<T: Into<axum::body::Body> + Send + 'static>(
     state: Arc<State>,
@@ -160,7 +143,7 @@ fn as_json(value: &impl Serialize) -> Result<Vec<u8>, StudyError> {
     Ok(serde_json::to_vec(value)?)
 }
 
-async fn answer(
+pub(crate) async fn answer(
     Shared(state): Shared<Arc<State>>,
     headers: HeaderMap,
     JsonBody(of): JsonBody<AnalysisRequest>,
@@ -171,7 +154,7 @@ async fn answer(
     .await
 }
 
-async fn of_view(
+pub(crate) async fn of_view(
     Shared(state): Shared<Arc<State>>,
     headers: HeaderMap,
     JsonBody(of): JsonBody<ViewRequest>,
@@ -188,21 +171,24 @@ async fn of_view(
     .await
 }
 
-async fn mesh(Shared(state): Shared<Arc<State>>, JsonBody(of): JsonBody<MeshRequest>) -> Answered {
+pub(crate) async fn mesh(Shared(state): Shared<Arc<State>>, JsonBody(of): JsonBody<MeshRequest>) -> Answered {
     answered(state, (of.text, HeaderMap::new(), "model/stl"), move |text, _| {
         mesh_bytes(text, &of.file)
     })
     .await
 }
 
-async fn of_values(Shared(state): Shared<Arc<State>>, JsonBody(of): JsonBody<AnalysisRequest>) -> Answered {
+pub(crate) async fn of_values(
+    Shared(state): Shared<Arc<State>>,
+    JsonBody(of): JsonBody<AnalysisRequest>,
+) -> Answered {
     answered(state, (of.text, HeaderMap::new(), JSON), move |text, _| {
         as_json(&values(text, of.analysis.as_deref())?)
     })
     .await
 }
 
-async fn pose(
+pub(crate) async fn pose(
     Shared(state): Shared<Arc<State>>,
     headers: HeaderMap,
     JsonBody(of): JsonBody<PosturesRequest>,
@@ -219,7 +205,7 @@ async fn pose(
     .await
 }
 
-async fn of_scene(
+pub(crate) async fn of_scene(
     Shared(state): Shared<Arc<State>>,
     headers: HeaderMap,
     JsonBody(of): JsonBody<AnalysisRequest>,
@@ -231,7 +217,10 @@ async fn of_scene(
     .await
 }
 
-async fn table(Shared(state): Shared<Arc<State>>, JsonBody(of): JsonBody<TableRequest>) -> Answered {
+pub(crate) async fn table(
+    Shared(state): Shared<Arc<State>>,
+    JsonBody(of): JsonBody<TableRequest>,
+) -> Answered {
     let TableFormat::Csv = of.format;
     answered(
         state,
@@ -244,7 +233,7 @@ async fn table(Shared(state): Shared<Arc<State>>, JsonBody(of): JsonBody<TableRe
     .await
 }
 
-async fn of_pictures(
+pub(crate) async fn of_pictures(
     Shared(state): Shared<Arc<State>>,
     headers: HeaderMap,
     JsonBody(of): JsonBody<AnalysisRequest>,
@@ -256,7 +245,10 @@ async fn of_pictures(
     .await
 }
 
-async fn picture_png(Shared(state): Shared<Arc<State>>, JsonBody(of): JsonBody<PictureRequest>) -> Answered {
+pub(crate) async fn picture_png(
+    Shared(state): Shared<Arc<State>>,
+    JsonBody(of): JsonBody<PictureRequest>,
+) -> Answered {
     answered(
         state,
         (of.text, HeaderMap::new(), "image/png"),
@@ -268,7 +260,7 @@ async fn picture_png(Shared(state): Shared<Arc<State>>, JsonBody(of): JsonBody<P
 /// The library is built in: its list is made once.
 static LIBRARY: OnceLock<Bytes> = OnceLock::new();
 
-async fn robots(Shared(state): Shared<Arc<State>>) -> Result<Response, ApiError> {
+pub(crate) async fn robots(Shared(state): Shared<Arc<State>>) -> Result<Response, ApiError> {
     let bytes = match LIBRARY.get() {
         Some(bytes) => bytes.clone(),
         None => {

@@ -1,14 +1,12 @@
-//! How a request body is read, and how an answer is written: bounded in size and time before anything is kept.
+//! How a request body is read: bounded in size and time before anything is kept.
 
 use std::time::Duration;
 
 use axum::body::{Body, BodyDataStream};
 use axum::extract::{FromRequest, Request};
-use axum::http::header::{CONTENT_LENGTH, CONTENT_TYPE};
-use axum::http::{HeaderMap, StatusCode};
-use axum::response::{IntoResponse, Response};
+use axum::http::HeaderMap;
+use axum::http::header::CONTENT_LENGTH;
 use futures_util::StreamExt;
-use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::error::ApiError;
@@ -98,17 +96,4 @@ pub(crate) fn check_text(text: &str) -> Result<(), ApiError> {
         true => Err(ApiError::too_large(MOST_TEXT as u64)),
         false => Ok(()),
     }
-}
-
-/// An answer in JSON.
-pub(crate) fn json(status: StatusCode, value: &impl Serialize) -> Response {
-    match serde_json::to_vec(value) {
-        Ok(bytes) => (status, typed("application/json", bytes)).into_response(),
-        Err(error) => ApiError::internal(error.to_string()).into_response(),
-    }
-}
-
-/// An answer of this type.
-pub(crate) fn typed(kind: &'static str, bytes: impl Into<Body>) -> Response {
-    ([(CONTENT_TYPE, kind)], bytes.into()).into_response()
 }

@@ -7,7 +7,7 @@ use axum::response::{IntoResponse, Response};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::body::json;
+use crate::reply::json;
 
 /// An error.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -133,9 +133,16 @@ impl From<StudyError> for ApiError {
     }
 }
 
+impl From<serde_json::Error> for ApiError {
+    fn from(error: serde_json::Error) -> ApiError {
+        ApiError::internal(error.to_string())
+    }
+}
+
 impl IntoResponse for ApiError {
     fn into_response(self) -> Response {
-        json(self.status, &ErrorBody { error: self.wrong })
+        let written = json(self.status, &ErrorBody { error: self.wrong });
+        written.unwrap_or_else(|_| StatusCode::INTERNAL_SERVER_ERROR.into_response())
     }
 }
 

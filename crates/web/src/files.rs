@@ -6,36 +6,31 @@
 //! | `GET /api/files/PATH` | one file; what a browser can show is shown without scripts, the rest is to be saved |
 //! | `PUT /api/files/NAME` | uploads a file, under a plain name |
 //!
-//! A name that begins with a point is not accepted; a link that leads out of the folder is not followed.
+//! Which paths are in the folder: see `folder`.
 
-use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
-use std::time::{Duration, SystemTime};
 
 use armill_formats::file::new_part;
 use armill_study::StudyError;
 use armill_study::live::{FileKind, kind_of};
-use axum::Router;
 use axum::body::Body;
 use axum::extract::{Path as InPath, Query, Request, State as Shared};
 use axum::http::StatusCode;
 use axum::http::header::{CONTENT_DISPOSITION, CONTENT_LENGTH, CONTENT_SECURITY_POLICY, CONTENT_TYPE};
 use axum::response::{IntoResponse, Response};
-use axum::routing::get;
 use futures_util::stream;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
 
-use crate::body::{Pieces, json};
+use crate::body::Pieces;
 use crate::error::{Answered, ApiError};
-use crate::page::kind;
-use crate::server::State;
+use crate::folder::{FileRow, inside, is_plain, listed};
+use crate::reply::{json, media_type};
+use crate::state::State;
 
 /// Largest size of an uploaded file, bytes.
 const MOST_BYTES: u64 = 256 << 20;
-/// Files listed at most.
-const MOST_FILES: usize = 2000;
 /// Letters of a name.
 const LONGEST_NAME: usize = 100;
 /// Bytes read at a time.
@@ -53,17 +48,6 @@ pub(crate) struct Files {
     pub files: Vec<FileRow>,
 }
 
-/// One file.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
-pub(crate) struct FileRow {
-    /// Its path in the folder, such as `out/report.html`.
-    pub name: String,
-    /// Its size.
-    pub bytes: u64,
-    /// Time since it was written.
-    pub modified_s_ago: f64,
-}
-
 /// A file that was uploaded.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub(crate) struct UploadedFile {
@@ -79,90 +63,18 @@ pub(crate) struct UploadedFile {
 
 /// Options of an upload.
 #[derive(Clone, Debug, Default, Deserialize)]
-struct Taking {
+pub(crate) struct Taking {
     /// `1`: replaces a file of that name.
     replace: Option<String>,
 }
 
-pub(crate) fn routes() -> Router<Arc<State>> {
-    Router::new()
-        .route("/files", get(list))
-        .route("/files/{*path}", get(read).put(take))
-}
-
-async fn list(Shared(state): Shared<Arc<State>>) -> Answered {
+pub(crate) async fn list(Shared(state): Shared<Arc<State>>) -> Answered {
     let shared = Arc::clone(&state);
     let files = state.work.done(move |_| Ok(listed(&shared.cell.root))).await?;
-    Ok(json(StatusCode::OK, &Files { files }))
+    Ok(json(StatusCode::OK, &Files { files })?)
 }
 
-/// The files of the folder and of its folders.
-fn listed(root: &Path) -> Vec<FileRow> {
-    let mut files = Vec::new();
-    add(root, "", &mut files, 2);
-    files.sort_by(|a, b| a.name.cmp(&b.name));
-    files
-}
-
-/// Adds the content of `folder`, so many folders deep.
-fn add(folder: &Path, before: &str, files: &mut Vec<FileRow>, depth: usize) {
-    let Ok(entries) = std::fs::read_dir(folder) else {
-        return;
-    };
-    for entry in entries.flatten() {
-        let Ok(name) = entry.file_name().into_string() else {
-            continue;
-        };
-        // What a link leads to is not looked at here.
-        let (Ok(kind), true) = (entry.file_type(), is_plain(&name)) else {
-            continue;
-        };
-        if files.len() >= MOST_FILES {
-            return;
-        }
-        let name = format!("{before}{name}");
-        if kind.is_dir() && depth > 0 {
-            add(&entry.path(), &format!("{name}/"), files, depth - 1);
-        } else if let (true, Ok(meta)) = (kind.is_file(), entry.metadata()) {
-            let age = meta
-                .modified()
-                .ok()
-                .and_then(|at| SystemTime::now().duration_since(at).ok());
-            files.push(FileRow {
-                name,
-                bytes: meta.len(),
-                modified_s_ago: age.unwrap_or(Duration::ZERO).as_secs_f64(),
-            });
-        }
-    }
-}
-
-/// Whether a part of a path is a plain name: not hidden, without separators.
-fn is_plain(name: &str) -> bool {
-    let odd = |c: char| c.is_control() || matches!(c, '/' | '\\' | ':');
-    !name.is_empty() && !name.starts_with('.') && !name.contains(odd)
-}
-
-/// The file at this path of the folder, where there is one in it.
-pub(crate) fn inside(root: &Path, path: &str) -> Result<PathBuf, ApiError> {
-    let none = || ApiError::not_found("there is no such file");
-    if !path.split('/').all(is_plain) {
-        return Err(none());
-    }
-    // Links are followed first: what counts is where they lead.
-    let real = root.join(path).canonicalize().map_err(|_| none())?;
-    let below = real.strip_prefix(root).map_err(|_| none())?;
-    let plain = below.components().all(|part| match part {
-        Component::Normal(name) => name.to_str().is_some_and(is_plain),
-        _ => false,
-    });
-    match plain && real.is_file() {
-        true => Ok(real),
-        false => Err(none()),
-    }
-}
-
-async fn read(Shared(state): Shared<Arc<State>>, InPath(path): InPath<String>) -> Answered {
+pub(crate) async fn read(Shared(state): Shared<Arc<State>>, InPath(path): InPath<String>) -> Answered {
     let shared = Arc::clone(&state);
     let requested = path.clone();
     let real = state
@@ -199,7 +111,7 @@ async fn read(Shared(state): Shared<Arc<State>>, InPath(path): InPath<String>) -
         (
             CONTENT_TYPE,
             if shown {
-                kind(&path)
+                media_type(&path)
             } else {
                 "application/octet-stream"
             }
@@ -216,7 +128,7 @@ async fn read(Shared(state): Shared<Arc<State>>, InPath(path): InPath<String>) -
     Ok((headers, body).into_response())
 }
 
-async fn take(
+pub(crate) async fn take(
     Shared(state): Shared<Arc<State>>,
     InPath(name): InPath<String>,
     Query(taking): Query<Taking>,
@@ -285,5 +197,5 @@ async fn take(
         kind,
         hint,
     };
-    Ok(json(StatusCode::CREATED, &taken))
+    Ok(json(StatusCode::CREATED, &taken)?)
 }

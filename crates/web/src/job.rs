@@ -1,6 +1,5 @@
 //! One piece of long work: its progress and its result.
 
-use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
@@ -166,25 +165,19 @@ impl Job {
         })
     }
 
-    /// Runs the task on the threads of the current pool; results go into folders of `root`.
-    pub(crate) fn work(&self, shown: &str, root: &Path) {
-        let begins = self.change(|inner| {
+    /// Marks it as running; `false` where it was stopped before.
+    pub(crate) fn begin(&self) -> bool {
+        self.change(|inner| {
             let waits = inner.state == JobState::Waiting;
             if waits {
                 (inner.state, inner.begun) = (JobState::Running, Some(Instant::now()));
             }
             waits
-        });
-        if !begins {
-            return;
-        }
-        let tried = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| self.outcome(shown, root)));
-        let outcome = tried.unwrap_or_else(|_| {
-            Err(StudyError::value(
-                "internal error of armill: the computation ended early",
-                "",
-            ))
-        });
+        })
+    }
+
+    /// Keeps its outcome: the answer as JSON and the names of its files in the folder, or why there is none.
+    pub(crate) fn end(&self, outcome: Result<(String, Vec<String>), StudyError>) {
         self.change(|inner| {
             inner.ended = Some(Instant::now());
             inner.best = inner
@@ -193,12 +186,7 @@ impl Job {
                 .filter(|_| matches!(self.task, Task::Place { .. }));
             match outcome {
                 Ok((answer, files)) => {
-                    let below = |file: &PathBuf| {
-                        file.strip_prefix(root)
-                            .map(|file| file.display().to_string())
-                            .ok()
-                    };
-                    inner.files = files.iter().filter_map(below).collect();
+                    inner.files = files;
                     inner.answer = serde_json::value::RawValue::from_string(answer).ok();
                     inner.state = JobState::Done;
                 }

@@ -4,15 +4,15 @@
 
 use std::sync::Arc;
 
+use axum::Extension;
 use axum::extract::State as Shared;
 use axum::http::Uri;
 use axum::response::{IntoResponse, Response};
-use axum::{Extension, Router};
 
-use crate::body::typed;
 use crate::connections::Client;
 use crate::error::ApiError;
-use crate::server::State;
+use crate::reply::{media_type, typed};
+use crate::state::State;
 
 /// The files of the page by their names, which `cargo xtask web` makes and `build.rs` finds; empty where there are
 /// none.
@@ -28,13 +28,12 @@ pub fn has_page() -> bool {
     !BUILT.is_empty()
 }
 
-pub(crate) fn routes() -> Router<Arc<State>> {
-    Router::new()
-        .route("/", axum::routing::get(file))
-        .route("/{*path}", axum::routing::get(file))
-}
-
-async fn file(Shared(state): Shared<Arc<State>>, Extension(client): Extension<Client>, uri: Uri) -> Response {
+/// The file of the page at the path of the request.
+pub(crate) async fn file(
+    Shared(state): Shared<Arc<State>>,
+    Extension(client): Extension<Client>,
+    uri: Uri,
+) -> Response {
     if client.is_known() {
         // The browser has the address.
         state.opening.remove();
@@ -44,26 +43,9 @@ async fn file(Shared(state): Shared<Arc<State>>, Extension(client): Extension<Cl
         path => path,
     };
     match BUILT.iter().find(|(name, _)| *name == path) {
-        Some((_, bytes)) => typed(kind(path), *bytes),
-        None if path == "index.html" => typed(kind(path), NOT_BUILT),
+        Some((_, bytes)) => typed(media_type(path), *bytes),
+        None if path == "index.html" => typed(media_type(path), NOT_BUILT),
         None => ApiError::not_found("there is nothing at this path").into_response(),
-    }
-}
-
-/// The type of a file, by its ending.
-pub(crate) fn kind(path: &str) -> &'static str {
-    match path.rsplit_once('.').map_or("", |(_, ending)| ending) {
-        "html" => "text/html; charset=utf-8",
-        "js" => "text/javascript; charset=utf-8",
-        "css" => "text/css; charset=utf-8",
-        "json" => "application/json",
-        "csv" => "text/csv; charset=utf-8",
-        "svg" => "image/svg+xml",
-        "png" => "image/png",
-        "ico" => "image/x-icon",
-        "woff2" => "font/woff2",
-        "wasm" => "application/wasm",
-        _ => "application/octet-stream",
     }
 }
 

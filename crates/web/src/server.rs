@@ -16,6 +16,7 @@ use std::time::Duration;
 
 use armill_study::StudyError;
 use axum::Router;
+use axum::routing::get;
 use hyper::Request;
 use hyper::body::Incoming;
 use hyper::server::conn::http1;
@@ -31,11 +32,12 @@ use tokio::task::JoinHandle;
 use crate::cell::Cell;
 use crate::connections::Connections;
 use crate::guard::{Guard, Token};
-use crate::jobs::Jobs;
 use crate::opening::{Opening, PAGE_TIME};
+use crate::queue::Queue;
+use crate::state::State;
 use crate::stream::Stream;
 use crate::work::Work;
-use crate::{answers, error, files, guard, jobs, openapi, page, study};
+use crate::{api, error, guard, page};
 
 /// Connections at a time: half of the files that most systems let a process open.
 const MOST_CONNECTIONS: usize = 512;
@@ -58,14 +60,6 @@ pub struct Options {
     pub port: u16,
     /// Whether [`Server::run`] shows the page in the user's browser.
     pub opens_browser: bool,
-}
-
-/// What handlers share.
-pub(crate) struct State {
-    pub cell: Cell,
-    pub jobs: Jobs,
-    pub work: Work,
-    pub opening: Opening,
 }
 
 /// A server that listens.
@@ -104,7 +98,7 @@ impl Server {
         let port = listener.local_addr().map_err(refused)?.port();
         let url = format!("http://127.0.0.1:{port}/?token={}", token.shown());
         let state = Arc::new(State {
-            jobs: Jobs::start(cell.root.clone()),
+            jobs: Queue::start(cell.root.clone()),
             cell,
             work: Work::new(),
             opening: Opening::default(),
@@ -175,17 +169,10 @@ impl Server {
 
 /// All paths.
 fn router(state: &Arc<State>, guard: Guard) -> Router {
-    let api = Router::new()
-        .merge(study::routes())
-        .merge(answers::routes())
-        .merge(jobs::routes())
-        .merge(files::routes())
-        .merge(openapi::routes())
-        .fallback(error::no_such_path)
-        .method_not_allowed_fallback(error::wrong_method);
     Router::new()
-        .nest("/api", api)
-        .merge(page::routes())
+        .nest("/api", api::router())
+        .route("/", get(page::file))
+        .route("/{*path}", get(page::file))
         .method_not_allowed_fallback(error::wrong_method)
         .layer(axum::middleware::from_fn_with_state(
             Arc::new(guard),

@@ -14,19 +14,18 @@ use std::sync::{Arc, LazyLock};
 use armill_formats::document::{Problem, schema_json};
 use armill_study::file::format::StudyFile;
 use armill_study::live::{ChangedValue, OutlineAnswer, OutlinedAnalysis, changed, outline, tables};
-use axum::Router;
 use axum::body::Bytes;
 use axum::extract::State as Shared;
 use axum::http::StatusCode;
 use axum::response::Response;
-use axum::routing::{get, post};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::body::{JsonBody, check_text, json, typed};
+use crate::body::{JsonBody, check_text};
 use crate::cell::{Cell, version};
 use crate::error::Answered;
-use crate::server::State;
+use crate::reply::{JSON, json, typed};
+use crate::state::State;
 
 /// The study as it is on disk.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -83,22 +82,16 @@ pub(crate) struct ChangeRequest {
     pub changes: Vec<ChangedValue>,
 }
 
-pub(crate) fn routes() -> Router<Arc<State>> {
-    Router::new()
-        .route("/study", get(read).put(write))
-        .route("/check", post(check))
-        .route("/change", post(change))
-        .route("/tables", post(of_tables))
-        .route("/schema", get(schema))
-}
-
-async fn read(Shared(state): Shared<Arc<State>>) -> Answered {
+pub(crate) async fn read(Shared(state): Shared<Arc<State>>) -> Answered {
     let shared = Arc::clone(&state);
     let study = state.work.done(move |_| Ok(on_disk(&shared.cell))).await?;
-    Ok(json(StatusCode::OK, &study))
+    Ok(json(StatusCode::OK, &study)?)
 }
 
-async fn write(Shared(state): Shared<Arc<State>>, JsonBody(written): JsonBody<StudyUpdate>) -> Answered {
+pub(crate) async fn write(
+    Shared(state): Shared<Arc<State>>,
+    JsonBody(written): JsonBody<StudyUpdate>,
+) -> Answered {
     check_text(&written.text)?;
     let shared = Arc::clone(&state);
     let work = move |_: armill_core::watch::Watch<'_>| {
@@ -107,7 +100,7 @@ async fn write(Shared(state): Shared<Arc<State>>, JsonBody(written): JsonBody<St
             .write(&written.text, &written.version)
             .map(|()| on_disk(&shared.cell)))
     };
-    Ok(json(StatusCode::OK, &state.work.done(work).await??))
+    Ok(json(StatusCode::OK, &state.work.done(work).await??)?)
 }
 
 /// The study as it is now; a file that can no longer be read is reported as a problem.
@@ -141,14 +134,20 @@ fn on_disk(cell: &Cell) -> StudyOnDisk {
     }
 }
 
-async fn check(Shared(state): Shared<Arc<State>>, JsonBody(checked): JsonBody<CheckRequest>) -> Answered {
+pub(crate) async fn check(
+    Shared(state): Shared<Arc<State>>,
+    JsonBody(checked): JsonBody<CheckRequest>,
+) -> Answered {
     check_text(&checked.text)?;
     let shared = Arc::clone(&state);
     let work = move |_: armill_core::watch::Watch<'_>| Ok(outline(shared.cell.text(&checked.text)));
-    Ok(json(StatusCode::OK, &state.work.done(work).await?))
+    Ok(json(StatusCode::OK, &state.work.done(work).await?)?)
 }
 
-async fn change(Shared(state): Shared<Arc<State>>, JsonBody(requested): JsonBody<ChangeRequest>) -> Answered {
+pub(crate) async fn change(
+    Shared(state): Shared<Arc<State>>,
+    JsonBody(requested): JsonBody<ChangeRequest>,
+) -> Answered {
     check_text(&requested.text)?;
     let shared = Arc::clone(&state);
     let work = move |_: armill_core::watch::Watch<'_>| {
@@ -158,19 +157,22 @@ async fn change(Shared(state): Shared<Arc<State>>, JsonBody(requested): JsonBody
             &requested.changes,
         )
     };
-    Ok(json(StatusCode::OK, &state.work.done(work).await?))
+    Ok(json(StatusCode::OK, &state.work.done(work).await?)?)
 }
 
-async fn of_tables(Shared(state): Shared<Arc<State>>, JsonBody(checked): JsonBody<CheckRequest>) -> Answered {
+pub(crate) async fn of_tables(
+    Shared(state): Shared<Arc<State>>,
+    JsonBody(checked): JsonBody<CheckRequest>,
+) -> Answered {
     check_text(&checked.text)?;
     let shared = Arc::clone(&state);
     let work = move |_: armill_core::watch::Watch<'_>| Ok(tables(shared.cell.text(&checked.text)));
-    Ok(json(StatusCode::OK, &state.work.done(work).await?))
+    Ok(json(StatusCode::OK, &state.work.done(work).await?)?)
 }
 
 /// Made once: it is that of the program.
 static SCHEMA: LazyLock<Bytes> = LazyLock::new(|| schema_json::<StudyFile>().into());
 
-async fn schema() -> Response {
-    typed("application/json", SCHEMA.clone())
+pub(crate) async fn schema() -> Response {
+    typed(JSON, SCHEMA.clone())
 }

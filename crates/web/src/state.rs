@@ -1,0 +1,14 @@
+//! What all handlers share.
+
+use crate::cell::Cell;
+use crate::opening::Opening;
+use crate::queue::Queue;
+use crate::work::Work;
+
+/// The study, and the work on it.
+pub(crate) struct State {
+    pub cell: Cell,
+    pub jobs: Queue,
+    pub work: Work,
+    pub opening: Opening,
+}
