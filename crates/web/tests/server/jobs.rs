@@ -118,7 +118,7 @@ fn a_placement_ends_in_the_place_that_the_command_finds() {
     // The path at that place, as a run writes it.
     let result = written(&folder, "place/result.json");
     let um = |value: &Value| value.as_f64().unwrap();
-    let apart = um(&result["paths"][0]["worst"]["in_plane_um"]) - um(&answer["found"]["cost_um"]);
+    let apart = um(&result["paths"][0]["worst"]["in_plane_um"]) - um(&answer["recommended"]["cost_um"]);
     assert!(apart.abs() < 1e-6, "{apart} um");
     assert!(!folder.path().join("place/place.rounds").exists());
 }
