@@ -77,23 +77,6 @@ pub(crate) fn heard_by<T>(listener: Option<Arc<Listener>>, work: impl FnOnce() -
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::terminal::{print, say};
-
-    #[test]
-    fn a_listener_receives_only_the_output_of_its_thread() {
-        let (outer, inner) = (Arc::new(Listener::default()), Arc::new(Listener::default()));
-        heard_by(Some(Arc::clone(&outer)), || {
-            print("1").unwrap();
-            heard_by(Some(Arc::clone(&inner)), || print("2").unwrap());
-            say("3");
-            std::thread::scope(|scope| {
-                scope.spawn(|| assert!(current().is_none()));
-            });
-        });
-        assert!(current().is_none());
-        assert_eq!(outer.heard(), ("1\n".to_owned(), vec!["3".to_owned()]));
-        assert_eq!(inner.heard(), ("2\n".to_owned(), Vec::new()));
-    }
 
     #[test]
     fn the_previous_listener_is_restored_after_a_panic() {

@@ -126,7 +126,10 @@ pub(crate) fn columns(rows: &[Vec<String>], aligned: &[Align]) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::*;
+    use crate::listener::{Listener, current, heard_by};
 
     #[test]
     fn columns_are_aligned_for_non_ascii_letters() {
@@ -138,5 +141,21 @@ mod tests {
         ];
         let lines = columns(&rows, &[Align::Left, Align::Right, Align::Left]);
         assert_eq!(lines, ["größe  1.5  x", "a       12", "a line of words"]);
+    }
+
+    #[test]
+    fn a_listener_receives_only_the_output_of_its_thread() {
+        let (outer, inner) = (Arc::new(Listener::default()), Arc::new(Listener::default()));
+        heard_by(Some(Arc::clone(&outer)), || {
+            print("1").unwrap();
+            heard_by(Some(Arc::clone(&inner)), || print("2").unwrap());
+            say("3");
+            std::thread::scope(|scope| {
+                scope.spawn(|| assert!(current().is_none()));
+            });
+        });
+        assert!(current().is_none());
+        assert_eq!(outer.heard(), ("1\n".to_owned(), vec!["3".to_owned()]));
+        assert_eq!(inner.heard(), ("2\n".to_owned(), Vec::new()));
     }
 }
