@@ -1,14 +1,25 @@
 //! Arguments of `armill ballbar`.
 //!
 //! `--radius-mm`, `--direction`, `--start-deg`, `--feed-mm-per-min` and `--plane` give what the files do not contain.
-//! `--cyclic` is text until `command::ballbar` reads it, because it is a period or a keyword.
+//! `--direction` and `--cyclic` are text until they are read below: words of ball-bar files; a period or a keyword.
 
 use std::path::PathBuf;
 
+use armill_formats::measurement::ballbar::{BallbarReadOptions, direction_of};
+use armill_measure::ballbar::{Centring, CirclePlacement, Cyclic, Question};
+use armill_study::StudyError;
+use armill_study::measured::circular_test::FileOptions;
 use clap::{Args, ValueEnum};
 
+use super::numbers::{above_zero, finite, within};
 use super::program::ProgramOptions;
 use super::writing::WritingOptions;
+
+/// Highest lobe: higher ones cannot be measured.
+const MOST_LOBES: usize = 360;
+/// Default and greatest number of corrected points.
+const USUAL_POINTS: usize = 72;
+const MOST_POINTS: usize = 3600;
 
 #[derive(Debug, Args)]
 #[command(
@@ -105,4 +116,95 @@ pub(crate) enum CentreChoice {
     Setup,
     /// The least-squares centre of all runs
     LeastSquares,
+}
+
+impl BallbarArguments {
+    /// Data that the files do not contain.
+    ///
+    /// # Errors
+    /// An unknown direction; invalid numbers.
+    pub(crate) fn file_options(&self) -> Result<FileOptions, StudyError> {
+        let direction = self.direction.as_deref().map(|word| {
+            direction_of(word).ok_or_else(|| {
+                StudyError::value(format!("--direction: `{word}` is not a direction"), "CW or CCW")
+            })
+        });
+        let positive =
+            |flag: &str, value: Option<f64>| value.map(|value| above_zero(flag, value)).transpose();
+        finite("--start-deg", self.start_deg.as_slice())?;
+        Ok(FileOptions {
+            given: BallbarReadOptions {
+                radius: positive("--radius-mm", self.radius_mm)?.map(|mm| mm * 1e-3),
+                direction: direction.transpose()?,
+                start: self.start_deg.map(f64::to_radians),
+            },
+            plane: self.plane.clone(),
+            feed: positive("--feed-mm-per-min", self.feed_mm_per_min)?.map(|feed| feed / 60e3),
+        })
+    }
+
+    /// Settings of the analysis; all numbers of lobes and points are checked.
+    ///
+    /// # Errors
+    /// Numbers out of range; a cyclic error that is neither a period nor `search`.
+    pub(crate) fn question(&self) -> Result<Question, StudyError> {
+        within("--lobes", self.lobes, [0, MOST_LOBES])?;
+        within("--teach-lobes", self.teach_lobes, [0, MOST_LOBES])?;
+        within("--points", self.points.unwrap_or(USUAL_POINTS), [3, MOST_POINTS])?;
+        finite("--reversal-deg", &self.reversal_deg)?;
+        let cyclic = match self.cyclic.as_deref() {
+            None => Cyclic::None,
+            Some("search") => Cyclic::Search,
+            Some(word) => {
+                let period = word.parse().map_err(|_| {
+                    StudyError::value(
+                        format!("--cyclic: `{word}` is not a period"),
+                        "millimetres such as 10, or `search`",
+                    )
+                })?;
+                Cyclic::Period(above_zero("--cyclic", period)? * 1e-3)
+            }
+        };
+        Ok(Question {
+            centring: match self.centre {
+                CentreChoice::Setup => Centring::Setup,
+                CentreChoice::LeastSquares => Centring::LeastSquares,
+            },
+            most_lobes: self.lobes,
+            cyclic,
+            reversals: self.reversal_deg.iter().map(|deg| deg.to_radians()).collect(),
+            axes_reverse: !self.no_axes,
+            without_outliers: self.leave_out_outliers,
+        })
+    }
+
+    /// Number of corrected points: as given, or as many as a program needs, or the default.
+    ///
+    /// # Errors
+    /// Too few for the lobes.
+    pub(crate) fn point_count(&self, needed: Option<usize>) -> Result<usize, StudyError> {
+        let usual = needed.unwrap_or(USUAL_POINTS).min(MOST_POINTS);
+        let points = self.points.unwrap_or(usual);
+        if points <= 2 * self.teach_lobes {
+            let message = format!(
+                "--points: {points} points are too few for the {} lobes of --teach-lobes",
+                self.teach_lobes
+            );
+            return Err(StudyError::value(message, "more than two points per lobe"));
+        }
+        Ok(points)
+    }
+
+    /// Where the circle is in the study.
+    ///
+    /// # Errors
+    /// An angle that is not finite.
+    pub(crate) fn placement(&self) -> Result<CirclePlacement, StudyError> {
+        finite("--zero-deg", &[self.zero_deg])?;
+        Ok(CirclePlacement {
+            analysis: self.analysis.clone(),
+            zero: self.zero_deg.to_radians(),
+            mirrored: self.mirrored,
+        })
+    }
 }

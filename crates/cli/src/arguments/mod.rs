@@ -10,7 +10,7 @@
 //! names of fields with hyphens; every command that has a result has the option `--json`.
 //!
 //! Clap checks combinations of options and that numbers are numbers; how many there are, and their range,
-//! is checked in `command`, so that all error messages have the same form.
+//! is checked with `numbers`, so that all error messages have the same form.
 
 mod advise;
 mod backlash;
@@ -26,6 +26,7 @@ mod identify;
 mod man;
 mod materials;
 mod new;
+pub(crate) mod numbers;
 mod path_accuracy;
 mod place;
 mod pose;
@@ -41,7 +42,7 @@ mod writing;
 
 pub(crate) use advise::AdviseArguments;
 pub(crate) use backlash::BacklashArguments;
-pub(crate) use ballbar::{BallbarArguments, CentreChoice};
+pub(crate) use ballbar::BallbarArguments;
 pub(crate) use budget::BudgetArguments;
 pub(crate) use calibrate::{CalibrateArguments, UnknownsArgument};
 pub(crate) use check::CheckArguments;

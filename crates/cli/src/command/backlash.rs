@@ -19,9 +19,9 @@ use armill_measure::backlash::{
 use armill_study::StudyError;
 use armill_study::{Study, studies};
 
-use super::numbers::{above_zero, finite};
 use crate::Outcome;
 use crate::arguments::BacklashArguments;
+use crate::arguments::numbers::{above_zero, finite, within};
 use crate::progress::Progress;
 use crate::terminal::{Align, columns, print, say};
 
@@ -35,16 +35,9 @@ const PLAN_NOISE_UM: f64 = 1.0;
 /// # Errors
 /// No such study, or its problems; invalid options; no measurements; a folder or stdout that cannot be written.
 pub(crate) fn run(arguments: &BacklashArguments) -> Result<Outcome, StudyError> {
-    for (flag, value, least) in [
-        ("--lobes", arguments.lobes, 0),
-        ("--circles", arguments.circles.unwrap_or(1), 1),
-        ("--runs", arguments.runs, 1),
-    ] {
-        if !(least..=MOST).contains(&value) {
-            let message = format!("{flag}: {value} is outside {least} to {MOST}");
-            return Err(StudyError::value(message, "see `armill backlash --help`"));
-        }
-    }
+    within("--lobes", arguments.lobes, [0, MOST])?;
+    within("--circles", arguments.circles.unwrap_or(1), [1, MOST])?;
+    within("--runs", arguments.runs, [1, MOST])?;
     let noise = arguments
         .noise_um
         .map(|um| above_zero("--noise-um", um))

@@ -18,9 +18,9 @@ use armill_measure::calibrate::{
 };
 use armill_study::{StudyError, robots};
 
-use super::numbers::above_zero;
 use super::poses::{errors_head, errors_text, frames_text, question};
 use crate::Outcome;
+use crate::arguments::numbers::above_zero;
 use crate::arguments::{CalibrateArguments, UnknownsArgument};
 use crate::terminal::{print, say};
 

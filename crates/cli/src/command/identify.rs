@@ -26,8 +26,8 @@ use armill_measure::identify::{
 };
 use armill_study::{StudyError, robots};
 
-use super::numbers::{above_zero, three};
 use crate::Outcome;
+use crate::arguments::numbers::{above_zero, three};
 use crate::arguments::{IdentifyArguments, PointsArgument, PriorArgument};
 use crate::terminal::{print, say};
 

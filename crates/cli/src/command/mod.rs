@@ -3,8 +3,7 @@
 //! One file per command: `run`, `check`, `compare`, `new`, `robots` (a folder, for its subcommands), `materials`,
 //! `pose`, `posture`, `place`, `advise`, `compensate`, `identify`, `calibrate`, `forces`, `roundness`, `ballbar`,
 //! `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `serve`, `completions`, `man`. `poses`: options of measured
-//! poses. `program`: options of a robot program. `numbers`: checks of options with numbers. `drawing`: writes requested
-//! pictures.
+//! poses. `program`: options of a robot program. `drawing`: writes requested pictures.
 //!
 //! Each command has one function `run(&Arguments) -> Result<Outcome, StudyError>`: it finds robot or study,
 //! converts the options (numbers checked, mm and degrees to SI), calls `armill_study`, writes
@@ -37,6 +36,5 @@ pub(crate) mod run;
 pub(crate) mod serve;
 
 mod drawing;
-mod numbers;
 mod poses;
 mod program;

@@ -10,6 +10,7 @@ use armill_study::{StudyError, output, studies};
 
 use super::run::{folder, in_pool, results};
 use crate::Outcome;
+use crate::arguments::numbers::within;
 use crate::arguments::{PlaceArguments, PlaceOptions};
 use crate::progress::Progress;
 use crate::terminal::say;
@@ -58,9 +59,8 @@ pub(crate) fn run(arguments: &PlaceArguments) -> Result<Outcome, StudyError> {
 
 /// The settings given by the options.
 pub(super) fn requested(options: &PlaceOptions) -> Result<PlaceTable, StudyError> {
-    if let Some(margin) = options.margin_deg.filter(|margin| !(0.0..=90.0).contains(margin)) {
-        let message = format!("--margin-deg: {margin} is outside 0 to 90");
-        return Err(StudyError::value(message, "see `armill place --help`"));
+    if let Some(margin) = options.margin_deg {
+        within("--margin-deg", margin, [0.0, 90.0])?;
     }
     Ok(PlaceTable {
         analysis: options.analysis.clone(),

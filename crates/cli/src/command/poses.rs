@@ -7,7 +7,7 @@ use armill_measure::calibrate::answer::FrameAnswer;
 use armill_measure::calibrate::{ErrorsAnswer, Question};
 use armill_study::StudyError;
 
-use super::numbers::{above_zero, three};
+use crate::arguments::numbers::{above_zero, three};
 use crate::arguments::{PosesOptions, TurnArgument};
 
 /// Settings of the fit, and how the file is read.

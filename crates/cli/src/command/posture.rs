@@ -10,6 +10,7 @@ use armill_study::{StudyError, studies};
 use super::run::{folder, results};
 use crate::Outcome;
 use crate::arguments::PostureArguments;
+use crate::arguments::numbers::within;
 
 /// Searches along all paths of the study and writes the results.
 ///
@@ -25,12 +26,8 @@ pub(crate) fn run(arguments: &PostureArguments) -> Result<Outcome, StudyError> {
 
 /// The settings given by the options; `None` if there are none.
 fn requested(arguments: &PostureArguments) -> Result<Option<SearchTable>, StudyError> {
-    let bounded = |option: &str, value: Option<f64>, [least, most]: [f64; 2]| match value {
-        Some(value) if !(value >= least && value <= most) => Err(StudyError::value(
-            format!("{option}: {value} is outside {least} to {most}"),
-            "see `armill posture --help`",
-        )),
-        value => Ok(value),
+    let bounded = |option: &str, value: Option<f64>, range: [f64; 2]| {
+        value.map(|value| within(option, value, range)).transpose()
     };
     let turns: Option<[f64; 2]> = match &arguments.turns_deg {
         Some(turns) => Some(turns.as_slice().try_into().map_err(|_| {
@@ -40,7 +37,7 @@ fn requested(arguments: &PostureArguments) -> Result<Option<SearchTable>, StudyE
         None => None,
     };
     for turn in turns.into_iter().flatten() {
-        bounded("--turns-deg", Some(turn), [-720.0, 720.0])?;
+        within("--turns-deg", turn, [-720.0, 720.0])?;
     }
     let table = SearchTable {
         turns_deg: turns,

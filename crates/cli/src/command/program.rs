@@ -8,6 +8,7 @@ use armill_study::StudyError;
 use armill_study::program_out::ProgramSettings;
 
 use crate::arguments::ProgramOptions;
+use crate::arguments::numbers::within;
 use crate::terminal::say;
 
 /// The requested program and its folder; `feed_mm_per_min` is the feed if the path does not specify it.
@@ -52,17 +53,6 @@ pub(super) fn requested(
     };
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
     Ok(Some((folder.unwrap_or(".".as_ref()).to_path_buf(), requested)))
-}
-
-/// `value`, if it is from `least` to `most`.
-fn within(option: &str, value: f64, [least, most]: [f64; 2]) -> Result<f64, StudyError> {
-    match value >= least && value <= most {
-        true => Ok(value),
-        false => Err(StudyError::value(
-            format!("{option}: {value} is outside {least} to {most}"),
-            "see --help",
-        )),
-    }
 }
 
 /// Writes the files of a program into `folder`, and reports them.

@@ -14,7 +14,7 @@ use armill_study::{StudyError, robots};
 
 use crate::Outcome;
 use crate::arguments::RobotsCheckArguments;
-use crate::command::numbers::{above_zero, three_or_six};
+use crate::arguments::numbers::{above_zero, three_or_six};
 use crate::terminal::print;
 
 /// Compares the file with the readings and prints the verdict.

@@ -1,7 +1,4 @@
-//! `armill ballbar`: circularity and its causes, from ball-bar files.
-//!
-//! Stdout has a [`BallbarAnswer`], as text or JSON; `--out` receives it with tables, pictures and a report, `--teach`
-//! the points of the corrected circle, `--program` a robot program of it.
+//! The result of `armill ballbar` as text.
 //!
 //! ```text
 //! circle of 100 mm in XY, 1000 mm/min; least-squares centre, (12.1, -3.4) um from the set-up
@@ -12,213 +9,19 @@
 //! lobes                              common to both directions
 //! ```
 
-use std::path::PathBuf;
-
-use armill_formats::measurement::ballbar::{BallbarReadOptions, direction_of};
+use armill_measure::ballbar::BallbarAnswer;
 use armill_measure::ballbar::answer::{LobeAnswer, PartAnswer, ShownAnswer};
 use armill_measure::ballbar::results::FeatureAnswer;
 use armill_measure::ballbar::teach::ComparedQuantity;
-use armill_measure::ballbar::{
-    BallbarAnalysis, BallbarAnswer, Centring, CirclePlacement, Cyclic, Question, TaughtAnswer, TaughtCircle,
-    analyse, answer, before, output, points_within, sagitta, taught_program, teach,
-};
-use armill_programs::Written;
-use armill_study::StudyError;
-use armill_study::measured::circular_test::{FileOptions, MeasuredTest, read};
 use armill_study::number::decimals;
-use armill_study::studies;
 
-use super::numbers::{above_zero, finite};
-use super::program::{self, save};
-use crate::Outcome;
-use crate::arguments::{BallbarArguments, CentreChoice};
-use crate::terminal::{Align, columns, print, say};
+use crate::terminal::{Align, columns};
 
-/// Highest lobe: higher ones cannot be measured.
-const MOST_LOBES: usize = 360;
-/// Default and greatest number of corrected points.
-const USUAL_POINTS: usize = 72;
-const MOST_POINTS: usize = 3600;
-/// Number of outliers listed in the text.
+/// Number of outliers listed.
 const MOST_OUTLIERS: usize = 10;
 
-/// Reads, analyses, writes the requested files and prints the result.
-///
-/// # Errors
-/// Files that cannot be read, or their problems; invalid options; files that cannot be written.
-pub(crate) fn run(arguments: &BallbarArguments) -> Result<Outcome, StudyError> {
-    let (requested, question) = (requested(arguments)?, question(arguments)?);
-    let measured = read(&arguments.files, &requested)?;
-    let found = analyse(&measured, &question)?;
-    let mut answer = answer(&measured, &question, &found);
-    if !arguments.before.is_empty() {
-        let first = read(&arguments.before, &requested)?;
-        let shown = analyse(&first, &question)?;
-        answer.before = Some(before((&first, &shown), (&measured, &found))?);
-    }
-    let taught = taught(arguments, (&measured, &found))?;
-    let table = match &taught {
-        None => None,
-        Some((given, circle, _)) => {
-            answer.warnings.extend(given.warnings(arguments.teach_lobes));
-            answer.taught = Some(given.clone());
-            Some(circle.csv()?)
-        }
-    };
-    let writer = arguments.writing.writer("ballbar");
-    if let Some(out) = &arguments.out {
-        let out = writer.folder(out)?;
-        output::write(&answer, (&measured, &found), (&out, table.as_deref()))?;
-        say(&format!(
-            "tables, pictures and report in {}",
-            out.path().display()
-        ));
-    }
-    // Last, so that no points are written if the folder cannot be written.
-    if let (Some(file), Some(table)) = (&arguments.teach, &table) {
-        writer.write(file, table)?;
-        say(&format!("corrected points in {}", file.display()));
-    }
-    if let Some((_, _, Some((folder, written)))) = &taught {
-        save(&writer, folder, written)?;
-    }
-    for warning in &answer.warnings {
-        say(&format!("warning: {warning}"));
-    }
-    print(&if arguments.json {
-        serde_json::to_string_pretty(&answer)?
-    } else {
-        as_text(&answer)
-    })?;
-    Ok(Outcome::Fine)
-}
-
-/// A program and its folder.
-type Program = (PathBuf, Written);
-
-/// The corrected circle, if requested, and its program.
-fn taught(
-    arguments: &BallbarArguments,
-    (measured, found): (&MeasuredTest, &BallbarAnalysis),
-) -> Result<Option<(TaughtAnswer, TaughtCircle, Option<Program>)>, StudyError> {
-    let file_feed = measured.feed.map(|feed| feed * 60e3);
-    let program = program::requested(&arguments.program, arguments.feed_mm_per_min.or(file_feed))?;
-    if arguments.teach.is_none() && program.is_none() {
-        return Ok(None);
-    }
-    let radius = measured.test.radius();
-    let needed = program
-        .as_ref()
-        .map(|(_, requested)| points_within(radius, requested.within));
-    let points = arguments
-        .points
-        .unwrap_or(needed.unwrap_or(USUAL_POINTS).min(MOST_POINTS));
-    if points <= 2 * arguments.teach_lobes {
-        let message = format!(
-            "--points: {points} points are too few for the {} lobes of --teach-lobes",
-            arguments.teach_lobes
-        );
-        return Err(StudyError::value(message, "more than two points per lobe"));
-    }
-    let (given, circle) = teach(found, (points, arguments.teach_lobes))?;
-    let Some((folder, requested)) = program else {
-        return Ok(Some((given, circle, None)));
-    };
-    let Some(study) = &arguments.study else {
-        return Err(StudyError::value(
-            "--program requires a study that gives the circle and the robot",
-            "--study STUDY",
-        ));
-    };
-    finite("--zero-deg", &[arguments.zero_deg])?;
-    let place = CirclePlacement {
-        analysis: arguments.analysis.clone(),
-        zero: arguments.zero_deg.to_radians(),
-        mirrored: arguments.mirrored,
-    };
-    let study = studies::find(study)?.read()?;
-    let mut written = taught_program(&study, &circle, &place, &requested)?;
-    let sagitta = sagitta(radius, points);
-    if sagitta > requested.within {
-        written.notes.push(format!(
-            "linear moves between {points} points deviate by {:.1} um from the circle; {} points are within {} um",
-            sagitta * 1e6,
-            points_within(radius, requested.within),
-            arguments.program.within_um
-        ));
-    }
-    Ok(Some((given, circle, Some((folder, written)))))
-}
-
-/// Data that the files do not contain.
-fn requested(arguments: &BallbarArguments) -> Result<FileOptions, StudyError> {
-    let direction = arguments.direction.as_deref().map(|word| {
-        direction_of(word).ok_or_else(|| {
-            StudyError::value(format!("--direction: `{word}` is not a direction"), "CW or CCW")
-        })
-    });
-    let positive = |flag: &str, value: Option<f64>| value.map(|value| above_zero(flag, value)).transpose();
-    finite("--start-deg", arguments.start_deg.as_slice())?;
-    Ok(FileOptions {
-        given: BallbarReadOptions {
-            radius: positive("--radius-mm", arguments.radius_mm)?.map(|mm| mm * 1e-3),
-            direction: direction.transpose()?,
-            start: arguments.start_deg.map(f64::to_radians),
-        },
-        plane: arguments.plane.clone(),
-        feed: positive("--feed-mm-per-min", arguments.feed_mm_per_min)?.map(|feed| feed / 60e3),
-    })
-}
-
-/// Settings of the analysis.
-fn question(arguments: &BallbarArguments) -> Result<Question, StudyError> {
-    for (flag, value, [least, most]) in [
-        ("--lobes", arguments.lobes, [0, MOST_LOBES]),
-        ("--teach-lobes", arguments.teach_lobes, [0, MOST_LOBES]),
-        (
-            "--points",
-            arguments.points.unwrap_or(USUAL_POINTS),
-            [3, MOST_POINTS],
-        ),
-    ] {
-        if !(least..=most).contains(&value) {
-            let message = format!("{flag}: {value} is outside {least} to {most}");
-            return Err(StudyError::value(message, "see `armill ballbar --help`"));
-        }
-    }
-    finite("--reversal-deg", &arguments.reversal_deg)?;
-    let cyclic = match arguments.cyclic.as_deref() {
-        None => Cyclic::None,
-        Some("search") => Cyclic::Search,
-        Some(word) => {
-            let period = word.parse().map_err(|_| {
-                StudyError::value(
-                    format!("--cyclic: `{word}` is not a period"),
-                    "millimetres such as 10, or `search`",
-                )
-            })?;
-            Cyclic::Period(above_zero("--cyclic", period)? * 1e-3)
-        }
-    };
-    Ok(Question {
-        centring: match arguments.centre {
-            CentreChoice::Setup => Centring::Setup,
-            CentreChoice::LeastSquares => Centring::LeastSquares,
-        },
-        most_lobes: arguments.lobes,
-        cyclic,
-        reversals: arguments
-            .reversal_deg
-            .iter()
-            .map(|deg| deg.to_radians())
-            .collect(),
-        axes_reverse: !arguments.no_axes,
-        without_outliers: arguments.leave_out_outliers,
-    })
-}
-
-/// The result as text, see the documentation of this module.
-fn as_text(answer: &BallbarAnswer) -> String {
+/// The whole text.
+pub(super) fn as_text(answer: &BallbarAnswer) -> String {
     let mut lines = vec![head(answer), String::new()];
     lines.extend(table(
         [["um", "samples", "G", "F max", "at deg", "F min", "at deg"]

@@ -4,10 +4,13 @@
 //! |---|---|---|
 //! | `finite` | any numbers | not finite; beyond 1e9 |
 //! | `above_zero` | one | also 0 and less |
+//! | `within` | one, from least to most | all others |
 //! | `three` | three, as a vector | also another count |
 //! | `three_or_six` | a position, or a position and angles | also another count |
 //!
 //! All keep the unit of their option; the caller converts it to SI.
+
+use std::fmt::Display;
 
 use armill_core::nalgebra::Vector3;
 use armill_study::StudyError;
@@ -19,7 +22,7 @@ const LARGEST: f64 = 1e9;
 ///
 /// # Errors
 /// The first number that is not finite, or beyond [`LARGEST`], with the name of its option.
-pub(super) fn finite(flag: &str, values: &[f64]) -> Result<(), StudyError> {
+pub(crate) fn finite(flag: &str, values: &[f64]) -> Result<(), StudyError> {
     if let Some(value) = values.iter().find(|value| !value.is_finite()) {
         return Err(StudyError::value(
             format!("{flag}: {value} is not a finite number"),
@@ -39,7 +42,7 @@ pub(super) fn finite(flag: &str, values: &[f64]) -> Result<(), StudyError> {
 ///
 /// # Errors
 /// As [`finite`]; 0 or less.
-pub(super) fn above_zero(flag: &str, value: f64) -> Result<f64, StudyError> {
+pub(crate) fn above_zero(flag: &str, value: f64) -> Result<f64, StudyError> {
     finite(flag, &[value])?;
     if value > 0.0 {
         return Ok(value);
@@ -50,11 +53,29 @@ pub(super) fn above_zero(flag: &str, value: f64) -> Result<f64, StudyError> {
     ))
 }
 
+/// `value`, if it is from `least` to `most`.
+///
+/// # Errors
+/// Another number, with the name of its option.
+pub(crate) fn within<T: PartialOrd + Display>(
+    flag: &str,
+    value: T,
+    [least, most]: [T; 2],
+) -> Result<T, StudyError> {
+    match least <= value && value <= most {
+        true => Ok(value),
+        false => Err(StudyError::value(
+            format!("{flag}: {value} is outside {least} to {most}"),
+            "see --help",
+        )),
+    }
+}
+
 /// Three numbers.
 ///
 /// # Errors
 /// As [`finite`]; another count.
-pub(super) fn three(flag: &str, values: &[f64]) -> Result<Vector3<f64>, StudyError> {
+pub(crate) fn three(flag: &str, values: &[f64]) -> Result<Vector3<f64>, StudyError> {
     finite(flag, values)?;
     match values {
         [x, y, z] => Ok(Vector3::new(*x, *y, *z)),
@@ -69,7 +90,7 @@ pub(super) fn three(flag: &str, values: &[f64]) -> Result<Vector3<f64>, StudyErr
 ///
 /// # Errors
 /// As [`finite`]; another count.
-pub(super) fn three_or_six(flag: &str, values: Option<&[f64]>) -> Result<[f64; 6], StudyError> {
+pub(crate) fn three_or_six(flag: &str, values: Option<&[f64]>) -> Result<[f64; 6], StudyError> {
     let values = values.unwrap_or(&[0.0; 3]);
     finite(flag, values)?;
     match values {
