@@ -66,6 +66,11 @@ fn cell(out: &mut Vec<u8>, column: &Column, row: usize) {
         ColumnData::Float(values) => float(out, values[row]),
         ColumnData::OptionalFloat(values) => values[row].into_iter().for_each(|value| float(out, value)),
         ColumnData::Integer(values) => formatted(out, format_args!("{}", values[row])),
+        ColumnData::OptionalInteger(values) => {
+            if let Some(value) = values[row] {
+                formatted(out, format_args!("{value}"));
+            }
+        }
         ColumnData::Flag(values) => out.extend_from_slice(if values[row] { b"true" } else { b"false" }),
         ColumnData::Text(values) => text(out, &values[row]),
         ColumnData::Category { codes, labels } => text(out, &labels[codes[row] as usize]),
@@ -270,10 +275,10 @@ mod tests {
     #[test]
     fn the_text_is_as_rfc_4180_wants_it() {
         let text = String::from_utf8(write(&sample())).unwrap();
-        let expected = "x_mm,in_plane_um,count,within_limit,note,reach\r\n\
-             0.1,0.3333333333333333,-9223372036854775808,true,,beyond joint 3\r\n\
-             -0,,0,false,\"comma, \"\"quote\"\"\",reached\r\n\
-             1e300,-7.5e-9,-1,false,\"line\r\nbreak\",reached\r\n";
+        let expected = "x_mm,in_plane_um,count,within_limit,note,reach,worst_case\r\n\
+             0.1,0.3333333333333333,-9223372036854775808,true,,beyond joint 3,9223372036854775807\r\n\
+             -0,,0,false,\"comma, \"\"quote\"\"\",reached,\r\n\
+             1e300,-7.5e-9,-1,false,\"line\r\nbreak\",reached,1\r\n";
         assert!(text.starts_with(expected), "{text}");
         assert!(text.ends_with("\r\n"));
     }

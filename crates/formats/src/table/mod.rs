@@ -66,6 +66,8 @@ pub enum ColumnData {
     OptionalFloat(Vec<Option<f64>>),
     /// Whole numbers.
     Integer(Vec<i64>),
+    /// Whole numbers, some of them missing.
+    OptionalInteger(Vec<Option<i64>>),
     /// Yes or no.
     Flag(Vec<bool>),
     /// Any text.
@@ -243,18 +245,31 @@ impl Column {
                     None => Ok(()),
                 }
             }
-            ColumnData::Integer(_) | ColumnData::Flag(_) | ColumnData::Text(_) => Ok(()),
+            ColumnData::Integer(_)
+            | ColumnData::OptionalInteger(_)
+            | ColumnData::Flag(_)
+            | ColumnData::Text(_) => Ok(()),
         }
     }
 }
 
 impl ColumnData {
+    /// Numbers of which so many decimals mean something, some of them missing: whole numbers if no decimals do.
+    pub fn of_decimals(values: Vec<Option<f64>>, decimals: u8) -> Self {
+        if decimals > 0 {
+            return Self::OptionalFloat(values);
+        }
+        let whole = |value: Option<f64>| value.map(|value| value.round() as i64);
+        Self::OptionalInteger(values.into_iter().map(whole).collect())
+    }
+
     /// How many values there are.
     pub fn row_count(&self) -> usize {
         match self {
             Self::Float(values) => values.len(),
             Self::OptionalFloat(values) => values.len(),
             Self::Integer(values) => values.len(),
+            Self::OptionalInteger(values) => values.len(),
             Self::Flag(values) => values.len(),
             Self::Text(values) => values.len(),
             Self::Category { codes, .. } => codes.len(),
@@ -308,6 +323,11 @@ fn sample() -> Table {
                 labels,
             },
         ),
+        column(
+            "worst_case",
+            None,
+            ColumnData::OptionalInteger(vec![Some(i64::MAX), None, Some(1), None]),
+        ),
     ];
     Table::new("map", columns).unwrap()
 }
@@ -335,7 +355,20 @@ mod tests {
         let table = sample();
         assert_eq!(
             (table.name(), table.row_count(), table.columns().len()),
-            ("map", 4, 6)
+            ("map", 4, 7)
+        );
+    }
+
+    #[test]
+    fn numbers_without_decimals_are_whole_numbers() {
+        let values = vec![Some(2.0), None, Some(-1.0)];
+        assert_eq!(
+            ColumnData::of_decimals(values.clone(), 0),
+            ColumnData::OptionalInteger(vec![Some(2), None, Some(-1)])
+        );
+        assert_eq!(
+            ColumnData::of_decimals(values.clone(), 1),
+            ColumnData::OptionalFloat(values)
         );
     }
 

@@ -177,19 +177,16 @@ fn write_values(
             writer.write_batch(&values, None, None)?;
         }
         (ColumnWriter::DoubleColumnWriter(writer), ColumnData::OptionalFloat(values)) => {
-            let known: Vec<f64> = values[rows.clone()]
-                .iter()
-                .flatten()
-                .map(|value| kept(*value))
-                .collect();
-            let levels: Vec<i16> = values[rows]
-                .iter()
-                .map(|value| i16::from(value.is_some()))
-                .collect();
-            writer.write_batch(&known, Some(&levels), None)?;
+            let known = values[rows.clone()].iter().flatten();
+            let known: Vec<f64> = known.map(|value| kept(*value)).collect();
+            writer.write_batch(&known, Some(&levels(&values[rows])), None)?;
         }
         (ColumnWriter::Int64ColumnWriter(writer), ColumnData::Integer(values)) => {
             writer.write_batch(&values[rows], None, None)?;
+        }
+        (ColumnWriter::Int64ColumnWriter(writer), ColumnData::OptionalInteger(values)) => {
+            let known: Vec<i64> = values[rows.clone()].iter().flatten().copied().collect();
+            writer.write_batch(&known, Some(&levels(&values[rows])), None)?;
         }
         (ColumnWriter::BoolColumnWriter(writer), ColumnData::Flag(values)) => {
             writer.write_batch(&values[rows], None, None)?;
@@ -210,6 +207,11 @@ fn write_values(
         (_, data) => unreachable!("a writer for {data:?}"),
     }
     Ok(())
+}
+
+/// The level of each value: 0 where it is missing.
+fn levels<T>(values: &[Option<T>]) -> Vec<i16> {
+    values.iter().map(|value| i16::from(value.is_some())).collect()
 }
 
 /// A text as the crate takes it.
@@ -267,6 +269,7 @@ fn field(column: &Column) -> Result<TypePtr, ParquetError> {
         ColumnData::Float(_) => (PhysicalType::DOUBLE, Repetition::REQUIRED),
         ColumnData::OptionalFloat(_) => (PhysicalType::DOUBLE, Repetition::OPTIONAL),
         ColumnData::Integer(_) => (PhysicalType::INT64, Repetition::REQUIRED),
+        ColumnData::OptionalInteger(_) => (PhysicalType::INT64, Repetition::OPTIONAL),
         ColumnData::Flag(_) => (PhysicalType::BOOLEAN, Repetition::REQUIRED),
         ColumnData::Text(_) | ColumnData::Category { .. } => (PhysicalType::BYTE_ARRAY, Repetition::REQUIRED),
     };
@@ -356,12 +359,9 @@ fn read_column(
     let optional = described.max_def_level() > 0;
     let missing = optional && levels.contains(&0);
     let data = match values {
-        Values::Float(values) if optional => {
-            let mut known = values.into_iter();
-            let value = |level: &i16| (*level > 0).then(|| known.next()).flatten();
-            ColumnData::OptionalFloat(levels.iter().map(value).collect())
-        }
+        Values::Float(values) if optional => ColumnData::OptionalFloat(at_levels(values, &levels)),
         Values::Float(values) => ColumnData::Float(values),
+        Values::Integer(values) if optional => ColumnData::OptionalInteger(at_levels(values, &levels)),
         _ if missing => {
             let kind = described.physical_type();
             return Err(unfit(described, format!("{kind} with missing values")));
@@ -387,6 +387,13 @@ fn read_column(
         decimals: facts.decimals,
         data,
     })
+}
+
+/// The values with those that are missing; `levels` has one for each.
+fn at_levels<T>(values: Vec<T>, levels: &[i16]) -> Vec<Option<T>> {
+    let mut known = values.into_iter();
+    let value = |level: &i16| (*level > 0).then(|| known.next()).flatten();
+    levels.iter().map(value).collect()
 }
 
 /// A column of another type than expected.

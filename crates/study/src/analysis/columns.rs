@@ -67,7 +67,7 @@ impl<'a> Numbers<'a> {
             unit: self.quantity.unit.map(str::to_owned),
             description: self.quantity.words.to_owned(),
             decimals: Some(self.quantity.decimals),
-            data: ColumnData::OptionalFloat(values),
+            data: ColumnData::of_decimals(values, self.quantity.decimals),
         }
     }
 }

@@ -272,6 +272,7 @@ fn column_values(data: &ColumnData) -> Value {
                 .collect()
         }
         ColumnData::Integer(values) => values.iter().copied().collect(),
+        ColumnData::OptionalInteger(values) => values.iter().copied().map(Value::from).collect(),
         ColumnData::Flag(values) => values.iter().copied().collect(),
         ColumnData::Text(values) => values.iter().map(String::as_str).collect(),
     }

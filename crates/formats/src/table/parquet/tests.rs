@@ -146,6 +146,7 @@ fn a_table_without_rows_reads_back_equal() {
             ColumnData::Float(_) => ColumnData::Float(vec![]),
             ColumnData::OptionalFloat(_) => ColumnData::OptionalFloat(vec![]),
             ColumnData::Integer(_) => ColumnData::Integer(vec![]),
+            ColumnData::OptionalInteger(_) => ColumnData::OptionalInteger(vec![]),
             ColumnData::Flag(_) => ColumnData::Flag(vec![]),
             ColumnData::Text(_) => ColumnData::Text(vec![]),
             ColumnData::Category { labels, .. } => ColumnData::Category {
@@ -237,14 +238,14 @@ fn types_that_no_table_can_represent_are_refused_by_name() {
         "{}",
         refused(&short)
     );
-    let gaps = foreign((PhysicalType::INT64, Repetition::OPTIONAL), None, |column| {
-        let ColumnWriter::Int64ColumnWriter(column) = column else {
-            panic!("of integers")
+    let gaps = foreign((PhysicalType::BOOLEAN, Repetition::OPTIONAL), None, |column| {
+        let ColumnWriter::BoolColumnWriter(column) = column else {
+            panic!("of flags")
         };
-        column.write_batch(&[1], Some(&[1, 0]), None).unwrap();
+        column.write_batch(&[true], Some(&[1, 0]), None).unwrap();
     });
     assert!(
-        refused(&gaps).starts_with("Parquet column `x` is INT64 with missing values"),
+        refused(&gaps).starts_with("Parquet column `x` is BOOLEAN with missing values"),
         "{}",
         refused(&gaps)
     );
@@ -256,11 +257,14 @@ fn a_file_of_others_is_a_table_without_meanings() {
         let ColumnWriter::Int64ColumnWriter(column) = column else {
             panic!("of integers")
         };
-        column.write_batch(&[1, 2], Some(&[1, 1]), None).unwrap();
+        column.write_batch(&[1], Some(&[1, 0]), None).unwrap();
     });
     let (table, metadata) = read(&whole).unwrap();
     assert!(metadata.is_empty() && table.columns()[0].unit.is_none());
-    assert_eq!(table.columns()[0].data, ColumnData::Integer(vec![1, 2]));
+    assert_eq!(
+        table.columns()[0].data,
+        ColumnData::OptionalInteger(vec![Some(1), None])
+    );
 }
 
 #[test]
