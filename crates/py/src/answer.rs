@@ -1,6 +1,5 @@
 //! Commands as functions: options by name in, the JSON of the command out.
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use armill_cli::{Call, Listener, OptionValue, Refused};
@@ -8,33 +7,37 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyString};
 
 use crate::errors::{exception, usage, wrong_type};
+use crate::operands::OperandFiles;
 use crate::threads::{Beats, ThreadCount, watched};
 
 /// command name, operands, options -> (json, messages, within_tolerance): the output of the command on stdout with
 /// `--json`, the lines on stderr, and whether the tolerance is met if `strict` is given.
 ///
+/// Operands and options may be robots and studies in place of names and paths.
 /// `progress` is called repeatedly with the number of points finished.
 #[pyfunction]
 #[pyo3(signature = (command, operands, options, threads=None, progress=None))]
 pub(crate) fn call(
     py: Python<'_>,
     command: String,
-    operands: Vec<PathBuf>,
+    operands: Vec<Bound<'_, PyAny>>,
     options: &Bound<'_, PyDict>,
     threads: Option<ThreadCount>,
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<(String, Vec<String>, bool)> {
+    // Removed when the command has ended.
+    let mut files = OperandFiles::default();
     let mut named = Vec::new();
     for (name, value) in options.iter() {
         let name: String = name.extract()?;
-        if let Some(value) = option_value(&name, &value)? {
+        if let Some(value) = option_value(&name, &value, &mut files)? {
             named.push((name, value));
         }
     }
-    let shown = |path: &PathBuf| path.to_string_lossy().into_owned();
+    let operands = operands.iter().map(|operand| files.operand(operand));
     let call = Call {
         command,
-        operands: operands.iter().map(shown).collect(),
+        operands: operands.collect::<PyResult<_>>()?,
         options: named,
     };
     let listener = Arc::new(Listener::default());
@@ -57,7 +60,11 @@ pub(crate) fn call(
 }
 
 /// The value of an option; nothing where it is None.
-fn option_value(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Option<OptionValue>> {
+fn option_value(
+    name: &str,
+    value: &Bound<'_, PyAny>,
+    files: &mut OperandFiles,
+) -> PyResult<Option<OptionValue>> {
     if value.is_none() {
         return Ok(None);
     }
@@ -67,9 +74,12 @@ fn option_value(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Option<OptionV
     if value.cast::<PyString>().is_ok() || value.cast::<PyInt>().is_ok() || value.cast::<PyFloat>().is_ok() {
         return Ok(Some(OptionValue::Text(value.str()?.to_string())));
     }
+    if let Some(path) = files.object(value)? {
+        return Ok(Some(OptionValue::Text(path)));
+    }
     // Arrays and numbers of numpy.
     if value.hasattr("tolist")? {
-        return option_value(name, &value.call_method0("tolist")?);
+        return option_value(name, &value.call_method0("tolist")?, files);
     }
     if value.hasattr("__fspath__")? {
         return Ok(Some(OptionValue::Text(
@@ -84,7 +94,7 @@ fn option_value(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Option<OptionV
     };
     let mut all = Vec::new();
     for item in items {
-        all.extend(option_value(name, &item?)?);
+        all.extend(option_value(name, &item?, files)?);
     }
     Ok(Some(OptionValue::List(all)))
 }

@@ -51,18 +51,26 @@ impl<'py> Given<'py> {
         let Some(at) = self.values().iter().position(|value| !value.is_finite()) else {
             return Ok(());
         };
-        let (mut rest, mut index) = (at, Vec::new());
-        for length in self.shape().iter().rev() {
-            index.insert(0, (rest % length).to_string());
-            rest /= length;
-        }
-        let value = self.values()[at];
+        let (place, value) = (place_of(self.shape(), at), self.values()[at]);
         Err(refused(
             py,
-            format!("{name}[{}] is {value}", index.join(", ")),
+            format!("{name}{place} is {value}"),
             "numbers must be finite",
         ))
     }
+}
+
+/// Item `index` of an array with these axes, in the notation of Python: `[1, 3]`; empty without axes.
+pub(crate) fn place_of(axes: &[usize], index: usize) -> String {
+    if axes.is_empty() {
+        return String::new();
+    }
+    let (mut rest, mut place) = (index, Vec::new());
+    for length in axes.iter().rev() {
+        place.insert(0, (rest % length.max(&1)).to_string());
+        rest /= length.max(&1);
+    }
+    format!("[{}]", place.join(", "))
 }
 
 /// A contiguous copy as `float64`.
@@ -120,14 +128,14 @@ fn refuse_masked(numpy: &Bound<'_, PyModule>, value: &Bound<'_, PyAny>, name: &s
     Ok(())
 }
 
-/// Many items of one shape, or a single one without the first axis.
+/// Items of one shape along any number of leading axes; a single item has none.
 pub(crate) struct Batch<'py> {
     /// The numbers.
     pub given: Given<'py>,
+    /// The leading axes. Results have the same.
+    pub axes: Vec<usize>,
     /// Number of items.
     pub count: usize,
-    /// Whether it is one item without the first axis; its result has no first axis either.
-    pub single: bool,
 }
 
 impl<'py> Batch<'py> {
@@ -138,29 +146,30 @@ impl<'py> Batch<'py> {
     pub(crate) fn of(value: &Bound<'py, PyAny>, name: &str, item: &[usize]) -> PyResult<Batch<'py>> {
         let expected = ManyOf(item);
         let given = Given::of(value, name, &expected)?;
-        let (count, single) = match given.shape() {
-            shape if shape == item => (1, true),
-            [count, rest @ ..] if rest == item => (*count, false),
-            _ => return Err(wrong_shape(value.py(), name, &expected, given.shape())),
+        let Some(axes) = given.shape().strip_suffix(item) else {
+            return Err(wrong_shape(value.py(), name, &expected, given.shape()));
         };
-        Ok(Batch { given, count, single })
+        let axes = axes.to_vec();
+        Ok(Batch {
+            count: axes.iter().product(),
+            axes,
+            given,
+        })
     }
 
     /// The shape of a result with `rest` for each item.
     pub(crate) fn shape(&self, rest: &[usize]) -> Vec<usize> {
-        let first = (!self.single).then_some(self.count);
-        first.into_iter().chain(rest.iter().copied()).collect()
+        [&self.axes, rest].concat()
     }
 }
 
-/// `(n, 4, 4) or (4, 4)`: formatted only for a message, since the evaluation of one point takes no longer.
+/// `(..., 4, 4)`: formatted only for a message, since the evaluation of one point takes no longer.
 struct ManyOf<'a>(&'a [usize]);
 
 impl Display for ManyOf<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let lengths: Vec<String> = self.0.iter().map(usize::to_string).collect();
-        let (all, comma) = (lengths.join(", "), if lengths.len() == 1 { "," } else { "" });
-        write!(f, "(n, {all}) or ({all}{comma})")
+        write!(f, "(..., {})", lengths.join(", "))
     }
 }
 
@@ -184,13 +193,4 @@ pub(crate) fn array<'py, T: Element>(
     let array = ArrayD::from_shape_vec(IxDyn(shape), values);
     let array = array.map_err(|error| Fault::new_err(format!("a result of another shape: {error}")))?;
     Ok(PyArrayDyn::from_owned_array(py, array))
-}
-
-/// A copy of `values`.
-pub(crate) fn array_of<'py, T: Element + Clone>(
-    py: Python<'py>,
-    shape: &[usize],
-    values: &[T],
-) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
-    array(py, shape, values.to_vec())
 }

@@ -1,72 +1,149 @@
 //! The class `Evaluation`: one posture for each of many poses, and the deviation of the tool there.
 
+use std::mem;
+use std::slice;
+
 use armill_core::kernel::{Answers, BranchChoice, Question, evaluate as evaluate_points};
 use armill_core::load::InputUncertainty;
 use armill_core::nalgebra::{Unit, Vector3};
+use armill_core::robot::{JointCompliance, PostureName, Unreachable};
 use armill_core::source::Arm;
+use armill_core::spatial::Wrench;
+use armill_core::watch::{Cancelled, Watch};
 use armill_core::workpiece::common_normal;
 use armill_study::branch_choice_of;
-use numpy::PyArrayDyn;
+use numpy::{PyArrayDyn, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
+use rayon::prelude::*;
 
-use crate::arrays::{Given, array, wrong_shape};
+use crate::arrays::{Given, wrong_shape};
 use crate::errors::{exception, refused};
+use crate::html;
 use crate::poses::{Forces, Poses, one_pose};
-use crate::postures::{FirstWrong, effort, index_of, reason_of};
+use crate::postures::{FirstWrong, effort};
+use crate::results::{Stored, Words, item_of};
 use crate::robot::Robot;
-use crate::threads::{ThreadCount, work};
+use crate::threads::{Effort, ThreadCount, work};
 
 /// The posture of an arm and the deviation of the tool at each of n poses under each load case.
 ///
-/// Poses that the arm cannot reach have NaN in every array of floats, -1 in `worst_case`, False in `within_limits` and an
-/// empty text in `branch`; `reachable` is the mask of the others.
+/// Arrays have the leading axes of the poses, after those of `compliances`; lists have one item per pose, in the same
+/// order. Poses that the arm cannot reach have NaN in every array of floats, -1 in `worst_case`, False in `within_limits`
+/// and an empty text in `branch`; `reachable` is the mask of the others.
 #[pyclass(frozen, name = "Evaluation", module = "armill")]
 pub(crate) struct PoseEvaluations {
-    answers: Answers,
-    single: bool,
-    single_case: bool,
+    reachable: Stored<bool>,
+    within_limits: Stored<bool>,
+    worst_case: Stored<i64>,
+    joints: Stored<f64>,
+    deviation: Stored<f64>,
+    in_plane: Stored<f64>,
+    in_plane_uncertainty: Stored<f64>,
+    normal_deviation: Stored<f64>,
+    magnitude: Stored<f64>,
+    contributions: Stored<f64>,
+    branch: Words<PostureName>,
+    singularity: Words<&'static str>,
+    reason: Words<Unreachable>,
+}
+
+/// The options of an evaluation.
+pub(crate) struct EvaluationOptions<'a, 'py> {
+    /// The words of a branch.
+    pub branch: &'a str,
+    /// (3,)
+    pub normal: Option<&'a Bound<'py, PyAny>>,
+    /// (dof,)
+    pub home: Option<&'a Bound<'py, PyAny>>,
+    /// Whether each pose has a load case of its own.
+    pub paired: bool,
+    /// (..., dof), in place of those of the robot.
+    pub compliances: Option<&'a Bound<'py, PyAny>>,
+    /// All processors if not given.
+    pub threads: Option<ThreadCount>,
 }
 
 /// Evaluates poses with the kernel.
 pub(crate) fn evaluate(
     robot: &Robot,
     (poses, forces, tool): (&Bound<'_, PyAny>, &Bound<'_, PyAny>, Option<&Bound<'_, PyAny>>),
-    (branch, normal, home): (&str, Option<&Bound<'_, PyAny>>, Option<&Bound<'_, PyAny>>),
-    threads: Option<ThreadCount>,
+    options: &EvaluationOptions<'_, '_>,
 ) -> PyResult<PoseEvaluations> {
     let py = poses.py();
     let poses = Poses::of(poses, "poses")?;
-    let forces = Forces::of(forces)?;
+    let forces = Forces::of(forces, options.paired.then_some(&poses.batch.axes))?;
     let flange_from_tool = one_pose(tool, "tool")?;
-    let home = robot.home(home)?;
-    let arm = Arm {
-        robot: robot.arm(),
-        compliance: robot.compliances(py)?,
-        model: &robot.model,
-        flange_from_tool: &flange_from_tool,
-    };
-    let question = Question {
-        arm,
+    let home = robot.home(options.home)?;
+    let springs = robot.springs(py, options.compliances)?;
+    let template = Question {
+        arm: Arm {
+            robot: robot.arm(),
+            compliance: &[],
+            model: &springs.model,
+            flange_from_tool: &flange_from_tool,
+        },
         home: home.as_deref(),
-        cases: &forces.cases,
+        cases: &[],
         uncertainty: InputUncertainty::NONE,
-        normal: match normal {
+        normal: match options.normal {
             Some(normal) => direction(normal)?,
             None => against_tool(py, &poses)?,
         },
-        choice: choice(py, robot, branch)?,
+        choice: choice(py, robot, options.branch)?,
     };
     let (matrices, count) = (poses.values(), poses.batch.count);
+    let samples = &*springs.samples;
+    let work_of = match (samples, forces.paired) {
+        ([_], false) => effort(robot, count),
+        _ => Effort::Long,
+    };
+    let shape = Shape {
+        axes: [&*springs.axes, &poses.batch.axes].concat(),
+        case_axes: forces.result_axes().to_vec(),
+        dof: robot.dof(),
+        contributors: springs.model.contributors(robot.dof()).len(),
+    };
     let wrong = FirstWrong::default();
-    let answers = work(py, threads, effort(robot, count), |watch| {
-        evaluate_points(&question, count, |i| wrong.pose(matrices, i), watch)
+    let found = work(py, options.threads, work_of, |watch| {
+        let of = |compliance: &[JointCompliance]| {
+            let arm = Arm {
+                compliance,
+                ..template.arm
+            };
+            let pose = |i| wrong.pose(matrices, i);
+            answers(&Question { arm, ..template }, (&forces, count), pose, watch)
+        };
+        let answers = match samples {
+            [compliance] => of(compliance)?,
+            _ => {
+                let each: Result<Vec<_>, Cancelled> = samples.par_iter().map(|sample| of(sample)).collect();
+                each?.into_iter().flatten().collect()
+            }
+        };
+        Ok(PoseEvaluations::of(answers, shape))
     })?;
     wrong.check(py, &poses, "poses")?;
-    Ok(PoseEvaluations {
-        answers: answers.map_err(|cancelled| exception(py, &cancelled.into()))?,
-        single: poses.batch.single,
-        single_case: forces.single,
-    })
+    found.map_err(|cancelled: Cancelled| exception(py, &cancelled.into()))
+}
+
+/// The answers at `count` poses: all together, or one by one where each has a load case of its own.
+fn answers(
+    template: &Question<'_>,
+    (forces, count): (&Forces, usize),
+    pose: impl Fn(usize) -> armill_core::frame::Isometry + Sync,
+    watch: Watch<'_>,
+) -> Result<Vec<Answers>, Cancelled> {
+    let under = |cases: &[Wrench], count, first: usize| {
+        let question = Question { cases, ..*template };
+        evaluate_points(&question, count, |i| pose(first + i), watch)
+    };
+    if !forces.paired {
+        return Ok(vec![under(&forces.cases, count, 0)?]);
+    }
+    let cases = forces.cases.par_iter().enumerate();
+    cases
+        .map(|(i, case)| under(slice::from_ref(case), 1, i))
+        .collect()
 }
 
 fn choice(py: Python<'_>, robot: &Robot, branch: &str) -> PyResult<BranchChoice> {
@@ -99,111 +176,147 @@ fn against_tool(py: Python<'_>, poses: &Poses<'_>) -> PyResult<Unit<Vector3<f64>
     })
 }
 
+/// The lengths of the axes of an evaluation.
+struct Shape {
+    axes: Vec<usize>,
+    case_axes: Vec<usize>,
+    dof: usize,
+    contributors: usize,
+}
+
 impl PoseEvaluations {
-    /// A number for each pose.
-    fn each<'py, T: numpy::Element>(
-        &self,
-        py: Python<'py>,
-        of: impl Fn(Option<&armill_core::kernel::Evaluation>) -> T,
-    ) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
-        let values = self.answers.points.iter().map(|point| of(point.as_ref().ok()));
-        array(py, &self.shape(&[]), values.collect())
-    }
-
-    /// A number for each pose, NaN where it is unreachable.
-    fn each_reachable<'py>(
-        &self,
-        py: Python<'py>,
-        of: impl Fn(&armill_core::kernel::Evaluation) -> f64,
-    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.each(py, |point| point.map_or(f64::NAN, &of))
-    }
-
-    /// `values` with `width` numbers for each pose, NaN where it is unreachable.
-    fn nan_where_unreachable<'py>(
-        &self,
-        py: Python<'py>,
-        (rest, width): (&[usize], usize),
-        values: impl Iterator<Item = f64>,
-    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let mut values: Vec<f64> = values.collect();
-        for (index, point) in self.answers.points.iter().enumerate() {
-            if point.is_err() {
-                values[index * width..][..width].fill(f64::NAN);
+    /// The answers at consecutive poses, with NaN at those that are unreachable.
+    fn of(mut stretches: Vec<Answers>, shape: Shape) -> PoseEvaluations {
+        let of_axes = |rest: &[usize]| [&*shape.axes, rest].concat();
+        let mut found = PoseEvaluations {
+            reachable: Stored::new(of_axes(&[]), Vec::new()),
+            within_limits: Stored::new(of_axes(&[]), Vec::new()),
+            worst_case: Stored::new(of_axes(&[]), Vec::new()),
+            joints: Stored::new(of_axes(&[shape.dof]), Vec::new()),
+            deviation: Stored::new(of_axes(&[&*shape.case_axes, &[3]].concat()), Vec::new()),
+            in_plane: Stored::new(of_axes(&[]), Vec::new()),
+            in_plane_uncertainty: Stored::new(of_axes(&[]), Vec::new()),
+            normal_deviation: Stored::new(of_axes(&[]), Vec::new()),
+            magnitude: Stored::new(of_axes(&[]), Vec::new()),
+            contributions: Stored::new(of_axes(&[shape.contributors]), Vec::new()),
+            branch: Words::Found(Vec::new()),
+            singularity: Words::Found(Vec::new()),
+            reason: Words::Found(Vec::new()),
+        };
+        let (mut branches, mut singularities, mut reasons) = (Vec::new(), Vec::new(), Vec::new());
+        for stretch in &mut stretches {
+            let widths = [stretch.joint_count, 3 * stretch.case_count, stretch.share_count];
+            let (mut joints, mut shares) = (mem::take(&mut stretch.joints), mem::take(&mut stretch.shares));
+            let mut deviations: Vec<f64> = stretch.deviations.iter().flat_map(|d| d.data.0[0]).collect();
+            for (i, point) in stretch.points.iter().enumerate() {
+                let reached = point.as_ref().ok();
+                let number = |of: fn(&armill_core::kernel::Evaluation) -> f64| reached.map_or(f64::NAN, of);
+                found.reachable.values.push(reached.is_some());
+                found
+                    .within_limits
+                    .values
+                    .push(reached.is_some_and(armill_core::kernel::Evaluation::within_limits));
+                found
+                    .worst_case
+                    .values
+                    .push(reached.map_or(-1, |point| point.worst_case as i64));
+                found.in_plane.values.push(number(|point| point.in_plane));
+                found
+                    .in_plane_uncertainty
+                    .values
+                    .push(number(|point| point.in_plane_uncertainty));
+                found.normal_deviation.values.push(number(|point| point.normal));
+                found.magnitude.values.push(number(|point| point.full));
+                branches.push(reached.map(|point| point.name));
+                singularities.push(reached.and_then(|point| Some(point.singularity?.word())));
+                reasons.push(point.as_ref().err().copied());
+                if reached.is_none() {
+                    let all = [&mut joints, &mut deviations, &mut shares];
+                    for (numbers, width) in all.into_iter().zip(widths) {
+                        numbers[i * width..][..width].fill(f64::NAN);
+                    }
+                }
+            }
+            let all = [&mut found.joints, &mut found.deviation, &mut found.contributions];
+            for (stored, numbers) in all.into_iter().zip([joints, deviations, shares]) {
+                if stored.values.is_empty() {
+                    stored.values = numbers;
+                } else {
+                    stored.values.extend(numbers);
+                }
             }
         }
-        array(py, &self.shape(rest), values)
-    }
-
-    fn shape(&self, rest: &[usize]) -> Vec<usize> {
-        let first = (!self.single).then_some(self.answers.points.len());
-        first.into_iter().chain(rest.iter().copied()).collect()
+        found.branch = Words::Found(branches);
+        found.singularity = Words::Found(singularities);
+        found.reason = Words::Found(reasons);
+        found
     }
 }
+
+/// The arrays, then the words: branch, singularity, reason.
+type Parts<'py> = (
+    [PyReadonlyArrayDyn<'py, bool>; 2],
+    PyReadonlyArrayDyn<'py, i64>,
+    [PyReadonlyArrayDyn<'py, f64>; 7],
+    [Vec<Option<String>>; 3],
+);
 
 #[pymethods]
 impl PoseEvaluations {
     /// -> (n,) bool: whether the arm reaches each pose; all else is valid only where this is True.
     #[getter]
     fn reachable<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<bool>>> {
-        self.each(py, |point| point.is_some())
+        self.reachable.array(py)
     }
 
     /// -> (n, dof) joint positions, rad (m); NaN where unreachable.
     #[getter]
     fn joints<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let dof = self.answers.joint_count;
-        self.nan_where_unreachable(py, (&[dof], dof), self.answers.joints.iter().copied())
+        self.joints.array(py)
     }
 
-    /// -> (n, cases, 3) deviations of the TCP, m, base axes; NaN where unreachable.
+    /// -> (n, cases, 3) deviations of the TCP, m, base axes; NaN where unreachable. (n, 3) if paired.
     #[getter]
     fn deviation<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let cases = (!self.single_case).then_some(self.answers.case_count);
-        let rest: Vec<usize> = cases.into_iter().chain([3]).collect();
-        let deviations = self.answers.deviations.iter();
-        let values = deviations.flat_map(|deviation| deviation.data.0[0]);
-        self.nan_where_unreachable(py, (&rest, 3 * self.answers.case_count), values)
+        self.deviation.array(py)
     }
 
     /// -> (n,) largest in-plane deviation of all load cases, m; NaN where unreachable.
     #[getter]
     fn in_plane<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.each_reachable(py, |point| point.in_plane)
+        self.in_plane.array(py)
     }
 
     /// -> (n,) standard uncertainty of the in-plane deviation from the compliances, m; NaN where unreachable.
     #[getter]
     fn in_plane_uncertainty<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.each_reachable(py, |point| point.in_plane_uncertainty)
+        self.in_plane_uncertainty.array(py)
     }
 
     /// -> (n,) deviation along the outward normal, of the load case where its size is largest, m; NaN where unreachable.
     #[getter]
     fn normal_deviation<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.each_reachable(py, |point| point.normal)
+        self.normal_deviation.array(py)
     }
 
     /// -> (n,) largest length of the deviation vector of all load cases, m; NaN where unreachable.
     #[getter]
     fn magnitude<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.each_reachable(py, |point| point.full)
+        self.magnitude.array(py)
     }
 
     /// -> (n,) int: load case with the largest in-plane deviation, the row of `forces` from 0; -1 where unreachable.
     ///
-    /// Tables and JSON have the same load case as `worst_case`, numbered from 1.
+    /// 0 everywhere if paired. Tables and JSON have the same load case as `worst_case`, numbered from 1.
     #[getter]
     fn worst_case<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<i64>>> {
-        self.each(py, |point| point.map_or(-1, |point| point.worst_case as i64))
+        self.worst_case.array(py)
     }
 
     /// -> (n,) bool: whether every joint is inside its limits.
     #[getter]
     fn within_limits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<bool>>> {
-        self.each(py, |point| {
-            point.is_some_and(armill_core::kernel::Evaluation::within_limits)
-        })
+        self.within_limits.array(py)
     }
 
     /// -> (n, contributors) contribution of each joint, then of base, flange and tool with springs, to `in_plane`, m.
@@ -211,48 +324,115 @@ impl PoseEvaluations {
     /// NaN where unreachable. `Robot.contributors` has the names.
     #[getter]
     fn contributions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let count = self.answers.share_count;
-        self.nan_where_unreachable(py, (&[count], count), self.answers.shares.iter().copied())
+        self.contributions.array(py)
     }
 
     /// -> list of n str: the branch used at each pose; empty where unreachable.
     #[getter]
     fn branch(&self) -> Vec<String> {
-        let name = |point: &Result<armill_core::kernel::Evaluation, _>| {
-            point
-                .as_ref()
-                .map_or_else(|_| String::new(), |point| point.name.to_string())
-        };
-        self.answers.points.iter().map(name).collect()
+        self.branch.texts()
     }
 
     /// -> list of n str: the singularity that the arm is near, one word; empty where it is near none.
     #[getter]
-    fn singularity(&self) -> Vec<&'static str> {
-        let word = |point: &Result<armill_core::kernel::Evaluation, _>| {
-            let singularity = point.as_ref().ok().and_then(|point| point.singularity);
-            singularity.map_or("", |singularity| singularity.word())
-        };
-        self.answers.points.iter().map(word).collect()
+    fn singularity(&self) -> Vec<String> {
+        self.singularity.texts()
     }
 
-    /// i -> str or None: why the arm does not reach pose i, and by how much.
-    #[pyo3(signature = (i=0))]
-    fn reason(&self, i: isize) -> PyResult<Option<String>> {
-        let i = index_of(i, self.answers.points.len())?;
-        Ok(reason_of(&self.answers.points[i]))
+    /// i -> str or None: why the arm does not reach pose i, and by how much; i has an index for each axis if there are several.
+    #[pyo3(signature = (i=None))]
+    fn reason(&self, i: Option<&Bound<'_, PyAny>>) -> PyResult<Option<String>> {
+        let i = i.map_or(Ok(0), |i| item_of(&self.reachable.shape, i))?;
+        Ok(self.reason.get(i))
     }
 
     /// -> int: how many poses were evaluated.
     fn __len__(&self) -> usize {
-        self.answers.points.len()
+        self.reachable.values.len()
     }
 
     fn __repr__(&self) -> String {
-        let reachable = self.answers.points.iter().filter(|point| point.is_ok()).count();
+        let reachable = self
+            .reachable
+            .values
+            .iter()
+            .filter(|reachable| **reachable)
+            .count();
         format!(
             "<armill.Evaluation: {reachable} of {} poses reachable>",
-            self.answers.points.len()
+            self.reachable.values.len()
         )
+    }
+
+    fn _repr_html_(&self) -> String {
+        let numbers = [
+            ("in_plane", &self.in_plane),
+            ("normal_deviation", &self.normal_deviation),
+            ("magnitude", &self.magnitude),
+        ];
+        let rows = numbers.map(|(name, stored)| {
+            let known = stored.values.iter().filter(|value| !value.is_nan());
+            let (least, greatest) = known.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+                (low.min(*value), high.max(*value))
+            });
+            let shown = |value: f64| match value.is_finite() {
+                true => format!("{value:.3e}"),
+                false => String::new(),
+            };
+            vec![name.to_owned(), shown(least), shown(greatest)]
+        });
+        html::table(&self.__repr__(), &["", "least, m", "greatest, m"], rows)
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyAny>,))> {
+        let (py, own) = (slf.py(), slf.get());
+        let parts = (
+            [own.reachable.array(py)?, own.within_limits.array(py)?],
+            own.worst_case.array(py)?,
+            [
+                own.joints.array(py)?,
+                own.deviation.array(py)?,
+                own.in_plane.array(py)?,
+                own.in_plane_uncertainty.array(py)?,
+                own.normal_deviation.array(py)?,
+                own.magnitude.array(py)?,
+                own.contributions.array(py)?,
+            ],
+            [own.branch.all(), own.singularity.all(), own.reason.all()],
+        );
+        Ok((
+            slf.get_type().getattr("_again")?,
+            (parts.into_pyobject(py)?.into_any(),),
+        ))
+    }
+
+    #[staticmethod]
+    fn _again(parts: Parts<'_>) -> PoseEvaluations {
+        let (flags, worst_case, numbers, [branch, singularity, reason]) = parts;
+        let [reachable, within_limits] = flags.map(|flags| Stored::of(&flags));
+        let [
+            joints,
+            deviation,
+            in_plane,
+            in_plane_uncertainty,
+            normal_deviation,
+            magnitude,
+            contributions,
+        ] = numbers.map(|numbers| Stored::of(&numbers));
+        PoseEvaluations {
+            reachable,
+            within_limits,
+            worst_case: Stored::of(&worst_case),
+            joints,
+            deviation,
+            in_plane,
+            in_plane_uncertainty,
+            normal_deviation,
+            magnitude,
+            contributions,
+            branch: Words::Read(branch),
+            singularity: Words::Read(singularity),
+            reason: Words::Read(reason),
+        }
     }
 }

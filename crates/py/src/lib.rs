@@ -2,13 +2,14 @@
 //!
 //! | module | contents |
 //! |---|---|
-//! | `robot` | the class `Robot`; `source`: the text that it is made from |
+//! | `robot_class` | the class `Robot`; `robot`: its arm and compliances; `source`: the text that it is made from |
 //! | `joint_positions`, `postures`, `evaluation` | results at many joint positions or poses |
-//! | `study`, `table` | the classes `Study` and `Result`; tables as Arrow |
+//! | `study`, `outcome`, `table` | the classes `Study`, `Result` and `Table`; `table_columns`: columns as arrays |
 //! | `placement_evaluations` | the class `PlacementEvaluations`: the cost of a path for many placements of its part |
 //! | `tool_path` | the class `ToolPath`: the moves of a program |
-//! | `answer` | commands as functions, and the command itself |
-//! | `arrays`, `poses` | conversion of numbers, poses and forces from and to arrays |
+//! | `answer` | commands as functions, and the command itself; `operands`, `robot_file`: robots and studies as files |
+//! | `arrays`, `poses`, `results` | conversion of numbers, poses and forces from and to arrays |
+//! | `html` | tables for notebooks |
 //! | `threads` | thread pools, release of the lock of Python, Ctrl-C |
 //! | `arithmetic` | whether two machines give the same bits |
 //! | `errors` | exceptions |
@@ -23,14 +24,21 @@ mod arithmetic;
 mod arrays;
 mod errors;
 mod evaluation;
+mod html;
 mod joint_positions;
+mod operands;
+mod outcome;
 mod placement_evaluations;
 mod poses;
 mod postures;
+mod results;
 mod robot;
+mod robot_class;
+mod robot_file;
 mod source;
 mod study;
 mod table;
+mod table_columns;
 mod threads;
 mod tool_path;
 
@@ -50,13 +58,15 @@ mod _armill {
     #[pymodule_export]
     use crate::evaluation::PoseEvaluations;
     #[pymodule_export]
+    use crate::outcome::Outcome;
+    #[pymodule_export]
     use crate::placement_evaluations::PlacementEvaluations;
     #[pymodule_export]
     use crate::postures::Postures;
     #[pymodule_export]
     use crate::robot::Robot;
     #[pymodule_export]
-    use crate::study::{Outcome, Study};
+    use crate::study::Study;
     #[pymodule_export]
     use crate::table::Table;
     #[pymodule_export]

@@ -1,21 +1,27 @@
 //! The class `PlacementEvaluations`: the cost of a path for each of many placements of its part.
 
 use armill_core::optimize::Score;
+use armill_core::robot::Branch;
 use armill_plan::place::{PlacementParameters, PlacementScores, PlacementSearch};
 use armill_study::Study;
 use armill_study::file::placement::PlaceTable;
-use numpy::PyArrayDyn;
+use numpy::{PyArrayDyn, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
 
 use crate::arrays::{Batch, Given, array, wrong_shape};
 use crate::errors::exception;
+use crate::results::{Stored, Words};
 use crate::threads::{Effort, ThreadCount, work};
 
 /// The cost of a path for each of n placements of its part; `cost` is infinite where a point is unreachable.
 #[pyclass(frozen, module = "armill")]
 pub(crate) struct PlacementEvaluations {
-    scores: PlacementScores,
-    single: bool,
+    n_unreachable: Stored<i64>,
+    cost: Stored<f64>,
+    cost_of_reachable: Stored<f64>,
+    branch: Words<Branch>,
+    point_count: usize,
+    case_count: usize,
 }
 
 /// Fewest and most numbers of a placement: without and with the spin of the tool, and the rail.
@@ -42,10 +48,10 @@ pub(crate) fn evaluate(
     threads: Option<ThreadCount>,
 ) -> PyResult<PlacementEvaluations> {
     let py = places.py();
-    let expected = "(n, 6), (n, 7) or (n, 8), or one without the first axis";
+    let expected = "(..., 6), (..., 7) or (..., 8)";
     let given = Given::of(places, "places", &expected)?;
     let length = given.shape().last().copied().unwrap_or(0);
-    if !NUMBERS.contains(&length) || given.shape().len() > 2 {
+    if !NUMBERS.contains(&length) {
         return Err(wrong_shape(py, "places", &expected, given.shape()));
     }
     given.finite(py, "places")?;
@@ -59,10 +65,8 @@ pub(crate) fn evaluate(
     let scores = work(py, threads, Effort::Long, |watch| {
         placing(study, analysis)?.evaluate(&places, watch)
     })?;
-    Ok(PlacementEvaluations {
-        scores: scores.map_err(|error| exception(py, &error))?,
-        single: batch.single,
-    })
+    let scores = scores.map_err(|error| exception(py, &error))?;
+    Ok(PlacementEvaluations::of(&scores, &batch.axes))
 }
 
 fn placing(study: &Study, analysis: Option<String>) -> Result<PlacementSearch<'_>, armill_study::StudyError> {
@@ -74,82 +78,125 @@ fn placing(study: &Study, analysis: Option<String>) -> Result<PlacementSearch<'_
 }
 
 impl PlacementEvaluations {
-    fn each<'py, T: numpy::Element>(
-        &self,
-        py: Python<'py>,
-        of: impl Fn(&Score) -> T,
-    ) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
-        let scores = &self.scores.scores;
-        let count = [scores.len()];
-        let shape = if self.single { &[][..] } else { &count[..] };
-        array(py, shape, scores.iter().map(of).collect())
+    /// The scores of placements with these axes.
+    fn of(found: &PlacementScores, axes: &[usize]) -> PlacementEvaluations {
+        let number = |of: &dyn Fn(&Score) -> f64| {
+            Stored::new(axes.to_vec(), found.scores.iter().map(of).collect::<Vec<f64>>())
+        };
+        PlacementEvaluations {
+            n_unreachable: Stored::new(
+                axes.to_vec(),
+                found
+                    .scores
+                    .iter()
+                    .map(|score| score.unreachable as i64)
+                    .collect(),
+            ),
+            cost: number(&|score| match score.unreachable {
+                0 => score.cost,
+                _ => f64::INFINITY,
+            }),
+            cost_of_reachable: number(&|score| match score.unreachable < found.points {
+                true => score.cost,
+                false => f64::NAN,
+            }),
+            branch: Words::Found(found.scores.iter().map(|score| score.branch).collect()),
+            point_count: found.points,
+            case_count: found.cases,
+        }
     }
 }
+
+/// The arrays, the branches, the numbers of points and load cases.
+type Parts<'py> = (
+    PyReadonlyArrayDyn<'py, i64>,
+    [PyReadonlyArrayDyn<'py, f64>; 2],
+    Vec<Option<String>>,
+    [usize; 2],
+);
 
 #[pymethods]
 impl PlacementEvaluations {
     /// -> (n,) bool: whether the best branch reaches every point of the path.
     #[getter]
     fn reachable<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<bool>>> {
-        self.each(py, |score| score.unreachable == 0)
+        let values = self.n_unreachable.values.iter().map(|count| *count == 0);
+        array(py, &self.n_unreachable.shape, values.collect())
     }
 
     /// -> (n,) int: points of the path that the best branch does not reach.
     #[getter]
     fn n_unreachable<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<i64>>> {
-        self.each(py, |score| score.unreachable as i64)
+        self.n_unreachable.array(py)
     }
 
     /// -> (n,) value of the objective, m; infinite where a point of the path is unreachable.
     #[getter]
     fn cost<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.each(py, |score| match score.unreachable {
-            0 => score.cost,
-            _ => f64::INFINITY,
-        })
+        self.cost.array(py)
     }
 
     /// -> (n,) value of the objective over the reachable points alone, m; NaN where none is reachable.
     #[getter]
     fn cost_of_reachable<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let points = self.scores.points;
-        self.each(py, |score| {
-            if score.unreachable < points {
-                score.cost
-            } else {
-                f64::NAN
-            }
-        })
+        self.cost_of_reachable.array(py)
     }
 
     /// -> list of n str: the best branch; empty for an arm without named branches, and for holes.
     #[getter]
     fn branch(&self) -> Vec<String> {
-        let name = |score: &Score| score.branch.map_or_else(String::new, |branch| branch.to_string());
-        self.scores.scores.iter().map(name).collect()
+        self.branch.texts()
     }
 
     /// -> int: points of the path.
     #[getter]
     fn point_count(&self) -> usize {
-        self.scores.points
+        self.point_count
     }
 
     /// -> int: load cases at each point.
     #[getter]
     fn case_count(&self) -> usize {
-        self.scores.cases
+        self.case_count
     }
 
     fn __len__(&self) -> usize {
-        self.scores.scores.len()
+        self.cost.values.len()
     }
 
     fn __repr__(&self) -> String {
         format!(
             "<armill.PlacementEvaluations: {} placements of {} points>",
-            self.scores.scores.len(),
-            self.scores.points
+            self.__len__(),
+            self.point_count
         )
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyAny>,))> {
+        let (py, own) = (slf.py(), slf.get());
+        let parts = (
+            own.n_unreachable.array(py)?,
+            [own.cost.array(py)?, own.cost_of_reachable.array(py)?],
+            own.branch.all(),
+            [own.point_count, own.case_count],
+        );
+        Ok((
+            slf.get_type().getattr("_again")?,
+            (parts.into_pyobject(py)?.into_any(),),
+        ))
+    }
+
+    #[staticmethod]
+    fn _again(parts: Parts<'_>) -> PlacementEvaluations {
+        let (unreachable, costs, branch, [point_count, case_count]) = parts;
+        let [cost, cost_of_reachable] = costs.map(|cost| Stored::of(&cost));
+        PlacementEvaluations {
+            n_unreachable: Stored::of(&unreachable),
+            cost,
+            cost_of_reachable,
+            branch: Words::Read(branch),
+            point_count,
+            case_count,
+        }
     }
 }

@@ -7,26 +7,26 @@ use numpy::PyUntypedArray;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use crate::arrays::{Batch, Given, array, wrong_shape};
+use crate::arrays::{Batch, Given, array, place_of, wrong_shape};
 use crate::errors::refused;
 
 /// Numbers of a homogeneous matrix.
 const ENTRIES: usize = 16;
 
-/// Many poses, or a single one.
+/// Poses along any number of leading axes.
 pub(crate) struct Poses<'py> {
     /// The matrices.
     pub batch: Batch<'py>,
 }
 
 impl<'py> Poses<'py> {
-    /// The poses of `value`: (n, 4, 4) or (4, 4); spatialmath's `SE3`; a transform of scipy; a pair of a rotation of scipy
+    /// The poses of `value`: (..., 4, 4); spatialmath's `SE3`; a transform of scipy; a pair of a rotation of scipy
     /// and translations.
     pub(crate) fn of(value: &Bound<'py, PyAny>, name: &str) -> PyResult<Poses<'py>> {
         Poses::of_shape(value, name, None)
     }
 
-    /// As [`Poses::of`]; `expected` is the shape that messages name in place of (n, 4, 4) or (4, 4).
+    /// As [`Poses::of`]; `expected` is the shape that messages name in place of (..., 4, 4).
     fn of_shape(value: &Bound<'py, PyAny>, name: &str, expected: Option<&str>) -> PyResult<Poses<'py>> {
         let py = value.py();
         if let Ok(pair) = value.cast::<PyTuple>()
@@ -73,15 +73,11 @@ pub(crate) fn pose_at(values: &[f64], index: usize) -> Result<Isometry, PoseMatr
 /// The exception of a matrix that is not a pose.
 pub(crate) fn no_pose(
     py: Python<'_>,
-    (name, single): (&str, bool),
+    (name, axes): (&str, &[usize]),
     index: usize,
     why: PoseMatrixError,
 ) -> PyErr {
-    let which = if single {
-        name.to_owned()
-    } else {
-        format!("{name}[{index}]")
-    };
+    let which = format!("{name}{}", place_of(axes, index));
     let hint = "a pose is a rotation R and a translation t in m, [[R, t], [0, 1]]";
     refused(py, format!("{which} is not a valid pose: {why}"), hint)
 }
@@ -100,7 +96,7 @@ pub(crate) fn one_pose(value: Option<&Bound<'_, PyAny>>, name: &str) -> PyResult
             poses.batch.given.shape(),
         ));
     }
-    pose_at(poses.values(), 0).map_err(|why| no_pose(value.py(), (name, true), 0, why))
+    pose_at(poses.values(), 0).map_err(|why| no_pose(value.py(), (name, &[]), 0, why))
 }
 
 /// Matrices from rotations (n, 3, 3) and translations (n, 3).
@@ -135,25 +131,37 @@ fn composed<'py>(
 
 /// Load cases on the tool at the TCP, base axes.
 pub(crate) struct Forces {
-    /// At least one.
+    /// The load cases.
     pub cases: Vec<Wrench>,
-    /// Whether it is one case without the axis of cases; its result has no such axis either.
-    pub single: bool,
+    /// Their axes; a single case has none.
+    pub axes: Vec<usize>,
+    /// Whether each item has a load case of its own, instead of every item having all of them.
+    pub paired: bool,
 }
 
 impl Forces {
-    /// Forces (cases, 3) or (3,), or wrenches (cases, 6) or (6,): force N, then moment N m.
-    pub(crate) fn of(value: &Bound<'_, PyAny>) -> PyResult<Forces> {
-        const EXPECTED: &str = "(cases, 3), (cases, 6), (3,) or (6,)";
+    /// Forces (..., 3) or wrenches (..., 6): force N, then moment N m. Paired, they have the axes `items`.
+    ///
+    /// # Errors
+    /// Another shape; no load case; numbers that are not finite.
+    pub(crate) fn of(value: &Bound<'_, PyAny>, paired: Option<&[usize]>) -> PyResult<Forces> {
+        const EXPECTED: &str = "(..., 3) or (..., 6)";
         let py = value.py();
         let given = Given::of(value, "forces", &EXPECTED)?;
-        let (width, single) = match given.shape() {
-            [width @ (3 | 6)] => (*width, true),
-            [count, width @ (3 | 6)] if *count > 0 => (*width, false),
-            shape => return Err(wrong_shape(py, "forces", &EXPECTED, shape)),
+        let Some((width @ (3 | 6), axes)) = given.shape().split_last() else {
+            return Err(wrong_shape(py, "forces", &EXPECTED, given.shape()));
         };
+        if let Some(items) = paired
+            && items != axes
+        {
+            let message = format!("forces have the leading axes {axes:?}, the items {items:?}");
+            return Err(refused(py, message, "with `paired` give one force for each item"));
+        }
+        if paired.is_none() && given.values().is_empty() {
+            return Err(wrong_shape(py, "forces", &EXPECTED, given.shape()));
+        }
         given.finite(py, "forces")?;
-        let cases = given.values().chunks(width).map(|case| Wrench {
+        let cases = given.values().chunks(*width).map(|case| Wrench {
             force: Vector3::from_column_slice(&case[..3]),
             moment: case
                 .get(3..6)
@@ -161,12 +169,13 @@ impl Forces {
         });
         Ok(Forces {
             cases: cases.collect(),
-            single,
+            axes: axes.to_vec(),
+            paired: paired.is_some(),
         })
     }
 
-    /// The axis of cases in the shape of a result.
-    pub(crate) fn axis(&self) -> Option<usize> {
-        (!self.single).then_some(self.cases.len())
+    /// The axes of load cases in the shape of a result.
+    pub(crate) fn result_axes(&self) -> &[usize] {
+        if self.paired { &[] } else { &self.axes }
     }
 }

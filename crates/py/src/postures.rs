@@ -3,25 +3,33 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use armill_core::frame::Isometry;
-use armill_core::kernel::{PosturesAt, postures_at};
-use armill_core::robot::Unreachable;
-use numpy::PyArrayDyn;
-use pyo3::exceptions::PyIndexError;
+use armill_core::kernel::postures_at;
+use armill_core::robot::{PostureName, Unreachable};
+use numpy::{PyArrayDyn, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
+use pyo3::types::{PyList, PySlice};
 
-use crate::arrays::{array, array_of};
+use crate::arrays::array;
 use crate::errors::exception;
 use crate::poses::{Poses, no_pose, one_pose, pose_at};
+use crate::results::{Stored, Words, item_of};
 use crate::robot::Robot;
 use crate::threads::{Effort, ThreadCount, work};
 
 /// All postures of many poses: m postures of n poses, in the order of the poses; `postures[i]` are those of pose i.
+///
+/// Poses with several leading axes are numbered in the order of numpy; `postures[i, j]` is accepted too.
 #[pyclass(frozen, module = "armill")]
 pub(crate) struct Postures {
-    found: PosturesAt,
-    dof: usize,
+    /// Leading axes of the poses.
+    axes: Vec<usize>,
+    joints: Stored<f64>,
+    pose_index: Stored<i64>,
     /// Index of the first posture of each pose, then the number of postures.
-    offsets: Vec<i64>,
+    offsets: Stored<i64>,
+    within_limits: Stored<bool>,
+    branch: Words<PostureName>,
+    reasons: Words<Unreachable>,
 }
 
 /// Finds the postures.
@@ -43,15 +51,20 @@ pub(crate) fn inverse(
     })?;
     wrong.check(py, &poses, "poses")?;
     let found = found.map_err(|cancelled| exception(py, &cancelled.into()))?;
-    let mut offsets = vec![0];
-    for pose in &found.poses {
-        let before = offsets.last().copied().unwrap_or(0);
-        offsets.push(before + pose.map_or(0, |count| count as i64));
+    let (mut offsets, mut pose_index) = (vec![0], Vec::with_capacity(found.names.len()));
+    for (i, pose) in found.poses.iter().enumerate() {
+        pose_index.extend(std::iter::repeat_n(i as i64, pose.unwrap_or(0)));
+        offsets.push(pose_index.len() as i64);
     }
+    let count = found.names.len();
     Ok(Postures {
-        found,
-        dof: robot.dof(),
-        offsets,
+        axes: poses.batch.axes,
+        joints: Stored::new(vec![count, robot.dof()], found.joints),
+        pose_index: Stored::new(vec![count], pose_index),
+        offsets: Stored::new(vec![offsets.len()], offsets),
+        within_limits: Stored::new(vec![count], found.within_limits),
+        branch: Words::Found(found.names.into_iter().map(Some).collect()),
+        reasons: Words::Found(found.poses.into_iter().map(Result::err).collect()),
     })
 }
 
@@ -92,80 +105,123 @@ impl FirstWrong {
         }
         match pose_at(poses.values(), index) {
             Ok(_) => Ok(()),
-            Err(why) => Err(no_pose(py, (name, poses.batch.single), index, why)),
+            Err(why) => Err(no_pose(py, (name, &poses.batch.axes), index, why)),
         }
     }
 }
 
-/// The index in the sense of Python: from the end if negative.
-pub(crate) fn index_of(index: isize, count: usize) -> PyResult<usize> {
-    let from_begin = if index < 0 { index + count as isize } else { index };
-    usize::try_from(from_begin)
-        .ok()
-        .filter(|index| *index < count)
-        .ok_or_else(|| PyIndexError::new_err(format!("pose {index} does not exist: there are {count} poses")))
-}
-
-/// Why a pose is unreachable, in words.
-pub(crate) fn reason_of<T>(pose: &Result<T, Unreachable>) -> Option<String> {
-    pose.as_ref().err().map(ToString::to_string)
-}
+/// The arrays, then the words: branch, reasons.
+type Parts<'py> = (
+    Vec<usize>,
+    PyReadonlyArrayDyn<'py, f64>,
+    [PyReadonlyArrayDyn<'py, i64>; 2],
+    PyReadonlyArrayDyn<'py, bool>,
+    [Vec<Option<String>>; 2],
+);
 
 #[pymethods]
 impl Postures {
     /// -> (m, dof) joint positions of every posture, rad (m).
     #[getter]
     fn joints<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        array_of(py, &[self.found.names.len(), self.dof], &self.found.joints)
+        self.joints.array(py)
     }
 
     /// -> (m,) index of the pose of each posture.
     #[getter]
     fn pose_index<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<i64>>> {
-        let poses = self.found.poses.iter().enumerate();
-        let indices = poses.flat_map(|(i, pose)| std::iter::repeat_n(i as i64, pose.unwrap_or(0)));
-        array(py, &[self.found.names.len()], indices.collect())
+        self.pose_index.array(py)
     }
 
     /// -> (n + 1,) index of the first posture of each pose; `offsets[i]:offsets[i + 1]` are those of pose i.
     #[getter]
     fn offsets<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<i64>>> {
-        array_of(py, &[self.offsets.len()], &self.offsets)
+        self.offsets.array(py)
     }
 
     /// -> list of m str: the branch of each posture; without named branches, the side of its mid-position of each joint.
     #[getter]
     fn branch(&self) -> Vec<String> {
-        self.found.names.iter().map(ToString::to_string).collect()
+        self.branch.texts()
     }
 
     /// -> (m,) bool: whether every joint is inside its limits.
     #[getter]
     fn within_limits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<bool>>> {
-        array_of(py, &[self.found.names.len()], &self.found.within_limits)
+        self.within_limits.array(py)
     }
 
-    /// i -> (k, dof) joint positions of the k postures of pose i.
-    fn __getitem__<'py>(&self, py: Python<'py>, i: isize) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let i = index_of(i, self.found.poses.len())?;
-        let [first, last] = [self.offsets[i], self.offsets[i + 1]].map(|offset| offset as usize);
-        let joints = &self.found.joints[first * self.dof..last * self.dof];
-        array_of(py, &[last - first, self.dof], joints)
+    /// i -> (k, dof) joint positions of the k postures of pose i; a slice -> list of them.
+    fn __getitem__<'py>(&self, i: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let Ok(slice) = i.cast::<PySlice>() else {
+            return Ok(self.of_pose(i.py(), item_of(&self.axes, i)?)?.into_any());
+        };
+        let range = slice.indices(self.__len__() as isize)?;
+        let items = (0..range.slicelength as isize).map(|k| (range.start + k * range.step) as usize);
+        let items: Vec<_> = items
+            .map(|item| self.of_pose(i.py(), item))
+            .collect::<PyResult<_>>()?;
+        Ok(PyList::new(i.py(), items)?.into_any())
     }
 
     /// i -> str or None: why pose i is unreachable, and by how much.
-    fn reason(&self, i: isize) -> PyResult<Option<String>> {
-        let i = index_of(i, self.found.poses.len())?;
-        Ok(reason_of(&self.found.poses[i]))
+    #[pyo3(signature = (i=None))]
+    fn reason(&self, i: Option<&Bound<'_, PyAny>>) -> PyResult<Option<String>> {
+        let i = i.map_or(Ok(0), |i| item_of(&self.axes, i))?;
+        Ok(self.reasons.get(i))
     }
 
     /// -> int: number of poses.
     fn __len__(&self) -> usize {
-        self.found.poses.len()
+        self.offsets.values.len().saturating_sub(1)
     }
 
     fn __repr__(&self) -> String {
-        let (postures, poses) = (self.found.names.len(), self.found.poses.len());
+        let (postures, poses) = (self.pose_index.values.len(), self.__len__());
         format!("<armill.Postures: {postures} of {poses} poses>")
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyAny>,))> {
+        let (py, own) = (slf.py(), slf.get());
+        let parts = (
+            own.axes.clone(),
+            own.joints.array(py)?,
+            [own.pose_index.array(py)?, own.offsets.array(py)?],
+            own.within_limits.array(py)?,
+            [own.branch.all(), own.reasons.all()],
+        );
+        Ok((
+            slf.get_type().getattr("_again")?,
+            (parts.into_pyobject(py)?.into_any(),),
+        ))
+    }
+
+    #[staticmethod]
+    fn _again(parts: Parts<'_>) -> Postures {
+        let (axes, joints, [pose_index, offsets], within_limits, [branch, reasons]) = parts;
+        Postures {
+            axes,
+            joints: Stored::of(&joints),
+            pose_index: Stored::of(&pose_index),
+            offsets: Stored::of(&offsets),
+            within_limits: Stored::of(&within_limits),
+            branch: Words::Read(branch),
+            reasons: Words::Read(reasons),
+        }
+    }
+}
+
+impl Postures {
+    /// The joint positions of one pose.
+    fn of_pose<'py>(&self, py: Python<'py>, pose: usize) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        let dof = self.joints.shape.last().copied().unwrap_or(0);
+        let offset = |i: usize| self.offsets.values.get(i).map_or(0, |offset| *offset as usize);
+        let (first, last) = (offset(pose), offset(pose + 1));
+        let joints = self
+            .joints
+            .values
+            .get(first * dof..last * dof)
+            .unwrap_or_default();
+        array(py, &[joints.len() / dof.max(1), dof], joints.to_vec())
     }
 }

@@ -1,55 +1,64 @@
-//! The class `Robot`: a robot of the library or of a file, evaluated at many joint positions or poses at once.
+//! The robot behind the class `Robot`: its arm, its compliances, the order of its joints.
 //!
-//! `source` keeps what is needed to make it again in another process; results are made in `joint_positions`, `postures`
-//! and `evaluation`.
+//! `source` keeps what is needed to make it again in another process; `robot_class` has its methods.
 
+use std::borrow::Cow;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use armill_core::nalgebra::Vector3;
 use armill_core::robot::{JointCompliance, Robot as Arm};
 use armill_core::source::StiffnessModel;
-use armill_core::source::stiffness_model::FREE_FALL;
 use armill_formats::robot::RobotDescription;
-use armill_formats::robot::format::Format;
-use numpy::{PyArrayDyn, PyUntypedArray};
+use numpy::PyUntypedArray;
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyString};
+use pyo3::types::PyString;
 
-use crate::arrays::{Given, array, wrong_shape};
-use crate::errors::refused;
-use crate::evaluation::{self, PoseEvaluations};
-use crate::joint_positions;
-use crate::postures::{self, Postures};
-use crate::source::{self, GivenCompliance, RobotSource};
-use crate::threads::ThreadCount;
+use crate::arrays::{Batch, Given, wrong_shape};
+use crate::errors::{refused, wrong_type};
+use crate::source::RobotSource;
 
 /// A robot: its kinematic chain, its joints and its compliances. It is immutable.
 #[pyclass(frozen, module = "armill")]
 pub(crate) struct Robot {
-    source: Arc<RobotSource>,
+    pub(crate) source: Arc<RobotSource>,
     pub(crate) description: RobotDescription,
     pub(crate) model: StiffnessModel,
 }
 
 impl Robot {
-    fn of(source: RobotSource, description: RobotDescription) -> Robot {
-        let model = StiffnessModel {
-            structure: description.robot.structure().clone(),
-            gravity: None,
-            load_dependent: false,
-            ..StiffnessModel::DRIVES.clone()
-        };
+    pub(crate) fn of(source: RobotSource, description: RobotDescription) -> Robot {
         Robot {
             source: Arc::new(source),
+            model: model_of(&description.robot),
             description,
-            model,
         }
     }
 
-    fn read(py: Python<'_>, source: RobotSource) -> PyResult<Robot> {
+    /// The robot of a text.
+    ///
+    /// # Errors
+    /// The problems of the text.
+    pub(crate) fn read(py: Python<'_>, source: RobotSource) -> PyResult<Robot> {
         let description = source.read(py)?;
         Ok(Robot::of(source, description))
+    }
+
+    /// `value` itself if it is a robot; otherwise the robot of this name or path.
+    ///
+    /// # Errors
+    /// Neither a robot nor a path; an unknown robot.
+    pub(crate) fn given(value: &Bound<'_, PyAny>) -> PyResult<Py<Robot>> {
+        let py = value.py();
+        if let Ok(robot) = value.cast::<Robot>() {
+            return Ok(robot.clone().unbind());
+        }
+        let Ok(path) = value.extract::<PathBuf>() else {
+            let kind = value.get_type().name()?;
+            return Err(wrong_type(format!(
+                "robot: expected a Robot, a name of the library or a path, given {kind}"
+            )));
+        };
+        Py::new(py, Robot::read(py, RobotSource::load(py, &path)?)?)
     }
 
     pub(crate) fn arm(&self) -> &Arm {
@@ -71,6 +80,53 @@ impl Robot {
         })
     }
 
+    /// The compliances of its joints, or those given in their place: (dof,) or samples (..., dof).
+    ///
+    /// # Errors
+    /// Joint compliances that are not known; given ones of another shape, or that are not compliances.
+    pub(crate) fn springs(&self, py: Python<'_>, given: Option<&Bound<'_, PyAny>>) -> PyResult<Springs<'_>> {
+        let Some(given) = given else {
+            return Ok(Springs {
+                axes: Vec::new(),
+                samples: vec![self.compliances(py)?.to_vec()],
+                model: Cow::Borrowed(&self.model),
+            });
+        };
+        let batch = Batch::of(given, "compliances", &[self.dof()])?;
+        batch.given.finite(py, "compliances")?;
+        let mut springs = Springs {
+            axes: batch.axes,
+            samples: Vec::with_capacity(batch.count),
+            model: Cow::Borrowed(&self.model),
+        };
+        for values in batch.given.values().chunks(self.dof()) {
+            let sample: Vec<JointCompliance> = values
+                .iter()
+                .map(|value| JointCompliance {
+                    value: *value,
+                    standard_uncertainty: 0.0,
+                })
+                .collect();
+            let arm = self.arm().clone().with_other_compliance(sample.clone());
+            let arm = arm.map_err(|error| refused(py, error.to_string(), COMPLIANCE_HINT))?;
+            if springs.samples.is_empty() {
+                springs.model = Cow::Owned(model_of(&arm));
+            }
+            springs.samples.push(sample);
+        }
+        Ok(springs)
+    }
+
+    /// Joint positions (..., dof), finite; columns of a data frame in the order of the joints.
+    ///
+    /// # Errors
+    /// Another shape, named columns that are not the joints, numbers that are not finite.
+    pub(crate) fn joints<'py>(&self, joints: &Bound<'py, PyAny>) -> PyResult<Batch<'py>> {
+        let batch = Batch::of(&self.in_joint_order(joints)?, "joints", &[self.dof()])?;
+        batch.given.finite(joints.py(), "joints")?;
+        Ok(batch)
+    }
+
     /// The joint positions of a rail, and those that redundant joints prefer.
     pub(crate) fn home(&self, value: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Vec<f64>>> {
         value.map(|value| self.one_a_joint(value, "home")).transpose()
@@ -80,7 +136,7 @@ impl Robot {
     ///
     /// # Errors
     /// Named columns that are not the joints.
-    pub(crate) fn in_joint_order<'py>(&self, joints: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    fn in_joint_order<'py>(&self, joints: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         if joints.cast::<PyUntypedArray>().is_ok() || !joints.hasattr("columns")? {
             return Ok(joints.clone());
         }
@@ -110,7 +166,7 @@ impl Robot {
     }
 
     /// A number for each joint.
-    fn one_a_joint(&self, value: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<f64>> {
+    pub(crate) fn one_a_joint(&self, value: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<f64>> {
         let expected = format!("({},)", self.dof());
         let given = Given::of(value, name, &expected)?;
         if given.shape() != [self.dof()] {
@@ -119,324 +175,38 @@ impl Robot {
         given.finite(value.py(), name)?;
         Ok(given.values().to_vec())
     }
-}
 
-type Floats<'py> = PyResult<Bound<'py, PyArrayDyn<f64>>>;
-type Optional<'a, 'py> = Option<&'a Bound<'py, PyAny>>;
-
-#[pymethods]
-impl Robot {
-    /// name or path -> Robot: from the library (`yaskawa/mh12`), or from a robot file of any format (TOML, URDF, xacro, OPW,
-    /// Denavit-Hartenberg, chain).
-    #[staticmethod]
-    fn load(py: Python<'_>, robot: PathBuf) -> PyResult<Robot> {
-        Robot::read(py, RobotSource::load(py, &robot)?)
-    }
-
-    /// path -> Robot: from a URDF or xacro file; `flange` is the name of a link, by default the end of the longest chain.
-    #[staticmethod]
-    #[pyo3(signature = (path, flange=None))]
-    fn from_urdf(py: Python<'_>, path: PathBuf, flange: Option<String>) -> PyResult<Robot> {
-        Robot::read(py, RobotSource::urdf(py, &path, flange)?)
-    }
-
-    /// text -> Robot: from the text of a robot file; `format` is `armill`, `urdf`, `opw`, `dh` or `chain`.
-    #[staticmethod]
-    #[pyo3(signature = (text, format, name="robot", flange=None))]
-    fn from_text(
-        py: Python<'_>,
-        text: String,
-        format: &str,
-        name: &str,
-        flange: Option<String>,
-    ) -> PyResult<Robot> {
-        let format: Format = format
-            .parse()
-            .map_err(|message: String| refused(py, message, "give the format of the text"))?;
-        Robot::read(py, RobotSource::text(format, name, text, flange))
-    }
-
-    /// (dof, 4) rows a, alpha, d, theta -> Robot: Denavit-Hartenberg, m and rad, at the controller's zero.
-    ///
-    /// `convention` is `standard` or `modified` (Craig); `prismatic` lists the joints, from 0, that move along d; `limits`
-    /// (dof, 2) in rad or m.
-    #[staticmethod]
-    #[pyo3(signature = (rows, convention, *, prismatic=Vec::new(), limits=None, name="robot"))]
-    fn from_dh(
-        py: Python<'_>,
-        rows: &Bound<'_, PyAny>,
-        convention: &str,
-        prismatic: Vec<usize>,
-        limits: Optional<'_, '_>,
-        name: &str,
-    ) -> PyResult<Robot> {
-        let text = source::dh_text(py, (rows, convention), &prismatic, limits)?;
-        Robot::read(py, RobotSource::text(Format::Dh, name, text, None))
-    }
-
-    /// seven lengths in m, (6,) offsets in rad, (6,) signs -> Robot: an ortho-parallel arm with a spherical wrist (OPW), with
-    /// the parameters of MoveIt.
-    #[staticmethod]
-    #[pyo3(signature = (*, a1, a2, b, c1, c2, c3, c4, offsets=[0.0; 6], signs=[1; 6], name="robot"))]
-    fn from_opw(
-        py: Python<'_>,
-        a1: f64,
-        a2: f64,
-        b: f64,
-        c1: f64,
-        c2: f64,
-        c3: f64,
-        c4: f64,
-        offsets: [f64; 6],
-        signs: [i64; 6],
-        name: &str,
-    ) -> PyResult<Robot> {
-        let text = source::opw_text([a1, a2, b, c1, c2, c3, c4], offsets, signs);
-        Robot::read(py, RobotSource::text(Format::Opw, name, text, None))
-    }
-
-    /// -> str: name in the library, or of its file.
-    #[getter]
-    fn name(&self) -> &str {
-        self.arm().name()
-    }
-
-    /// -> str: manufacturer and model.
-    #[getter]
-    fn title(&self) -> &str {
-        &self.description.title
-    }
-
-    /// -> int: number of joints.
-    #[getter]
+    /// Number of joints.
     pub(crate) fn dof(&self) -> usize {
         self.arm().joints().len()
     }
 
-    /// -> list of str, one per joint: the names of the manufacturer.
-    #[getter]
-    fn joint_names(&self) -> Vec<String> {
-        self.arm()
-            .joints()
-            .iter()
-            .map(|joint| joint.name.clone())
-            .collect()
+    /// The names of the manufacturer.
+    pub(crate) fn joint_names(&self) -> Vec<String> {
+        let joints = self.arm().joints().iter();
+        joints.map(|joint| joint.name.clone()).collect()
     }
+}
 
-    /// -> list of str: names along the axis of `contributions`: the joints, then those of `base`, `flange`, `tool` with springs.
-    #[getter]
-    fn contributors(&self) -> Vec<String> {
-        self.model.contributor_names(self.arm().joints())
-    }
+/// What a refused compliance should be.
+pub(crate) const COMPLIANCE_HINT: &str = "rad/(N m), one per joint, 0 or more";
 
-    /// -> (dof, 2) lower and upper limit, rad (m): minus and plus infinity for a joint without limits.
-    #[getter]
-    fn limits<'py>(&self, py: Python<'py>) -> Floats<'py> {
-        let limits = self.arm().joints().iter().flat_map(|joint| match joint.limits {
-            Some(limits) => [limits.lower, limits.upper],
-            None => [f64::NEG_INFINITY, f64::INFINITY],
-        });
-        array(py, &[self.dof(), 2], limits.collect())
-    }
+/// Joint compliances of one or several samples, and the other parts of the model.
+pub(crate) struct Springs<'a> {
+    /// The axes of the samples; none for a single one.
+    pub axes: Vec<usize>,
+    /// Each with one compliance per joint.
+    pub samples: Vec<Vec<JointCompliance>>,
+    /// Torque curves and covariance are those of the file only for its own compliances.
+    pub model: Cow<'a, StiffnessModel>,
+}
 
-    /// -> (dof,) compliance of each joint, rad/(N m) (prismatic: m/N); None if not known.
-    #[getter]
-    fn joint_compliance<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyArrayDyn<f64>>>> {
-        let known = self.arm().compliance();
-        let values = known.map(|all| all.iter().map(|joint| joint.value).collect());
-        values.map(|values| array(py, &[self.dof()], values)).transpose()
-    }
-
-    /// (dof,) compliances, (dof,) standard uncertainties -> Robot: the same with other joint compliances, rad/(N m) (m/N).
-    ///
-    /// `source` states where the compliances come from, for `to_toml`; by default "given". Torque curves and covariance of
-    /// the file are dropped: they belong to the compliances that are replaced.
-    #[pyo3(signature = (compliance, standard_uncertainty=None, *, source=None))]
-    fn with_compliance(
-        &self,
-        py: Python<'_>,
-        compliance: &Bound<'_, PyAny>,
-        standard_uncertainty: Optional<'_, '_>,
-        source: Option<String>,
-    ) -> PyResult<Robot> {
-        let values = self.one_a_joint(compliance, "compliance")?;
-        let uncertainties = match standard_uncertainty {
-            Some(uncertainties) => self.one_a_joint(uncertainties, "standard_uncertainty")?,
-            None => vec![0.0; values.len()],
-        };
-        let given = values
-            .iter()
-            .zip(&uncertainties)
-            .map(|(value, uncertainty)| JointCompliance {
-                value: *value,
-                standard_uncertainty: *uncertainty,
-            });
-        let mut description = self.description.clone();
-        let robot = description.robot.with_other_compliance(given.collect());
-        description.robot =
-            robot.map_err(|error| refused(py, error.to_string(), "rad/(N m), one per joint, 0 or more"))?;
-        let source = self.source.with_compliance(GivenCompliance {
-            values,
-            uncertainties,
-            source,
-        });
-        Ok(Robot::of(source, description))
-    }
-
-    /// -> str: the robot as a robot file of armill, with seven digits of each given compliance.
-    fn to_toml(&self, py: Python<'_>) -> PyResult<String> {
-        self.source.toml(py)
-    }
-
-    /// (n, dof) joints -> (n, 4, 4) poses, base_from_tool.
-    ///
-    /// `tool` (4, 4) is flange_from_tool. rad and m.
-    #[pyo3(signature = (joints, tool=None, *, threads=None))]
-    fn forward<'py>(
-        &self,
-        joints: &Bound<'py, PyAny>,
-        tool: Optional<'_, 'py>,
-        threads: Option<ThreadCount>,
-    ) -> Floats<'py> {
-        joint_positions::forward(self, joints, tool, threads)
-    }
-
-    /// (n, dof) joints -> (n, 6, dof) Jacobians: twist of the TCP per unit of joint position, translation first, base axes.
-    #[pyo3(signature = (joints, tool=None, *, threads=None))]
-    fn jacobian<'py>(
-        &self,
-        joints: &Bound<'py, PyAny>,
-        tool: Optional<'_, 'py>,
-        threads: Option<ThreadCount>,
-    ) -> Floats<'py> {
-        joint_positions::jacobian(self, joints, tool, threads)
-    }
-
-    /// (n, dof) joints -> (n, 6, 6) compliances at the TCP, translation first, base axes; m/N, 1/N, rad/(N m).
-    ///
-    /// All compliances of the robot file are included: drives, springs, torque curves and compensator.
-    #[pyo3(signature = (joints, tool=None, *, threads=None))]
-    fn compliance<'py>(
-        &self,
-        joints: &Bound<'py, PyAny>,
-        tool: Optional<'_, 'py>,
-        threads: Option<ThreadCount>,
-    ) -> Floats<'py> {
-        joint_positions::compliance(self, joints, tool, threads)
-    }
-
-    /// (n, dof) joints, (cases, 3) forces -> (n, cases, 3) deviations of the TCP, m, base axes.
-    ///
-    /// `forces` are forces (cases, 3) in N or wrenches (cases, 6) in N and N m on the tool at the TCP, base axes; one case
-    /// (3,) or (6,) gives (n, 3).
-    #[pyo3(signature = (joints, forces, tool=None, *, threads=None))]
-    fn deviation<'py>(
-        &self,
-        joints: &Bound<'py, PyAny>,
-        forces: &Bound<'py, PyAny>,
-        tool: Optional<'_, 'py>,
-        threads: Option<ThreadCount>,
-    ) -> Floats<'py> {
-        joint_positions::deviation(self, (joints, forces), tool, threads)
-    }
-
-    /// (n, dof) joints, (cases, 3) forces -> (n, cases, contributors, 3) contributions to the deviation, m, base axes.
-    ///
-    /// They add up to the deviation. `Robot.contributors` has the names: the joints, then base, flange and tool with springs.
-    #[pyo3(signature = (joints, forces, tool=None, *, threads=None))]
-    fn contributions<'py>(
-        &self,
-        joints: &Bound<'py, PyAny>,
-        forces: &Bound<'py, PyAny>,
-        tool: Optional<'_, 'py>,
-        threads: Option<ThreadCount>,
-    ) -> Floats<'py> {
-        joint_positions::contributions(self, (joints, forces), tool, threads)
-    }
-
-    /// (n, dof) joints, (dof,) reference -> (n, 3) deviations of the TCP by the weight of the arm, m, base axes.
-    ///
-    /// They are relative to the joint positions `reference`, at which the tool was measured. The robot file must give the
-    /// masses. `acceleration` (3,) is the acceleration of free fall in base axes, m/s^2.
-    #[pyo3(signature = (joints, reference, tool=None, *, acceleration=[0.0, 0.0, -FREE_FALL], threads=None))]
-    fn gravity<'py>(
-        &self,
-        joints: &Bound<'py, PyAny>,
-        reference: &Bound<'py, PyAny>,
-        tool: Optional<'_, 'py>,
-        acceleration: [f64; 3],
-        threads: Option<ThreadCount>,
-    ) -> Floats<'py> {
-        let reference = self.one_a_joint(reference, "reference")?;
-        joint_positions::gravity(
-            self,
-            (joints, reference, Vector3::from(acceleration)),
-            tool,
-            threads,
-        )
-    }
-
-    /// (n, 4, 4) poses -> Postures: all postures at each pose, base_from_tool.
-    ///
-    /// For an arm without closed form, those that a search finds. `home` (dof,) gives the position of a rail and the
-    /// positions that redundant joints prefer.
-    #[pyo3(signature = (poses, tool=None, *, home=None, threads=None))]
-    fn inverse(
-        &self,
-        poses: &Bound<'_, PyAny>,
-        tool: Optional<'_, '_>,
-        home: Optional<'_, '_>,
-        threads: Option<ThreadCount>,
-    ) -> PyResult<Postures> {
-        postures::inverse(self, (poses, tool), home, threads)
-    }
-
-    /// (n, 4, 4) poses, (cases, 3) forces -> Evaluation: one posture for each pose, and the deviation of the tool there.
-    ///
-    /// `branch` is the name of a branch (`front elbow-up no-flip`), `nominal`, or `best`: the posture inside the joint limits
-    /// with the smallest deviation. `normal` (3,) is the outward normal of the plane into which deviations are split. By
-    /// default it is opposite to the tool direction, which must then be the same at all poses. Backlash of the robot file is
-    /// included on the side that gives the largest in-plane deviation; `Robot.deviation`, at joint positions, includes the
-    /// load only.
-    #[pyo3(signature = (poses, forces, tool=None, *, branch="nominal", normal=None, home=None, threads=None))]
-    fn evaluate(
-        &self,
-        poses: &Bound<'_, PyAny>,
-        forces: &Bound<'_, PyAny>,
-        tool: Optional<'_, '_>,
-        branch: &str,
-        normal: Optional<'_, '_>,
-        home: Optional<'_, '_>,
-        threads: Option<ThreadCount>,
-    ) -> PyResult<PoseEvaluations> {
-        evaluation::evaluate(self, (poses, forces, tool), (branch, normal, home), threads)
-    }
-
-    fn __repr__(&self) -> String {
-        format!("<armill.Robot {}: {} joints>", self.name(), self.dof())
-    }
-
-    /// How to make it again, from the text that it was read from.
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, source::Parts<'py>)> {
-        let py = slf.py();
-        let again = slf.get_type().getattr("_again")?;
-        Ok((again, slf.get().source.parts(py)))
-    }
-
-    #[staticmethod]
-    fn _again(
-        py: Python<'_>,
-        file: (PathBuf, String, Bound<'_, PyBytes>),
-        format: (String, Option<String>),
-        compliance: Option<(Vec<f64>, Vec<f64>, Option<String>)>,
-    ) -> PyResult<Robot> {
-        let robot = Robot::read(py, RobotSource::again(py, file, format)?)?;
-        let Some((values, uncertainties, source)) = compliance else {
-            return Ok(robot);
-        };
-        let count = [values.len()];
-        let values = array(py, &count, values)?;
-        let uncertainties = array(py, &count, uncertainties)?;
-        robot.with_compliance(py, values.as_any(), Some(uncertainties.as_any()), source)
+/// The model of an arm under load only.
+fn model_of(arm: &Arm) -> StiffnessModel {
+    StiffnessModel {
+        structure: arm.structure().clone(),
+        gravity: None,
+        load_dependent: false,
+        ..StiffnessModel::DRIVES.clone()
     }
 }

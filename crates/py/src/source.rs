@@ -31,7 +31,7 @@ pub(crate) struct RobotSource {
 }
 
 /// Joint compliances given by the caller.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct GivenCompliance {
     /// rad/(N m), prismatic m/N, one per joint.
     pub values: Vec<f64>,
@@ -109,6 +109,30 @@ impl RobotSource {
             tip,
             compliance: None,
         }
+    }
+
+    /// Whether both give the same robot: the same text under the same name with the same compliances.
+    pub(crate) fn is_same(&self, other: &RobotSource) -> bool {
+        (&self.name, &self.bytes, self.format, &self.tip, &self.compliance)
+            == (
+                &other.name,
+                &other.bytes,
+                other.format,
+                &other.tip,
+                &other.compliance,
+            )
+    }
+
+    /// Its name, if it is a robot of the library as it is.
+    pub(crate) fn library_name(&self) -> Option<&str> {
+        let mut entries = library::ROBOTS.iter();
+        let found = entries.find(|entry| entry.name == self.name && entry.text.as_bytes() == self.bytes)?;
+        self.compliance.is_none().then_some(found.name)
+    }
+
+    /// The name in results.
+    pub(crate) fn name(&self) -> &str {
+        &self.name
     }
 
     /// The same with other joint compliances.

@@ -1,91 +1,144 @@
-//! The classes `Study` and `Result`: a study file, checked and run, and its results.
+//! The class `Study`: a study file, checked and run.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, OnceLock, TryLockError};
-use std::time::Duration;
+use std::sync::{Arc, OnceLock};
 
 use armill_core::watch::Watch;
 use armill_formats::file::Writer;
 use armill_formats::input::Inputs;
 use armill_study::finished::FinishedRun;
-use armill_study::output::{self, Csv, OutputOptions, Pictures};
+use armill_study::output;
 use armill_study::run::point_count;
 use armill_study::studies::{self, FoundStudy};
 use armill_study::{Study as Checked, StudyError};
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
+use toml_edit::{DocumentMut, value};
 
-use crate::errors::{exception, refused};
+use crate::errors::exception;
+use crate::outcome::{Outcome, output_options};
 use crate::placement_evaluations::{self, PlacementEvaluations};
-use crate::table::Table;
-use crate::threads::{Beats, Effort, ThreadCount, watched, work};
+use crate::robot::Robot;
+use crate::robot_file::RobotFile;
+use crate::threads::{Beats, ThreadCount, watched};
 
 /// A study file: a robot, a load, and the requested analyses.
 #[pyclass(frozen, module = "armill")]
 pub(crate) struct Study {
     found: FoundStudy,
+    /// In place of that of the file.
+    robot: Option<GivenRobot>,
     /// The files that it was read from; none of them is overwritten.
     inputs: Inputs,
     /// Read at first use.
     checked: OnceLock<Result<Arc<Checked>, StudyError>>,
 }
 
+/// A robot given by the caller, and the file that a study names.
+struct GivenRobot {
+    robot: Py<Robot>,
+    file: RobotFile,
+}
+
 impl Study {
-    fn of(found: FoundStudy) -> Study {
-        Study {
+    fn of(found: FoundStudy, robot: Option<&Bound<'_, PyAny>>) -> PyResult<Study> {
+        let given = |robot: &Bound<'_, PyAny>| {
+            let (py, robot) = (robot.py(), Robot::given(robot)?);
+            let file = RobotFile::of(py, robot.get())?;
+            Ok::<_, PyErr>(GivenRobot { robot, file })
+        };
+        Ok(Study {
             found,
+            robot: robot.map(given).transpose()?,
             inputs: Inputs::default(),
             checked: OnceLock::new(),
-        }
+        })
+    }
+
+    /// Its path, or name as an example, if it is there as it was read and has its own robot.
+    pub(crate) fn path(&self) -> Option<String> {
+        let is_this = |path: &String| {
+            let found = studies::find(Path::new(path));
+            found.is_ok_and(|found| found.bytes == self.found.bytes && found.folder == self.found.folder)
+        };
+        let folder = self.found.folder.to_string_lossy().into_owned();
+        let paths = [self.found.shown.clone(), folder];
+        paths
+            .into_iter()
+            .find(|path| self.robot.is_none() && is_this(path))
+    }
+
+    /// Its text, which names the file of the given robot, if there is one.
+    ///
+    /// # Errors
+    /// A text that is not TOML.
+    pub(crate) fn text_with_robot(&self, py: Python<'_>) -> PyResult<Vec<u8>> {
+        let Some(given) = &self.robot else {
+            return Ok(self.found.bytes.clone());
+        };
+        // The reader reports what is wrong with the text.
+        self.checked(py).map_err(|error| exception(py, error))?;
+        let mut document: DocumentMut = match self.text().parse() {
+            Ok(document) => document,
+            Err(_) => return Ok(self.found.bytes.clone()),
+        };
+        document["robot"] = value(given.file.path.as_str());
+        Ok(document.to_string().into_bytes())
     }
 
     fn checked(&self, py: Python<'_>) -> Result<Arc<Checked>, &StudyError> {
         // Reading may take long: the program of a study may have any length.
-        let read = || self.inputs.during(|| self.found.read().map(Arc::new));
+        let read = || {
+            let robot = self.robot.as_ref().map(|given| given.file.path.clone());
+            let change = self.inputs.during(|| match robot {
+                Some(robot) => self.found.read_changed(|file| file.robot = robot),
+                None => self.found.read(),
+            });
+            change.map(Arc::new)
+        };
         let checked = py.detach(|| self.checked.get_or_init(read));
         checked.as_ref().map(Arc::clone)
     }
 }
 
-/// The parts that a pickle keeps: the name shown in messages, the folder, the bytes.
-type Parts<'py> = (String, PathBuf, Bound<'py, PyBytes>);
-
-/// The files to write in addition to `result.json`.
-fn output_options(pictures: bool, csv: bool) -> OutputOptions<'static> {
-    OutputOptions {
-        pictures: if pictures { Pictures::Drawn } else { Pictures::None },
-        csv: if csv { Csv::Every } else { Csv::MapsAndPaths },
-        opening: None,
-    }
-}
+/// The parts that a pickle keeps: the name shown in messages, the folder, the bytes, the given robot.
+type Parts<'py> = (String, PathBuf, Bound<'py, PyBytes>, Option<Py<Robot>>);
 
 #[pymethods]
 impl Study {
     /// path -> Study: a folder with a study.toml, the file itself, or the name of an example study.
     ///
-    /// `problems` and `check` report the problems of its contents.
+    /// `robot` replaces the robot of the file: a Robot, a name of the library, or the path of a robot file.
+    /// `problems` and `check` report the problems of the contents.
     #[staticmethod]
-    fn load(py: Python<'_>, path: PathBuf) -> PyResult<Study> {
+    #[pyo3(signature = (path, *, robot=None))]
+    fn load(py: Python<'_>, path: PathBuf, robot: Option<&Bound<'_, PyAny>>) -> PyResult<Study> {
         let inputs = Inputs::naming([&*path]);
         let found = inputs.during(|| studies::find(&path));
         let found = found.map_err(|error| exception(py, &error))?;
         Ok(Study {
             inputs,
-            ..Study::of(found)
+            ..Study::of(found, robot)?
         })
     }
 
     /// text, folder -> Study: the text of a study file; paths in it are relative to `folder`.
+    ///
+    /// `robot` replaces the robot of the text, as in `load`.
     #[staticmethod]
-    #[pyo3(signature = (text, folder=PathBuf::from(".")))]
-    fn from_text(text: String, folder: PathBuf) -> Study {
-        Study::of(FoundStudy {
+    #[pyo3(
+        signature = (text, folder=PathBuf::from("."), *, robot=None),
+        text_signature = "(text, folder='.', *, robot=None)"
+    )]
+    fn from_text(text: String, folder: PathBuf, robot: Option<&Bound<'_, PyAny>>) -> PyResult<Study> {
+        let found = FoundStudy {
             shown: folder.join("study.toml").display().to_string(),
             folder,
             bytes: text.into_bytes(),
-        })
+        };
+        Study::of(found, robot)
     }
 
     /// -> list of dict: every problem of the file, with `file`, `line`, `column`, `span`, `message` and `hint`.
@@ -130,8 +183,14 @@ impl Study {
 
     /// -> path: the folder that paths in the study are relative to.
     #[getter]
-    fn folder(&self) -> &Path {
+    pub(crate) fn folder(&self) -> &Path {
         &self.found.folder
+    }
+
+    /// -> Robot or None: the robot that was given in place of that of the file.
+    #[getter]
+    fn robot(&self, py: Python<'_>) -> Option<Py<Robot>> {
+        self.robot.as_ref().map(|given| given.robot.clone_ref(py))
     }
 
     /// analysis name or None -> (8,) x, y, z, heading, tilt, roll, spin, rail: the placement that the study gives, m and rad.
@@ -211,15 +270,7 @@ impl Study {
             Ok::<_, StudyError>((finished, json))
         })?;
         let (finished, json) = found.map_err(|error| exception(py, &error))?;
-        let answer = finished.answer();
-        Ok(Outcome {
-            inputs: self.inputs.clone(),
-            sentence: answer.answer.clone(),
-            warnings: answer.warnings.clone(),
-            analyses: finished.analyses().into_iter().map(str::to_owned).collect(),
-            finished: Mutex::new(finished),
-            json,
-        })
+        Ok(Outcome::of(self.inputs.clone(), finished, json))
     }
 
     fn __repr__(&self) -> String {
@@ -228,137 +279,26 @@ impl Study {
 
     /// How to make it again, from the bytes that were read.
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Parts<'py>)> {
-        let found = &slf.get().found;
-        let bytes = PyBytes::new(slf.py(), &found.bytes);
+        let (py, own) = (slf.py(), slf.get());
+        let bytes = PyBytes::new(py, &own.found.bytes);
         let again = slf.get_type().getattr("_again")?;
-        Ok((again, (found.shown.clone(), found.folder.clone(), bytes)))
+        let parts = (
+            own.found.shown.clone(),
+            own.found.folder.clone(),
+            bytes,
+            own.robot(py),
+        );
+        Ok((again, parts))
     }
 
     #[staticmethod]
-    fn _again(shown: String, folder: PathBuf, bytes: Vec<u8>) -> Study {
-        Study::of(FoundStudy { shown, folder, bytes })
-    }
-}
-
-/// The results of a study.
-#[pyclass(frozen, name = "Result", module = "armill")]
-pub(crate) struct Outcome {
-    /// The input files of the study.
-    inputs: Inputs,
-    json: String,
-    sentence: String,
-    warnings: Vec<String>,
-    analyses: Vec<String>,
-    finished: Mutex<FinishedRun>,
-}
-
-impl Outcome {
-    /// Runs `job` on the results, on all processors.
-    ///
-    /// The calling thread locks the results, not the pool: a pool thread that waits for its own work may start another
-    /// job, and would wait for itself.
-    fn with_finished<T: Send>(
-        &self,
-        py: Python<'_>,
-        job: impl FnOnce(&mut FinishedRun) -> Result<T, StudyError> + Send,
-    ) -> PyResult<T> {
-        let mut finished = loop {
-            match self.finished.try_lock() {
-                Ok(finished) => break finished,
-                Err(TryLockError::Poisoned(left)) => break left.into_inner(),
-                Err(TryLockError::WouldBlock) => {
-                    py.detach(|| std::thread::sleep(WAIT));
-                    py.check_signals()?;
-                }
-            }
-        };
-        let finished = &mut *finished;
-        let found = work(py, None, Effort::Long, |_| job(finished))?;
-        found.map_err(|error| exception(py, &error))
-    }
-}
-
-/// Interval of attempts to lock results that another thread of Python uses.
-const WAIT: Duration = Duration::from_millis(2);
-
-#[pymethods]
-impl Outcome {
-    /// -> str: the text of `result.json`, final newline included.
-    #[getter]
-    fn json(&self) -> &str {
-        &self.json
-    }
-
-    /// -> dict: `result.json` as values.
-    #[getter]
-    fn answer<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        py.import("json")?.call_method1("loads", (&self.json,))
-    }
-
-    /// -> str: the result in one sentence.
-    #[getter]
-    fn sentence(&self) -> &str {
-        &self.sentence
-    }
-
-    /// -> list of str: limitations of the result.
-    #[getter]
-    fn warnings(&self) -> Vec<String> {
-        self.warnings.clone()
-    }
-
-    /// -> list of str: the names of the analyses.
-    #[getter]
-    fn analyses(&self) -> Vec<String> {
-        self.analyses.clone()
-    }
-
-    /// analysis name or None -> Table: one row per point, the columns of its Parquet file; by default of the first analysis.
-    #[pyo3(signature = (analysis=None))]
-    fn table(&self, py: Python<'_>, analysis: Option<&str>) -> PyResult<Table> {
-        let index = match analysis {
-            None => 0,
-            Some(name) => self
-                .analyses
-                .iter()
-                .position(|analysis| analysis == name)
-                .ok_or_else(|| {
-                    let message = format!("the study has no analysis `{name}`");
-                    refused(py, message, format!("it has: {}", self.analyses.join(", ")))
-                })?,
-        };
-        Table::of(self.with_finished(py, |finished| finished.table(index))?)
-    }
-
-    /// -> dict of str to str: all pictures as SVG, by name.
-    #[getter]
-    fn pictures(&self, py: Python<'_>) -> PyResult<std::collections::BTreeMap<String, String>> {
-        let drawn = self.with_finished(py, |finished| Ok(finished.pictures()))?;
-        Ok(drawn
-            .into_iter()
-            .map(|picture| (picture.name, picture.svg))
-            .collect())
-    }
-
-    /// folder -> list of paths: writes the files of `armill run`, `result.json` last.
-    ///
-    /// Files in `folder` that armill did not make, or that were changed since, are replaced only with `force=True`.
-    #[pyo3(signature = (folder, *, pictures=true, csv=false, force=false))]
-    fn write(
-        &self,
-        py: Python<'_>,
+    fn _again(
+        shown: String,
         folder: PathBuf,
-        pictures: bool,
-        csv: bool,
-        force: bool,
-    ) -> PyResult<Vec<PathBuf>> {
-        let writer = self.inputs.during(|| Writer::new("run", force));
-        self.with_finished(py, |finished| {
-            finished.write(&writer.folder(&folder)?, output_options(pictures, csv))
-        })
-    }
-
-    fn __repr__(&self) -> String {
-        format!("<armill.Result: {}>", self.sentence)
+        bytes: Vec<u8>,
+        robot: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Study> {
+        let found = FoundStudy { shown, folder, bytes };
+        Study::of(found, robot)
     }
 }

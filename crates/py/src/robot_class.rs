@@ -1,0 +1,435 @@
+//! The class `Robot`: a robot of the library or of a file, evaluated at many joint positions or poses at once.
+//!
+//! Results are made in `joint_positions`, `postures` and `evaluation`.
+
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::PathBuf;
+
+use armill_core::nalgebra::Vector3;
+use armill_core::robot::JointCompliance;
+use armill_core::source::stiffness_model::FREE_FALL;
+use armill_formats::robot::format::Format;
+use numpy::PyArrayDyn;
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+
+use crate::arrays::array;
+use crate::errors::refused;
+use crate::evaluation::{self, EvaluationOptions, PoseEvaluations};
+use crate::html;
+use crate::joint_positions::{self, Request};
+use crate::postures::{self, Postures};
+use crate::robot::{COMPLIANCE_HINT, Robot};
+use crate::source::{self, GivenCompliance, RobotSource};
+use crate::threads::ThreadCount;
+
+type Floats<'py> = PyResult<Bound<'py, PyArrayDyn<f64>>>;
+type Optional<'a, 'py> = Option<&'a Bound<'py, PyAny>>;
+
+/// Joint positions with tool, compliances and output.
+fn request<'a, 'py>(
+    joints: &'a Bound<'py, PyAny>,
+    (tool, compliances, out): (Optional<'a, 'py>, Optional<'a, 'py>, Optional<'a, 'py>),
+    threads: Option<ThreadCount>,
+) -> Request<'a, 'py> {
+    Request {
+        joints,
+        tool,
+        compliances,
+        out,
+        threads,
+    }
+}
+
+#[pymethods]
+impl Robot {
+    /// name or path -> Robot: from the library (`yaskawa/mh12`), or from a robot file of any format (TOML, URDF, xacro, OPW,
+    /// Denavit-Hartenberg, chain).
+    #[staticmethod]
+    fn load(py: Python<'_>, robot: PathBuf) -> PyResult<Robot> {
+        Robot::read(py, RobotSource::load(py, &robot)?)
+    }
+
+    /// path -> Robot: from a URDF or xacro file; `flange` is the name of a link, by default the end of the longest chain.
+    #[staticmethod]
+    #[pyo3(signature = (path, flange=None))]
+    fn from_urdf(py: Python<'_>, path: PathBuf, flange: Option<String>) -> PyResult<Robot> {
+        Robot::read(py, RobotSource::urdf(py, &path, flange)?)
+    }
+
+    /// text -> Robot: from the text of a robot file; `format` is `armill`, `urdf`, `opw`, `dh` or `chain`.
+    #[staticmethod]
+    #[pyo3(signature = (text, format, name="robot", flange=None))]
+    fn from_text(
+        py: Python<'_>,
+        text: String,
+        format: &str,
+        name: &str,
+        flange: Option<String>,
+    ) -> PyResult<Robot> {
+        let format: Format = format
+            .parse()
+            .map_err(|message: String| refused(py, message, "give the format of the text"))?;
+        Robot::read(py, RobotSource::text(format, name, text, flange))
+    }
+
+    /// (dof, 4) rows a, alpha, d, theta -> Robot: Denavit-Hartenberg, m and rad, at the controller's zero.
+    ///
+    /// `convention` is `standard` or `modified` (Craig); `prismatic` lists the joints, from 0, that move along d; `limits`
+    /// (dof, 2) in rad or m.
+    #[staticmethod]
+    #[pyo3(
+        signature = (rows, convention, *, prismatic=Vec::new(), limits=None, name="robot"),
+        text_signature = "(rows, convention, *, prismatic=(), limits=None, name='robot')"
+    )]
+    fn from_dh(
+        py: Python<'_>,
+        rows: &Bound<'_, PyAny>,
+        convention: &str,
+        prismatic: Vec<usize>,
+        limits: Optional<'_, '_>,
+        name: &str,
+    ) -> PyResult<Robot> {
+        let text = source::dh_text(py, (rows, convention), &prismatic, limits)?;
+        Robot::read(py, RobotSource::text(Format::Dh, name, text, None))
+    }
+
+    /// seven lengths in m, (6,) offsets in rad, (6,) signs -> Robot: an ortho-parallel arm with a spherical wrist (OPW), with
+    /// the parameters of MoveIt.
+    #[staticmethod]
+    #[pyo3(
+        signature = (*, a1, a2, b, c1, c2, c3, c4, offsets=[0.0; 6], signs=[1; 6], name="robot"),
+        text_signature = "(*, a1, a2, b, c1, c2, c3, c4, offsets=(0, 0, 0, 0, 0, 0), signs=(1, 1, 1, 1, 1, 1), name='robot')"
+    )]
+    fn from_opw(
+        py: Python<'_>,
+        a1: f64,
+        a2: f64,
+        b: f64,
+        c1: f64,
+        c2: f64,
+        c3: f64,
+        c4: f64,
+        offsets: [f64; 6],
+        signs: [i64; 6],
+        name: &str,
+    ) -> PyResult<Robot> {
+        let text = source::opw_text([a1, a2, b, c1, c2, c3, c4], offsets, signs);
+        Robot::read(py, RobotSource::text(Format::Opw, name, text, None))
+    }
+
+    /// -> str: name in the library, or of its file.
+    #[getter]
+    fn name(&self) -> &str {
+        self.arm().name()
+    }
+
+    /// -> str: manufacturer and model.
+    #[getter]
+    fn title(&self) -> &str {
+        &self.description.title
+    }
+
+    /// -> int: number of joints.
+    #[getter(dof)]
+    fn dof_of_class(&self) -> usize {
+        self.dof()
+    }
+
+    /// -> list of str, one per joint: the names of the manufacturer.
+    #[getter(joint_names)]
+    fn joint_names_of_class(&self) -> Vec<String> {
+        self.joint_names()
+    }
+
+    /// -> list of str: names along the axis of `contributions`: the joints, then those of `base`, `flange`, `tool` with springs.
+    #[getter]
+    fn contributors(&self) -> Vec<String> {
+        self.model.contributor_names(self.arm().joints())
+    }
+
+    /// -> (dof, 2) lower and upper limit, rad (m): minus and plus infinity for a joint without limits.
+    #[getter]
+    fn limits<'py>(&self, py: Python<'py>) -> Floats<'py> {
+        let limits = self.arm().joints().iter().flat_map(|joint| match joint.limits {
+            Some(limits) => [limits.lower, limits.upper],
+            None => [f64::NEG_INFINITY, f64::INFINITY],
+        });
+        array(py, &[self.dof(), 2], limits.collect())
+    }
+
+    /// -> (dof,) compliance of each joint, rad/(N m) (prismatic: m/N); None if not known.
+    #[getter]
+    fn joint_compliance<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyArrayDyn<f64>>>> {
+        let known = self.arm().compliance();
+        let values = known.map(|all| all.iter().map(|joint| joint.value).collect());
+        values.map(|values| array(py, &[self.dof()], values)).transpose()
+    }
+
+    /// (dof,) compliances, (dof,) standard uncertainties -> Robot: the same with other joint compliances, rad/(N m) (m/N).
+    ///
+    /// `source` states where the compliances come from, for `to_toml`; by default "given". Torque curves and covariance of
+    /// the file are dropped: they belong to the compliances that are replaced.
+    #[pyo3(signature = (compliance, standard_uncertainty=None, *, source=None))]
+    fn with_compliance(
+        &self,
+        py: Python<'_>,
+        compliance: &Bound<'_, PyAny>,
+        standard_uncertainty: Optional<'_, '_>,
+        source: Option<String>,
+    ) -> PyResult<Robot> {
+        let values = self.one_a_joint(compliance, "compliance")?;
+        let uncertainties = match standard_uncertainty {
+            Some(uncertainties) => self.one_a_joint(uncertainties, "standard_uncertainty")?,
+            None => vec![0.0; values.len()],
+        };
+        let given = values
+            .iter()
+            .zip(&uncertainties)
+            .map(|(value, uncertainty)| JointCompliance {
+                value: *value,
+                standard_uncertainty: *uncertainty,
+            });
+        let mut description = self.description.clone();
+        let robot = description.robot.with_other_compliance(given.collect());
+        description.robot = robot.map_err(|error| refused(py, error.to_string(), COMPLIANCE_HINT))?;
+        let source = self.source.with_compliance(GivenCompliance {
+            values,
+            uncertainties,
+            source,
+        });
+        Ok(Robot::of(source, description))
+    }
+
+    /// -> str: the robot as a robot file of armill, with seven digits of each given compliance.
+    fn to_toml(&self, py: Python<'_>) -> PyResult<String> {
+        self.source.toml(py)
+    }
+
+    /// (n, dof) joints -> (n, 4, 4) poses, base_from_tool.
+    ///
+    /// `tool` (4, 4) is flange_from_tool. rad and m. `out` is the array to write.
+    #[pyo3(signature = (joints, tool=None, *, out=None, threads=None))]
+    fn forward<'py>(
+        &self,
+        joints: &Bound<'py, PyAny>,
+        tool: Optional<'_, 'py>,
+        out: Optional<'_, 'py>,
+        threads: Option<ThreadCount>,
+    ) -> Floats<'py> {
+        let request = request(joints, (tool, None, out), threads);
+        joint_positions::forward(self, &request)
+    }
+
+    /// (n, dof) joints -> (n, 6, dof) Jacobians: twist of the TCP per unit of joint position, translation first, base axes.
+    #[pyo3(signature = (joints, tool=None, *, out=None, threads=None))]
+    fn jacobian<'py>(
+        &self,
+        joints: &Bound<'py, PyAny>,
+        tool: Optional<'_, 'py>,
+        out: Optional<'_, 'py>,
+        threads: Option<ThreadCount>,
+    ) -> Floats<'py> {
+        let request = request(joints, (tool, None, out), threads);
+        joint_positions::jacobian(self, &request)
+    }
+
+    /// (n, dof) joints -> (n, 6, 6) compliances at the TCP, translation first, base axes; m/N, 1/N, rad/(N m).
+    ///
+    /// All compliances of the robot file are included: drives, springs, torque curves and compensator. `compliances` (dof,)
+    /// or samples (s, dof), rad/(N m), are used in place of those of the joints; samples give (s, n, 6, 6).
+    #[pyo3(signature = (joints, tool=None, *, compliances=None, out=None, threads=None))]
+    fn compliance<'py>(
+        &self,
+        joints: &Bound<'py, PyAny>,
+        tool: Optional<'_, 'py>,
+        compliances: Optional<'_, 'py>,
+        out: Optional<'_, 'py>,
+        threads: Option<ThreadCount>,
+    ) -> Floats<'py> {
+        let request = request(joints, (tool, compliances, out), threads);
+        joint_positions::compliance(self, &request)
+    }
+
+    /// (n, dof) joints, (cases, 3) forces -> (n, cases, 3) deviations of the TCP, m, base axes.
+    ///
+    /// `forces` are forces (cases, 3) in N or wrenches (cases, 6) in N and N m on the tool at the TCP, base axes; one case
+    /// (3,) or (6,) gives (n, 3). With `paired=True` there is one force for each of the joint positions, (n, 3), which gives
+    /// (n, 3). `compliances` (dof,) or samples (s, dof), rad/(N m), are used in place of those of the robot; samples give
+    /// (s, n, cases, 3). `out` is the array to write.
+    #[pyo3(signature = (joints, forces, tool=None, *, paired=false, compliances=None, out=None, threads=None))]
+    fn deviation<'py>(
+        &self,
+        joints: &Bound<'py, PyAny>,
+        forces: &Bound<'py, PyAny>,
+        tool: Optional<'_, 'py>,
+        paired: bool,
+        compliances: Optional<'_, 'py>,
+        out: Optional<'_, 'py>,
+        threads: Option<ThreadCount>,
+    ) -> Floats<'py> {
+        let request = request(joints, (tool, compliances, out), threads);
+        joint_positions::deviation(self, &request, (forces, paired))
+    }
+
+    /// (n, dof) joints, (cases, 3) forces -> (n, cases, contributors, 3) contributions to the deviation, m, base axes.
+    ///
+    /// They add up to the deviation. `Robot.contributors` has the names: the joints, then base, flange and tool with springs.
+    /// The options are those of `deviation`.
+    #[pyo3(signature = (joints, forces, tool=None, *, paired=false, compliances=None, out=None, threads=None))]
+    fn contributions<'py>(
+        &self,
+        joints: &Bound<'py, PyAny>,
+        forces: &Bound<'py, PyAny>,
+        tool: Optional<'_, 'py>,
+        paired: bool,
+        compliances: Optional<'_, 'py>,
+        out: Optional<'_, 'py>,
+        threads: Option<ThreadCount>,
+    ) -> Floats<'py> {
+        let request = request(joints, (tool, compliances, out), threads);
+        joint_positions::contributions(self, &request, (forces, paired))
+    }
+
+    /// (n, dof) joints, (dof,) reference -> (n, 3) deviations of the TCP by the weight of the arm, m, base axes.
+    ///
+    /// They are relative to the joint positions `reference`, at which the tool was measured. The robot file must give the
+    /// masses. `acceleration` (3,) is the acceleration of free fall in base axes, m/s^2.
+    #[pyo3(
+        signature = (joints, reference, tool=None, *, acceleration=[0.0, 0.0, -FREE_FALL], out=None, threads=None),
+        text_signature = "($self, joints, reference, tool=None, *, acceleration=(0.0, 0.0, -9.80665), out=None, threads=None)"
+    )]
+    fn gravity<'py>(
+        &self,
+        joints: &Bound<'py, PyAny>,
+        reference: &Bound<'py, PyAny>,
+        tool: Optional<'_, 'py>,
+        acceleration: [f64; 3],
+        out: Optional<'_, 'py>,
+        threads: Option<ThreadCount>,
+    ) -> Floats<'py> {
+        let reference = self.one_a_joint(reference, "reference")?;
+        let request = request(joints, (tool, None, out), threads);
+        joint_positions::gravity(self, &request, (reference, Vector3::from(acceleration)))
+    }
+
+    /// (n, dof) joints -> list of n str: the branch at each of the joint positions.
+    ///
+    /// For an arm without named branches, the side of its mid-position of each joint.
+    fn branch_of(&self, joints: &Bound<'_, PyAny>) -> PyResult<Vec<String>> {
+        let names = joint_positions::branches(self, joints)?;
+        Ok(names.iter().map(ToString::to_string).collect())
+    }
+
+    /// (n, 4, 4) poses -> Postures: all postures at each pose, base_from_tool.
+    ///
+    /// For an arm without closed form, those that a search finds. `home` (dof,) gives the position of a rail and the
+    /// positions that redundant joints prefer.
+    #[pyo3(signature = (poses, tool=None, *, home=None, threads=None))]
+    fn inverse(
+        &self,
+        poses: &Bound<'_, PyAny>,
+        tool: Optional<'_, '_>,
+        home: Optional<'_, '_>,
+        threads: Option<ThreadCount>,
+    ) -> PyResult<Postures> {
+        postures::inverse(self, (poses, tool), home, threads)
+    }
+
+    /// (n, 4, 4) poses, (cases, 3) forces -> Evaluation: one posture for each pose, and the deviation of the tool there.
+    ///
+    /// `branch` is the name of a branch (`front elbow-up no-flip`), `nominal`, or `best`: the posture inside the joint limits
+    /// with the smallest deviation. `normal` (3,) is the outward normal of the plane into which deviations are split. By
+    /// default it is opposite to the tool direction, which must then be the same at all poses. With `paired=True` there is one
+    /// force for each pose. `compliances` (dof,) or samples (s, dof) are used in place of those of the robot; arrays then have
+    /// the axis of the samples first. Backlash of the robot file is included on the side that gives the largest in-plane
+    /// deviation; `Robot.deviation`, at joint positions, includes the load only.
+    #[pyo3(
+        signature = (
+            poses, forces, tool=None, *, branch="nominal", normal=None, home=None, paired=false, compliances=None,
+            threads=None
+        )
+    )]
+    fn evaluate(
+        &self,
+        poses: &Bound<'_, PyAny>,
+        forces: &Bound<'_, PyAny>,
+        tool: Optional<'_, '_>,
+        branch: &str,
+        normal: Optional<'_, '_>,
+        home: Optional<'_, '_>,
+        paired: bool,
+        compliances: Optional<'_, '_>,
+        threads: Option<ThreadCount>,
+    ) -> PyResult<PoseEvaluations> {
+        let options = EvaluationOptions {
+            branch,
+            normal,
+            home,
+            paired,
+            compliances,
+            threads,
+        };
+        evaluation::evaluate(self, (poses, forces, tool), &options)
+    }
+
+    /// Whether the other robot was read from the same text under the same name, with the same given compliances.
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
+        let other = other.cast::<Robot>();
+        other.is_ok_and(|other| other.get().source.is_same(&self.source))
+    }
+
+    fn __hash__(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        self.name().hash(&mut hasher);
+        hasher.finish()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<armill.Robot {}: {} joints>", self.name(), self.dof())
+    }
+
+    fn _repr_html_(&self) -> String {
+        let compliances = self.arm().compliance();
+        let rows = self.arm().joints().iter().enumerate().map(|(index, joint)| {
+            let [lower, upper] = match joint.limits {
+                Some(limits) => [limits.lower, limits.upper].map(|limit| format!("{limit:.4}")),
+                None => [String::new(), String::new()],
+            };
+            let compliance = compliances.and_then(|all| all.get(index));
+            let compliance = compliance.map_or_else(String::new, |joint| format!("{:.4e}", joint.value));
+            vec![joint.name.clone(), lower, upper, compliance]
+        });
+        let header = [
+            "joint",
+            "lower limit, rad (m)",
+            "upper limit, rad (m)",
+            "compliance, rad/(N m) (m/N)",
+        ];
+        html::table(&format!("{} ({})", self.title(), self.name()), &header, rows)
+    }
+
+    /// How to make it again, from the text that it was read from.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, source::Parts<'py>)> {
+        let py = slf.py();
+        let again = slf.get_type().getattr("_again")?;
+        Ok((again, slf.get().source.parts(py)))
+    }
+
+    #[staticmethod]
+    fn _again(
+        py: Python<'_>,
+        file: (PathBuf, String, Bound<'_, PyBytes>),
+        format: (String, Option<String>),
+        compliance: Option<(Vec<f64>, Vec<f64>, Option<String>)>,
+    ) -> PyResult<Robot> {
+        let robot = Robot::read(py, RobotSource::again(py, file, format)?)?;
+        let Some((values, uncertainties, source)) = compliance else {
+            return Ok(robot);
+        };
+        let count = [values.len()];
+        let values = array(py, &count, values)?;
+        let uncertainties = array(py, &count, uncertainties)?;
+        robot.with_compliance(py, values.as_any(), Some(uncertainties.as_any()), source)
+    }
+}
