@@ -56,9 +56,9 @@ def test_inputs_are_never_changed_and_outputs_are_writable_copies(mh12, joints):
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        (np.zeros((3, 5)), r"joints: expected shape \(n, 6\) or \(6,\), given \(3, 5\)"),
+        (np.zeros((3, 5)), r"joints: expected shape \(\.\.\., 6\), given \(3, 5\)"),
         (np.zeros(7), r"given \(7,\)"),
-        (np.zeros((2, 2, 6)), r"given \(2, 2, 6\)"),
+        (np.zeros((2, 6, 2)), r"given \(2, 6, 2\)"),
         (np.float64(1.0), r"given \(\)"),
         ([[0, 0, 0, 0, 0, 0], [0, 0, 0, np.nan, 0, 0]], r"joints\[1, 3\] is NaN"),
         ([0, 0, np.inf, 0, 0, 0], r"joints\[2\] is inf"),
@@ -85,13 +85,13 @@ def test_wrong_shapes_and_numbers_are_refused(mh12, given, message):
     ],
 )
 def test_refuses_values_that_are_not_real_numbers_with_the_expected_shape(mh12, given):
-    with pytest.raises(TypeError, match=r"joints: expected real numbers of shape \(n, 6\) or \(6,\), given"):
+    with pytest.raises(TypeError, match=r"joints: expected real numbers of shape \(\.\.\., 6\), given"):
         mh12.forward(given)
 
 
 def test_forces_of_other_widths_are_refused(mh12, joints):
-    for wrong in (np.zeros(4), np.zeros((2, 5)), np.zeros((0, 3)), np.zeros((1, 2, 3)), 1.0):
-        with pytest.raises(armill.InputError, match=r"forces: expected shape \(cases, 3\), \(cases, 6\), \(3,\) or \(6,\)"):
+    for wrong in (np.zeros(4), np.zeros((2, 5)), np.zeros((0, 3)), np.zeros((1, 3, 2)), 1.0):
+        with pytest.raises(armill.InputError, match=r"forces: expected shape \(\.\.\., 3\) or \(\.\.\., 6\)"):
             mh12.deviation(joints, wrong)
     with pytest.raises(armill.InputError, match=r"forces\[1, 2\] is NaN"):
         mh12.deviation(joints, [[1, 2, 3], [1, 2, np.nan]])

@@ -64,8 +64,8 @@ def test_any_number_of_threads_gives_equal_costs(ring: armill.Study) -> None:
 @pytest.mark.parametrize(
     ("places", "message"),
     [
-        (np.zeros((3, 5)), r"places: expected shape \(n, 6\), \(n, 7\) or \(n, 8\)"),
-        (np.zeros((2, 3, 6)), "expected shape"),
+        (np.zeros((3, 5)), r"places: expected shape \(\.\.\., 6\), \(\.\.\., 7\) or \(\.\.\., 8\)"),
+        (np.zeros((2, 6, 3)), "expected shape"),
         ([[0, 0, np.nan, 0, 0, 0]], r"places\[0, 2\] is"),
         (np.zeros((1, 8)), "has no rail"),
     ],
@@ -85,11 +85,11 @@ def test_a_study_can_be_pickled(ring: armill.Study) -> None:
 
 def test_placements_over_coordinates(ring: armill.Study, tmp_path: Path) -> None:
     x, spin = np.linspace(0.7, 2.5, 19), np.radians([-30, 0, 30])
-    sweep = scale.placements(ring, x=x, spin=spin)
+    sweep = scale.placements(ring, x_mm=x * 1e3, spin_deg=np.degrees(spin))
     assert sweep.evaluation_count == 19 * 3 * 360 * 4
     frame = scale.run(sweep, tmp_path / "sweep", items_per_part=10, workers=2).read().to_table()
     places = np.tile(ring.nominal_placement(), (57, 1))
-    places[:, 0], places[:, 6] = np.repeat(x, 3), np.tile(spin, 19)
+    places[:, 0], places[:, 6] = np.repeat(x * 1e3 / 1e3, 3), np.tile(np.radians(np.degrees(spin)), 19)
     scores = ring.evaluate_placements(places)
     assert frame["unreachable_points"].to_pylist() == scores.n_unreachable.tolist()
     assert frame["branch"].to_pylist() == scores.branch
@@ -117,21 +117,25 @@ def test_refuses_invalid_placements(ring: armill.Study) -> None:
     with pytest.raises(armill.InputError, match="a placement has no coordinate `yaw`"):
         scale.placements(ring, yaw=[0.0])
     with pytest.raises(armill.InputError, match="is not on a rail"):
-        scale.placements(ring, rail=[0.0])
+        scale.placements(ring, rail_mm=[0.0])
     with pytest.raises(armill.InputError, match="twice or not at all"):
         scale.placements(ring)
-    with pytest.raises(armill.InputError, match="x: expected finite numbers"):
-        scale.placements(ring, x=[np.inf])
+    with pytest.raises(armill.InputError, match="x_mm: expected finite numbers"):
+        scale.placements(ring, x_mm=[np.inf])
+    # The name without a unit, of earlier versions, gives the one with it.
+    for old, new in (("x", "x_mm"), ("spin", "spin_deg")):
+        with pytest.raises(armill.InputError, match=f"no coordinate `{old}`\n  help: `{new}`"):
+            scale.placements(ring, **{old: [0.7]})
 
 
 def test_a_file_that_a_study_names_is_part_of_the_request(tmp_path: Path) -> None:
     robot = (Path(__file__).parents[3] / "robots/yaskawa/mh12.toml").read_text()
     (tmp_path / "arm.toml").write_text(robot)
     study = armill.Study.from_text(RING.replace("yaskawa/mh12", "arm.toml"), tmp_path)
-    before = request_of(scale.placements(study, x=[0.9]))
-    assert before == request_of(scale.placements(study, x=[0.9]))
+    before = request_of(scale.placements(study, x_mm=[900]))
+    assert before == request_of(scale.placements(study, x_mm=[900]))
     (tmp_path / "arm.toml").write_text(robot + "\n# measured again\n")
-    after = request_of(scale.placements(study, x=[0.9]))
+    after = request_of(scale.placements(study, x_mm=[900]))
     assert [name for name in after if after[name] != before[name]] == ["work.files"]
 
 
@@ -142,7 +146,7 @@ def test_deviations_are_those_of_evaluate(tmp_path: Path) -> None:
     poses[7, 0, 3] = 9.0
     forces = [[30.0, 0, -50], [0, 40, -50], [0, 0, -80]]
     samples = robot.joint_compliance * np.random.default_rng(4).uniform(0.8, 1.2, (5, 6))
-    sweep = scale.deviations(robot, poses, forces, samples, normal=[0, 0, 1])
+    sweep = scale.deviations(robot, forces, poses=poses, samples=samples, normal=[0, 0, 1])
     assert sweep.evaluation_count == 5 * 40 * 3
     frame = scale.run(sweep, tmp_path, items_per_part=27, workers=2).read().to_table()
     assert frame["sample"].to_pylist() == np.repeat(np.arange(5), 120).tolist()
@@ -155,17 +159,62 @@ def test_deviations_are_those_of_evaluate(tmp_path: Path) -> None:
         column = frame[name].to_pylist()
         assert [value is None for value in column] == missing.tolist()
         assert [value for value in column if value is not None] == expected[~missing, axis].tolist()
+    branches = np.concatenate([each.branch for each in evaluations])
+    assert frame["branch"].to_pylist() == np.repeat(branches, 3).tolist()
+
+
+def test_deviations_at_joints_are_those_of_deviation(tmp_path: Path) -> None:
+    robot = armill.Robot.load("yaskawa/mh12")
+    joints = np.radians(np.random.default_rng(3).uniform(-25, 25, (40, 6)) + [0, 20, -10, 0, 40, 0])
+    # Another branch than the nominal one, and a joint beyond its limit.
+    joints[3:6, 4] *= -1
+    joints[8, 1] = robot.limits[1, 1] + 0.1
+    forces = [[30.0, 0, -50], [0, 40, -50]]
+    samples = robot.joint_compliance * np.random.default_rng(4).uniform(0.8, 1.2, (3, 6))
+    frame = scale.run(scale.deviations(robot, forces, joints=joints, samples=samples), tmp_path, items_per_part=27).read().to_table()
+    expected = robot.deviation(joints, forces, compliances=samples).reshape(-1, 3) * 1e6
+    for axis, name in enumerate(("dx_um", "dy_um", "dz_um")):
+        assert frame[name].to_pylist() == expected[:, axis].tolist()
+    branches = robot.branch_of(joints)
+    assert len(set(branches)) == 2
+    assert frame["branch"].to_pylist() == np.tile(np.repeat(branches, 2), 3).tolist()
+    within = np.ones(40, dtype=bool)
+    within[8] = False
+    assert frame["within_joint_limits"].to_pylist() == np.tile(np.repeat(within, 2), 3).tolist()
+    assert frame["joints"].to_pylist() == np.tile(np.repeat(np.arange(40), 2), 3).tolist()
 
 
 def test_refuses_invalid_deviations() -> None:
     robot = armill.Robot.load("yaskawa/mh12")
     pose = robot.forward(np.zeros((1, 6)))
     with pytest.raises(armill.InputError, match=r"samples: .* shape \(n, 6\), given \(1, 5\)"):
-        scale.deviations(robot, pose, [0, 0, 1], np.ones(5))
+        scale.deviations(robot, [0, 0, 1], poses=pose, samples=np.ones(5))
     with pytest.raises(armill.InputError, match=r"poses: expected shape \(n, 4, 4\)"):
-        scale.deviations(robot, pose[0], [0, 0, 1])
+        scale.deviations(robot, [0, 0, 1], poses=pose[0])
+    with pytest.raises(armill.InputError, match=r"joints: expected shape \(n, 6\)"):
+        scale.deviations(robot, [0, 0, 1], joints=np.zeros(6))
     with pytest.raises(ValueError, match="forces"):
-        scale.deviations(robot, pose, [0, 0])
+        scale.deviations(robot, [0, 0], poses=pose)
+    with pytest.raises(armill.InputError, match="both or not at all"):
+        scale.deviations(robot, [0, 0, 1])
+    with pytest.raises(armill.InputError, match="`branch` applies to poses"):
+        scale.deviations(robot, [0, 0, 1], joints=np.zeros((1, 6)), branch="best")
+
+
+def test_sweeps_take_a_robot_in_place_of_that_of_the_study(ring: armill.Study, tmp_path: Path) -> None:
+    robot = armill.Robot.load("yaskawa/mh12")
+    soft = robot.with_compliance(2 * robot.joint_compliance, source="test")
+    study = armill.Study.from_text(RING, robot=soft)
+    places = ring.nominal_placement()[None]
+    again = scale.run(scale.placements(study, places), tmp_path / "places").read().to_table()["cost_um"][0].as_py()
+    once = ring.evaluate_placements(places).cost[0] * 1e6
+    # A robot file has seven digits of a compliance.
+    assert abs(again / once - 2) < 1e-5
+    frame = scale.run(scale.studies([ring, study], robots=[robot, soft]), tmp_path / "studies", items_per_part=1).read().to_table()
+    largest = np.array(frame["max_in_plane_um"].to_pylist())
+    assert np.abs(largest / largest[0] - [1, 2, 1, 2]).max() < 1e-3
+    frame = scale.run(scale.studies([ring, study]), tmp_path / "two", items_per_part=1).read().to_table()
+    assert np.abs(np.array(frame["max_in_plane_um"].to_pylist()) / largest[:2] - 1).max() < 1e-12
 
 
 def test_studies_with_robots_and_changes(ring: armill.Study, tmp_path: Path) -> None:
@@ -210,7 +259,7 @@ def test_toml_tables_are_written_as_they_are_read() -> None:
 def large(tmp_path_factory: pytest.TempPathFactory) -> scale.Plan:
     """A ring of 360 points under 4 cases at 70 000 placements: 1.008e8 evaluations in 70 parts."""
     ring = armill.Study.from_text(RING, tmp_path_factory.mktemp("ring"))
-    axes = {"x": np.linspace(0.8, 1.1, 50), "y": np.linspace(-0.2, 0.2, 40), "spin": np.linspace(-0.6, 0.6, 35)}
+    axes = {"x_mm": np.linspace(800, 1100, 50), "y_mm": np.linspace(-200, 200, 40), "spin_deg": np.linspace(-35, 35, 35)}
     plan = scale.plan(scale.placements(ring, **axes), items_per_part=1000)
     assert plan.sweep.evaluation_count > 1e8
     return plan

@@ -27,7 +27,8 @@ from typing import Any, cast
 
 import numpy as np
 
-from armill import Study
+from armill import Robot, Study
+from armill._types import RobotLike, StudyLike
 from armill.scale.errors import needed, refused
 from armill.scale.sweep import Block, Sweep
 from armill.scale.sweeps.named_files import named_files
@@ -47,6 +48,8 @@ class Studies:
     files: list[dict[str, str]]
     changes: list[dict[str, Any]]
     columns: dict[str, str]
+    #: The robot given with each study, in place of that of its text.
+    robots: list[Robot | None]
 
     def __call__(self, block: Block) -> dict[str, Any]:
         items = zip(block["study"], block["change"], strict=True)
@@ -65,13 +68,16 @@ class Studies:
     def changed(self, study: int, change: int) -> Study:
         """A study with a set of changes."""
         table = needed(TOML, "scale").loads(self.texts[study])
-        for key, value in self.changes[change].items():
+        changes, robot = dict(self.changes[change]), self.robots[study]
+        if "robot" in changes:
+            robot = changes.pop("robot") if isinstance(changes["robot"], Robot) else None
+        for key, value in changes.items():
             *above, last = key.split(".")
             place = table
             for name in above:
                 place = place.setdefault(name, {})
             place[last] = value
-        return Study.from_text(toml_of(table), self.folders[study])
+        return Study.from_text(toml_of(table), self.folders[study], robot=robot)
 
     def _row(self, study: int, change: int, threads: int) -> dict[str, Any]:
         answer = self.changed(study, change).run(threads=threads).answer
@@ -121,14 +127,15 @@ def _at(answer: Any, where: str) -> float | None:
 
 
 def studies(
-    studies: Sequence[Study | str | Path],
+    studies: Sequence[StudyLike],
     changes: Sequence[Mapping[str, Any]] = ({},),
     *,
-    robots: Sequence[str] | None = None,
+    robots: Sequence[RobotLike] | None = None,
     columns: Mapping[str, str] | None = None,
 ) -> Sweep:
     """studies, changes -> Sweep: each study with each set of changes; ``robots`` are changes of the robot only.
 
+    The value of the change ``robot`` is a ``Robot``, a name or a path.
     Every worker must have access to named robot files and to the files of the studies.
     """
     found = [study if isinstance(study, Study) else Study.load(study) for study in studies]
@@ -136,12 +143,14 @@ def studies(
         raise refused("there is no study", "give at least one")
     sets = [dict(change) for change in changes]
     if robots is not None:
-        sets = [{**change, "robot": robot} for robot in robots for change in sets]
+        named = [robot if isinstance(robot, Robot) else str(robot) for robot in robots]
+        sets = [{**change, "robot": robot} for robot in named for change in sets]
     if not sets:
         raise refused("there is no set of changes", "use {} for an unchanged study")
     texts = [study.text for study in found]
     folders = [str(Path(study.folder).absolute()) for study in found]
-    work = Studies(texts, folders, [], sets, dict(columns or {}))
+    given = [study.robot for study in found]
+    work = Studies(texts, folders, [], sets, dict(columns or {}), given)
     # Every study with every change is checked before the first of them runs.
     lengths = {"study": len(found), "change": len(sets)}
     files: list[dict[str, str]] = []
@@ -150,4 +159,4 @@ def studies(
             changed = work.changed(study, change)
             changed.check()
             files.append(named_files(changed))
-    return Sweep(lengths, Studies(texts, folders, files, sets, work.columns))
+    return Sweep(lengths, Studies(texts, folders, files, sets, work.columns, given))

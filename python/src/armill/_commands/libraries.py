@@ -1,0 +1,61 @@
+"""The libraries, and the postures at one pose."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy.typing as npt
+
+from armill._answer import Answer
+from armill._commands._call import call, command
+from armill._types import Path, Progress, RobotLike
+
+
+@command
+def robots(
+    robot: RobotLike | None = None,
+    *,
+    drawing: Path | None = None,
+    force: bool = False,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Answer:
+    """robot or nothing -> Answer: the robot library, or the data of one robot."""
+    return call("robots", [] if robot is None else [robot], locals())
+
+
+@command
+def materials(
+    material: str | None = None,
+    *,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Answer:
+    """material or nothing -> Answer: the material library, or the data of one material."""
+    return call("materials", [] if material is None else [material], locals())
+
+
+@command
+def pose(
+    robot: RobotLike,
+    *,
+    joints_deg: npt.ArrayLike | None = None,
+    at_mm: npt.ArrayLike | None = None,
+    tilt_deg: float | None = None,
+    axis: npt.ArrayLike | None = None,
+    spin_deg: float | None = None,
+    home_deg: npt.ArrayLike | None = None,
+    tool_mm: npt.ArrayLike | None = None,
+    wrench_n: npt.ArrayLike | None = None,
+    compliance_rad_per_n_m: npt.ArrayLike | None = None,
+    compliance_class: Literal["light", "medium", "heavy"] | None = None,
+    load_dependent: bool = False,
+    reference_joints_deg: npt.ArrayLike | None = None,
+    drawing: Path | None = None,
+    base: str | None = None,
+    force: bool = False,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Answer:
+    """robot -> Answer: all postures at one pose: joints, compliance, deviation."""
+    return call("pose", [robot], locals())
