@@ -188,6 +188,12 @@ def test_tables_of_several_files_and_options(tmp_path):
     assert by_tables.json == by_paths.json.replace(f"{tmp_path}/", "")
 
 
+def test_problems_of_a_table_name_it_without_its_folder(mh12):
+    with pytest.raises(armill.InputError, match=r"^error: table-1\.csv|^table-1\.csv") as refused:
+        armill.identify({"A1_deg": [1.0], "nonsense": [2.0]}, robot=mh12, tool_mm=[0, 0, 150])
+    assert "armill-" not in str(refused.value) + str(refused.value.problems)
+
+
 def test_names_of_columns_are_given_by_name(tmp_path):
     options = armill.command_help("calibrate")
     assert "columns" in options

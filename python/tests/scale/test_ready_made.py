@@ -176,7 +176,7 @@ def test_deviations_at_joints_are_those_of_deviation(tmp_path: Path) -> None:
     for axis, name in enumerate(("dx_um", "dy_um", "dz_um")):
         assert frame[name].to_pylist() == expected[:, axis].tolist()
     branches = robot.branch_of(joints)
-    assert len(set(branches)) == 2
+    assert len(set(branches)) == 3
     assert frame["branch"].to_pylist() == np.tile(np.repeat(branches, 2), 3).tolist()
     within = np.ones(40, dtype=bool)
     within[8] = False

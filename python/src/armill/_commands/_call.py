@@ -44,7 +44,12 @@ def call(command: str, operands: Sequence[Any], given: Mapping[str, Any]) -> Ans
                 options[name] = files.of(cast("Sequence[Any]", value))
             else:
                 (options[name],) = files.of([value])
-        json, messages, within_tolerance = _armill.call(command, paths, options, given["threads"], given["progress"])
+        try:
+            json, messages, within_tolerance = _armill.call(command, paths, options, given["threads"], given["progress"])
+        except _armill.InputError as error:
+            error.args = (files.without_folder(str(error)),)
+            error.problems = [{key: files.without_folder(value) for key, value in each.items()} for each in error.problems]
+            raise
         return Answer(files.without_folder(json), [files.without_folder(line) for line in messages], within_tolerance)
 
 

@@ -35,9 +35,9 @@ class TableFiles:
         """values -> the same with the path of a file in place of each table: `table-1.csv`, `table-2.csv`, ..."""
         return [self._path(value) if is_table(value) else value for value in values]
 
-    def without_folder(self, text: str) -> str:
-        """A text of a command with the names of these files in place of their paths."""
-        return text.replace(f"{self._folder.name}{os.sep}", "")
+    def without_folder(self, text: Any) -> Any:
+        """A text of a command with the names of these files in place of their paths; any other value as it is."""
+        return text.replace(f"{self._folder.name}{os.sep}", "") if isinstance(text, str) else text
 
     def _path(self, table: Any) -> Path:
         self._count += 1
