@@ -148,7 +148,7 @@ impl Checker<'_> {
             (Shape::List(list), Value::List(entries)) => self.list(value, list, entries, place),
             (Shape::Table(shape), Value::Table(table)) => self.table(value.span.clone(), table, shape, place),
             (Shape::Tagged { tag, variants }, Value::Table(table)) => {
-                self.tagged(value.span.clone(), table, (tag, variants), place);
+                self.tagged(value.span.clone(), table, tag, variants, place);
             }
             (Shape::OneOf(alternatives), _) => self.one_of(value, alternatives, place),
             (shape, _) => self.wrong_type(value, shape, place),
@@ -315,7 +315,8 @@ impl Checker<'_> {
         &mut self,
         span: Range<usize>,
         table: &Table,
-        (tag, variants): (&str, &[(String, TableShape)]),
+        tag: &str,
+        variants: &[(String, TableShape)],
         place: &ValuePosition<'_>,
     ) {
         let names: Vec<Json> = variants.iter().map(|(name, _)| name.as_str().into()).collect();

@@ -26,7 +26,7 @@ use super::columns::{Column, Quantity, Samples, doubled, measured, missing, of_n
 use super::format::{ForceReadOptions, ForceRecords, Format};
 use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
-use crate::table::sheet::{Cell, cells, is_blank_row, separator_of};
+use crate::table::sheet::{Cell, cells, is_blank_row, row_cells, separator_of};
 
 /// Reads the record in `reader`. `path` is the file name shown in problems, `acts_on` the body that the forces act on.
 /// `requested.channels` is not used for tables.
@@ -199,19 +199,7 @@ impl Table<'_> {
     /// # Errors
     /// A number of cells that differs from the header, a cell that is not a number, a time that does not increase.
     fn row(&self, line: &Line, samples: &mut Samples) -> Result<(), Problems> {
-        let found = cells(&line.text, self.separator);
-        if found.len() != samples.width() {
-            let message = format!(
-                "{} cells, but the table has {} columns",
-                found.len(),
-                samples.width()
-            );
-            let hint = match self.separator {
-                ',' => "separate cells with `;` or a tab to use decimal commas",
-                _ => "every row needs one cell per column",
-            };
-            return Err(self.at(line, message, hint));
-        }
+        let found = row_cells(self.path, line, self.separator, samples.width())?;
         let meant = found.iter().zip(&self.columns);
         let numbers: Result<Vec<f64>, Problems> = meant
             .filter(|(_, column)| column.is_some())
@@ -235,9 +223,8 @@ impl Table<'_> {
 }
 
 /// Form of the header.
-const HEADER_HINT: &str = "the first line names the columns with their units, such as `time_s,fx_n,fy_n,fz_n`; for a \
-    file \
-                           without header give the names of its columns (option `columns`)";
+const HEADER_HINT: &str = "the first line names the columns with their units, such as `time_s,fx_n,fy_n,fz_n`; for a file \
+    without header give the names of its columns (option `columns`)";
 
 /// The channel of a name that ends in its unit.
 ///

@@ -181,22 +181,10 @@ impl Reader<'_> {
 
     /// Adds a row as a test if it has a reading and no problem.
     fn row(&mut self, line: &Line, columns: &Columns, found: &mut LoadTests) {
-        let cells = self.sheet.cells(line);
-        if cells.len() != columns.columns.len() {
-            let message = format!(
-                "{} cells, but the table has {} columns",
-                cells.len(),
-                columns.columns.len()
-            );
-            let hint = if self.sheet.separator == ',' {
-                "separate cells with `;` to use decimal commas; an empty cell is written as two separators in a row"
-            } else {
-                "an empty cell is written as two separators in a row"
-            };
-            self.problems
-                .push(self.sheet.problem_of_line(line, message, hint));
-            return;
-        }
+        let cells = match self.sheet.row(line, columns.columns.len()) {
+            Ok(cells) => cells,
+            Err(wrong) => return self.problems.push(wrong),
+        };
         let mut row = Row {
             joints: vec![0.0; self.robot.joints().len()],
             force: Vector3::zeros(),

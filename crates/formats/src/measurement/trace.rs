@@ -21,7 +21,7 @@ use armill_core::nalgebra::Vector3;
 use super::profile::LengthUnit;
 use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
-use crate::table::sheet::{cells, is_blank_row, is_remark, number, separator_of};
+use crate::table::sheet::{is_blank_row, named_columns, number, row_cells, separator_of};
 
 /// Maximum length that a tracker measures, m.
 const FARTHEST: f64 = 1e4;
@@ -64,14 +64,14 @@ enum Column {
 /// that are not numbers, rows of another length, positions out of range.
 pub fn read(path: &str, reader: impl BufRead) -> Result<Traces, Problems> {
     let mut lines = Lines::new(path, reader);
-    let Some(first) = next(&mut lines)? else {
+    let Some(first) = lines.next_row()? else {
         return Err(Problem::of_file(path, "the file has no points", HINT).into());
     };
     let mut found = Traces::default();
     let table = Table::of(path, &first, &mut found.unused)?;
     let (mut problems, mut count) = (Vec::new(), 0);
     while problems.len() < MOST_PROBLEMS {
-        match next(&mut lines) {
+        match lines.next_row() {
             Ok(None) => break,
             Err(wrong) => {
                 problems.extend(wrong);
@@ -120,16 +120,6 @@ impl Traces {
     }
 }
 
-/// The next line that is neither empty nor a comment.
-fn next(lines: &mut Lines<impl BufRead>) -> Result<Option<Line>, Problems> {
-    loop {
-        match lines.next()? {
-            Some(line) if is_remark(&line.text) => {}
-            other => return Ok(other),
-        }
-    }
-}
-
 /// The column of a name; `None` for an unknown name.
 fn named(name: &str) -> Result<Option<Column>, (String, String)> {
     let lower = name.trim().to_lowercase();
@@ -167,36 +157,16 @@ struct Table<'a> {
 impl<'a> Table<'a> {
     /// From the header line; unknown names are added to `unused`.
     fn of(path: &'a str, line: &Line, unused: &mut Vec<String>) -> Result<Table<'a>, Problems> {
-        let separator = separator_of(&line.text);
-        let (mut columns, mut problems) = (Vec::new(), Vec::new());
-        for cell in cells(&line.text, separator) {
-            let column = named(&cell.text).unwrap_or_else(|(message, hint)| {
-                problems.push(line.problem(path, cell.span.clone(), message, &hint));
-                None
-            });
-            let same = |before: &Option<Column>| match (column, before) {
-                (Some(Column::Along(own, _)), Some(Column::Along(other, _))) => own == *other,
-                (Some(Column::Run), Some(Column::Run)) => true,
-                _ => false,
-            };
-            if columns.iter().any(same) {
-                let message = format!("`{}` repeats an earlier column", cell.text);
-                problems.push(line.problem(
-                    path,
-                    cell.span.clone(),
-                    message,
-                    "remove one of the two columns",
-                ));
-            }
-            if column.is_none() {
-                unused.push(cell.text.to_string());
-            }
-            columns.push(column);
-        }
+        let is_same = |one, other| match (one, other) {
+            (Column::Along(own, _), Column::Along(other, _)) => own == other,
+            (one, other) => one == other,
+        };
+        let named = named_columns(path, line, named, is_same);
+        unused.extend(named.unused);
         // A name with a problem is also missing.
-        Problems::from(problems).into_result()?;
+        Problems::from(named.problems).into_result()?;
         let has = |axis: usize| {
-            let mut known = columns.iter().flatten();
+            let mut known = named.columns.iter().flatten();
             known.any(|column| matches!(column, Column::Along(own, _) if *own == axis))
         };
         let missing: Vec<&str> = (0..3)
@@ -209,26 +179,14 @@ impl<'a> Table<'a> {
         }
         Ok(Table {
             path,
-            separator,
-            columns,
+            separator: separator_of(&line.text),
+            columns: named.columns,
         })
     }
 
     /// Run and point of a row.
     fn row(&self, line: &Line) -> Result<(String, Vector3<f64>), Problems> {
-        let found = cells(&line.text, self.separator);
-        if found.len() != self.columns.len() {
-            let message = format!(
-                "{} cells, but the table has {} columns",
-                found.len(),
-                self.columns.len()
-            );
-            let hint = match self.separator {
-                ',' => "separate cells with `;` or a tab to use decimal commas",
-                _ => "every row needs one cell per column",
-            };
-            return Err(line.problem(self.path, 0..line.text.len(), message, hint).into());
-        }
+        let found = row_cells(self.path, line, self.separator, self.columns.len())?;
         let (mut point, mut run, mut problems) = (Vector3::zeros(), String::new(), Vec::new());
         for (cell, column) in found.iter().zip(&self.columns) {
             let (axis, factor) = match column {

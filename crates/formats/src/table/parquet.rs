@@ -326,7 +326,7 @@ fn read_trusting(bytes: &[u8]) -> Result<(Table, Metadata), ParquetError> {
     };
     let column = |(index, described): (usize, &ColumnDescPtr)| {
         let known = facts.iter().find(|known| known.name == described.name());
-        read_column(&file, (index, described), known.cloned().unwrap_or_default())
+        read_column(&file, index, described, known.cloned().unwrap_or_default())
     };
     let columns = described.schema_descr().columns();
     let columns = columns.iter().enumerate().map(column).collect::<Result<_, _>>()?;
@@ -339,7 +339,8 @@ fn read_trusting(bytes: &[u8]) -> Result<(Table, Metadata), ParquetError> {
 /// Another type than [`write()`] makes, values that are missing where none may be, texts that are not labels.
 fn read_column(
     file: &SerializedFileReader<Bytes>,
-    (index, described): (usize, &ColumnDescPtr),
+    index: usize,
+    described: &ColumnDescPtr,
     facts: Facts,
 ) -> Result<Column, ParquetError> {
     let is_text = described.logical_type_ref() == Some(&LogicalType::String);

@@ -7,6 +7,8 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use super::csv::is_formula;
+use crate::document::Problem;
+use crate::document::lines::Line;
 
 /// One cell: its text, and its position in the line, bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -68,6 +70,75 @@ pub(crate) fn cells(line: &str, separator: char) -> Vec<Cell<'_>> {
         }
     }
     cells
+}
+
+/// The cells of a row of a table with this number of columns.
+///
+/// # Errors
+/// Another number of cells; `path` is the file name shown in the problem.
+pub(crate) fn row_cells<'l>(
+    path: &str,
+    line: &'l Line,
+    separator: char,
+    columns: usize,
+) -> Result<Vec<Cell<'l>>, Problem> {
+    let found = cells(&line.text, separator);
+    if found.len() == columns {
+        return Ok(found);
+    }
+    let message = format!("{} cells, but the table has {columns} columns", found.len());
+    let hint = match separator {
+        ',' => {
+            "separate cells with `;` or a tab to use decimal commas; an empty cell is written as two separators in a \
+             row"
+        }
+        _ => "every row needs one cell per column; an empty cell is written as two separators in a row",
+    };
+    Err(line.problem(path, 0..line.text.len(), message, hint))
+}
+
+/// The meaning of the columns of a table.
+pub(crate) struct NamedColumns<C> {
+    /// One for each name of the header; `None` is ignored.
+    pub columns: Vec<Option<C>>,
+    /// The ignored names.
+    pub unused: Vec<String>,
+    /// Names with a problem, and repeated columns.
+    pub problems: Vec<Problem>,
+}
+
+/// The columns that the header line names: `meaning` gives the meaning of a name (`None`: it is ignored), or a message
+/// and a hint; `is_same` whether two columns give the same quantity.
+pub(crate) fn named_columns<C: Copy>(
+    path: &str,
+    header: &Line,
+    meaning: impl Fn(&str) -> Result<Option<C>, (String, String)>,
+    is_same: impl Fn(C, C) -> bool,
+) -> NamedColumns<C> {
+    let mut found = NamedColumns {
+        columns: Vec::new(),
+        unused: Vec::new(),
+        problems: Vec::new(),
+    };
+    for cell in cells(&header.text, separator_of(&header.text)) {
+        let mut report = |message, hint: &str| {
+            (found.problems).push(header.problem(path, cell.span.clone(), message, hint))
+        };
+        let column = meaning(&cell.text).unwrap_or_else(|(message, hint)| {
+            report(message, &hint);
+            None
+        });
+        let mut known = found.columns.iter().flatten();
+        if column.is_some_and(|column| known.any(|earlier| is_same(*earlier, column))) {
+            let message = format!("`{}` repeats an earlier column", cell.text);
+            report(message, "remove one of the two columns");
+        }
+        if column.is_none() {
+            found.unused.push(cell.text.into_owned());
+        }
+        found.columns.push(column);
+    }
+    found
 }
 
 /// A cell as it was meant.

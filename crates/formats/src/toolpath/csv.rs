@@ -28,7 +28,7 @@ use super::format::Format;
 use crate::document::lines::{Line, Lines};
 use crate::document::unit::suggestion;
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
-use crate::table::sheet::{self, Cell, cells, is_blank_row, is_remark, separator_of};
+use crate::table::sheet::{self, Cell, cells, is_blank_row, is_remark, row_cells, separator_of};
 
 /// No table has more columns than this.
 const MOST_COLUMNS: usize = 100;
@@ -268,21 +268,7 @@ impl Table {
 
     /// What the cells of a line say, or what is wrong with each.
     fn row(&self, path: &str, line: &Line) -> Result<Row, Vec<Problem>> {
-        let found = cells(&line.text, self.separator);
-        if found.len() != self.columns.len() {
-            let message = format!(
-                "{} cells, but the table has {} columns",
-                found.len(),
-                self.columns.len()
-            );
-            let hint = match self.separator {
-                ',' => {
-                    "separate cells with `;` to use decimal commas; an empty cell is written as two separators in a row"
-                }
-                _ => "an empty cell is written as two separators in a row",
-            };
-            return Err(vec![line.problem(path, 0..line.text.len(), message, hint)]);
-        }
+        let found = row_cells(path, line, self.separator, self.columns.len()).map_err(|wrong| vec![wrong])?;
         let mut problems = Vec::new();
         let mut row = Row::default();
         for (cell, column) in found.iter().zip(&self.columns) {

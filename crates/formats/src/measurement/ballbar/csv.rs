@@ -32,7 +32,7 @@ use super::{BallbarReadOptions, BallbarRuns, direction_of};
 use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
 use crate::measurement::columns::measured;
-use crate::table::sheet::{Cell, cells, is_blank_row, is_remark, separator_of};
+use crate::table::sheet::{Cell, is_blank_row, is_remark, row_cells, separator_of};
 
 /// Maximum number of samples: one hour at 1 kHz.
 const MOST_SAMPLES: usize = 5_000_000;
@@ -154,19 +154,8 @@ impl Table {
         if is_blank_row(&line.text, self.separator) {
             return Ok(());
         }
-        let found = cells(&line.text, self.separator);
-        if found.len() != self.columns.columns.len() {
-            let message = format!(
-                "{} cells, but the header has {} names",
-                found.len(),
-                self.columns.columns.len()
-            );
-            let hint = match self.separator {
-                ',' => "separate cells with `;` or a tab to use decimal commas",
-                _ => "every row needs one cell per column",
-            };
-            return Err(Refused::Row(vec![self.at(line, message, hint)]));
-        }
+        let found = row_cells(&self.path, line, self.separator, self.columns.columns.len())
+            .map_err(|wrong| Refused::Row(vec![wrong]))?;
         let (mut angle, mut radius, mut run) = (0.0, 0.0, None);
         let mut direction = remarks.direction;
         let mut problems = Vec::new();
@@ -201,7 +190,7 @@ impl Table {
             };
             problems.extend(taken.err().into_iter().flatten());
         }
-        problems.extend(self.too_far(line, (&found, radius), remarks));
+        problems.extend(self.too_far(line, &found, radius, remarks));
         if !problems.is_empty() {
             return Err(Refused::Row(problems));
         }
@@ -227,11 +216,11 @@ impl Table {
             )]));
         }
         let name = run.or(remarks.run.as_deref());
-        self.push((name, direction), (line, remarks), [angle, radius])
+        self.push(name, direction, line, remarks, [angle, radius])
     }
 
     /// Refuses a radius (m, or its deviation) that no circular test has, if the nominal radius is given above.
-    fn too_far(&self, line: &Line, (row, radius): (&[Cell<'_>], f64), remarks: &Remarks) -> Option<Problem> {
+    fn too_far(&self, line: &Line, row: &[Cell<'_>], radius: f64, remarks: &Remarks) -> Option<Problem> {
         let nominal = remarks.radius?;
         let is_radius = |column: &Option<Column>| matches!(column, Some(Column::Radius(_)));
         let is_either =
@@ -252,8 +241,10 @@ impl Table {
     /// Too many runs; a sample number that does not follow the previous one; a second start angle in the same run.
     fn push(
         &mut self,
-        (name, direction): (Option<&str>, Direction),
-        (line, remarks): (&Line, &Remarks),
+        name: Option<&str>,
+        direction: Direction,
+        line: &Line,
+        remarks: &Remarks,
         [angle, radius]: [f64; 2],
     ) -> Result<(), Refused> {
         let before = self.groups.get(self.current);

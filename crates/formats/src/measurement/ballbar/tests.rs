@@ -191,7 +191,7 @@ fn all_problems_are_reported_together_with_their_positions() {
     for part in [
         "bar.csv:74:3: `x` is not a number",
         "bar.csv:75:5: `left` is not a direction",
-        "bar.csv:76:1: 3 cells, but the header has 4 names",
+        "bar.csv:76:1: 3 cells, but the table has 4 columns",
         "separate cells with `;`",
     ] {
         assert!(given.contains(part), "no `{part}` in\n{given}");

@@ -7,7 +7,7 @@ use std::io::BufRead;
 
 use crate::document::lines::{Line, Lines};
 use crate::document::{Problem, Problems};
-use crate::table::sheet::{Cell, cells, is_blank_row, is_remark, separator_of};
+use crate::table::sheet::{Cell, cells, is_blank_row, row_cells, separator_of};
 
 /// A header and rows that may differ in length.
 #[derive(Clone, Debug)]
@@ -30,9 +30,8 @@ impl Sheet {
     pub fn read(name: &str, reader: impl BufRead) -> Result<Option<Sheet>, Problems> {
         let mut lines = Lines::new(name, reader);
         let mut sheet: Option<Sheet> = None;
-        while let Some(line) = lines.next()? {
+        while let Some(line) = lines.next_row()? {
             match &mut sheet {
-                _ if is_remark(&line.text) => {}
                 Some(sheet) if is_blank_row(&line.text, sheet.separator) => {}
                 Some(sheet) => sheet.rows.push(line),
                 None => {
@@ -53,9 +52,17 @@ impl Sheet {
         self.cells(&self.header)
     }
 
-    /// The cells of a row.
-    pub fn cells<'a>(&self, row: &'a Line) -> Vec<Cell<'a>> {
-        cells(&row.text, self.separator)
+    /// The cells of a line.
+    pub fn cells<'a>(&self, line: &'a Line) -> Vec<Cell<'a>> {
+        cells(&line.text, self.separator)
+    }
+
+    /// The cells of a row of this number of columns.
+    ///
+    /// # Errors
+    /// Another number of cells.
+    pub fn row<'a>(&self, row: &'a Line, columns: usize) -> Result<Vec<Cell<'a>>, Problem> {
+        row_cells(&self.name, row, self.separator, columns)
     }
 
     /// A problem of a cell of this line.

@@ -19,7 +19,7 @@ use armill_core::robot::Robot;
 use super::columns::{Column, Mapping, Quantity, missing, named, of_data_set};
 use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
-use crate::table::sheet::{cells, is_blank_row, number, separator_of};
+use crate::table::sheet::{cells, is_blank_row, named_columns, number, row_cells, separator_of};
 
 /// Maximum length that a tracker measures, m.
 const FARTHEST: f64 = 1e4;
@@ -28,9 +28,8 @@ const MOST_TURN: f64 = 4.0 * std::f64::consts::PI;
 /// Maximum number of poses.
 const MOST_POSES: usize = 1_000_000;
 const COLUMNS_HINT: &str = "use one row per pose: joint positions (`q1_deg` ...), the measured point \
-    (`x_mm,y_mm,z_mm`), and its \
-                            orientation if it was measured (`rx_deg,ry_deg,rz_deg`); columns with other names can be \
-                            mapped";
+    (`x_mm,y_mm,z_mm`), and its orientation if it was measured (`rx_deg,ry_deg,rz_deg`); columns with other names can \
+    be mapped";
 
 /// Order of the angles of a measured body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -166,48 +165,22 @@ impl<'a> Table<'a> {
                 .iter()
                 .any(|cell| of_data_set(&cell.text) == of_data_set(name))
         });
-        let (mut columns, mut unused, mut problems) = (Vec::new(), Vec::new(), Vec::new());
-        for cell in &found {
-            let mapped = given.columns.iter().find(|mapping| mapping.theirs == cell.text);
+        let meaning = |cell: &str| {
+            let mapped = given.columns.iter().find(|mapping| mapping.theirs == cell);
             let name = match mapped {
-                Some(mapping) => &mapping.ours,
-                None => match of_data_set(&cell.text).filter(|_| is_data_set) {
-                    Some(ours) => ours,
-                    None => cell.text.as_ref(),
-                },
+                Some(mapping) => mapping.ours.as_str(),
+                None => of_data_set(cell).filter(|_| is_data_set).unwrap_or(cell),
             };
-            let column: Option<Column> = match named(name, robot) {
-                Ok(None) if mapped.is_some() => {
-                    let message = format!(
-                        "`{}` is mapped to `{name}`, which is not a known column",
-                        cell.text
-                    );
-                    problems.push(line.problem(path, cell.span.clone(), message, COLUMNS_HINT));
-                    None
-                }
-                Ok(column) => column,
-                Err((message, hint)) => {
-                    problems.push(line.problem(path, cell.span.clone(), message, &hint));
-                    None
-                }
-            };
-            let is_same = |before: &Option<Column>| {
-                column.is_some_and(|c| before.is_some_and(|b| b.quantity == c.quantity))
-            };
-            if columns.iter().any(is_same) {
-                let message = format!("`{}` repeats an earlier column", cell.text);
-                problems.push(line.problem(
-                    path,
-                    cell.span.clone(),
-                    message,
-                    "remove one of the two columns",
-                ));
+            match named(name, robot)? {
+                None if mapped.is_some() => Err((
+                    format!("`{cell}` is mapped to `{name}`, which is not a known column"),
+                    COLUMNS_HINT.to_owned(),
+                )),
+                column => Ok(column),
             }
-            if column.is_none() {
-                unused.push(cell.text.to_string());
-            }
-            columns.push(column);
-        }
+        };
+        let named = named_columns(path, line, meaning, |one, other| one.quantity == other.quantity);
+        let mut problems = named.problems;
         for mapping in &given.columns {
             if found.iter().all(|cell| cell.text != mapping.theirs) {
                 let message = format!("no column is called `{}`", mapping.theirs);
@@ -217,7 +190,7 @@ impl<'a> Table<'a> {
         }
         // A name with a problem is also missing.
         Problems::from(problems).into_result()?;
-        let missing = missing(&columns, robot);
+        let missing = missing(&named.columns, robot);
         if !missing.is_empty() {
             let message = format!("columns are missing: {}", missing.join(", "));
             return Err(line.problem(path, whole, message, COLUMNS_HINT).into());
@@ -230,8 +203,8 @@ impl<'a> Table<'a> {
                 false => TurnOrder::FixedXyz,
             }),
             separator,
-            columns,
-            unused,
+            columns: named.columns,
+            unused: named.unused,
         })
     }
 
@@ -244,19 +217,7 @@ impl<'a> Table<'a> {
 
     /// Adds a row; a row with a problem adds nothing.
     fn row(&self, line: &Line, measured: &mut MeasuredPoses) -> Result<(), Problems> {
-        let found = cells(&line.text, self.separator);
-        if found.len() != self.columns.len() {
-            let message = format!(
-                "{} cells, but the table has {} columns",
-                found.len(),
-                self.columns.len()
-            );
-            let hint = match self.separator {
-                ',' => "separate cells with `;` or a tab to use decimal commas",
-                _ => "every row needs one cell per column",
-            };
-            return Err(line.problem(self.path, 0..line.text.len(), message, hint).into());
-        }
+        let found = row_cells(self.path, line, self.separator, self.columns.len())?;
         let meant = || {
             let both = found.iter().zip(&self.columns);
             both.filter_map(|(cell, column)| Some((cell, (*column)?)))

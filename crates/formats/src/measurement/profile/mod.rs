@@ -113,8 +113,8 @@ pub fn read(
     let mut lines = Lines::new(path, reader);
     match lines.next_row()? {
         None => Err(Problem::of_file(path, "the file has no points", COLUMNS_HINT).into()),
-        Some(first) if begins_with_number(&first.text) => plain::read((first, lines), requested),
-        Some(first) => table::read((first, lines), requested),
+        Some(first) if begins_with_number(&first.text) => plain::read(first, lines, requested),
+        Some(first) => table::read(first, lines, requested),
     }
 }
 

@@ -24,7 +24,8 @@ use crate::table::sheet::number;
 /// All problems of the file, at most 200: no unit given, cells that are not numbers, rows of another length, a number
 /// of rows that differs from the first line, coordinates out of range.
 pub(super) fn read(
-    (mut line, mut lines): (Line, Lines<impl BufRead>),
+    mut line: Line,
+    mut lines: Lines<impl BufRead>,
     requested: &ProfileReadOptions,
 ) -> Result<MeasuredProfile, Problems> {
     let path = &lines.name().to_owned();
@@ -77,7 +78,7 @@ pub(super) fn read(
             problems.push(too_many(path, &line));
             break;
         }
-        match point(path, &line, (layout, width), factor) {
+        match point(path, &line, layout, factor) {
             Ok(point) => {
                 measured.points.push(point);
                 measured.lines.push(line.number);
@@ -120,12 +121,8 @@ fn pieces(text: &str) -> impl Iterator<Item = (usize, &str)> {
 }
 
 /// The point of a row, m.
-fn point(
-    path: &str,
-    line: &Line,
-    (layout, width): (Layout, usize),
-    factor: f64,
-) -> Result<[f64; 3], Problems> {
+fn point(path: &str, line: &Line, layout: Layout, factor: f64) -> Result<[f64; 3], Problems> {
+    let width = if layout.is_space() { 3 } else { 2 };
     let found: Vec<(usize, &str)> = pieces(&line.text).collect();
     let whole = || 0..line.text.len();
     if found.len() != width {

@@ -15,7 +15,7 @@ use super::columns::{COLUMNS_HINT, Column, Layout, Quantity, named};
 use super::{Format, MOST_POINTS, MeasuredProfile, Points, ProfileReadOptions};
 use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
-use crate::table::sheet::{cells, is_blank_row, number, separator_of};
+use crate::table::sheet::{is_blank_row, named_columns, number, row_cells, separator_of};
 
 /// Reads the table below the header line `first`.
 ///
@@ -23,7 +23,8 @@ use crate::table::sheet::{cells, is_blank_row, number, separator_of};
 /// All problems of the file, at most 200: columns that give no points, duplicate columns, units that are missing or
 /// unknown, cells that are not numbers, rows of another length, points out of range.
 pub(super) fn read(
-    (first, mut lines): (Line, Lines<impl BufRead>),
+    first: Line,
+    mut lines: Lines<impl BufRead>,
     requested: &ProfileReadOptions,
 ) -> Result<MeasuredProfile, Problems> {
     let path = &lines.name().to_owned();
@@ -91,63 +92,29 @@ impl<'a> Table<'a> {
     /// From the header line.
     fn of(path: &'a str, line: &Line, requested: &ProfileReadOptions) -> Result<Table<'a>, Problems> {
         let whole = 0..line.text.len();
-        let separator = separator_of(&line.text);
-        let (mut columns, mut unused, mut problems) = (Vec::new(), Vec::new(), Vec::new());
-        for cell in cells(&line.text, separator) {
-            let column = named(&cell.text).unwrap_or_else(|(message, hint)| {
-                problems.push(line.problem(path, cell.span.clone(), message, &hint));
-                None
-            });
-            let is_same = |before: &Option<Column>| {
-                column.is_some_and(|c| before.is_some_and(|b| b.quantity == c.quantity))
-            };
-            if columns.iter().any(is_same) {
-                let message = format!("`{}` repeats an earlier column", cell.text);
-                problems.push(line.problem(
-                    path,
-                    cell.span.clone(),
-                    message,
-                    "remove one of the two columns",
-                ));
-            }
-            if column.is_none() {
-                unused.push(cell.text.to_string());
-            }
-            columns.push(column);
-        }
+        let named = named_columns(path, line, named, |one, other| one.quantity == other.quantity);
+        let mut problems = named.problems;
         if let Some(unit) = requested.unit {
             let message = format!("the unit {unit} was specified, but the columns state their units");
             problems.push(line.problem(path, whole.clone(), message, "leave out the unit"));
         }
         // A name with a problem also makes the layout wrong.
         Problems::from(problems).into_result()?;
-        let quantities: Vec<Quantity> = columns.iter().flatten().map(|c: &Column| c.quantity).collect();
+        let quantities: Vec<Quantity> = named.columns.iter().flatten().map(|c| c.quantity).collect();
         let layout = Layout::of(&quantities, requested)
             .map_err(|(message, hint)| line.problem(path, whole, message, hint))?;
         Ok(Table {
             path,
-            separator,
-            columns,
+            separator: separator_of(&line.text),
+            columns: named.columns,
             layout,
-            unused,
+            unused: named.unused,
         })
     }
 
     /// The point of a row.
     fn point(&self, line: &Line) -> Result<[f64; 3], Problems> {
-        let found = cells(&line.text, self.separator);
-        if found.len() != self.columns.len() {
-            let message = format!(
-                "{} cells, but the table has {} columns",
-                found.len(),
-                self.columns.len()
-            );
-            let hint = match self.separator {
-                ',' => "separate cells with `;` or a tab to use decimal commas",
-                _ => "every row needs one cell per column",
-            };
-            return Err(line.problem(self.path, 0..line.text.len(), message, hint).into());
-        }
+        let found = row_cells(self.path, line, self.separator, self.columns.len())?;
         let mut values = [(Quantity::Angle, 0.0); 6];
         let mut problems = Vec::new();
         let meant = found

@@ -89,7 +89,7 @@ pub fn meshes(path: &str, text: &str) -> Result<Vec<Mesh>, Problems> {
                     let message = format!("the file has more than {MOST_MESHES} meshes");
                     return Err(file.problem(tag(shape), message, None).into());
                 }
-                match mesh(&file, shape, (name, looks, &way)) {
+                match mesh(&file, shape, name, looks, &way) {
                     Ok(mesh) => found.extend(mesh),
                     Err(wrong) => problems.extend(wrong),
                 }
@@ -103,7 +103,9 @@ pub fn meshes(path: &str, text: &str) -> Result<Vec<Mesh>, Problems> {
 fn mesh(
     file: &document::Source,
     shape: Node<'_, '_>,
-    (link, looks, way): (&str, bool, &[Hop]),
+    link: &str,
+    looks: bool,
+    way: &[Hop],
 ) -> Result<Option<Mesh>, Problems> {
     let geometry = children(shape, "geometry").next();
     let Some(mesh) = geometry.and_then(|geometry| children(geometry, "mesh").next()) else {

@@ -1,8 +1,8 @@
 //! xacro: URDF with macros, properties and expressions, expanded and then read as URDF.
 //!
 //! A file that defines one robot macro and calls nothing is read as that robot with an empty `prefix`. Files that it
-//! includes are searched next to it and in the packages around it; missing files of colours, materials
-//! and simulation are remarks. `$(env ...)` is not evaluated.
+//! includes are searched next to it and in the packages around it; missing files of colours, materials and
+//! simulation are remarks. `$(env ...)` is not evaluated.
 //!
 //! In reading order: `packages` (where included files may be), `flatten` (one text of all files; what links look like
 //! and weigh is dropped, so that nothing of it can fail), `load_yaml` (data of YAML files, checked before it is used),

@@ -196,7 +196,8 @@ fn a_damaged_file_is_refused_or_read_but_never_a_panic() {
 
 /// A file with one column `x` of this type, written by `values`, and with this metadata `columns`.
 fn foreign(
-    (kind, repetition): (PhysicalType, Repetition),
+    kind: PhysicalType,
+    repetition: Repetition,
     columns: Option<&str>,
     values: impl FnOnce(&mut ColumnWriter<'_>),
 ) -> Vec<u8> {
@@ -227,7 +228,7 @@ fn refused(bytes: &[u8]) -> String {
 
 #[test]
 fn types_that_no_table_can_represent_are_refused_by_name() {
-    let short = foreign((PhysicalType::FLOAT, Repetition::REQUIRED), None, |column| {
+    let short = foreign(PhysicalType::FLOAT, Repetition::REQUIRED, None, |column| {
         let ColumnWriter::FloatColumnWriter(column) = column else {
             panic!("of floats")
         };
@@ -238,7 +239,7 @@ fn types_that_no_table_can_represent_are_refused_by_name() {
         "{}",
         refused(&short)
     );
-    let gaps = foreign((PhysicalType::BOOLEAN, Repetition::OPTIONAL), None, |column| {
+    let gaps = foreign(PhysicalType::BOOLEAN, Repetition::OPTIONAL, None, |column| {
         let ColumnWriter::BoolColumnWriter(column) = column else {
             panic!("of flags")
         };
@@ -253,7 +254,7 @@ fn types_that_no_table_can_represent_are_refused_by_name() {
 
 #[test]
 fn a_file_of_others_is_a_table_without_meanings() {
-    let whole = foreign((PhysicalType::INT64, Repetition::OPTIONAL), None, |column| {
+    let whole = foreign(PhysicalType::INT64, Repetition::OPTIONAL, None, |column| {
         let ColumnWriter::Int64ColumnWriter(column) = column else {
             panic!("of integers")
         };
@@ -269,7 +270,7 @@ fn a_file_of_others_is_a_table_without_meanings() {
 
 #[test]
 fn numbers_that_are_not_finite_are_refused() {
-    let strange = foreign((PhysicalType::DOUBLE, Repetition::REQUIRED), None, |column| {
+    let strange = foreign(PhysicalType::DOUBLE, Repetition::REQUIRED, None, |column| {
         let ColumnWriter::DoubleColumnWriter(column) = column else {
             panic!("of numbers")
         };
@@ -286,7 +287,8 @@ fn numbers_that_are_not_finite_are_refused() {
 fn a_category_that_is_no_label_is_refused_and_so_are_columns_that_are_no_list() {
     let of = |columns: &str| {
         foreign(
-            (PhysicalType::BYTE_ARRAY, Repetition::REQUIRED),
+            PhysicalType::BYTE_ARRAY,
+            Repetition::REQUIRED,
             Some(columns),
             |column| {
                 let ColumnWriter::ByteArrayColumnWriter(column) = column else {

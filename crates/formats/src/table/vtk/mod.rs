@@ -225,7 +225,7 @@ fn point_data(out: &mut String, arrays: &[PointArray]) {
             }
         }
         let valid = values.valid().into_iter().map(|valid| [u8::from(valid)]);
-        data_array(out, ("UInt8", &mask_name(name), 1), valid);
+        data_array(out, "UInt8", &mask_name(name), 1, valid);
     }
     *out += "</PointData>\n";
 }
@@ -233,13 +233,15 @@ fn point_data(out: &mut String, arrays: &[PointArray]) {
 /// An array of numbers, rounded to 32 bits; one beyond their range is infinite.
 fn floats(out: &mut String, name: &str, components: usize, values: impl Iterator<Item = f64>) {
     let bytes = values.map(|value| (value as f32).to_le_bytes());
-    data_array(out, ("Float32", name, components), bytes);
+    data_array(out, "Float32", name, components, bytes);
 }
 
-/// One array (type, name, components): the count of its bytes and the bytes themselves, together in base64.
+/// One array: the count of its bytes and the bytes themselves, together in base64.
 fn data_array<const BYTES: usize>(
     out: &mut String,
-    (kind, name, components): (&str, &str, usize),
+    kind: &str,
+    name: &str,
+    components: usize,
     values: impl Iterator<Item = [u8; BYTES]>,
 ) {
     let mut block = vec![0; size_of::<u64>()];

@@ -142,7 +142,7 @@ pub fn write_poly_data(data: &PolyData) -> Vec<u8> {
         point_data(out, &data.arrays);
         *out += "<Points>\n";
         let positions = data.points_mm.iter().flatten().map(|at| at.to_le_bytes());
-        data_array(out, ("Float64", "points_mm", 3), positions);
+        data_array(out, "Float64", "points_mm", 3, positions);
         *out += "</Points>\n";
         if !data.vertices.is_empty() {
             cells(out, "Verts", data.vertices.chunks(1));
@@ -167,12 +167,12 @@ fn cells<'a>(out: &mut String, element: &str, cells: impl Iterator<Item = &'a [u
     // Indices are far below 2^63, where signed and unsigned bytes are the same.
     if i32::try_from(last).is_ok() {
         let bytes = |index: usize| (index as u32).to_le_bytes();
-        data_array(out, ("Int32", "connectivity", 1), connectivity.map(bytes));
-        data_array(out, ("Int32", "offsets", 1), ends.map(bytes));
+        data_array(out, "Int32", "connectivity", 1, connectivity.map(bytes));
+        data_array(out, "Int32", "offsets", 1, ends.map(bytes));
     } else {
         let bytes = |index: usize| (index as u64).to_le_bytes();
-        data_array(out, ("Int64", "connectivity", 1), connectivity.map(bytes));
-        data_array(out, ("Int64", "offsets", 1), ends.map(bytes));
+        data_array(out, "Int64", "connectivity", 1, connectivity.map(bytes));
+        data_array(out, "Int64", "offsets", 1, ends.map(bytes));
     }
     *out += &format!("</{element}>\n");
 }

@@ -135,8 +135,7 @@ impl Interpreter<'_> {
         ) else {
             let message = format!("a CIRCLE has {} parameters", names.len());
             let hint = "write centre and axis: `CIRCLE/x,y,z,i,j,k`; or centre, axis, radius, two tolerances, \
-                diameter and \
-                        corner of the tool, for a helix followed by `TIMES,n`";
+                diameter and corner of the tool, for a helix followed by `TIMES,n`";
             self.report(statement, statement.parameters_span(), message, hint);
             return;
         };
@@ -293,8 +292,7 @@ impl Interpreter<'_> {
                         angle.to_degrees()
                     );
                     let hint = "it is ambiguous whether the part of a turn is additional: write the helix as full \
-                        turns, \
-                                or as lines";
+                        turns, or as lines";
                     self.report(statement, statement.parameters_span(), message, hint);
                     return None;
                 }

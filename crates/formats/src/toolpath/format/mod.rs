@@ -6,11 +6,10 @@
 //! | cutter locations | `GOTO/`, `TOOL PATH/`, `UNITS/`, `PARTNO`, ... | `.apt`, `.aptsource`, `.cl`, `.cls`, `.clsf`, `.cldata` |
 //! | table | a first line of names with `x`, `y` and `z` | `.csv`, `.tsv` |
 //! | G-code | lines of letters with numbers: `N10 G1 X5` | `.nc`, `.ngc`, `.gcode`, `.tap`, `.cnc`, `.mpf`, `.eia`, `.iso`, `.min` |
-//!
 //! | program of a robot | lines that only its language has | those of its [`Language`] |
 //!
-//! The path of a robot program depends on its robot: it is only recognised here, and read by
-//! the crate `armill-programs`. `known_by`: what lines of a program show.
+//! The path of a robot program depends on its robot: it is only recognised here, and read by the
+//! crate `armill-programs`. `known_by`: what lines of a program show.
 
 mod known_by;
 
@@ -158,7 +157,7 @@ impl Format {
             Some(Robots::Other(language)) => {
                 let hint = "its language is not supported: give the path as the CAM system writes it, as cutter \
                     locations (APT, \
-                            CLSF), G-code or CSV";
+                    CLSF), G-code or CSV";
                 return refused(format!("this is a robot program ({language})"), hint);
             }
             None => {}

@@ -193,7 +193,8 @@ impl Cutter {
     pub fn follow(
         &mut self,
         contour: Contour,
-        (from, across): (Point2<f64>, f64),
+        from: Point2<f64>,
+        across: f64,
         mut call: Canonical,
         out: Out<'_>,
     ) -> Result<(), Refusal> {
@@ -211,14 +212,15 @@ impl Cutter {
             end_at(&mut call, active.plane, offset);
             return self.pass(call, out);
         }
-        let mut next = moved(&active, contour, (from, to), call)?;
+        let stretch = Stretch { contour, from, to };
+        let mut next = moved(&active, &stretch, call)?;
         next.line = self.line;
         if active.entering {
-            enter(&mut next, contour, from);
+            enter(&mut next, &stretch);
             active.entering = false;
         } else if let Some(last) = self.piece.as_mut() {
-            let arrives = direction(contour, from, (from, to));
-            match corner(last, arrives, bend(contour, from), &active) {
+            let arrives = stretch.direction(from);
+            match corner(last, arrives, stretch.bend(from), &active) {
                 Corner::None => next.start = last.end,
                 Corner::Concave => {
                     let at = meeting(last, &next, arrives, active.radius)?;
@@ -297,33 +299,35 @@ fn meeting(last: &Piece, next: &Piece, arrives: Vector2<f64>, radius: f64) -> Re
         .ok_or(Refusal::Gouging { radius })
 }
 
-/// Direction of the contour at a point of it.
-fn direction(contour: Contour, at: Point2<f64>, (from, to): (Point2<f64>, Point2<f64>)) -> Vector2<f64> {
-    match contour {
-        Contour::Line => (to - from).normalize(),
-        Contour::Arc { centre, sense } => left_of((at - centre).normalize()) * f64::from(sense.sign()),
-    }
+/// A piece of the contour with its ends.
+struct Stretch {
+    contour: Contour,
+    from: Point2<f64>,
+    to: Point2<f64>,
 }
 
-/// Curvature of the contour, above zero to the left.
-fn bend(contour: Contour, at: Point2<f64>) -> f64 {
-    match contour {
-        Contour::Line => 0.0,
-        Contour::Arc { centre, sense } => f64::from(sense.sign()) / (at - centre).norm(),
+impl Stretch {
+    /// Direction of the contour at a point of it.
+    fn direction(&self, at: Point2<f64>) -> Vector2<f64> {
+        match self.contour {
+            Contour::Line => (self.to - self.from).normalize(),
+            Contour::Arc { centre, sense } => left_of((at - centre).normalize()) * f64::from(sense.sign()),
+        }
+    }
+
+    /// Curvature of the contour at a point of it, above zero to the left.
+    fn bend(&self, at: Point2<f64>) -> f64 {
+        match self.contour {
+            Contour::Line => 0.0,
+            Contour::Arc { centre, sense } => f64::from(sense.sign()) / (at - centre).norm(),
+        }
     }
 }
 
 /// The offset piece, without regard to the previous one.
-fn moved(
-    active: &Active,
-    contour: Contour,
-    (from, to): (Point2<f64>, Point2<f64>),
-    mut call: Canonical,
-) -> Result<Piece, Refusal> {
-    let (arrives, leaves) = (
-        direction(contour, from, (from, to)),
-        direction(contour, to, (from, to)),
-    );
+fn moved(active: &Active, stretch: &Stretch, mut call: Canonical) -> Result<Piece, Refusal> {
+    let Stretch { contour, from, to } = *stretch;
+    let (arrives, leaves) = (stretch.direction(from), stretch.direction(to));
     let offset = active.side * active.radius;
     let start = from + left_of(arrives) * offset;
     let end = to + left_of(leaves) * offset;
@@ -361,14 +365,15 @@ fn moved(
         end,
         corner: to,
         leaves,
-        bend: bend(contour, to),
+        bend: stretch.bend(to),
         call,
         line: 0,
     })
 }
 
 /// Lets the first piece begin on the bare contour.
-fn enter(piece: &mut Piece, contour: Contour, from: Point2<f64>) {
+fn enter(piece: &mut Piece, stretch: &Stretch) {
+    let Stretch { contour, from, .. } = *stretch;
     piece.start = from;
     let (
         Contour::Arc { centre, .. },

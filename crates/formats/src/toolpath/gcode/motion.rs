@@ -93,7 +93,7 @@ impl Machine {
     fn follow(&mut self, contour: Contour, call: Canonical, out: Out<'_>) -> Result<(), Refusal> {
         let [first, second, across] = self.plane.axes();
         let from = Point2::new(self.at[first], self.at[second]);
-        self.cutter.follow(contour, (from, self.at[across]), call, out)
+        self.cutter.follow(contour, from, self.at[across], call, out)
     }
 
     /// I, J, K under G43.5.
