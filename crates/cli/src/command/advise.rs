@@ -24,7 +24,7 @@ pub(crate) fn run(arguments: &AdviseArguments) -> Result<Outcome, StudyError> {
     let study = found.read()?;
     let seed = u64::from(arguments.place.seed);
     let placing = PlacementSearch::new(&study, requested(&arguments.place)?, seed)?;
-    let out = folder(("advise", "advice"), &found, &arguments.run)?;
+    let out = folder("advise", "advice", &found, &arguments.run)?;
     let mut journal = Journal::kept_in(&out);
     let advice = in_pool(arguments.run.threads, || {
         let progress = Progress::of("places", placing.place_count());
@@ -47,6 +47,5 @@ pub(crate) fn run(arguments: &AdviseArguments) -> Result<Outcome, StudyError> {
         sentences: advice.answer.advice.clone(),
         pictures: advice.pictures,
     };
-    let options = (&arguments.run, Some(&opening));
-    results((&advice.study, &out), options, |_| sentences)
+    results(&advice.study, &out, &arguments.run, Some(&opening), |_| sentences)
 }

@@ -46,7 +46,7 @@ pub(crate) fn run(arguments: &BacklashArguments) -> Result<Outcome, StudyError> 
     let study = studies::find(&arguments.study)?.read()?;
     print(&match (&arguments.simulate, arguments.circles) {
         (Some(_), _) => simulated(arguments, &study, noise)?,
-        (None, Some(count)) => planned(arguments, &study, (count, noise))?,
+        (None, Some(count)) => planned(arguments, &study, count, noise)?,
         (None, None) => estimated(arguments, &study, noise)?,
     })?;
     Ok(Outcome::Fine)
@@ -77,7 +77,8 @@ fn estimated(arguments: &BacklashArguments, study: &Study, noise: Option<f64>) -
 fn planned(
     arguments: &BacklashArguments,
     study: &Study,
-    (count, noise): (usize, Option<f64>),
+    count: usize,
+    noise: Option<f64>,
 ) -> Result<String, StudyError> {
     let half = match arguments.within_mm[..] {
         [x, y, z] => [x, y, z],

@@ -27,7 +27,7 @@ pub(crate) fn run(arguments: &PlaceArguments) -> Result<Outcome, StudyError> {
         requested(&arguments.place)?,
         u64::from(arguments.place.seed),
     )?;
-    let out = folder(("place", "place"), &found, &arguments.run)?;
+    let out = folder("place", "place", &found, &arguments.run)?;
     let mut journal = Journal::kept_in(&out);
     let placed = in_pool(arguments.run.threads, || {
         let progress = Progress::of("places", placing.place_count());
@@ -49,7 +49,7 @@ pub(crate) fn run(arguments: &PlaceArguments) -> Result<Outcome, StudyError> {
     output::write_pictures(drawn, &out)?;
     let there = placed.study(&found)?;
     let opening = placed.opening();
-    results((&there, &out), (&arguments.run, Some(&opening)), |_| {
+    results(&there, &out, &arguments.run, Some(&opening), |_| {
         let lines = placed.answer.sentences().join("\n");
         format!("{lines}\n\n{}", placed.answer.study_lines())
             .trim_end()

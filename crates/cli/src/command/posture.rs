@@ -20,8 +20,8 @@ pub(crate) fn run(arguments: &PostureArguments) -> Result<Outcome, StudyError> {
     let found = studies::find(&arguments.run.study)?;
     let mut study = found.read()?;
     study.search_postures(requested(arguments)?.as_ref())?;
-    let out = folder(("posture", "posture"), &found, &arguments.run)?;
-    results((&study, &out), (&arguments.run, None), summary)
+    let out = folder("posture", "posture", &found, &arguments.run)?;
+    results(&study, &out, &arguments.run, None, summary)
 }
 
 /// The settings given by the options; `None` if there are none.

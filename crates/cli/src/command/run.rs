@@ -26,8 +26,8 @@ use crate::terminal::{print, say};
 pub(crate) fn run(arguments: &RunArguments) -> Result<Outcome, StudyError> {
     let found = studies::find(&arguments.run.study)?;
     let study = found.read()?;
-    let out = folder(("run", "out"), &found, &arguments.run)?;
-    results((&study, &out), (&arguments.run, None), summary)
+    let out = folder("run", "out", &found, &arguments.run)?;
+    results(&study, &out, &arguments.run, None, summary)
 }
 
 /// The folder for the results of the command `by`: the one that the options name, or `name` in the folder of the study.
@@ -35,7 +35,8 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<Outcome, StudyError> {
 /// # Errors
 /// A folder that cannot be written, or that another run is writing.
 pub(super) fn folder(
-    (by, name): (&'static str, &str),
+    by: &'static str,
+    name: &str,
     found: &FoundStudy,
     options: &RunOptions,
 ) -> Result<ResultFolder, StudyError> {
@@ -52,8 +53,10 @@ pub(super) fn folder(
 /// # Errors
 /// Files that must not be replaced (reported before the work starts); an error while results are written.
 pub(super) fn results(
-    (study, out): (&Study, &ResultFolder),
-    (options, opening): (&RunOptions, Option<&Opening>),
+    study: &Study,
+    out: &ResultFolder,
+    options: &RunOptions,
+    opening: Option<&Opening>,
     summary: impl FnOnce(&StudyAnswer) -> String,
 ) -> Result<Outcome, StudyError> {
     let mut requested = OutputOptions {
@@ -67,7 +70,7 @@ pub(super) fn results(
         requested.csv = Csv::Every;
     }
     output::allow(study, (out, requested))?;
-    let answer = in_pool(options.threads, || work(study, (out, requested)))??;
+    let answer = in_pool(options.threads, || work(study, out, requested))??;
     if options.json {
         print(output::json(&answer)?.trim_end())?;
     } else {
@@ -101,10 +104,7 @@ pub(super) fn in_pool<T: Send>(
 }
 
 /// Computes the study and writes its files, under a progress bar.
-fn work(
-    study: &Study,
-    (out, requested): (&ResultFolder, OutputOptions<'_>),
-) -> Result<StudyAnswer, StudyError> {
+fn work(study: &Study, out: &ResultFolder, requested: OutputOptions<'_>) -> Result<StudyAnswer, StudyError> {
     let progress = Progress::new(point_count(study));
     let found = progress.watch(|watch| run_study(study, watch))?;
     let answer = answer(study, &found);
