@@ -154,6 +154,33 @@ impl Draft {
             .filter(|line| !line.is_empty())
     }
 
+    /// Whether this point is the first of the program. The move to it is a joint move, whatever speed it has.
+    pub(super) fn is_first(&self, point: &DraftPoint) -> bool {
+        self.points
+            .first()
+            .is_some_and(|first| std::ptr::eq(first, point))
+    }
+
+    /// Tip speed of the move to this point, m/s; `None` for a joint move.
+    pub(super) fn tip_speed(&self, point: &DraftPoint) -> Option<f64> {
+        point.speed.filter(|_| !self.is_first(point))
+    }
+
+    /// Checks that the language can write all tip speeds, m/s.
+    pub(super) fn check_speeds(&self, is_writable: impl Fn(f64) -> bool) -> Result<(), DraftError> {
+        let mut speeds = (1..)
+            .zip(&self.points)
+            .filter_map(|(index, point)| Some((index, self.tip_speed(point)?)));
+        match speeds.find(|(_, speed)| !is_writable(*speed)) {
+            Some((index, value)) => Err(DraftError::NotWritable {
+                index,
+                what: "the speed",
+                value,
+            }),
+            None => Ok(()),
+        }
+    }
+
     /// Blend distance of this point, m; the last point is an exact stop.
     pub(super) fn blend(&self, point: &DraftPoint) -> f64 {
         match self.points.last().is_some_and(|last| std::ptr::eq(last, point)) {
@@ -162,24 +189,22 @@ impl Draft {
         }
     }
 
-    /// The points in parts of at most this number; a single part is the program itself.
-    pub(super) fn parts(&self, most: usize) -> impl Iterator<Item = (String, &[DraftPoint])> {
+    /// The points in parts of at most this number, each with its name: that of the program, `separator` and a number.
+    /// A single part has the name of the program.
+    pub(super) fn parts(
+        &self,
+        most: usize,
+        separator: &str,
+    ) -> impl Iterator<Item = (String, &[DraftPoint])> {
         let is_split = self.points.len() > most;
         self.points.chunks(most).enumerate().map(move |(index, points)| {
             let name = match is_split {
-                true => format!("{}_{:03}", self.name, index + 1),
+                true => format!("{}{separator}{:03}", self.name, index + 1),
                 false => self.name.clone(),
             };
             (name, points)
         })
     }
-}
-
-/// These characters as ISO-8859-1; `?` for other characters.
-pub(super) fn latin1(text: &str) -> Vec<u8> {
-    text.chars()
-        .map(|c| u8::try_from(u32::from(c)).unwrap_or(b'?'))
-        .collect()
 }
 
 /// The written files of a program.

@@ -1,4 +1,4 @@
-//! Each language with its reader and its writers. A new language is a module, and a line in each list here.
+//! Each language with its reader and its writer. A new language is a module, and a line in each list here.
 
 use armill_core::frame::Isometry;
 use armill_formats::document::{Problem, Problems};
@@ -10,7 +10,7 @@ use crate::spelling::Respelling;
 use crate::text::ProgramText;
 use crate::{inform, krl, rapid, tp, urscript, val3};
 
-/// Number of lines that are searched for the language.
+/// Number of lines of each file that are searched for the language.
 const MOST_LINES: usize = 2000;
 
 /// The language of these files, from the lines of the first file or its ending.
@@ -22,14 +22,7 @@ pub fn language_of(texts: &[ProgramText]) -> Result<Language, Problems> {
         .iter()
         .flat_map(|text| text.text().lines().take(MOST_LINES))
         .find_map(Language::of_line);
-    let ending = |text: &ProgramText| {
-        let (_, ending) = text.name().rsplit_once('.')?;
-        Some(ending.to_lowercase())
-    };
-    let of_name = || {
-        let ending = texts.first().and_then(ending)?;
-        Language::of_ending(&ending)
-    };
+    let of_name = || Language::of_ending(&texts.first()?.ending()?);
     // VAL3 and URScript have the same names of moves; the file endings of VAL3 are unique.
     let val3 = of_name().filter(|language| *language == Language::Val3);
     val3.or(of_lines).or_else(of_name).ok_or_else(|| {
@@ -46,15 +39,15 @@ pub fn language_of(texts: &[ProgramText]) -> Result<Language, Problems> {
 /// Reads the program in these files, the main file first, in the language that their content or name shows.
 ///
 /// # Errors
-/// An unsupported language; all problems of the files.
+/// A language that is not recognised; all problems of the files.
 pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
     read_as(language_of(&texts)?, texts)
 }
 
-/// Reads the program in these files, which is in this language.
+/// Reads the program in these files, the main file first, in this language.
 ///
 /// # Errors
-/// Every problem of the files.
+/// All problems of the files.
 pub fn read_as(language: Language, texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
     match language {
         Language::Krl => krl::read(texts),
@@ -81,15 +74,21 @@ pub fn write(language: Language, draft: &Draft) -> Result<Written, DraftError> {
     }
 }
 
-/// Writes a pose (frame to tool) in place of `before`, which is another target of the same program. Other parts of
-/// the target are kept, and also its orientation if only the position is new.
-pub(crate) fn spell(language: Language, pose: (&Isometry, Respelling), before: &str, out: &mut String) {
+/// Writes a pose (frame to tool) in place of `before`, a target of a program as its text gives it. Other parts of the
+/// target are kept, and also its orientation if only the position is rewritten.
+pub(crate) fn spell(
+    language: Language,
+    pose: &Isometry,
+    respelling: Respelling,
+    before: &str,
+    out: &mut String,
+) {
     match language {
-        Language::Krl => krl::spell(pose, before, out),
-        Language::Rapid => rapid::spell(pose, before, out),
-        Language::Inform => inform::spell(pose, before, out),
-        Language::Tp => tp::spell(pose, before, out),
-        Language::UrScript => urscript::spell(pose, before, out),
-        Language::Val3 => val3::spell(pose, before, out),
+        Language::Krl => krl::spell(pose, respelling, before, out),
+        Language::Rapid => rapid::spell(pose, respelling, before, out),
+        Language::Inform => inform::spell(pose, respelling, before, out),
+        Language::Tp => tp::spell(pose, respelling, before, out),
+        Language::UrScript => urscript::spell(pose, respelling, before, out),
+        Language::Val3 => val3::spell(pose, respelling, before, out),
     }
 }

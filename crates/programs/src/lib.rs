@@ -9,15 +9,17 @@
 //! | [`urscript`] | URScript, `.script` | yes | yes |
 //! | [`val3`] | Staubli VAL3, a folder of `.pjx`, `.dtx`, `.pgx` | yes | yes |
 //!
-//! All modules have the same structure: `read` returns a [`RobotProgram`], `write` writes a [`Draft`], `spell` writes a
-//! pose as a target of the language. A program can be rewritten with other poses; everything else is kept byte for byte
-//! ([`RobotProgram::with_poses`]).
+//! All these modules have the same structure: `read` returns a [`RobotProgram`], `write` writes a [`Draft`], `spell`
+//! writes a pose as a target of the language. A program can be rewritten with other poses; everything else is kept byte
+//! for byte ([`RobotProgram::with_poses`]).
 //!
-//! In reading order: `languages` each [`Language`] with its reader and writers; `program` the data of a program; `text` files as bytes and as characters; `rewrite`
-//! the same program with other poses; `followed` a program as the moves of a path; `draft` programs to write;
-//! `posture`, `number` postures and numbers of controllers;
-//! `messages` problems and notes; `tokens` tokens of three languages; `spelling` lines, numbers
-//! and their replacement; `arc_row` arcs given point by point.
+//! `[recalled]` marks facts of a language that are not in a sample, standard or manual that was read.
+//!
+//! In reading order: `languages` (each [`Language`] with its reader and writer), `program` (the data of a program),
+//! `text` (files as bytes and as characters), `rewrite` (the same program with other poses), `followed` (a program as
+//! the moves of a path), `draft` (programs to write), `posture` and `number` (postures and numbers of controllers),
+//! `messages` (problems and notes), `tokens` (tokens of KRL, RAPID and URScript), `spelling` (lines and numbers of the
+//! other languages, and their replacement), `arc_row` (arcs given point by point).
 
 pub mod inform;
 pub mod krl;
@@ -38,8 +40,6 @@ mod rewrite;
 mod spelling;
 mod text;
 mod tokens;
-#[cfg(test)]
-mod trials;
 
 pub use armill_formats::language::Language;
 pub use draft::{Draft, DraftError, DraftPoint, Written};

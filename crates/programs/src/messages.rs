@@ -1,4 +1,4 @@
-//! Messages on a program: problems, and notes on ignored statements and assumptions.
+//! Messages on the texts of a program: problems, and notes on ignored statements and assumptions.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -10,9 +10,13 @@ use super::text::ProgramText;
 /// Maximum number of different notes.
 const MOST_NOTES: usize = 200;
 
-/// Problems and notes, in order.
-#[derive(Default)]
-pub(super) struct ProgramMessages {
+/// Hint for brackets that do not match.
+pub(super) const CLOSE_BRACKETS: &str = "close every bracket, in the order in which they were opened";
+
+/// Problems and notes, in order, and the text that is being read: messages are on this text.
+pub(super) struct ProgramMessages<'a> {
+    texts: &'a [ProgramText],
+    index: usize,
     problems: Vec<Problem>,
     notes: Vec<Note>,
     known: HashMap<String, usize>,
@@ -25,13 +29,53 @@ struct Note {
     times: usize,
 }
 
-impl ProgramMessages {
-    /// Adds a problem of these bytes; at most 200 are stored.
-    pub fn problem(&mut self, text: &ProgramText, span: Range<usize>, message: String, hint: &str) {
-        if self.problems.len() < MOST_PROBLEMS {
-            self.problems
-                .push(text.source().problem(span, message, Some(hint.to_owned())));
+impl<'a> ProgramMessages<'a> {
+    /// No messages; reading begins with the first of these texts.
+    pub fn new(texts: &'a [ProgramText]) -> ProgramMessages<'a> {
+        ProgramMessages {
+            texts,
+            index: 0,
+            problems: Vec::new(),
+            notes: Vec::new(),
+            known: HashMap::new(),
+            more: 0,
         }
+    }
+
+    /// All texts.
+    pub fn texts(&self) -> &'a [ProgramText] {
+        self.texts
+    }
+
+    /// The text that is being read.
+    pub fn text(&self) -> &'a ProgramText {
+        &self.texts[self.index]
+    }
+
+    /// The index of the text that is being read.
+    pub fn index(&self) -> usize {
+        self.index
+    }
+
+    /// Reading continues in the text with this index. Returns the index of the text before.
+    pub fn go_to(&mut self, index: usize) -> usize {
+        std::mem::replace(&mut self.index, index)
+    }
+
+    /// Adds a problem of these bytes; at most 200 are stored.
+    pub fn problem(&mut self, span: Range<usize>, message: impl Into<String>, hint: &str) {
+        if self.problems.len() < MOST_PROBLEMS {
+            let problem = self
+                .text()
+                .source()
+                .problem(span, message.into(), Some(hint.to_owned()));
+            self.problems.push(problem);
+        }
+    }
+
+    /// Adds the problem that this mark, which closes a bracket, is missing here.
+    pub fn unclosed(&mut self, place: Range<usize>, mark: char) {
+        self.problem(place, format!("`{mark}` is missing here"), CLOSE_BRACKETS);
     }
 
     /// Whether the maximum number of problems is reached.
@@ -44,8 +88,8 @@ impl ProgramMessages {
         self.problems.len()
     }
 
-    /// Adds a note. The same sentence is stored once, with its first line and the number of occurrences.
-    pub fn note(&mut self, (text, line): (&ProgramText, u32), sentence: impl Into<String>) {
+    /// Adds a note on this line. The same sentence is stored once, with its first line and the number of occurrences.
+    pub fn note(&mut self, line: u32, sentence: impl Into<String>) {
         let sentence = sentence.into();
         if let Some(index) = self.known.get(&sentence) {
             self.notes[*index].times += 1;
@@ -55,7 +99,7 @@ impl ProgramMessages {
             self.known.insert(sentence.clone(), self.notes.len());
             self.notes.push(Note {
                 sentence,
-                place: format!("{}, line {line}", text.name()),
+                place: format!("{}, line {line}", self.text().name()),
                 times: 1,
             });
         }

@@ -77,6 +77,36 @@ pub enum Target {
     },
 }
 
+/// A target with the frame of its pose and the tool, while a program is read.
+#[derive(Clone, Debug)]
+pub(super) struct FramedTarget {
+    pub target: Target,
+    pub frame: Frame,
+    pub tool: Frame,
+}
+
+impl FramedTarget {
+    /// Whether it has the same frame and the same tool.
+    pub fn is_framed_like(&self, other: &FramedTarget) -> bool {
+        (self.frame, self.tool) == (other.frame, other.tool)
+    }
+
+    /// The move to it; the speed of a joint move is not a tip speed.
+    pub fn reached(self, motion: Motion, speed: Speed, line: u32) -> RobotMove {
+        RobotMove {
+            speed: match motion {
+                Motion::Joint => Speed::Joints,
+                Motion::Linear | Motion::Circular { .. } => speed,
+            },
+            motion,
+            target: self.target,
+            frame: self.frame,
+            tool: self.tool,
+            line,
+        }
+    }
+}
+
 /// The bytes of a target in a text, as its language's `spell` writes it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Spelled {
@@ -95,6 +125,14 @@ pub enum Frame {
     Numbered(u32),
     /// Not known.
     Unknown,
+}
+
+/// Whether a frame is that of the poses or a tool.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum FrameKind {
+    /// The reference frame of poses: base, user frame.
+    Reference,
+    Tool,
 }
 
 /// Speed of a move.

@@ -1,8 +1,8 @@
 //! The same program with other poses: targets are rewritten, everything else is kept byte for byte.
 //!
-//! A target that occurs once in the text and is the end of several moves can only be moved to one position. Different
-//! positions for it are an error. The same applies to a target that depends on a moved one through a missing component,
-//! a frame or an offset: [`RobotProgram::check_rewritten`] reads the new files and compares every move.
+//! If several moves end at the same target in the text, it can only be moved to one position; different new positions
+//! are an error. A target may also depend on another one that is moved, through a missing component, a frame or an
+//! offset: [`RobotProgram::check_rewritten`] reads the new files and compares every move.
 
 use armill_core::frame::Isometry;
 
@@ -53,8 +53,7 @@ pub enum RewriteError {
     /// After rewriting, the move does not end at its new position.
     #[error(
         "line {line}: the move would end {apart_um:.1} um from its position, because its target depends on one that \
-         was moved; give it \
-         its own target"
+         was moved; give it its own target"
     )]
     Leans {
         /// Line of the move.
@@ -67,64 +66,58 @@ pub enum RewriteError {
     Unlike,
 }
 
-/// Tolerance of a rewritten position, m: half of the third decimal of mm in every direction; and, as the
-/// largest entry of a rotation matrix, half of the third decimal of deg in three angles.
+/// Tolerances of a rewritten pose. Position, m: half of the third decimal of mm in each direction; orientation, as the
+/// largest difference of an entry of the rotation matrix: half of the third decimal of deg in three angles.
 const WRITTEN: [f64; 2] = [1e-6, 3e-5];
 
 /// Positions closer than this are the same: half of the last digit of controllers, m.
 const SAME_PLACE: f64 = 0.5e-6;
 
 impl RobotProgram {
-    /// The files with rewritten targets of these moves. An unchanged orientation is not rewritten.
+    /// The files, names and bytes, with the targets of these moves rewritten. An unchanged orientation is not
+    /// rewritten.
+    ///
+    /// The indices in `moved` must be those of moves of this program.
     ///
     /// # Errors
     /// See [`RewriteError`].
     pub fn with_poses(&self, moved: &[Moved]) -> Result<Vec<(String, Vec<u8>)>, RewriteError> {
-        let mut edits: Vec<(&Spelled, (Isometry, Respelling), u32)> = Vec::with_capacity(moved.len());
+        let mut edits = Vec::with_capacity(moved.len());
         for one in moved {
             let of = &self.moves[one.index];
             if let (Motion::Circular { via }, Some(pose)) = (&of.motion, one.via) {
-                edits.push((spelled(via, of.line)?, (pose, respelling_of(via, &pose)), of.line));
+                edits.push(Edit::of(via, pose, of.line)?);
             }
-            let respelling = respelling_of(&of.target, &one.target);
-            edits.push((spelled(&of.target, of.line)?, (one.target, respelling), of.line));
+            edits.push(Edit::of(&of.target, one.target, of.line)?);
         }
-        edits.sort_by_key(|(spelled, _, _)| (spelled.text, spelled.bytes.start));
+        edits.sort_by_key(|edit| (edit.spelled.text, edit.spelled.bytes.start));
         for pair in edits.windows(2) {
-            let [(one, (at, _), line), (other, (there, _), other_line)] = pair else {
-                continue;
-            };
-            let apart = (at.translation.vector - there.translation.vector).norm();
-            if one == other && apart > SAME_PLACE {
+            let [one, other] = pair else { continue };
+            let apart = (one.pose.translation.vector - other.pose.translation.vector).norm();
+            if one.spelled == other.spelled && apart > SAME_PLACE {
                 return Err(RewriteError::Shared {
-                    lines: [*line, *other_line],
+                    lines: [one.line, other.line],
                     apart_um: apart * 1e6,
                 });
             }
         }
-        edits.dedup_by(|one, other| one.0 == other.0);
+        edits.dedup_by(|one, other| one.spelled == other.spelled);
         let files = self.texts.iter().enumerate().map(|(index, file)| {
             let mut text = String::with_capacity(file.text().len());
             let mut done = 0;
-            for (spelled, (pose, respelling), _) in edits.iter().filter(|(spelled, ..)| spelled.text == index)
-            {
-                text.push_str(&file.text()[done..spelled.bytes.start]);
-                spell(
-                    self.language,
-                    (pose, *respelling),
-                    &file.text()[spelled.bytes.clone()],
-                    &mut text,
-                );
-                done = spelled.bytes.end;
+            for edit in edits.iter().filter(|edit| edit.spelled.text == index) {
+                let bytes = &edit.spelled.bytes;
+                text.push_str(&file.text()[done..bytes.start]);
+                let before = &file.text()[bytes.clone()];
+                spell(self.language, &edit.pose, edit.respelling, before, &mut text);
+                done = bytes.end;
             }
             text.push_str(&file.text()[done..]);
             (file.name().to_owned(), file.encoded(&text))
         });
         Ok(files.collect())
     }
-}
 
-impl RobotProgram {
     /// Checks that the moves in the files of [`RobotProgram::with_poses`] end at the new poses, and all other moves at
     /// the same poses as before, in the same frames, within the written decimals.
     ///
@@ -171,12 +164,42 @@ impl RobotProgram {
 /// Orientations that differ by less are the same: sine of half the angle.
 const SAME_TURN: f64 = 1e-12;
 
-/// The new part of this target.
-fn respelling_of(target: &Target, moved: &Isometry) -> Respelling {
-    let turned = |pose: &Isometry| (pose.rotation.inverse() * moved.rotation).vector().norm();
-    match target.pose() {
-        Some(pose) if turned(pose) < SAME_TURN => Respelling::Place,
-        _ => Respelling::Pose,
+/// A new pose of a target, at its position in the text.
+struct Edit<'a> {
+    spelled: &'a Spelled,
+    pose: Isometry,
+    respelling: Respelling,
+    /// Line of the move.
+    line: u32,
+}
+
+impl Edit<'_> {
+    /// The edit that gives this target of the move of a line a new pose.
+    fn of(target: &Target, pose: Isometry, line: u32) -> Result<Edit<'_>, RewriteError> {
+        match target {
+            Target::Pose {
+                pose: before,
+                spelled,
+                ..
+            } => {
+                let turned = (before.rotation.inverse() * pose.rotation).vector().norm();
+                let respelling = match turned < SAME_TURN {
+                    true => Respelling::Place,
+                    false => Respelling::Pose,
+                };
+                Ok(Edit {
+                    spelled,
+                    pose,
+                    respelling,
+                    line,
+                })
+            }
+            Target::Joints(_) => Err(RewriteError::Joints { line }),
+            Target::Elsewhere { name } => Err(RewriteError::Elsewhere {
+                line,
+                name: name.clone(),
+            }),
+        }
     }
 }
 
@@ -199,17 +222,6 @@ fn compare(found: Isometry, expected: Isometry, line: u32) -> Result<(), Rewrite
         false => Err(RewriteError::Leans {
             line,
             apart_um: apart * 1e6,
-        }),
-    }
-}
-
-fn spelled(target: &Target, line: u32) -> Result<&Spelled, RewriteError> {
-    match target {
-        Target::Pose { spelled, .. } => Ok(spelled),
-        Target::Joints(_) => Err(RewriteError::Joints { line }),
-        Target::Elsewhere { name } => Err(RewriteError::Elsewhere {
-            line,
-            name: name.clone(),
         }),
     }
 }

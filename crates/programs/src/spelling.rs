@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::number::fixed;
+use super::number::{decimals, fixed};
 
 /// A line of a text, without its line ending.
 #[derive(Clone, Copy, Debug)]
@@ -120,16 +120,6 @@ pub(super) fn number(text: &str) -> Option<f64> {
 /// Maximum number of decimals: further ones exceed the resolution of controllers.
 const MOST_DECIMALS: usize = 9;
 
-/// Number of decimals of a number.
-pub(super) fn decimals(text: &str) -> usize {
-    let behind = text.split_once('.').map_or("", |(_, behind)| behind);
-    behind
-        .bytes()
-        .take_while(u8::is_ascii_digit)
-        .count()
-        .min(MOST_DECIMALS)
-}
-
 /// The part of a target that is rewritten.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Respelling {
@@ -146,15 +136,15 @@ impl Respelling {
     }
 }
 
-/// `before` with its numbers replaced, in the order of the text. Each keeps its number of decimals,
-/// or gets the required number if that is larger, and its width including the blanks before it.
+/// `before` with its numbers replaced: byte ranges in the order of the text, new values, and minimum numbers of
+/// decimals. Each keeps its number of decimals if that is larger, and its width including the blanks before it.
 pub(super) fn respelled(before: &str, numbers: &[(Range<usize>, f64, usize)], out: &mut String) {
     let mut done = 0;
     for (place, value, least_decimals) in numbers {
         let (Some(between), Some(old)) = (before.get(done..place.start), before.get(place.clone())) else {
             continue;
         };
-        let new = fixed(*value, decimals(old).max(*least_decimals));
+        let new = fixed(*value, decimals(old, *least_decimals, MOST_DECIMALS));
         let blanks = between.len() - between.trim_end_matches(' ').len();
         let longer = new.len().saturating_sub(old.len());
         // One blank is kept if there was one.

@@ -50,6 +50,18 @@ impl ProgramText {
         self.source.name()
     }
 
+    /// Its name without folder and ending.
+    pub(super) fn stem(&self) -> &str {
+        let file = self.name().rsplit(['/', '\\']).next().unwrap_or_default();
+        file.rsplit_once('.').map_or(file, |(stem, _)| stem)
+    }
+
+    /// The ending of its name, in lower case.
+    pub(super) fn ending(&self) -> Option<String> {
+        let (_, ending) = self.name().rsplit_once('.')?;
+        Some(ending.to_lowercase())
+    }
+
     /// Its characters, without byte order mark.
     pub fn text(&self) -> &str {
         self.source.text()
@@ -66,12 +78,16 @@ impl ProgramText {
             Encoding::Utf8 => text.as_bytes().to_vec(),
             Encoding::Utf8WithMark => [MARK, text.as_bytes()].concat(),
             // A character that was read as one byte is below 256; everything added is ASCII.
-            Encoding::Latin1 => text
-                .chars()
-                .map(|c| u8::try_from(u32::from(c)).unwrap_or(b'?'))
-                .collect(),
+            Encoding::Latin1 => latin1(text),
         }
     }
+}
+
+/// These characters as ISO 8859-1; `?` for other characters.
+pub(super) fn latin1(text: &str) -> Vec<u8> {
+    text.chars()
+        .map(|c| u8::try_from(u32::from(c)).unwrap_or(b'?'))
+        .collect()
 }
 
 #[cfg(test)]

@@ -190,6 +190,20 @@ impl<'a> Cursor<'a> {
         }
     }
 
+    /// The byte ranges of the numbers of `[1, 2, 3]`, if the cursor is at a list of this many numbers and nothing
+    /// follows.
+    pub fn number_list(mut self, count: usize) -> Option<Vec<Range<usize>>> {
+        self.pass('[').then_some(())?;
+        let mut places = Vec::with_capacity(count);
+        for index in 1..=count {
+            let start = self.place().start;
+            self.number()?;
+            places.push(start..self.before());
+            self.pass(if index < count { ',' } else { ']' }).then_some(())?;
+        }
+        self.peek().is_none().then_some(places)
+    }
+
     /// End of the last passed token; before the first one its beginning.
     pub fn before(&self) -> usize {
         self.passed
@@ -199,14 +213,6 @@ impl<'a> Cursor<'a> {
     pub fn place(&self) -> Range<usize> {
         self.peek().map_or(self.end..self.end, |token| token.span())
     }
-}
-
-/// Number of decimals of a number, within this range.
-pub(super) fn decimals(number: &str, least: usize, most: usize) -> usize {
-    let written = number.split_once('.').map_or(0, |(_, behind)| {
-        behind.bytes().take_while(u8::is_ascii_digit).count()
-    });
-    written.clamp(least, most)
 }
 
 #[cfg(test)]
@@ -263,18 +269,5 @@ mod tests {
             [(Kind::Text, "\"a"), (Kind::Line, "\n"), (Kind::Word, "b")]
         );
         assert_eq!(kinds("\""), [(Kind::Text, "\"")]);
-    }
-
-    #[test]
-    fn decimals_are_those_written_within_the_range() {
-        for (number, requested) in [
-            ("1", 3),
-            ("1.25", 3),
-            ("1.23456", 5),
-            ("1.5E3", 3),
-            ("1.0123456789012", 9),
-        ] {
-            assert_eq!(decimals(number, 3, 9), requested);
-        }
     }
 }

@@ -59,7 +59,7 @@ impl Cell {
                 known.push((given.frame, given.line));
             }
         }
-        let mut errors = self.lacks(&known);
+        let mut errors = self.undefined_frames(&known);
         let mut placed = Placed {
             base_from_path: self.base_from_controller,
             flange_from_tool: self.flange_from_tool,
@@ -74,7 +74,7 @@ impl Cell {
         for given in poses() {
             if !tips.contains(&given.tool) {
                 match placed.tcp_from_tool(given) {
-                    Ok(between) => placed.hear_tool(given, &between),
+                    Ok(between) => placed.record_tool(given, &between),
                     Err(error) => errors.push(error),
                 }
                 if given.motion != Motion::Joint {
@@ -92,7 +92,7 @@ impl Cell {
     }
 
     /// Frames whose poses are not known; that of the path first.
-    fn lacks(&self, frames: &[(Frame, u32)]) -> Vec<FollowError> {
+    fn undefined_frames(&self, frames: &[(Frame, u32)]) -> Vec<FollowError> {
         let Some((first, first_line)) = frames.first().copied() else {
             return Vec::new();
         };
@@ -165,7 +165,8 @@ impl Placed {
         })
     }
 
-    fn hear_tool(&mut self, given: &RobotMove, between: &Isometry) {
+    /// Records the tool of a cut for the notes.
+    fn record_tool(&mut self, given: &RobotMove, between: &Isometry) {
         if given.motion == Motion::Joint {
             return;
         }

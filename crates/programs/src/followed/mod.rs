@@ -15,8 +15,8 @@
 //! known. Moves to or from a position that the program does not give are left out and reported. On an arc the tool
 //! rotates uniformly from start to end.
 //!
-//! In reading order: `cell` the data that the program does not give, with frames and tools; `error` missing data;
-//! `circle` arcs through three points.
+//! In reading order: `cell` (the data that the program does not give, and the poses of frames and tools), `error`
+//! (missing data), `circle` (arcs through three points).
 
 mod cell;
 mod circle;
@@ -140,8 +140,9 @@ struct Follower<'a> {
     placed: &'a cell::Placed,
     /// End of the previous move, if it is known.
     position: Option<Isometry>,
+    /// As in [`Followed::posture`], so far.
     posture: Option<(BranchPattern, u32)>,
-    /// Whether a cut has begun.
+    /// Whether the first cut has begun.
     begun: bool,
     moves: Vec<FollowedMove>,
     noted: Noted,
@@ -150,7 +151,7 @@ struct Follower<'a> {
 
 impl Follower<'_> {
     fn take(&mut self, index: usize, given: &RobotMove) {
-        self.hear_posture(given);
+        self.update_posture(given);
         let cuts = given.motion != Motion::Joint;
         let end = match self.place(given, &given.target) {
             Ok(Some(end)) => end,
@@ -248,8 +249,8 @@ impl Follower<'_> {
         }
     }
 
-    /// Until the first cut: the robot posture. Straight moves keep it, whatever they specify.
-    fn hear_posture(&mut self, given: &RobotMove) {
+    /// Updates the posture until the first cut. Straight moves keep it, whatever they specify.
+    fn update_posture(&mut self, given: &RobotMove) {
         if self.begun || (given.motion != Motion::Joint && self.posture.is_some()) {
             return;
         }
@@ -310,7 +311,7 @@ enum SkippedKind {
     Joints,
 }
 
-/// Number of occurrences of each, the line of the first one, and its subject.
+/// Number of occurrences of each kind, the line of the first one, and its subject.
 #[derive(Default)]
 struct Noted(BTreeMap<SkippedKind, (usize, u32, String)>);
 

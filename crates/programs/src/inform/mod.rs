@@ -17,10 +17,11 @@
 //! A job of the RoboDK post has RCONF in another order (rear, lower, flip). It is recognised by that name in the job.
 //!
 //! Source: Yaskawa's manuals of data transmission (NX100, DX100) for the lists and RCONF; a public program that writes
-//! jobs for ANGLE. `[recalled]` Yaskawa's flip is axis B (5) bent the other way, as in armill; `FPT` ends an arc where
+//! jobs for ANGLE. `[recalled]`: Yaskawa's flip is axis B (5) bent the other way, as in armill; `FPT` ends an arc where
 //! the next begins; parameters of `PL=`.
 //!
-//! In reading order: `position` the list of positions, `read` the instructions, `motion` moves, `write` jobs to load.
+//! In reading order: `position` (the list of positions), `read` (the instructions), `motion` (moves), `write` (jobs to
+//! load).
 
 mod motion;
 mod position;
@@ -38,8 +39,8 @@ pub use write::write;
 /// Decimals of lengths in mm and of angles in deg that controllers since DX100 write.
 const DECIMALS: [usize; 2] = [3, 4];
 
-/// Spells a pose in place of `before`, six numbers between commas.
-pub(super) fn spell((pose, respelling): (&Isometry, Respelling), before: &str, out: &mut String) {
+/// Writes a pose in place of `before`, six numbers between commas.
+pub(super) fn spell(pose: &Isometry, respelling: Respelling, before: &str, out: &mut String) {
     let whole = Part { at: 0, text: before };
     let numbers: Vec<_> = whole
         .split(|c| c == ',')
@@ -50,6 +51,3 @@ pub(super) fn spell((pose, respelling): (&Isometry, Respelling), before: &str, o
         .collect();
     respelled(before, &numbers, out);
 }
-
-#[cfg(test)]
-mod tests;

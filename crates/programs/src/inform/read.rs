@@ -3,10 +3,10 @@
 use armill_formats::document::{Problem, Problems};
 use armill_formats::language::Language;
 
-use super::position::{Position, Positions};
+use super::position::Positions;
 use crate::arc_row::ArcRow;
 use crate::messages::ProgramMessages;
-use crate::program::{RobotMove, RobotProgram, Target};
+use crate::program::{FramedTarget, RobotMove, RobotProgram, Target};
 use crate::spelling::{Line, Part, lines};
 use crate::text::ProgramText;
 
@@ -70,11 +70,11 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
         names: texts.iter().map(job_name).collect(),
         done: vec![false; texts.len()],
         moves: Vec::new(),
-        messages: ProgramMessages::default(),
+        messages: ProgramMessages::new(&texts),
     };
     reader.job(0, 0);
     let given = |one: &RobotMove| !matches!(one.target, Target::Elsewhere { .. });
-    if let (Some(first), Some(text)) = (reader.moves.first(), texts.first())
+    if let Some(first) = reader.moves.first()
         && !reader.moves.iter().any(given)
     {
         let message = format!(
@@ -82,9 +82,8 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
             first.line
         );
         let hint = "only the controller can convert pulses and variables: save the job as a relative job, with \
-            positions in \
-                    BASE, ROBOT or USER";
-        reader.messages.problem(text, 0..0, message, hint);
+            positions in BASE, ROBOT or USER";
+        reader.messages.problem(0..0, message, hint);
     }
     let Reader {
         names,
@@ -109,10 +108,7 @@ fn job_name(text: &ProgramText) -> String {
         let name = rest.trim();
         (!name.is_empty()).then(|| name.to_owned())
     });
-    given.unwrap_or_else(|| {
-        let name = text.name().rsplit(['/', '\\']).next().unwrap_or_default();
-        name.rsplit_once('.').map_or(name, |(stem, _)| stem).to_owned()
-    })
+    given.unwrap_or_else(|| text.stem().to_owned())
 }
 
 /// Reads jobs.
@@ -121,26 +117,25 @@ pub(super) struct Reader<'a> {
     names: Vec<String>,
     done: Vec<bool>,
     pub moves: Vec<RobotMove>,
-    pub messages: ProgramMessages,
+    pub messages: ProgramMessages<'a>,
 }
 
 /// A job while it is read.
-pub(super) struct Job<'a> {
-    pub text: &'a ProgramText,
-    pub positions: Positions<'a>,
-    pub row: ArcRow<Position>,
+pub(super) struct Job {
+    pub positions: Positions,
+    pub row: ArcRow<FramedTarget>,
     depth: usize,
 }
 
-impl<'a> Reader<'a> {
+impl Reader<'_> {
     fn job(&mut self, index: usize, depth: usize) {
         let (Some(text), Some(done)) = (self.texts.get(index), self.done.get_mut(index)) else {
             return;
         };
         *done = true;
+        let caller = self.messages.go_to(index);
         let mut job = Job {
-            text,
-            positions: Positions::new(text, index),
+            positions: Positions::new(text),
             row: ArcRow::default(),
             depth,
         };
@@ -152,7 +147,7 @@ impl<'a> Reader<'a> {
                 jobs += 1;
                 if jobs == 2 {
                     self.messages
-                        .note((text, line.number), "a second job in the same file is ignored");
+                        .note(line.number, "a second job in the same file is ignored");
                     break;
                 }
             } else if said.text.starts_with("//INST") {
@@ -163,20 +158,21 @@ impl<'a> Reader<'a> {
                 job.positions.take(&line, &mut self.messages);
             }
             if self.messages.is_full() {
-                return;
+                break;
             }
         }
         self.end_row(&mut job);
+        self.messages.go_to(caller);
     }
 
-    fn instruction(&mut self, job: &mut Job<'a>, line: &Line) {
+    fn instruction(&mut self, job: &mut Job, line: &Line) {
         let said = line.trimmed();
         if said.text.starts_with('\'') {
             return;
         }
         if said.text.starts_with('*') {
             let what = "labels and jumps are ignored: the statements here are read once";
-            return self.messages.note((job.text, line.number), what);
+            return self.messages.note(line.number, what);
         }
         let mut words = said.words();
         let Some(first) = words.next() else {
@@ -184,11 +180,11 @@ impl<'a> Reader<'a> {
         };
         let word = first.text.to_ascii_uppercase();
         match word.as_str() {
-            "MOVJ" | "MOVL" | "MOVS" | "MOVC" => self.motion(job, line, (&word, words)),
+            "MOVJ" | "MOVL" | "MOVS" | "MOVC" => self.motion(job, line, &word, words),
             "CALL" => self.call(job, line, words.next()),
             _ if word.starts_with("+MOV") => {
                 let what = "motion of a second robot or a station (+MOV..) is ignored";
-                self.messages.note((job.text, line.number), what);
+                self.messages.note(line.number, what);
             }
             _ if word.contains("MOV") => {
                 let message = format!("the move `{word}` is not followed");
@@ -196,26 +192,25 @@ impl<'a> Reader<'a> {
                     "IMOV" => "it is an incremental move: write it as MOVL to a position",
                     _ => "supported: MOVJ, MOVL, MOVC and MOVS of one robot",
                 };
-                self.messages
-                    .problem(job.text, line.span_of(&first), message, hint);
+                self.messages.problem(line.span_of(&first), message, hint);
             }
             _ if CHOICES.contains(&word.as_str()) => {
                 let what = format!("{word} is ignored: the statements here are read once");
-                self.messages.note((job.text, line.number), what);
+                self.messages.note(line.number, what);
             }
             _ if SHIFTS.contains(&word.as_str()) => {
                 let what = format!("{word} is ignored: the listed positions are used");
-                self.messages.note((job.text, line.number), what);
+                self.messages.note(line.number, what);
             }
             _ if COMPUTES.contains(&word.as_str()) && words.any(|word| word.text.starts_with(['P', 'p'])) => {
                 let what = format!("{word} of a position variable is ignored: the listed position is used");
-                self.messages.note((job.text, line.number), what);
+                self.messages.note(line.number, what);
             }
             _ => {}
         }
     }
 
-    fn call(&mut self, job: &mut Job<'a>, line: &Line, called: Option<Part>) {
+    fn call(&mut self, job: &mut Job, line: &Line, called: Option<Part>) {
         self.end_row(job);
         let called = called.map_or("", |part| part.text);
         let name = called.split_once(':').map_or(called, |(_, name)| name);
@@ -227,21 +222,21 @@ impl<'a> Reader<'a> {
             Some(index) if !self.done[index] && job.depth < DEEPEST => self.job(index, job.depth + 1),
             Some(_) => {
                 let what = format!("the job {name} is called again: it is read once");
-                self.messages.note((job.text, line.number), what);
+                self.messages.note(line.number, what);
             }
             None => {
                 let what = format!("the job {name} is called, but not given: it is ignored");
-                self.messages.note((job.text, line.number), what);
+                self.messages.note(line.number, what);
             }
         }
     }
 
     /// Ends a row of MOVC: checks that it formed arcs.
-    pub fn end_row(&mut self, job: &mut Job<'a>) {
+    pub fn end_row(&mut self, job: &mut Job) {
         if let Some(span) = job.row.end() {
-            let message = "this row of MOVC has fewer than three points".to_owned();
+            let message = "this row of MOVC has fewer than three points";
             let hint = "an arc has three MOVC in a row";
-            self.messages.problem(job.text, span, message, hint);
+            self.messages.problem(span, message, hint);
         }
     }
 }

@@ -40,28 +40,13 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
         frames: 1..=63,
         tools: 0..=63,
     })?;
-    let slow = |point: &DraftPoint| point.speed.filter(|speed| *speed * 1e3 < SPEEDS[0] / 2.0);
-    for (at, point) in draft.points.iter().enumerate().skip(1) {
-        if let Some(value) = slow(point) {
-            return Err(DraftError::NotWritable {
-                index: at + 1,
-                what: "the speed",
-                value,
-            });
-        }
-    }
-    let mut files = Vec::new();
-    if split {
-        let parts: Vec<String> = (1..=draft.points.len().div_ceil(MOST_POSITIONS))
-            .map(|number| format!("{}{number:03}", draft.name))
-            .collect();
-        files.push(file(&draft.name, main(draft, &parts)));
-        for (at, (name, points)) in parts.iter().zip(draft.points.chunks(MOST_POSITIONS)).enumerate() {
-            files.push(file(name, job(draft, name, (at == 0, points))));
-        }
-    } else {
-        files.push(file(&draft.name, job(draft, &draft.name, (true, &draft.points))));
-    }
+    draft.check_speeds(|speed| speed * 1e3 >= SPEEDS[0] / 2.0)?;
+    let parts: Vec<(String, &[DraftPoint])> = draft.parts(MOST_POSITIONS, "").collect();
+    let main = split.then(|| file(&draft.name, main(draft, &parts)));
+    let jobs = parts
+        .iter()
+        .map(|(name, points)| file(name, job(draft, name, points)));
+    let files = main.into_iter().chain(jobs).collect();
     Ok(Written {
         files,
         notes: notes(draft, split),
@@ -165,22 +150,22 @@ fn instructions(draft: &Draft, attributes: &[&str], out: &mut String) {
 }
 
 /// The job that calls the parts of a long program.
-fn main(draft: &Draft, parts: &[String]) -> String {
+fn main(draft: &Draft, parts: &[(String, &[DraftPoint])]) -> String {
     let mut out = String::new();
     line(&mut out, "/JOB");
     line(&mut out, &format!("//NAME {}", draft.name));
     line(&mut out, "//POS");
     line(&mut out, "///NPOS 0,0,0,0,0,0");
     instructions(draft, &["///ATTR SC,RW"], &mut out);
-    for part in parts {
-        line(&mut out, &format!("CALL JOB:{part}"));
+    for (name, _) in parts {
+        line(&mut out, &format!("CALL JOB:{name}"));
     }
     line(&mut out, "END");
     out
 }
 
-/// A job with these points. If it begins the program, its first move is a joint move.
-fn job(draft: &Draft, name: &str, (begins, points): (bool, &[DraftPoint])) -> String {
+/// A job with these points.
+fn job(draft: &Draft, name: &str, points: &[DraftPoint]) -> String {
     let mut out = String::new();
     line(&mut out, "/JOB");
     line(&mut out, &format!("//NAME {name}"));
@@ -209,8 +194,7 @@ fn job(draft: &Draft, name: &str, (begins, points): (bool, &[DraftPoint])) -> St
     instructions(draft, &["///ATTR SC,RW,RJ", &frame], &mut out);
     for (at, point) in points.iter().enumerate() {
         let level = if draft.blend(point) > 0.0 { 1 } else { 0 };
-        let speed = point.speed.filter(|_| !(begins && at == 0));
-        let said = match speed {
+        let said = match draft.tip_speed(point) {
             Some(speed) => format!("MOVL C{at:05} V={} PL={level}", fixed(speed * 1e3, 1)),
             None => format!("MOVJ C{at:05} {JOINT_SPEED} PL={level}"),
         };

@@ -6,10 +6,10 @@ use armill_core::frame::Isometry;
 use armill_formats::convention::Convention;
 
 use super::SYNTAX;
-use crate::number::{fixed, write_fixed};
+use crate::number::{decimals, fixed, write_fixed};
 use crate::posture::Configuration;
 use crate::spelling::Respelling;
-use crate::tokens::{Cursor, Kind, decimals, tokens};
+use crate::tokens::{Cursor, Kind, tokens};
 
 /// The components of a pose, in the order of [`Convention::Kuka`].
 pub(super) const POSE: [&str; 6] = ["X", "Y", "Z", "A", "B", "C"];
@@ -31,6 +31,13 @@ pub(super) struct Aggregate {
     pub fields: Vec<(String, Value)>,
     /// Its bytes, braces included.
     pub bytes: Range<usize>,
+}
+
+/// An aggregate, and the index of the text that contains it.
+#[derive(Clone, Debug)]
+pub(super) struct LocatedAggregate {
+    pub aggregate: Aggregate,
+    pub text: usize,
 }
 
 /// A component.
@@ -224,7 +231,7 @@ fn bits(text: &str) -> Option<i64> {
 
 /// Writes a pose in place of `before`: an aggregate with its other components, a relative move, or an expression of
 /// points.
-pub(crate) fn spell((pose, respelling): (&Isometry, Respelling), before: &str, out: &mut String) {
+pub(crate) fn spell(pose: &Isometry, respelling: Respelling, before: &str, out: &mut String) {
     let numbers = Convention::Kuka.numbers_of(pose);
     let found = tokens(before, &SYNTAX);
     let mut cursor = Cursor::new(before, &found);

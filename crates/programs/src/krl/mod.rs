@@ -9,17 +9,16 @@
 //! | `$VEL.CP`, `$VEL`, `BAS(#CP_PARAMS, v)`, `LDAT_ACT`, `SVEL_CP(v)` | the speed of the tip, m/s |
 //!
 //! A component missing in `{...}` keeps its previous value. S: bit 0 rear, bit 1 elbow not lower, bit 2 flip; T: bit i
-//! is 1 where axis i + 1 is below zero. Both are returned unchanged ([`Target::Pose`](super::Target)'s `turns` are the
-//! bits of A1 to A6). Frame 0 is the base of the robot, tool 0 its flange, as on a controller whose `$ROBROOT` is null.
-//! External axes are kept in the text and are not joints in armill.
+//! is 1 where axis i + 1 is below zero. Both are returned unchanged (the `turns` of a [`Target::Pose`](super::Target)
+//! are the bits of A1 to A6). Frame 0 is the base of the robot, tool 0 its flange, as on a controller whose `$ROBROOT`
+//! is null. External axes are kept in the text and are not joints in armill.
 //!
 //! `[recalled]`, not in a sample: the content of `WITH`, `FDAT`'s fields other than number and `IPO_FRAME`, `SPL`, the
-//! geometric operator `P1:{...}`, that `LIN_REL` is relative to the base unless `#TOOL` follows, that names of
-//! `$CONFIG.DAT` are `XHOME`s.
+//! geometric operator `P1:{...}`, that `LIN_REL` is relative to the base unless `#TOOL` follows, that the positions in
+//! `$CONFIG.DAT` have names like `XHOME`.
 //!
-//! In reading order: `aggregate` is `{...}`; `points` the content of data files; `read` statements; `motion` and
-//! `relative` moves;
-//! `modal` modal settings; `write` the output.
+//! In reading order: `aggregate` (`{...}`), `points` (the content of data files), `read` (statements), `motion` and
+//! `relative` (moves), `modal` (modal settings), `write` (programs to load).
 
 mod aggregate;
 mod modal;

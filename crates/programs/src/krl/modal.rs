@@ -7,7 +7,7 @@ use super::aggregate::{Aggregate, POSE, Value};
 use super::points::{PointValue, Reference};
 use super::read::Reader;
 use crate::messages::shown;
-use crate::program::{Frame, Speed};
+use crate::program::{Frame, FrameKind, Speed};
 use crate::tokens::{Cursor, Kind, Token};
 
 /// Predefined frames; all are the base of the robot if `$ROBROOT` is null.
@@ -34,24 +34,19 @@ impl Default for Modal {
     }
 }
 
-/// Frame or tool.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum FrameKind {
-    Base,
-    Tool,
-}
-
 impl FrameKind {
+    /// The array of all frames of this kind.
     fn data(self) -> &'static str {
         match self {
-            FrameKind::Base => "BASE_DATA",
+            FrameKind::Reference => "BASE_DATA",
             FrameKind::Tool => "TOOL_DATA",
         }
     }
 
+    /// The component with the number of a frame of this kind.
     fn field(self) -> &'static str {
         match self {
-            FrameKind::Base => "BASE_NO",
+            FrameKind::Reference => "BASE_NO",
             FrameKind::Tool => "TOOL_NO",
         }
     }
@@ -59,10 +54,12 @@ impl FrameKind {
 
 impl<'a> Reader<'a> {
     /// Assigns the value at the cursor to the variable; `at` is the beginning of the line.
-    pub fn assign(&mut self, (at, to): (Token, &Reference), mut value: Cursor<'a>) {
+    pub fn assign(&mut self, at: Token, to: &Reference, mut value: Cursor<'a>) {
         match (to.name.as_str(), to.field.as_deref()) {
-            ("$BASE", field) => self.modal.base = self.frame((at, FrameKind::Base), value, field.is_some()),
-            ("$TOOL", field) => self.modal.tool = self.frame((at, FrameKind::Tool), value, field.is_some()),
+            ("$BASE", field) => {
+                self.modal.base = self.frame(at, FrameKind::Reference, value, field.is_some())
+            }
+            ("$TOOL", field) => self.modal.tool = self.frame(at, FrameKind::Tool, value, field.is_some()),
             ("$VEL", Some("CP")) => self.speed(at, value.number()),
             ("$VEL", None) => {
                 let given = match Aggregate::read(&mut value.clone()) {
@@ -92,10 +89,7 @@ impl<'a> Reader<'a> {
                 let is_whole = field.is_none() && value.peek().is_some_and(|token| token.is('{'));
                 let given = is_whole.then(|| self.aggregate(&mut value)).flatten();
                 let known = match given {
-                    Some(aggregate) => PointValue::Given {
-                        aggregate,
-                        text: self.text,
-                    },
+                    Some(aggregate) => PointValue::Given(aggregate),
                     None => PointValue::Computed { line: at.line },
                 };
                 self.names.put(&self.module.clone(), name, known);
@@ -131,7 +125,7 @@ impl<'a> Reader<'a> {
             if let Some(clause) = begins.map(|tokens| &tokens[..length])
                 && reference.name.starts_with('$')
             {
-                self.assign((at, &reference), Cursor::new(line.text, clause));
+                self.assign(at, &reference, Cursor::new(line.text, clause));
             }
         }
     }
@@ -145,16 +139,14 @@ impl<'a> Reader<'a> {
         let what = cursor.word().unwrap_or_default();
         let number = cursor.pass(',').then(|| cursor.number()).flatten();
         match what.as_str() {
-            "BASE" => self.modal.base = self.numbered(at, FrameKind::Base, number),
+            "BASE" => self.modal.base = self.numbered(at, FrameKind::Reference, number),
             "TOOL" => self.modal.tool = self.numbered(at, FrameKind::Tool, number),
             "VEL_CP" | "CP_PARAMS" => self.speed(at, number),
             "CP_DAT" => self.speed(at, self.path_speed),
             "EX_BASE" => {
                 self.modal.base = Frame::Unknown;
-                self.note(
-                    at,
-                    "`BAS(#EX_BASE`: the frame is on another axis, which is not followed".to_owned(),
-                );
+                let sentence = "`BAS(#EX_BASE`: the frame is on another axis, which is not followed";
+                self.messages.note(at.line, sentence);
             }
             _ => {}
         }
@@ -164,10 +156,8 @@ impl<'a> Reader<'a> {
         self.modal.speed = match given {
             Some(speed) if speed > 0.0 => Speed::Tip(speed),
             _ => {
-                self.note(
-                    at,
-                    "the tip speed is not a number here: it is not known".to_owned(),
-                );
+                let sentence = "the tip speed is not a number here: it is not known";
+                self.messages.note(at.line, sentence);
                 Speed::Unknown
             }
         };
@@ -180,13 +170,11 @@ impl<'a> Reader<'a> {
         }
         let name = Reference::read(&mut value).map(|reference| reference.name)?;
         match self.names.find(&self.module, &name) {
-            Some(PointValue::Given { aggregate, .. }) => Some(aggregate.clone()),
+            Some(PointValue::Given(set)) => Some(set.aggregate.clone()),
             _ if matches!(name.as_str(), "PDEFAULT" | "LDEFAULT") => None,
             _ => {
-                self.note(
-                    at,
-                    format!("`{name}` is not defined: its settings remain unchanged"),
-                );
+                let sentence = format!("`{name}` is not defined: its settings remain unchanged");
+                self.messages.note(at.line, sentence);
                 None
             }
         }
@@ -194,7 +182,7 @@ impl<'a> Reader<'a> {
 
     fn frames_of(&mut self, at: Token, set: &Aggregate) {
         if set.field("BASE_NO").is_some() {
-            self.modal.base = self.numbered(at, FrameKind::Base, set.number("BASE_NO"));
+            self.modal.base = self.numbered(at, FrameKind::Reference, set.number("BASE_NO"));
         }
         if set.field("TOOL_NO").is_some() {
             self.modal.tool = self.numbered(at, FrameKind::Tool, set.number("TOOL_NO"));
@@ -210,7 +198,7 @@ impl<'a> Reader<'a> {
         value.pass('(').then_some(())?;
         let name = Reference::read(&mut value)?.name;
         match self.names.find(&self.module, &name)? {
-            PointValue::Given { aggregate, .. } => Some(aggregate.clone()),
+            PointValue::Given(set) => Some(set.aggregate.clone()),
             PointValue::Computed { .. } => None,
         }
     }
@@ -219,12 +207,13 @@ impl<'a> Reader<'a> {
     fn numbered(&mut self, at: Token, what: FrameKind, number: Option<f64>) -> Frame {
         let number = number.filter(|number| number.fract() == 0.0 && (0.0..=1e4).contains(number));
         let Some(number) = number.map(|number| number as u32) else {
-            self.note(at, format!("{} is not given as a number here", what.field()));
+            let sentence = format!("{} is not given as a number here", what.field());
+            self.messages.note(at.line, sentence);
             return Frame::Unknown;
         };
         let name = format!("{}[{number}]", what.data());
         let given = match self.names.find(&self.module, &name) {
-            Some(PointValue::Given { aggregate, .. }) => aggregate.numbers(POSE, None).ok(),
+            Some(PointValue::Given(pose)) => pose.aggregate.numbers(POSE, None).ok(),
             _ => None,
         };
         match given.and_then(|numbers| Convention::Kuka.pose(&numbers).ok()) {
@@ -235,15 +224,15 @@ impl<'a> Reader<'a> {
     }
 
     /// The value assigned to `$BASE` or `$TOOL`.
-    fn frame(&mut self, (at, what): (Token, FrameKind), mut value: Cursor<'a>, is_part: bool) -> Frame {
+    fn frame(&mut self, at: Token, what: FrameKind, mut value: Cursor<'a>, is_part: bool) -> Frame {
         let begin = value.place().start;
         let mut found = if is_part {
             None
         } else {
-            self.frame_at((at, what), &mut value)
+            self.frame_at(at, what, &mut value)
         };
         while let (Some(Frame::Given(one)), true) = (found, value.pass(':')) {
-            found = match self.frame_at((at, what), &mut value) {
+            found = match self.frame_at(at, what, &mut value) {
                 Some(Frame::Given(other)) => Some(Frame::Given(one * other)),
                 _ => None,
             };
@@ -252,20 +241,19 @@ impl<'a> Reader<'a> {
             Some(frame) => frame,
             None => {
                 let text = shown(&value.text[begin..value.end]);
-                self.note(
-                    at,
-                    format!("`{text}` is computed on the controller: poses relative to it are not known"),
-                );
+                let sentence =
+                    format!("`{text}` is computed on the controller: poses relative to it are not known");
+                self.messages.note(at.line, sentence);
                 Frame::Unknown
             }
         }
     }
 
     /// One frame of an expression.
-    fn frame_at(&mut self, (at, what): (Token, FrameKind), value: &mut Cursor<'a>) -> Option<Frame> {
+    fn frame_at(&mut self, at: Token, what: FrameKind, value: &mut Cursor<'a>) -> Option<Frame> {
         if value.peek().is_some_and(|token| token.is('{')) {
             let former = match what {
-                FrameKind::Base => self.modal.base,
+                FrameKind::Reference => self.modal.base,
                 FrameKind::Tool => self.modal.tool,
             };
             let former = match former {
@@ -273,7 +261,7 @@ impl<'a> Reader<'a> {
                 Frame::Numbered(_) | Frame::Unknown => None,
             };
             let aggregate = self.aggregate(value)?;
-            let numbers = self.complete((&aggregate, self.text), POSE, former)?;
+            let numbers = self.complete(&aggregate, POSE, former)?;
             return Convention::Kuka.pose(&numbers).ok().map(Frame::Given);
         }
         let call = value.clone();
@@ -299,8 +287,8 @@ impl<'a> Reader<'a> {
             return Some(self.numbered(at, what, number));
         }
         match self.names.find(&self.module, &reference.name)? {
-            PointValue::Given { aggregate, .. } => {
-                let numbers = aggregate.numbers(POSE, None).ok()?;
+            PointValue::Given(pose) => {
+                let numbers = pose.aggregate.numbers(POSE, None).ok()?;
                 Convention::Kuka.pose(&numbers).ok().map(Frame::Given)
             }
             PointValue::Computed { .. } => None,

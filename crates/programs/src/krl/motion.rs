@@ -2,7 +2,7 @@
 
 use armill_formats::convention::Convention;
 
-use super::aggregate::{AXES, Aggregate, POSE};
+use super::aggregate::{AXES, Aggregate, LocatedAggregate, POSE};
 use super::points::{PointValue, Reference};
 use super::read::Reader;
 use super::relative::composed;
@@ -26,19 +26,13 @@ pub(super) enum KrlTarget {
     PassedOver,
 }
 
-/// A target in the line, or named in it.
-struct Named {
-    aggregate: Aggregate,
-    text: usize,
-}
-
 /// Hints for missing targets.
 const HINT_POINT: &str = "give the .dat file that declares it together with the .src file";
 const HINT_TARGET: &str = "a target is `{X 1.0,Y 2.0,Z 3.0,A 0.0,B 0.0,C 0.0}`, `{A1 0.0,...}` or a name";
 
 impl<'a> Reader<'a> {
     /// The move that begins with this word; its targets are at the cursor.
-    pub fn motion(&mut self, (at, word): (Token, &str), cursor: Cursor<'a>) {
+    pub fn motion(&mut self, at: Token, word: &str, cursor: Cursor<'a>) {
         let before = self.modal.clone();
         self.with(&cursor);
         let with = cursor.tokens.iter().position(|token| {
@@ -48,8 +42,8 @@ impl<'a> Reader<'a> {
         target.end = target.end.max(at.end);
         let made = match word {
             "CIRC" | "SCIRC" => self.circle(at, &mut target),
-            _ if word.ends_with("_REL") => self.relative((at, word), &mut target),
-            _ => self.straight((at, word), &mut target),
+            _ if word.ends_with("_REL") => self.relative(at, word, &mut target),
+            _ => self.straight(at, word, &mut target),
         };
         if let Some((motion, goal)) = made
             && self.ends_here(target)
@@ -74,10 +68,9 @@ impl<'a> Reader<'a> {
             }
         };
         if self.modal.tool_is_stationary && matches!(target, Target::Pose { .. }) {
-            let message =
-                "the tool is stationary here and the workpiece is on the flange (`#TCP`)".to_owned();
+            let message = "the tool is stationary here and the workpiece is on the flange (`#TCP`)";
             let hint = "only programs with the tool on the flange are supported: IPO_FRAME #BASE";
-            self.messages.problem(self.here(), at.span(), message, hint);
+            self.messages.problem(at.span(), message, hint);
             return;
         }
         let speed = match motion {
@@ -95,11 +88,7 @@ impl<'a> Reader<'a> {
         });
     }
 
-    fn straight(
-        &mut self,
-        (at, word): (Token, &str),
-        cursor: &mut Cursor<'a>,
-    ) -> Option<(Motion, KrlTarget)> {
+    fn straight(&mut self, at: Token, word: &str, cursor: &mut Cursor<'a>) -> Option<(Motion, KrlTarget)> {
         let goal = self.goal(at, cursor)?;
         let motion = match word {
             "PTP" | "SPTP" => Motion::Joint,
@@ -108,7 +97,7 @@ impl<'a> Reader<'a> {
         if matches!((&motion, &goal), (Motion::Linear, KrlTarget::Axes(_))) {
             let message = format!("`{word}` goes to axes, but needs a pose");
             self.messages
-                .problem(self.here(), at.span(), message, "only PTP can go to axes");
+                .problem(at.span(), message, "only PTP can go to axes");
             return None;
         }
         Some((motion, goal))
@@ -118,25 +107,22 @@ impl<'a> Reader<'a> {
         let via = self.goal(at, cursor)?;
         let place = cursor.place();
         if !cursor.pass(',') {
-            let message = "a circle needs a via point and an end point".to_owned();
-            self.messages
-                .problem(self.here(), place, message, "write `CIRC {via},{end}`");
+            let message = "a circle needs a via point and an end point";
+            self.messages.problem(place, message, "write `CIRC {via},{end}`");
             return None;
         }
         let end = self.goal(at, cursor)?;
         if cursor.pass(',') {
-            let message =
-                "the circle continues after its end point (`CA`), to an unknown position".to_owned();
+            let message = "the circle continues after its end point (`CA`), to an unknown position";
             let hint = "write the end position without CA";
-            self.messages.problem(self.here(), at.span(), message, hint);
+            self.messages.problem(at.span(), message, hint);
             return None;
         }
         match (via, end) {
             (KrlTarget::Pose(_, via), end @ KrlTarget::Pose(..)) => Some((Motion::Circular { via }, end)),
             _ => {
-                let message = "a circle needs poses, not axes".to_owned();
-                self.messages
-                    .problem(self.here(), at.span(), message, HINT_TARGET);
+                let message = "a circle needs poses, not axes";
+                self.messages.problem(at.span(), message, HINT_TARGET);
                 None
             }
         }
@@ -146,30 +132,25 @@ impl<'a> Reader<'a> {
     fn goal(&mut self, at: Token, cursor: &mut Cursor<'a>) -> Option<KrlTarget> {
         let place = cursor.place();
         let named = match cursor.peek().map(|token| token.kind) {
-            Some(Kind::Mark('{')) => Named {
-                aggregate: self.aggregate(cursor)?,
-                text: self.text,
-            },
+            Some(Kind::Mark('{')) => self.aggregate(cursor)?,
             Some(Kind::Word) => match self.named(cursor)? {
                 Some(named) => named,
                 None => return Some(KrlTarget::PassedOver),
             },
             _ => {
-                let message = "a target is missing here".to_owned();
-                self.messages.problem(self.here(), place, message, HINT_TARGET);
+                self.messages
+                    .problem(place, "a target is missing here", HINT_TARGET);
                 return None;
             }
         };
         if named.aggregate.moves_external_axes() {
-            self.note(
-                at,
-                "external axes (E1, ...) are kept unchanged and are not joints in armill".to_owned(),
-            );
+            let sentence = "external axes (E1, ...) are kept unchanged and are not joints in armill";
+            self.messages.note(at.line, sentence);
         }
         let (is_pose, is_axes) = (named.aggregate.has_any(&POSE), named.aggregate.has_any(&AXES));
         if is_pose == is_axes {
-            let message = "neither a pose (X, Y, Z, A, B, C) nor axes (A1 to A6)".to_owned();
-            self.messages.problem(self.here(), place, message, HINT_TARGET);
+            let message = "neither a pose (X, Y, Z, A, B, C) nor axes (A1 to A6)";
+            self.messages.problem(place, message, HINT_TARGET);
             return None;
         }
         if is_axes {
@@ -177,7 +158,7 @@ impl<'a> Reader<'a> {
                 Some(Former::Axes(axes)) => Some(*axes),
                 _ => None,
             };
-            let axes = self.complete((&named.aggregate, named.text), AXES, former)?;
+            let axes = self.complete(&named, AXES, former)?;
             return Some(KrlTarget::Axes(axes));
         }
         let former = match &self.former {
@@ -188,18 +169,15 @@ impl<'a> Reader<'a> {
             }
             _ => None,
         };
-        let mut numbers = self.complete((&named.aggregate, named.text), POSE, former)?;
+        let mut numbers = self.complete(&named, POSE, former)?;
         let mut is_composed = false;
         while cursor.pass(':') {
             let place = cursor.place();
             let other = match cursor.peek().map(|token| token.kind) {
                 Some(Kind::Word) => self.named(cursor)?,
-                _ => Some(Named {
-                    aggregate: self.aggregate(cursor)?,
-                    text: self.text,
-                }),
+                _ => Some(self.aggregate(cursor)?),
             };
-            let by = other.and_then(|other| self.complete((&other.aggregate, other.text), POSE, None))?;
+            let by = other.and_then(|other| self.complete(&other, POSE, None))?;
             let Some(product) = composed(&numbers, &by) else {
                 self.too_large(place);
                 return None;
@@ -208,9 +186,9 @@ impl<'a> Reader<'a> {
         }
         if !is_composed {
             let bytes = named.aggregate.bytes.clone();
-            let text = std::mem::replace(&mut self.text, named.text);
+            let here = self.messages.go_to(named.text);
             let goal = self.posed(numbers, &named.aggregate, bytes);
-            self.text = text;
+            self.messages.go_to(here);
             return goal;
         }
         self.posed(numbers, &Aggregate::default(), place.start..cursor.before())
@@ -232,7 +210,7 @@ impl<'a> Reader<'a> {
             branch: aggregate.configuration().pattern(),
             turns: aggregate.turns(),
             spelled: Spelled {
-                text: self.text,
+                text: self.messages.index(),
                 bytes,
             },
         };
@@ -240,50 +218,52 @@ impl<'a> Reader<'a> {
     }
 
     fn too_large(&mut self, place: std::ops::Range<usize>) {
-        let message = "a component exceeds 1e9 mm or deg".to_owned();
-        self.messages.problem(self.here(), place, message, HINT_TARGET);
+        let message = "a component exceeds 1e9 mm or deg";
+        self.messages.problem(place, message, HINT_TARGET);
     }
 
     /// The components with these names; missing ones are reported.
     pub fn complete(
         &mut self,
-        (aggregate, text): (&Aggregate, usize),
+        given: &LocatedAggregate,
         names: [&'static str; 6],
         former: Option<[f64; 6]>,
     ) -> Option<[f64; 6]> {
-        match aggregate.numbers(names, former) {
+        match given.aggregate.numbers(names, former) {
             Ok(numbers) => Some(numbers),
             Err(missing) => {
                 let message =
                     format!("{missing} of this target is given neither here nor by the previous move");
                 let hint = "a missing component keeps the value of the previous move, in the same frame with the same \
                     tool";
-                let text = &self.texts[text];
+                let here = self.messages.go_to(given.text);
                 self.messages
-                    .problem(text, aggregate.bytes.clone(), message, hint);
+                    .problem(given.aggregate.bytes.clone(), message, hint);
+                self.messages.go_to(here);
                 None
             }
         }
     }
 
     /// The aggregate at the cursor; errors in it are reported.
-    pub fn aggregate(&mut self, cursor: &mut Cursor<'a>) -> Option<Aggregate> {
-        let read = Aggregate::read(cursor);
-        read.map_err(|wrong| {
-            self.messages
-                .problem(self.here(), wrong.bytes, wrong.message, HINT_TARGET);
-        })
-        .ok()
+    pub fn aggregate(&mut self, cursor: &mut Cursor<'a>) -> Option<LocatedAggregate> {
+        let text = self.messages.index();
+        match Aggregate::read(cursor) {
+            Ok(aggregate) => Some(LocatedAggregate { aggregate, text }),
+            Err(wrong) => {
+                self.messages.problem(wrong.bytes, wrong.message, HINT_TARGET);
+                None
+            }
+        }
     }
 
     /// The value of a name; `Some(None)` is a position that only the controller knows, and is noted.
-    fn named(&mut self, cursor: &mut Cursor<'a>) -> Option<Option<Named>> {
+    fn named(&mut self, cursor: &mut Cursor<'a>) -> Option<Option<LocatedAggregate>> {
         let token = cursor.peek()?;
         let reference = Reference::read(cursor)?;
         let name = reference.name;
         let mut wrong = |message: String, hint: &str| {
-            self.messages
-                .problem(&self.texts[self.text], token.span(), message, hint);
+            self.messages.problem(token.span(), message, hint);
             None
         };
         if reference.field.is_some() || cursor.peek().is_some_and(|next| next.is('(')) {
@@ -293,10 +273,7 @@ impl<'a> Reader<'a> {
             );
         }
         match self.names.find(&self.module, &name) {
-            Some(PointValue::Given { aggregate, text }) => Some(Some(Named {
-                aggregate: aggregate.clone(),
-                text: *text,
-            })),
+            Some(PointValue::Given(given)) => Some(Some(given.clone())),
             Some(PointValue::Computed { line }) => wrong(
                 format!("`{name}` is computed while the program runs, in line {line}"),
                 "write its components as numbers, or give the .dat file with the taught point",
@@ -304,7 +281,7 @@ impl<'a> Reader<'a> {
             None if name.starts_with('$') || name.starts_with("XHOME") => {
                 let sentence =
                     format!("the move to `{name}` is left out: only the controller knows its position");
-                self.note(token, sentence);
+                self.messages.note(token.line, sentence);
                 Some(None)
             }
             None => wrong(
@@ -324,10 +301,9 @@ impl<'a> Reader<'a> {
         let ends = cursor.peek().is_none();
         if !ends {
             while cursor.next().is_some() {}
-            let message = "the words after the target are not understood".to_owned();
+            let message = "the words after the target are not understood";
             let hint = "after a target, C_DIS, C_ORI, C_VEL, C_PTP, C_SPL or WITH can follow";
-            self.messages
-                .problem(self.here(), place.start..cursor.end, message, hint);
+            self.messages.problem(place.start..cursor.end, message, hint);
         }
         ends
     }

@@ -2,8 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::aggregate::{Aggregate, Broken};
-use crate::text::ProgramText;
+use super::aggregate::{Aggregate, Broken, LocatedAggregate};
 use crate::tokens::{Cursor, Kind, Token};
 
 /// Types whose components are numbers that a move needs: errors in them are problems.
@@ -14,8 +13,8 @@ const BEFORE_TYPE: [&str; 4] = ["DECL", "GLOBAL", "PUBLIC", "CONST"];
 /// Value of a name.
 #[derive(Clone, Debug)]
 pub(super) enum PointValue {
-    /// Given in this text.
-    Given { aggregate: Aggregate, text: usize },
+    /// Given by this aggregate.
+    Given(LocatedAggregate),
     /// It is computed while the program runs, in this line.
     Computed { line: u32 },
 }
@@ -74,8 +73,8 @@ impl Reference {
     }
 }
 
-/// A declaration with values, or an assignment: the type, if there is one, and the variables with
-/// the positions of their values.
+/// A declaration with values, or an assignment: the type, if there is one, and the variables with the positions of
+/// their values.
 pub(super) struct Declared<'a> {
     pub kind: Option<String>,
     pub values: Vec<(Reference, Cursor<'a>)>,
@@ -121,11 +120,7 @@ pub(super) fn declared<'a>(line: &Cursor<'a>) -> Option<Declared<'a>> {
 }
 
 /// Stores all values of the lines of a data file; returns the errors in points.
-pub(super) fn take_data(
-    names: &mut Names,
-    (module, index): (&str, usize),
-    lines: &[Cursor<'_>],
-) -> Vec<Broken> {
+pub(super) fn take_data(names: &mut Names, module: &str, text: usize, lines: &[Cursor<'_>]) -> Vec<Broken> {
     let mut broken = Vec::new();
     for line in lines {
         let Some(declared) = declared(line) else { continue };
@@ -135,14 +130,10 @@ pub(super) fn take_data(
                 continue;
             }
             match Aggregate::read(&mut value) {
-                Ok(aggregate) => names.put(
-                    module,
-                    reference.name,
-                    PointValue::Given {
-                        aggregate,
-                        text: index,
-                    },
-                ),
+                Ok(aggregate) => {
+                    let known = PointValue::Given(LocatedAggregate { aggregate, text });
+                    names.put(module, reference.name, known);
+                }
                 Err(wrong) if is_point => broken.push(wrong),
                 Err(_) => {}
             }
@@ -158,11 +149,4 @@ pub(super) fn lines<'a>(text: &'a str, tokens: &'a [Token]) -> Vec<Cursor<'a>> {
         .filter(|line| line.first().is_some_and(|first| !first.is('&')))
         .map(|line| Cursor::new(text, line))
         .collect()
-}
-
-/// The module that a file belongs to: its name without folder and ending, in capitals.
-pub(super) fn module_of(text: &ProgramText) -> String {
-    let file = text.name().rsplit(['/', '\\']).next().unwrap_or_default();
-    let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
-    stem.to_ascii_uppercase()
 }

@@ -8,7 +8,7 @@ use armill_formats::language::Language;
 use super::SYNTAX;
 use super::modal::Modal;
 use super::motion::Former;
-use super::points::{self, Names, declared, lines, module_of};
+use super::points::{self, Names, declared, lines};
 use crate::messages::ProgramMessages;
 use crate::program::{RobotMove, RobotProgram};
 use crate::text::ProgramText;
@@ -34,10 +34,10 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
             .iter()
             .any(|line| line.peek_word().is_some_and(|word| word == "DEFDAT"));
         if is_data {
-            let broken = points::take_data(&mut reader.names, (&module_of(text), index), &lines);
-            for wrong in broken {
+            reader.messages.go_to(index);
+            for wrong in points::take_data(&mut reader.names, &module_of(text), index, &lines) {
                 let hint = "components are numbers, as in `{X 100.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}`";
-                reader.messages.problem(text, wrong.bytes, wrong.message, hint);
+                reader.messages.problem(wrong.bytes, wrong.message, hint);
             }
         } else {
             reader.routines.extend(
@@ -55,7 +55,7 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
         .or_else(|| texts.first().map(module_of))
         .unwrap_or_default();
     for (index, lines) in &routines {
-        reader.text = *index;
+        reader.messages.go_to(*index);
         reader.module = module_of(&texts[*index]);
         for line in lines {
             reader.statement(line.clone());
@@ -77,6 +77,11 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
     })
 }
 
+/// The module that a file belongs to: its name without folder and ending, in capitals.
+fn module_of(text: &ProgramText) -> String {
+    text.stem().to_ascii_uppercase()
+}
+
 /// The name of the routine that begins in the line.
 fn routine(line: &Cursor<'_>) -> Option<String> {
     let mut cursor = line.clone();
@@ -90,9 +95,8 @@ fn routine(line: &Cursor<'_>) -> Option<String> {
 
 /// State while lines are read.
 pub(super) struct Reader<'a> {
-    pub texts: &'a [ProgramText],
-    /// The current text and its module.
-    pub text: usize,
+    pub messages: ProgramMessages<'a>,
+    /// The module of the text that is being read.
     pub module: String,
     pub names: Names,
     pub modal: Modal,
@@ -103,15 +107,13 @@ pub(super) struct Reader<'a> {
     /// End of the previous move.
     pub former: Option<Former>,
     routines: HashSet<String>,
-    pub messages: ProgramMessages,
     pub moves: Vec<RobotMove>,
 }
 
 impl<'a> Reader<'a> {
     fn new(texts: &'a [ProgramText]) -> Reader<'a> {
         Reader {
-            texts,
-            text: 0,
+            messages: ProgramMessages::new(texts),
             module: String::new(),
             names: Names::default(),
             modal: Modal::default(),
@@ -119,14 +121,8 @@ impl<'a> Reader<'a> {
             path_speed: None,
             former: None,
             routines: HashSet::new(),
-            messages: ProgramMessages::default(),
             moves: Vec::new(),
         }
-    }
-
-    /// The current text.
-    pub fn here(&self) -> &'a ProgramText {
-        &self.texts[self.text]
     }
 
     fn statement(&mut self, line: Cursor<'a>) {
@@ -136,14 +132,12 @@ impl<'a> Reader<'a> {
         let follows = cursor.peek().map(|token| token.kind);
         match word.as_str() {
             "PTP" | "SPTP" | "LIN" | "SLIN" | "SPL" | "CIRC" | "SCIRC" | "PTP_REL" | "SPTP_REL"
-            | "LIN_REL" | "SLIN_REL" => self.motion((first, &word), cursor),
+            | "LIN_REL" | "SLIN_REL" => self.motion(first, &word, cursor),
             "DEF" => self.former = None,
             "BAS" => self.bas(cursor),
             "SPLINE" | "PTP_SPLINE" => {
-                self.note(
-                    first,
-                    format!("`{word}`: its points are read, but not the curve between them"),
-                );
+                let sentence = format!("`{word}`: its points are read, but not the curve between them");
+                self.messages.note(first.line, sentence);
                 self.before_spline = Some(self.modal.clone());
                 self.with(&cursor);
             }
@@ -153,18 +147,19 @@ impl<'a> Reader<'a> {
                 }
             }
             _ if CONTROL.contains(&word.as_str()) && follows != Some(Kind::Mark('=')) => {
-                self.note(first, format!("`{word}`: its body is read once"));
+                let sentence = format!("`{word}`: its body is read once");
+                self.messages.note(first.line, sentence);
             }
             // No other statement has a target after its word.
             _ if follows == Some(Kind::Mark('{')) || is_like_a_move(&word) && follows == Some(Kind::Word) => {
                 let message = format!("`{word}` is an unsupported move");
                 let hint = "supported: PTP, LIN, CIRC, SPTP, SLIN, SCIRC, SPL and PTP_REL, LIN_REL";
-                self.messages.problem(self.here(), first.span(), message, hint);
+                self.messages.problem(first.span(), message, hint);
             }
             _ => match declared(&line) {
                 Some(declared) => {
                     for (reference, value) in declared.values {
-                        self.assign((first, &reference), value);
+                        self.assign(first, &reference, value);
                     }
                 }
                 None if follows == Some(Kind::Mark('(')) => self.call(first),
@@ -174,18 +169,14 @@ impl<'a> Reader<'a> {
     }
 
     fn call(&mut self, word: Token) {
-        let name = &self.here().text()[word.span()];
+        let name = &self.messages.text().text()[word.span()];
         let ours = self.routines.contains(&name.to_ascii_uppercase());
         let what = match ours {
             true => "its moves are read once, where it is defined",
             false => "its effect is not known",
         };
-        self.note(word, format!("`{name}` is called: {what}"));
-    }
-
-    /// Adds a note on this token.
-    pub fn note(&mut self, token: Token, sentence: String) {
-        self.messages.note((self.here(), token.line), sentence);
+        self.messages
+            .note(word.line, format!("`{name}` is called: {what}"));
     }
 }
 

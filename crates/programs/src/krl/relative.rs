@@ -13,10 +13,11 @@ impl<'a> Reader<'a> {
     /// A move relative to the end of the previous move: in the frame or, after `#TOOL`, in the tool.
     pub fn relative(
         &mut self,
-        (at, word): (Token, &str),
+        at: Token,
+        word: &str,
         cursor: &mut Cursor<'a>,
     ) -> Option<(Motion, KrlTarget)> {
-        let aggregate = self.aggregate(cursor)?;
+        let aggregate = self.aggregate(cursor)?.aggregate;
         let in_tool = cursor.pass('#') && cursor.word().is_some_and(|word| word == "TOOL");
         let span = at.start..cursor.before();
         let motion = match word.starts_with("PTP") || word.starts_with("SPTP") {
@@ -51,7 +52,7 @@ impl<'a> Reader<'a> {
             let message = format!("the target of `{word}` is not known");
             let hint = "it must follow a move to a pose with the same frame and tool (to axes for axes), and can \
                 rotate only in #TOOL";
-            self.messages.problem(self.here(), at.span(), message, hint);
+            self.messages.problem(at.span(), message, hint);
         }
         goal.map(|goal| (motion, goal))
     }

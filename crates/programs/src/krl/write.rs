@@ -9,9 +9,10 @@ use armill_core::frame::Isometry;
 use armill_formats::convention::Convention;
 
 use super::aggregate::whole;
-use crate::draft::{Bounds, Draft, DraftError, DraftPoint, Written, latin1};
+use crate::draft::{Bounds, Draft, DraftError, DraftPoint, Written};
 use crate::number::fixed;
 use crate::posture::Configuration;
+use crate::text::latin1;
 
 /// `[recalled]` Longest name of a module; number of frames and tools of newer systems, older ones have 32 and 16.
 const LONGEST_NAME: usize = 24;
@@ -123,13 +124,13 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
     let mut main = head(draft);
     let mut parts = Vec::new();
     let mut modal = Modal::default();
-    for (index, (name, points)) in draft.parts(MOST_MOVES).enumerate() {
+    for (name, points) in draft.parts(MOST_MOVES, "_") {
         let mut body = String::new();
-        for (at, point) in points.iter().enumerate() {
-            match (index, at) {
+        for point in points {
+            match draft.is_first(point) {
                 // The first move is given in axes: its posture is unique.
-                (0, 0) => _ = write!(main, "PTP {}\r\n", axes(&point.joints)),
-                _ => modal.take((point, draft.blend(point)), &mut body),
+                true => _ = write!(main, "PTP {}\r\n", axes(&point.joints)),
+                false => modal.take(point, draft.blend(point), &mut body),
             }
         }
         if is_split {
@@ -198,7 +199,7 @@ struct Modal {
 }
 
 impl Modal {
-    fn take(&mut self, (point, blend): (&DraftPoint, f64), out: &mut String) {
+    fn take(&mut self, point: &DraftPoint, blend: f64, out: &mut String) {
         let mut pose = String::new();
         whole(&Convention::Kuka.numbers_of(&point.frame_from_tool), &mut pose);
         let Some(speed) = point.speed else {

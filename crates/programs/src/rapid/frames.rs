@@ -17,7 +17,7 @@ pub(super) struct MoveFrames {
 impl Reader<'_> {
     /// The frame of a tool.
     pub fn tool(&mut self, at: Token, node: &Node) -> Option<Frame> {
-        let Some(found) = self.names.look(node, self.text) else {
+        let Some(found) = self.names.look(node, self.messages.index()) else {
             return Some(self.unknown_frame(at, node, "tool0"));
         };
         let Value::List(all) = &found.node.value else {
@@ -32,7 +32,7 @@ impl Reader<'_> {
 
     /// The frame of a work object: user frame times object frame.
     pub fn work(&mut self, at: Token, node: &Node) -> Option<Frame> {
-        let Some(found) = self.names.look(node, self.text) else {
+        let Some(found) = self.names.look(node, self.messages.index()) else {
             return Some(self.unknown_frame(at, node, "wobj0"));
         };
         let Value::List(all) = &found.node.value else {
@@ -45,10 +45,8 @@ impl Reader<'_> {
         let user = all.get(3).and_then(|frame| self.frame(frame, found.text));
         let object = all.get(4).and_then(|frame| self.frame(frame, found.text));
         if is_moved {
-            self.note(
-                at,
-                "the work object is moved by another axis, which is not followed".to_owned(),
-            );
+            let sentence = "the work object is moved by another axis, which is not followed";
+            self.messages.note(at.line, sentence);
             return Some(Frame::Unknown);
         }
         Some(match (user, object) {
@@ -58,10 +56,10 @@ impl Reader<'_> {
     }
 
     fn stationary_tool(&mut self, at: Token) -> Option<Frame> {
-        let message = "the tool is stationary here and the workpiece is on the flange".to_owned();
+        let message = "the tool is stationary here and the workpiece is on the flange";
         let hint = "only programs with the tool on the flange are supported: robhold TRUE of the tool, FALSE of the \
             work object";
-        self.messages.problem(self.here(), at.span(), message, hint);
+        self.messages.problem(at.span(), message, hint);
         None
     }
 
@@ -69,11 +67,9 @@ impl Reader<'_> {
         if is_word(node, ready) {
             return Frame::Given(Isometry::identity());
         }
-        let text = shown(&self.here().text()[node.bytes.clone()]);
-        self.note(
-            at,
-            format!("`{text}` is not given as numbers: its pose is not known"),
-        );
+        let text = shown(&self.text()[node.bytes.clone()]);
+        let sentence = format!("`{text}` is not given as numbers: its pose is not known");
+        self.messages.note(at.line, sentence);
         Frame::Unknown
     }
 

@@ -17,8 +17,8 @@
 //! `[recalled]`, not in a sample: `RelTool` rotates about x, then the new y, then the new z; the positions of tool and
 //! zone in the arguments of process moves; `v100` is 100 mm/s.
 //!
-//! In reading order: `value` expressions; `names` values of names; `statement` splits text; `read`, `motion`,
-//! `target`, `frames` the statements; `spell` a pose; `write` the output.
+//! In reading order: `statement` (a module as statements), `value` (expressions), `names` (values of names), `read`
+//! (statements), `motion`, `target` and `frames` (moves), `spell` (a pose), `write` (programs to load).
 
 mod frames;
 mod motion;

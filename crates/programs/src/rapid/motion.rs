@@ -6,7 +6,7 @@ use super::frames::MoveFrames;
 use super::read::Reader;
 use super::statement::is_move;
 use super::value::{Argument, Node, Value};
-use crate::messages::shown;
+use crate::messages::{CLOSE_BRACKETS, shown};
 use crate::program::{Frame, Motion, RobotMove, Speed, Target};
 use crate::tokens::{Cursor, Token};
 
@@ -44,15 +44,13 @@ const SEARCHING: [&str; 4] = ["SEARCHL", "SEARCHC", "TRIGGLIOS", "STARTMOVETO"];
 
 impl<'a> Reader<'a> {
     /// The move named by this word, with its arguments at the cursor. Returns whether it is a move.
-    pub fn motion(&mut self, (at, word): (Token, &str), mut cursor: Cursor<'a>) -> bool {
-        let name = &self.here().text()[at.span()];
+    pub fn motion(&mut self, at: Token, word: &str, mut cursor: Cursor<'a>) -> bool {
+        let name = &self.text()[at.span()];
         let is_circular = CIRCULAR.contains(&word);
         let is_known = is_circular || word == "MOVEABSJ" || JOINT.contains(&word) || LINEAR.contains(&word);
         if word == "MOVEEXTJ" {
-            self.note(
-                at,
-                "`MoveExtJ` moves only external axes: it is left out".to_owned(),
-            );
+            let sentence = "`MoveExtJ` moves only external axes: it is left out";
+            self.messages.note(at.line, sentence);
             return true;
         }
         if !is_known {
@@ -61,7 +59,7 @@ impl<'a> Reader<'a> {
                 let message = format!("`{name}` is an unsupported move");
                 let hint =
                     "supported: MoveAbsJ, MoveJ, MoveL, MoveC and their variants with signals, TriggL, ArcL";
-                self.messages.problem(self.here(), at.span(), message, hint);
+                self.messages.problem(at.span(), message, hint);
             }
             return moves;
         }
@@ -72,8 +70,7 @@ impl<'a> Reader<'a> {
         }
         if cursor.peek().is_some() {
             let message = format!("one closing bracket too many in this {name}");
-            let hint = "close every bracket, in the order in which they were opened";
-            self.messages.problem(self.here(), cursor.place(), message, hint);
+            self.messages.problem(cursor.place(), message, CLOSE_BRACKETS);
             return true;
         }
         let plain: Vec<&Node> = arguments
@@ -86,21 +83,21 @@ impl<'a> Reader<'a> {
             (_, rest) => (None, rest),
         };
         let [end, speed, .., last] = rest else {
-            return self.too_few((at, name), plain.len());
+            return self.too_few(at, plain.len());
         };
         let tool = if is_move(word) { rest.get(3) } else { Some(last) };
         let Some(tool) = tool.filter(|_| rest.len() >= 4) else {
-            return self.too_few((at, name), plain.len());
+            return self.too_few(at, plain.len());
         };
-        if let Some((motion, target)) = self.goal((at, word), via, end) {
+        if let Some((motion, target)) = self.goal(at, word, via, end) {
             let is_joint = motion == Motion::Joint;
-            let kept = self.kept((at, tool), named(&arguments, "wobj"));
+            let kept = self.kept(at, tool, named(&arguments, "wobj"));
             let Some(MoveFrames { frame, tool }) = kept else {
                 return true;
             };
             let speed = match is_joint {
                 true => Speed::Joints,
-                false => self.speed((at, speed), &arguments),
+                false => self.speed(at, speed, &arguments),
             };
             self.moves.push(RobotMove {
                 motion,
@@ -114,19 +111,14 @@ impl<'a> Reader<'a> {
         true
     }
 
-    fn too_few(&mut self, (at, name): (Token, &str), found: usize) -> bool {
-        let message = format!("{found} arguments of `{name}`");
+    fn too_few(&mut self, at: Token, found: usize) -> bool {
+        let message = format!("{found} arguments of `{}`", &self.text()[at.span()]);
         let hint = "a move has target, speed, zone and tool: `MoveL p10,v100,z1,tool1\\WObj:=wobj1;`";
-        self.messages.problem(self.here(), at.span(), message, hint);
+        self.messages.problem(at.span(), message, hint);
         true
     }
 
-    fn goal(
-        &mut self,
-        (at, word): (Token, &str),
-        via: Option<&Node>,
-        end: &Node,
-    ) -> Option<(Motion, Target)> {
+    fn goal(&mut self, at: Token, word: &str, via: Option<&Node>, end: &Node) -> Option<(Motion, Target)> {
         if word == "MOVEABSJ" {
             return Some((Motion::Joint, Target::Joints(self.joints(at, end)?)));
         }
@@ -141,12 +133,12 @@ impl<'a> Reader<'a> {
     }
 
     /// The tip speed: `\V`, or the first number of a speeddata, mm/s.
-    fn speed(&mut self, (at, node): (Token, &Node), arguments: &[Argument]) -> Speed {
+    fn speed(&mut self, at: Token, node: &Node, arguments: &[Argument]) -> Speed {
         if named(arguments, "t").is_some() {
             return Speed::Joints;
         }
         let node = named(arguments, "v").unwrap_or(node);
-        let found = self.names.look(node, self.text);
+        let found = self.names.look(node, self.messages.index());
         let given = found.and_then(|found| match &found.node.value {
             Value::Number(speed) => Some(*speed),
             Value::List(all) => self.number(all.first()?, found.text),
@@ -164,18 +156,16 @@ impl<'a> Reader<'a> {
         match given {
             Some(speed) if speed > 0.0 => Speed::Tip(speed * 1e-3),
             _ => ready().unwrap_or_else(|| {
-                let text = shown(&self.here().text()[node.bytes.clone()]);
-                self.note(
-                    at,
-                    format!("the speed `{text}` is not defined: the tip speed is not known"),
-                );
+                let text = shown(&self.text()[node.bytes.clone()]);
+                let sentence = format!("the speed `{text}` is not defined: the tip speed is not known");
+                self.messages.note(at.line, sentence);
                 Speed::Unknown
             }),
         }
     }
 
     /// Work object and tool; `None` if one of them is not valid, which has been reported.
-    fn kept(&mut self, (at, tool): (Token, &Node), work: Option<&Node>) -> Option<MoveFrames> {
+    fn kept(&mut self, at: Token, tool: &Node, work: Option<&Node>) -> Option<MoveFrames> {
         let tool = self.tool(at, tool)?;
         let frame = match work {
             Some(work) => self.work(at, work)?,

@@ -97,18 +97,17 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
         .map(|(text, found)| statements(text.text(), found))
         .collect();
     let mut reader = Reader {
-        texts: &texts,
-        text: 0,
+        messages: ProgramMessages::new(&texts),
         names: Names::default(),
         routines: HashSet::new(),
         name: None,
         in_routine: false,
-        messages: ProgramMessages::default(),
         moves: Vec::new(),
     };
     for pass in [Pass::Data, Pass::Routines] {
         for (index, statements) in all.iter().enumerate() {
-            (reader.text, reader.in_routine) = (index, false);
+            reader.messages.go_to(index);
+            reader.in_routine = false;
             for statement in statements {
                 reader.statement(pass, statement.clone());
             }
@@ -144,26 +143,18 @@ enum Pass {
 
 /// State while statements are read.
 pub(super) struct Reader<'a> {
-    pub texts: &'a [ProgramText],
-    /// The current text.
-    pub text: usize,
+    pub messages: ProgramMessages<'a>,
     pub names: Names,
     pub routines: HashSet<String>,
     name: Option<String>,
     in_routine: bool,
-    pub messages: ProgramMessages,
     pub moves: Vec<RobotMove>,
 }
 
 impl<'a> Reader<'a> {
-    /// The current text.
-    pub fn here(&self) -> &'a ProgramText {
-        &self.texts[self.text]
-    }
-
-    /// Adds a note on this token.
-    pub fn note(&mut self, token: Token, sentence: String) {
-        self.messages.note((self.here(), token.line), sentence);
+    /// The characters of the text that is being read.
+    pub fn text(&self) -> &'a str {
+        self.messages.text().text()
     }
 
     fn statement(&mut self, pass: Pass, statement: Cursor<'a>) {
@@ -195,19 +186,20 @@ impl<'a> Reader<'a> {
             }
             _ if pass == Pass::Data => {}
             _ if CONTROL.contains(&word.as_str()) => {
-                self.note(at, format!("`{word}`: its body is read once"));
+                let sentence = format!("`{word}`: its body is read once");
+                self.messages.note(at.line, sentence);
             }
             "PDISPON" | "PDISPSET" | "EOFFSON" | "EOFFSSET" => {
                 let message = format!("`{word}` displaces all targets after it");
                 let hint = "write the final positions, without program displacement";
-                self.messages.problem(self.here(), at.span(), message, hint);
+                self.messages.problem(at.span(), message, hint);
             }
-            "VELSET" => self.note(
-                at,
-                "`VelSet` is ignored: the speeds of the moves are used".to_owned(),
-            ),
+            "VELSET" => {
+                let sentence = "`VelSet` is ignored: the speeds of the moves are used";
+                self.messages.note(at.line, sentence);
+            }
             _ if QUIET.contains(&word.as_str()) => {}
-            _ => self.plain((at, &word), statement),
+            _ => self.plain(at, &word, statement),
         }
     }
 
@@ -219,34 +211,33 @@ impl<'a> Reader<'a> {
         let name = self.reference(&mut cursor, 0).name;
         if cursor.pass(':') && cursor.pass('=') {
             let node = self.expression(&mut cursor, 0);
-            self.names.put(name, node, self.text);
+            self.names.put(name, node, self.messages.index());
         }
     }
 
     /// An assignment, a move or a call.
-    fn plain(&mut self, (at, word): (Token, &str), statement: Cursor<'a>) {
+    fn plain(&mut self, at: Token, word: &str, statement: Cursor<'a>) {
         let mut cursor = statement.clone();
         let reference = self.reference(&mut cursor, 0);
         if cursor.pass(':') && cursor.pass('=') {
             let node = self.expression(&mut cursor, 0);
+            let text = self.messages.index();
             match reference.steps.is_empty() {
-                true => self.names.put(reference.name, node, self.text),
-                false => self.names.change(&reference, node, self.text),
+                true => self.names.put(reference.name, node, text),
+                false => self.names.change(&reference, node, text),
             }
             return;
         }
         let mut cursor = statement;
         cursor.next();
         let is_bare = cursor.peek().is_none();
+        let name = &self.text()[at.span()];
         if self.routines.contains(word) {
-            let name = &self.here().text()[at.span()];
-            self.note(
-                at,
-                format!("`{name}` is called: its moves are read once, where it is defined"),
-            );
-        } else if is_bare || !self.motion((at, word), cursor) {
-            let name = &self.here().text()[at.span()];
-            self.note(at, format!("`{name}` is called: its effect is not known"));
+            let sentence = format!("`{name}` is called: its moves are read once, where it is defined");
+            self.messages.note(at.line, sentence);
+        } else if is_bare || !self.motion(at, word, cursor) {
+            let sentence = format!("`{name}` is called: its effect is not known");
+            self.messages.note(at.line, sentence);
         }
     }
 }

@@ -6,9 +6,9 @@ use armill_core::frame::Isometry;
 use armill_formats::convention::Convention;
 
 use super::SYNTAX;
-use crate::number::{fixed, write_fixed};
+use crate::number::{fixed, replace_numbers};
 use crate::spelling::Respelling;
-use crate::tokens::{Cursor, Kind, decimals, tokens};
+use crate::tokens::{Cursor, Kind, tokens};
 
 /// Minimum and maximum number of decimals of mm and of a quaternion.
 const MM: usize = 3;
@@ -17,7 +17,7 @@ const MOST_DECIMALS: usize = 12;
 
 /// Writes a pose in place of `before`: number for number in a robtarget. A name, or a target with an offset, becomes a
 /// robtarget with the posture and the external axes of that name.
-pub(crate) fn spell((pose, respelling): (&Isometry, Respelling), before: &str, out: &mut String) {
+pub(crate) fn spell(pose: &Isometry, respelling: Respelling, before: &str, out: &mut String) {
     let numbers = Convention::Abb.numbers_of(pose);
     let (place, turn) = numbers.split_at(3);
     let (mut base, mut entries) = (before.trim(), Vec::new());
@@ -69,17 +69,8 @@ pub(crate) fn spell((pose, respelling): (&Isometry, Respelling), before: &str, o
 fn list(numbers: &[f64], before: &str, least: usize, out: &mut String) {
     match places(before, numbers.len()) {
         Some(places) => {
-            let mut done = 0;
-            for (place, number) in places.into_iter().zip(numbers) {
-                out.push_str(&before[done..place.start]);
-                write_fixed(
-                    out,
-                    *number,
-                    decimals(&before[place.clone()], least, MOST_DECIMALS),
-                );
-                done = place.end;
-            }
-            out.push_str(&before[done..]);
+            let new = places.into_iter().zip(numbers.iter().copied());
+            replace_numbers(before, new, [least, MOST_DECIMALS], out);
         }
         None => {
             let written: Vec<String> = numbers.iter().map(|number| fixed(*number, least)).collect();
@@ -99,16 +90,7 @@ fn places(before: &str, count: usize) -> Option<Vec<Range<usize>>> {
         .into_iter()
         .filter(|token| token.kind != Kind::Line)
         .collect();
-    let mut cursor = Cursor::new(before, &found);
-    cursor.pass('[').then_some(())?;
-    let mut places = Vec::new();
-    for index in 1..=count {
-        let start = cursor.place().start;
-        cursor.number()?;
-        places.push(start..cursor.before());
-        cursor.pass(if index < count { ',' } else { ']' }).then_some(())?;
-    }
-    cursor.peek().is_none().then_some(places)
+    Cursor::new(before, &found).number_list(count)
 }
 
 /// The parts between the commas (or before optional arguments) of a list, from after its opening mark to its closing

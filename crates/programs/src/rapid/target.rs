@@ -29,7 +29,7 @@ struct Place {
 /// Why a target cannot be resolved.
 enum Missing {
     /// It has been reported as a problem.
-    ProgramMessages,
+    Reported,
     /// No module declares this name.
     Name(String),
     /// It is computed on the controller.
@@ -41,7 +41,7 @@ enum Missing {
 impl<'a> Reader<'a> {
     /// A robtarget of a move.
     pub fn robtarget(&mut self, at: Token, node: &Node) -> Option<Target> {
-        match self.place(node, self.text, 0) {
+        match self.place(node, self.messages.index(), 0) {
             Ok(place) => {
                 if place.moves_external_axes {
                     self.external(at);
@@ -67,7 +67,7 @@ impl<'a> Reader<'a> {
     /// The joints of a jointtarget, rad.
     pub fn joints(&mut self, at: Token, node: &Node) -> Option<Vec<f64>> {
         let requested = "[[j1,j2,j3,j4,j5,j6],[9E9,9E9,9E9,9E9,9E9,9E9]]";
-        let found = self.names.look(node, self.text);
+        let found = self.names.look(node, self.messages.index());
         let axes = found.and_then(|found| match &found.node.value {
             Value::List(all) => {
                 let joints: [f64; 6] = self.numbers(all.first()?, found.text)?;
@@ -83,7 +83,7 @@ impl<'a> Reader<'a> {
                 Some(joints.iter().map(|deg| deg.to_radians()).collect())
             }
             None => {
-                let missing = self.why(node, self.text);
+                let missing = self.why(node, self.messages.index());
                 self.missing(node, missing, requested);
                 None
             }
@@ -91,10 +91,8 @@ impl<'a> Reader<'a> {
     }
 
     fn external(&mut self, at: Token) {
-        self.note(
-            at,
-            "external axes are kept unchanged and are not joints in armill".to_owned(),
-        );
+        let sentence = "external axes are kept unchanged and are not joints in armill";
+        self.messages.note(at.line, sentence);
     }
 
     /// The pose of the first two nodes; `None` if they are not numbers.
@@ -213,24 +211,24 @@ impl<'a> Reader<'a> {
     /// Why an expression has no value.
     fn why(&self, node: &Node, text: usize) -> Missing {
         match &node.value {
-            Value::Wrong => Missing::ProgramMessages,
+            Value::Wrong => Missing::Reported,
             Value::Name(reference) if !self.names.knows(&reference.name) => {
-                let name = &self.texts[text].text()[node.bytes.clone()];
+                let name = &self.messages.texts()[text].text()[node.bytes.clone()];
                 Missing::Name(shown(name).to_owned())
             }
             _ => match self.names.look(node, text).map(|found| &found.node.value) {
-                Some(Value::Wrong) => Missing::ProgramMessages,
-                Some(Value::List(all)) if has_wrong(all) => Missing::ProgramMessages,
+                Some(Value::Wrong) => Missing::Reported,
+                Some(Value::List(all)) if has_wrong(all) => Missing::Reported,
                 _ => Missing::Computed,
             },
         }
     }
 
     fn missing(&mut self, node: &Node, missing: Missing, requested: &str) {
-        let text = shown(&self.here().text()[node.bytes.clone()]);
+        let text = shown(&self.text()[node.bytes.clone()]);
         let (message, hint) = match missing {
             // Reported where it is used; a file with problems only in unused data is also refused.
-            Missing::ProgramMessages => return,
+            Missing::Reported => return,
             Missing::Name(name) => (
                 format!("`{name}` is not defined: no given module declares it"),
                 "also give the module that declares it".to_owned(),
@@ -241,8 +239,7 @@ impl<'a> Reader<'a> {
             ),
             Missing::Pose(why) => (why, format!("a target here is `{requested}`")),
         };
-        self.messages
-            .problem(&self.texts[self.text], node.bytes.clone(), message, &hint);
+        self.messages.problem(node.bytes.clone(), message, &hint);
     }
 }
 

@@ -91,7 +91,7 @@ impl<'a> Reader<'a> {
                 cursor.next();
                 let message = format!("`{}` is not a number", &cursor.text[token.span()]);
                 let hint = "write numbers as `100`, `-0.5`, `9E9`";
-                self.messages.problem(self.here(), token.span(), message, hint);
+                self.messages.problem(token.span(), message, hint);
                 Value::Wrong
             }
             Kind::Mark('[') => {
@@ -126,9 +126,7 @@ impl<'a> Reader<'a> {
     }
 
     fn unclosed(&mut self, cursor: &Cursor<'a>, mark: char) -> Value {
-        let message = format!("`{mark}` is missing here");
-        let hint = "close every bracket, in the order in which they were opened";
-        self.messages.problem(self.here(), cursor.place(), message, hint);
+        self.messages.unclosed(cursor.place(), mark);
         Value::Wrong
     }
 
@@ -174,9 +172,9 @@ impl<'a> Reader<'a> {
                 let place = cursor.place();
                 let name = cursor.word().map(|name| name.to_ascii_lowercase());
                 if name.is_none() {
-                    let message = "the name of an argument is missing after this `\\`".to_owned();
+                    let message = "the name of an argument is missing after this `\\`";
                     let hint = "write optional arguments as `\\WObj:=wobj1`, `\\NoEOffs`";
-                    self.messages.problem(self.here(), place, message, hint);
+                    self.messages.problem(place, message, hint);
                 }
                 let given = cursor.pass(':') && cursor.pass('=');
                 all.push(Argument {

@@ -157,19 +157,19 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
     let mut main = head(draft, &draft.name);
     main.push_str("    ConfJ\\On;\r\n    ConfL\\Off;\r\n    SingArea\\Wrist;\r\n");
     let mut files = Vec::new();
-    for (index, (name, points)) in draft.parts(MOST_MOVES).enumerate() {
+    for (name, points) in draft.parts(MOST_MOVES, "_") {
         let mut body = String::new();
-        for (at, point) in points.iter().enumerate() {
-            match (index, at) {
+        for point in points {
+            match draft.is_first(point) {
                 // The first move is given in joints: its posture is unique.
-                (0, 0) => {
+                true => {
                     _ = write!(
                         main,
                         "    MoveAbsJ [{},{ABSENT}]\\NoEOffs,v200,fine,{kept};\r\n",
                         joints(point)
                     );
                 }
-                _ => body.push_str(&line((point, draft.blend(point)), &kept)),
+                false => body.push_str(&line(point, draft.blend(point), &kept)),
             }
         }
         match is_split {
@@ -208,7 +208,7 @@ fn head(draft: &Draft, name: &str) -> String {
     out
 }
 
-fn line((point, blend): (&DraftPoint, f64), kept: &str) -> String {
+fn line(point: &DraftPoint, blend: f64, kept: &str) -> String {
     let mut target = String::new();
     whole(&point.frame_from_tool, &mut target);
     let target = format!("[{target},{},{ABSENT}]", confdata(point));
@@ -265,8 +265,7 @@ fn notes(draft: &Draft) -> Vec<String> {
     let mut notes = vec![
         format!(
             "tool_{tool} and wobj_{frame} are data of this module, relative to flange and robot base: compare them \
-             with those of the \
-             controller"
+             with those of the controller"
         ),
         format!("the load of tool_{tool} is written as 1 kg: set mass, centre of gravity and inertia"),
         "SingArea\\Wrist lets the tool tilt where axes 4 and 6 are aligned; ConfL\\Off does not check postures along \
@@ -330,7 +329,7 @@ mod tests {
         ] {
             let point = point([0.0; 6], Branch::ALL[0]);
             assert!(
-                line((&point, blend_mm * 1e-3), "tool").contains(&format!(",v200,{zone},")),
+                line(&point, blend_mm * 1e-3, "tool").contains(&format!(",v200,{zone},")),
                 "{blend_mm}"
             );
         }

@@ -7,22 +7,15 @@ use armill_formats::convention::Convention;
 
 use super::position::Position;
 use super::statement::index;
-use crate::program::Frame;
+use crate::program::{Frame, FrameKind};
 use crate::spelling::number;
 
-/// Frame or tool.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Which {
-    User,
-    Tool,
-}
-
 /// Their names, also in German listings.
-const NAMES: [(Which, &str); 4] = [
-    (Which::User, "UFRAME"),
-    (Which::Tool, "UTOOL"),
-    (Which::User, "BENUTZER"),
-    (Which::Tool, "WKZ"),
+const NAMES: [(FrameKind, &str); 4] = [
+    (FrameKind::Reference, "UFRAME"),
+    (FrameKind::Tool, "UTOOL"),
+    (FrameKind::Reference, "BENUTZER"),
+    (FrameKind::Tool, "WKZ"),
 ];
 
 /// Registers, known frames and tools, and the selected ones.
@@ -40,18 +33,18 @@ impl Frames {
             return false;
         };
         let (left, right) = (left.trim(), right.trim());
-        for (which, name) in NAMES {
+        for (kind, name) in NAMES {
             if let Some((at, "")) = index(left, name) {
                 let pose = single(right, "PR").and_then(|register| self.pose(register));
                 match (single_index(&at), pose) {
                     (Some(at), Some(pose)) => {
-                        self.known[which as usize].insert(at, pose);
+                        self.known[kind as usize].insert(at, pose);
                     }
                     (Some(at), None) => {
-                        self.known[which as usize].remove(&at);
+                        self.known[kind as usize].remove(&at);
                     }
                     // The index is not known.
-                    (None, _) => self.known[which as usize].clear(),
+                    (None, _) => self.known[kind as usize].clear(),
                 }
                 return true;
             }
@@ -62,7 +55,7 @@ impl Frames {
                     .get(..4)
                     .is_some_and(|word| word.eq_ignore_ascii_case("_NUM"))
             {
-                self.chosen[which as usize] = right.parse().ok();
+                self.chosen[kind as usize] = right.parse().ok();
                 return true;
             }
         }
@@ -110,16 +103,16 @@ impl Frames {
     }
 
     /// Number of the selected frame or tool.
-    pub fn chosen(&self, which: Which) -> Option<u32> {
-        self.chosen[which as usize]
+    pub fn chosen(&self, kind: FrameKind) -> Option<u32> {
+        self.chosen[kind as usize]
     }
 
     /// The frame or tool with this number; the selected one if the position has no number.
-    pub fn get(&self, which: Which, own: Option<u32>) -> Frame {
-        match own.or(self.chosen(which)) {
+    pub fn get(&self, kind: FrameKind, own: Option<u32>) -> Frame {
+        match own.or(self.chosen(kind)) {
             None => Frame::Unknown,
             Some(0) => Frame::Given(Isometry::identity()),
-            Some(number) => self.known[which as usize]
+            Some(number) => self.known[kind as usize]
                 .get(&number)
                 .map_or(Frame::Numbered(number), |pose| Frame::Given(*pose)),
         }

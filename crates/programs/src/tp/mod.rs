@@ -11,12 +11,12 @@
 //! | `PR[1]`, `P[R[1]]` as a target | [`Target::Elsewhere`](super::Target::Elsewhere) |
 //!
 //! Turns are `floor((|angle| + 180 deg) / 360 deg)` with the sign of the angle. Source: the sample of the RoboDK post,
-//! and public listings from controllers for tabs, `-.858`, unset values, groups and moves over two lines. `[recalled]`
-//! On some systems the three turns are those of axes 4, 5, 6; rows of `A`; maximum lengths of names, remarks and
-//! programs.
+//! and public listings from controllers for tabs, `-.858`, unset values, groups and moves over two lines.
+//! `[recalled]`: on some systems the three turns are those of axes 4, 5, 6; rows of `A`; maximum lengths of names,
+//! remarks and programs.
 //!
-//! In reading order: `statement` the lines between /MN and /POS, `position` the lines after, `frames` registers of
-//! frames and tools, `read` statements, `motion` moves, `write` listings to load.
+//! In reading order: `statement` (the lines between /MN and /POS), `position` (the lines after /POS), `frames`
+//! (registers, frames and tools), `read` (statements), `motion` (moves), `write` (listings to load).
 
 mod frames;
 mod motion;
@@ -40,7 +40,7 @@ const KEYS: [&str; 6] = ["X", "Y", "Z", "W", "P", "R"];
 const DECIMALS: usize = 3;
 
 /// Writes a pose in place of `before`: `X = 1.0 mm, Y = ..., R = 2.0`.
-pub(super) fn spell((pose, respelling): (&Isometry, Respelling), before: &str, out: &mut String) {
+pub(super) fn spell(pose: &Isometry, respelling: Respelling, before: &str, out: &mut String) {
     let values = Convention::Fanuc.numbers_of(pose);
     let whole = Part { at: 0, text: before };
     let numbers: Vec<_> = whole
@@ -55,6 +55,3 @@ pub(super) fn spell((pose, respelling): (&Isometry, Respelling), before: &str, o
         .collect();
     respelled(before, &numbers, out);
 }
-
-#[cfg(test)]
-mod tests;

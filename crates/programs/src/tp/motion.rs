@@ -1,11 +1,11 @@
 //! A move of a program: its positions, its speed and options, and rows of A.
 
-use super::frames::{Frames, Which};
+use super::frames::Frames;
 use super::position::Taught;
 use super::read::{Program, Reader, SHIFTS};
 use super::statement::{Statement, index};
 use crate::arc_row::{ArcEnd, Next};
-use crate::program::{Frame, Motion, RobotMove, Speed, Target};
+use crate::program::{FrameKind, FramedTarget, Motion, Speed, Target};
 use crate::spelling::{Part, number};
 
 /// Units of speed: a length in m and a time in s; `None` if the unit does not give the tip speed.
@@ -22,72 +22,62 @@ const UNITS: [(&str, Option<[f64; 2]>); 10] = [
     ("%", None),
 ];
 
-/// Target of a move.
-#[derive(Debug)]
-pub(super) struct TpTarget {
-    target: Target,
-    frame: Frame,
-    tool: Frame,
-}
-
-impl<'a> Reader<'a> {
+impl Reader<'_> {
     /// J, L, C, A or S, with the words after it.
-    pub fn motion(&mut self, program: &mut Program<'a>, statement: &Statement) {
+    pub fn motion(&mut self, program: &mut Program, statement: &Statement) {
         let kind = statement.word(0).to_ascii_uppercase();
         let goals = if kind == "C" { 2 } else { 1 };
         let (words, rest) = statement.words[1..].split_at(goals.min(statement.words.len() - 1));
         if !matches!(kind.as_str(), "J" | "L" | "C" | "A" | "S") {
             let message = format!("the move `{kind}` is not followed");
             let hint = "supported: J, L, C, A and S";
-            self.messages
-                .problem(program.text, statement.span.clone(), message, hint);
+            self.messages.problem(statement.span.clone(), message, hint);
             return;
         }
-        let mut goals: Vec<TpTarget> = words
+        let mut goals: Vec<FramedTarget> = words
             .iter()
             .filter_map(|word| self.goal(program, statement, word))
             .collect();
-        let speed = self.speed(program, statement, (&kind, rest));
-        if goals.len() < words.len() || !self.follows(program, statement, rest) {
+        let speed = self.speed(statement, &kind, rest);
+        if goals.len() < words.len() || !self.is_supported(statement, rest) {
             return;
         }
         let Some(end) = goals.pop() else {
             return;
         };
         if kind == "A" {
-            return self.arc(program, statement, (end, speed));
+            return self.arc(program, statement, end, speed);
         }
         self.end_row(program);
         let motion = match (kind.as_str(), goals.pop()) {
             ("J", _) => Motion::Joint,
             ("C", Some(via)) => {
-                return self.circle(program, statement, (via, end, speed));
+                return self.circle(statement, via, end, speed);
             }
             ("C", None) => {
-                let message = "an arc with one position".to_owned();
+                let message = "an arc with one position";
                 let hint = "an arc needs two positions: `C P[1] P[2] 100mm/sec FINE`";
-                self.messages
-                    .problem(program.text, statement.span.clone(), message, hint);
+                self.messages.problem(statement.span.clone(), message, hint);
                 return;
             }
             ("S", _) => {
                 let what = "S is read as straight lines between its positions";
-                self.messages.note((program.text, statement.line), what);
+                self.messages.note(statement.line, what);
                 Motion::Linear
             }
             _ => Motion::Linear,
         };
-        self.push((motion, end, speed), statement);
+        self.moves.push(end.reached(motion, speed, statement.line));
     }
 
     /// The target in a word of a move.
-    fn goal(&mut self, program: &Program<'a>, statement: &Statement, word: &Part) -> Option<TpTarget> {
-        let elsewhere = |frames: &Frames| TpTarget {
+    fn goal(&mut self, program: &Program, statement: &Statement, word: &Part) -> Option<FramedTarget> {
+        let elsewhere = |frames: &Frames| FramedTarget {
             target: Target::Elsewhere {
                 name: word.text.to_owned(),
             },
-            frame: frames.get(Which::User, None),
-            tool: frames.get(Which::Tool, None),
+            frame: frames.get(FrameKind::Reference, None),
+            tool: frames.get(FrameKind::Tool, None),
         };
         let Some((at, _)) = index(word.text, "P") else {
             if index(word.text, "PR").is_some() {
@@ -95,7 +85,7 @@ impl<'a> Reader<'a> {
             }
             let message = format!("`{}` is not a position", word.text);
             let hint = "a move names one position: `L P[1] 100mm/sec FINE`; an arc names two";
-            self.messages.problem(program.text, word.range(), message, hint);
+            self.messages.problem(word.range(), message, hint);
             return None;
         };
         let Some(number) = at.first().and_then(|at| at.parse::<u32>().ok()) else {
@@ -105,21 +95,24 @@ impl<'a> Reader<'a> {
         let (message, hint) = match position.map(|position| &position.taught) {
             Some(Taught::There(target)) => {
                 let [user, tool] = position.map_or([None; 2], |position| position.numbers);
-                for (which, own, what) in [(Which::User, user, "user frame"), (Which::Tool, tool, "tool")] {
-                    if let (Some(own), Some(chosen)) = (own, self.frames.chosen(which))
+                for (kind, own, what) in [
+                    (FrameKind::Reference, user, "user frame"),
+                    (FrameKind::Tool, tool, "tool"),
+                ] {
+                    if let (Some(own), Some(chosen)) = (own, self.frames.chosen(kind))
                         && own != chosen
                     {
                         let what = format!(
                             "positions of {what} {own} are used while {what} {chosen} is selected: they are read in \
                              their own {what}"
                         );
-                        self.messages.note((program.text, statement.line), what);
+                        self.messages.note(statement.line, what);
                     }
                 }
-                return Some(TpTarget {
+                return Some(FramedTarget {
                     target: target.clone(),
-                    frame: self.frames.get(Which::User, user),
-                    tool: self.frames.get(Which::Tool, tool),
+                    frame: self.frames.get(FrameKind::Reference, user),
+                    tool: self.frames.get(FrameKind::Tool, tool),
                 });
             }
             Some(Taught::Refused) => return None,
@@ -132,16 +125,11 @@ impl<'a> Reader<'a> {
                 "positions are listed after /POS: save the whole program as ASCII (.LS)",
             ),
         };
-        self.messages.problem(program.text, word.range(), message, hint);
+        self.messages.problem(word.range(), message, hint);
         None
     }
 
-    fn speed(
-        &mut self,
-        program: &Program<'a>,
-        statement: &Statement,
-        (kind, rest): (&str, &[Part]),
-    ) -> Speed {
+    fn speed(&mut self, statement: &Statement, kind: &str, rest: &[Part]) -> Speed {
         if kind == "J" {
             return Speed::Joints;
         }
@@ -162,24 +150,24 @@ impl<'a> Reader<'a> {
                 (Some((_, Some([length, time]))), Some(value)) => return Speed::Tip(value * length / time),
                 (Some(_), None) if computed => {
                     let what = "a speed from a register is not known";
-                    self.messages.note((program.text, statement.line), what);
+                    self.messages.note(statement.line, what);
                     return Speed::Unknown;
                 }
                 (Some(_), None) => {
                     let message = format!("`{given}` is not a valid speed");
                     self.messages
-                        .problem(program.text, word.range(), message, "write it as `100mm/sec`");
+                        .problem(word.range(), message, "write it as `100mm/sec`");
                     return Speed::Unknown;
                 }
             }
         }
         let what = "a speed that the program does not give (WELD_SPEED, max_speed, ...) is not known";
-        self.messages.note((program.text, statement.line), what);
+        self.messages.note(statement.line, what);
         Speed::Unknown
     }
 
-    /// Whether a move ends at its position, with these options.
-    fn follows(&mut self, program: &Program<'a>, statement: &Statement, rest: &[Part]) -> bool {
+    /// Whether a move with these options ends at its position; otherwise a problem is added.
+    fn is_supported(&mut self, statement: &Statement, rest: &[Part]) -> bool {
         for word in rest {
             let said = word.text.to_ascii_uppercase();
             let name = said.split([',', '[']).next().unwrap_or_default();
@@ -191,59 +179,42 @@ impl<'a> Reader<'a> {
             if let Some(refused) = refused {
                 let message = format!("this move {refused}, which is not supported");
                 let hint = "write it as a move of a tool on the flange to a position";
-                self.messages.problem(program.text, word.range(), message, hint);
+                self.messages.problem(word.range(), message, hint);
                 return false;
             }
             if SHIFTS.contains(&name) || name == "COORD" {
                 let what = format!("{name} of moves is ignored: the taught positions are used");
-                self.messages.note((program.text, statement.line), what);
+                self.messages.note(statement.line, what);
             }
         }
         true
     }
 
     /// Adds an A to a row.
-    fn arc(&mut self, program: &mut Program<'a>, statement: &Statement, (goal, speed): (TpTarget, Speed)) {
+    fn arc(&mut self, program: &mut Program, statement: &Statement, goal: FramedTarget, speed: Speed) {
         match program.row.next(goal, ArcEnd::Unmarked, statement.span.clone()) {
-            Next::Straight(goal) => self.push((Motion::Linear, goal, speed), statement),
+            Next::Straight(goal) => self
+                .moves
+                .push(goal.reached(Motion::Linear, speed, statement.line)),
             Next::Waits => {}
-            Next::Arc { via, end } => self.circle(program, statement, (via, end, speed)),
+            Next::Arc { via, end } => self.circle(statement, via, end, speed),
             Next::Uncertain => {
-                let message = "a fourth A in a row: the arcs are ambiguous".to_owned();
+                let message = "a fourth A in a row: the arcs are ambiguous";
                 let hint = "write arcs as C with two positions";
-                self.messages
-                    .problem(program.text, statement.span.clone(), message, hint);
+                self.messages.problem(statement.span.clone(), message, hint);
             }
         }
     }
 
-    fn circle(
-        &mut self,
-        program: &Program<'a>,
-        statement: &Statement,
-        (via, end, speed): (TpTarget, TpTarget, Speed),
-    ) {
-        if (via.frame, via.tool) != (end.frame, end.tool) {
+    fn circle(&mut self, statement: &Statement, via: FramedTarget, end: FramedTarget, speed: Speed) {
+        if !via.is_framed_like(&end) {
             let message =
-                "the positions of this arc are relative to different frames or have different tools"
-                    .to_owned();
+                "the positions of this arc are relative to different frames or have different tools";
             let hint = "teach the positions of an arc in one frame with one tool";
-            self.messages
-                .problem(program.text, statement.span.clone(), message, hint);
+            self.messages.problem(statement.span.clone(), message, hint);
             return;
         }
-        self.push((Motion::Circular { via: via.target }, end, speed), statement);
-    }
-
-    fn push(&mut self, (motion, goal, speed): (Motion, TpTarget, Speed), statement: &Statement) {
-        let TpTarget { target, frame, tool } = goal;
-        self.moves.push(RobotMove {
-            motion,
-            target,
-            frame,
-            tool,
-            speed,
-            line: statement.line,
-        });
+        let motion = Motion::Circular { via: via.target };
+        self.moves.push(end.reached(motion, speed, statement.line));
     }
 }

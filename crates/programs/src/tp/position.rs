@@ -9,7 +9,6 @@ use crate::messages::ProgramMessages;
 use crate::posture::Configuration;
 use crate::program::{Spelled, Target};
 use crate::spelling::{Line, Part, number};
-use crate::text::ProgramText;
 
 /// A position of the first group.
 #[derive(Clone, Debug)]
@@ -54,17 +53,13 @@ struct Open {
     spelled: Option<Range<usize>>,
     joints: BTreeMap<u32, f64>,
     untaught: Option<String>,
-    /// Given as RX, RY, ..., in the frame of another group.
+    /// Given as RX, RY, ..., relative to another group.
     relative: bool,
     broken: bool,
 }
 
 /// The positions of a listing by their numbers.
-pub(super) fn positions(
-    (text, index): (&ProgramText, usize),
-    lines: &[Line],
-    messages: &mut ProgramMessages,
-) -> BTreeMap<u32, Position> {
+pub(super) fn positions(lines: &[Line], messages: &mut ProgramMessages) -> BTreeMap<u32, Position> {
     let mut done = BTreeMap::new();
     let mut open: Option<Open> = None;
     for line in lines {
@@ -76,9 +71,9 @@ pub(super) fn positions(
         if said.text.starts_with("P[") || said.text.starts_with("p[") {
             if let Some(open) = open.take() {
                 let message = format!("the position P[{}] has no end", open.number);
-                messages.problem(text, open.span, message, "a position ends with `};`");
+                messages.problem(open.span, message, "a position ends with `};`");
             }
-            open = begin(text, line, messages);
+            open = begin(line, messages);
             rest = said
                 .text
                 .find('{')
@@ -97,24 +92,24 @@ pub(super) fn positions(
             ),
             None => (rest, false),
         };
-        fields((text, line), inside, position, messages);
+        fields(line, inside, position, messages);
         if ends && let Some(position) = open.take() {
-            end((text, index), position, &mut done, messages);
+            end(position, &mut done, messages);
         }
     }
     if let Some(open) = open {
         let message = format!("the position P[{}] has no end", open.number);
-        messages.problem(text, open.span, message, "a position ends with `};`");
+        messages.problem(open.span, message, "a position ends with `};`");
     }
     done
 }
 
-fn begin(text: &ProgramText, line: &Line, messages: &mut ProgramMessages) -> Option<Open> {
+fn begin(line: &Line, messages: &mut ProgramMessages) -> Option<Open> {
     let said = line.trimmed();
     let inside = said.text[2..].split([']', ':']).next().unwrap_or_default().trim();
     let Ok(number) = inside.parse() else {
         let message = format!("`{inside}` is not a number of a position");
-        messages.problem(text, line.span(), message, "positions are written `P[1]{`");
+        messages.problem(line.span(), message, "positions are written `P[1]{`");
         return None;
     };
     Some(Open {
@@ -134,12 +129,7 @@ fn begin(text: &ProgramText, line: &Line, messages: &mut ProgramMessages) -> Opt
 }
 
 /// Reads the fields of one line of a position.
-fn fields(
-    (text, line): (&ProgramText, &Line),
-    inside: Part,
-    position: &mut Open,
-    messages: &mut ProgramMessages,
-) {
+fn fields(line: &Line, inside: Part, position: &mut Open, messages: &mut ProgramMessages) {
     // Commas of the configuration are between quotes.
     let mut quoted = false;
     let begin = inside.at;
@@ -165,10 +155,10 @@ fn fields(
         let part = group(part, position);
         if position.group > 1 && before <= 1 {
             let what = "further motion groups (GP2, ...) are ignored: they are assumed not to move";
-            messages.note((text, line.number), what);
+            messages.note(line.number, what);
         }
         if position.group <= 1 {
-            one_field((text, line), part, position, messages);
+            one_field(line, part, position, messages);
         }
     }
 }
@@ -190,12 +180,7 @@ fn group<'a>(part: Part<'a>, position: &mut Open) -> Part<'a> {
     }
 }
 
-fn one_field(
-    (text, line): (&ProgramText, &Line),
-    part: Part,
-    position: &mut Open,
-    messages: &mut ProgramMessages,
-) {
+fn one_field(line: &Line, part: Part, position: &mut Open, messages: &mut ProgramMessages) {
     let Some((key, value)) = field(part) else {
         return;
     };
@@ -206,7 +191,7 @@ fn one_field(
         ("UT", _) => position.numbers[1] = value.text.parse().ok(),
         ("CONFIG", _) => configure(part, position),
         (_, Some(axis)) => {
-            if let Some(value) = taught((text, line), (&key, value), position, messages) {
+            if let Some(value) = taught(line, &key, value, position, messages) {
                 let turning = part.text.trim_end().to_ascii_lowercase().ends_with("deg");
                 let value = if turning { value.to_radians() } else { value * 1e-3 };
                 position.joints.insert(axis, value);
@@ -218,13 +203,13 @@ fn one_field(
                 if position.pose[at].is_some() {
                     position.broken = true;
                     let message = format!("{key} is given twice in P[{}]", position.number);
-                    return messages.problem(text, line.span_of(&value), message, "give each number once");
+                    return messages.problem(line.span_of(&value), message, "give each number once");
                 }
                 let place = line.span_of(&value);
-                position.pose[at] = taught((text, line), (&key, value), position, messages);
+                position.pose[at] = taught(line, &key, value, position, messages);
                 let spelled = position
                     .spelled
-                    .get_or_insert_with(|| line.start + key_at(part)..place.end);
+                    .get_or_insert_with(|| line.start + part.trimmed().at..place.end);
                 spelled.end = spelled.end.max(place.end);
             } else if key
                 .strip_prefix('R')
@@ -233,20 +218,17 @@ fn one_field(
                 position.relative = true;
             } else if key.starts_with('E') {
                 let what = "extended axes (E1, ...) are ignored: they are assumed not to move";
-                messages.note((text, line.number), what);
+                messages.note(line.number, what);
             }
         }
     }
 }
 
-fn key_at(part: Part) -> usize {
-    part.trimmed().at
-}
-
 /// The number of a field; `None` if it was never taught or is not a number.
 fn taught(
-    (text, line): (&ProgramText, &Line),
-    (key, value): (&str, Part),
+    line: &Line,
+    key: &str,
+    value: Part,
     position: &mut Open,
     messages: &mut ProgramMessages,
 ) -> Option<f64> {
@@ -263,7 +245,7 @@ fn taught(
             value.text, position.number
         );
         let hint = "write it as `X = 200.000 mm`";
-        messages.problem(text, line.span_of(&value), message, hint);
+        messages.problem(line.span_of(&value), message, hint);
     }
     None
 }
@@ -286,12 +268,7 @@ fn configure(part: Part, position: &mut Open) {
     position.turns = parts.filter_map(|turn| turn.trim().parse().ok()).collect();
 }
 
-fn end(
-    (text, index): (&ProgramText, usize),
-    open: Open,
-    done: &mut BTreeMap<u32, Position>,
-    messages: &mut ProgramMessages,
-) {
+fn end(open: Open, done: &mut BTreeMap<u32, Position>, messages: &mut ProgramMessages) {
     let values = open.pose.iter().copied().collect::<Option<Vec<f64>>>();
     let values = values.and_then(|values| <[f64; 6]>::try_from(values).ok());
     let nothing = open.pose.iter().all(Option::is_none);
@@ -306,16 +283,14 @@ fn end(
                 pose,
                 branch: open.configuration.pattern(),
                 turns: open.turns,
-                spelled: Spelled { text: index, bytes },
+                spelled: Spelled {
+                    text: messages.index(),
+                    bytes,
+                },
             }),
             Err(error) => {
                 let message = format!("the position P[{}] is not a valid pose: {error}", open.number);
-                messages.problem(
-                    text,
-                    open.span.clone(),
-                    message,
-                    "lengths are in mm, angles in deg",
-                );
+                messages.problem(open.span.clone(), message, "lengths are in mm, angles in deg");
                 Taught::Refused
             }
         },
@@ -340,7 +315,7 @@ fn end(
     };
     if done.insert(open.number, position).is_some() {
         let message = format!("the position P[{}] is given twice", open.number);
-        messages.problem(text, open.span, message, "give each position its own number");
+        messages.problem(open.span, message, "give each position its own number");
     }
 }
 

@@ -6,12 +6,11 @@ use armill_formats::document::{Problem, Problems};
 use armill_formats::language::Language;
 
 use super::frames::Frames;
-use super::motion::TpTarget;
 use super::position::{Position, positions};
 use super::statement::{Statement, index, sections};
 use crate::arc_row::ArcRow;
 use crate::messages::ProgramMessages;
-use crate::program::{RobotMove, RobotProgram};
+use crate::program::{FramedTarget, RobotMove, RobotProgram};
 use crate::spelling::Part;
 use crate::text::ProgramText;
 
@@ -49,7 +48,7 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
         done: vec![false; texts.len()],
         frames: Frames::default(),
         moves: Vec::new(),
-        messages: ProgramMessages::default(),
+        messages: ProgramMessages::new(&texts),
     };
     reader.program(0, 0)?;
     let Reader { moves, messages, .. } = reader;
@@ -70,18 +69,17 @@ pub(super) struct Reader<'a> {
     done: Vec<bool>,
     pub frames: Frames,
     pub moves: Vec<RobotMove>,
-    pub messages: ProgramMessages,
+    pub messages: ProgramMessages<'a>,
 }
 
 /// A program while it is read.
-pub(super) struct Program<'a> {
-    pub text: &'a ProgramText,
+pub(super) struct Program {
     pub positions: BTreeMap<u32, Position>,
-    pub row: ArcRow<TpTarget>,
+    pub row: ArcRow<FramedTarget>,
     depth: usize,
 }
 
-impl<'a> Reader<'a> {
+impl Reader<'_> {
     fn program(&mut self, at: usize, depth: usize) -> Result<(), Problems> {
         let (Some(text), Some(done)) = (self.texts.get(at), self.done.get_mut(at)) else {
             return Ok(());
@@ -92,9 +90,9 @@ impl<'a> Reader<'a> {
             let hint = "save the program as ASCII (.LS); binary .TP files cannot be read";
             return Err(Problem::of_file(text.name(), message, hint).into());
         };
+        let caller = self.messages.go_to(at);
         let mut program = Program {
-            text,
-            positions: positions((text, at), &sections.positions, &mut self.messages),
+            positions: positions(&sections.positions, &mut self.messages),
             row: ArcRow::default(),
             depth,
         };
@@ -105,10 +103,11 @@ impl<'a> Reader<'a> {
             self.statement(&mut program, statement)?;
         }
         self.end_row(&mut program);
+        self.messages.go_to(caller);
         Ok(())
     }
 
-    fn statement(&mut self, program: &mut Program<'a>, statement: &Statement) -> Result<(), Problems> {
+    fn statement(&mut self, program: &mut Program, statement: &Statement) -> Result<(), Problems> {
         let first = statement.word(0);
         if first.is_empty() || first.starts_with('!') || first.starts_with("--") {
             return Ok(());
@@ -122,8 +121,9 @@ impl<'a> Reader<'a> {
             (Some(first), Some(last)) => first.at..last.range().end,
             _ => statement.span.clone(),
         };
-        let said = program
-            .text
+        let said = self
+            .messages
+            .text()
             .text()
             .get(span(&statement.words))
             .unwrap_or_default();
@@ -141,18 +141,18 @@ impl<'a> Reader<'a> {
         }
         if CHOICES.contains(&name.as_str()) {
             let what = format!("{name} is ignored: the statements here are read once");
-            self.messages.note((program.text, statement.line), what);
+            self.messages.note(statement.line, what);
         } else if SHIFTS.contains(&name.as_str()) {
             let what = format!("{name} is ignored: the taught positions are used");
-            self.messages.note((program.text, statement.line), what);
+            self.messages.note(statement.line, what);
         } else if index(first, "P").is_some_and(|(_, behind)| behind.starts_with('=')) {
             let what = "an assignment to a position is ignored: the taught position is used";
-            self.messages.note((program.text, statement.line), what);
+            self.messages.note(statement.line, what);
         }
         Ok(())
     }
 
-    fn call(&mut self, program: &mut Program<'a>, statement: &Statement, name: &str) -> Result<(), Problems> {
+    fn call(&mut self, program: &mut Program, statement: &Statement, name: &str) -> Result<(), Problems> {
         self.end_row(program);
         let known = self
             .names
@@ -164,22 +164,22 @@ impl<'a> Reader<'a> {
             }
             Some(_) => {
                 let what = format!("{name} is called again: it is read once");
-                self.messages.note((program.text, statement.line), what);
+                self.messages.note(statement.line, what);
             }
             None => {
                 let what = format!("{name} is called, but not given: it is ignored");
-                self.messages.note((program.text, statement.line), what);
+                self.messages.note(statement.line, what);
             }
         }
         Ok(())
     }
 
     /// Ends a row of A: checks that it formed arcs.
-    pub fn end_row(&mut self, program: &mut Program<'a>) {
+    pub fn end_row(&mut self, program: &mut Program) {
         if let Some(span) = program.row.end() {
-            let message = "this row of A has fewer than three positions".to_owned();
+            let message = "this row of A has fewer than three positions";
             self.messages
-                .problem(program.text, span, message, "an arc has three A in a row");
+                .problem(span, message, "an arc has three A in a row");
         }
     }
 }

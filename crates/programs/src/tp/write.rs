@@ -46,37 +46,18 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
         frames: 1..=9,
         tools: 1..=10,
     })?;
-    for (at, point) in draft.points.iter().enumerate().skip(1) {
-        if let Some(value) = point.speed.filter(|speed| feed(*speed).is_none()) {
-            return Err(DraftError::NotWritable {
-                index: at + 1,
-                what: "the speed",
-                value,
-            });
-        }
-    }
+    draft.check_speeds(|speed| feed(speed).is_some())?;
+    let parts: Vec<(String, &[DraftPoint])> = draft.parts(MOST_POSITIONS, "").collect();
     let mut files = Vec::new();
     if split {
-        let parts: Vec<String> = (1..=draft.points.len().div_ceil(MOST_POSITIONS))
-            .map(|number| format!("{}{number:03}", draft.name))
-            .collect();
-        let calls = parts.iter().map(|part| format!("  CALL {part} ;"));
+        let calls = parts.iter().map(|(part, _)| format!("  CALL {part} ;"));
         let lines: Vec<String> = head(draft).into_iter().chain(calls).collect();
-        files.push(listing(draft, &draft.name, (&lines, "")));
-        for (at, (name, points)) in parts.iter().zip(draft.points.chunks(MOST_POSITIONS)).enumerate() {
-            let mut lines = chosen(draft);
-            lines.extend(moves(draft, (at == 0, points)));
-            files.push(listing(
-                draft,
-                name,
-                (&lines, &positions(draft, (at == 0, points))),
-            ));
-        }
-    } else {
-        let mut lines = head(draft);
-        lines.extend(moves(draft, (true, &draft.points)));
-        let positions = positions(draft, (true, &draft.points));
-        files.push(listing(draft, &draft.name, (&lines, &positions)));
+        files.push(listing(draft, &draft.name, &lines, ""));
+    }
+    for (name, points) in &parts {
+        let mut lines = if split { chosen(draft) } else { head(draft) };
+        lines.extend(moves(draft, points));
+        files.push(listing(draft, name, &lines, &positions(draft, points)));
     }
     Ok(Written {
         files,
@@ -92,8 +73,7 @@ fn notes(draft: &Draft, split: bool) -> Vec<String> {
             draft.frame_number, draft.tool_number
         ),
         "the first position is given in joints as this arm's controller reports them (FANUC measures axis 3 from the \
-         horizontal): test it \
-         at low speed"
+         horizontal): test it at low speed"
             .to_owned(),
         "CONFIG has the turns of axes 1, 4 and 6; check that the controller uses the same axes".to_owned(),
         "to load listings (.LS) the controller needs the ASCII upload option".to_owned(),
@@ -152,15 +132,14 @@ fn chosen(draft: &Draft) -> Vec<String> {
     ]
 }
 
-fn moves(draft: &Draft, (begins, points): (bool, &[DraftPoint])) -> Vec<String> {
+fn moves(draft: &Draft, points: &[DraftPoint]) -> Vec<String> {
     let one = |(at, point): (usize, &DraftPoint)| {
         let end = if draft.blend(point) > 0.0 {
             "CNT100"
         } else {
             "FINE"
         };
-        let speed = point.speed.filter(|_| !(begins && at == 0)).and_then(feed);
-        match speed {
+        match draft.tip_speed(point).and_then(feed) {
             Some(speed) => format!("L P[{}] {speed} {end} ;", at + 1),
             None => format!("J P[{}] {JOINT_SPEED}% {end} ;", at + 1),
         }
@@ -178,12 +157,12 @@ fn feed(speed: f64) -> Option<String> {
     (cm_per_minute >= 1.0).then(|| format!("{}cm/min", fixed(cm_per_minute, 0)))
 }
 
-fn positions(draft: &Draft, (begins, points): (bool, &[DraftPoint])) -> String {
+fn positions(draft: &Draft, points: &[DraftPoint]) -> String {
     let mut out = String::new();
     for (at, point) in points.iter().enumerate() {
         out.push_str(&format!("P[{}]{{{END}   GP1:{END}", at + 1));
         let numbers = format!("\tUF : {}, UT : {},", draft.frame_number, draft.tool_number);
-        if begins && at == 0 {
+        if draft.is_first(point) {
             let joints: Vec<String> = (1..)
                 .zip(&point.joints)
                 .map(|(axis, value)| {
@@ -243,7 +222,7 @@ fn configuration(point: &DraftPoint) -> String {
 }
 
 /// A listing with these lines and positions.
-fn listing(draft: &Draft, name: &str, (lines, positions): (&[String], &str)) -> (String, Vec<u8>) {
+fn listing(draft: &Draft, name: &str, lines: &[String], positions: &str) -> (String, Vec<u8>) {
     let comment = in_pieces(draft.remarks.first().map_or("", String::as_str), LONGEST_COMMENT);
     let comment = comment.first().map_or("", String::as_str).replace('"', "'");
     // No time stamp: the same draft gives the same bytes.

@@ -12,11 +12,11 @@
 //! frame is a and the target b. Numbers may be computed from numbers. Moves controlled by a signal (`servoj`, `speedl`,
 //! ...) have no target and are problems. `v` of straight moves is m/s; a move with `t` does not give the tip speed.
 //!
-//! `[recalled]`, not in a sample: order of arguments of `movep` and `movec`, `get_inverse_kin` and `qnear`, `d2r`,
-//! `pose_inv`, and that the default values chosen by `write` (accelerations, joint speed) suit all arms.
+//! `[recalled]`, not in a sample: the order of the arguments of `movep` and `movec`, `get_inverse_kin` and `qnear`,
+//! `d2r`, `pose_inv`, and that the default values chosen by `write` (accelerations, joint speed) suit all arms.
 //!
-//! In reading order: `read` statements; `motion` moves; `value` values of expressions; `spell` a pose; `write` the
-//! output.
+//! In reading order: `read` (statements), `motion` (moves), `value` (values of expressions), `spell` (a pose), `write`
+//! (programs to load).
 
 mod motion;
 mod read;

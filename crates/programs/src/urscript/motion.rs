@@ -12,16 +12,16 @@ use crate::tokens::Token;
 /// Number of joints of a Universal Robots arm.
 const JOINTS: usize = 6;
 
-impl<'a> Reader<'a> {
+impl Reader<'_> {
     /// The move with this name and these arguments.
-    pub fn motion(&mut self, (at, word): (Token, &str), arguments: &[Argument]) {
+    pub fn motion(&mut self, at: Token, word: &str, arguments: &[Argument]) {
         let (via, end, rest) = match (word, arguments) {
             ("movec", [via, end, rest @ ..]) => (Some(via), end, rest),
             ("movej" | "movel" | "movep", [end, rest @ ..]) => (None, end, rest),
             _ => {
                 let message = format!("`{word}` has no target");
                 let hint = "write `movel(p[...], a=1.2, v=0.25)` or `movec(p[...], p[...])`";
-                self.messages.problem(self.here(), at.span(), message, hint);
+                self.messages.problem(at.span(), message, hint);
                 return;
             }
         };
@@ -32,9 +32,9 @@ impl<'a> Reader<'a> {
         let motion = match via {
             Some(Some((via, via_frame))) if via_frame == frame => Motion::Circular { via },
             Some(Some(_)) => {
-                let message = "the two positions of this circle are relative to different frames".to_owned();
+                let message = "the two positions of this circle are relative to different frames";
                 let hint = "give both in the same frame, or both in the base";
-                self.messages.problem(self.here(), at.span(), message, hint);
+                self.messages.problem(at.span(), message, hint);
                 return;
             }
             Some(None) => return,
@@ -57,10 +57,9 @@ impl<'a> Reader<'a> {
 
     /// The target in an argument, and its frame.
     fn target(&mut self, argument: &Argument) -> Option<(Target, Isometry)> {
-        let text = &self.here().text()[argument.bytes.clone()];
+        let text = &self.messages.text().text()[argument.bytes.clone()];
         let mut wrong = |message: String, hint: &str| {
-            self.messages
-                .problem(&self.texts[self.text], argument.bytes.clone(), message, hint);
+            self.messages.problem(argument.bytes.clone(), message, hint);
             None
         };
         match &argument.value {
@@ -94,10 +93,10 @@ impl<'a> Reader<'a> {
                     ),
                     false => format!("`{}` is computed while the program runs", shown(text)),
                 };
-                let hint = "a target is `p[x, y, z, rx, ry, rz]`, joints, or a name with such a value";
-                self.messages
-                    .problem(&self.texts[self.text], argument.bytes.clone(), message, hint);
-                None
+                wrong(
+                    message,
+                    "a target is `p[x, y, z, rx, ry, rz]`, joints, or a name with such a value",
+                )
             }
         }
     }

@@ -29,13 +29,11 @@ const FOLLOWING: [&str; 6] = ["servoj", "servol", "servoc", "servop", "speedj", 
 /// All problems of the files, at most 200: undefined targets, moves without target, invalid numbers.
 pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
     let mut reader = Reader {
-        texts: &texts,
-        text: 0,
+        messages: ProgramMessages::new(&texts),
         known: HashMap::new(),
         tool: Frame::Unknown,
         routines: HashSet::new(),
         name: None,
-        messages: ProgramMessages::default(),
         moves: Vec::new(),
     };
     let found: Vec<Vec<Token>> = texts
@@ -54,7 +52,7 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
         }
     }
     for (index, statements) in all.iter().enumerate() {
-        reader.text = index;
+        reader.messages.go_to(index);
         for statement in statements {
             reader.statement(statement.clone());
         }
@@ -71,8 +69,7 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
         let hint = "give the .script file that moves the robot: movej, movel, movep, movec";
         return Err(Problem::of_file(file, "the program contains no moves", hint).into());
     }
-    let stem = file.rsplit(['/', '\\']).next().unwrap_or_default();
-    let stem = stem.rsplit_once('.').map_or(stem, |(stem, _)| stem);
+    let stem = texts.first().map_or("", ProgramText::stem);
     Ok(RobotProgram {
         language: Language::UrScript,
         name: name.unwrap_or(stem).to_owned(),
@@ -114,29 +111,16 @@ pub(super) fn raw_word<'a>(cursor: &mut Cursor<'a>) -> Option<&'a str> {
 
 /// State while statements are read.
 pub(super) struct Reader<'a> {
-    pub texts: &'a [ProgramText],
-    /// The current text.
-    pub text: usize,
+    pub messages: ProgramMessages<'a>,
     /// Values of names.
     pub known: HashMap<&'a str, Value>,
     pub tool: Frame,
     routines: HashSet<&'a str>,
     name: Option<&'a str>,
-    pub messages: ProgramMessages,
     pub moves: Vec<RobotMove>,
 }
 
 impl<'a> Reader<'a> {
-    /// The current text.
-    pub fn here(&self) -> &'a ProgramText {
-        &self.texts[self.text]
-    }
-
-    /// Adds a note on this token.
-    pub fn note(&mut self, token: Token, sentence: String) {
-        self.messages.note((self.here(), token.line), sentence);
-    }
-
     fn statement(&mut self, statement: Cursor<'a>) {
         let mut cursor = statement;
         while let Some(at) = cursor.peek() {
@@ -148,12 +132,13 @@ impl<'a> Reader<'a> {
                 }
                 "else" => _ = cursor.pass(':'),
                 _ if CONTROL.contains(&word) => {
-                    self.note(at, format!("`{word}`: its body is read once"));
+                    let sentence = format!("`{word}`: its body is read once");
+                    self.messages.note(at.line, sentence);
                     if !past_colon(&mut cursor) {
                         return;
                     }
                 }
-                _ => return self.plain((at, word), cursor),
+                _ => return self.plain(at, word, cursor),
             }
         }
     }
@@ -171,7 +156,7 @@ impl<'a> Reader<'a> {
     }
 
     /// An assignment or a call.
-    fn plain(&mut self, (at, word): (Token, &'a str), mut cursor: Cursor<'a>) {
+    fn plain(&mut self, at: Token, word: &'a str, mut cursor: Cursor<'a>) {
         if cursor.pass('=') {
             let value = self.value(&mut cursor, 0);
             let is_whole = cursor.peek().is_none();
@@ -190,34 +175,33 @@ impl<'a> Reader<'a> {
         match word {
             "movej" | "movel" | "movep" | "movec" => {
                 let arguments = self.arguments(&mut cursor, 0);
-                self.motion((at, word), &arguments);
+                self.motion(at, word, &arguments);
             }
             "set_tcp" => {
                 let arguments = self.arguments(&mut cursor, 0);
                 self.tool = match arguments.first().map(|argument| &argument.value) {
                     Some(Value::Pose(tool)) => Frame::Given(tool.in_base()),
                     _ => {
-                        self.note(
-                            at,
-                            "the tool is computed on the controller: it is not known".to_owned(),
-                        );
+                        let sentence = "the tool is computed on the controller: it is not known";
+                        self.messages.note(at.line, sentence);
                         Frame::Unknown
                     }
                 };
             }
             _ if self.routines.contains(word) => {
-                self.note(
-                    at,
-                    format!("`{word}` is called: its moves are read once, where it is defined"),
-                );
+                let sentence = format!("`{word}` is called: its moves are read once, where it is defined");
+                self.messages.note(at.line, sentence);
             }
             _ if FOLLOWING.contains(&word) || word.starts_with("move") => {
                 let message = format!("`{word}` is an unsupported move");
                 let hint = "supported: movej, movel, movep and movec";
-                self.messages.problem(self.here(), at.span(), message, hint);
+                self.messages.problem(at.span(), message, hint);
             }
             _ if QUIET.iter().any(|begin| word.starts_with(begin)) => {}
-            _ => self.note(at, format!("`{word}` is called: its effect is not known")),
+            _ => {
+                let sentence = format!("`{word}` is called: its effect is not known");
+                self.messages.note(at.line, sentence);
+            }
         }
     }
 }

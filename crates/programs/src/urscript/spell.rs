@@ -4,9 +4,9 @@ use armill_core::frame::Isometry;
 use armill_formats::convention::Convention;
 
 use super::SYNTAX;
-use crate::number::{fixed, write_fixed};
+use crate::number::{fixed, replace_numbers};
 use crate::spelling::Respelling;
-use crate::tokens::{Cursor, decimals, tokens};
+use crate::tokens::{Cursor, tokens};
 
 /// Minimum number of decimals, of m and rad: a micrometre, and as in the posts.
 pub(super) const DECIMALS: usize = 6;
@@ -25,21 +25,14 @@ pub(super) fn whole(pose: &Isometry, out: &mut String) {
 }
 
 /// Writes a pose in place of `before`: number for number if it has six numbers, otherwise as a new pose.
-pub(crate) fn spell((pose, respelling): (&Isometry, Respelling), before: &str, out: &mut String) {
+pub(crate) fn spell(pose: &Isometry, respelling: Respelling, before: &str, out: &mut String) {
     match places(before) {
         Some(places) => {
-            let mut done = 0;
             let all = places.into_iter().zip(numbers(pose)).enumerate();
-            for (_, (place, number)) in all.filter(|(index, _)| respelling.includes(*index)) {
-                out.push_str(&before[done..place.start]);
-                write_fixed(
-                    out,
-                    number,
-                    decimals(&before[place.clone()], DECIMALS, MOST_DECIMALS),
-                );
-                done = place.end;
-            }
-            out.push_str(&before[done..]);
+            let new = all
+                .filter(|(index, _)| respelling.includes(*index))
+                .map(|(_, replaced)| replaced);
+            replace_numbers(before, new, [DECIMALS, MOST_DECIMALS], out);
         }
         None => whole(pose, out),
     }
@@ -50,13 +43,5 @@ fn places(before: &str) -> Option<Vec<std::ops::Range<usize>>> {
     let found = tokens(before, &SYNTAX);
     let mut cursor = Cursor::new(before, &found);
     cursor.word().filter(|word| word == "P")?;
-    cursor.pass('[').then_some(())?;
-    let mut places = Vec::new();
-    for index in 0..6 {
-        let start = cursor.place().start;
-        cursor.number()?;
-        places.push(start..cursor.before());
-        cursor.pass(if index < 5 { ',' } else { ']' }).then_some(())?;
-    }
-    cursor.peek().is_none().then_some(places)
+    cursor.number_list(6)
 }

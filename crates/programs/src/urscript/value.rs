@@ -7,7 +7,7 @@ use armill_formats::convention::Convention;
 
 use super::read::Reader;
 use crate::program::Spelled;
-use crate::tokens::{Cursor, Kind};
+use crate::tokens::{Cursor, Kind, Token};
 
 /// Maximum nesting of brackets.
 const MOST_LEVELS: usize = 40;
@@ -56,7 +56,7 @@ impl<'a> Reader<'a> {
         let mut all = Vec::new();
         while !cursor.pass(')') {
             if cursor.peek().is_none_or(|token| token.is(']')) {
-                self.unclosed(cursor, ')');
+                self.messages.unclosed(cursor.place(), ')');
                 break;
             }
             let mut ahead = cursor.clone();
@@ -76,12 +76,6 @@ impl<'a> Reader<'a> {
             });
         }
         all
-    }
-
-    fn unclosed(&mut self, cursor: &Cursor<'a>, mark: char) {
-        let message = format!("`{mark}` is missing here");
-        let hint = "close every bracket, in the order in which they were opened";
-        self.messages.problem(self.here(), cursor.place(), message, hint);
     }
 
     /// Moves to the next entry of a list, past its comma, or to its closing mark. If there are other tokens before it,
@@ -153,7 +147,6 @@ impl<'a> Reader<'a> {
         let Some(token) = cursor.peek() else {
             return Value::Unknown;
         };
-        let start = token.start;
         if level > MOST_LEVELS {
             return Value::Unknown;
         }
@@ -166,7 +159,7 @@ impl<'a> Reader<'a> {
                 cursor.next();
                 let message = format!("`{}` is not a number", &cursor.text[token.span()]);
                 let hint = "write numbers as `0.25`, `-1.5`, `1e-3`; m and rad";
-                self.messages.problem(self.here(), token.span(), message, hint);
+                self.messages.problem(token.span(), message, hint);
                 Value::Wrong
             }
             Kind::Mark('(') => {
@@ -184,7 +177,7 @@ impl<'a> Reader<'a> {
             }
             Kind::Word => {
                 cursor.next();
-                self.named((start, &cursor.text[token.span()]), cursor, level)
+                self.named(token, cursor, level)
             }
             // A closing mark belongs to the caller.
             Kind::Mark(')' | ']' | ',') => return Value::Unknown,
@@ -205,7 +198,7 @@ impl<'a> Reader<'a> {
         let mut all = Vec::new();
         while !cursor.pass(']') {
             if cursor.peek().is_none_or(|token| token.is(')')) {
-                self.unclosed(cursor, ']');
+                self.messages.unclosed(cursor.place(), ']');
                 all.push(Value::Wrong);
                 break;
             }
@@ -231,10 +224,11 @@ impl<'a> Reader<'a> {
     }
 
     /// A pose, a variable or a function.
-    fn named(&mut self, (start, name): (usize, &str), cursor: &mut Cursor<'a>, level: usize) -> Value {
+    fn named(&mut self, word: Token, cursor: &mut Cursor<'a>, level: usize) -> Value {
+        let name = &cursor.text[word.span()];
         if name == "p" && cursor.pass('[') {
             let all = self.list(cursor, level);
-            return self.pose(&all, start..cursor.before());
+            return self.pose(&all, word.start..cursor.before());
         }
         if !cursor.pass('(') {
             return match name {
@@ -246,7 +240,7 @@ impl<'a> Reader<'a> {
             .arguments(cursor, level)
             .into_iter()
             .map(|argument| argument.value);
-        let bytes = start..cursor.before();
+        let bytes = word.start..cursor.before();
         match (name, arguments.next(), arguments.next()) {
             ("d2r", Some(Value::Number(deg)), None) => Value::Number(deg.to_radians()),
             ("r2d", Some(Value::Number(rad)), None) => Value::Number(rad.to_degrees()),
@@ -263,8 +257,7 @@ impl<'a> Reader<'a> {
     fn pose(&mut self, all: &[Value], bytes: Range<usize>) -> Value {
         let mut wrong = |message: String| {
             let hint = "a pose is `p[x, y, z, rx, ry, rz]`, m and rad";
-            self.messages
-                .problem(&self.texts[self.text], bytes.clone(), message, hint);
+            self.messages.problem(bytes.clone(), message, hint);
             Value::Wrong
         };
         if all.iter().any(|value| matches!(value, Value::Wrong)) {
@@ -291,7 +284,7 @@ impl<'a> Reader<'a> {
             frame: Isometry::identity(),
             pose,
             spelled: Spelled {
-                text: self.text,
+                text: self.messages.index(),
                 bytes,
             },
         })

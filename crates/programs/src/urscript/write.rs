@@ -15,8 +15,7 @@ const MOST_FRAMES: u32 = 999;
 const JOINT: usize = 6;
 const SPEED: usize = 6;
 const BLEND: usize = 6;
-/// Parameters of moves, below the defaults in the manufacturer's manual `[recalled]`: m/s^2,
-/// rad/s^2, rad/s.
+/// Parameters of moves, below the defaults in the manufacturer's manual `[recalled]`: m/s^2, rad/s^2, rad/s.
 const ACCELERATION: &str = "a=1.2";
 const JOINT_PACE: &str = "a=1.4, v=0.5";
 /// A blend radius is less than half of the distance to either neighbour: controllers refuse overlapping blends.

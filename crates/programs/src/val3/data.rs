@@ -1,6 +1,7 @@
 //! The data of a project: points, joints, frames, tools and descriptions of moves, by name and key.
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::ops::Range;
 
 use armill_core::frame::Isometry;
@@ -12,7 +13,6 @@ use crate::messages::ProgramMessages;
 use crate::posture::Configuration;
 use crate::program::{Spelled, Target};
 use crate::spelling::number;
-use crate::text::ProgramText;
 
 /// Maximum nesting of frames.
 const DEEPEST: usize = 30;
@@ -55,6 +55,12 @@ impl Reference {
             name: name.to_owned(),
             key: key.to_owned(),
         })
+    }
+}
+
+impl fmt::Display for Reference {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}[{}]", self.name, self.key)
     }
 }
 
@@ -124,21 +130,16 @@ impl Data {
     }
 
     /// Reads the data of one file.
-    pub fn take(&mut self, (text, index): (&ProgramText, usize), messages: &mut ProgramMessages) {
+    pub fn take(&mut self, messages: &mut ProgramMessages) {
         let mut of: Option<(String, String)> = None;
-        for piece in pieces(text.text()) {
+        for piece in pieces(messages.text().text()) {
             if messages.is_full() {
                 return;
             }
             match piece {
                 Piece::Broken(part) => {
-                    let message = "this tag does not end".to_owned();
-                    messages.problem(
-                        text,
-                        part.range(),
-                        message,
-                        "check whether the file is cut off or a quote is missing",
-                    );
+                    let hint = "check whether the file is cut off or a quote is missing";
+                    messages.problem(part.range(), "this tag does not end", hint);
                 }
                 Piece::Tag(tag) if tag.name == "Data" => {
                     let said = attributes(tag.inside);
@@ -156,24 +157,23 @@ impl Data {
                         name: name.clone(),
                         key: value(&said, "key").unwrap_or("0").to_owned(),
                     };
-                    let file = File {
-                        text,
-                        index,
-                        tag: tag.inside.range(),
+                    let given = GivenValue {
+                        reference: &reference,
+                        attributes: &said,
+                        bytes: tag.inside.range(),
                     };
-                    let Some(datum) = datum(&file, (kind, &reference, &said), messages) else {
+                    let Some(datum) = given.datum(kind, messages) else {
                         continue;
                     };
-                    let shown = format!("{}[{}]", reference.name, reference.key);
+                    let message = format!("{reference} is given twice");
                     if self.list.insert(reference, datum).is_some() {
-                        let message = format!("{shown} is given twice");
-                        messages.problem(text, tag.inside.range(), message, "give each value its own key");
+                        messages.problem(tag.inside.range(), message, "give each value its own key");
                     }
                 }
                 Piece::Tag(tag) if matches!(tag.name, "valuePoint" | "valueJoint") => {
-                    let message = "the data of an older project (s6) cannot be read".to_owned();
+                    let message = "the data of an older project (s6) cannot be read";
                     let hint = "convert the project to s7 or later with the manufacturer's suite";
-                    messages.problem(text, tag.inside.range(), message, hint);
+                    messages.problem(tag.inside.range(), message, hint);
                     return;
                 }
                 _ => {}
@@ -182,127 +182,103 @@ impl Data {
     }
 }
 
-/// A tag of a file.
-struct File<'a> {
-    text: &'a ProgramText,
-    index: usize,
-    tag: Range<usize>,
+/// A value of the data as given: its name and key, its attributes, and the bytes of these.
+struct GivenValue<'a> {
+    reference: &'a Reference,
+    attributes: &'a [Attribute<'a>],
+    bytes: Range<usize>,
 }
 
-fn datum(
-    file: &File,
-    (kind, reference, said): (&str, &Reference, &[Attribute]),
-    messages: &mut ProgramMessages,
-) -> Option<Datum> {
-    let root = if kind == "tool" { "flange" } else { "world" };
-    let father = value(said, "fatherId").unwrap_or(root).to_owned();
-    match kind {
-        "pointRx" | "frame" | "tool" => {
-            let Some(pose) = pose(file, (reference, said), messages) else {
-                return Some(Datum::Refused);
-            };
-            Some(match kind {
-                "frame" => Datum::Frame { pose, father },
-                "tool" => Datum::Tool { pose, father },
-                _ => Datum::Point {
-                    target: Target::Pose {
-                        pose,
-                        branch: branch(said),
-                        turns: Vec::new(),
-                        spelled: Spelled {
-                            text: file.index,
-                            bytes: file.tag.clone(),
+impl GivenValue<'_> {
+    /// The datum of this type; `None` for a type that moves do not need.
+    fn datum(&self, kind: &str, messages: &mut ProgramMessages) -> Option<Datum> {
+        let root = if kind == "tool" { "flange" } else { "world" };
+        let father = value(self.attributes, "fatherId").unwrap_or(root).to_owned();
+        match kind {
+            "pointRx" | "frame" | "tool" => {
+                let Some(pose) = self.pose(messages) else {
+                    return Some(Datum::Refused);
+                };
+                Some(match kind {
+                    "frame" => Datum::Frame { pose, father },
+                    "tool" => Datum::Tool { pose, father },
+                    _ => Datum::Point {
+                        target: Target::Pose {
+                            pose,
+                            branch: self.branch(),
+                            turns: Vec::new(),
+                            spelled: Spelled {
+                                text: messages.index(),
+                                bytes: self.bytes.clone(),
+                            },
                         },
+                        father,
                     },
-                    father,
-                },
-            })
-        }
-        "jointRx" => {
-            let joints = numbers(
-                file,
-                (reference, said),
-                (&["j1", "j2", "j3", "j4", "j5", "j6"], messages),
-            );
-            Some(joints.map_or(Datum::Refused, |joints| {
-                Datum::Joints(Target::Joints(joints.into_iter().map(f64::to_radians).collect()))
-            }))
-        }
-        "mdesc" => {
-            if value(said, "tmax").is_none() {
-                return Some(Datum::Speed(None));
+                })
             }
-            let tip = numbers(file, (reference, said), (&["tmax"], messages));
-            Some(tip.map_or(Datum::Refused, |tip| {
-                let limit = tip.first().copied().filter(|tip| *tip < NO_LIMIT && *tip >= 0.0);
-                Datum::Speed(limit.map(|tip| tip * 1e-3))
-            }))
-        }
-        _ => None,
-    }
-}
-
-/// The numbers of these attributes; missing ones are zero.
-fn numbers(
-    file: &File,
-    (reference, said): (&Reference, &[Attribute]),
-    (keys, messages): (&[&str], &mut ProgramMessages),
-) -> Option<Vec<f64>> {
-    let mut found = Vec::with_capacity(keys.len());
-    for key in keys {
-        let Some(attribute) = said.iter().find(|attribute| attribute.name == *key) else {
-            found.push(0.0);
-            continue;
-        };
-        let Some(value) = number(attribute.value.text) else {
-            let Reference { name, key: at } = reference;
-            let message = format!(
-                "`{}` is not a number: {key} of {name}[{at}]",
-                attribute.value.text
-            );
-            let hint = "write numbers with a decimal point: `x=\"100.5\"`";
-            messages.problem(file.text, attribute.value.range(), message, hint);
-            return None;
-        };
-        found.push(value);
-    }
-    Some(found)
-}
-
-fn pose(
-    file: &File,
-    (reference, said): (&Reference, &[Attribute]),
-    messages: &mut ProgramMessages,
-) -> Option<Isometry> {
-    let numbers = numbers(file, (reference, said), (&super::KEYS, messages))?;
-    match Convention::Staubli.pose(&numbers) {
-        Ok(pose) => Some(pose),
-        Err(error) => {
-            let message = format!(
-                "{}[{}] is not a valid pose: {error}",
-                reference.name, reference.key
-            );
-            messages.problem(
-                file.text,
-                file.tag.clone(),
-                message,
-                "lengths are in mm, angles in deg",
-            );
-            None
+            "jointRx" => {
+                let joints = self.numbers(&["j1", "j2", "j3", "j4", "j5", "j6"], messages);
+                Some(joints.map_or(Datum::Refused, |joints| {
+                    Datum::Joints(Target::Joints(joints.into_iter().map(f64::to_radians).collect()))
+                }))
+            }
+            "mdesc" => {
+                if value(self.attributes, "tmax").is_none() {
+                    return Some(Datum::Speed(None));
+                }
+                let tip = self.numbers(&["tmax"], messages);
+                Some(tip.map_or(Datum::Refused, |tip| {
+                    let limit = tip.first().copied().filter(|tip| *tip < NO_LIMIT && *tip >= 0.0);
+                    Datum::Speed(limit.map(|tip| tip * 1e-3))
+                }))
+            }
+            _ => None,
         }
     }
-}
 
-fn branch(said: &[Attribute]) -> BranchPattern {
-    let of = |key: &str, [not, yes]: [&str; 2]| match value(said, key) {
-        Some(word) if word == not => Some(false),
-        Some(word) if word == yes => Some(true),
-        _ => None,
-    };
-    Configuration {
-        rear: of("shoulder", ["lefty", "righty"]),
-        lower: of("elbow", ["epositive", "enegative"]),
-        flip: of("wrist", ["wpositive", "wnegative"]),
+    /// The numbers of these attributes; missing ones are zero.
+    fn numbers(&self, keys: &[&str], messages: &mut ProgramMessages) -> Option<Vec<f64>> {
+        let mut found = Vec::with_capacity(keys.len());
+        for key in keys {
+            let Some(attribute) = self.attributes.iter().find(|attribute| attribute.name == *key) else {
+                found.push(0.0);
+                continue;
+            };
+            let text = attribute.value.text;
+            let Some(value) = number(text) else {
+                let message = format!("`{text}` is not a number: {key} of {}", self.reference);
+                let hint = "write numbers with a decimal point: `x=\"100.5\"`";
+                messages.problem(attribute.value.range(), message, hint);
+                return None;
+            };
+            found.push(value);
+        }
+        Some(found)
     }
-    .pattern()
+
+    fn pose(&self, messages: &mut ProgramMessages) -> Option<Isometry> {
+        let numbers = self.numbers(&super::KEYS, messages)?;
+        match Convention::Staubli.pose(&numbers) {
+            Ok(pose) => Some(pose),
+            Err(error) => {
+                let message = format!("{} is not a valid pose: {error}", self.reference);
+                messages.problem(self.bytes.clone(), message, "lengths are in mm, angles in deg");
+                None
+            }
+        }
+    }
+
+    fn branch(&self) -> BranchPattern {
+        let of = |key: &str, [not, yes]: [&str; 2]| match value(self.attributes, key) {
+            Some(word) if word == not => Some(false),
+            Some(word) if word == yes => Some(true),
+            _ => None,
+        };
+        Configuration {
+            rear: of("shoulder", ["lefty", "righty"]),
+            lower: of("elbow", ["epositive", "enegative"]),
+            flip: of("wrist", ["wpositive", "wnegative"]),
+        }
+        .pattern()
+    }
 }

@@ -5,7 +5,7 @@
 //! | in the project | here |
 //! |---|---|
 //! | `pointRx`: `x y z rx ry rz`, mm and deg | a pose in the frame that `fatherId` names |
-//! | `shoulder`, `elbow`, `wrist` | righty rear; enegative lower; wnegative flip; `ssame`, `sfree`, ... give nothing |
+//! | `shoulder`, `elbow`, `wrist` | righty rear; enegative lower; wnegative flip; `ssame`, `sfree`, ... do not give the posture |
 //! | `jointRx`: `j1` to `j6`, deg | joints |
 //! | `frame`, `tool` with `fatherId` | given, resolved to `world` and `flange` |
 //! | `mdesc`: `tmax`, mm/s | tip speed in `movel`, `movec`; 99999 and more is not a limit |
@@ -15,11 +15,11 @@
 //! A missing attribute is zero, as controllers write it. The program `start` is read, or the only one, or the file
 //! that comes first. Programs that it calls are read if they are given.
 //!
-//! Source: the RoboDK posts for VAL3, their data and their order of the posture words. `[recalled]` 99999 as no limit,
-//! length of names, `world` if no `fatherId` is given; elbows behind axis 1.
+//! Source: the RoboDK posts for VAL3, their data and their order of the posture words. `[recalled]`: 99999 means no
+//! limit; the length of names; `world` if no `fatherId` is given; the elbow behind axis 1.
 //!
-//! In reading order: `tags` the required part of XML, `data` points and their frames, `code` moves in the code,
-//! `read` both together, `write` projects to load.
+//! In reading order: `tags` (the part of XML that is needed), `data` (points and their frames), `code` (moves in the
+//! code), `read` (both together), `write` (projects to load).
 
 mod code;
 mod data;
@@ -45,7 +45,7 @@ const DECIMALS: [usize; 2] = [3, 4];
 /// Writes a pose in place of `before`, the attributes of a value: ` key="0" x="1.000" ... shoulder="lefty"`.
 ///
 /// An attribute that was left out because it was zero is added if it is no longer zero.
-pub(super) fn spell((pose, respelling): (&Isometry, Respelling), before: &str, out: &mut String) {
+pub(super) fn spell(pose: &Isometry, respelling: Respelling, before: &str, out: &mut String) {
     let values = Convention::Staubli.numbers_of(pose);
     let attributes = tags::attributes(Part { at: 0, text: before });
     let mut numbers = Vec::new();
@@ -73,4 +73,24 @@ pub(super) fn spell((pose, respelling): (&Isometry, Respelling), before: &str, o
 }
 
 #[cfg(test)]
-mod tests;
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pose_is_written_with_attributes_that_were_left_out() {
+        let pose = Convention::Staubli
+            .pose(&[0.0, 2.0, 0.0, 0.0, 0.0, 90.0])
+            .unwrap();
+        let mut out = String::new();
+        spell(&pose, Respelling::Pose, " key=\"3\" ", &mut out);
+        assert_eq!(out, " key=\"3\" y=\"2.000\" rz=\"90.0000\" ");
+        out.clear();
+        spell(
+            &pose,
+            Respelling::Pose,
+            " rz=\"1\" z=\"5\" wrist=\"wsame\"",
+            &mut out,
+        );
+        assert_eq!(out, " rz=\"90.0000\" z=\"0.000\" y=\"2.000\" wrist=\"wsame\"");
+    }
+}

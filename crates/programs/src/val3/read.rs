@@ -34,26 +34,27 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
         names: BTreeMap::new(),
         done: Vec::new(),
         moves: Vec::new(),
-        messages: ProgramMessages::default(),
+        messages: ProgramMessages::new(&texts),
     };
     let mut project = None;
     for (index, text) in texts.iter().enumerate() {
+        reader.messages.go_to(index);
         match kind(text) {
             Kind::Data => {
                 reader.has_data = true;
-                reader.data.take((text, index), &mut reader.messages);
+                reader.data.take(&mut reader.messages);
             }
             Kind::Project => {
-                project.get_or_insert(stem(text));
+                project.get_or_insert(text.stem());
                 reader.project(text);
             }
             Kind::Code => {
-                let file = stem(text);
-                let found = programs(text.text(), file).into_iter();
-                reader.programs.extend(found.map(|program| (text, program)));
+                let found = programs(text.text(), text.stem()).into_iter();
+                reader.programs.extend(found.map(|program| (index, program)));
             }
         }
     }
+    reader.messages.go_to(0);
     reader.done = vec![false; reader.programs.len()];
     for (at, (_, program)) in reader.programs.iter().enumerate() {
         reader.names.entry(program.name).or_insert(at);
@@ -71,11 +72,9 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
     match main.filter(|main| *main < reader.programs.len()) {
         Some(main) => reader.program(main, 0),
         None => {
-            if let Some(text) = texts.first() {
-                let message = "no program (.pgx) is among these files".to_owned();
-                let hint = "give the whole folder of the project: .pjx, .dtx and .pgx";
-                reader.messages.problem(text, 0..0, message, hint);
-            }
+            let hint = "give the whole folder of the project: .pjx, .dtx and .pgx";
+            let message = "no program (.pgx) is among these files";
+            reader.messages.problem(0..0, message, hint);
         }
     }
     let Reader { moves, messages, .. } = reader;
@@ -96,11 +95,7 @@ enum Kind {
 }
 
 fn kind(text: &ProgramText) -> Kind {
-    let ending = text
-        .name()
-        .rsplit_once('.')
-        .map(|(_, ending)| ending.to_ascii_lowercase());
-    match ending.as_deref() {
+    match text.ending().as_deref() {
         Some("pjx") => Kind::Project,
         Some("dtx") => Kind::Data,
         Some("pgx") => Kind::Code,
@@ -110,20 +105,16 @@ fn kind(text: &ProgramText) -> Kind {
     }
 }
 
-fn stem(text: &ProgramText) -> &str {
-    let name = text.name().rsplit(['/', '\\']).next().unwrap_or_default();
-    name.rsplit_once('.').map_or(name, |(stem, _)| stem)
-}
-
 struct Reader<'a> {
     data: Data,
     has_data: bool,
-    programs: Vec<(&'a ProgramText, Program<'a>)>,
+    /// The programs, each with the index of its text.
+    programs: Vec<(usize, Program<'a>)>,
     /// Indices of the programs by name; the first one of equal names.
     names: BTreeMap<&'a str, usize>,
     done: Vec<bool>,
     moves: Vec<RobotMove>,
-    messages: ProgramMessages,
+    messages: ProgramMessages<'a>,
 }
 
 /// Target of a move.
@@ -139,9 +130,9 @@ impl<'a> Reader<'a> {
                 && tag.name == "Parameters"
                 && value(&attributes(tag.inside), "millimeterUnit") == Some("false")
             {
-                let message = "this project uses inches, which is not supported".to_owned();
+                let message = "this project uses inches, which is not supported";
                 let hint = "set its unit of length to mm (millimeterUnit) in the manufacturer's suite";
-                self.messages.problem(text, tag.inside.range(), message, hint);
+                self.messages.problem(tag.inside.range(), message, hint);
             }
         }
     }
@@ -152,28 +143,24 @@ impl<'a> Reader<'a> {
             return;
         };
         *done = true;
-        let mut lines = LineCount::new(text.text());
-        for code in &program.code {
-            for event in events(*code, &mut lines) {
-                if self.messages.is_full() {
-                    return;
-                }
-                self.event((text, &program), &event, depth);
+        let caller = self.messages.go_to(text);
+        let mut lines = LineCount::new(self.messages.text().text());
+        for event in program.code.iter().flat_map(|code| events(*code, &mut lines)) {
+            if self.messages.is_full() {
+                break;
             }
+            self.event(&program, &event, depth);
         }
+        self.messages.go_to(caller);
     }
 
-    fn event(&mut self, (text, program): (&'a ProgramText, &Program), event: &Event, depth: usize) {
+    fn event(&mut self, program: &Program, event: &Event, depth: usize) {
         match &event.what {
-            EventKind::Move { word, arguments } => self.motion((text, program), (event, *word), arguments),
+            EventKind::Move { word, arguments } => self.motion(program, event.line, *word, arguments),
             EventKind::Unclosed(word) => {
                 let message = format!("the bracket of `{}` is not closed", word.text);
-                self.messages.problem(
-                    text,
-                    word.range(),
-                    message,
-                    "close it: `movel(pPoint[0],tTool,mSpeed)`",
-                );
+                let hint = "close it: `movel(pPoint[0],tTool,mSpeed)`";
+                self.messages.problem(word.range(), message, hint);
             }
             EventKind::Call(name) => {
                 let known = self.names.get(name).copied();
@@ -181,54 +168,49 @@ impl<'a> Reader<'a> {
                     Some(at) if !self.done[at] && depth < DEEPEST => self.program(at, depth + 1),
                     Some(_) => {
                         let what = format!("{name} is called again: it is read once");
-                        self.messages.note((text, event.line), what);
+                        self.messages.note(event.line, what);
                     }
                     None => {
                         let what = format!("{name} is called, but not given: it is ignored");
-                        self.messages.note((text, event.line), what);
+                        self.messages.note(event.line, what);
                     }
                 }
             }
             EventKind::Choice(word) => {
                 let what = format!("{word} is ignored: the statements here are read once");
-                self.messages.note((text, event.line), what);
+                self.messages.note(event.line, what);
             }
             EventKind::Assign(name) => {
                 let first = Reference::of(name);
                 let used = first.and_then(|first| self.data.get(&first));
                 if used.is_some() {
                     let what = format!("the assignment to {name} is ignored: its value in the data is used");
-                    self.messages.note((text, event.line), what);
+                    self.messages.note(event.line, what);
                 }
             }
         }
     }
 
-    fn motion(
-        &mut self,
-        (text, program): (&ProgramText, &Program),
-        (event, word): (&Event, Part),
-        arguments: &[Part],
-    ) {
+    fn motion(&mut self, program: &Program, line: u32, word: Part, arguments: &[Part]) {
         let goals = match word.text {
             "movej" | "movel" => 1,
             "movec" => 2,
             _ => {
                 let message = format!("the move `{}` is not followed", word.text);
                 let hint = "supported: movej, movel and movec of one robot";
-                self.messages.problem(text, word.range(), message, hint);
+                self.messages.problem(word.range(), message, hint);
                 return;
             }
         };
         let (Some(goals), Some([tool, speed])) = (arguments.get(..goals), arguments.get(goals..)) else {
             let message = format!("`{}` with {} arguments", word.text, arguments.len());
             let hint = "write `movel(point,tool,mdesc)` or `movec(via,point,tool,mdesc)`";
-            self.messages.problem(text, word.range(), message, hint);
+            self.messages.problem(word.range(), message, hint);
             return;
         };
         let mut found: Vec<Val3Target> = goals
             .iter()
-            .filter_map(|goal| self.goal((text, program), *goal))
+            .filter_map(|goal| self.goal(program, *goal))
             .collect();
         if found.len() < goals.len() {
             return;
@@ -236,18 +218,17 @@ impl<'a> Reader<'a> {
         let Some(end) = found.pop() else {
             return;
         };
-        let tool = self.tool((text, event.line), *tool);
+        let tool = self.tool(line, *tool);
         let (motion, speed) = match (word.text, found.pop()) {
             ("movej", _) => (Motion::Joint, Speed::Joints),
-            (_, None) => (Motion::Linear, self.speed((text, event.line), *speed)),
-            (_, Some(via)) if via.frame == end.frame => (
-                Motion::Circular { via: via.target },
-                self.speed((text, event.line), *speed),
-            ),
+            (_, None) => (Motion::Linear, self.speed(line, *speed)),
+            (_, Some(via)) if via.frame == end.frame => {
+                (Motion::Circular { via: via.target }, self.speed(line, *speed))
+            }
             (_, Some(_)) => {
-                let message = "the points of this arc are relative to different frames".to_owned();
+                let message = "the points of this arc are relative to different frames";
                 let hint = "give both points of an arc the same fatherId";
-                self.messages.problem(text, word.range(), message, hint);
+                self.messages.problem(word.range(), message, hint);
                 return;
             }
         };
@@ -257,12 +238,12 @@ impl<'a> Reader<'a> {
             frame: end.frame,
             tool,
             speed,
-            line: event.line,
+            line,
         });
     }
 
     /// The target in an argument of a move.
-    fn goal(&mut self, (text, program): (&ProgramText, &Program), argument: Part) -> Option<Val3Target> {
+    fn goal(&mut self, program: &Program, argument: Part) -> Option<Val3Target> {
         let elsewhere = || {
             let name = argument.text.chars().take(LONGEST_SHOWN).collect();
             Some(Val3Target {
@@ -311,24 +292,24 @@ impl<'a> Reader<'a> {
                 "give all data files of the project",
             ),
         };
-        self.messages.problem(text, argument.range(), message, hint);
+        self.messages.problem(argument.range(), message, hint);
         None
     }
 
-    fn tool(&mut self, (text, line): (&ProgramText, u32), argument: Part) -> Frame {
+    fn tool(&mut self, line: u32, argument: Part) -> Frame {
         let given = Reference::of(argument.text).and_then(|_| self.data.pose_of(argument.text));
         given.map_or_else(
             || {
                 let name: String = argument.text.chars().take(LONGEST_SHOWN).collect();
                 let what = format!("the tool `{name}` is not in the data");
-                self.messages.note((text, line), what);
+                self.messages.note(line, what);
                 Frame::Unknown
             },
             Frame::Given,
         )
     }
 
-    fn speed(&mut self, (text, line): (&ProgramText, u32), argument: Part) -> Speed {
+    fn speed(&mut self, line: u32, argument: Part) -> Speed {
         let given = Reference::of(argument.text).and_then(|reference| self.data.get(&reference));
         match given {
             Some(Datum::Speed(Some(tip))) => Speed::Tip(*tip),
@@ -336,7 +317,7 @@ impl<'a> Reader<'a> {
             _ => {
                 let name: String = argument.text.chars().take(LONGEST_SHOWN).collect();
                 let what = format!("the move description `{name}` is not in the data");
-                self.messages.note((text, line), what);
+                self.messages.note(line, what);
                 Speed::Unknown
             }
         }

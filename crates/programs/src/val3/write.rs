@@ -37,15 +37,7 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
         frames: 0..=99,
         tools: 0..=99,
     })?;
-    for (at, point) in draft.points.iter().enumerate().skip(1) {
-        if let Some(value) = point.speed.filter(|speed| *speed * 1e3 < SLOWEST) {
-            return Err(DraftError::NotWritable {
-                index: at + 1,
-                what: "the speed",
-                value,
-            });
-        }
-    }
+    draft.check_speeds(|speed| speed * 1e3 >= SLOWEST)?;
     let speeds = speeds(draft);
     let moves = moves(draft, &speeds);
     let mut programs = Vec::new();
@@ -203,7 +195,8 @@ fn data(draft: &Draft, speeds: &[Pace]) -> String {
     ];
     array(
         &mut lines,
-        ("fFrame", "frame"),
+        "fFrame",
+        "frame",
         &[(draft.frame_number as usize, frame)],
     );
     let start: Vec<String> = draft.points.first().map_or_else(Vec::new, |point| {
@@ -216,7 +209,7 @@ fn data(draft: &Draft, speeds: &[Pace]) -> String {
             .map(|(axis, deg)| format!("j{axis}=\"{deg}\""))
             .collect()
     });
-    array(&mut lines, ("jStart", "jointRx"), &[(0, start.join(" "))]);
+    array(&mut lines, "jStart", "jointRx", &[(0, start.join(" "))]);
     let described = |tip: &str, vel: u32, blend: &str| {
         let kind = if blend == "0.000" { "off" } else { "cartesian" };
         format!(
@@ -226,7 +219,8 @@ fn data(draft: &Draft, speeds: &[Pace]) -> String {
     };
     array(
         &mut lines,
-        ("mNomSpeed", "mdesc"),
+        "mNomSpeed",
+        "mdesc",
         &[(0, described("99999", 10, "0.000"))],
     );
     let paces: Vec<(usize, String)> = speeds
@@ -237,7 +231,7 @@ fn data(draft: &Draft, speeds: &[Pace]) -> String {
         })
         .enumerate()
         .collect();
-    array(&mut lines, ("mSpeed", "mdesc"), &paces);
+    array(&mut lines, "mSpeed", "mdesc", &paces);
     lines.push(
         "    <Data name=\"nTraj\" access=\"private\" xsi:type=\"array\" type=\"num\" size=\"1\" />"
             .to_owned(),
@@ -256,18 +250,14 @@ fn data(draft: &Draft, speeds: &[Pace]) -> String {
         })
         .enumerate()
         .collect();
-    array(&mut lines, ("pPoint", "pointRx"), &points);
-    array(
-        &mut lines,
-        ("tTool", "tool"),
-        &[(draft.tool_number as usize, tool)],
-    );
+    array(&mut lines, "pPoint", "pointRx", &points);
+    array(&mut lines, "tTool", "tool", &[(draft.tool_number as usize, tool)]);
     lines.extend(["  </Datas>", "</Database>"].map(str::to_owned));
     joined(&lines)
 }
 
 /// An array of data, its values by their keys.
-fn array(lines: &mut Vec<String>, (name, kind): (&str, &str), values: &[(usize, String)]) {
+fn array(lines: &mut Vec<String>, name: &str, kind: &str, values: &[(usize, String)]) {
     let size = values.last().map_or(1, |(key, _)| key + 1);
     lines.push(format!(
         "    <Data name=\"{name}\" access=\"private\" xsi:type=\"array\" type=\"{kind}\" size=\"{size}\">"

@@ -10,12 +10,14 @@ use armill_programs::{
     write,
 };
 use proptest::prelude::*;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::TestRunner;
 
 use crate::rewriting::near;
 use crate::same_poses::{JOINTS, kuka};
 
 fn poses() -> impl Strategy<Value = Isometry> {
-    // The middle angle is at times a right one, where the others share a turn.
+    // The middle angle is sometimes a right angle, where the others are degenerate.
     let angle = prop_oneof![
         -PI..PI,
         Just(0.0),
@@ -85,6 +87,18 @@ pub fn long(points: usize) -> Draft {
         tool_number: 2,
         points: (0..points).map(point).collect(),
     }
+}
+
+/// A draft called `part` with one point, to which the tip moves at 0.1 m/s.
+pub fn one_draft() -> Draft {
+    let mut draft = drafts()
+        .new_tree(&mut TestRunner::deterministic())
+        .unwrap()
+        .current();
+    draft.name = "part".to_owned();
+    draft.points.truncate(1);
+    draft.points[0].speed = Some(0.1);
+    draft
 }
 
 /// The program that was written.

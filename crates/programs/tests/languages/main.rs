@@ -7,6 +7,7 @@
 mod drafts;
 mod followed;
 mod hostile;
+mod inform;
 mod krl;
 mod other_makers;
 mod rapid;
@@ -14,7 +15,10 @@ mod rewriting;
 mod same_poses;
 #[path = "../../../formats/tests/samples_folder/mod.rs"]
 mod samples_folder;
+mod tp;
+mod trials;
 mod urscript;
+mod val3;
 
 use armill_formats::document::Problems;
 use armill_programs::{ProgramText, RobotProgram, read};

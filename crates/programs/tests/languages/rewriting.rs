@@ -47,7 +47,7 @@ fn places(program: &RobotProgram) -> Vec<Spelled> {
 }
 
 /// The bytes of every file that spell no target.
-fn rest(program: &RobotProgram) -> Vec<Vec<u8>> {
+pub fn rest(program: &RobotProgram) -> Vec<Vec<u8>> {
     let places = places(program);
     let all = program.texts.iter().enumerate();
     all.map(|(index, file)| {

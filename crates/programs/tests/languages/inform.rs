@@ -1,15 +1,17 @@
 //! Our own jobs, problems of wrong ones, and drafts that are read back.
 
+use armill_core::frame::Isometry;
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::{BranchPattern, Elbow, Shoulder, Wrist};
+use armill_programs::inform::{read, write};
+use armill_programs::{Draft, Frame, Motion, ProgramText, RobotProgram, Speed, Target};
 use proptest::prelude::*;
-use proptest::strategy::ValueTree;
-use proptest::test_runner::{RngSeed, TestRunner};
+use proptest::test_runner::RngSeed;
 
-use super::*;
-use crate::draft::Draft;
-use crate::trials::{MICROMETRE, angle_of_decimals, apart, cuts, drafts, moved_alone, problems, survives};
-use crate::{Frame, Motion, ProgramText, RobotProgram, Speed, Target};
+use crate::drafts::{drafts, one_draft, read_back};
+use crate::trials::{
+    MICROMETRE, angle_of_decimals, apart, cuts, moved_alone, moves_as_drafted, problems, survives,
+};
 
 const JOB: &str = "/JOB\r
 //NAME PART-1\r
@@ -298,12 +300,7 @@ fn a_long_program_is_split_and_read_as_one() {
     let written = write(&draft).unwrap();
     let names: Vec<&str> = written.files.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(names, ["part.JBI", "part001.JBI", "part002.JBI", "part003.JBI"]);
-    let texts = written
-        .files
-        .iter()
-        .map(|(name, bytes)| ProgramText::new(name, bytes))
-        .collect();
-    let program = read(texts).unwrap();
+    let program = read_back(&written);
     assert_eq!((program.name.as_str(), program.moves.len()), ("part", 4500));
     let straight = program
         .moves
@@ -337,17 +334,6 @@ fn moves_blend_as_specified_and_the_last_one_stops() {
     assert_eq!(text.matches(" PL=0\r\n").count(), 1, "{text}");
 }
 
-fn one_draft() -> Draft {
-    let mut draft = drafts()
-        .new_tree(&mut TestRunner::deterministic())
-        .unwrap()
-        .current();
-    draft.name = "part".to_owned();
-    draft.points.truncate(1);
-    draft.points[0].speed = Some(0.1);
-    draft
-}
-
 proptest! {
     #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, rng_seed: RngSeed::Fixed(11), ..ProptestConfig::default() })]
 
@@ -363,10 +349,10 @@ proptest! {
     #[test]
     fn what_is_written_is_read_as_it_was(draft in drafts()) {
         let written = write(&draft).unwrap();
-        let (name, bytes) = &written.files[0];
+        let (_, bytes) = &written.files[0];
         let lone_line_ends = bytes.windows(2).filter(|pair| pair[1] == b'\n' && pair[0] != b'\r').count();
         prop_assert_eq!(lone_line_ends, 0);
-        let program = read(vec![ProgramText::new(name, bytes)]).unwrap();
+        let program = read_back(&written);
         prop_assert_eq!(&program.name, &draft.name);
         prop_assert_eq!(program.moves.len(), draft.points.len());
         for (at, (one, point)) in program.moves.iter().zip(&draft.points).enumerate() {
@@ -377,17 +363,8 @@ proptest! {
             let beyond: Vec<i32> = [3, 5, 0].map(|joint: usize| i32::from(point.joints[joint].abs() > std::f64::consts::PI)).to_vec();
             prop_assert_eq!(turns, &beyond);
             prop_assert_eq!((one.frame, one.tool), (Frame::Numbered(draft.frame_number), Frame::Numbered(draft.tool_number)));
-            match (point.speed, one.speed) {
-                (Some(given), Speed::Tip(speed)) if at > 0 => {
-                    prop_assert_eq!(&one.motion, &Motion::Linear);
-                    // One decimal of mm/s.
-                    prop_assert!((given - speed).abs() <= 0.05001e-3);
-                }
-                (_, speed) => {
-                    prop_assert!(at == 0 || point.speed.is_none());
-                    prop_assert_eq!((speed, &one.motion), (Speed::Joints, &Motion::Joint));
-                }
-            }
+            // One decimal of mm/s.
+            moves_as_drafted(one, point, at == 0, 0.05001e-3);
         }
     }
 }

@@ -1,15 +1,18 @@
 //! Our own listings, problems of wrong ones, and drafts that are read back.
 
+use armill_core::frame::Isometry;
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::BranchPattern;
+use armill_formats::convention::Convention;
+use armill_programs::tp::{read, write};
+use armill_programs::{Frame, Motion, ProgramText, RobotProgram, Speed, Target};
 use proptest::prelude::*;
-use proptest::strategy::ValueTree;
-use proptest::test_runner::{RngSeed, TestRunner};
+use proptest::test_runner::RngSeed;
 
-use super::*;
-use crate::draft::Draft;
-use crate::trials::{MICROMETRE, angle_of_decimals, apart, cuts, drafts, moved_alone, problems, survives};
-use crate::{Frame, Motion, ProgramText, RobotProgram, Speed, Target};
+use crate::drafts::{drafts, one_draft, read_back};
+use crate::trials::{
+    MICROMETRE, angle_of_decimals, apart, cuts, moved_alone, moves_as_drafted, problems, survives,
+};
 
 const LISTING: &str = "/PROG  DEBURR\tMacro\r
 /ATTR\r
@@ -352,12 +355,7 @@ fn a_long_program_is_split_and_read_as_one() {
     let written = write(&draft).unwrap();
     let names: Vec<&str> = written.files.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(names, ["part.LS", "part001.LS", "part002.LS", "part003.LS"]);
-    let texts = written
-        .files
-        .iter()
-        .map(|(name, bytes)| ProgramText::new(name, bytes))
-        .collect();
-    let program = read(texts).unwrap();
+    let program = read_back(&written);
     assert_eq!(program.moves.len(), 10_001);
     assert!(
         program
@@ -401,17 +399,6 @@ fn moves_blend_as_specified_and_the_last_one_stops() {
     assert_eq!(text.matches(" FINE ;\r\n").count(), 1, "{text}");
 }
 
-fn one_draft() -> Draft {
-    let mut draft = drafts()
-        .new_tree(&mut TestRunner::deterministic())
-        .unwrap()
-        .current();
-    draft.name = "part".to_owned();
-    draft.points.truncate(1);
-    draft.points[0].speed = Some(0.1);
-    draft
-}
-
 proptest! {
     #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, rng_seed: RngSeed::Fixed(11), ..ProptestConfig::default() })]
 
@@ -427,8 +414,7 @@ proptest! {
     #[test]
     fn what_is_written_is_read_as_it_was(draft in drafts()) {
         let written = write(&draft).unwrap();
-        let (name, bytes) = &written.files[0];
-        let program = read(vec![ProgramText::new(name, bytes)]).unwrap();
+        let program = read_back(&written);
         prop_assert_eq!(&program.name, &draft.name);
         prop_assert_eq!(program.moves.len(), draft.points.len());
         let near = |one: &Isometry, other: &Isometry| {
@@ -457,17 +443,8 @@ proptest! {
                 }
                 Target::Elsewhere { .. } => panic!(),
             }
-            match (point.speed, one.speed) {
-                (Some(given), Speed::Tip(speed)) if at > 0 => {
-                    prop_assert_eq!(&one.motion, &Motion::Linear);
-                    // Whole cm/min: half of one is 0.0833 mm/s.
-                    prop_assert!((given - speed).abs() <= 0.084e-3);
-                }
-                (_, speed) => {
-                    prop_assert!(at == 0 || point.speed.is_none());
-                    prop_assert_eq!((speed, &one.motion), (Speed::Joints, &Motion::Joint));
-                }
-            }
+            // Whole cm/min: half of one is 0.0833 mm/s.
+            moves_as_drafted(one, point, at == 0, 0.084e-3);
         }
     }
 }

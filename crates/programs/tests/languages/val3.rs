@@ -1,15 +1,18 @@
 //! Our own projects, problems of wrong ones, and drafts that are read back.
 
+use armill_core::frame::Isometry;
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::BranchPattern;
+use armill_formats::convention::Convention;
+use armill_programs::val3::{read, write};
+use armill_programs::{Frame, Motion, ProgramText, RobotProgram, Speed, Target};
 use proptest::prelude::*;
-use proptest::strategy::ValueTree;
-use proptest::test_runner::{RngSeed, TestRunner};
+use proptest::test_runner::RngSeed;
 
-use super::*;
-use crate::draft::Draft;
-use crate::trials::{MICROMETRE, angle_of_decimals, apart, cuts, drafts, moved_alone, problems, survives};
-use crate::{Frame, Motion, ProgramText, RobotProgram, Speed, Target};
+use crate::drafts::{drafts, one_draft, read_back};
+use crate::trials::{
+    MICROMETRE, angle_of_decimals, apart, cuts, moved_alone, moves_as_drafted, problems, survives,
+};
 
 const PROJECT: &str = "\u{feff}<?xml version=\"1.0\" encoding=\"utf-8\" ?>\r
 <Project xmlns=\"http://www.staubli.com/robotics/VAL3/Project/3\">\r
@@ -212,23 +215,6 @@ fn other_poses_change_only_the_numbers_of_points() {
 }
 
 #[test]
-fn a_pose_is_written_with_attributes_that_were_left_out() {
-    let pose = Convention::Staubli
-        .pose(&[0.0, 2.0, 0.0, 0.0, 0.0, 90.0])
-        .unwrap();
-    let mut out = String::new();
-    spell((&pose, Respelling::Pose), " key=\"3\" ", &mut out);
-    assert_eq!(out, " key=\"3\" y=\"2.000\" rz=\"90.0000\" ");
-    out.clear();
-    spell(
-        (&pose, Respelling::Pose),
-        " rz=\"1\" z=\"5\" wrist=\"wsame\"",
-        &mut out,
-    );
-    assert_eq!(out, " rz=\"90.0000\" z=\"0.000\" y=\"2.000\" wrist=\"wsame\"");
-}
-
-#[test]
 fn every_mistake_has_its_message() {
     let project = |data: &str, code: &str| {
         let data = format!(
@@ -310,12 +296,7 @@ fn a_long_program_is_split_and_read_as_one() {
             "stop.pgx"
         ]
     );
-    let texts = written
-        .files
-        .iter()
-        .map(|(name, bytes)| ProgramText::new(name, bytes))
-        .collect();
-    assert_eq!(read(texts).unwrap().moves.len(), 4001);
+    assert_eq!(read_back(&written).moves.len(), 4001);
 }
 
 #[test]
@@ -329,17 +310,6 @@ fn moves_blend_as_specified_and_the_last_one_stops() {
     assert!(data.contains("<Value key=\"1\" accel=\"100\" vel=\"100\" decel=\"100\" tmax=\"100.000\" rmax=\"99999\" blend=\"off\" leave=\"0.000\" reach=\"0.000\" />"));
     assert!(start.contains("mSpeed[0])\r\n  nTraj=movel(pPoint[1]"), "{start}");
     assert!(start.contains("mSpeed[1])\r\n  waitEndMove()"), "{start}");
-}
-
-fn one_draft() -> Draft {
-    let mut draft = drafts()
-        .new_tree(&mut TestRunner::deterministic())
-        .unwrap()
-        .current();
-    draft.name = "part".to_owned();
-    draft.points.truncate(1);
-    draft.points[0].speed = Some(0.1);
-    draft
 }
 
 proptest! {
@@ -357,8 +327,7 @@ proptest! {
     #[test]
     fn what_is_written_is_read_as_it_was(draft in drafts()) {
         let written = write(&draft).unwrap();
-        let texts = written.files.iter().map(|(name, bytes)| ProgramText::new(name, bytes)).collect();
-        let program = read(texts).unwrap();
+        let program = read_back(&written);
         prop_assert_eq!(&program.name, &draft.name);
         prop_assert_eq!(program.moves.len(), draft.points.len());
         let near = |one: &Isometry, other: &Isometry| {
@@ -383,17 +352,8 @@ proptest! {
                 }
                 Target::Elsewhere { .. } => panic!(),
             }
-            match (point.speed, one.speed) {
-                (Some(given), Speed::Tip(speed)) if at > 0 => {
-                    prop_assert_eq!(&one.motion, &Motion::Linear);
-                    // Three decimals of mm/s.
-                    prop_assert!((given - speed).abs() <= 0.501e-6);
-                }
-                (_, speed) => {
-                    prop_assert!(at == 0 || point.speed.is_none());
-                    prop_assert_eq!((speed, &one.motion), (Speed::Joints, &Motion::Joint));
-                }
-            }
+            // Three decimals of mm/s.
+            moves_as_drafted(one, point, at == 0, 0.501e-6);
         }
     }
 }
