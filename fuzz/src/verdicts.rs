@@ -20,11 +20,11 @@ use armill_formats::measurement::{csv as force_csv, dynoware, load_tests as test
 use armill_formats::robot::format::{self, Format, RobotReadOptions};
 use armill_formats::robot::pendant;
 use armill_formats::robot::{RobotDescription, armill};
+use armill_formats::toolpath::format as program;
+use armill_formats::toolpath::{LengthUnit, Summary, apt, csv, gcode};
 use armill_programs::{
     Motion, Moved, ProgramText, RobotProgram, Target, inform, krl, rapid, tp, urscript, val3,
 };
-use armill_formats::toolpath::format as program;
-use armill_formats::toolpath::{LengthUnit, Summary, apt, csv, gcode};
 use armill_study::file::resolve;
 use armill_study::{ErrorKind, library};
 
