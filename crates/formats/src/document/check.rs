@@ -20,7 +20,7 @@ use serde_json::Value as Json;
 
 use super::path::joined;
 use super::problem::Problem;
-use super::shape::{ExtraFields, Limits, ListShape, Shape, Shapes, TableShape};
+use super::shape::{ExtraFields, Limits, ListShape, Shape, Shapes, TableShape, TaggedShape};
 use super::source::Source;
 use super::tree::{Node, Table, Value};
 use super::unit;
@@ -147,8 +147,8 @@ impl Checker<'_> {
             (Shape::Choice(choices), _) => self.choice(value, choices, place),
             (Shape::List(list), Value::List(entries)) => self.list(value, list, entries, place),
             (Shape::Table(shape), Value::Table(table)) => self.table(value.span.clone(), table, shape, place),
-            (Shape::Tagged { tag, variants }, Value::Table(table)) => {
-                self.tagged(value.span.clone(), table, tag, variants, place);
+            (Shape::Tagged(shape), Value::Table(table)) => {
+                self.tagged(value.span.clone(), table, shape, place);
             }
             (Shape::OneOf(alternatives), _) => self.one_of(value, alternatives, place),
             (shape, _) => self.wrong_type(value, shape, place),
@@ -311,14 +311,8 @@ impl Checker<'_> {
 
     /// A table whose field `tag` says which of the variants it is; without a known tag its other fields are not
     /// checked.
-    fn tagged(
-        &mut self,
-        span: Range<usize>,
-        table: &Table,
-        tag: &str,
-        variants: &[(String, TableShape)],
-        place: &ValuePosition<'_>,
-    ) {
+    fn tagged(&mut self, span: Range<usize>, table: &Table, shape: &TaggedShape, place: &ValuePosition<'_>) {
+        let TaggedShape { tag, variants } = shape;
         let names: Vec<Json> = variants.iter().map(|(name, _)| name.as_str().into()).collect();
         let path = joined(place.path, tag);
         match table.get(tag) {

@@ -6,7 +6,7 @@
 
 use std::collections::BTreeSet;
 
-use super::shape::{ExtraFields, Shape, TableShape};
+use super::shape::{ExtraFields, Shape, TableShape, TaggedShape};
 
 /// The simplest shape for a choice: one shape, a list of names, a tagged table, or the alternatives as they are.
 ///
@@ -59,10 +59,10 @@ fn tagged(shapes: &[Shape]) -> Option<Shape> {
         .iter()
         .filter_map(|table| Some((only_text(table, tag)?, (*table).clone())))
         .collect();
-    Some(Shape::Tagged {
+    Some(Shape::Tagged(TaggedShape {
         tag: tag.clone(),
         variants,
-    })
+    }))
 }
 
 /// A table with the fields of another shape in addition to its own; `None` where that shape is not a table.
@@ -71,13 +71,13 @@ fn tagged(shapes: &[Shape]) -> Option<Shape> {
 pub(super) fn merged(table: &TableShape, shape: &Shape) -> Option<Shape> {
     match shape {
         Shape::Table(other) => Some(Shape::Table(union(table, other))),
-        Shape::Tagged { tag, variants } => Some(Shape::Tagged {
+        Shape::Tagged(TaggedShape { tag, variants }) => Some(Shape::Tagged(TaggedShape {
             tag: tag.clone(),
             variants: variants
                 .iter()
                 .map(|(name, other)| (name.clone(), union(table, other)))
                 .collect(),
-        }),
+        })),
         _ => None,
     }
 }

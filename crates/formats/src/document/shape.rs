@@ -54,16 +54,20 @@ pub(super) enum Shape {
     List(Box<ListShape>),
     Table(TableShape),
     /// A table in which the text of one field decides what the others are.
-    Tagged {
-        /// Name of the field that decides.
-        tag: String,
-        /// Text of the tag, and the table that it represents, the tag among its fields.
-        variants: Vec<(String, TableShape)>,
-    },
+    Tagged(TaggedShape),
     /// Any of these.
     OneOf(Vec<Shape>),
     /// One of the named shapes of [`Shapes`], which may contain itself.
     Named(String),
+}
+
+/// Tables of which the text of one field selects one.
+#[derive(Clone, Debug)]
+pub(super) struct TaggedShape {
+    /// Name of the field that decides.
+    pub tag: String,
+    /// Text of the tag, and the table that it represents, the tag among its fields.
+    pub variants: Vec<(String, TableShape)>,
 }
 
 /// A list: the first entries may have their own shapes, all others have one.
@@ -160,7 +164,7 @@ impl Shape {
             Self::Text { .. } => matches!(value, tree::Value::Text(_)),
             Self::Flag => matches!(value, tree::Value::Flag(_)),
             Self::List(_) => matches!(value, tree::Value::List(_)),
-            Self::Table(_) | Self::Tagged { .. } => matches!(value, tree::Value::Table(_)),
+            Self::Table(_) | Self::Tagged(_) => matches!(value, tree::Value::Table(_)),
             Self::Choice(choices) => choices.iter().any(|choice| match choice {
                 Value::String(_) => matches!(value, tree::Value::Text(_)),
                 Value::Number(_) => matches!(value, tree::Value::Whole(_) | tree::Value::Real(_)),

@@ -22,7 +22,7 @@ pub(super) fn in_words(shapes: &Shapes, shape: &Shape, unit: Option<&str>) -> St
         Shape::Flag => "true or false".to_owned(),
         Shape::Choice(choices) => choices_in_words(choices),
         Shape::List(list) => list_in_words(shapes, list, unit),
-        Shape::Table(_) | Shape::Tagged { .. } => "a table".to_owned(),
+        Shape::Table(_) | Shape::Tagged(_) => "a table".to_owned(),
         Shape::OneOf(alternatives) => {
             let mut words: Vec<String> = Vec::new();
             for alternative in alternatives {
@@ -71,7 +71,7 @@ fn plural(shapes: &Shapes, shape: &Shape) -> &'static str {
             (_, _, "numbers") => "arrays of numbers",
             _ => "arrays",
         },
-        Shape::Table(_) | Shape::Tagged { .. } => "tables",
+        Shape::Table(_) | Shape::Tagged(_) => "tables",
         _ => "values",
     }
 }

@@ -183,7 +183,7 @@ impl Reader<'_> {
     fn row(&mut self, line: &Line, columns: &Columns, found: &mut LoadTests) {
         let cells = match self.sheet.row(line, columns.columns.len()) {
             Ok(cells) => cells,
-            Err(wrong) => return self.problems.push(wrong),
+            Err(wrong) => return self.problems.extend(wrong),
         };
         let mut row = Row {
             joints: vec![0.0; self.robot.joints().len()],

@@ -7,8 +7,8 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use super::csv::is_formula;
-use crate::document::Problem;
 use crate::document::lines::Line;
+use crate::document::{Problem, Problems};
 
 /// One cell: its text, and its position in the line, bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -81,7 +81,7 @@ pub(crate) fn row_cells<'l>(
     line: &'l Line,
     separator: char,
     columns: usize,
-) -> Result<Vec<Cell<'l>>, Problem> {
+) -> Result<Vec<Cell<'l>>, Problems> {
     let found = cells(&line.text, separator);
     if found.len() == columns {
         return Ok(found);
@@ -94,7 +94,7 @@ pub(crate) fn row_cells<'l>(
         }
         _ => "every row needs one cell per column; an empty cell is written as two separators in a row",
     };
-    Err(line.problem(path, 0..line.text.len(), message, hint))
+    Err(line.problem(path, 0..line.text.len(), message, hint).into())
 }
 
 /// The meaning of the columns of a table.
@@ -122,7 +122,8 @@ pub(crate) fn named_columns<C: Copy>(
     };
     for cell in cells(&header.text, separator_of(&header.text)) {
         let mut report = |message, hint: &str| {
-            (found.problems).push(header.problem(path, cell.span.clone(), message, hint))
+            let problem = header.problem(path, cell.span.clone(), message, hint);
+            found.problems.push(problem);
         };
         let column = meaning(&cell.text).unwrap_or_else(|(message, hint)| {
             report(message, &hint);

@@ -268,7 +268,8 @@ impl Table {
 
     /// What the cells of a line say, or what is wrong with each.
     fn row(&self, path: &str, line: &Line) -> Result<Row, Vec<Problem>> {
-        let found = row_cells(path, line, self.separator, self.columns.len()).map_err(|wrong| vec![wrong])?;
+        let found = row_cells(path, line, self.separator, self.columns.len())
+            .map_err(|wrong| wrong.into_iter().collect::<Vec<_>>())?;
         let mut problems = Vec::new();
         let mut row = Row::default();
         for (cell, column) in found.iter().zip(&self.columns) {

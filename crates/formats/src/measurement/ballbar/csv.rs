@@ -101,6 +101,15 @@ enum Refused {
     File(Vec<Problem>),
 }
 
+/// The values of a row.
+struct Sample {
+    direction: Direction,
+    /// rad, or number of the sample.
+    angle: f64,
+    /// m: a deviation, or a radius.
+    radius: f64,
+}
+
 /// A run as far as it has been read.
 struct Group {
     /// Name in the file; for unnamed runs the number of changes so far.
@@ -155,7 +164,7 @@ impl Table {
             return Ok(());
         }
         let found = row_cells(&self.path, line, self.separator, self.columns.columns.len())
-            .map_err(|wrong| Refused::Row(vec![wrong]))?;
+            .map_err(|wrong| Refused::Row(wrong.into_iter().collect()))?;
         let (mut angle, mut radius, mut run) = (0.0, 0.0, None);
         let mut direction = remarks.direction;
         let mut problems = Vec::new();
@@ -216,7 +225,12 @@ impl Table {
             )]));
         }
         let name = run.or(remarks.run.as_deref());
-        self.push(name, direction, line, remarks, [angle, radius])
+        let sample = Sample {
+            direction,
+            angle,
+            radius,
+        };
+        self.push(name, sample, line, remarks)
     }
 
     /// Refuses a radius (m, or its deviation) that no circular test has, if the nominal radius is given above.
@@ -242,11 +256,15 @@ impl Table {
     fn push(
         &mut self,
         name: Option<&str>,
-        direction: Direction,
+        sample: Sample,
         line: &Line,
         remarks: &Remarks,
-        [angle, radius]: [f64; 2],
     ) -> Result<(), Refused> {
+        let Sample {
+            direction,
+            angle,
+            radius,
+        } = sample;
         let before = self.groups.get(self.current);
         if before.is_some_and(|group| group.key.1 != direction) {
             self.changes += 1;

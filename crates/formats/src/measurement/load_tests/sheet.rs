@@ -61,7 +61,7 @@ impl Sheet {
     ///
     /// # Errors
     /// Another number of cells.
-    pub fn row<'a>(&self, row: &'a Line, columns: usize) -> Result<Vec<Cell<'a>>, Problem> {
+    pub fn row<'a>(&self, row: &'a Line, columns: usize) -> Result<Vec<Cell<'a>>, Problems> {
         row_cells(&self.name, row, self.separator, columns)
     }
 

@@ -19,6 +19,7 @@ use std::f64::consts::TAU;
 use armill_core::nalgebra::{Point2, Vector2};
 
 use super::canonical::{ArcFeed, Canonical, Plane, Sense};
+use super::contour::{Contour, ContourMove, Stretch, left_of};
 use super::motion::sweep;
 use super::refusal::Refusal;
 
@@ -63,13 +64,6 @@ struct Piece {
     bend: f64,
     call: Canonical,
     line: u32,
-}
-
-/// A piece of the contour.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Contour {
-    Line,
-    Arc { centre: Point2<f64>, sense: Sense },
 }
 
 /// Active compensation: the plane, the cutter, and the position of its centre.
@@ -118,11 +112,6 @@ impl Piece {
             }
         }
     }
-}
-
-/// A vector turned by 90 deg to the left.
-fn left_of(t: Vector2<f64>) -> Vector2<f64> {
-    Vector2::new(-t.y, t.x)
 }
 
 impl Cutter {
@@ -183,21 +172,20 @@ impl Cutter {
         Ok(())
     }
 
-    /// A move of the contour `from` a point of the plane; its call ends where the contour does.
+    /// Follows a move of the contour.
     ///
     /// It waits until the next one shows where it ends; the piece that waited is given out. A rapid is moved as a cut
     /// is.
     ///
     /// # Errors
     /// An arc inside which the cutter does not fit, a corner that it does not reach, an arc right after the end.
-    pub fn follow(
-        &mut self,
-        contour: Contour,
-        from: Point2<f64>,
-        across: f64,
-        mut call: Canonical,
-        out: Out<'_>,
-    ) -> Result<(), Refusal> {
+    pub fn follow(&mut self, next: ContourMove, out: Out<'_>) -> Result<(), Refusal> {
+        let ContourMove {
+            contour,
+            from,
+            across,
+            mut call,
+        } = next;
         let arc = matches!(contour, Contour::Arc { .. });
         let Some(mut active) = self.active else {
             if std::mem::take(&mut self.leaving) && arc {
@@ -297,31 +285,6 @@ fn meeting(last: &Piece, next: &Piece, arrives: Vector2<f64>, radius: f64) -> Re
     crossing(last, next, arrives)
         .filter(|at| last.contains(*at, slack) && next.contains(*at, slack))
         .ok_or(Refusal::Gouging { radius })
-}
-
-/// A piece of the contour with its ends.
-struct Stretch {
-    contour: Contour,
-    from: Point2<f64>,
-    to: Point2<f64>,
-}
-
-impl Stretch {
-    /// Direction of the contour at a point of it.
-    fn direction(&self, at: Point2<f64>) -> Vector2<f64> {
-        match self.contour {
-            Contour::Line => (self.to - self.from).normalize(),
-            Contour::Arc { centre, sense } => left_of((at - centre).normalize()) * f64::from(sense.sign()),
-        }
-    }
-
-    /// Curvature of the contour at a point of it, above zero to the left.
-    fn bend(&self, at: Point2<f64>) -> f64 {
-        match self.contour {
-            Contour::Line => 0.0,
-            Contour::Arc { centre, sense } => f64::from(sense.sign()) / (at - centre).norm(),
-        }
-    }
 }
 
 /// The offset piece, without regard to the previous one.

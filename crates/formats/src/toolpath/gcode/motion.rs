@@ -17,7 +17,8 @@ use armill_core::nalgebra::{Point2, Vector2, Vector3, center};
 
 use super::block::{Block, shown, within};
 use super::canonical::{ArcFeed, Axes, Canonical, Sense};
-use super::cutter::{Contour, Out};
+use super::contour::{Contour, ContourMove};
+use super::cutter::Out;
 use super::groups;
 use super::machine::{FeedMode, Machine};
 use super::parameters;
@@ -92,8 +93,13 @@ impl Machine {
     /// Gives a move to cutter compensation, which gives it on.
     fn follow(&mut self, contour: Contour, call: Canonical, out: Out<'_>) -> Result<(), Refusal> {
         let [first, second, across] = self.plane.axes();
-        let from = Point2::new(self.at[first], self.at[second]);
-        self.cutter.follow(contour, from, self.at[across], call, out)
+        let next = ContourMove {
+            contour,
+            from: Point2::new(self.at[first], self.at[second]),
+            across: self.at[across],
+            call,
+        };
+        self.cutter.follow(next, out)
     }
 
     /// I, J, K under G43.5.
