@@ -65,7 +65,8 @@ impl Reader<'_> {
             return;
         };
         if word == "MOVC" {
-            return self.arc(job, line, position, speed, ends_arc);
+            let next = job.row.next(position, ends_arc, line.span());
+            return self.arc(line, next, speed);
         }
         self.end_row(job);
         if word == "MOVS" {
@@ -114,9 +115,9 @@ impl Reader<'_> {
         }
     }
 
-    /// Adds a MOVC to a row.
-    fn arc(&mut self, job: &mut Job, line: &Line, position: FramedTarget, speed: Speed, end: ArcEnd) {
-        match job.row.next(position, end, line.span()) {
+    /// The meaning of a MOVC in its row.
+    fn arc(&mut self, line: &Line, next: Next<FramedTarget>, speed: Speed) {
+        match next {
             Next::Straight(position) => self
                 .moves
                 .push(position.reached(Motion::Linear, speed, line.number)),

@@ -55,6 +55,12 @@ impl Name {
     }
 }
 
+/// The numbers of a position, and the bytes of the first six.
+struct PositionNumbers {
+    numbers: Vec<f64>,
+    spelled: Spelled,
+}
+
 /// The coordinates of positions.
 #[derive(Clone, Debug, PartialEq)]
 enum Kind {
@@ -186,10 +192,10 @@ impl Positions {
                 return messages.problem(line.span(), message, hint);
             }
         };
-        let Some((numbers, spelled)) = self.numbers(line, name, values, messages) else {
+        let Some(numbers) = self.numbers(line, name, values, messages) else {
             return;
         };
-        let Some(target) = self.target(line, name, &numbers, spelled, messages) else {
+        let Some(target) = self.target(line, name, numbers, messages) else {
             return;
         };
         let frame = match (&self.kind, self.user) {
@@ -208,14 +214,14 @@ impl Positions {
         }
     }
 
-    /// All numbers of a position, and the bytes of the first six.
+    /// The numbers of a position; a problem if one is not a number.
     fn numbers(
         &self,
         line: &Line,
         name: &str,
         values: Part,
         messages: &mut ProgramMessages,
-    ) -> Option<(Vec<f64>, Spelled)> {
+    ) -> Option<PositionNumbers> {
         let mut numbers = Vec::new();
         let mut bytes = values.trimmed().range();
         for part in values.split(|c| c == ',').map(Part::trimmed) {
@@ -234,17 +240,17 @@ impl Positions {
             text: messages.index(),
             bytes: line.start + bytes.start..line.start + bytes.end,
         };
-        Some((numbers, spelled))
+        Some(PositionNumbers { numbers, spelled })
     }
 
     fn target(
         &self,
         line: &Line,
         name: &str,
-        numbers: &[f64],
-        spelled: Spelled,
+        given: PositionNumbers,
         messages: &mut ProgramMessages,
     ) -> Option<Target> {
+        let PositionNumbers { numbers, spelled } = given;
         match &self.kind {
             Some(Kind::Pulse) => Some(Target::Elsewhere {
                 name: name.to_owned(),
@@ -253,7 +259,7 @@ impl Positions {
                 numbers.iter().map(|deg| deg.to_radians()).collect(),
             )),
             Some(Kind::Base | Kind::User) => {
-                let pose = numbers.get(..6).unwrap_or(numbers);
+                let pose = numbers.get(..6).unwrap_or(&numbers);
                 if numbers.len() > 6 {
                     let what =
                         "a seventh number of a position (the elbow of seven axes) is kept and not used";

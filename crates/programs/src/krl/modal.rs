@@ -57,7 +57,7 @@ impl<'a> Reader<'a> {
     pub fn assign(&mut self, at: Token, to: &Reference, mut value: Cursor<'a>) {
         match (to.name.as_str(), to.field.as_deref()) {
             ("$BASE", field) => {
-                self.modal.base = self.frame(at, FrameKind::Reference, value, field.is_some())
+                self.modal.base = self.frame(at, FrameKind::Reference, value, field.is_some());
             }
             ("$TOOL", field) => self.modal.tool = self.frame(at, FrameKind::Tool, value, field.is_some()),
             ("$VEL", Some("CP")) => self.speed(at, value.number()),

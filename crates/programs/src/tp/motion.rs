@@ -46,7 +46,8 @@ impl Reader<'_> {
             return;
         };
         if kind == "A" {
-            return self.arc(program, statement, end, speed);
+            let next = program.row.next(end, ArcEnd::Unmarked, statement.span.clone());
+            return self.arc(statement, next, speed);
         }
         self.end_row(program);
         let motion = match (kind.as_str(), goals.pop()) {
@@ -190,9 +191,9 @@ impl Reader<'_> {
         true
     }
 
-    /// Adds an A to a row.
-    fn arc(&mut self, program: &mut Program, statement: &Statement, goal: FramedTarget, speed: Speed) {
-        match program.row.next(goal, ArcEnd::Unmarked, statement.span.clone()) {
+    /// The meaning of an A in its row.
+    fn arc(&mut self, statement: &Statement, next: Next<FramedTarget>, speed: Speed) {
+        match next {
             Next::Straight(goal) => self
                 .moves
                 .push(goal.reached(Motion::Linear, speed, statement.line)),
