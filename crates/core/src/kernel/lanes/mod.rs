@@ -1,15 +1,10 @@
 //! Many poses in one instruction, for ortho-parallel arms with spherical wrist.
 //!
 //! Planes of numbers, one value per point, go through short loops without branches; the compiler vectorises them, once
-//! for each instruction set. In reading order: `real` (a number of one lane), [`Backend`] (the instruction set),
-//! `block` (planes); `arm`, `prepared` (a prepared question); `aims` (poses in the arm's axes), `solve` (postures
-//! without angles), `limits`, `angle`, `positions` (joint positions); `screws`, `flexibility`, `envelope`,
-//! `compliance`, `forward`; [`Batch`] (entry point for many poses) and its `steps`, `stance`, `deviation`, `points`
-//! (whole answers, for [`super::evaluate`]).
-//!
-//! Further modules: `vector` (three numbers of a lane), `backend`, `arrays` (input and output), `aimed` (a batch for
-//! whole answers), `column` (every posture of a block under one load), `placed` (a path at a placement of its part),
-//! with `placement_points`, `weighed` and `tally`.
+//! for each instruction set. In reading order: `numbers` (a number of one lane, planes, [`Backend`]: the instruction
+//! set); `geometry` (the arm, a prepared question, poses in the arm's axes); `solve` (postures, joint limits and
+//! positions, screws); `load` (compliance and deviations); `by_block` ([`Batch`]: entry point for many poses; whole
+//! answers for [`super::evaluate`]); `placement` (a path at placements of its part).
 //!
 //! Theory and accuracy: `docs/theory/lanes.md`.
 //!
@@ -51,45 +46,19 @@
 //! # Ok::<(), armill_core::robot::RobotError>(())
 //! ```
 
-mod aimed;
-mod aims;
-mod angle;
-mod arm;
-mod arrays;
-mod backend;
-mod batch;
-mod block;
-mod column;
-mod compliance;
-mod deviation;
-mod envelope;
-mod flexibility;
-mod forward;
-mod limits;
-mod placed;
-mod placement_points;
-mod points;
-mod positions;
-mod prepared;
-mod real;
-mod screws;
+mod by_block;
+mod geometry;
+mod load;
+mod numbers;
+mod placement;
 mod solve;
-mod stance;
-mod steps;
-mod tally;
-mod vector;
-mod weighed;
 
-pub use arrays::{Arrays, Envelopes, Poses};
-pub use backend::{Backend, Precision};
-pub use batch::Batch;
-
-pub(super) use placed::Placer;
-pub(super) use placement_points::PlacementPoints;
-pub(super) use points::{POINTS, Points};
-pub use real::{Float, Real};
+pub use by_block::{Arrays, Batch, Envelopes, Poses};
+pub use numbers::{Backend, Float, Precision, Real};
 pub use solve::flag;
-pub(super) use tally::Tallied;
+
+pub(super) use by_block::{POINTS, Points};
+pub(super) use placement::{PlacementPoints, Placer, Tallied};
 
 #[cfg(test)]
 mod tests;

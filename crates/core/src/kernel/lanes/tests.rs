@@ -2,16 +2,11 @@
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
-use super::aimed::Solved as SolvedBlock;
-use super::arm::Arm;
-use super::block::{BLOCK, aim};
-use super::flexibility::Flexibility;
-use super::limits::CosineLimits;
-use super::real::{Alone, Fused, Plain};
-use super::screws::Screws;
-use super::solve::{Links, Solved};
-use super::steps::{FOUR, Second, fill};
-use super::vector::Vector;
+use super::by_block::{FOUR, Second, SolvedBlock, fill};
+use super::geometry::{Arm, CosineLimits, aim};
+use super::load::Flexibility;
+use super::numbers::{Alone, BLOCK, Fused, Plain, Vector};
+use super::solve::{Links, Screws, Solved};
 use super::*;
 use crate::arms;
 use crate::frame::Isometry;
