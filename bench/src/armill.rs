@@ -216,7 +216,7 @@ fn known_joints<'a>(arm: &'a Arm, one_thread: &'a ThreadPool) -> Candidate<'a> {
             Ok(())
         };
         one_thread
-            .install(|| evaluate_at_joints(&evaluation, &joints, (&mut out, width), write, Watch::NONE))
+            .install(|| evaluate_at_joints(&evaluation, &joints, &mut out, write, Watch::NONE))
             .ok();
         black_box(&out);
     };

@@ -20,7 +20,7 @@ use armill_core::nalgebra::{Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
 use armill_core::optimize::{
     Component, Objective, Placeable, PlacementObjective, PostureSelection, RankBy, Score, ToolTurn, on_part,
 };
-use armill_core::path::{Pace, PathPoint, Placing, SampledPath, Spin, Track};
+use armill_core::path::{LoadedTrack, Pace, PathPoint, Placing, SampledPath, Spin, Track};
 use armill_core::robot::BranchPattern;
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
@@ -81,7 +81,7 @@ impl Places {
         });
         Places {
             placements: placements.collect(),
-            path: on_part((&track, &load), Component::InPlane, &all),
+            path: on_part(LoadedTrack { track: &track, load: &load }, Component::InPlane, &all),
         }
     }
 }

@@ -55,7 +55,7 @@ fn of(turn: &Turn, parts: Vec<Contribution>, part: Option<&[f64]>) -> Balance {
         centre: true,
         radius: true,
     };
-    balance(turn, parts, part.map(|curve| (curve, 0.0)), (removed, MOST_WAVES))
+    balance(turn, parts, part.map(|curve| (curve, 0.0)), removed, MOST_WAVES)
 }
 
 /// The paper's 60 and 140 um, as waves a quarter of a wave apart.

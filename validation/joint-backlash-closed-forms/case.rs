@@ -76,7 +76,7 @@ fn followed(centre: Point3<f64>, radius: f64) -> Option<Followed> {
         centre: Point2::origin(),
         radius,
     };
-    follow(&question, (&circle, STATIONS), Watch::NONE).ok()
+    follow(&question, &circle, STATIONS, Watch::NONE).ok()
 }
 
 /// Number of reversals: at both ends of `rho`, and two more if its rate has another sign at the far one: L if
@@ -151,7 +151,7 @@ pub fn checks() -> Vec<Check> {
                     given.push((joint, lag(rate) * levers[k] * outwards.dot(&away)));
                 }
                 for (joint, expected) in given {
-                    effects.push(along.slope((joint, 0.0), way, &[angle])[0] - expected);
+                    effects.push(along.slope(joint, 0.0, way, &[angle])[0] - expected);
                 }
             }
         }

@@ -36,7 +36,7 @@ pub fn predict(
 ) -> Result<Deviation, Unstable> {
     let twist = deviation_of(arm_state, wrench, links)?;
     let (mut shares, mut covariance) = (arm_state.shares(), arm_state.covariance());
-    arm_state.add_unloaded(links, wrench, (&mut shares, &mut covariance));
+    arm_state.add_unloaded(links, wrench, &mut shares, &mut covariance);
     Ok(Deviation {
         twist,
         shares,

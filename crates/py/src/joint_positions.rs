@@ -289,7 +289,7 @@ impl<W: Fn(&mut ArmState<'_>, &[Wrench], &mut [f64]) -> Result<(), Unstable> + S
         };
         let at = |joints, cases: &[Wrench], out: &mut [f64]| {
             let write = |arm_state: &mut ArmState<'_>, out: &mut [f64]| (self.write)(arm_state, cases, out);
-            evaluate_at_joints(&arm, joints, (out, self.width), write, watch)
+            evaluate_at_joints(&arm, joints, out, write, watch)
         };
         if !self.forces.paired {
             return at(self.joints, &self.forces.cases, out);

@@ -74,7 +74,8 @@ pub fn balance(
     turn: &Turn,
     contributions: Vec<Contribution>,
     measured: Option<(&[f64], f64)>,
-    (removed, most): (Removed, usize),
+    removed: Removed,
+    most: usize,
 ) -> Balance {
     let removed_from = |one: Contribution| {
         let (datum, bias) = Datum::remove(turn, &one.bias, removed);
@@ -84,7 +85,8 @@ pub fn balance(
     let sums = Sums::of(&contributions, turn.angle().len());
     let comparison = measured.and_then(|(curve, u)| {
         let (datum, curve) = Datum::remove(turn, curve, removed);
-        compare(turn, (&contributions, &sums), (curve, datum, u), most)
+        let measured = MeasuredCurve { curve, datum, u };
+        compare(turn, &contributions, &sums, measured, most)
     });
     Balance {
         contributions,
@@ -94,12 +96,26 @@ pub fn balance(
     }
 }
 
+/// A measured curve without its datum, m.
+struct MeasuredCurve {
+    curve: Vec<f64>,
+    datum: Datum,
+    /// Standard uncertainty of a point, m.
+    u: f64,
+}
+
 fn compare(
     turn: &Turn,
-    (contributions, sums): (&[Contribution], &Sums),
-    (measured, datum, u): (Vec<f64>, Datum, f64),
+    contributions: &[Contribution],
+    sums: &Sums,
+    measured: MeasuredCurve,
     most: usize,
 ) -> Option<Comparison> {
+    let MeasuredCurve {
+        curve: measured,
+        datum,
+        u,
+    } = measured;
     let together = agreement(turn, &sums.bias, &measured)?;
     let measured_rms = turn.rms(&measured);
     let share = |index: usize| {
@@ -114,7 +130,7 @@ fn compare(
         })
     };
     let scatter = turn.rms(&sums.scatter).powi(2) + u * u;
-    let waves = pairs(turn, (&sums.bias, &measured), most);
+    let waves = pairs(turn, &sums.bias, &measured, most);
     Some(Comparison {
         shares: (0..contributions.len()).map(share).collect::<Option<_>>()?,
         explainable: 1.0 - scatter / measured_rms.powi(2),
@@ -189,7 +205,7 @@ mod tests {
     #[test]
     fn parts_that_sum_up_to_the_measurement_explain_all_of_it_whatever_the_centre() {
         let measured = curve(|a| load(a) + path(a) + 3e-4 * a.cos() - 2e-4 * a.sin() + 5e-5);
-        let found = balance(&turn(), parts(0.0), Some((&measured, 0.0)), (BOTH, 10));
+        let found = balance(&turn(), parts(0.0), Some((&measured, 0.0)), BOTH, 10);
         let given = found.comparison.unwrap();
         assert!((given.together.explained - 1.0).abs() < 1e-12 && given.together.residual_rms < 1e-12);
         assert!(given.explainable == 1.0 && given.beyond_known < 1e-12);
@@ -205,7 +221,7 @@ mod tests {
             centre: false,
             radius: false,
         };
-        let kept = balance(&turn(), parts(0.0), Some((&measured, 0.0)), (none, 10));
+        let kept = balance(&turn(), parts(0.0), Some((&measured, 0.0)), none, 10);
         assert!(kept.comparison.unwrap().together.explained < 0.2);
     }
 
@@ -217,7 +233,7 @@ mod tests {
             let noise = noise(seed);
             let clean = curve(|a| load(a) + path(a));
             let measured: Vec<f64> = clean.iter().zip(&noise).map(|(c, n)| c + sigma * n).collect();
-            let found = balance(&turn(), parts(sigma), Some((&measured, 0.0)), (BOTH, 10));
+            let found = balance(&turn(), parts(sigma), Some((&measured, 0.0)), BOTH, 10);
             let given = found.comparison.unwrap();
             off.push(given.together.explained - given.explainable);
             beyond.push(given.beyond_known);
@@ -234,7 +250,7 @@ mod tests {
     fn the_uncertainty_of_measured_points_is_scatter_too() {
         let measured = curve(|a| load(a) + path(a) + 1e-5 * (9.0 * a).cos());
         let [sharp, blurred] = [0.0, 1e-5].map(|u| {
-            let found = balance(&turn(), parts(0.0), Some((&measured, u)), (BOTH, 10));
+            let found = balance(&turn(), parts(0.0), Some((&measured, u)), BOTH, 10);
             found.comparison.unwrap()
         });
         assert_eq!(sharp.together.explained, blurred.together.explained);
@@ -244,15 +260,15 @@ mod tests {
 
     #[test]
     fn without_a_measured_form_there_is_no_comparison() {
-        let found = balance(&turn(), parts(0.0), None, (BOTH, 10));
+        let found = balance(&turn(), parts(0.0), None, BOTH, 10);
         assert_eq!(found.comparison, None);
         // A shifted circle has no form.
         let shifted = curve(|a| 1e-4 * a.cos());
         assert_eq!(
-            balance(&turn(), parts(0.0), Some((&shifted, 0.0)), (BOTH, 10)).comparison,
+            balance(&turn(), parts(0.0), Some((&shifted, 0.0)), BOTH, 10).comparison,
             None
         );
-        let alone = balance(&turn(), Vec::new(), Some((&curve(load), 0.0)), (BOTH, 10));
+        let alone = balance(&turn(), Vec::new(), Some((&curve(load), 0.0)), BOTH, 10);
         assert_eq!(alone.comparison.unwrap().together.explained, 0.0);
     }
 }

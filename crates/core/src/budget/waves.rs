@@ -83,7 +83,7 @@ pub fn least_amplitude(pairs: &[WavePair], noise: f64, angles: usize) -> f64 {
 }
 
 /// Waves 1 to `most` of both curves, or as many as the angles resolve.
-pub fn pairs(turn: &Turn, (predicted, measured): (&[f64], &[f64]), most: usize) -> Vec<WavePair> {
+pub fn pairs(turn: &Turn, predicted: &[f64], measured: &[f64], most: usize) -> Vec<WavePair> {
     let waves = |curve: &[f64]| Polar::of_deviations(turn.angle(), curve).harmonics(most);
     let both = waves(measured).into_iter().zip(waves(predicted));
     both.map(|(measured, predicted)| WavePair { measured, predicted })
@@ -129,7 +129,7 @@ mod tests {
     fn waves_are_paired_with_their_phases() {
         let m = curve(|a| 2e-5 * (2.0 * a - 0.5).cos() + 4e-6 * (3.0 * a).cos());
         let p = curve(|a| 1e-5 * (2.0 * a - 0.9).cos() + 4e-6 * (3.0 * a).cos());
-        let reported = pairs(&turn(), (&p, &m), 6);
+        let reported = pairs(&turn(), &p, &m, 6);
         assert_eq!(reported.len(), 6);
         let two = reported[1];
         assert!(
@@ -145,7 +145,7 @@ mod tests {
     fn shares_of_waves_weighted_by_their_squares_are_the_share_of_the_curve() {
         let m = curve(|a| 2e-5 * (2.0 * a - 0.5).cos() + 4e-6 * (3.0 * a).cos());
         let p = curve(|a| 1e-5 * (2.0 * a - 0.9).cos() + 7e-6 * (3.0 * a + 1.0).cos());
-        let reported = pairs(&turn(), (&p, &m), 10);
+        let reported = pairs(&turn(), &p, &m, 10);
         let squares = |pair: &WavePair| pair.measured.amplitude.powi(2);
         let all: f64 = reported.iter().map(squares).sum();
         let seen = reported.iter().filter(|pair| pair.measured.amplitude > 1e-9);
@@ -159,7 +159,7 @@ mod tests {
         // The ellipse is 20 um; wave three is a thousandth of it, wave four a fiftieth and predicted alone.
         let m = curve(|a| 2e-5 * (2.0 * a).cos() + 2e-8 * (3.0 * a).cos());
         let p = curve(|a| 1e-5 * (2.0 * a - 0.9).cos() + 2e-8 * (3.0 * a).sin() + 4e-7 * (4.0 * a).cos());
-        let found = pairs(&turn(), (&p, &m), 6);
+        let found = pairs(&turn(), &p, &m, 6);
         let least = least_amplitude(&found, 0.0, 360);
         assert!((least - 2e-7).abs() < 1e-12);
         let reported: Vec<ReportedPair> = found.iter().map(|pair| pair.reported(least)).collect();
@@ -187,7 +187,7 @@ mod tests {
         for seed in 0..20 {
             let m: Vec<f64> = (0..360).map(|k| noise(seed, k)).collect();
             squares.extend(
-                pairs(&turn(), (&m, &m), 12)
+                pairs(&turn(), &m, &m, 12)
                     .iter()
                     .map(|pair| pair.measured.amplitude.powi(2)),
             );
@@ -202,10 +202,10 @@ mod tests {
     fn a_rotated_prediction_is_seldom_as_good_as_a_true_one_and_often_as_good_as_a_wrong_one() {
         let of = |a: f64| (2.0 * a - 0.5).cos() + 0.5 * (3.0 * a).cos() + 0.4 * (5.0 * a + 1.0).cos();
         let m = curve(|a| 1e-5 * of(a));
-        let right = turns_as_good(&pairs(&turn(), (&m, &m), 8)).unwrap();
+        let right = turns_as_good(&pairs(&turn(), &m, &m, 8)).unwrap();
         assert!((right - 1.0 / 720.0).abs() < 1e-12);
         let opposite = curve(|a| -1e-5 * of(a));
-        assert!(turns_as_good(&pairs(&turn(), (&opposite, &m), 8)).unwrap() > 0.99);
-        assert_eq!(turns_as_good(&pairs(&turn(), (&[0.0; 360], &m), 8)), None);
+        assert!(turns_as_good(&pairs(&turn(), &opposite, &m, 8)).unwrap() > 0.99);
+        assert_eq!(turns_as_good(&pairs(&turn(), &[0.0; 360], &m, 8)), None);
     }
 }

@@ -92,6 +92,16 @@ impl Column {
         &self.joints[slot * joint_count..][..joint_count]
     }
 
+    /// The slots of pose `index`, of an arm with this number of joints.
+    fn slots_of(&mut self, index: usize, joint_count: usize) -> Slots<'_> {
+        let first = index * SLOTS;
+        Slots {
+            statuses: &mut self.statuses[first..][..SLOTS],
+            deviations: &mut self.deviations[first..][..SLOTS],
+            joints: &mut self.joints[first * joint_count..][..SLOTS * joint_count],
+        }
+    }
+
     /// Excludes posture `slot` at every pose.
     pub(crate) fn forbid(&mut self, slot: usize) {
         for at in (slot..self.statuses.len()).step_by(SLOTS) {
@@ -107,6 +117,13 @@ impl Column {
         self.deviations.resize(poses * SLOTS, f64::INFINITY);
         self.joints.resize(poses * SLOTS * joint_count, 0.0);
     }
+}
+
+/// The postures of one pose: parts of a [`Column`].
+struct Slots<'a> {
+    statuses: &'a mut [PostureStatus],
+    deviations: &'a mut [f64],
+    joints: &'a mut [f64],
 }
 
 /// Computes columns; one per thread.
@@ -247,7 +264,7 @@ impl<'q> Columns<'q> {
             }
             ColumnMethod::General(one_by_one) => {
                 for (i, pose) in poses.iter().enumerate() {
-                    one_by_one.pose(&self.margins, pose, push, (i, out));
+                    one_by_one.pose(&self.margins, pose, push, out.slots_of(i, joint_count));
                 }
             }
         }
@@ -281,13 +298,7 @@ struct OneByOne<'q> {
 }
 
 impl OneByOne<'_> {
-    fn pose(
-        &mut self,
-        margins: &ArmMargins<'_>,
-        pose: &Isometry,
-        push: &ColumnLoad<'_>,
-        (index, out): (usize, &mut Column),
-    ) {
+    fn pose(&mut self, margins: &ArmMargins<'_>, pose: &Isometry, push: &ColumnLoad<'_>, out: Slots<'_>) {
         let arm = margins.arm;
         let requested = InverseTarget {
             base_from_flange: pose * self.tool_from_flange,
@@ -305,7 +316,7 @@ impl OneByOne<'_> {
                 PostureName::Branch(branch) if named => Branch::ALL.iter().position(|other| *other == branch),
                 _ => (order < SLOTS).then_some(order),
             };
-            let Some(slot) = slot.map(|slot| index * SLOTS + slot) else {
+            let Some(slot) = slot else {
                 continue;
             };
             let joint_count = one.joints.len();
@@ -317,7 +328,7 @@ impl OneByOne<'_> {
                 let tcp = pose.translation.vector.into();
                 self.arm_state.set_frames(&one.joints, &self.frames, &tcp);
                 let wrist = margins.wrist.max(margins.margin);
-                if is_singular(named, one, (self.arm_state.screws(), wrist))
+                if is_singular(named, one, self.arm_state.screws(), wrist)
                     || elbow_bend(arm.robot, &self.frames) < margins.margin.sin()
                 {
                     PostureStatus::Singular
@@ -353,7 +364,7 @@ impl OneByOne<'_> {
 
 /// Whether a posture is nearer to a singularity than allowed: of an arm with branch names by the angle between axes 4
 /// and 6, of others by its flag.
-fn is_singular(named: bool, found: &InverseSolution, (screws, wrist): (&[Twist], f64)) -> bool {
+fn is_singular(named: bool, found: &InverseSolution, screws: &[Twist], wrist: f64) -> bool {
     match (found.singularity, screws) {
         (Some(Singularity::Elbow | Singularity::Shoulder), _) => true,
         (_, [_, _, _, fourth, _, sixth]) if named => {

@@ -28,18 +28,18 @@ pub enum EvaluateError {
 }
 
 /// Positions `arm` at each of the joint positions `joints` (rad, m; one value per joint, point after point) and lets
-/// `write` fill `width` numbers of `out` per point.
+/// `write` fill its part of `out`, the same number of values for each point.
 ///
 /// # Errors
 /// [`EvaluateError::Cancelled`] if the watch cancels; the first point where `write` finds no stable equilibrium.
 ///
 /// # Panics
-/// If `joints` is not a whole number of points, `out` has another length, or the number of compliances differs from
+/// If `joints` or `out` is not a whole number of points, or the number of compliances differs from
 /// that of the joints.
 pub fn evaluate_at_joints(
     arm: &Arm<'_>,
     joints: &[f64],
-    (out, width): (&mut [f64], usize),
+    out: &mut [f64],
     write: impl Fn(&mut ArmState<'_>, &mut [f64]) -> Result<(), Unstable> + Sync,
     watch: Watch<'_>,
 ) -> Result<(), EvaluateError> {
@@ -50,11 +50,9 @@ pub fn evaluate_at_joints(
         "joint positions for a whole number of points"
     );
     assert_eq!(arm.compliance.len(), dof, "one compliance per joint");
-    assert_eq!(
-        out.len(),
-        joints.len() / dof * width,
-        "the output has `width` numbers per point"
-    );
+    let count = joints.len() / dof;
+    let width = out.len().checked_div(count).unwrap_or(0);
+    assert_eq!(out.len(), count * width, "as much output for each point");
     if out.is_empty() {
         return Ok(());
     }

@@ -14,6 +14,7 @@ use crate::robot::inverse::{Finder, InverseSolution, InverseTarget};
 use crate::robot::{Overrun, PostureName, Unreachable};
 use crate::source::arm_state::LoadedPosture;
 use crate::source::{ArmState, Contributor, Links};
+use crate::spatial::Twist;
 
 /// Envelopes that differ by less (relative) are equal, and the first posture is used. Two flips without names differ by
 /// rounding, which would otherwise select a different one at neighbouring points.
@@ -244,8 +245,14 @@ impl<'q> General<'q> {
             }
         };
         if let Some(offsets) = offsets {
-            let (arm_state, offsets) = (&self.arm_state, (offsets, &question.cases[case]));
-            variance += arm_state.share_unloaded(&along, offsets, &self.contributors, &mut self.shares);
+            let (contributors, shares) = (&self.contributors, &mut self.shares);
+            let add = |contributor, part: Twist, u: Vector3<f64>| {
+                if let Some(share) = contributors.iter().position(|other| *other == contributor) {
+                    shares[share] += part.linear.dot(&along);
+                }
+                variance += u.dot(&along).powi(2);
+            };
+            self.arm_state.each_unloaded(offsets, &question.cases[case], add);
         }
         if !question.uncertainty.is_none() {
             let arm_state = LoadedPosture {

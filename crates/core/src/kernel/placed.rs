@@ -58,6 +58,14 @@ pub struct PartPlacement {
     pub rail: Option<f64>,
 }
 
+/// A placement with further spins of the tool to be tried.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SpunPlacement<'a> {
+    pub placement: &'a PartPlacement,
+    /// In addition to that of the placement, rad.
+    pub spins: &'a [f64],
+}
+
 /// Margins of postures to limits and singularities, and the tolerance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PostureMargins {
@@ -170,7 +178,14 @@ pub struct PlacementEvaluator<'q> {
 /// By lanes or one after the other.
 enum PlacementMethod<'q> {
     Lanes(Box<Placer<f64>>),
-    General(Box<Columns<'q>>),
+    General(Box<GeneralPlacer<'q>>),
+}
+
+/// Evaluates placements one pose after the other.
+struct GeneralPlacer<'q> {
+    columns: Columns<'q>,
+    /// The excess of deviations over it is summed, m.
+    tolerance: f64,
 }
 
 impl<'q> PlacementEvaluator<'q> {
@@ -188,11 +203,10 @@ impl<'q> PlacementEvaluator<'q> {
     }
 
     fn general(arm: Arm<'q>, home: Option<&'q [f64]>, margins: PostureMargins) -> PlacementMethod<'q> {
-        PlacementMethod::General(Box::new(Columns::one_by_one(
-            arm,
-            home,
-            [margins.wrist, margins.margin],
-        )))
+        PlacementMethod::General(Box::new(GeneralPlacer {
+            columns: Columns::one_by_one(arm, home, [margins.wrist, margins.margin]),
+            tolerance: margins.tolerance,
+        }))
     }
 
     /// Whether the eight results are branches, in the order of [`Branch::ALL`]. For other arms only the first one is
@@ -200,7 +214,7 @@ impl<'q> PlacementEvaluator<'q> {
     pub fn has_branches(&self) -> bool {
         match &self.method {
             PlacementMethod::Lanes(_) => true,
-            PlacementMethod::General(columns) => columns.slots_are_branches(),
+            PlacementMethod::General(placer) => placer.columns.slots_are_branches(),
         }
     }
 
@@ -215,13 +229,8 @@ impl<'q> PlacementEvaluator<'q> {
     ) -> [Option<PathTotals>; SLOTS] {
         let is_open = slots_of(open);
         match &mut self.method {
-            PlacementMethod::Lanes(placer) => by_lanes(placer, (&path.double, placement), is_open, keep),
-            PlacementMethod::General(columns) => one_by_one(
-                (columns, self.margins.tolerance),
-                (path, placement),
-                is_open,
-                keep,
-            ),
+            PlacementMethod::Lanes(placer) => by_lanes(placer, &path.double, placement, is_open, keep),
+            PlacementMethod::General(placer) => placer.evaluate(path, placement, is_open, keep),
         }
     }
 }
@@ -237,17 +246,19 @@ impl PlacementEvaluator<'_> {
         spins: &[f64],
     ) -> PathTotals {
         let is_open = slots_of(open);
+        let tried = SpunPlacement { placement, spins };
         let mut least = Vec::with_capacity(path.len());
         match &mut self.method {
             PlacementMethod::Lanes(placer) => {
-                placer.least_of_each(&path.double, (placement, spins), is_open, &mut least);
+                placer.least_of_each(&path.double, tried, is_open, &mut least);
             }
-            PlacementMethod::General(columns) => {
+            PlacementMethod::General(placer) => {
+                let columns = &mut placer.columns;
                 let named = columns.slots_are_branches();
                 let mut column = Column::default();
                 columns.set_rail(placement.rail);
                 for index in 0..path.len() {
-                    path.fill_column(columns, (index, placement), spins, &mut column);
+                    path.fill_column(columns, index, tried, &mut column);
                     let allowed = |slot: usize| !named || is_open[slot % SLOTS];
                     let all = column.deviations.iter().enumerate();
                     let open = all
@@ -266,14 +277,15 @@ impl PlacementEvaluator<'_> {
 }
 
 impl PlacedPath {
-    /// Fills `out` with the postures at point `index` at this placement, for each of the additional `spins` (rad).
+    /// Fills `out` with the postures at point `index` at the placements `tried`.
     fn fill_column(
         &self,
         columns: &mut Columns<'_>,
-        (index, placement): (usize, &PartPlacement),
-        spins: &[f64],
+        index: usize,
+        tried: SpunPlacement<'_>,
         out: &mut Column,
     ) {
+        let SpunPlacement { placement, spins } = tried;
         let axes = match self.load.wrench_axes {
             WrenchAxes::Base => UnitQuaternion::identity(),
             WrenchAxes::Part => placement.base_from_part.rotation,
@@ -330,7 +342,7 @@ impl PlacementScreen {
         open: BranchPattern,
         keep: impl FnMut(&PathTotals) -> bool,
     ) -> bool {
-        let totals = by_lanes(&mut self.0, (&path.single, placement), slots_of(open), keep);
+        let totals = by_lanes(&mut self.0, &path.single, placement, slots_of(open), keep);
         totals.iter().any(Option::is_some)
     }
 }
@@ -343,7 +355,8 @@ fn slots_of(open: BranchPattern) -> [bool; SLOTS] {
 /// [`PlacementEvaluator::evaluate`] by lanes.
 fn by_lanes<T: Precision>(
     placer: &mut Placer<T>,
-    (points, placement): (&PlacementPoints<T>, &PartPlacement),
+    points: &PlacementPoints<T>,
+    placement: &PartPlacement,
     open: [bool; SLOTS],
     mut keep: impl FnMut(&PathTotals) -> bool,
 ) -> [Option<PathTotals>; SLOTS] {
@@ -370,44 +383,52 @@ fn by_lanes<T: Precision>(
 /// Points between two calls of `keep`.
 const SOME: usize = 20;
 
-/// [`PlacementEvaluator::evaluate`] one pose after the other.
-fn one_by_one(
-    (columns, tolerance): (&mut Columns<'_>, f64),
-    (path, placement): (&PlacedPath, &PartPlacement),
-    mut open: [bool; SLOTS],
-    mut keep: impl FnMut(&PathTotals) -> bool,
-) -> [Option<PathTotals>; SLOTS] {
-    let named = columns.slots_are_branches();
-    if !named {
-        // A single result: the best posture at each point.
-        open = std::array::from_fn(|slot| slot == 0);
-    }
-    columns.set_rail(placement.rail);
-    let mut totals = [PathTotals::default(); SLOTS];
-    let mut column = Column::default();
-    for index in 0..path.len() {
-        path.fill_column(columns, (index, placement), &[0.0], &mut column);
-        let best = || column.deviations.iter().copied().fold(f64::INFINITY, f64::min);
-        for (slot, totals) in totals.iter_mut().enumerate().filter(|(slot, _)| open[*slot]) {
-            let deviation = match named {
-                true => column.deviations[slot],
-                false => best(),
-            };
-            debug_assert!(
-                !named || deviation.is_finite() == (column.statuses[slot] == PostureStatus::Usable)
-            );
-            totals.take(deviation, tolerance);
+impl GeneralPlacer<'_> {
+    /// [`PlacementEvaluator::evaluate`] one pose after the other.
+    fn evaluate(
+        &mut self,
+        path: &PlacedPath,
+        placement: &PartPlacement,
+        mut open: [bool; SLOTS],
+        mut keep: impl FnMut(&PathTotals) -> bool,
+    ) -> [Option<PathTotals>; SLOTS] {
+        let GeneralPlacer { columns, tolerance } = self;
+        let named = columns.slots_are_branches();
+        if !named {
+            // A single result: the best posture at each point.
+            open = std::array::from_fn(|slot| slot == 0);
         }
-        if (index + 1) % SOME == 0 {
-            for (open, totals) in open.iter_mut().zip(&totals) {
-                *open = *open && keep(totals);
+        columns.set_rail(placement.rail);
+        let unspun = SpunPlacement {
+            placement,
+            spins: &[0.0],
+        };
+        let mut totals = [PathTotals::default(); SLOTS];
+        let mut column = Column::default();
+        for index in 0..path.len() {
+            path.fill_column(columns, index, unspun, &mut column);
+            let best = || column.deviations.iter().copied().fold(f64::INFINITY, f64::min);
+            for (slot, totals) in totals.iter_mut().enumerate().filter(|(slot, _)| open[*slot]) {
+                let deviation = match named {
+                    true => column.deviations[slot],
+                    false => best(),
+                };
+                debug_assert!(
+                    !named || deviation.is_finite() == (column.statuses[slot] == PostureStatus::Usable)
+                );
+                totals.take(deviation, *tolerance);
             }
-            if open == [false; SLOTS] {
-                break;
+            if (index + 1) % SOME == 0 {
+                for (open, totals) in open.iter_mut().zip(&totals) {
+                    *open = *open && keep(totals);
+                }
+                if open == [false; SLOTS] {
+                    break;
+                }
             }
         }
+        std::array::from_fn(|slot| open[slot].then_some(totals[slot]))
     }
-    std::array::from_fn(|slot| open[slot].then_some(totals[slot]))
 }
 
 impl PathTotals {

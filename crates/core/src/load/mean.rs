@@ -148,7 +148,11 @@ impl Milling {
             }
             CuttingLaw::Kienzle(_) => {
                 for (phi, weight) in nodes_between_powers(arc.entry, arc.exit) {
-                    self.add_point(point, (phi, chip.at(phi)), width * weight, sum);
+                    sum.add(
+                        self.directions(point, phi) * (width * weight),
+                        &self.law,
+                        chip.at(phi),
+                    );
                 }
             }
         }
@@ -166,30 +170,28 @@ impl Milling {
                     let phi = arc.entry + (f64::from(index) + 0.5) * step;
                     let h = self.chip_of_tooth(tooth, &point, phi);
                     if h >= 0.0 {
-                        self.add_point(&point, (phi, h), width * step, sum);
+                        sum.add(self.directions(&point, phi) * (width * step), &self.law, h);
                     }
                 }
             }
         }
     }
 
-    /// Adds an edge at the angle `phi` with the chip `h`, times `weight`.
-    fn add_point<const D: bool>(
-        &self,
-        point: &EdgePoint,
-        (phi, h): (f64, f64),
-        weight: f64,
-        sum: &mut Sum<D>,
-    ) {
-        let directions = Moments::at(phi).directions(point, self.cutter.hand()) * weight;
-        sum.force += directions * self.law.force(h);
-        if D {
-            sum.by_parameters += directions * self.law.derivatives(h);
-        }
+    /// Directions of the force on an edge at the angle `phi`.
+    fn directions(&self, point: &EdgePoint, phi: f64) -> Matrix3<f64> {
+        Moments::at(phi).directions(point, self.cutter.hand())
     }
 }
 
 impl<const D: bool> Sum<D> {
+    /// Adds an edge with these directions, times its width, and the chip `h`.
+    fn add(&mut self, directions: Matrix3<f64>, law: &CuttingLaw, h: f64) {
+        self.force += directions * law.force(h);
+        if D {
+            self.by_parameters += directions * law.derivatives(h);
+        }
+    }
+
     fn scaled(self, factor: f64) -> Self {
         Sum {
             force: self.force * factor,

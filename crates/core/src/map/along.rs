@@ -15,7 +15,7 @@ use super::backlash_geometry::{BacklashGeometry, add_backlash_and_geometry};
 use super::turns;
 use crate::kernel::{Answers, BranchChoice, Question, evaluate_in_order, evaluate_loaded};
 use crate::load::{CutsAlong, ForceEquilibrium, PathLoad, Rest, TipCompliance};
-use crate::path::Track;
+use crate::path::{LoadedTrack, Track};
 use crate::robot::{Branch, BranchPattern};
 use crate::spatial::Wrench;
 use crate::watch::{Cancelled, Watch};
@@ -76,7 +76,7 @@ pub fn along_path(
     };
     assert!(load.covers(track.len()), "a load for each point of the track");
     let choice = chosen(&requested, track, &load, watch)?;
-    along_postures(question, (track, load), vec![(0, choice)], watch)
+    along_postures(question, track, load, vec![(0, choice)], watch)
 }
 
 /// [`along_path`] in given branches: each of `choices` from the point with that index on, in order.
@@ -89,7 +89,8 @@ pub fn along_path(
 /// 0.
 pub fn along_postures(
     question: &Question<'_>,
-    (track, load): (&Track, PathLoad),
+    track: &Track,
+    load: PathLoad,
     choices: Vec<(usize, BranchChoice)>,
     watch: Watch<'_>,
 ) -> Result<AlongPath, Cancelled> {
@@ -129,7 +130,8 @@ pub fn along_postures(
         }
     };
     turns::count_on(question.arm.robot, &mut answers, |i| !track.path.begins(i));
-    let backlash_geometry = add_backlash_and_geometry(&question.arm, (track, &load), &mut answers);
+    let path = LoadedTrack { track, load: &load };
+    let backlash_geometry = add_backlash_and_geometry(&question.arm, path, &mut answers);
     Ok(AlongPath {
         backlash_geometry,
         choices,

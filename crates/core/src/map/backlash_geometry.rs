@@ -8,8 +8,7 @@ use nalgebra::Vector3;
 use rayon::prelude::*;
 
 use crate::kernel::Answers;
-use crate::load::PathLoad;
-use crate::path::Track;
+use crate::path::{LoadedTrack, Track};
 use crate::predict::geometry_and_backlash;
 use crate::source::{Arm, ArmState, backlash};
 use crate::spatial::Wrench;
@@ -24,12 +23,13 @@ pub struct BacklashGeometry {
     pub displacements: Vec<Vector3<f64>>,
 }
 
-/// Adds backlash and geometry to the answers along `track`; `None` if the model has neither.
+/// Adds backlash and geometry to the answers along `path`; `None` if the model has neither.
 pub(super) fn add_backlash_and_geometry(
     arm: &Arm<'_>,
-    (track, load): (&Track, &PathLoad),
+    path: LoadedTrack<'_>,
     answers: &mut Answers,
 ) -> Option<BacklashGeometry> {
+    let LoadedTrack { track, load } = path;
     arm.model.has_unloaded_deviation().then(|| {
         let link_offsets = friction_offsets(arm, track, answers);
         let (joints, cases) = (answers.joint_count, answers.case_count);

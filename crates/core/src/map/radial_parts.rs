@@ -27,6 +27,7 @@ use nalgebra::{Point2, SymmetricEigen, Vector3};
 
 use super::along::{AlongPath, along_postures};
 use super::radial::radial_deviations;
+use crate::frame::Isometry;
 use crate::kernel::Question;
 use crate::load::{LoadCases, LoadFrame, PathLoad};
 use crate::path::Track;
@@ -52,7 +53,8 @@ pub struct WithoutLoad {
 /// [`Cancelled`] if the watch cancels.
 pub fn radial_without_load(
     question: &Question<'_>,
-    (track, along): (&Track, &AlongPath),
+    track: &Track,
+    along: &AlongPath,
     centre: Point2<f64>,
     watch: Watch<'_>,
 ) -> Result<Option<WithoutLoad>, Cancelled> {
@@ -68,11 +70,11 @@ pub fn radial_without_load(
         finished: &|_| (),
         ..watch
     };
-    let found = along_postures(question, (track, nothing), along.choices.clone(), quiet)?;
+    let found = along_postures(question, track, nothing, along.choices.clone(), quiet)?;
     let given = radial_deviations(track, &found.answers, centre);
     Ok(given.into_iter().next().map(|case| WithoutLoad {
         outward: case.outward,
-        uncertainties: backlash_uncertainties(&question.arm, (track, &found), centre),
+        uncertainties: backlash_uncertainties(&question.arm, track, &found, centre),
     }))
 }
 
@@ -80,7 +82,8 @@ pub fn radial_without_load(
 /// backlash.
 fn backlash_uncertainties(
     arm: &Arm<'_>,
-    (track, found): (&Track, &AlongPath),
+    track: &Track,
+    found: &AlongPath,
     centre: Point2<f64>,
 ) -> Vec<Vec<f64>> {
     let Some(effect) = &found.backlash_geometry else {
@@ -125,7 +128,8 @@ fn outwards(track: &Track, index: usize, centre: Point2<f64>) -> Vector3<f64> {
 /// effect are left out, all of them where a point is not reached.
 pub fn radial_uncertainties(
     question: &Question<'_>,
-    (track, along): (&Track, &AlongPath),
+    track: &Track,
+    along: &AlongPath,
     centre: Point2<f64>,
     cases: usize,
 ) -> Vec<Vec<f64>> {
@@ -139,7 +143,9 @@ pub fn radial_uncertainties(
     for index in 0..answers.points.len() {
         track.wrenches(&along.load, index, &mut wrenches);
         let outward = outwards(track, index, centre);
-        let of_case = |wrench| room.moves((track, along), index, (wrench, &outward));
+        let joints = answers.joints_at(index);
+        let base_from_tool = track.stop(index).base_from_tool;
+        let of_case = |wrench| room.moves(joints, &base_from_tool, wrench, &outward);
         let moved: Result<Vec<Vec<f64>>, Unstable> = wrenches.iter().take(cases).map(of_case).collect();
         // The nominal arm has an equilibrium under the load; with a changed input it may not.
         let Ok(moved) = moved else {
@@ -174,12 +180,13 @@ impl<'q> Room<'q> {
         }
     }
 
-    /// Displacement of the tool along `outward` by each input, m.
+    /// Displacement of the tool along `outward` by each input at these joint positions, m.
     fn moves(
         &mut self,
-        (track, along): (&Track, &AlongPath),
-        index: usize,
-        (wrench, outward): (&Wrench, &Vector3<f64>),
+        joints: &[f64],
+        base_from_tool: &Isometry,
+        wrench: &Wrench,
+        outward: &Vector3<f64>,
     ) -> Result<Vec<f64>, Unstable> {
         let Room {
             question,
@@ -187,8 +194,6 @@ impl<'q> Room<'q> {
             frames,
             unknowns,
         } = self;
-        let joints = along.answers.joints_at(index);
-        let base_from_tool = track.stop(index).base_from_tool;
         forward_into(question.arm.robot, joints, frames);
         arm_state.set_frames(joints, frames, &base_from_tool.translation.vector.into());
         let size = arm_state.screws().len();
@@ -219,7 +224,7 @@ impl<'q> Room<'q> {
             tool_axis: base_from_tool.rotation * Vector3::z(),
             wrench,
         };
-        arm_state.displacements_by_inputs(&question.uncertainty, (&posture, outward), |by| moves.push(by))?;
+        arm_state.displacements_by_inputs(&question.uncertainty, &posture, outward, |by| moves.push(by))?;
         Ok(moves)
     }
 }

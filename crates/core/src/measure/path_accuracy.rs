@@ -113,7 +113,7 @@ pub fn path_accuracy(
     let mut points = Vec::new();
     for (index, at) in path.iter().enumerate() {
         let here: Option<Vec<Vector3<f64>>> = passed.iter().map(|run| run[index]).collect();
-        points.extend(here.map(|here| of_point((given[index], at), &here)));
+        points.extend(here.map(|here| of_point(given[index], at, &here)));
     }
     if points.is_empty() {
         return Err(PathRefusal::Elsewhere);
@@ -125,7 +125,7 @@ pub fn path_accuracy(
     })
 }
 
-fn of_point((index, commanded): (usize, &Vector3<f64>), here: &[Vector3<f64>]) -> PointAccuracy {
+fn of_point(index: usize, commanded: &Vector3<f64>, here: &[Vector3<f64>]) -> PointAccuracy {
     let count = here.len() as f64;
     let barycentre = here.iter().sum::<Vector3<f64>>() / count;
     let distances: Vec<f64> = here.iter().map(|x| (x - barycentre).norm()).collect();

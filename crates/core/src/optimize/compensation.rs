@@ -21,7 +21,7 @@ use nalgebra::Vector3;
 use crate::kernel::{Answers, BranchChoice, Question};
 use crate::load::{LoadFrame, PathLoad};
 use crate::map::{AlongPath, along_postures};
-use crate::path::Track;
+use crate::path::{LoadedTrack, Track};
 use crate::spatial::Wrench;
 use crate::watch::{Cancelled, Watch};
 
@@ -65,7 +65,7 @@ impl Compensation {
     pub const NONE: Compensation = Compensation { rest: 0.0, rounds: 0 };
 }
 
-/// The path to be commanded for `track` under `load`, in these branches ([`along_postures`]).
+/// The path to be commanded for `path`, in these branches ([`along_postures`]).
 ///
 /// The forces of cuts are those of the nominal path: with compensation, the tool removes the nominal material.
 ///
@@ -76,13 +76,13 @@ impl Compensation {
 /// If the load does not [cover](PathLoad::covers) the points of the track.
 pub fn compensated(
     question: &Question<'_>,
-    (track, load): (&Track, &PathLoad),
+    path: LoadedTrack<'_>,
     choices: &[(usize, BranchChoice)],
     requested: Compensation,
     watch: Watch<'_>,
 ) -> Result<Compensated, Cancelled> {
-    let load = nominal_load(load);
-    let follow = |track: &Track| along_postures(question, (track, load.clone()), choices.to_vec(), watch);
+    let (track, load) = (path.track, nominal_load(path.load));
+    let follow = |track: &Track| along_postures(question, track, load.clone(), choices.to_vec(), watch);
     let path_from_base = track.placing.base_from_path.rotation.inverse();
     let mut commanded = track.clone();
     let mut along = follow(&commanded)?;
@@ -122,13 +122,15 @@ pub fn compensated(
 /// If the two differ in their number of points, or the load does not [cover](PathLoad::covers) them.
 pub fn residual_of(
     question: &Question<'_>,
-    (nominal, commanded): (&Track, &Track),
-    (load, choices): (&PathLoad, &[(usize, BranchChoice)]),
+    nominal: LoadedTrack<'_>,
+    commanded: &Track,
+    choices: &[(usize, BranchChoice)],
     watch: Watch<'_>,
 ) -> Result<(AlongPath, Vec<Vector3<f64>>), Cancelled> {
-    assert_eq!(nominal.len(), commanded.len(), "a command for each point");
-    let along = along_postures(question, (commanded, nominal_load(load)), choices.to_vec(), watch)?;
-    let residual = residual(nominal, commanded, &along.answers);
+    let LoadedTrack { track, load } = nominal;
+    assert_eq!(track.len(), commanded.len(), "a command for each point");
+    let along = along_postures(question, commanded, nominal_load(load), choices.to_vec(), watch)?;
+    let residual = residual(track, commanded, &along.answers);
     Ok((along, residual))
 }
 

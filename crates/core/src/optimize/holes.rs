@@ -12,8 +12,7 @@ use rayon::prelude::*;
 
 use super::posture::{PostureSearch, about_z, blocked_by, fill};
 use crate::kernel::{Answers, BranchChoice, Column, Columns, PostureStatus, Question, SLOTS, evaluate};
-use crate::load::PathLoad;
-use crate::path::Track;
+use crate::path::LoadedTrack;
 use crate::robot::{Branch, BranchPattern, Robot};
 use crate::watch::{Cancelled, Watch};
 
@@ -31,20 +30,21 @@ pub struct HolesFound {
     pub answers: Answers,
 }
 
-/// The best posture for each point of `track` under `load`. Objective, turn rate and turn price of `search` are not
+/// The best posture for each point of `path`. Objective, turn rate and turn price of `search` are not
 /// used, nor cases, normal and choice of `question`.
 ///
 /// # Errors
 /// [`Cancelled`] if the watch cancels.
 ///
 /// # Panics
-/// If `load` does not [cover](PathLoad::covers) the points of the track, or there is no point or no spin.
+/// If the load does not [cover](PathLoad::covers) the points of the track, or there is no point or no spin.
 pub fn hole_postures(
     question: &Question<'_>,
-    (track, load): (&Track, &PathLoad),
+    path: LoadedTrack<'_>,
     search: &PostureSearch,
     watch: Watch<'_>,
 ) -> Result<HolesFound, Cancelled> {
+    let LoadedTrack { track, load } = path;
     assert!(load.covers(track.len()), "a load for each point of the track");
     assert!(search.spins.count > 0, "at least one spin");
     let maker = || {
@@ -55,7 +55,7 @@ pub fn hole_postures(
         if watch.is_cancelled() {
             return Err(Cancelled);
         }
-        fill(columns, (track, load), (search, index), column);
+        fill(columns, path, index, search, column);
         let best = best(question.arm.robot, search, column);
         let status = best.map_or_else(|| blocked_by(column), |_| PostureStatus::Usable);
         let spin = best.map_or(0.0, |slot| search.spins.at(slot / SLOTS));

@@ -24,7 +24,7 @@ use crate::kernel::{
     PostureMargins, Question, SLOTS, WrenchAxes,
 };
 use crate::load::{LoadFrame, PathLoad};
-use crate::path::{GivenSpin, Spin, Track};
+use crate::path::{GivenSpin, LoadedTrack, Spin, Track};
 use crate::robot::{Branch, BranchPattern, JointCompliance};
 use crate::source::Arm;
 use crate::watch::{Cancelled, Watch};
@@ -89,16 +89,17 @@ pub struct PlacementEvaluation {
     pub uncertainty: f64,
 }
 
-/// The points of `track` with these indices, relative to its part, with their wrenches.
+/// The points of `path` with these indices, relative to its part, with their wrenches.
 ///
 /// # Panics
-/// If `load` does not [cover](PathLoad::covers) the points of the track, or there is no index.
-pub fn on_part((track, load): (&Track, &PathLoad), component: Component, indices: &[usize]) -> PlacedPath {
+/// If the load does not [cover](PathLoad::covers) the points of the track, or there is no index.
+pub fn on_part(path: LoadedTrack<'_>, component: Component, indices: &[usize]) -> PlacedPath {
+    let LoadedTrack { track, load } = path;
     assert!(load.covers(track.len()), "a load for each point of the track");
     let part_from_base = track.base_from_part.inverse();
     let points = indices.iter().map(|index| {
         let stop = track.stop(*index);
-        let along = component.along((track, *index), stop.normal);
+        let along = component.along(track, *index, stop.normal);
         PlacedPoint {
             part_from_tool: part_from_base * stop.base_from_tool,
             along: along.map(|along| part_from_base * along),
@@ -253,11 +254,7 @@ impl Placeable<'_> {
             score: Score::NONE,
             uncertainty: 0.0,
         };
-        let score = self.nominal(
-            &mut evaluators.nominal,
-            (placement, self.objective.branches),
-            None,
-        );
+        let score = self.nominal(&mut evaluators.nominal, placement, self.objective.branches, None);
         score.map_or(nothing, |score| PlacementEvaluation {
             score,
             uncertainty: self.uncertainty(&mut evaluators, placement, &score),
@@ -327,7 +324,8 @@ impl Placeable<'_> {
         }
         let score = self.nominal(
             &mut evaluators.nominal,
-            (placement, self.objective.branches),
+            placement,
+            self.objective.branches,
             bar.as_ref(),
         )?;
         let uncertainty = match self.objective.rank_by {
@@ -351,7 +349,7 @@ impl Placeable<'_> {
         let structure = &self.question.arm.model.structure;
         let in_proportion = score.cost * self.question.uncertainty.relative.hypot(structure.model_error);
         let off = evaluators.off.iter_mut().map(|evaluator| {
-            let cost = self.nominal(evaluator, (placement, branch), None);
+            let cost = self.nominal(evaluator, placement, branch, None);
             cost.map_or(0.0, |there| there.cost - score.cost)
         });
         off.fold(in_proportion.hypot(structure.repeatability), f64::hypot)
@@ -361,7 +359,8 @@ impl Placeable<'_> {
     fn nominal(
         &self,
         evaluator: &mut PlacementEvaluator<'_>,
-        (placement, branches): (&PartPlacement, BranchPattern),
+        placement: &PartPlacement,
+        branches: BranchPattern,
         bar: Option<&Score>,
     ) -> Option<Score> {
         if let PostureSelection::PerPoint(spins) = self.objective.selection {

@@ -32,9 +32,8 @@ use super::reversals::reversals;
 use super::smooth::without_steps;
 use crate::frame::{Isometry, both_across};
 use crate::kernel::{BranchChoice, Column, ColumnLoad, Columns, PostureStatus, Question, SLOTS};
-use crate::load::PathLoad;
 use crate::map::along_postures;
-use crate::path::{LoadedStop, Pace, Track};
+use crate::path::{LoadedStop, LoadedTrack, Pace, Track};
 use crate::robot::{Branch, BranchPattern};
 use crate::watch::{Cancelled, Watch};
 
@@ -117,7 +116,7 @@ const KEPT: usize = 800;
 /// Weight of deviations within the tolerance, so that of chains within it the better one is selected.
 pub(super) const WITHIN: f64 = 1e-3;
 
-/// The best postures along `track` under `load` for these settings. Cases, normal, uncertainty and choice of `question`
+/// The best postures along `path` for these settings. Cases, normal, uncertainty and choice of `question`
 /// are not used.
 ///
 /// Memory: one byte for each point x turn x posture, and a hundred times that for each of about a hundred points.
@@ -126,34 +125,34 @@ pub(super) const WITHIN: f64 = 1e-3;
 /// [`Cancelled`] if the watch cancels.
 ///
 /// # Panics
-/// If `load` does not [cover](PathLoad::covers) the points of the track, or there is no spin.
+/// If the load does not [cover](PathLoad::covers) the points of the track, or there is no spin.
 pub fn postures_along(
     question: &Question<'_>,
-    (track, load): (&Track, &PathLoad),
+    path: LoadedTrack<'_>,
     search: &PostureSearch,
     watch: Watch<'_>,
 ) -> Result<PostureFound, Cancelled> {
+    let LoadedTrack { track, load } = path;
     assert!(load.covers(track.len()), "a load for each point of the track");
     assert!(search.spins.count > 0, "at least one spin");
     let walk = Walk {
         question,
-        track,
-        load,
+        path,
         search,
         joints: JointRate::all(question.arm.robot),
     };
     let cost = match search.objective {
-        Objective::Worst => Cost::Within(walk.chain((Cost::Worst, 0.0), watch)?.0.cost),
+        Objective::Worst => Cost::Within(walk.chain(Cost::Worst, 0.0, watch)?.0.cost),
         Objective::Mean => Cost::Within(f64::INFINITY),
         Objective::Above(limit) => Cost::Above(limit),
     };
-    let mut found = walk.reported(walk.chain((cost, 0.0), watch)?);
+    let mut found = walk.best(cost, 0.0, watch)?;
     if search.back_price > 0.0 && track.path.length() > 0.0 {
         let price = search.back_price / track.path.length();
-        let other = walk.reported(walk.chain((cost, price * track.len() as f64), watch)?);
+        let other = walk.best(cost, price * track.len() as f64, watch)?;
         let total = |found: &PostureFound| -> Result<f64, Cancelled> {
-            let turned = (&found.turned(track), load.clone());
-            let along = along_postures(question, turned, found.choices(), watch)?;
+            let turned = found.turned(track);
+            let along = along_postures(question, &turned, load.clone(), found.choices(), watch)?;
             let backs: usize = reversals(&track.path, &along.answers).iter().sum();
             Ok(found.reached + price * backs as f64)
         };
@@ -201,8 +200,7 @@ impl Cost {
 /// One pass along the path.
 struct Walk<'a> {
     question: &'a Question<'a>,
-    track: &'a Track,
-    load: &'a PathLoad,
+    path: LoadedTrack<'a>,
     search: &'a PostureSearch,
     joints: Vec<JointRate>,
 }
@@ -219,12 +217,14 @@ struct Seen {
 }
 
 impl Walk<'_> {
+    /// The postures of the best chain, with this price per reversal.
+    fn best(&self, cost: Cost, back_price: f64, watch: Watch<'_>) -> Result<PostureFound, Cancelled> {
+        let (cheapest, seen) = self.chain(cost, back_price, watch)?;
+        Ok(self.reported(cheapest, seen))
+    }
+
     /// The best chain, with this price per reversal.
-    fn chain(
-        &self,
-        (cost, back_price): (Cost, f64),
-        watch: Watch<'_>,
-    ) -> Result<(Cheapest, Seen), Cancelled> {
+    fn chain(&self, cost: Cost, back_price: f64, watch: Watch<'_>) -> Result<(Cheapest, Seen), Cancelled> {
         let Spins { step, count, .. } = self.search.spins;
         let (arm, home) = (self.question.arm, self.question.home);
         let maker = || Columns::new(arm, home, self.search.wrist);
@@ -236,7 +236,7 @@ impl Walk<'_> {
             price: if worst_alone { 0.0 } else { self.search.turn_price },
             back_price,
         };
-        let points = self.track.len();
+        let points = self.path.track.len();
         let mut chain = Chain::new(turns, cost.together(), (!worst_alone).then_some(points));
         let mut seen = Seen {
             named: turns.kept_slots,
@@ -255,7 +255,7 @@ impl Walk<'_> {
                 .par_iter_mut()
                 .enumerate()
                 .for_each_init(maker, |maker, (i, column)| {
-                    fill(maker, (self.track, self.load), (self.search, first + i), column);
+                    fill(maker, self.path, first + i, self.search, column);
                 });
             for i in 0..chunk.len() {
                 let index = first + i;
@@ -285,10 +285,10 @@ impl Walk<'_> {
 
     /// How the column of point `index` starts.
     fn beginning(&self, index: usize) -> Beginning {
-        if self.track.path.begins(index) {
+        if self.path.track.path.begins(index) {
             return Beginning::Restart;
         }
-        let points = &self.track.path.points;
+        let points = &self.path.track.path.points;
         let per_step = self.search.turn_rate / self.search.spins.step;
         let steps = |at: usize| (points[at].along * per_step).floor();
         Beginning::Follows((steps(index) - steps(index - 1)).clamp(0.0, MOST_STEPS as f64) as usize)
@@ -296,7 +296,7 @@ impl Walk<'_> {
 
     /// Time from the point before to point `index`, s, where the feed is known.
     fn time(&self, index: usize) -> Option<f64> {
-        let points = &self.track.path.points;
+        let points = &self.path.track.path.points;
         let Pace::Feed(speed) = points[index].pace else {
             return None;
         };
@@ -306,15 +306,15 @@ impl Walk<'_> {
 
     /// Shortest time for a step of turning, s, where the feed is known.
     fn turn_time(&self, index: usize) -> Option<f64> {
-        let Pace::Feed(speed) = self.track.path.points[index].pace else {
+        let Pace::Feed(speed) = self.path.track.path.points[index].pace else {
             return None;
         };
         (speed > 0.0).then(|| self.search.spins.step / (self.search.turn_rate * speed))
     }
 
-    fn reported(&self, (cheapest, seen): (Cheapest, Seen)) -> PostureFound {
+    fn reported(&self, cheapest: Cheapest, seen: Seen) -> PostureFound {
         let spins = without_steps(
-            &self.track.path,
+            &self.path.track.path,
             &self.search.spins,
             &cheapest.states,
             &cheapest.breaks,
@@ -339,11 +339,7 @@ impl Walk<'_> {
 impl Component {
     /// Directions of the component of the deviation at point `index` of `track` with this normal, base; of length 1, or
     /// 0 where one is enough.
-    pub(super) fn along(
-        self,
-        (track, index): (&Track, usize),
-        normal: Unit<Vector3<f64>>,
-    ) -> [Vector3<f64>; 2] {
+    pub(super) fn along(self, track: &Track, index: usize, normal: Unit<Vector3<f64>>) -> [Vector3<f64>; 2] {
         let normal = normal.into_inner();
         match self {
             Component::InPlane => both_across(&normal),
@@ -412,18 +408,19 @@ pub(super) fn blocked_by(column: &Column) -> PostureStatus {
     most.unwrap_or(PostureStatus::OutOfReach)
 }
 
-/// Fills `column` with the postures of point `index` of `track` under `load`, at every spin that `search` tries.
+/// Fills `column` with the postures of point `index` of `path`, at every spin that `search` tries.
 pub(super) fn fill(
     maker: &mut Columns<'_>,
-    (track, load): (&Track, &PathLoad),
-    (search, index): (&PostureSearch, usize),
+    path: LoadedTrack<'_>,
+    index: usize,
+    search: &PostureSearch,
     column: &mut Column,
 ) {
-    let LoadedStop { stop, cases } = track.loaded_stop(index, load);
+    let LoadedStop { stop, cases } = path.track.loaded_stop(index, path.load);
     let poses: Vec<Isometry> = (0..search.spins.count)
         .map(|turn| stop.base_from_tool * about_z(search.spins.at(turn)))
         .collect();
-    let along = search.component.along((track, index), stop.normal);
+    let along = search.component.along(path.track, index, stop.normal);
     let push = ColumnLoad { cases: &cases, along };
     maker.fill(&poses, &push, column);
     if maker.slots_are_branches() && search.branches != BranchPattern::default() {

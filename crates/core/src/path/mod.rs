@@ -37,4 +37,4 @@ pub use sampler::{PathPoint, Sampler, Sampling};
 pub use shape::Shape;
 pub use stock::{Stock, StockError};
 pub use thinned::{Thinning, thinned};
-pub use track::{LoadedStop, Parts, Stop, Track};
+pub use track::{LoadedStop, LoadedTrack, Parts, Stop, Track};

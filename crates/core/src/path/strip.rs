@@ -151,7 +151,7 @@ pub(super) fn strip_ahead(stock: &Stock, heading: &Heading, cutter: &EndMillBody
             continue;
         };
         sights.fill(UNSEEN);
-        look(stock, (heading, feed), &disc, |y, sight| {
+        look(stock, heading, feed, &disc, |y, sight| {
             let index = ((y + radius) / width) as u32;
             if let Some(seen) = sights.get_mut(index as usize) {
                 *seen = if sight > *seen { sight } else { *seen };
@@ -222,12 +222,7 @@ fn discs(stock: &Stock, heading: &Heading, cutter: &EndMillBody) -> Vec<Disc> {
 
 /// Calls `out` for the new cells in front of a disc: distance left of the axis (m), and the material there above the
 /// disc.
-fn look(
-    stock: &Stock,
-    (heading, feed): (&Heading, Vector2<f64>),
-    disc: &Disc,
-    mut out: impl FnMut(f64, Sight),
-) {
+fn look(stock: &Stock, heading: &Heading, feed: Vector2<f64>, disc: &Disc, mut out: impl FnMut(f64, Sight)) {
     let left = Vector2::new(-feed.y, feed.x);
     let (pitch, radius) = (stock.pitch(), disc.radius);
     let window = WINDOW_PITCHES * pitch;

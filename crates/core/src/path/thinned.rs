@@ -36,7 +36,7 @@ pub fn thinned(poses: &[Isometry], along: &[f64], within: Thinning) -> Vec<usize
         let end = (start + MOST_POINTS).min(last);
         stack.push((start, end));
         while let Some((from, to)) = stack.pop() {
-            match farthest(poses, along, (from, to), within) {
+            match farthest(poses, along, from, to, within) {
                 // The first half is processed first: the result is in order.
                 Some(middle) => stack.extend([(middle, to), (from, middle)]),
                 None => kept.push(to),
@@ -48,12 +48,7 @@ pub fn thinned(poses: &[Isometry], along: &[f64], within: Thinning) -> Vec<usize
 }
 
 /// The point with the largest error of a move between two points, if it exceeds the tolerance.
-fn farthest(
-    poses: &[Isometry],
-    along: &[f64],
-    (from, to): (usize, usize),
-    within: Thinning,
-) -> Option<usize> {
+fn farthest(poses: &[Isometry], along: &[f64], from: usize, to: usize, within: Thinning) -> Option<usize> {
     let way = along[to] - along[from];
     let mut worst: Option<(f64, usize)> = None;
     for index in from + 1..to {

@@ -51,6 +51,15 @@ pub struct Parts {
     pub axial: f64,
 }
 
+/// A track under its load.
+#[derive(Clone, Copy, Debug)]
+pub struct LoadedTrack<'a> {
+    /// Points and poses.
+    pub track: &'a Track,
+    /// Not checked: that it [covers](PathLoad::covers) the points.
+    pub load: &'a PathLoad,
+}
+
 impl Track {
     /// Number of points.
     pub fn len(&self) -> usize {

@@ -65,12 +65,6 @@ impl Compensator {
             * (cos * (1.0 - self.free_length / s) - self.free_length * al * sin * sin / s.powi(3))
     }
 
-    /// Energy of the spring, J.
-    pub fn energy(&self, theta: f64) -> f64 {
-        let (_, s, _) = self.at(theta);
-        0.5 * self.stiffness * (s - self.free_length).powi(2)
-    }
-
     fn at(&self, theta: f64) -> (f64, f64, (f64, f64)) {
         let (a, l) = (self.fixed_radius, self.arm_radius);
         let (sin, cos) = (self.angle + theta).sin_cos();
@@ -81,6 +75,7 @@ impl Compensator {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::arms::spring_energy;
 
     fn some() -> Compensator {
         Compensator {
@@ -98,7 +93,7 @@ mod tests {
         let (c, h) = (some(), 1e-5);
         for i in 0..40 {
             let theta = -2.0 + 0.1 * f64::from(i);
-            let torque = -(c.energy(theta + h) - c.energy(theta - h)) / (2.0 * h);
+            let torque = -(spring_energy(&c, theta + h) - spring_energy(&c, theta - h)) / (2.0 * h);
             let slope = (c.torque(theta + h) - c.torque(theta - h)) / (2.0 * h);
             // h^2 of the third derivative (some 1e6) and the rounding of 1e6 J over h.
             assert!((c.torque(theta) - torque).abs() < 1e-4, "{theta}: {torque}");

@@ -75,16 +75,27 @@ pub fn spring_screw(
     at_attachment.moved(tcp - base_from_attachment.translation.vector)
 }
 
+/// An arm whose drives and springs can deflect.
+#[derive(Clone, Copy, Debug)]
+pub struct FlexibleArm<'a> {
+    /// Chain and drives.
+    pub robot: &'a Robot,
+    /// Springs in addition to the drives.
+    pub springs: &'a [Spring],
+    /// The tool.
+    pub flange_from_tool: &'a Isometry,
+}
+
 /// Writes the arm at chain positions `theta`, with drives and springs deflected by `x`, into `out`.
 ///
 /// # Panics
 /// If there are fewer `theta` than joints, or fewer `x` than joints and springs.
-pub fn deflect_into(
-    (robot, springs, flange_from_tool): (&Robot, &[Spring], &Isometry),
-    theta: &[f64],
-    x: &[f64],
-    out: &mut DeflectedArm,
-) {
+pub fn deflect_into(arm: &FlexibleArm<'_>, theta: &[f64], x: &[f64], out: &mut DeflectedArm) {
+    let FlexibleArm {
+        robot,
+        springs,
+        flange_from_tool,
+    } = *arm;
     let (mut axes, mut origin) = (Matrix3::identity(), Vector3::zeros());
     let chain = robot.chain();
     let joints = theta.len();
@@ -201,13 +212,26 @@ mod tests {
         (robot, springs, tool)
     }
 
+    fn flexible<'a>(
+        robot: &'a Robot,
+        springs: &'a [Spring],
+        flange_from_tool: &'a Isometry,
+    ) -> FlexibleArm<'a> {
+        FlexibleArm {
+            robot,
+            springs,
+            flange_from_tool,
+        }
+    }
+
     const THETA: [f64; 3] = [0.4, -0.7, 0.25];
 
     #[test]
     fn an_arm_without_deflection_matches_forward_kinematics() {
         let (robot, springs, tool) = arm();
+        let arm = flexible(&robot, &springs, &tool);
         let mut out = DeflectedArm::for_robot(&robot, springs.len());
-        deflect_into((&robot, &springs, &tool), &THETA, &[0.0; 8], &mut out);
+        deflect_into(&arm, &THETA, &[0.0; 8], &mut out);
         let frames = forward(&robot, &THETA);
         let at = tool_on(&frames, &tool);
         let away = out.base_from_tool().to_homogeneous() - at.to_homogeneous();
@@ -228,10 +252,11 @@ mod tests {
     #[test]
     fn screws_of_a_deflected_arm_match_finite_differences() {
         let (robot, springs, tool) = arm();
+        let arm = flexible(&robot, &springs, &tool);
         let x: Vec<f64> = (0..8).map(|i| 0.03 * f64::from(i) - 0.1).collect();
         let deflected = |x: &[f64]| {
             let mut out = DeflectedArm::for_robot(&robot, springs.len());
-            deflect_into((&robot, &springs, &tool), &THETA, x, &mut out);
+            deflect_into(&arm, &THETA, x, &mut out);
             out
         };
         let here = deflected(&x);
@@ -294,14 +319,15 @@ mod tests {
     #[test]
     fn the_twist_between_two_poses_is_valid_up_to_half_a_turn() {
         let (robot, springs, tool) = arm();
+        let arm = flexible(&robot, &springs, &tool);
         let mut before = DeflectedArm::for_robot(&robot, springs.len());
-        deflect_into((&robot, &springs, &tool), &THETA, &[0.0; 8], &mut before);
+        deflect_into(&arm, &THETA, &[0.0; 8], &mut before);
         for angle in [0.1, 1.4, 1.7, 3.0] {
             // Beyond a quarter turn the sine of the angle decreases again.
             let mut x = [0.0; 8];
             x[0] = angle;
             let mut after = DeflectedArm::for_robot(&robot, springs.len());
-            deflect_into((&robot, &springs, &tool), &THETA, &x, &mut after);
+            deflect_into(&arm, &THETA, &x, &mut after);
             let twist = twist_between(&before.base_from_tool(), &after.base_from_tool());
             assert!(
                 (twist.angular - Vector3::z() * angle).norm() < 1e-12,
@@ -317,8 +343,9 @@ mod tests {
         let mut swapped = springs.clone();
         swapped.swap(1, 3);
         let reached = |springs: &[Spring], x: &[f64]| {
+            let arm = flexible(&robot, springs, &tool);
             let mut out = DeflectedArm::for_robot(&robot, springs.len());
-            deflect_into((&robot, springs, &tool), &THETA, x, &mut out);
+            deflect_into(&arm, &THETA, x, &mut out);
             out.base_from_tool()
         };
         let apart = |size: f64| {

@@ -72,14 +72,14 @@ impl Polar {
             let width = (LN_2 / PI).sqrt() * TAU / upr;
             let sorted: Vec<f64> = self.order.iter().map(|i| self.angles[*i]).collect();
             if pairs_within(&sorted, reach(width)) < by_waves {
-                return Ok(self.moved_round(&weighed, (&sorted, width)));
+                return Ok(self.moved_round(&weighed, &sorted, width));
             }
         }
-        Ok(self.through_waves(&weighed, (waves, upr)))
+        Ok(self.through_waves(&weighed, waves, upr))
     }
 
     /// The filter by the waves of `weighed`: deviation times the angle weight of a point.
-    fn through_waves(&self, weighed: &[f64], (waves, upr): (usize, f64)) -> Vec<f64> {
+    fn through_waves(&self, weighed: &[f64], waves: usize, upr: f64) -> Vec<f64> {
         let mut parts = wave_sums(&self.angles, weighed, waves);
         for (k, part) in parts.iter_mut().enumerate() {
             let both_ways = if k == 0 { 0.5 } else { 1.0 };
@@ -99,7 +99,7 @@ impl Polar {
 
     /// The filter by the weight function of this width (rad), moved round the circle; `sorted` are the angles in their
     /// order.
-    fn moved_round(&self, weighed: &[f64], (sorted, width): (&[f64], f64)) -> Vec<f64> {
+    fn moved_round(&self, weighed: &[f64], sorted: &[f64], width: f64) -> Vec<f64> {
         let (count, reach) = (sorted.len(), reach(width));
         let at = |place: usize| {
             let near = |next: usize, by: usize| {
@@ -222,9 +222,9 @@ mod tests {
             let weighed: Vec<f64> = weighed.map(|(by, width)| by * width).collect();
             let width = (LN_2 / PI).sqrt() * TAU / 100.0;
             let sorted: Vec<f64> = polar.order.iter().map(|i| polar.angles[*i]).collect();
-            let near = polar.moved_round(&weighed, (&sorted, width));
+            let near = polar.moved_round(&weighed, &sorted, width);
             // 7.5 waves of the cut-off: beyond it the transmission is negligible.
-            let through = polar.through_waves(&weighed, (751, 100.0));
+            let through = polar.through_waves(&weighed, 751, 100.0);
             for (one, other) in near.iter().zip(&through) {
                 assert!((one - other).abs() < 1e-17, "{unevenness}: {one} {other}");
             }

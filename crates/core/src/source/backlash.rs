@@ -52,7 +52,7 @@ pub fn along<M: Iterator<Item = f64> + Clone>(moves: M, gap: f64) -> impl Iterat
 
 /// Offset of the link of a joint with this screw from its motor, rad (m): `kept`, where friction keeps it, or on the
 /// side given by `torque` (N m, N; of the weight on it) and `wrench`.
-pub fn link_offset(backlash: &Backlash, kept: f64, (screw, wrench): (&Twist, &Wrench), torque: f64) -> f64 {
+pub fn link_offset(backlash: &Backlash, kept: f64, screw: &Twist, wrench: &Wrench, torque: f64) -> f64 {
     let torque = torque + screw.dot(wrench);
     match backlash.side {
         BacklashSide::Torque if torque.abs() > NO_TORQUE => 0.5 * backlash.gap * torque.signum(),
@@ -171,7 +171,7 @@ mod tests {
                 standard_uncertainty: 0.0,
                 side,
             };
-            link_offset(&backlash, -3e-5, (&screw, wrench), torque)
+            link_offset(&backlash, -3e-5, &screw, wrench, torque)
         };
         assert_eq!(offset(BacklashSide::Torque, &push(5.0), 0.0), 1e-4);
         assert_eq!(offset(BacklashSide::Torque, &push(5.0), -6.0), -1e-4);

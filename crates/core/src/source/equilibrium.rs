@@ -42,6 +42,15 @@ pub enum Unstable {
     Buckles,
 }
 
+/// An arm without the load.
+#[derive(Clone, Copy, Debug)]
+pub struct AtRest<'a> {
+    /// Chain positions of the drives, rad (m).
+    pub theta: &'a [f64],
+    /// Torque of gravity and compensator on each drive and spring, N m (N).
+    pub torques: &'a [f64],
+}
+
 /// Working memory for the equilibrium, and the last one found.
 #[derive(Clone, Debug)]
 pub struct Equilibrium {
@@ -110,31 +119,23 @@ impl Equilibrium {
         &self.torques
     }
 
-    /// `K_C` at the current posture, N m/rad.
-    pub fn load_stiffness(&self) -> &DMatrix<f64> {
-        &self.k_c
-    }
-
-    /// Displacement of the tool from the arm at rest at chain positions `theta` to its equilibrium under `wrench`.
+    /// Displacement of the tool from the arm `at_rest` to its equilibrium under `wrench`.
     ///
-    /// `law` gives, for each drive or spring and the torque of the load on it, its deflection and the slope of that;
-    /// `before` is gravity's torque at rest.
+    /// `law` gives, for each drive or spring and the torque of the load on it, its deflection and the slope of that.
     ///
     /// # Errors
     /// [`Unstable`] with the reason.
     pub fn find(
         &mut self,
         arm: &Arm<'_>,
-        (theta, before): (&[f64], &[f64]),
+        at_rest: AtRest<'_>,
         wrench: &Wrench,
         law: impl Fn(usize, f64) -> (f64, f64),
     ) -> Result<Twist, Unstable> {
         self.x.fill(0.0);
-        let springs = &arm.model.structure.springs[..];
-        let body = (arm.robot, springs, arm.flange_from_tool);
-        deflect_into(body, theta, &self.x, &mut self.rest);
+        deflect_into(&arm.flexible(), at_rest.theta, &self.x, &mut self.rest);
         for _ in 0..MOST_STEPS {
-            self.evaluate(arm, (theta, before), wrench);
+            self.evaluate(arm, at_rest, wrench);
             for (k, slope) in self.slopes.iter_mut().enumerate() {
                 let (turn, here) = law(k, self.torques[k]);
                 *slope = here;
@@ -153,7 +154,7 @@ impl Equilibrium {
                 (longest, last) = (longest.max(x.abs()), last.max(step.abs()));
             }
             if last <= CONVERGED.0 * longest + CONVERGED.1 {
-                self.evaluate(arm, (theta, before), wrench);
+                self.evaluate(arm, at_rest, wrench);
                 return self.if_stable();
             }
         }
@@ -177,10 +178,10 @@ impl Equilibrium {
     }
 
     /// Screws, torques and `K_C` of the arm deflected by `x`.
-    fn evaluate(&mut self, arm: &Arm<'_>, (theta, before): (&[f64], &[f64]), wrench: &Wrench) {
+    fn evaluate(&mut self, arm: &Arm<'_>, at_rest: AtRest<'_>, wrench: &Wrench) {
+        let AtRest { theta, torques } = at_rest;
         let structure = &arm.model.structure;
-        let body = (arm.robot, &structure.springs[..], arm.flange_from_tool);
-        deflect_into(body, theta, &self.x, &mut self.deflected);
+        deflect_into(&arm.flexible(), theta, &self.x, &mut self.deflected);
         let joints = theta.len();
         let (attachments, screws) = (&self.deflected.attachments, &self.deflected.screws);
         let tcp = self.deflected.base_from_tool().translation.vector;
@@ -191,26 +192,51 @@ impl Equilibrium {
         }
         for (k, screw) in screws.iter().enumerate() {
             let weight = g.map_or(0.0, |g| {
-                torque(screw, &self.carried[self.rank[k]], &g) - before[k]
+                torque(screw, &self.carried[self.rank[k]], &g) - torques[k]
             });
             self.torques[k] = screw.dot(wrench) + weight;
         }
-        load_stiffness_into((screws, &self.place), wrench, &mut self.k_c);
+        self.set_load_stiffness(wrench);
         if let Some(g) = g {
-            add_weight(
-                (screws, &self.place, &self.rank),
-                &self.carried,
-                &g,
-                &mut self.k_c,
-            );
+            self.add_weight(&g);
         }
         if let Some(c) = &structure.compensator {
             let (at, turned) = (theta[c.joint], theta[c.joint] + self.x[c.joint]);
-            // With gravity, `before` contains the torque of the compensator at rest, and the weight above has
+            // With gravity, the torque at rest contains the torque of the compensator at rest, and the weight above has
             // subtracted it.
             let taken_off = if g.is_some() { 0.0 } else { c.torque(at) };
             self.torques[c.joint] += c.torque(turned) - taken_off;
             self.k_c[(c.joint, c.joint)] += c.slope(turned);
+        }
+    }
+
+    /// `K_C` of a wrench at the TCP.
+    fn set_load_stiffness(&mut self, wrench: &Wrench) {
+        for (i, a) in self.deflected.screws.iter().enumerate() {
+            for (j, b) in self.deflected.screws.iter().enumerate() {
+                let b_is_earlier = self.place[j] <= self.place[i];
+                let (earlier, later) = if b_is_earlier { (b, a) } else { (a, b) };
+                let mut value = earlier.angular.cross(&later.linear).dot(&wrench.force);
+                if self.place[j] < self.place[i] {
+                    value += b.angular.cross(&a.angular).dot(&wrench.moment);
+                }
+                self.k_c[(i, j)] = value;
+            }
+        }
+    }
+
+    /// Adds the part of the weight to `K_C`, each mass at its own centre.
+    fn add_weight(&mut self, g: &Vector3<f64>) {
+        for (i, a) in self.deflected.screws.iter().enumerate() {
+            for (j, b) in self.deflected.screws.iter().enumerate() {
+                let b_is_earlier = self.place[j] <= self.place[i];
+                let (earlier, later) = if b_is_earlier { (b, a) } else { (a, b) };
+                let both = &self.carried[self.rank[i].max(self.rank[j])];
+                let (oe, ol) = (&earlier.angular, &later.angular);
+                // (o_e x (v_l + o_l x r)) . g, summed over m and m r.
+                let about = ol.dot(g) * oe.dot(&both.moment) - both.moment.dot(g) * oe.dot(ol);
+                self.k_c[(i, j)] += oe.cross(&later.linear).dot(g) * both.mass + about;
+            }
         }
     }
 
@@ -240,39 +266,6 @@ impl Equilibrium {
             &self.rest.base_from_tool(),
             &self.deflected.base_from_tool(),
         ))
-    }
-}
-
-/// `K_C` of a wrench at the TCP.
-fn load_stiffness_into((screws, place): (&[Twist], &[usize]), wrench: &Wrench, k_c: &mut DMatrix<f64>) {
-    for (i, a) in screws.iter().enumerate() {
-        for (j, b) in screws.iter().enumerate() {
-            let (earlier, later) = if place[j] <= place[i] { (b, a) } else { (a, b) };
-            let mut value = earlier.angular.cross(&later.linear).dot(&wrench.force);
-            if place[j] < place[i] {
-                value += b.angular.cross(&a.angular).dot(&wrench.moment);
-            }
-            k_c[(i, j)] = value;
-        }
-    }
-}
-
-/// Adds the part of the weight, each mass at its own centre.
-fn add_weight(
-    (screws, place, rank): (&[Twist], &[usize], &[usize]),
-    carried: &[Carried],
-    g: &Vector3<f64>,
-    k_c: &mut DMatrix<f64>,
-) {
-    for (i, a) in screws.iter().enumerate() {
-        for (j, b) in screws.iter().enumerate() {
-            let (earlier, later) = if place[j] <= place[i] { (b, a) } else { (a, b) };
-            let both = &carried[rank[i].max(rank[j])];
-            let (oe, ol) = (&earlier.angular, &later.angular);
-            // (o_e x (v_l + o_l x r)) . g, summed over m and m r.
-            let about = ol.dot(g) * oe.dot(&both.moment) - both.moment.dot(g) * oe.dot(ol);
-            k_c[(i, j)] += oe.cross(&later.linear).dot(g) * both.mass + about;
-        }
     }
 }
 

@@ -10,6 +10,7 @@ use nalgebra::Vector3;
 use super::contributor::Contributor;
 use super::thermal::ThermalGrowth;
 use crate::frame::Isometry;
+use crate::robot::deflected_arm::FlexibleArm;
 use crate::robot::{Attachment, Joint, JointCompliance, Robot, Structure};
 
 /// Standard acceleration of free fall, m/s^2: 3rd CGPM 1901, ISO 80000-3.
@@ -110,6 +111,15 @@ pub struct Arm<'a> {
 }
 
 impl Arm<'_> {
+    /// Chain, springs and tool.
+    pub fn flexible(&self) -> FlexibleArm<'_> {
+        FlexibleArm {
+            robot: self.robot,
+            springs: &self.model.structure.springs,
+            flange_from_tool: self.flange_from_tool,
+        }
+    }
+
     /// Compliances of all drives, then of all springs.
     pub fn compliances(&self) -> Vec<JointCompliance> {
         let springs = self

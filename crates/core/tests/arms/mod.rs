@@ -11,13 +11,22 @@ use armill_core::kernel::{Answers, Evaluation};
 use armill_core::nalgebra::Vector3;
 use armill_core::predict::{Deviation, predict};
 use armill_core::robot::joint::Sign;
-use armill_core::robot::{Amount, Axis, Branch, Joint, JointCompliance, Limits, Motion, PostureName, Robot};
+use armill_core::robot::{
+    Amount, Axis, Branch, Compensator, Joint, JointCompliance, Limits, Motion, PostureName, Robot,
+};
 use armill_core::source::{Arm, ArmState, Links, Unstable};
 use armill_core::spatial::Wrench;
 
 use Amount::{Constant, Joint as Var};
 use Axis::{X, Y, Z};
 use Motion::{About, Along};
+
+/// Energy of the spring of `compensator` at chain position `theta` (rad) of its joint, J.
+pub fn spring_energy(compensator: &Compensator, theta: f64) -> f64 {
+    let (a, l) = (compensator.fixed_radius, compensator.arm_radius);
+    let s = (a * a + l * l + 2.0 * a * l * (compensator.angle + theta).cos()).sqrt();
+    0.5 * compensator.stiffness * (s - compensator.free_length).powi(2)
+}
 
 /// A stream of numbers in 0..1 (SplitMix64), the same on every machine; the seed is part of the test.
 pub struct Stream(pub u64);

@@ -35,7 +35,8 @@ fn followed(robot: &Robot, circle: &Circle) -> Followed {
     let tool = tool();
     follow(
         &question(robot, StiffnessModel::DRIVES, &tool),
-        (circle, 720),
+        circle,
+        720,
         Watch::NONE,
     )
     .unwrap()
@@ -150,7 +151,7 @@ fn the_effect_is_the_deviation_that_a_path_has() {
         let angles: Vec<f64> = (0..720).map(|k| TAU * f64::from(k) / 720.0).collect();
         let mut given = vec![0.0; angles.len()];
         for (joint, gap) in GAPS.iter().enumerate() {
-            let effect = of.effect((joint, *gap), Direction::Anticlockwise, &angles);
+            let effect = of.effect(joint, *gap, Direction::Anticlockwise, &angles);
             given.iter_mut().zip(effect).for_each(|(sum, one)| *sum += one);
         }
         // A path begins where its first move pushes, a circle behind a whole turn: alike once gaps are crossed.
@@ -192,7 +193,7 @@ fn links_half_a_backlash_behind_agree_with_forward_kinematics() {
             behind[joint] -= 0.5 * gap * speed.signum();
             let place = tool_on(&forward(&robot, &behind), &tool).translation.vector;
             let centre = circle.placing.base_from_path.translation.vector;
-            let given = of.effect((joint, gap), direction, &[a])[0];
+            let given = of.effect(joint, gap, direction, &[a])[0];
             let moved = place - pose(&circle, a).translation.vector;
             let outwards = (pose(&circle, a).translation.vector - centre).normalize();
             assert!((given - moved.dot(&outwards)).abs() < gap * gap, "{deg}");
@@ -261,7 +262,7 @@ fn on_the_circle_of_the_paper_three_joints_reverse_together_and_are_not_identifi
     let tool = Isometry::identity();
     let paper = circle([1.0, 0.0, 0.8], 0.0);
     let requested = question(&robot, StiffnessModel::DRIVES, &tool);
-    let of = follow(&requested, (&paper, 720), Watch::NONE).unwrap();
+    let of = follow(&requested, &paper, 720, Watch::NONE).unwrap();
     for joint in [1, 2, 4] {
         let turns: Vec<f64> = (of.reversals.iter().filter(|r| r.joint == joint))
             .map(|r| r.angle.to_degrees())
@@ -288,7 +289,8 @@ fn on_the_circle_of_the_paper_three_joints_reverse_together_and_are_not_identifi
     };
     let plan = propose(
         &requested,
-        (&domain.candidates(), std::slice::from_ref(&of)),
+        &domain.candidates(),
+        std::slice::from_ref(&of),
         &CirclePlanOptions {
             count: 3,
             joints: (0..6).collect(),
@@ -312,7 +314,7 @@ fn on_the_circle_of_the_paper_three_joints_reverse_together_and_are_not_identifi
     let mut circles = vec![of];
     let mut tests = vec![test];
     for chosen in &plan.circles {
-        let whole = follow(&requested, (&chosen.candidate.circle, 720), Watch::NONE).unwrap();
+        let whole = follow(&requested, &chosen.candidate.circle, 720, Watch::NONE).unwrap();
         tests.push(measured(&whole, &GAPS, (1e-6, 2, 7)));
         circles.push(whole);
     }
@@ -343,11 +345,11 @@ fn an_arm_turned_about_its_base_has_the_same_gaps() {
         let tool = tool();
         let requested = question(&robot, StiffnessModel::DRIVES, &tool);
         // The tool turns with the cell, about its own axis if the plane is horizontal.
-        let of = follow(&requested, (&before, 720), Watch::NONE).unwrap();
+        let of = follow(&requested, &before, 720, Watch::NONE).unwrap();
         let [given, turned] = [turn * pose(&before, 0.0), pose(&after, 0.0)];
         let spin = (turned.rotation.inverse() * given.rotation).scaled_axis().z;
         after.placing.spin = armill_core::path::Spin::Fixed(spin);
-        let there = follow(&requested, (&after, 720), Watch::NONE).unwrap();
+        let there = follow(&requested, &after, 720, Watch::NONE).unwrap();
         assert_eq!(of.reversals.len(), there.reversals.len());
         for one in &of.reversals {
             let mut others = there.reversals.iter().filter(|other| other.joint == one.joint);
@@ -384,13 +386,15 @@ fn an_arm_twice_as_large_shows_the_same_gaps_twice_as_large() {
     after.radius *= 2.0;
     let one = follow(
         &question(&robot, StiffnessModel::DRIVES, &tools[0]),
-        (&before, 720),
+        &before,
+        720,
         Watch::NONE,
     )
     .unwrap();
     let two = follow(
         &question(&larger, StiffnessModel::DRIVES, &tools[1]),
-        (&after, 720),
+        &after,
+        720,
         Watch::NONE,
     )
     .unwrap();
@@ -430,13 +434,13 @@ fn a_torque_that_determines_the_side_of_the_backlash_leaves_no_step() {
         acceleration: Vector3::new(0.0, 0.0, -9.8),
         reference: vec![0.0; 6],
     });
-    let of = follow(&question(&robot, &model, &tool), (&three()[0], 720), Watch::NONE).unwrap();
+    let of = follow(&question(&robot, &model, &tool), &three()[0], 720, Watch::NONE).unwrap();
     let angles: Vec<f64> = (0..720).map(|k| f64::from(k).to_radians() / 2.0).collect();
-    let [one, other] = Direction::BOTH.map(|direction| of.effect((1, 1e-4), direction, &angles));
+    let [one, other] = Direction::BOTH.map(|direction| of.effect(1, 1e-4, direction, &angles));
     assert_eq!(one, other);
     let jump = one.windows(2).map(|pair| (pair[1] - pair[0]).abs());
     assert!(jump.fold(0.0, f64::max) < 2e-6);
-    let [one, other] = Direction::BOTH.map(|direction| of.effect((2, 1e-4), direction, &angles));
+    let [one, other] = Direction::BOTH.map(|direction| of.effect(2, 1e-4, direction, &angles));
     assert!(
         one.iter()
             .zip(&other)
@@ -450,7 +454,8 @@ fn unreachable_circles_are_reported() {
     let far = circle([2.5, 0.0, 0.8], 0.0);
     let error = follow(
         &question(&robot, StiffnessModel::DRIVES, &tool),
-        (&far, 90),
+        &far,
+        90,
         Watch::NONE,
     )
     .unwrap_err();
@@ -466,7 +471,7 @@ fn a_joint_at_rest_to_rounding_does_not_move_its_link() {
     let (robot, tool) = (arms::mh12(), tool());
     let flat = circle([0.85, 0.25, 0.45], 90.0);
     let requested = question(&robot, StiffnessModel::DRIVES, &tool);
-    let of = follow(&requested, (&flat, 720), Watch::NONE).unwrap();
+    let of = follow(&requested, &flat, 720, Watch::NONE).unwrap();
     assert!(
         of.reversals.iter().all(|reversal| reversal.joint != 3),
         "{:?}",
@@ -474,10 +479,6 @@ fn a_joint_at_rest_to_rounding_does_not_move_its_link() {
     );
     let angles: Vec<f64> = (0..360).map(|k| (f64::from(k) + 0.3).to_radians()).collect();
     for direction in Direction::BOTH {
-        assert!(
-            of.effect((3, 1e-4), direction, &angles)
-                .iter()
-                .all(|dr| *dr == 0.0)
-        );
+        assert!(of.effect(3, 1e-4, direction, &angles).iter().all(|dr| *dr == 0.0));
     }
 }

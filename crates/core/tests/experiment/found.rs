@@ -190,7 +190,7 @@ fn play(truth: &Truth, as_measured: &Robot, random: &mut Stream) -> (Vec<f64>, V
     let with = |actual: &Robot, circle: &Circle| -> Followed {
         let model = model(&[0.0; 6], &[0.0; 6], actual.clone());
         let question = question(&truth.believed, (sheet, &model), &tool);
-        follow(&question, (circle, 720), Watch::NONE).unwrap()
+        follow(&question, circle, 720, Watch::NONE).unwrap()
     };
     let angles: Vec<f64> = (0..720)
         .map(|k| (0.5 * f64::from(k) + 0.1).to_radians())

@@ -144,7 +144,7 @@ fn any_chain_at_known_joint_positions_agrees_with_predict() {
             }
             Ok(())
         };
-        evaluate_at_joints(&arm, &q, (&mut out, 15), write, Watch::NONE).unwrap();
+        evaluate_at_joints(&arm, &q, &mut out, write, Watch::NONE).unwrap();
         out
     };
     let out = one_thread.install(given);

@@ -93,7 +93,7 @@ fn maps_and_known_joints_agree_with_predict_on_any_number_of_threads() {
             }
             Ok(())
         };
-        evaluate_at_joints(&arm, &all.joints, (&mut known, 9), write, Watch::NONE).unwrap();
+        evaluate_at_joints(&arm, &all.joints, &mut known, write, Watch::NONE).unwrap();
         for (i, _) in all.evaluations() {
             for (known, deviation) in known[9 * i..].chunks(3).zip(all.deviations_at(i)) {
                 assert!((Vector3::from_column_slice(known) - deviation).norm() < 1e-13);

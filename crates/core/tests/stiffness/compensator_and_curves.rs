@@ -38,7 +38,7 @@ fn a_compensator_takes_its_slope_from_the_joint_and_its_torque_from_gravity() {
     // The simple model with the joint's compliance 1/(k - dM/dtheta), dM/dtheta from the energy of the spring.
     let theta = robot.theta(1, &q);
     let h = 1e-4;
-    let e = |by: f64| compensator.energy(theta + by);
+    let e = |by: f64| arms::spring_energy(&compensator, theta + by);
     let slope = -(e(h) - 2.0 * e(0.0) + e(-h)) / (h * h);
     let mut drives = robot.compliance().unwrap().to_vec();
     drives[1].value = 1.0 / (1.0 / drives[1].value - slope);

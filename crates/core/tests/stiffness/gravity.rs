@@ -68,12 +68,13 @@ proptest! {
         masses.push(Mass { attachment: Attachment::Flange, mass: 60.0, centre: Point3::new(0.1, seed, 0.2) });
         masses.push(Mass { attachment: Attachment::Tool, mass: 5.0, centre: Point3::new(0.0, 0.0, -0.1) });
         let model = weighing(Structure { springs: springs(), masses: masses.clone(), ..Structure::EMPTY });
-        let mut arm_state = ArmState::new(full_arm(robot, &model, &tool));
+        let arm = full_arm(robot, &model, &tool);
+        let mut arm_state = ArmState::new(arm);
         arm_state.set_joints(&q);
         let theta: Vec<f64> = (0..6).map(|i| robot.theta(i, &q)).collect();
         let energy = |x: &[f64]| {
             let mut out = DeflectedArm::for_robot(robot, 6);
-            deflect_into((robot, &model.structure.springs, &tool), &theta, x, &mut out);
+            deflect_into(&arm.flexible(), &theta, x, &mut out);
             let of = |m: &Mass| -DOWN.dot(&(out.attachments[m.attachment.rank(6)] * m.centre).coords) * m.mass;
             masses.iter().map(of).sum::<f64>()
         };

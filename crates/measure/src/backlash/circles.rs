@@ -93,7 +93,7 @@ pub(super) fn followed(
         choice: along.choice_at(0),
         ..question(&runner, circle)
     };
-    follow(&question, (&circle.circle, STATIONS), Watch::NONE).map_err(|error| match error {
+    follow(&question, &circle.circle, STATIONS, Watch::NONE).map_err(|error| match error {
         NotFollowed::Cancelled(cancelled) => StudyError::Cancelled(cancelled),
         error => StudyError::value(
             format!("{}: {error}", circle.name),

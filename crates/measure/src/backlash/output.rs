@@ -169,7 +169,7 @@ fn trace(name: String, direction: Direction, radius: impl Fn(f64) -> f64) -> Bal
 fn backlash_effect(followed: &Followed, gaps: &[f64], direction: Direction, angles: &[f64]) -> Vec<f64> {
     let mut sum = vec![0.0; angles.len()];
     for (joint, gap) in gaps.iter().enumerate() {
-        let effect = followed.effect((joint, *gap), direction, angles);
+        let effect = followed.effect(joint, *gap, direction, angles);
         sum.iter_mut().zip(effect).for_each(|(sum, one)| *sum += one);
     }
     sum

@@ -144,7 +144,8 @@ pub fn plan(study: &Study, expected: &PlanOptions, watch: Watch<'_>) -> Result<P
     };
     let found = propose(
         &question(&runner, first),
-        (&domain.candidates(), &along),
+        &domain.candidates(),
+        &along,
         &requested,
         watch,
     )?;

@@ -17,7 +17,7 @@ use armill_core::frame::Isometry;
 use armill_core::load::PathLoad;
 use armill_core::nalgebra::{Point3, Translation3, Vector3};
 use armill_core::optimize::{Shares, fitted, residual_of};
-use armill_core::path::{Move, Sampler, Sampling, Spin, Track};
+use armill_core::path::{LoadedTrack, Move, Sampler, Sampling, Spin, Track};
 use armill_formats::file::ResultFolder;
 use armill_programs::{Motion, Moved, ProgramText, RobotMove, Spelled, Target, follow, read_as};
 use armill_study::analysis::path::robot_program::Span;
@@ -93,8 +93,12 @@ pub(crate) fn in_place(
         return Ok(Some(Err(why.to_owned())));
     };
     let question = runner.question(&analysis.setting);
-    let forces = (load, followed.along.choices.as_slice());
-    let (along, residual) = residual_of(&question, (&analysis.track, &track), forces, runner.watch)?;
+    let nominal = LoadedTrack {
+        track: &analysis.track,
+        load,
+    };
+    let choices = &followed.along.choices;
+    let (along, residual) = residual_of(&question, nominal, &track, choices, runner.watch)?;
     let files: Files = written
         .into_iter()
         .map(|(name, bytes)| (name_of(&name), bytes))

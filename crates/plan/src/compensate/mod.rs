@@ -26,7 +26,7 @@ use armill_core::frame::tool_orientation;
 use armill_core::kernel::Answers;
 use armill_core::nalgebra::{UnitQuaternion, Vector3};
 use armill_core::optimize::{Compensated, Compensation, compensated};
-use armill_core::path::{Pace, Shape, Track};
+use armill_core::path::{LoadedTrack, Pace, Shape, Track};
 use armill_core::watch::Watch;
 use armill_formats::table::{Column, ColumnData, Table, csv};
 use armill_report::{PathPlot, Series};
@@ -164,7 +164,10 @@ fn of_path<'a>(
     let question = runner.question(&analysis.setting);
     let found = compensated(
         &question,
-        (drawn, &load),
+        LoadedTrack {
+            track: drawn,
+            load: &load,
+        },
         &followed.along.choices,
         compensation,
         runner.watch,

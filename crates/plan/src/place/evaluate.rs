@@ -5,6 +5,7 @@
 
 use armill_core::kernel::PartPlacement;
 use armill_core::optimize::{Placeable, PlacementObjective, RankBy, Score, ToolTurn, on_part};
+use armill_core::path::LoadedTrack;
 use armill_core::watch::Watch;
 use armill_study::analysis::runner::Runner;
 use armill_study::error::StudyError;
@@ -71,7 +72,7 @@ impl PlacementSearch<'_> {
         };
         let track = &self.analysis.track;
         let all: Vec<usize> = (0..track.len()).collect();
-        let path = on_part((track, &load), objective.component, &all);
+        let path = on_part(LoadedTrack { track, load: &load }, objective.component, &all);
         let placeable = Placeable {
             question: &runner.question(&self.analysis.setting),
             path: &path,

@@ -34,7 +34,7 @@ use armill_core::frame::from_xyz_and_fixed_angles;
 use armill_core::kernel::{BranchChoice, PartPlacement};
 use armill_core::nalgebra::{Point3, UnitQuaternion, Vector3};
 use armill_core::optimize::{PlacementObjective, PostureSearch, PostureSelection, ToolTurn, on_part};
-use armill_core::path::Spin;
+use armill_core::path::{LoadedTrack, Spin};
 use armill_core::robot::{BranchPattern, Robot};
 use armill_core::watch::Watch;
 use armill_core::workpiece::Plane;
@@ -183,7 +183,8 @@ impl<'a> PlacementSearch<'a> {
         let all: Vec<usize> = (0..track.len()).collect();
         let stride = track.len().div_ceil(effort.points).max(1);
         let some: Vec<usize> = all.iter().copied().step_by(stride).collect();
-        let on_part = |indices: &[usize]| on_part((track, &load), objective.component, indices);
+        let on_part =
+            |indices: &[usize]| on_part(LoadedTrack { track, load: &load }, objective.component, indices);
         let question = runner.question(&self.analysis.setting);
         let (all, some) = (on_part(&all), on_part(&some));
         let turn = ToolTurn::of(track);

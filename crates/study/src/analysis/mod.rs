@@ -34,6 +34,7 @@ pub mod words;
 
 use armill_core::map::{BoxGrid, PlaneMap, VolumeMap, plane_map, volume_map};
 use armill_core::optimize::{HolesFound, hole_postures};
+use armill_core::path::LoadedTrack;
 use armill_core::robot::Robot;
 use armill_core::workpiece::Grid;
 use armill_formats::robot::RobotDescription;
@@ -183,8 +184,11 @@ impl Subject {
             Subject::Path(path) => AnalysisData::Path(path, Box::new(runner.path(path)?)),
             Subject::Holes(holes) => {
                 let (path, question) = (&holes.path, runner.question(&holes.path.setting));
-                let of = (&path.track, &path.load);
-                let found = hole_postures(&question, of, &holes.search, runner.watch)?;
+                let loaded = LoadedTrack {
+                    track: &path.track,
+                    load: &path.load,
+                };
+                let found = hole_postures(&question, loaded, &holes.search, runner.watch)?;
                 AnalysisData::Holes(holes, Box::new(found))
             }
         })

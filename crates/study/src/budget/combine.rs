@@ -150,7 +150,8 @@ pub fn combine(
             &turn,
             contributions,
             measured.as_deref().map(|curve| (curve, u)),
-            (experiment.removed, MOST_WAVES),
+            experiment.removed,
+            MOST_WAVES,
         ),
         turn,
     })

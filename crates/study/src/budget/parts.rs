@@ -45,8 +45,7 @@ pub fn parts(
         .as_ref()
         .map(|searched| searched.posture.turned(&path.track));
     let track = turned.as_ref().unwrap_or(&path.track);
-    let followed = (track, &found.along);
-    let without = radial_without_load(&question, followed, centre, watch)?;
+    let without = radial_without_load(&question, track, &found.along, centre, watch)?;
     let of_load = |outward: &Vec<f64>| match &without {
         None => outward.clone(),
         Some(without) => outward
@@ -57,7 +56,7 @@ pub fn parts(
     };
     Ok(DeviationParts {
         load: found.radial.iter().map(|case| of_load(&case.outward)).collect(),
-        uncertainties: radial_uncertainties(&question, followed, centre, biased),
+        uncertainties: radial_uncertainties(&question, track, &found.along, centre, biased),
         without,
     })
 }

@@ -13,7 +13,7 @@ use armill_core::kernel::Answers;
 use armill_core::load::PathLoad;
 use armill_core::nalgebra::{UnitQuaternion, Vector3};
 use armill_core::optimize::hole_postures;
-use armill_core::path::Track;
+use armill_core::path::{LoadedTrack, Track};
 use armill_core::watch::Watch;
 
 use crate::analysis::holes::resolve::HolesAnalysis;
@@ -76,13 +76,14 @@ pub(super) fn at_hole(
     done: Option<&AnalysisResult<'_>>,
     watch: Watch<'_>,
 ) -> Result<ToolTarget, StudyError> {
-    let of = (&holes.path.track, &holes.path.load);
+    let (track, load) = (&holes.path.track, &holes.path.load);
     let of_now;
     let found = match done.map(|done| &done.found) {
         Some(AnalysisData::Holes(_, found)) => found.as_ref(),
         _ => {
             let runner = Runner::new(&study.robot.robot, watch)?;
-            of_now = hole_postures(&runner.question(&holes.path.setting), of, &holes.search, watch)?;
+            let question = runner.question(&holes.path.setting);
+            of_now = hole_postures(&question, LoadedTrack { track, load }, &holes.search, watch)?;
             &of_now
         }
     };
@@ -90,7 +91,7 @@ pub(super) fn at_hole(
         joints: joints_at(&found.answers, index),
         link_offsets: None,
     };
-    Ok(turned(of, index, found.spins[index], pose))
+    Ok(turned((track, load), index, found.spins[index], pose))
 }
 
 /// A point of this track with the tool turned about its axis by a further `spin` (rad).

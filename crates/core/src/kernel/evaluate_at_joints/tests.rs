@@ -45,7 +45,7 @@ fn every_chain_agrees_with_predict_at_each_point() {
                 Ok(())
             };
             let mut given = vec![0.0; 300 * 9];
-            evaluate_at_joints(&arm, &q, (&mut given, 9), write, Watch::NONE).unwrap();
+            evaluate_at_joints(&arm, &q, &mut given, write, Watch::NONE).unwrap();
             for (q, given) in q.chunks(dof).zip(given.chunks(9)).step_by(7) {
                 for (wrench, given) in cases().iter().zip(given.chunks(3)) {
                     let predicted = arms::predicted(&arm, q, wrench).unwrap().twist.linear;
@@ -79,7 +79,7 @@ fn evaluated(joints: &[f64], known: usize) {
         model: StiffnessModel::DRIVES,
         flange_from_tool: &tool,
     };
-    evaluate_at_joints(&arm, joints, (&mut [0.0], 1), |_, _| Ok(()), Watch::NONE).unwrap();
+    evaluate_at_joints(&arm, joints, &mut [0.0], |_, _| Ok(()), Watch::NONE).unwrap();
 }
 
 #[test]
@@ -100,9 +100,9 @@ fn the_tool_pose_agrees_with_forward_kinematics_in_one_block_and_in_many() {
             Ok(())
         };
         let mut many = vec![0.0; q.len() / dof * 3];
-        evaluate_at_joints(&arm, &q, (&mut many, 3), write, Watch::NONE).unwrap();
+        evaluate_at_joints(&arm, &q, &mut many, write, Watch::NONE).unwrap();
         let mut few = vec![0.0; 15];
-        evaluate_at_joints(&arm, &q[..5 * dof], (&mut few, 3), write, Watch::NONE).unwrap();
+        evaluate_at_joints(&arm, &q[..5 * dof], &mut few, write, Watch::NONE).unwrap();
         assert_eq!(few, many[..15]);
         for (q, tip) in q.chunks(dof).zip(many.chunks(3)).step_by(11) {
             let posture = posture_at(&robot, q, &tool);
@@ -138,7 +138,7 @@ fn the_first_point_without_equilibrium_is_reported_in_every_block() {
         arm_state.elastic(&wrench).is_err()
     });
     let mut out = vec![0.0; 3 * AT_ONCE];
-    let given = evaluate_at_joints(&arm, &q, (&mut out, 1), write, Watch::NONE).unwrap_err();
+    let given = evaluate_at_joints(&arm, &q, &mut out, write, Watch::NONE).unwrap_err();
     match given {
         EvaluateError::Unstable { point, .. } => assert_eq!(Some(point), witness),
         EvaluateError::Cancelled(_) => panic!("not cancelled"),
@@ -165,8 +165,8 @@ fn a_cancelled_watch_stops_and_zero_points_need_no_work() {
     };
     let q = joints(robot, 64 * AT_ONCE);
     let mut out = vec![0.0; 64 * AT_ONCE];
-    let stopped = evaluate_at_joints(&arm, &q, (&mut out, 1), write, watch);
+    let stopped = evaluate_at_joints(&arm, &q, &mut out, write, watch);
     assert_eq!(stopped, Err(EvaluateError::Cancelled(Cancelled)));
     assert!(out.contains(&0.0));
-    assert_eq!(evaluate_at_joints(&arm, &[], (&mut [], 1), write, watch), Ok(()));
+    assert_eq!(evaluate_at_joints(&arm, &[], &mut [], write, watch), Ok(()));
 }

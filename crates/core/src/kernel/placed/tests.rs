@@ -196,7 +196,7 @@ fn screening_never_rejects_a_good_placement() {
                 let placement = within_reach(&mut random, &robot, &tool, &path);
                 let bound = screen.rounding_error(&path);
                 let truly = evaluator.evaluate(&path, &placement, BranchPattern::default(), |_| true);
-                let seen = by_lanes(&mut screen.0, (&path.single, &placement), [true; SLOTS], |_| true);
+                let seen = by_lanes(&mut screen.0, &path.single, &placement, [true; SLOTS], |_| true);
                 for (truly, seen) in truly.into_iter().flatten().zip(seen.into_iter().flatten()) {
                     assert!(
                         seen.unreachable <= truly.unreachable,

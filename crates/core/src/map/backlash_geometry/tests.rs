@@ -6,7 +6,7 @@ use super::*;
 use crate::arms;
 use crate::frame::Isometry;
 use crate::kernel::{BranchChoice, Question, evaluate, evaluate_on_path};
-use crate::load::{LoadCases, LoadFrame};
+use crate::load::{LoadCases, LoadFrame, PathLoad};
 use crate::map::{AlongPath, along_path};
 use crate::path::{Placing, Shape, Spin};
 use crate::robot::forward::forward;

@@ -52,7 +52,9 @@ fn compliance(robot: &Robot) -> Vec<JointCompliance> {
 /// The outward deviation of the first case, its part without load, and the curves of its uncertain inputs.
 fn reported(
     robot: &Robot,
-    (compliance, model, uncertainty): (&[JointCompliance], &StiffnessModel, InputUncertainty),
+    compliance: &[JointCompliance],
+    model: &StiffnessModel,
+    uncertainty: InputUncertainty,
     load: &PathLoad,
 ) -> (Vec<f64>, Option<WithoutLoad>, Vec<Vec<f64>>) {
     let tool = arms::bent_tool();
@@ -73,8 +75,8 @@ fn reported(
     let outward = radial_deviations(&track, &along.answers, centre)[0]
         .outward
         .clone();
-    let without = radial_without_load(&question, (&track, &along), centre, Watch::NONE).unwrap();
-    let uncertainties = radial_uncertainties(&question, (&track, &along), centre, load.case_count());
+    let without = radial_without_load(&question, &track, &along, centre, Watch::NONE).unwrap();
+    let uncertainties = radial_uncertainties(&question, &track, &along, centre, load.case_count());
     (outward, without, uncertainties)
 }
 
@@ -94,7 +96,9 @@ fn without_backlash_and_geometry_the_effect_of_the_load_remains() {
     let springs = compliance(&robot);
     let plain = reported(
         &robot,
-        (&springs, StiffnessModel::DRIVES, InputUncertainty::NONE),
+        &springs,
+        StiffnessModel::DRIVES,
+        InputUncertainty::NONE,
         &push(&[FORCE]),
     );
     assert_eq!(plain.1, None);
@@ -114,11 +118,7 @@ fn without_backlash_and_geometry_the_effect_of_the_load_remains() {
         side: BacklashSide::Motion,
     };
     model.structure.backlash = vec![Some(gap); 6];
-    let (loaded, without, _) = reported(
-        &robot,
-        (&springs, &model, InputUncertainty::NONE),
-        &push(&[FORCE]),
-    );
+    let (loaded, without, _) = reported(&robot, &springs, &model, InputUncertainty::NONE, &push(&[FORCE]));
     let without = without.unwrap().outward;
     let load: Vec<f64> = loaded.iter().zip(&without).map(|(all, own)| all - own).collect();
     assert!(farthest_apart(&load, &plain.0) < 1e-15);
@@ -127,7 +127,9 @@ fn without_backlash_and_geometry_the_effect_of_the_load_remains() {
     // They do not depend on the load.
     let other = reported(
         &robot,
-        (&springs, &model, InputUncertainty::NONE),
+        &springs,
+        &model,
+        InputUncertainty::NONE,
         &push(&[[-9.0, 70.0, 5.0]]),
     );
     assert!(farthest_apart(&other.1.unwrap().outward, &without) < 1e-15);
@@ -145,11 +147,7 @@ fn a_change_of_the_backlash_moves_the_unloaded_circle_as_its_curve_predicts() {
     let of = |gaps: [Backlash; 2]| {
         let mut model = StiffnessModel::DRIVES.clone();
         model.structure.backlash = vec![Some(gaps[0]), None, Some(gaps[1])];
-        let reported = reported(
-            &robot,
-            (&springs, &model, InputUncertainty::NONE),
-            &push(&[FORCE]),
-        );
+        let reported = reported(&robot, &springs, &model, InputUncertainty::NONE, &push(&[FORCE]));
         reported.1.unwrap()
     };
     let as_is = of([play(2e-4, 3e-5), play(4e-4, 0.0)]);
@@ -180,7 +178,9 @@ fn a_curve_is_the_change_by_one_standard_uncertainty_of_its_compliance() {
     let of = |springs: &[JointCompliance]| {
         reported(
             &robot,
-            (springs, StiffnessModel::DRIVES, InputUncertainty::NONE),
+            springs,
+            StiffnessModel::DRIVES,
+            InputUncertainty::NONE,
             &load,
         )
         .0
@@ -188,7 +188,9 @@ fn a_curve_is_the_change_by_one_standard_uncertainty_of_its_compliance() {
     let as_is = of(&springs);
     let curves = reported(
         &robot,
-        (&springs, StiffnessModel::DRIVES, InputUncertainty::NONE),
+        &springs,
+        StiffnessModel::DRIVES,
+        InputUncertainty::NONE,
         &load,
     )
     .2;
@@ -209,7 +211,9 @@ fn of_several_cases_the_mean_is_used_and_opposite_ones_cancel() {
     let of = |forces: &[[f64; 3]]| {
         reported(
             &robot,
-            (&springs, StiffnessModel::DRIVES, InputUncertainty::NONE),
+            &springs,
+            StiffnessModel::DRIVES,
+            InputUncertainty::NONE,
             &push(forces),
         )
         .2
@@ -230,7 +234,9 @@ fn correlated_compliances_move_the_circle_as_their_covariance_predicts() {
     let load = push(&[FORCE]);
     let alone = reported(
         &robot,
-        (&springs, StiffnessModel::DRIVES, InputUncertainty::NONE),
+        &springs,
+        StiffnessModel::DRIVES,
+        InputUncertainty::NONE,
         &load,
     )
     .2;
@@ -238,7 +244,7 @@ fn correlated_compliances_move_the_circle_as_their_covariance_predicts() {
     let u: Vec<f64> = springs.iter().map(|c| c.standard_uncertainty).collect();
     let mut model = StiffnessModel::DRIVES.clone();
     model.structure.covariance = Some(DMatrix::from_fn(6, 6, |i, j| u[i] * u[j]));
-    let together = reported(&robot, (&springs, &model, InputUncertainty::NONE), &load).2;
+    let together = reported(&robot, &springs, &model, InputUncertainty::NONE, &load).2;
     for k in 0..alone[0].len() {
         let sum: f64 = alone.iter().map(|curve| curve[k]).sum();
         let found = together
@@ -270,7 +276,7 @@ fn an_uncertain_load_and_a_model_error_scale_the_whole_curve() {
         (StiffnessModel::DRIVES, uncertainty),
         (&missing, InputUncertainty::NONE),
     ] {
-        let (outward, _, curves) = reported(&robot, (&exact, model, uncertainty), &push(&[FORCE]));
+        let (outward, _, curves) = reported(&robot, &exact, model, uncertainty, &push(&[FORCE]));
         assert_eq!(curves.len(), 1);
         let scaled: Vec<f64> = outward.iter().map(|by| 0.05 * by).collect();
         assert!(farthest_apart(&curves[0], &scaled) < 1e-16);

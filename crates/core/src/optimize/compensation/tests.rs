@@ -4,7 +4,7 @@ use super::*;
 use crate::arms;
 use crate::frame::Isometry;
 use crate::load::{CutHere, CutsAlong, Cutter, CuttingLaw, GreatestForce, LoadCases, Mechanistic};
-use crate::path::{Placing, Shape};
+use crate::path::{LoadedTrack, Placing, Shape, Track};
 use crate::robot::{BranchPattern, JointCompliance, Robot};
 use crate::source::{Arm, StiffnessModel};
 use crate::workpiece::Plane;
@@ -73,7 +73,10 @@ impl Cell {
         self.with([1.0; 6], |question| {
             compensated(
                 question,
-                (&track(), load),
+                LoadedTrack {
+                    track: &track(),
+                    load,
+                },
                 &CHOICES,
                 Compensation::USUAL,
                 Watch::NONE,
@@ -85,7 +88,7 @@ impl Cell {
     /// Deviations along a path of an arm with compliances scaled by these factors, m, base.
     fn deviations(&self, parts: [f64; 6], track: &Track, load: &PathLoad) -> Vec<Vector3<f64>> {
         self.with(parts, |question| {
-            along_postures(question, (track, load.clone()), CHOICES.to_vec(), Watch::NONE)
+            along_postures(question, track, load.clone(), CHOICES.to_vec(), Watch::NONE)
                 .unwrap()
                 .answers
                 .deviations
@@ -108,7 +111,17 @@ fn the_residual_of_a_command_is_that_of_its_compensation_and_the_whole_deviation
     let found = cell.compensated(&load);
     let left = |commanded: &Track| {
         cell.with([1.0; 6], |question| {
-            residual_of(question, (&track(), commanded), (&load, &CHOICES), Watch::NONE).unwrap()
+            residual_of(
+                question,
+                LoadedTrack {
+                    track: &track(),
+                    load: &load,
+                },
+                commanded,
+                &CHOICES,
+                Watch::NONE,
+            )
+            .unwrap()
         })
     };
     assert_eq!(left(&found.track).1, found.residual);
@@ -219,7 +232,10 @@ fn unreachable_points_stay_and_are_reported() {
     let found = cell.with([1.0; 6], |question| {
         compensated(
             question,
-            (&far, &load),
+            LoadedTrack {
+                track: &far,
+                load: &load,
+            },
             &CHOICES,
             Compensation::USUAL,
             Watch::NONE,

@@ -6,9 +6,9 @@ use nalgebra::{Point3, Unit, Vector3};
 use super::*;
 use crate::arms;
 use crate::frame::{Isometry, from_xyz_and_fixed_angles};
-use crate::load::{LoadCases, LoadFrame};
+use crate::load::{LoadCases, LoadFrame, PathLoad};
 use crate::optimize::{Component, Objective, Spins};
-use crate::path::{Hole, Placing, path_of_holes};
+use crate::path::{Hole, LoadedTrack, Placing, Track, path_of_holes};
 use crate::robot::{Amount, Backlash, BacklashSide, Motion};
 use crate::source::{Arm, StiffnessModel};
 use crate::spatial::Wrench;
@@ -84,7 +84,16 @@ fn found(holes: &[Hole], search: &PostureSearch) -> HolesFound {
 fn found_by(model: &StiffnessModel, holes: &[Hole], search: &PostureSearch) -> HolesFound {
     let (robot, tool) = (arms::mh12(), tool());
     let question = question(&robot, &tool, model);
-    hole_postures(&question, (&track(holes), &load()), search, Watch::NONE).unwrap()
+    hole_postures(
+        &question,
+        LoadedTrack {
+            track: &track(holes),
+            load: &load(),
+        },
+        search,
+        Watch::NONE,
+    )
+    .unwrap()
 }
 
 fn question<'a>(robot: &'a Robot, tool: &'a Isometry, model: &'a StiffnessModel) -> Question<'a> {
@@ -247,6 +256,14 @@ fn a_cancelled_search_stops() {
         cancel: &cancel,
     };
     let question = question(&robot, &tool, StiffnessModel::DRIVES);
-    let gave = hole_postures(&question, (&track(&holes()), &load()), &SEARCH, watch);
+    let gave = hole_postures(
+        &question,
+        LoadedTrack {
+            track: &track(&holes()),
+            load: &load(),
+        },
+        &SEARCH,
+        watch,
+    );
     assert!(gave.is_err());
 }

@@ -8,7 +8,7 @@ use crate::frame::from_xyz_and_fixed_angles;
 use crate::kernel::BranchChoice;
 use crate::load::LoadCases;
 use crate::map::along_postures;
-use crate::path::{Pace, Placing, Shape};
+use crate::path::{LoadedTrack, Pace, Placing, Shape};
 use crate::robot::Robot;
 use crate::source::{Arm, StiffnessModel};
 use crate::spatial::Wrench;
@@ -123,7 +123,14 @@ fn the_score_of_a_placement_agrees_with_the_answered_path() {
         let (track, load) = (track(drawn(), spin, lean), load(frame));
         let all: Vec<usize> = (0..track.len()).collect();
         for component in [Component::InPlane, Component::CrossTrack, Component::Axial] {
-            let path = on_part((&track, &load), component, &all);
+            let path = on_part(
+                LoadedTrack {
+                    track: &track,
+                    load: &load,
+                },
+                component,
+                &all,
+            );
             let turn = ToolTurn::of(&track);
             for _ in 0..6 {
                 let base_from_part = place(&mut random);
@@ -148,8 +155,7 @@ fn the_score_of_a_placement_agrees_with_the_answered_path() {
                 reached += 1;
                 let deviations = |branch: Branch| -> Vec<f64> {
                     let choice = vec![(0, BranchChoice::Of(branch.into()))];
-                    let along =
-                        along_postures(&question, (&there, load.clone()), choice, Watch::NONE).unwrap();
+                    let along = along_postures(&question, &there, load.clone(), choice, Watch::NONE).unwrap();
                     let cases = along.answers.case_count;
                     let size = |index: usize, deviation: &Vector3<f64>| {
                         let parts = there.parts(index, deviation);
@@ -220,7 +226,14 @@ fn a_bar_rejects_no_better_placement() {
     let mut random = Stream(7);
     let (track, load) = (track(drawn(), Spin::AlongFeed(0.0), 0.0), load(LoadFrame::Part));
     let all: Vec<usize> = (0..track.len()).collect();
-    let path = on_part((&track, &load), Component::InPlane, &all);
+    let path = on_part(
+        LoadedTrack {
+            track: &track,
+            load: &load,
+        },
+        Component::InPlane,
+        &all,
+    );
     let places: Vec<PartPlacement> = (0..200)
         .map(|_| ToolTurn::WithPart.placement(place(&mut random), random.vector(PI).x))
         .collect();
@@ -264,7 +277,14 @@ fn a_cancelled_watch_stops_the_evaluation() {
     let cell = Cell::new();
     let question = cell.question();
     let (track, load) = (track(drawn(), Spin::Fixed(0.0), 0.0), load(LoadFrame::Part));
-    let path = on_part((&track, &load), Component::InPlane, &[0, 5]);
+    let path = on_part(
+        LoadedTrack {
+            track: &track,
+            load: &load,
+        },
+        Component::InPlane,
+        &[0, 5],
+    );
     let cancel = std::sync::atomic::AtomicBool::new(true);
     let placeable = Placeable {
         question: &question,
@@ -291,7 +311,14 @@ fn the_uncertainty_of_a_cost_agrees_with_the_scatter_of_random_arms() {
     question.arm.compliance = &joints;
     question.uncertainty.relative = 0.03;
     let (track, load) = (track(drawn(), Spin::Fixed(0.0), 0.0), load(LoadFrame::Part));
-    let path = on_part((&track, &load), Component::InPlane, &[0, 7, 15, 30]);
+    let path = on_part(
+        LoadedTrack {
+            track: &track,
+            load: &load,
+        },
+        Component::InPlane,
+        &[0, 7, 15, 30],
+    );
     let placeable = |rank_by| Placeable {
         question: &question,
         path: &path,
@@ -366,7 +393,16 @@ fn points_with_separate_postures_use_the_best_of_each() {
             branches,
             ..objective(Objective::Mean)
         };
-        let of = |indices: &[usize]| on_part((&track, &load), Component::InPlane, indices);
+        let of = |indices: &[usize]| {
+            on_part(
+                LoadedTrack {
+                    track: &track,
+                    load: &load,
+                },
+                Component::InPlane,
+                indices,
+            )
+        };
         let all: Vec<usize> = (0..track.len()).collect();
         let whole = of(&all);
         for _ in 0..4 {

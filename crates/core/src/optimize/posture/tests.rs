@@ -6,9 +6,9 @@ use nalgebra::{Point2, Point3};
 use super::*;
 use crate::arms;
 use crate::kernel::BranchChoice;
-use crate::load::{LoadCases, LoadFrame};
+use crate::load::{LoadCases, LoadFrame, PathLoad};
 use crate::map::{AlongPath, along_postures};
-use crate::path::{Placing, SampledPath, Shape, Spin};
+use crate::path::{LoadedTrack, Placing, SampledPath, Shape, Spin};
 use crate::robot::{Limits, Robot};
 use crate::source::{Arm, StiffnessModel};
 use crate::spatial::Wrench;
@@ -53,7 +53,13 @@ impl Cell {
     }
 
     fn found(&self, track: &Track, search: &PostureSearch) -> PostureFound {
-        postures_along(&self.question(), (track, &load()), search, Watch::NONE).unwrap()
+        postures_along(
+            &self.question(),
+            LoadedTrack { track, load: &load() },
+            search,
+            Watch::NONE,
+        )
+        .unwrap()
     }
 
     /// The answers along the path with these spins, in these branches.
@@ -62,7 +68,7 @@ impl Cell {
             spins: Some(spins),
             ..track.clone()
         };
-        along_postures(&self.question(), (&track, load()), choices, Watch::NONE).unwrap()
+        along_postures(&self.question(), &track, load(), choices, Watch::NONE).unwrap()
     }
 }
 
@@ -393,7 +399,10 @@ fn any_number_of_threads_finds_the_same_and_it_stops_when_cancelled() {
     };
     let stopped = postures_along(
         &cell.question(),
-        (&track, &load()),
+        LoadedTrack {
+            track: &track,
+            load: &load(),
+        },
         &search(Objective::Mean),
         watch,
     );

@@ -146,7 +146,8 @@ impl OrthoParallel {
         let (u, v) = (r - self.a1, p.z);
         let (psi, chi) = self.links.solve(u, v, branch.elbow)?;
         let kept = kept.map(|theta| self.sense[3] * theta);
-        let [phi4, bend, phi6] = self.wrist(base_from_flange, phi1, chi, (branch.wrist, kept));
+        let [phi4, bend, phi6] =
+            self.wrist(self.wrist_target(base_from_flange, phi1, chi), branch.wrist, kept);
 
         let (psi_angle, chi_angle, bend_angle) = (psi.angle(), chi.angle(), bend.angle());
         let mut positions = [
@@ -181,24 +182,21 @@ impl OrthoParallel {
         (branch, self.links.singularity(bend.sin(), eps.sin(), u + self.a1))
     }
 
-    /// Joint 4, bend and joint 6; at the singularity joint 4 is `kept`.
-    fn wrist(
-        &self,
-        base_from_flange: &Isometry,
-        phi1: Turn,
-        chi: Turn,
-        (wrist, kept): (Wrist, Option<f64>),
-    ) -> [Turn; 3] {
-        // The forearm has turned by phi1 about z and by chi - chi0 about y; seen from it, the flange's own
-        // directions of axes 6 and 5 at zero:
+    /// The flange's own directions of axes 6 and 5 at zero, seen from the forearm, which has turned by phi1 about z and
+    /// by chi - chi0 about y.
+    fn wrist_target(&self, base_from_flange: &Isometry, phi1: Turn, chi: Turn) -> [Vector3<f64>; 2] {
         let forearm = chi.less(self.forearm_turn_at_zero);
         let seen = |in_flange: &Vector3<f64>| {
             let v = self.arm_from_base * (base_from_flange * in_flange);
             forearm.back_about_y(phi1.back_about_z(v))
         };
+        [seen(&self.flange_from_axis_6), seen(&self.flange_from_axis_5)]
+    }
+
+    /// Joint 4, bend and joint 6 for axes 6 and 5 in these directions; at the singularity joint 4 is `kept`.
+    fn wrist(&self, [out, second]: [Vector3<f64>; 2], wrist: Wrist, kept: Option<f64>) -> [Turn; 3] {
         let [a4, a5] = self.wrist_axes;
         let a3 = a4.cross(&a5);
-        let (out, second) = (seen(&self.flange_from_axis_6), seen(&self.flange_from_axis_5));
         let (along, up, side) = (out.dot(&a4), out.dot(&a3), out.dot(&a5));
         let bent = up.hypot(side);
         let flip = if wrist == Wrist::NoFlip { 1.0 } else { -1.0 };

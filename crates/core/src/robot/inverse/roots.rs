@@ -37,7 +37,7 @@ pub(super) fn real_roots(p: &[f64], touching: f64) -> Vec<f64> {
     let mut roots = Vec::with_capacity(4);
     for (i, pair) in walls.windows(2).enumerate() {
         if crossed[i] {
-            roots.push(crossing(p, &derivative, (pair[0], pair[1])));
+            roots.push(crossing(p, &derivative, pair[0], pair[1]));
         } else if i + 1 < crossed.len() && !crossed[i + 1] && touches(p, pair[1], touching) {
             roots.push(pair[1]);
         }
@@ -46,7 +46,7 @@ pub(super) fn real_roots(p: &[f64], touching: f64) -> Vec<f64> {
 }
 
 /// The root between two points of different sign.
-fn crossing(p: &[f64], derivative: &[f64], (mut from, mut to): (f64, f64)) -> f64 {
+fn crossing(p: &[f64], derivative: &[f64], mut from: f64, mut to: f64) -> f64 {
     let starts_below = value(p, from) < 0.0;
     let mut t = 0.5 * (from + to);
     for _ in 0..MOST_STEPS {

@@ -73,13 +73,14 @@ impl SphericalWrist {
     /// (m).
     pub(super) fn of(lines: &[Line; 6], at_zero: &Isometry, within: f64) -> Option<SphericalWrist> {
         let [a, b, c, d, e, f] = *lines;
-        SphericalWrist::with_wrist_last([a, b, c, d, e, f], (at_zero, false), within)
-            .or_else(|| SphericalWrist::with_wrist_last([f, e, d, c, b, a], (at_zero, true), within))
+        SphericalWrist::with_wrist_last([a, b, c, d, e, f], at_zero, false, within)
+            .or_else(|| SphericalWrist::with_wrist_last([f, e, d, c, b, a], at_zero, true, within))
     }
 
     fn with_wrist_last(
         mut lines: [Line; 6],
-        (at_zero, reversed): (&Isometry, bool),
+        at_zero: &Isometry,
+        reversed: bool,
         within: f64,
     ) -> Option<SphericalWrist> {
         let wrist = meeting([&lines[3], &lines[4], &lines[5]])?;

@@ -80,7 +80,7 @@ impl ArmState<'_> {
         if let Links::Farthest(along, positions) = links {
             positions.fill(0.0);
             let known = self.geometric() + self.thermal() + self.backlash(positions, wrench);
-            self.place_farthest((&(by_load + known.linear), along), wrench, positions);
+            self.place_farthest(&(by_load + known.linear), along, wrench, positions);
         }
     }
 
@@ -88,7 +88,8 @@ impl ArmState<'_> {
     /// (m, base) is the displacement by all else. Links whose side is given by a torque get 0.
     fn place_farthest(
         &self,
-        (from, along): (&Vector3<f64>, &[Vector3<f64>; 2]),
+        from: &Vector3<f64>,
+        along: &[Vector3<f64>; 2],
         wrench: &Wrench,
         positions: &mut [f64],
     ) {
@@ -113,13 +114,14 @@ impl ArmState<'_> {
         &self,
         links: &Links<'_>,
         wrench: &Wrench,
-        (shares, covariance): (&mut [Twist], &mut Matrix3<f64>),
+        shares: &mut [Twist],
+        covariance: &mut Matrix3<f64>,
     ) {
         let Some(positions) = links.positions() else {
             return;
         };
         let contributors = self.arm.model.contributors(self.theta.len());
-        self.each_unloaded((positions, wrench), |contributor, part, u| {
+        self.each_unloaded(positions, wrench, |contributor, part, u| {
             if let Some(share) = contributors.iter().position(|other| *other == contributor) {
                 shares[share] = shares[share] + part;
             }
@@ -127,30 +129,12 @@ impl ArmState<'_> {
         });
     }
 
-    /// Adds every part that does not depend on the load, along the unit vector `along` (m), to the share of its contributor.
-    /// Returns the variance (m^2) of all of them along it.
-    pub fn share_unloaded(
-        &self,
-        along: &Vector3<f64>,
-        at: (&[f64], &Wrench),
-        contributors: &[Contributor],
-        shares: &mut [f64],
-    ) -> f64 {
-        let mut variance = 0.0;
-        self.each_unloaded(at, |contributor, part, u| {
-            if let Some(share) = contributors.iter().position(|other| *other == contributor) {
-                shares[share] += part.linear.dot(along);
-            }
-            variance += u.dot(along).powi(2);
-        });
-        variance
-    }
-
-    /// Calls `take` with each part and its standard uncertainty (m, base; its components are fully correlated). The
+    /// Calls `take` with each part that does not depend on the load and its standard uncertainty (m, base; its components are fully correlated). The
     /// uncertainty of a backlash is relative; the calibrated geometry has none.
-    fn each_unloaded(
+    pub(crate) fn each_unloaded(
         &self,
-        (kept, wrench): (&[f64], &Wrench),
+        kept: &[f64],
+        wrench: &Wrench,
         mut take: impl FnMut(Contributor, Twist, Vector3<f64>),
     ) {
         for (joint, gap) in self.arm.model.structure.joints_with_backlash() {
@@ -171,7 +155,7 @@ impl ArmState<'_> {
         let screw = self.screws[joint];
         let gap = self.arm.model.structure.backlash[joint];
         let offset = gap.map_or(0.0, |gap| {
-            backlash::link_offset(&gap, kept[joint], (&screw, wrench), self.before[joint])
+            backlash::link_offset(&gap, kept[joint], &screw, wrench, self.before[joint])
         });
         screw * offset
     }

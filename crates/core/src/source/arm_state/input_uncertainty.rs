@@ -39,7 +39,7 @@ impl ArmState<'_> {
         along: &Vector3<f64>,
     ) -> Result<f64, Unstable> {
         let mut variance = 0.0;
-        self.displacements_by_inputs(uncertainty, (arm_state, along), |by| variance += by * by)?;
+        self.displacements_by_inputs(uncertainty, arm_state, along, |by| variance += by * by)?;
         Ok(variance)
     }
 
@@ -52,7 +52,8 @@ impl ArmState<'_> {
     pub fn displacements_by_inputs(
         &mut self,
         uncertainty: &InputUncertainty,
-        (arm_state, along): (&LoadedPosture<'_>, &Vector3<f64>),
+        arm_state: &LoadedPosture<'_>,
+        along: &Vector3<f64>,
         mut given: impl FnMut(f64),
     ) -> Result<(), Unstable> {
         let Wrench { force, moment } = *arm_state.wrench;

@@ -27,7 +27,7 @@ pub use input_uncertainty::LoadedPosture;
 
 use nalgebra::{IsometryMatrix3, Matrix3, Matrix6, Point3, Rotation3, Vector3};
 
-use super::equilibrium::{Equilibrium, Unstable};
+use super::equilibrium::{AtRest, Equilibrium, Unstable};
 use super::gravity::{Carried, carry_into, torque};
 use super::stiffness_model::{Arm, Gravity};
 use crate::load::TipCompliance;
@@ -195,8 +195,11 @@ impl<'a> ArmState<'a> {
     /// [`Unstable`] where the arm has no stable equilibrium.
     pub fn elastic(&mut self, wrench: &Wrench) -> Result<Twist, Unstable> {
         if let Some(mut equilibrium) = self.equilibrium.take() {
-            let at = (&self.theta[..], &self.before[..]);
-            let found = equilibrium.find(&self.arm, at, wrench, |k, torque| self.law(k, torque));
+            let at_rest = AtRest {
+                theta: &self.theta,
+                torques: &self.before,
+            };
+            let found = equilibrium.find(&self.arm, at_rest, wrench, |k, torque| self.law(k, torque));
             self.turns.copy_from_slice(equilibrium.turns());
             self.torques.copy_from_slice(equilibrium.torques());
             self.equilibrium = Some(equilibrium);

@@ -52,6 +52,10 @@ fn toggle() -> Matrix2<f64> {
     Matrix2::new(2.0, 1.0, 1.0, 1.0)
 }
 
+fn at_rest<'a>(theta: &'a [f64], torques: &'a [f64]) -> AtRest<'a> {
+    AtRest { theta, torques }
+}
+
 #[test]
 fn links_in_a_row_buckle_under_the_force_of_the_closed_form() {
     // K - F L [[2, 1], [1, 1]] loses its sign at F = k / (L (3 + sqrt 5) / 2).
@@ -126,7 +130,7 @@ fn the_load_stiffness_is_symmetric_but_for_the_moment() {
             let theta: Vec<f64> = (0..6).map(|i| robot.theta(i, &q)).collect();
             // Rigid drives: the arm stays where it is.
             equilibrium
-                .find(&arm, (&theta, &[0.0; 6]), &wrench, |_, _| (0.0, 0.0))
+                .find(&arm, at_rest(&theta, &[0.0; 6]), &wrench, |_, _| (0.0, 0.0))
                 .unwrap();
             let axes: Vec<Vector3<f64>> = equilibrium
                 .deflected
@@ -134,7 +138,7 @@ fn the_load_stiffness_is_symmetric_but_for_the_moment() {
                 .iter()
                 .map(|screw| screw.angular)
                 .collect();
-            let k = equilibrium.load_stiffness();
+            let k = &equilibrium.k_c;
             for i in 0..6 {
                 for j in 0..i {
                     let skew = axes[j].cross(&axes[i]).dot(&wrench.moment);
@@ -193,6 +197,43 @@ fn with_everything() -> StiffnessModel {
 }
 
 #[test]
+fn load_stiffness_matches_finite_differences() {
+    let (tool, model) = (arms::bent_tool(), with_everything());
+    let mut stream = Stream(53);
+    for robot in arms::all() {
+        let arm = arm_of(&robot, &model, &tool);
+        let mut equilibrium = Equilibrium::for_arm(&arm);
+        for _ in 0..20 {
+            let (q, wrench) = somewhere(&robot, &mut stream);
+            let theta: Vec<f64> = (0..6).map(|i| robot.theta(i, &q)).collect();
+            // Drives and springs that stay at `x`: torques there are those of the load.
+            let mut set = |x: &[f64]| {
+                let law = |k: usize, _| (x[k], 0.0);
+                equilibrium
+                    .find(&arm, at_rest(&theta, &[0.0; 9]), &wrench, law)
+                    .unwrap();
+                (equilibrium.torques.clone(), equilibrium.k_c.clone())
+            };
+            let x: Vec<f64> = (0..9).map(|k| 1e-3 * (f64::from(k) - 4.0)).collect();
+            let (_, k_c) = set(&x);
+            let h = 1e-5;
+            for j in 0..9 {
+                let (mut more, mut less) = (x.clone(), x.clone());
+                more[j] += h;
+                less[j] -= h;
+                let (more, less) = (set(&more).0, set(&less).0);
+                for i in 0..9 {
+                    let witness = (more[i] - less[i]) / (2.0 * h);
+                    // Torques of some 10 kN m: h^2 of their third derivative, rounding over h.
+                    let away = (k_c[(i, j)] - witness).abs();
+                    assert!(away < 1e-5, "{}: {i} {j}: {away}", robot.name());
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn the_potential_of_springs_load_weight_and_compensator_is_least_at_equilibrium() {
     let (tool, model) = (arms::bent_tool(), with_everything());
     let structure = &model.structure;
@@ -200,7 +241,7 @@ fn the_potential_of_springs_load_weight_and_compensator_is_least_at_equilibrium(
     let mut rests = 0;
     for robot in [&arms::ALL[1], &arms::ALL[3]] {
         let arm = arm_of(robot, &model, &tool);
-        let (c, body) = (arm.compliances(), (robot, &structure.springs[..], &tool));
+        let c = arm.compliances();
         let mut arm_state = ArmState::new(arm);
         for _ in 0..10 {
             let (q, Wrench { force, .. }) = somewhere(robot, &mut stream);
@@ -210,13 +251,16 @@ fn the_potential_of_springs_load_weight_and_compensator_is_least_at_equilibrium(
             let mut equilibrium = Equilibrium::for_arm(&arm);
             let law = |k: usize, torque: f64| (c[k].value * torque, c[k].value);
             let wrench = Wrench::from_force(force);
-            if equilibrium.find(&arm, (&theta, &before), &wrench, law).is_err() {
+            if equilibrium
+                .find(&arm, at_rest(&theta, &before), &wrench, law)
+                .is_err()
+            {
                 continue;
             }
             rests += 1;
             let potential = |x: &[f64]| -> f64 {
                 let mut there = DeflectedArm::for_robot(robot, 3);
-                deflect_into(body, &theta, x, &mut there);
+                deflect_into(&arm.flexible(), &theta, x, &mut there);
                 let own: f64 = x.iter().zip(&c).map(|(x, c)| 0.5 * x * x / c.value).sum();
                 // The torque of gravity and compensator at rest is subtracted: spring deflections are relative to rest.
                 let taken_off: f64 = x.iter().zip(&before).map(|(x, before)| x * before).sum();
@@ -228,7 +272,7 @@ fn the_potential_of_springs_load_weight_and_compensator_is_least_at_equilibrium(
                     })
                     .sum();
                 let compensator = structure.compensator.unwrap();
-                let spring = compensator.energy(theta[1] + x[1]);
+                let spring = arms::spring_energy(&compensator, theta[1] + x[1]);
                 own + taken_off + weight + spring - force.dot(&there.base_from_tool().translation.vector)
             };
             let x = equilibrium.turns().to_vec();

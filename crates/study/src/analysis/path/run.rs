@@ -11,7 +11,7 @@ use armill_core::map::{
 };
 use armill_core::nalgebra::{Point3, Translation3, UnitQuaternion};
 use armill_core::optimize::{Objective, PostureFound, PostureSearch, postures_along};
-use armill_core::path::{ForceSummary, NoForces, Shape, Stock, Track};
+use armill_core::path::{ForceSummary, LoadedTrack, NoForces, Shape, Stock, Track};
 use armill_core::spatial::Wrench;
 use armill_core::watch::{Cancelled, Watch};
 use armill_core::workpiece::Plane;
@@ -164,7 +164,7 @@ impl Runner<'_> {
         let turned = searched.posture.turned(&analysis.track);
         let choices = searched.posture.choices();
         Ok(Followed {
-            along: along_postures(&question, (&turned, load), choices, self.watch)?,
+            along: along_postures(&question, &turned, load, choices, self.watch)?,
             turned: Some(turned),
             searched: Some(searched),
         })
@@ -179,9 +179,13 @@ impl Runner<'_> {
     ) -> Result<SearchResult, StudyError> {
         let question = self.question(&analysis.setting);
         let without_search = along_path(&question, &analysis.track, load.clone(), self.watch)?;
+        let path = LoadedTrack {
+            track: &analysis.track,
+            load,
+        };
         Ok(SearchResult {
             without_search: without_search.answers,
-            posture: postures_along(&question, (&analysis.track, load), search, self.watch)?,
+            posture: postures_along(&question, path, search, self.watch)?,
         })
     }
 

@@ -1,5 +1,7 @@
 //! Input and output of a batch: one array per number, indexed by point.
 
+use std::ops::Range;
+
 use nalgebra::Rotation3;
 
 use crate::kernel::lanes::load::CASE;
@@ -74,11 +76,11 @@ impl<T: Precision> Arrays<T> {
         self.values.resize(arrays * count, T::default());
     }
 
-    /// Copies the first `used` values of `planes` into the arrays from `index` on, at point `first`.
-    pub(super) fn take(&mut self, index: usize, planes: &[Plane<T>], (first, used): (usize, usize)) {
+    /// Copies the first values of `planes` into the arrays from `index` on, at these points.
+    pub(super) fn take(&mut self, index: usize, planes: &[Plane<T>], points: Range<usize>) {
         for (k, plane) in planes.iter().enumerate() {
-            let start = (index + k) * self.count + first;
-            self.values[start..start + used].copy_from_slice(&plane[..used]);
+            let start = (index + k) * self.count + points.start;
+            self.values[start..start + points.len()].copy_from_slice(&plane[..points.len()]);
         }
     }
 }

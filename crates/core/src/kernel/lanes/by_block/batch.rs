@@ -107,9 +107,9 @@ impl<T: Precision> Batch<T> {
             let used = self.aim(poses, first, Second::AtZero);
             self.solve(signs(branch), is_still(poses));
             self.compliance();
-            out.take(0, &self.scratch.out, (first, used));
+            out.take(0, &self.scratch.out, first..first + used);
             let flags = std::slice::from_ref(&self.scratch.postures.flags);
-            out.take(21, flags, (first, used));
+            out.take(21, flags, first..first + used);
         }
     }
 
@@ -126,8 +126,8 @@ impl<T: Precision> Batch<T> {
                 let same_shoulder = self.solve_in_turn(four, is_still(poses));
                 self.position(same_shoulder);
                 let Positions { joints, flags, .. } = &self.scratch.positions;
-                out.take(12 * four, joints.as_flattened(), (first, used));
-                out.take(48 + 2 * four, flags, (first, used));
+                out.take(12 * four, joints.as_flattened(), first..first + used);
+                out.take(48 + 2 * four, flags, first..first + used);
             }
         }
     }
@@ -151,7 +151,7 @@ impl<T: Precision> Batch<T> {
                 joints: planes,
                 out: to,
             });
-            out.take(0, to, (first, BLOCK.min(count - first)));
+            out.take(0, to, first..count.min(first + BLOCK));
         }
     }
 }

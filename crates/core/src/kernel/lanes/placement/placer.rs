@@ -21,7 +21,7 @@ use super::weighed::{LargestOfEach, RowsOfEach};
 use crate::kernel::lanes::by_block::{Batch, FOUR, Scratch, Second};
 use crate::kernel::lanes::geometry::{Arm, CosineLimits, aim_still};
 use crate::kernel::lanes::numbers::{BLOCK, Backend, Planes, Precision, planes};
-use crate::kernel::placed::{PartPlacement, PostureMargins, WrenchAxes};
+use crate::kernel::placed::{PartPlacement, PostureMargins, SpunPlacement, WrenchAxes};
 use crate::kernel::question::Question;
 use crate::robot::inverse::OrthoParallel;
 use crate::spatial::Wrench;
@@ -56,15 +56,16 @@ impl Placer<f64> {
         Placer::with_slack(question, form, margins, 0.0)
     }
 
-    /// The smallest deviation at each point, over all spins of the tool and all open branches, into `least`; infinite
+    /// The smallest deviation at each point, over the spins `tried` and all open branches, into `least`; infinite
     /// where no posture can be used.
     pub fn least_of_each(
         &mut self,
         points: &PlacementPoints<f64>,
-        (placement, spins): (&PartPlacement, &[f64]),
+        tried: SpunPlacement<'_>,
         open: [bool; 8],
         least: &mut Vec<f64>,
     ) {
+        let SpunPlacement { placement, spins } = tried;
         least.clear();
         for block in 0..points.at.len() {
             let mut best = [f64::INFINITY; BLOCK];

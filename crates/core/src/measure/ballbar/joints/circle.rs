@@ -108,7 +108,8 @@ pub enum NotFollowed {
 /// [`NotFollowed`].
 pub fn follow(
     question: &Question<'_>,
-    (circle, stations): (&Circle, usize),
+    circle: &Circle,
+    stations: usize,
     watch: Watch<'_>,
 ) -> Result<Followed, NotFollowed> {
     let stations = stations.max(LEAST_STATIONS);

@@ -33,16 +33,16 @@ impl Followed {
 
     /// Effect of the backlash (rad, m) of joint `joint` on the radius, m, at these angles (rad, any order) in this
     /// direction.
-    pub fn effect(&self, (joint, gap): (usize, f64), direction: Direction, angles: &[f64]) -> Vec<f64> {
-        let lags = self.lags((joint, gap), direction, angles);
+    pub fn effect(&self, joint: usize, gap: f64, direction: Direction, angles: &[f64]) -> Vec<f64> {
+        let lags = self.lags(joint, gap, direction, angles);
         let lever = |a: f64| between(&self.joints[joint].lever, a).dot(&outwards(a));
         angles.iter().zip(lags).map(|(a, lag)| lever(*a) * lag).collect()
     }
 
     /// Derivative of the effect by the backlash, m per rad (m): for zero backlash that of a small one over its size.
-    pub fn slope(&self, (joint, gap): (usize, f64), direction: Direction, angles: &[f64]) -> Vec<f64> {
+    pub fn slope(&self, joint: usize, gap: f64, direction: Direction, angles: &[f64]) -> Vec<f64> {
         let step = (STEP[0] * gap.abs()).max(STEP[1]);
-        let [more, less] = [gap + step, gap - step].map(|gap| self.effect((joint, gap), direction, angles));
+        let [more, less] = [gap + step, gap - step].map(|gap| self.effect(joint, gap, direction, angles));
         let pairs = more.iter().zip(&less);
         pairs.map(|(more, less)| (more - less) / (2.0 * step)).collect()
     }
@@ -52,7 +52,7 @@ impl Followed {
     pub fn deviation(&self, gaps: &[f64], direction: Direction, angles: &[f64]) -> Vec<f64> {
         let mut moved: Vec<Vector3<f64>> = angles.iter().map(|a| between(&self.unloaded, *a)).collect();
         for (joint, gap) in gaps.iter().enumerate().filter(|(_, gap)| **gap != 0.0) {
-            let lags = self.lags((joint, *gap), direction, angles);
+            let lags = self.lags(joint, *gap, direction, angles);
             for ((moved, a), lag) in moved.iter_mut().zip(angles).zip(lags) {
                 *moved += between(&self.joints[joint].lever, *a) * lag;
             }
@@ -103,7 +103,7 @@ impl Followed {
     }
 
     /// Link minus motor at these angles, rad (m).
-    fn lags(&self, (joint, gap): (usize, f64), direction: Direction, angles: &[f64]) -> Vec<f64> {
+    fn lags(&self, joint: usize, gap: f64, direction: Direction, angles: &[f64]) -> Vec<f64> {
         let along_joint = &self.joints[joint];
         let backlash = Backlash {
             gap: gap.abs(),
@@ -139,8 +139,8 @@ impl Followed {
         for ((angle, _, place), link) in stops.iter().zip(links) {
             if let Some(place) = place {
                 let torque = between_numbers(&along_joint.torque, *angle);
-                let unloaded = (&Twist::ZERO, &Wrench::ZERO);
-                found[*place] = link_offset(&backlash, link, unloaded, torque) * gap.signum();
+                let offset = link_offset(&backlash, link, &Twist::ZERO, &Wrench::ZERO, torque);
+                found[*place] = offset * gap.signum();
             }
         }
         found

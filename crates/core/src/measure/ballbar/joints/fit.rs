@@ -213,11 +213,7 @@ impl Sight<'_> {
         let freedom = self.samples.at.len() - fixed - seen.len();
         let covariance = match requested.noise {
             Some(noise) => &parted.inverse * (noise * noise),
-            None => trust::covariance(
-                &self.samples,
-                (&parted.columns, &rest),
-                (&parted.inverse, freedom),
-            ),
+            None => trust::covariance(&self.samples, &parted.columns, &rest, &parted.inverse, freedom),
         };
         let reported: Vec<usize> = (0..seen.len())
             .filter(|place| !parted.together.iter().any(|set| set.contains(place)))
@@ -268,7 +264,7 @@ impl Sight<'_> {
     fn left(&self, gaps: &[f64]) -> DVector<f64> {
         let mut left = self.samples.deviation.clone();
         for (joint, gap) in gaps.iter().enumerate().filter(|(_, gap)| **gap != 0.0) {
-            left -= self.column(|followed, way, angles| followed.effect((joint, *gap), way, angles));
+            left -= self.column(|followed, way, angles| followed.effect(joint, *gap, way, angles));
         }
         self.without_nuisance(&DMatrix::from_columns(&[left]))
             .column(0)
@@ -278,8 +274,8 @@ impl Sight<'_> {
     /// Derivatives of the samples by the backlash of these joints, without the nuisance.
     fn columns(&self, joints: &[usize], gaps: &[f64]) -> DMatrix<f64> {
         let column = |joint: &usize| {
-            let at = (*joint, gaps[*joint]);
-            self.column(|followed, way, angles| followed.slope(at, way, angles))
+            let gap = gaps[*joint];
+            self.column(|followed, way, angles| followed.slope(*joint, gap, way, angles))
         };
         let columns: Vec<DVector<f64>> = joints.iter().map(column).collect();
         match columns.is_empty() {

@@ -193,7 +193,8 @@ fn circle(centre: Point3<f64>, normal: Normal, radius: f64) -> Circle {
 /// [`Cancelled`] if the watch says so.
 pub fn propose(
     question: &Question<'_>,
-    (candidates, begun): (&[Candidate], &[Followed]),
+    candidates: &[Candidate],
+    begun: &[Followed],
     requested: &CirclePlanOptions,
     watch: Watch<'_>,
 ) -> Result<Plan, Cancelled> {
@@ -204,7 +205,7 @@ pub fn propose(
                 finished: &|_| (),
                 ..watch
             };
-            let followed = follow(question, (&candidate.circle, STATIONS), quiet);
+            let followed = follow(question, &candidate.circle, STATIONS, quiet);
             (watch.finished)(1);
             match followed {
                 Ok(followed) if followed.limit_margin >= -AT_LIMIT => {
@@ -259,7 +260,7 @@ fn information(followed: &Followed, requested: &CirclePlanOptions) -> DMatrix<f6
         .iter()
         .enumerate()
         .fold(columns, |mut columns, (k, joint)| {
-            let ways = Direction::BOTH.map(|way| followed.slope((*joint, ASSUMED), way, &angles));
+            let ways = Direction::BOTH.map(|way| followed.slope(*joint, ASSUMED, way, &angles));
             columns.set_column(k, &nalgebra::DVector::from_vec(ways.concat()));
             columns
         });

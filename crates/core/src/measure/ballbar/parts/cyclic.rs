@@ -40,7 +40,7 @@ pub fn strongest_period(test: &CircularTest, requested: &PartsOptions) -> Option
     let [shortest, longest] = periods(test);
     // Turns along a radius: of a period as long as the radius to one of four samples.
     let [least, most] = [longest, shortest].map(|period| test.radius() / period);
-    let explained = |turns: f64| explained(&samples.at, (&base, &rest), turns);
+    let explained = |turns: f64| explained(&samples.at, &base, &rest, turns);
     let trials = ((most - least).max(0.0) * 2.0 * TRIALS_A_TURN) as usize;
     let coarse = (0..=trials).map(|k| least + k as f64 / (2.0 * TRIALS_A_TURN));
     let best = |turns: Vec<f64>| -> Option<(f64, f64)> {
@@ -58,11 +58,12 @@ pub fn strongest_period(test: &CircularTest, requested: &PartsOptions) -> Option
 }
 
 /// Squares of the residuals explained by waves of this many turns along a radius.
-fn explained(at: &[(f64, Direction)], (base, rest): (&DMatrix<f64>, &DVector<f64>), turns: f64) -> f64 {
+fn explained(at: &[(f64, Direction)], base: &DMatrix<f64>, rest: &DVector<f64>, turns: f64) -> f64 {
     let terms =
         [Axis::A, Axis::B].map(|axis| [Wave::Cosine, Wave::Sine].map(|wave| Term::Cyclic(axis, wave)));
     let waves = DMatrix::from_fn(at.len(), 4, |row, column| {
-        terms[column / 2][column % 2].at(at[row], (&[], TAU * turns))
+        let (angle, direction) = at[row];
+        terms[column / 2][column % 2].at(angle, direction, &[], TAU * turns)
     });
     // The projection of a wave on the other terms belongs to those.
     let own = &waves - base * base.tr_mul(&waves);

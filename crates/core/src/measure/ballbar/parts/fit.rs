@@ -96,7 +96,7 @@ pub fn parts(test: &CircularTest, requested: &PartsOptions) -> Option<Parts> {
     let values = solved(&rows, &samples.deviation, &spread);
     let rest = &samples.deviation - &rows * &values;
     let freedom = rows.nrows() - rows.ncols();
-    let covariance = covariance(&samples, (&rows, &rest), (&spread.covariance, freedom));
+    let covariance = covariance(&samples, &rows, &rest, &spread.covariance, freedom);
     let u: Vec<f64> = covariance.diagonal().iter().map(|v| v.sqrt()).collect();
     let place = |term: Term| terms.iter().position(|of| *of == term);
     let scales = place(Term::Radius).zip(place(Term::ScaleMismatch));
@@ -246,7 +246,8 @@ fn identifiable(
             return None;
         }
         let rows = DMatrix::from_fn(samples.at.len(), terms.len(), |row, column| {
-            terms[column].at(samples.at[row], (&requested.reversals, turns))
+            let (angle, direction) = samples.at[row];
+            terms[column].at(angle, direction, &requested.reversals, turns)
         });
         let spread = Spread::of(&rows, &DMatrix::zeros(0, terms.len()), &vec![true; terms.len()]);
         let Some(set) = spread.together.first() else {

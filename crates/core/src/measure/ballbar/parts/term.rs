@@ -137,7 +137,7 @@ impl Axis {
 impl Term {
     /// Effect of one metre of this term on the radius at an angle; `turns` is the phase of a cyclic error at the end of
     /// an axis: `2 pi R` over its period.
-    pub fn at(&self, (angle, direction): (f64, Direction), (reversals, turns): (&[Reversal], f64)) -> f64 {
+    pub fn at(&self, angle: f64, direction: Direction, reversals: &[Reversal], turns: f64) -> f64 {
         let sign = direction.sign();
         match self {
             Term::Radius => 1.0,
@@ -178,7 +178,7 @@ mod tests {
     }
 
     fn at(term: Term, angle: f64, direction: Direction) -> f64 {
-        term.at((angle, direction), (&of_axes(["X", "Y"]), TAU * R / 0.01))
+        term.at(angle, direction, &of_axes(["X", "Y"]), TAU * R / 0.01)
     }
 
     /// Compared with the geometry itself; the difference is the square of the error over the radius.

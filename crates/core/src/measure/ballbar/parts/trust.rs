@@ -19,12 +19,14 @@ use super::fit::Samples;
 /// degrees of freedom are those of this many samples.
 pub(in super::super) fn covariance(
     samples: &Samples,
-    (rows, rest): (&DMatrix<f64>, &DVector<f64>),
-    (inverse, freedom): (&DMatrix<f64>, usize),
+    rows: &DMatrix<f64>,
+    rest: &DVector<f64>,
+    inverse: &DMatrix<f64>,
+    freedom: usize,
 ) -> DMatrix<f64> {
     let variance = rest.norm_squared() / freedom as f64 * hanging_together(samples, rest);
     let of_rest = inverse * variance;
-    let Some(of_runs) = between_runs(samples, (rows, rest), inverse) else {
+    let Some(of_runs) = between_runs(samples, rows, rest, inverse) else {
         return of_rest;
     };
     let known = of_rest.diagonal();
@@ -67,7 +69,8 @@ fn hanging_together(samples: &Samples, rest: &DVector<f64>) -> f64 {
 /// direction with two.
 fn between_runs(
     samples: &Samples,
-    (rows, rest): (&DMatrix<f64>, &DVector<f64>),
+    rows: &DMatrix<f64>,
+    rest: &DVector<f64>,
     inverse: &DMatrix<f64>,
 ) -> Option<Vec<f64>> {
     let mut sum = vec![0.0; rows.ncols()];
