@@ -33,7 +33,7 @@
 //!
 //! Source: plane geometry; `docs/theory/cutting.md`.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use super::arc::EngagedArc;
 use super::cutter::Cutter;
@@ -209,19 +209,10 @@ pub fn feed_per_tooth(feed: f64, spindle: f64, flutes: u32) -> Result<f64, Cutti
     )
 }
 
-/// Mean chip thickness over the arc, at the feed per tooth `c` (m): m.
-pub fn mean_chip(arc: EngagedArc, c: f64) -> f64 {
-    c * (arc.entry.cos() - arc.exit.cos()) / (arc.exit - arc.entry)
-}
-
-/// Greatest chip thickness in the arc, at the feed per tooth `c` (m): m.
-pub fn greatest_chip(arc: EngagedArc, c: f64) -> f64 {
-    let ahead = PI / 2.0;
-    c * ahead.clamp(arc.entry, arc.exit).sin()
-}
-
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::PI;
+
     use super::*;
 
     const MM: f64 = 1e-3;
@@ -282,21 +273,6 @@ mod tests {
         assert!(feed_per_tooth(40.0 * MM, 0.0, 4).is_err());
         assert!(feed_per_tooth(-1.0, spindle, 4).is_err());
         assert!(feed_per_tooth(f64::MAX, f64::MIN_POSITIVE, 1).is_err());
-    }
-
-    #[test]
-    fn chips_of_a_slot() {
-        let slot = Engagement::of(Immersion::Slot, 0.01)
-            .unwrap()
-            .arc_at(0.005)
-            .unwrap();
-        // The mean of a sine over half a turn is 2/pi.
-        assert!((mean_chip(slot, 1.0) - 2.0 / PI).abs() < 1e-15);
-        assert_eq!(greatest_chip(slot, 1.0), 1.0);
-        let quarter = Engagement::of(Immersion::Up(2.5 * MM), 0.01).unwrap();
-        let arc = quarter.arc_at(0.005).unwrap();
-        // Exit at 60 deg, before the thickest chip of a slot.
-        assert!((greatest_chip(arc, 1.0) - 60_f64.to_radians().sin()).abs() < 1e-15);
     }
 
     #[test]

@@ -13,7 +13,7 @@
 //! | `r`, `a` | radial and axial force over the cutting force | - |
 //!
 //! The tables give only the cutting force: the two ratios are inputs, with their uncertainty. Catalogues take one
-//! specific force at the mean chip, `kc = kc1 hm^-mc`, for all of the arc: [`Kienzle::at_mean_chip`].
+//! specific force at the mean chip, `kc = kc1 hm^-mc`, for all of the arc.
 //!
 //! Range: chips of 0.03 to 1 mm. Thinner chips are rubbed more than cut, which no power of `h` describes.
 //! Source: Kienzle's law as tool makers print it; the rake factor after Sandvik Coromant's notes on cutting force.
@@ -21,7 +21,6 @@
 use nalgebra::{Matrix3x4, Matrix6, SMatrix, Vector3, Vector4};
 
 use super::error::{CuttingError, checked};
-use super::mechanistic::Mechanistic;
 
 /// A value and its standard uncertainty, in the same unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -154,22 +153,6 @@ impl Kienzle {
         covariance
     }
 
-    /// The catalogue's form: shear coefficients that take the specific force of the chip `mean` (m) for all chips.
-    ///
-    /// # Errors
-    /// A mean chip that is not above zero.
-    pub fn at_mean_chip(&self, mean: f64) -> Result<Mechanistic, CuttingError> {
-        checked("mean chip thickness", mean, [f64::MIN_POSITIVE, 1.0], "m")?;
-        let shear = self.ratios() * self.specific_force(mean);
-        let by = self.by_values(mean) / mean;
-        let shear_covariance = by * SMatrix::from_diagonal(&self.variances()) * by.transpose();
-        let mut covariance = Matrix6::zeros();
-        covariance
-            .fixed_view_mut::<3, 3>(0, 0)
-            .copy_from(&shear_covariance);
-        Mechanistic::new(shear, Vector3::zeros())?.with_covariance(covariance)
-    }
-
     fn ratios(&self) -> Vector3<f64> {
         Vector3::new(1.0, self.values.radial_ratio.value, self.values.axial_ratio.value)
     }
@@ -257,26 +240,6 @@ mod tests {
             // Central differences: step squared and rounding over step, some 1e-10 of the value.
             assert!((column - numeric).norm() <= 1e-8 * column.norm(), "{index}");
         }
-    }
-
-    #[test]
-    fn the_catalogue_form_has_the_force_of_its_mean_chip() {
-        let law = Kienzle::new(KienzleValues {
-            specific_force: Estimate {
-                value: 800e6,
-                standard_uncertainty: 80e6,
-            },
-            ..*law(800.0, 0.25).values()
-        })
-        .unwrap();
-        let linear = law.at_mean_chip(5e-5).unwrap();
-        assert!((linear.force(5e-5) - law.force(5e-5)).norm() < 1e-9);
-        // A tenth of kc1 is a tenth of every coefficient.
-        let u = linear.covariance().diagonal().map(f64::sqrt);
-        for row in 0..3 {
-            assert!((u[row] - 0.1 * linear.coefficients()[row]).abs() < 1e-6);
-        }
-        assert!(law.at_mean_chip(0.0).is_err());
     }
 
     #[test]

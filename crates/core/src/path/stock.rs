@@ -165,11 +165,6 @@ impl Stock {
         heights * self.sides[0] * self.sides[1]
     }
 
-    /// Path z (m) of the top of the material in the cell over `at` (m, path x and y); `None` outside the box.
-    pub fn top_at(&self, at: Point2<f64>) -> Option<f64> {
-        self.cell_at(at).map(|(_, height)| self.low.z + f64::from(height))
-    }
-
     /// Two corners of the box, the lower one first; m.
     pub fn corners(&self) -> [Point3<f64>; 2] {
         [self.low, self.high]

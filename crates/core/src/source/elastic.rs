@@ -23,7 +23,7 @@ use crate::robot::joint::JointCompliance;
 use crate::spatial::{Twist, Wrench};
 
 /// Deviation of the tool by one joint, per unit of its compliance: `a_i = s_i (s_i . w)`.
-pub fn sensitivity(screw: &Twist, wrench: &Wrench) -> Twist {
+fn sensitivity(screw: &Twist, wrench: &Wrench) -> Twist {
     *screw * screw.dot(wrench)
 }
 
@@ -37,7 +37,7 @@ pub fn displacement(screws: &[Twist], joints: &[JointCompliance], wrench: &Wrenc
 }
 
 /// Share of each joint in the deviation; they add up to the deviation.
-pub fn shares(screws: &[Twist], joints: &[JointCompliance], wrench: &Wrench) -> Vec<Twist> {
+fn shares(screws: &[Twist], joints: &[JointCompliance], wrench: &Wrench) -> Vec<Twist> {
     screws
         .iter()
         .zip(joints)
@@ -47,7 +47,7 @@ pub fn shares(screws: &[Twist], joints: &[JointCompliance], wrench: &Wrench) -> 
 
 /// Covariance (m^2) of the translational deviation, from the uncertainties of the joint compliances, taken as
 /// independent.
-pub fn covariance(screws: &[Twist], joints: &[JointCompliance], wrench: &Wrench) -> Matrix3<f64> {
+fn covariance(screws: &[Twist], joints: &[JointCompliance], wrench: &Wrench) -> Matrix3<f64> {
     let parts = screws.iter().zip(joints).map(|(s, c)| {
         let a = sensitivity(s, wrench).linear * c.standard_uncertainty;
         a * a.transpose()

@@ -385,15 +385,12 @@ fn kienzles_mean_matches_an_independent_substitution() {
 fn the_catalogues_mean_chip_comes_near_the_integral() {
     let cut = cut(Immersion::Up(5.0 * MM));
     let arc = cut.engagement.arc_at(8.0 * MM).unwrap();
-    let hm = crate::load::engagement::mean_chip(arc, cut.feed);
+    let hm = cut.feed * (arc.entry.cos() - arc.exit.cos()) / (arc.exit - arc.entry);
     let CuttingLaw::Kienzle(law) = kienzle(800e6, 0.25, [0.0; 4]) else {
         unreachable!()
     };
-    let by_mean = mean(
-        flat(),
-        CuttingLaw::Mechanistic(law.at_mean_chip(hm).unwrap()),
-        cut,
-    );
+    let specific = Mechanistic::new(law.force(hm) / hm, Vector3::zeros()).unwrap();
+    let by_mean = mean(flat(), CuttingLaw::Mechanistic(specific), cut);
     let exact = mean(flat(), CuttingLaw::Kienzle(law), cut);
     let error = (by_mean - exact).norm() / exact.norm();
     // A power of 0.75 on chips of zero to twice the mean: some percent, and not nothing.

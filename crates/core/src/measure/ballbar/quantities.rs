@@ -46,13 +46,6 @@ pub struct Quantities {
     pub arc: f64,
 }
 
-impl Quantities {
-    /// Whether all runs are full turns.
-    pub fn is_full_turn(&self) -> bool {
-        self.arc >= TAU
-    }
-}
-
 /// G and F of all samples of these runs of `test` together; `None` of no runs.
 pub fn quantities(test: &CircularTest, runs: &[&Run]) -> Option<Quantities> {
     let samples = || runs.iter().flat_map(|run| run.samples());
