@@ -23,6 +23,7 @@ mod exit_codes;
 mod file_length;
 mod links;
 mod machine_paths;
+mod module_circles;
 mod module_folders;
 mod module_order;
 mod notation_page;
@@ -65,6 +66,7 @@ const RULES: &[Rule] = &[
     page_paths::RULE,
     crate_direction::RULE,
     module_order::RULE,
+    module_circles::RULE,
     module_folders::RULE,
     core_absence::RULE,
     unsafe_code::RULE,

@@ -16,7 +16,6 @@ use std::io::{self, BufRead, ErrorKind};
 use std::ops::Range;
 
 use super::problem::{Excerpt, Problem, Problems};
-use crate::table::sheet::is_remark;
 
 /// No line of a tool path or of a record is longer, in bytes.
 pub(crate) const LONGEST_LINE: usize = 1 << 16;
@@ -230,6 +229,12 @@ impl<R: BufRead> Lines<R> {
     }
 }
 
+/// Whether a line has no content: it is empty, or begins with `#`.
+pub(crate) fn is_remark(line: &str) -> bool {
+    let line = line.trim_start();
+    line.is_empty() || line.starts_with('#')
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -276,5 +281,10 @@ mod tests {
         assert!(refused(b"\xff\xfea\0").contains("UTF-16"));
         let long = vec![b'x'; LONGEST_LINE + 1];
         assert!(refused(&long).contains("a.txt:1:1: line 1 is longer than 65536 bytes"));
+    }
+
+    #[test]
+    fn remarks_begin_with_a_hash_or_are_empty() {
+        assert!(is_remark("") && is_remark("  ") && is_remark(" # x") && !is_remark("x # y"));
     }
 }

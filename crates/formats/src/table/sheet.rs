@@ -27,12 +27,6 @@ pub(crate) fn separator_of(names: &str) -> char {
         .unwrap_or(',')
 }
 
-/// Whether a line has no content: it is empty, or begins with `#`.
-pub(crate) fn is_remark(line: &str) -> bool {
-    let line = line.trim_start();
-    line.is_empty() || line.starts_with('#')
-}
-
 /// Whether a line is nothing but separators: spreadsheets leave such rows behind.
 pub(crate) fn is_blank_row(line: &str, separator: char) -> bool {
     line.chars().all(|c| c == separator || c.is_whitespace())
@@ -228,10 +222,5 @@ mod tests {
         ] {
             assert_eq!(number(text, separator), None, "{text}");
         }
-    }
-
-    #[test]
-    fn remarks_begin_with_a_hash_or_are_empty() {
-        assert!(is_remark("") && is_remark("  ") && is_remark(" # x") && !is_remark("x # y"));
     }
 }

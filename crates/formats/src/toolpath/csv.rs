@@ -25,10 +25,11 @@ use armill_core::path::{Course, DepthOfCut, GivenSpin, Move, Operation, Pace, St
 use super::Summary;
 use super::direction::{LARGEST, direction};
 use super::format::Format;
+use crate::document::lines::is_remark;
 use crate::document::lines::{Line, Lines};
 use crate::document::unit::suggestion;
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
-use crate::table::sheet::{self, Cell, cells, is_blank_row, is_remark, row_cells, separator_of};
+use crate::table::sheet::{self, Cell, cells, is_blank_row, row_cells, separator_of};
 
 /// No table has more columns than this.
 const MOST_COLUMNS: usize = 100;

@@ -29,10 +29,11 @@ use armill_core::measure::ballbar::{CircularTest, Direction, Run};
 use super::columns::{Column, Columns, HEADER_HINT};
 use super::remarks::Remarks;
 use super::{BallbarReadOptions, BallbarRuns, direction_of};
+use crate::document::lines::is_remark;
 use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
 use crate::measurement::columns::measured;
-use crate::table::sheet::{Cell, is_blank_row, is_remark, row_cells, separator_of};
+use crate::table::sheet::{Cell, is_blank_row, row_cells, separator_of};
 
 /// Maximum number of samples: one hour at 1 kHz.
 const MOST_SAMPLES: usize = 5_000_000;

@@ -21,9 +21,9 @@ use armill_core::path::Step;
 use self::known_by::{Robots, is_apt, is_gcode, is_header, robot_language};
 use super::gcode::{self, Lookup, Rotaries, ToolTable};
 use super::{LengthUnit, Summary, apt, csv};
+use crate::document::lines::is_remark;
 use crate::document::{Problem, Problems};
 use crate::language::Language;
-use crate::table::sheet::is_remark;
 
 /// A kind of tool path file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
