@@ -260,7 +260,7 @@ impl Study {
             let options = output_options(pictures, csv);
             let out = out.map(|out| writer.folder(&out)).transpose()?;
             if let Some(out) = &out {
-                output::allow(&study, (out, options))?;
+                output::allow(&study, out, options)?;
             }
             let mut finished = FinishedRun::run(study, watch)?;
             if let Some(out) = &out {

@@ -18,7 +18,7 @@ use crate::analysis::{Analysis, AnalysisData, AnalysisResult, Subject};
 use crate::answer::{StudyAnswer, answer};
 use crate::error::StudyError;
 use crate::file::resolve::Study;
-use crate::output::{self, OutputOptions, Picture};
+use crate::output::{self, OutputOptions, Picture, StudyResults};
 use crate::run::run;
 
 /// A study with its results.
@@ -70,7 +70,7 @@ impl FinishedRun {
     /// # Errors
     /// A table that cannot be made, which would be a fault of armill.
     pub fn table(&mut self, index: usize) -> Result<Table, StudyError> {
-        self.with(|study, done, _| output::points_table(study, &done[index]))
+        self.with(|of| output::points_table(of.study, &of.done[index]))
     }
 
     /// The pictures of every analysis.
@@ -87,15 +87,22 @@ impl FinishedRun {
         out: &ResultFolder,
         requested: OutputOptions<'_>,
     ) -> Result<Vec<PathBuf>, StudyError> {
-        self.with(|study, done, answer| output::write(study, done, answer, (out, requested), &|_| ()))
+        self.with(|results| output::write(results, out, requested, &|_| ()))
     }
 
     /// Puts both side by side for `work`.
-    fn with<T>(&mut self, work: impl FnOnce(&Study, &[AnalysisResult<'_>], &StudyAnswer) -> T) -> T {
+    fn with<T>(&mut self, work: impl FnOnce(StudyResults<'_>) -> T) -> T {
         let study = Arc::clone(&self.study);
         let kept = std::mem::take(&mut self.kept).into_iter();
-        let done: Vec<AnalysisResult<'_>> = study.analyses.iter().zip(kept).filter_map(combined).collect();
-        let gives = work(&study, &done, &self.answer);
+        let pairs = study.analyses.iter().zip(kept);
+        let done: Vec<AnalysisResult<'_>> = pairs
+            .filter_map(|(analysis, kept)| combined(analysis, kept))
+            .collect();
+        let gives = work(StudyResults {
+            study: &study,
+            done: &done,
+            answer: &self.answer,
+        });
         self.kept = done.into_iter().map(|done| StoredData::of(done.found)).collect();
         gives
     }
@@ -116,7 +123,7 @@ impl StoredData {
 }
 
 /// A result with its analysis; both are always of one kind.
-fn combined((analysis, kept): (&Analysis, StoredData)) -> Option<AnalysisResult<'_>> {
+fn combined(analysis: &Analysis, kept: StoredData) -> Option<AnalysisResult<'_>> {
     let found = match (&analysis.subject, kept) {
         (Subject::Map(sheet), StoredData::Map(map)) => AnalysisData::Map(sheet, map),
         (Subject::Sections(sheets), StoredData::Sections(maps)) => {
@@ -163,7 +170,11 @@ mod tests {
                 let table = output::points_table(&study, done).unwrap();
                 assert_eq!(finished.table(index).unwrap(), table);
             }
-            let pictures = output::pictures(&study, &done, &witness);
+            let pictures = output::pictures(StudyResults {
+                study: &study,
+                done: &done,
+                answer: &witness,
+            });
             let names = |all: &[Picture]| all.iter().map(|p| p.name.clone()).collect::<Vec<_>>();
             assert_eq!(names(&finished.pictures()), names(&pictures));
         }

@@ -278,7 +278,7 @@ pub(crate) fn answer_in(
             .map(|p| {
                 let deflection = arm_state
                     .as_mut()
-                    .map(|arm_state| posture_deflection(arm_state, (p, situation), question.wrench));
+                    .map(|arm_state| posture_deflection(arm_state, p, situation, question.wrench));
                 posture_answer(robot, deflection, &base_from_reference, p)
             })
             .collect(),
@@ -319,7 +319,8 @@ struct PostureDeflection {
 /// The compliance of the arm in this posture, and under a load its deviation, or that there is no equilibrium.
 fn posture_deflection(
     arm_state: &mut ArmState<'_>,
-    (posture, situation): (&Posture, &PoseContext<'_>),
+    posture: &Posture,
+    situation: &PoseContext<'_>,
     wrench: Option<Wrench>,
 ) -> PostureDeflection {
     arm_state.set_joints(&posture.joints);

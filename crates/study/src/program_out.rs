@@ -57,7 +57,8 @@ const TURN: f64 = 3e-4;
 pub fn program(
     study: &Study,
     setting: &Setting,
-    (track, answers): (&Track, &Answers),
+    track: &Track,
+    answers: &Answers,
     requested: &ProgramSettings,
 ) -> Result<Written, StudyError> {
     let maker = Maker {

@@ -412,8 +412,7 @@ pub fn attachment_name(robot: &Robot, attachment: Attachment) -> String {
     }
 }
 
-/// The chain as text, one elementary motion each: `along z 450 mm (H)`,
-/// `about y by U, left-handed`.
+/// The chain as text, one elementary motion each: `along z 450 mm (H)`, `about y by U, left-handed`.
 pub fn chain(found: &RobotDescription) -> Vec<String> {
     let motions = found.robot.chain().motions().iter();
     let words = motions.zip(&found.symbols).map(|(motion, symbol)| {

@@ -38,7 +38,7 @@ impl FoundStudy {
     /// # Errors
     /// Every problem of the file.
     pub fn read_changed(&self, change: impl FnOnce(&mut StudyFile)) -> Result<Study, StudyError> {
-        read_changed((&self.shown, &self.folder), &self.bytes, change)
+        read_changed(&self.shown, &self.folder, &self.bytes, change)
     }
 }
 

@@ -13,7 +13,7 @@ use armill_study::live::{
     ChangedValue, Follow, PoseRequest, PoseTarget, PostureQuestion, StudyText, answer_json, changed, outline,
     pictures, postures, scene, table_csv, values, view,
 };
-use armill_study::output::{self, OutputOptions};
+use armill_study::output::{self, OutputOptions, StudyResults};
 use armill_study::run::run;
 use armill_study::studies::{self, FoundStudy};
 use serde_json::{Value, json};
@@ -38,7 +38,12 @@ fn answer_table_and_pictures_are_the_files_of_a_run() {
     let whole = answer(&study, &done);
     let folder = tempfile::tempdir().unwrap();
     let out = Writer::new("run", false).folder(folder.path()).unwrap();
-    output::write(&study, &done, &whole, (&out, OutputOptions::USUAL), &|_| ()).unwrap();
+    let results = StudyResults {
+        study: &study,
+        done: &done,
+        answer: &whole,
+    };
+    output::write(results, &out, OutputOptions::USUAL, &|_| ()).unwrap();
     let file = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
 
     let given = answer_json(text(&found), None, Watch::NONE).unwrap();
@@ -302,7 +307,7 @@ fn worst_and_pose(text: StudyText<'_>, analysis: &str, part: &str) -> [(f64, f64
         section: 0,
         case: None,
     };
-    let given = view(text, Some(analysis), (&[], Some(&pose)), Watch::NONE).unwrap();
+    let given = view(text, Some(analysis), &[], Some(&pose), Watch::NONE).unwrap();
     let answer = serde_json::to_value(&given.answer).unwrap();
     let point = answer.pointer(part).unwrap();
     let arm = given.arm.unwrap();
@@ -436,7 +441,7 @@ fn the_arm_of_a_view_has_the_posture_of_the_result() {
             section,
             case: None,
         };
-        view(of(&study), Some(analysis), (&[], Some(&pose)), Watch::NONE).unwrap()
+        view(of(&study), Some(analysis), &[], Some(&pose), Watch::NONE).unwrap()
     };
     for (analysis, follow, section, part) in [
         ("far", Follow::Worst, 1, "/maps/1/worst"),
@@ -484,7 +489,7 @@ fn the_arm_of_a_view_has_the_posture_of_the_result() {
         section: 0,
         case: None,
     };
-    let given = view(of(CIRCLE), Some("rim"), (&[], Some(&gone)), Watch::NONE).unwrap();
+    let given = view(of(CIRCLE), Some("rim"), &[], Some(&gone), Watch::NONE).unwrap();
     assert!(given.arm.is_none() && given.extremes[0].worst.is_some());
 }
 

@@ -226,8 +226,7 @@ fn a_prediction_finds_a_noisy_record_to_a_sample() {
             .any(|warning| warning.contains("is uncertain"))
     );
     // Of noise of 0.2 of the force (all components together) the filter leaves sqrt(2 x 10 / 1000), here three times
-    // that;
-    // the arm is up to twice as soft across the force as along it. The filter remembers some tenths of a second.
+    // that; the arm is up to twice as soft across the force as along it. The filter remembers some tenths of a second.
     let differs = witness.differs(&program(&ran).1, 0, 0.15, 1.0);
     assert!(differs < 2.0 * 3.0 * 0.2 * (0.02_f64).sqrt(), "{differs}");
 }

@@ -9,7 +9,7 @@ use armill_core::watch::Watch;
 use armill_formats::file::Writer;
 use armill_study::answer::answer;
 use armill_study::file::resolve::{Study, read};
-use armill_study::output::{self, OutputOptions};
+use armill_study::output::{self, OutputOptions, StudyResults};
 use armill_study::run::{point_count, run};
 use armill_study::{ErrorKind, StudyError};
 use proptest::prelude::*;
@@ -307,7 +307,9 @@ proptest! {
         let found = run(&study, Watch::NONE).unwrap();
         let folder = tempfile::tempdir().unwrap();
         let out = Writer::new("run", false).folder(folder.path()).unwrap();
-        let written = output::write(&study, &found, &answer(&study, &found), (&out, OutputOptions::TABLES), &|_| ());
+        let answer = answer(&study, &found);
+        let results = StudyResults { study: &study, done: &found, answer: &answer };
+        let written = output::write(results, &out, OutputOptions::TABLES, &|_| ());
         prop_assert!(written.is_ok(), "{}\n{}", written.unwrap_err(), text);
     }
 }
@@ -327,7 +329,9 @@ proptest! {
         let found = run(&study, Watch::NONE).unwrap();
         let folder = tempfile::tempdir().unwrap();
         let out = Writer::new("run", false).folder(folder.path()).unwrap();
-        let written = output::write(&study, &found, &answer(&study, &found), (&out, OutputOptions::USUAL), &|_| ());
+        let answer = answer(&study, &found);
+        let results = StudyResults { study: &study, done: &found, answer: &answer };
+        let written = output::write(results, &out, OutputOptions::USUAL, &|_| ());
         prop_assert!(written.is_ok(), "{}\n{}", written.unwrap_err(), text);
     }
 }

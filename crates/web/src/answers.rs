@@ -164,7 +164,8 @@ pub(crate) async fn of_view(
         as_json(&view(
             text,
             of.analysis.as_deref(),
-            (&of.changes, of.arm.as_ref()),
+            &of.changes,
+            of.arm.as_ref(),
             watch,
         )?)
     })

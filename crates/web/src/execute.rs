@@ -13,7 +13,7 @@ use armill_plan::place::{Journal, PlacementSearch};
 use armill_study::answer::answer;
 use armill_study::file::resolve::Parsed;
 use armill_study::live::StudyText;
-use armill_study::output::{self, OutputOptions};
+use armill_study::output::{self, OutputOptions, StudyResults};
 use armill_study::run::{point_count, run};
 use armill_study::studies::FoundStudy;
 use armill_study::{Study, StudyError, robots};
@@ -106,10 +106,15 @@ impl Job {
         out: &ResultFolder,
         requested: OutputOptions<'_>,
     ) -> Result<Outcome, StudyError> {
-        output::allow(study, (out, requested))?;
+        output::allow(study, out, requested)?;
         let done = self.counted(point_count(study), |watch| run(study, watch))?;
         let answer = answer(study, &done);
-        let files = output::write(study, &done, &answer, (out, requested), &|name| self.report(name))?;
+        let results = StudyResults {
+            study,
+            done: &done,
+            answer: &answer,
+        };
+        let files = output::write(results, out, requested, &|name| self.report(name))?;
         Ok((output::json(&answer)?, files))
     }
 

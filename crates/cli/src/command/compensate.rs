@@ -66,7 +66,7 @@ pub(crate) fn run(arguments: &CompensateArguments) -> Result<Outcome, StudyError
             );
             return Err(StudyError::value(message, "select one: --analysis NAME"));
         };
-        let written = program(&study, one.setting, (&one.path.0, &one.path.1), requested)?;
+        let written = program(&study, one.setting, &one.path.0, &one.path.1, requested)?;
         save(&writer, folder, &written)?;
     }
     let any = |known: fn(&StiffnessModel) -> bool| commanded.iter().any(|one| known(&one.setting.model));

@@ -45,12 +45,7 @@ pub(crate) fn run(arguments: &ForcesArguments) -> Result<Outcome, StudyError> {
         spindle_rpm: arguments.spindle_rpm,
     };
     // The direction of the force (on tool or part) is not needed here: numbers are reported as in the file.
-    let measured = read(
-        (&shown, &arguments.file),
-        ActsOn::Part,
-        &requested,
-        arguments.cycle,
-    );
+    let measured = read(&shown, &arguments.file, ActsOn::Part, &requested, arguments.cycle);
     let measured = measured.map_err(|unread| match unread {
         Unread::File(problems) => problems,
         Unread::Value(refusal) => refused(refusal),

@@ -49,7 +49,7 @@ pub(crate) fn run(arguments: &RoundnessArguments) -> Result<Outcome, StudyError>
     let mut evaluations = Vec::new();
     for file in &arguments.files {
         let shown = file.display().to_string();
-        let measured = read((&shown, file), &requested)?;
+        let measured = read(&shown, file, &requested)?;
         let found = evaluate(&shown, &measured, &question)?;
         answers.push(answer(&shown, &measured, &question, &found));
         evaluations.push(found);

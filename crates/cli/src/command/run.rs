@@ -6,7 +6,7 @@
 
 use armill_formats::file::ResultFolder;
 use armill_study::answer::{StudyAnswer, answer};
-use armill_study::output::{self, Csv, Opening, OutputOptions, Pictures};
+use armill_study::output::{self, Csv, Opening, OutputOptions, Pictures, StudyResults};
 use armill_study::run::point_count;
 use armill_study::run::run as run_study;
 use armill_study::studies::{self, FoundStudy};
@@ -69,7 +69,7 @@ pub(super) fn results(
     if options.csv {
         requested.csv = Csv::Every;
     }
-    output::allow(study, (out, requested))?;
+    output::allow(study, out, requested)?;
     let answer = in_pool(options.threads, || work(study, out, requested))??;
     if options.json {
         print(output::json(&answer)?.trim_end())?;
@@ -108,7 +108,12 @@ fn work(study: &Study, out: &ResultFolder, requested: OutputOptions<'_>) -> Resu
     let progress = Progress::new(point_count(study));
     let found = progress.watch(|watch| run_study(study, watch))?;
     let answer = answer(study, &found);
-    output::write(study, &found, &answer, (out, requested), &|name| {
+    let results = StudyResults {
+        study,
+        done: &found,
+        answer: &answer,
+    };
+    output::write(results, out, requested, &|name| {
         progress.set_message(name);
     })?;
     Ok(answer)

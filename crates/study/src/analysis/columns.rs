@@ -151,8 +151,11 @@ pub fn table(
     Ok(Table::new(name, columns)?)
 }
 
+/// A value of an evaluation, in the unit of its quantity.
+pub type EvaluationValue = fn(&Evaluation) -> f64;
+
 /// The envelope of the load cases at a point: quantities that need the evaluation alone.
-pub const ENVELOPE: [(&Quantity, fn(&Evaluation) -> f64); 4] = [
+pub const ENVELOPE: [(&Quantity, EvaluationValue); 4] = [
     (&quantity::IN_PLANE, |evaluation| evaluation.in_plane * 1e6),
     (&quantity::IN_PLANE_U, |evaluation| {
         evaluation.in_plane_uncertainty * 1e6

@@ -10,9 +10,9 @@
 //!
 //! A file is missing where a kind has nothing of its own. [`map`], [`sections`], [`volume`], [`path`], [`holes`]; this
 //! file is the list of them. What they share: [`table`] `[[analysis]]`, [`resolve`] the values of the study and those
-//! of the analysis, [`runner`] the question to the core, [`point`] a point of an answer, [`quantity`] what is known of a point, [`rows`] and [`columns`] the
-//! points as a table, [`picture`], [`panels`] and [`arm`] for pictures, [`cells`] for tables of a report, [`words`] for
-//! sentences.
+//! of the analysis, [`runner`] the question to the core, [`point`] a point of an answer, [`quantity`] what is known of
+//! a point, [`rows`] and [`columns`] the points as a table, [`picture`], [`panels`] and [`arm`] for pictures, [`cells`]
+//! for tables of a report, [`words`] for sentences.
 
 pub mod arm;
 pub mod cells;
@@ -47,7 +47,7 @@ use self::rows::Rows;
 use self::runner::Runner;
 use self::sections::Section;
 use crate::error::StudyError;
-use crate::input::memory::{ExtraBytes, OF_FIELD, OF_MAP, OF_PATH, bytes};
+use crate::input::memory::{ExtraBytes, OF_FIELD, OF_MAP, PointMemory};
 use crate::input::setting::Setting;
 
 /// One resolved analysis.
@@ -133,12 +133,16 @@ impl Subject {
     /// Estimated memory of its answers, bytes.
     pub fn bytes(&self, robot: &RobotDescription) -> f64 {
         let of_grid = |extra: &ExtraBytes, setting: &Setting, points: usize| {
-            bytes(extra, points as f64, (robot, setting, setting.cases.len()))
+            let memory = PointMemory {
+                robot,
+                setting,
+                cases: setting.cases.len(),
+                points: points as f64,
+                extra,
+            };
+            memory.bytes()
         };
-        let of_path = |path: &PathAnalysis| {
-            let cases = path.load.case_count();
-            bytes(&OF_PATH, path.track.len() as f64, (robot, &path.setting, cases))
-        };
+        let of_path = |path: &PathAnalysis| path.memory(robot).bytes();
         match self {
             Subject::Map(sheet) => of_grid(&OF_MAP, &sheet.setting, sheet.grid.len()),
             Subject::Sections(all) => all

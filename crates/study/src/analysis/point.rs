@@ -12,6 +12,7 @@ use armill_core::compliance::{by_force, permissible_force, permissible_force_in_
 use armill_core::kernel::{Answers, Evaluation};
 use armill_core::load::LoadFrame;
 use armill_core::nalgebra::{Point3, Unit};
+use armill_core::robot::Robot;
 use armill_core::workpiece::Plane;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -19,7 +20,6 @@ use serde::Serialize;
 use crate::input::setting::Setting;
 use crate::model_words::parts;
 use crate::number::without_rounding;
-use armill_core::robot::Robot;
 
 /// The common setting of all points of an analysis. Positions are relative to the frame `base`.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -63,7 +63,6 @@ pub struct SettingAnswer {
 impl SettingAnswer {
     /// The setting in the reference frame of the study; a load that turns with the feed in axes of the feed.
     pub fn of(robot: &Robot, setting: &Setting) -> SettingAnswer {
-        let robot = &robot;
         let turns = setting.load.frame == LoadFrame::Feed;
         let cases = if turns {
             &setting.load.cases
@@ -91,6 +90,18 @@ impl SettingAnswer {
             contributors: setting.model.contributor_names(robot.joints()),
         }
     }
+}
+
+/// A reached point of an analysis.
+pub struct ReachedPoint<'a> {
+    /// The points of the analysis.
+    pub answers: &'a Answers,
+    /// Its index among them.
+    pub index: usize,
+    /// Its evaluation.
+    pub evaluation: &'a Evaluation,
+    /// The TCP, m, base.
+    pub tcp: Point3<f64>,
 }
 
 /// A reached point.
@@ -149,16 +160,14 @@ impl PointAnswer {
         ]
     }
 
-    /// The point `at`: index among `answers`, its evaluation, TCP (m, base). Permitted forces follow from the
-    /// compliance of the unloaded arm there.
-    pub fn of(
-        robot: &Robot,
-        setting: &Setting,
-        answers: &Answers,
-        at: (usize, &Evaluation, Point3<f64>),
-    ) -> PointAnswer {
-        let (index, evaluation, tcp) = at;
-        let robot = &robot;
+    /// The point under this setting. Permitted forces follow from the compliance of the unloaded arm there.
+    pub fn of(robot: &Robot, setting: &Setting, point: &ReachedPoint<'_>) -> PointAnswer {
+        let ReachedPoint {
+            answers,
+            index,
+            evaluation,
+            tcp,
+        } = *point;
         let position = |(i, q): (usize, &f64)| if robot.slides(i) { q * 1e3 } else { q.to_degrees() };
         let compliance = by_force(&setting.compliance_at(robot, answers.joints_at(index)));
         let normal = setting.plane.normal();

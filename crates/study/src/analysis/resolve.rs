@@ -20,19 +20,16 @@ use armill_core::workpiece::Grid;
 use armill_formats::robot::RobotDescription;
 
 use crate::StudyError;
-use crate::analysis::holes;
 use crate::analysis::path::LoadSource;
 use crate::analysis::path::cut::CutTable;
 use crate::analysis::table::{AnalysisKind, AnalysisTable};
-use crate::analysis::{Sheet, Subject, path};
-use crate::input::memory::{OF_FIELD, OF_MAP, OF_PATH};
+use crate::analysis::{Sheet, Subject};
+use crate::input::memory::{OF_FIELD, OF_MAP, PointMemory};
 use crate::input::problem_log::ProblemLog;
 use crate::input::quantities::{grid, load_cases, plane_at, pose_mm_deg};
 use crate::input::setting::Setting;
-use crate::input::stiffness::StiffnessTables;
-use crate::input::tables::LoadTable;
-use crate::input::tables::{LoadFrameName, PlaneTable, PostureTable, ToolTable};
-use crate::input::{memory, stiffness};
+use crate::input::stiffness::{self, StiffnessTables};
+use crate::input::tables::{LoadFrameName, LoadTable, PlaneTable, PostureTable, ToolTable};
 
 /// The plane of the study with the changes of the analysis.
 pub fn plane_of(plane: &PlaneTable, analysis: &AnalysisTable) -> PlaneTable {
@@ -110,27 +107,16 @@ impl Resolver<'_> {
                 .volume(log, setting)
                 .map(|(setting, grid)| Subject::Volume(setting, grid)),
             AnalysisKind::Path => {
-                let table = (self.table, plane.step_mm);
-                let cell = (self.folder, self.robot.map(|found| &found.robot));
-                let path = path::resolve::resolve(log, table, cell, (setting, push))?;
+                let path = self.path(log, setting, push)?;
                 path.and_then(|path| {
-                    let of = (self.robot?, &path.setting, path.load.case_count());
-                    let points = (&OF_PATH, path.track.len() as f64);
-                    memory::check_points(log, "step_mm", points, of)?;
+                    path.memory(self.robot?).check(log, "step_mm")?;
                     Some(Subject::Path(Box::new(path)))
                 })
             }
             AnalysisKind::Holes => {
-                let search = setting
-                    .as_ref()
-                    .and_then(|setting| self.hole_search(log, setting));
-                let cell = (self.folder, self.robot.map(|found| &found.robot));
-                let holes = holes::resolve::resolve(log, self.table, cell, (setting, push, search))?;
+                let holes = self.holes(log, setting, push)?;
                 holes.and_then(|holes| {
-                    let path = &holes.path;
-                    let of = (self.robot?, &path.setting, path.load.case_count());
-                    let points = (&OF_PATH, path.track.len() as f64);
-                    memory::check_points(log, "holes", points, of)?;
+                    holes.path.memory(self.robot?).check(log, "holes")?;
                     Some(Subject::Holes(Box::new(holes)))
                 })
             }
@@ -232,9 +218,9 @@ impl Resolver<'_> {
             }),
         };
         let tool = self.table.tool.as_ref().or(self.common.tool);
-        let model = self.robot.and_then(|found| {
-            stiffness::model(log, &self.common.stiffness, tool, (&found.robot, self.actual))
-        });
+        let model = self
+            .robot
+            .and_then(|found| stiffness::model(log, &self.common.stiffness, tool, &found.robot, self.actual));
         let (base_from_reference, choice, (plane, tilt)) = (base_from_reference?, choice?, plane?);
         let (model, load) = (model?, load?);
         let uncertainty = InputUncertainty {
@@ -342,11 +328,16 @@ impl Resolver<'_> {
         points: f64,
         setting: &Setting,
     ) -> Option<()> {
-        let of = (self.robot?, setting, setting.cases.len());
-        let extra = match self.table.kind {
-            AnalysisKind::Map => &OF_MAP,
-            _ => &OF_FIELD,
+        let memory = PointMemory {
+            robot: self.robot?,
+            setting,
+            cases: setting.cases.len(),
+            points,
+            extra: match self.table.kind {
+                AnalysisKind::Map => &OF_MAP,
+                _ => &OF_FIELD,
+            },
         };
-        memory::check_points(log, path, (extra, points), of)
+        memory.check(log, path)
     }
 }

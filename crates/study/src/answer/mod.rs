@@ -126,6 +126,15 @@ enum AnswerKind {
     Holes(Box<HolesAnswer>),
 }
 
+/// The answers to all analyses, by kind.
+#[derive(Default)]
+struct AnalysisAnswers {
+    maps: Vec<MapAnswer>,
+    paths: Vec<PathAnswer>,
+    volumes: Vec<VolumeAnswer>,
+    holes: Vec<HolesAnswer>,
+}
+
 /// The answer to `study` from its results.
 ///
 /// `done` is the result of `run` for this study, in the order of its analyses; the answer has that order on any number
@@ -157,14 +166,13 @@ pub fn answer(study: &Study, done: &[AnalysisResult<'_>]) -> StudyAnswer {
         ))),
     };
     let all: Vec<AnswerKind> = done.par_iter().map(given).collect();
-    let (mut maps, mut paths, mut volumes) = (Vec::new(), Vec::new(), Vec::new());
-    let mut holes = Vec::new();
+    let mut answers = AnalysisAnswers::default();
     for given in all {
         match given {
-            AnswerKind::Maps(given) => maps.extend(given),
-            AnswerKind::Path(given) => paths.push(*given),
-            AnswerKind::Volume(given) => volumes.push(*given),
-            AnswerKind::Holes(given) => holes.push(*given),
+            AnswerKind::Maps(given) => answers.maps.extend(given),
+            AnswerKind::Path(given) => answers.paths.push(*given),
+            AnswerKind::Volume(given) => answers.volumes.push(*given),
+            AnswerKind::Holes(given) => answers.holes.push(*given),
         }
     }
     let (measured, unmeasured) = match budget::of_results(study, done) {
@@ -172,7 +180,7 @@ pub fn answer(study: &Study, done: &[AnalysisResult<'_>]) -> StudyAnswer {
         Some(Err(reason)) => (None, Some(format!("The measurement is not compared: {reason}."))),
         None => (None, None),
     };
-    let mut warnings = warnings(study, (&maps, &paths), (&volumes, &holes));
+    let mut warnings = warnings(study, &answers);
     let of_measured = measured.iter().flat_map(|given| &given.warnings);
     warnings.extend(of_measured.map(|warning| format!("Measured: {warning}.")));
     warnings.extend(unmeasured);
@@ -181,15 +189,15 @@ pub fn answer(study: &Study, done: &[AnalysisResult<'_>]) -> StudyAnswer {
         armill: env!("CARGO_PKG_VERSION"),
         title: study.title.clone(),
         question: study.question.clone(),
-        answer: sentence::answer(study, (&maps, &paths), (&volumes, &holes)),
+        answer: sentence::answer(study, &answers),
         robot: robot_answer(study),
-        statements: statement::answers(study, &maps, &paths),
+        statements: statement::answers(study, &answers.maps, &answers.paths),
         measured,
         warnings,
-        maps,
-        paths,
-        volumes,
-        holes,
+        maps: answers.maps,
+        paths: answers.paths,
+        volumes: answers.volumes,
+        holes: answers.holes,
         sources: sources(study),
     }
 }
@@ -298,11 +306,7 @@ fn sources(study: &Study) -> Vec<Source> {
 /// What a user should know before relying on the answer, from the robot to its points: assumed compliances, limits that
 /// sources disagree about, what is out of reach or outside joint limits, a record with an uncertain start, masses
 /// without gravity, the note of the robot file.
-fn warnings(
-    study: &Study,
-    (maps, paths): (&[MapAnswer], &[PathAnswer]),
-    (volumes, holes): (&[VolumeAnswer], &[HolesAnswer]),
-) -> Vec<String> {
+fn warnings(study: &Study, answers: &AnalysisAnswers) -> Vec<String> {
     let mut warnings = Vec::new();
     warnings.extend(study.own_compliance.iter().filter_map(|own| own.caution.clone()));
     for (i, joint) in study.robot.joint_notes.iter().enumerate() {
@@ -319,7 +323,7 @@ fn warnings(
             ));
         }
     }
-    for map in maps {
+    for map in &answers.maps {
         if map.counts.within + map.counts.above_tolerance == 0 {
             warnings.push(format!(
                 "{}: no point on the plane has a posture; check that its coordinates are in mm and relative to {}.",
@@ -332,14 +336,14 @@ fn warnings(
             ));
         }
     }
-    for volume in volumes.iter().filter(|volume| volume.worst.is_none()) {
+    for volume in answers.volumes.iter().filter(|volume| volume.worst.is_none()) {
         warnings.push(format!(
             "{}: no point of the box has a posture; check that its coordinates are in mm and relative to {}.",
             volume.name, volume.setting.base
         ));
     }
-    warnings.extend(paths.iter().flat_map(analysis::path::warnings::warnings));
-    warnings.extend(holes.iter().flat_map(analysis::holes::warnings::warnings));
+    warnings.extend(answers.paths.iter().flat_map(analysis::path::warnings::warnings));
+    warnings.extend(answers.holes.iter().flat_map(analysis::holes::warnings::warnings));
     for analysis in &study.analyses {
         if let Subject::Path(path) = &analysis.subject {
             let uncertain = path.measured.as_ref().and_then(|measured| measured.warning());

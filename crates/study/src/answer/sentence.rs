@@ -9,33 +9,30 @@
 
 use crate::analysis;
 use crate::analysis::Subject;
-use crate::analysis::holes::answer::HolesAnswer;
-use crate::analysis::map::answer::MapAnswer;
-use crate::analysis::path::answer::PathAnswer;
-use crate::analysis::volume::answer::VolumeAnswer;
+use crate::answer::AnalysisAnswers;
 use crate::file::resolve::Study;
 
 /// The sentence of the first analysis.
-pub(super) fn answer(
-    study: &Study,
-    (maps, paths): (&[MapAnswer], &[PathAnswer]),
-    (volumes, holes): (&[VolumeAnswer], &[HolesAnswer]),
-) -> String {
+pub(super) fn answer(study: &Study, answers: &AnalysisAnswers) -> String {
     let robot = &study.robot.robot;
     let first = study
         .analyses
         .first()
         .and_then(|analysis| match analysis.subject {
-            Subject::Map(_) | Subject::Sections(_) => maps
+            Subject::Map(_) | Subject::Sections(_) => answers
+                .maps
                 .first()
                 .map(|map| analysis::map::sentence::sentence(robot, map)),
-            Subject::Volume(..) => volumes
+            Subject::Volume(..) => answers
+                .volumes
                 .first()
                 .map(|volume| analysis::volume::sentence::sentence(robot, volume)),
-            Subject::Path(_) => paths
+            Subject::Path(_) => answers
+                .paths
                 .first()
                 .map(|path| analysis::path::sentence::sentence(robot, path)),
-            Subject::Holes(_) => holes
+            Subject::Holes(_) => answers
+                .holes
                 .first()
                 .map(|set| analysis::holes::sentence::sentence(robot, set)),
         });

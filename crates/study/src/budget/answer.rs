@@ -1,8 +1,7 @@
 //! The budget in numbers with their units.
 //!
 //! Deviations are radial, positive outwards; angles are from +y' of the plane towards z', the direction in which the
-//! circle
-//! is cut. Explained percentages are of the measured mean square; below 0 a curve is worse than none.
+//! circle is cut. Explained percentages are of the measured mean square; below 0 a curve is worse than none.
 
 use armill_core::budget::turn::largest;
 use armill_core::budget::{Comparison, Contribution, Datum, Origin, Share, WavePair};
@@ -37,8 +36,7 @@ pub struct BudgetAnswer {
     /// Least and greatest deviation under load over all cases, from the nominal circle.
     pub load_envelope_um: [f64; 2],
     /// Standard deviation of ball-bar runs of the same direction; if no direction has two, that of the robot file or
-    /// study;
-    /// none if neither gives it.
+    /// study; none if neither gives it.
     pub repeatability_um: Option<f64>,
     /// Their combinations.
     pub sums: SumsAnswer,
@@ -243,7 +241,7 @@ pub fn answer(experiment: &Experiment, path: &PathAnalysis, combined: &CombinedC
         angles: combined.turn.angle().len(),
         arc_deg: combined.turn.arc().to_degrees(),
         contributions: contributions
-            .map(|(index, (one, datum))| contribution(combined, (one, datum), shares.map(|all| all[index])))
+            .map(|(index, (one, datum))| contribution(combined, one, datum, shares.map(|all| all[index])))
             .collect(),
         load_cases: combined.cases,
         load_envelope_um: [
@@ -292,7 +290,8 @@ fn files(experiment: &Experiment, path: &PathAnalysis) -> Vec<FileAnswer> {
 
 fn contribution(
     combined: &CombinedCurves,
-    (one, datum): (&Contribution, &Datum),
+    one: &Contribution,
+    datum: &Datum,
     share: Option<Share>,
 ) -> ContributionAnswer {
     let turn = &combined.turn;

@@ -9,9 +9,8 @@
 //! | repeatability | unloaded | - | of runs of the same direction; without a ball-bar, from the robot file or the study |
 //!
 //! A cut and a measured force have a mean and a greatest force: the mean is the bias, the greatest is reported as the
-//! end of
-//! the envelope. Given cases are equally probable. A ball-bar measures gravity, backlash and geometry: if there is a
-//! ball-bar test, their prediction is reported for comparison and is not part of a sum.
+//! end of the envelope. Given cases are equally probable. A ball-bar measures gravity, backlash and geometry: if there
+//! is a ball-bar test, their prediction is reported for comparison and is not part of a sum.
 
 use armill_core::budget::turn::Turn;
 use armill_core::budget::unloaded::known_angles;
@@ -70,8 +69,10 @@ pub const MOST_WAVES: usize = 12;
 /// # Errors
 /// A path that is not reached everywhere; curves that have too few angles in common; those of a run.
 pub fn combine(
-    (study, experiment): (&Study, &Experiment),
-    (path, found): (&PathAnalysis, &PathResult),
+    study: &Study,
+    experiment: &Experiment,
+    path: &PathAnalysis,
+    found: &PathResult,
     watch: Watch<'_>,
 ) -> Result<CombinedCurves, StudyError> {
     if found.radial.is_empty() {
@@ -102,7 +103,7 @@ pub fn combine(
         load,
         without,
         uncertainties,
-    } = parts(study, (path, found), biased, watch)?;
+    } = parts(study, path, found, biased, watch)?;
     let cases: Vec<Vec<f64>> = load.iter().map(|case| turn.of_even(case)).collect();
     let without = without.map(|given| {
         (
@@ -121,8 +122,7 @@ pub fn combine(
         has_cut_way = Some(seen.has_cut_way);
         both_ways = seen.reversal.is_some();
         measured_scatter = seen.scatter;
-        without_load =
-            without.and_then(|(predicted, _)| unloaded_path(&turn, (&predicted, &seen), experiment));
+        without_load = without.and_then(|(predicted, _)| unloaded_path(&turn, &predicted, &seen, experiment));
         contributions.extend(contributions_of(seen));
     } else if let Some((bias, u)) = without {
         contributions.push(of_unloaded("path without load, predicted", bias, u));
@@ -189,7 +189,8 @@ fn uncertainty(uncertainties: &[Vec<f64>], turn: &Turn, experiment: &Experiment)
 /// The path without load as predicted and as measured by the ball-bar, in the cutting direction.
 fn unloaded_path(
     turn: &Turn,
-    (predicted, seen): (&[f64], &armill_core::budget::Unloaded),
+    predicted: &[f64],
+    seen: &armill_core::budget::Unloaded,
     experiment: &Experiment,
 ) -> Option<UnloadedPath> {
     let reversal = seen.reversal.as_ref();

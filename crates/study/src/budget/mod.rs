@@ -5,9 +5,8 @@
 //! ```
 //!
 //! [`parts`](mod@parts): the effect of the load, and the path without it. [`combine`](mod@combine): predicted and
-//! measured
-//! curves at common angles. [`answer`](mod@answer): the values of the result.
-//! Table and pictures: [`crate::output::budget`].
+//! measured curves at common angles. [`answer`](mod@answer): the values of the result. Table and pictures:
+//! [`crate::output::budget`].
 
 pub mod answer;
 pub mod combine;
@@ -61,7 +60,7 @@ pub fn point_count(study: &Study) -> Result<usize, StudyError> {
 pub fn budget(study: &Study, watch: Watch<'_>) -> Result<(CombinedCurves, BudgetAnswer), StudyError> {
     let (experiment, path) = circle(study)?;
     let found = Runner::new(&study.robot.robot, watch)?.path(path)?;
-    let combined = combine((study, experiment), (path, &found), watch)?;
+    let combined = combine(study, experiment, path, &found, watch)?;
     let given = answer(experiment, path, &combined);
     Ok((combined, given))
 }
@@ -76,7 +75,7 @@ pub(crate) fn of_results(
     let AnalysisData::Path(path, found) = &found.found else {
         return None;
     };
-    let combined = combine((study, experiment), (path, found), Watch::NONE).map(|combined| {
+    let combined = combine(study, experiment, path, found, Watch::NONE).map(|combined| {
         let given = answer(experiment, path, &combined);
         (combined, given)
     });

@@ -1,6 +1,5 @@
 //! The predicted deviation of a circle in its parts: the effect of the load, the path without it, and the uncertainty
-//! of the
-//! effect of the load.
+//! of the effect of the load.
 
 use armill_core::map::{WithoutLoad, radial_uncertainties, radial_without_load};
 use armill_core::nalgebra::Point2;
@@ -30,7 +29,8 @@ pub struct DeviationParts {
 /// Those of a run.
 pub fn parts(
     study: &Study,
-    (path, found): (&PathAnalysis, &PathResult),
+    path: &PathAnalysis,
+    found: &PathResult,
     biased: usize,
     watch: Watch<'_>,
 ) -> Result<DeviationParts, StudyError> {

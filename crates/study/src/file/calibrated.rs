@@ -59,15 +59,15 @@ fn other_arm(actual: &Robot, believed: &Robot) -> Option<String> {
     })
 }
 
-/// The calibrated robot; `None` if the study names none, or one that does not fit,
-/// reported at its key.
+/// The calibrated robot; `None` if the study names none, or one that does not fit, reported at its key.
 ///
 /// # Errors
 /// The problems of its file.
 pub(super) fn find_calibrated(
     log: &mut ProblemLog<'_>,
     file: &StudyFile,
-    (believed, folder): (&RobotDescription, &Path),
+    believed: &RobotDescription,
+    folder: &Path,
 ) -> Result<Option<CalibratedArm>, StudyError> {
     let Some(name) = &file.calibrated_robot else {
         return Ok(None);

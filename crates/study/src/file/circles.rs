@@ -8,7 +8,7 @@ use armill_core::measure::ballbar::CircularTest;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::analysis::Analysis;
+use crate::file::ResolvedAnalyses;
 use crate::file::experiment::{AngleMapping, bar, circle, turned_test};
 use crate::input::problem_log::ProblemLog;
 
@@ -54,19 +54,18 @@ impl MeasuredCircle {
     /// Reads the files of table number `index`; `None` if there are problems, reported at their keys.
     pub(super) fn read(
         log: &mut ProblemLog<'_>,
-        (index, table): (usize, &BallbarTable),
+        index: usize,
+        table: &BallbarTable,
         folder: &Path,
-        analyses: (&[Analysis], bool),
+        analyses: ResolvedAnalyses<'_>,
     ) -> Option<MeasuredCircle> {
         let key = format!("ballbar[{index}]");
-        let circle = circle(log, (&key, table.analysis.as_ref()), analyses);
-        let mut notes = Vec::new();
+        let circle = circle(log, &key, table.analysis.as_ref(), analyses);
         let files = format!("{key}.files");
         // Files are read even if the circle is not known: their problems belong to the same list.
-        let of = (files.as_str(), &table.files[..]);
-        let measured = bar(log, of, (folder, table.radius_mm), &mut notes)?;
+        let measured = bar(log, &files, &table.files, folder, table.radius_mm)?;
         let turned = AngleMapping::new(table.zero_deg, table.mirrored);
-        let test = turned_test(log, &files, &measured, (turned, false))?;
+        let test = turned_test(log, &files, &measured, turned, false)?;
         let (analysis, radius) = circle?;
         if (test.radius() / radius - 1.0).abs() > SAME_RADIUS {
             let message = format!(
@@ -82,7 +81,7 @@ impl MeasuredCircle {
             files: table.files.clone(),
             runs: measured.origins.into_iter().map(|origin| origin.name).collect(),
             test,
-            notes,
+            notes: measured.notes,
         })
     }
 }

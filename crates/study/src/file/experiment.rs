@@ -25,6 +25,7 @@ use serde::Deserialize;
 
 use crate::analysis::{Analysis, Subject};
 use crate::error::StudyError;
+use crate::file::ResolvedAnalyses;
 use crate::input::problem_log::ProblemLog;
 use crate::measured::circular_test::{self, FileOptions, MeasuredTest};
 use crate::measured::profile;
@@ -62,6 +63,17 @@ pub struct ExperimentTable {
     /// Standard uncertainty of a point of the part; 0 if left out.
     #[schemars(range(min = 0.0, max = 1e4))]
     pub part_u_um: Option<f64>,
+}
+
+impl ExperimentTable {
+    /// Components that are removed from every curve.
+    fn removed(&self) -> Removed {
+        let least_squares = |name: Option<DatumName>| name != Some(DatumName::AsMeasured);
+        Removed {
+            centre: least_squares(self.centre),
+            radius: least_squares(self.radius),
+        }
+    }
 }
 
 /// Reference of deviations.
@@ -115,32 +127,29 @@ impl Experiment {
         log: &mut ProblemLog<'_>,
         table: &ExperimentTable,
         folder: &Path,
-        (analyses, all_read): (&[Analysis], bool),
+        analyses: ResolvedAnalyses<'_>,
     ) -> Option<Experiment> {
-        let circle = circle(log, ("measured", table.analysis.as_ref()), (analyses, all_read));
+        let circle = circle(log, "measured", table.analysis.as_ref(), analyses);
         if table.part.is_none() && table.ballbar.is_empty() {
             let hint = "part = \"cmm.csv\", or ballbar = [\"first.csv\", \"second.csv\"]";
             log.problem("measured", "no measurement is named", hint);
         }
-        let least_squares = |name: Option<DatumName>| name != Some(DatumName::AsMeasured);
-        let removed = Removed {
-            centre: least_squares(table.centre),
-            radius: least_squares(table.radius),
-        };
         // Files are read even if the circle is not known: their problems belong to the same list.
         let radius_mm = table
             .radius_mm
             .or(circle.as_ref().map(|(_, radius)| radius * 1e3));
-        let mut notes = Vec::new();
-        let part = table.part.as_ref().map(|file| {
-            let of = (file.as_str(), folder.join(file));
-            part(log, table, of, (radius_mm, removed))
-        });
-        let test = (!table.ballbar.is_empty()).then(|| test(log, table, folder, (removed, &mut notes)));
+        let part = table
+            .part
+            .as_ref()
+            .map(|file| part(log, table, file, folder, radius_mm));
+        let test = (!table.ballbar.is_empty()).then(|| test(log, table, folder));
         let (analysis, radius) = circle?;
         // A file that was named and could not be read is a problem already.
-        let (part, test) = (part.map_or(Some(None), |part| part.map(Some))?, test);
-        let test = test.map_or(Some(None), |test| test.map(Some))?;
+        let part = part.map_or(Some(None), |part| part.map(Some))?;
+        let (test, mut notes) = match test {
+            Some(read) => read.map(|(test, notes)| (Some(test), notes))?,
+            None => (None, Vec::new()),
+        };
         let other = test
             .as_ref()
             .map(CircularTest::radius)
@@ -157,7 +166,7 @@ impl Experiment {
             table: table.clone(),
             analysis,
             radius,
-            removed,
+            removed: table.removed(),
             part,
             test,
             notes,
@@ -168,8 +177,9 @@ impl Experiment {
 /// The circle of the table `key`, with its radius (m); `None` if there is none, reported at its key.
 pub(super) fn circle(
     log: &mut ProblemLog<'_>,
-    (key, analysis): (&str, Option<&String>),
-    (analyses, all_read): (&[Analysis], bool),
+    key: &str,
+    analysis: Option<&String>,
+    analyses: ResolvedAnalyses<'_>,
 ) -> Option<(String, f64)> {
     let radius = |analysis: &Analysis| match &analysis.subject {
         Subject::Path(path) => match path.shape() {
@@ -179,6 +189,7 @@ pub(super) fn circle(
         _ => None,
     };
     let circles: Vec<(String, f64)> = analyses
+        .list
         .iter()
         .filter_map(|analysis| Some((analysis.name.clone(), radius(analysis)?)))
         .collect();
@@ -187,8 +198,8 @@ pub(super) fn circle(
         (Some(name), _) => {
             let found = circles.iter().find(|(own, _)| own == name);
             // The problems of an analysis are reported there.
-            if found.is_none() && all_read {
-                let message = match analyses.iter().any(|analysis| analysis.name == *name) {
+            if found.is_none() && analyses.complete {
+                let message = match analyses.list.iter().any(|analysis| analysis.name == *name) {
                     true => format!("`{name}` is not a circle"),
                     false => format!("the study has no analysis called `{name}`"),
                 };
@@ -197,7 +208,7 @@ pub(super) fn circle(
             found.cloned()
         }
         (None, [one]) => Some(one.clone()),
-        (None, _) if !all_read => None,
+        (None, _) if !analyses.complete => None,
         (None, []) => {
             log.problem(key, "the study has no circle", hint);
             None
@@ -242,22 +253,25 @@ impl AngleMapping {
 fn part(
     log: &mut ProblemLog<'_>,
     table: &ExperimentTable,
-    (file, path): (&str, std::path::PathBuf),
-    (radius_mm, removed): (Option<f64>, Removed),
+    file: &str,
+    folder: &Path,
+    radius_mm: Option<f64>,
 ) -> Option<Part> {
     let key = "measured.part";
+    let path = folder.join(file);
     let shown = path.display().to_string();
     let requested = ProfileReadOptions {
         radius_mm: table.radius_mm,
         else_radius_mm: radius_mm,
         unit: None,
     };
-    let given = profile::read((&shown, &path), &requested);
+    let given = profile::read(&shown, &path, &requested);
     let measured = taken(log, key, given)?;
     let count = measured.points.count();
+    let removes_centre = table.removed().centre;
     let points = match measured.points {
         Points::Plane(points) => points,
-        Points::Space(_) if !removed.centre => {
+        Points::Space(_) if !removes_centre => {
             let message = format!("{file} has points in space, which have no centre to measure from");
             log.problem(key, message, "centre = \"least-squares\"");
             return None;
@@ -274,7 +288,7 @@ fn part(
             points.iter().map(|point| plane.seen(point)).collect()
         }
     };
-    let (centre, points) = match removed.centre {
+    let (centre, points) = match removes_centre {
         false => (None, points),
         true => match Profile::new(points) {
             Ok(profile) => {
@@ -321,28 +335,29 @@ fn part(
     }
 }
 
-/// The path without load; `None` if it cannot be used, reported at its key.
+/// The path without load, and notes on its files; `None` if it cannot be used, reported at its key.
 fn test(
     log: &mut ProblemLog<'_>,
     table: &ExperimentTable,
     folder: &Path,
-    (removed, notes): (Removed, &mut Vec<String>),
-) -> Option<CircularTest> {
+) -> Option<(CircularTest, Vec<String>)> {
     let turned = AngleMapping::new(
         table.ballbar_zero_deg.or(table.zero_deg),
         table.ballbar_mirrored.unwrap_or(table.mirrored),
     );
-    let of = ("measured.ballbar", &table.ballbar[..]);
-    let measured = bar(log, of, (folder, table.radius_mm), notes)?;
-    turned_test(log, of.0, &measured, (turned, removed.centre))
+    let key = "measured.ballbar";
+    let measured = bar(log, key, &table.ballbar, folder, table.radius_mm)?;
+    let test = turned_test(log, key, &measured, turned, table.removed().centre)?;
+    Some((test, measured.notes))
 }
 
 /// The measurements of one circle in the files named at `key`; `None` if they cannot be read, reported at its key.
 pub(super) fn bar(
     log: &mut ProblemLog<'_>,
-    (key, files): (&str, &[String]),
-    (folder, radius_mm): (&Path, Option<f64>),
-    notes: &mut Vec<String>,
+    key: &str,
+    files: &[String],
+    folder: &Path,
+    radius_mm: Option<f64>,
 ) -> Option<MeasuredTest> {
     let mut all_there = true;
     for (index, file) in files.iter().enumerate() {
@@ -363,9 +378,7 @@ pub(super) fn bar(
         },
         ..FileOptions::default()
     };
-    let measured = taken(log, key, circular_test::read(&files, &requested))?;
-    notes.extend(measured.notes.iter().cloned());
-    Some(measured)
+    taken(log, key, circular_test::read(&files, &requested))
 }
 
 /// These runs in the angles of the circle, seen from their own centre where that is taken off; `None` if that cannot
@@ -374,7 +387,8 @@ pub(super) fn turned_test(
     log: &mut ProblemLog<'_>,
     key: &str,
     measured: &MeasuredTest,
-    (turned, takes_centre): (AngleMapping, bool),
+    turned: AngleMapping,
+    takes_centre: bool,
 ) -> Option<CircularTest> {
     let of_test = || -> Result<CircularTest, RunError> {
         let offset = least_squares_centre(&measured.test).filter(|_| takes_centre);

@@ -21,3 +21,14 @@ pub mod search_postures;
 mod calibrated;
 mod memory;
 mod names;
+
+use crate::analysis::Analysis;
+
+/// The analyses of a study that were resolved.
+#[derive(Clone, Copy)]
+struct ResolvedAnalyses<'a> {
+    /// In the order of the study.
+    list: &'a [Analysis],
+    /// Whether none is missing; the problems of a missing one are reported at its keys.
+    complete: bool,
+}

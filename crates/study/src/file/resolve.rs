@@ -1,7 +1,7 @@
 //! From the study file to resolved analyses: in SI, in the robot's base, checked.
 //!
-//! The whole file is checked before it is refused: a wrong value of one analysis does not hide
-//! those of the next, and a value of the study that several analyses use is reported once.
+//! The whole file is checked before it is refused: a wrong value of one analysis does not hide those of the next, and a
+//! value of the study that several analyses use is reported once.
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -23,7 +23,7 @@ use crate::file::experiment::Experiment;
 use crate::file::format::{StatementTable, StudyFile};
 use crate::file::names::{check_statements, name_of, unfit_names};
 use crate::file::placement::PlaceTable;
-use crate::file::{compliance, positioner};
+use crate::file::{ResolvedAnalyses, compliance, positioner};
 use crate::input::problem_log::ProblemLog;
 use crate::input::setting::Setting;
 use crate::robots;
@@ -88,7 +88,7 @@ impl Study {
 ///
 /// A study without analyses means one map of its plane, called `map`.
 pub fn read(shown: &str, folder: &Path, bytes: &[u8]) -> Result<Study, StudyError> {
-    read_changed((shown, folder), bytes, |_| ())
+    read_changed(shown, folder, bytes, |_| ())
 }
 
 /// [`read`], with the file modified by `change` before it is resolved; problems refer to the unmodified file.
@@ -96,7 +96,8 @@ pub fn read(shown: &str, folder: &Path, bytes: &[u8]) -> Result<Study, StudyErro
 /// # Errors
 /// As of [`read`].
 pub fn read_changed(
-    (shown, folder): (&str, &Path),
+    shown: &str,
+    folder: &Path,
     bytes: &[u8],
     change: impl FnOnce(&mut StudyFile),
 ) -> Result<Study, StudyError> {
@@ -168,7 +169,7 @@ impl Parsed {
         let mut log = ProblemLog::new(document, None);
         let robot = find_robot(&mut log, file, folder)?;
         let actual = match &robot {
-            Some(robot) => find_calibrated(&mut log, file, (robot, folder))?,
+            Some(robot) => find_calibrated(&mut log, file, robot, folder)?,
             None => None,
         };
         let common = file.common();
@@ -197,14 +198,17 @@ impl Parsed {
             memory::check_analyses(&mut log, robot, &analyses);
         }
         check_statements(&mut log, file, &analyses);
-        let all_read = analyses.len() == tables.len();
-        check_place(&mut log, file, (&analyses, all_read));
+        let resolved = ResolvedAnalyses {
+            list: &analyses,
+            complete: analyses.len() == tables.len(),
+        };
+        check_place(&mut log, file, resolved);
         let experiment = file
             .measured
             .as_ref()
-            .and_then(|table| Experiment::read(&mut log, table, folder, (&analyses, all_read)));
+            .and_then(|table| Experiment::read(&mut log, table, folder, resolved));
         let circles: Vec<MeasuredCircle> = (file.ballbar.iter().enumerate())
-            .filter_map(|table| MeasuredCircle::read(&mut log, table, folder, (&analyses, all_read)))
+            .filter_map(|(index, table)| MeasuredCircle::read(&mut log, index, table, folder, resolved))
             .collect();
         problems.append(&mut log.problems);
         problems.extend(unfit_names(document, file));
@@ -256,7 +260,7 @@ fn may_be_quoted(file: &str, folder: &Path) -> bool {
 }
 
 /// Problems of the permitted placements.
-fn check_place(log: &mut ProblemLog<'_>, file: &StudyFile, (analyses, all_read): (&[Analysis], bool)) {
+fn check_place(log: &mut ProblemLog<'_>, file: &StudyFile, analyses: ResolvedAnalyses<'_>) {
     let Some(place) = &file.place else { return };
     for (key, message, hint) in place.faults() {
         log.problem(&format!("place.{key}"), message, hint);
@@ -264,7 +268,8 @@ fn check_place(log: &mut ProblemLog<'_>, file: &StudyFile, (analyses, all_read):
     let is_it = |analysis: &Analysis, name: &String| {
         analysis.name == *name && matches!(analysis.subject, Subject::Path(_) | Subject::Holes(_))
     };
-    let of_none = |name: &&String| all_read && !analyses.iter().any(|analysis| is_it(analysis, name));
+    let of_none =
+        |name: &&String| analyses.complete && !analyses.list.iter().any(|analysis| is_it(analysis, name));
     if let Some(name) = place.analysis.as_ref().filter(of_none) {
         let message = format!("the study has no path called `{name}`");
         log.problem(

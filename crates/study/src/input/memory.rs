@@ -63,39 +63,48 @@ const BYTES_PER_CASE: usize = 16 << 10;
 /// Hint for an analysis that is too large.
 const HINT: &str = "use a larger step, a smaller plane, or fewer load cases";
 
-/// Whether `points` of this setting under so many load cases fit; a problem at `path` if not.
-pub fn check_points(
-    log: &mut ProblemLog<'_>,
-    path: &str,
-    (extra, points): (&ExtraBytes, f64),
-    (robot, setting, cases): (&RobotDescription, &Setting, usize),
-) -> Option<()> {
-    let bytes = bytes(extra, points, (robot, setting, cases));
-    if bytes <= MOST_BYTES {
-        return Some(());
-    }
-    let (gib, most) = (bytes / GIB, MOST_BYTES / GIB);
-    let under = match cases {
-        1 => String::new(),
-        cases => format!(" under {cases} load cases"),
-    };
-    let message =
-        format!("{points:.0} points{under} would take {gib:.1} GiB of memory, more than {most:.0} GiB");
-    log.problem(path, message, HINT);
-    None
+/// Points whose answers are in memory at the same time.
+pub struct PointMemory<'a> {
+    /// The robot.
+    pub robot: &'a RobotDescription,
+    /// Their common setting.
+    pub setting: &'a Setting,
+    /// Load cases.
+    pub cases: usize,
+    /// How many points.
+    pub points: f64,
+    /// Their tables and fields.
+    pub extra: &'a ExtraBytes,
 }
 
-/// Bytes of so many points: their answers in the core, and their tables and fields.
-pub fn bytes(
-    extra: &ExtraBytes,
-    points: f64,
-    (robot, setting, cases): (&RobotDescription, &Setting, usize),
-) -> f64 {
-    let joints = robot.robot.joints().len();
-    let shares = setting.model.contributors(joints).len();
-    let point = Answers::bytes_per_point(joints, shares, cases)
-        + extra.point
-        + extra.joint_or_share * (joints + shares)
-        + extra.case * cases;
-    points * point as f64 + (cases * BYTES_PER_CASE) as f64
+impl PointMemory<'_> {
+    /// Bytes of the points: their answers in the core, and their tables and fields.
+    pub fn bytes(&self) -> f64 {
+        let (cases, extra) = (self.cases, self.extra);
+        let joints = self.robot.robot.joints().len();
+        let shares = self.setting.model.contributors(joints).len();
+        let point = Answers::bytes_per_point(joints, shares, cases)
+            + extra.point
+            + extra.joint_or_share * (joints + shares)
+            + extra.case * cases;
+        self.points * point as f64 + (cases * BYTES_PER_CASE) as f64
+    }
+
+    /// Whether they fit; a problem at `path` if not.
+    pub fn check(&self, log: &mut ProblemLog<'_>, path: &str) -> Option<()> {
+        let bytes = self.bytes();
+        if bytes <= MOST_BYTES {
+            return Some(());
+        }
+        let (gib, most) = (bytes / GIB, MOST_BYTES / GIB);
+        let under = match self.cases {
+            1 => String::new(),
+            cases => format!(" under {cases} load cases"),
+        };
+        let points = self.points;
+        let message =
+            format!("{points:.0} points{under} would take {gib:.1} GiB of memory, more than {most:.0} GiB");
+        log.problem(path, message, HINT);
+        None
+    }
 }

@@ -21,8 +21,7 @@ use armill_core::source::{Gravity, StiffnessModel, ThermalGrowth, repeatability}
 use armill_formats::robot::spring_tables::SpringTableError;
 
 use crate::input::problem_log::ProblemLog;
-use crate::input::tables::ThermalTable;
-use crate::input::tables::{CutterMaterial, GravityTable, ToolTable};
+use crate::input::tables::{CutterMaterial, GravityTable, ThermalTable, ToolTable};
 
 /// What the study adds to the stiffness model of the robot file, as written.
 #[derive(Clone, Copy, Debug)]
@@ -42,7 +41,8 @@ pub fn model(
     log: &mut ProblemLog<'_>,
     given: &StiffnessTables<'_>,
     tool: Option<&ToolTable>,
-    (robot, actual): (&Robot, Option<&Arc<Robot>>),
+    robot: &Robot,
+    actual: Option<&Arc<Robot>>,
 ) -> Option<StiffnessModel> {
     // All problems are reported, so whether there are new ones is evaluated at the end.
     let before = log.problems.len();

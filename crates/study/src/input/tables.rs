@@ -61,8 +61,8 @@ pub struct GravityTable {
     pub direction: Option<[f64; 3]>,
 }
 
-/// Thermal growth of the links: the robot is warmer or colder than when it was calibrated, and its controller does not know
-/// it. Tool and part do not grow.
+/// Thermal growth of the links: the robot is warmer or colder than when it was calibrated, and its controller does not
+/// know it. Tool and part do not grow.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ThermalTable {

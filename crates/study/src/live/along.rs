@@ -44,7 +44,8 @@ impl AnsweredPose {
 
 /// Point `index` of a path of this study, which may have been evaluated; the point must exist.
 pub(super) fn on_path(
-    (study, path): (&Study, &PathAnalysis),
+    study: &Study,
+    path: &PathAnalysis,
     index: usize,
     done: Option<&AnalysisResult<'_>>,
     watch: Watch<'_>,
@@ -66,12 +67,13 @@ pub(super) fn on_path(
         link_offsets: unloaded.map(|unloaded| unloaded.link_offsets_at(index, answers.joint_count).to_vec()),
     };
     let spin = searched.map_or(0.0, |searched| searched.posture.spins[index]);
-    Ok(turned((&path.track, &along.load), index, spin, pose))
+    Ok(turned(&path.track, &along.load, index, spin, pose))
 }
 
 /// Hole `index` of this study, whose holes may have been evaluated; the hole must exist.
 pub(super) fn at_hole(
-    (study, holes): (&Study, &HolesAnalysis),
+    study: &Study,
+    holes: &HolesAnalysis,
     index: usize,
     done: Option<&AnalysisResult<'_>>,
     watch: Watch<'_>,
@@ -95,7 +97,7 @@ pub(super) fn at_hole(
 }
 
 /// A point of this track with the tool turned about its axis by a further `spin` (rad).
-fn turned((track, load): (&Track, &PathLoad), index: usize, spin: f64, pose: AnsweredPose) -> ToolTarget {
+fn turned(track: &Track, load: &PathLoad, index: usize, spin: f64, pose: AnsweredPose) -> ToolTarget {
     let here = track.loaded_stop(index, load);
     let spin = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), spin);
     ToolTarget {

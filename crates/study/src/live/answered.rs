@@ -8,7 +8,7 @@ use crate::answer::answer;
 use crate::error::StudyError;
 use crate::live::StudyText;
 use crate::output::budget::is_of_budget;
-use crate::output::{self, Picture};
+use crate::output::{self, Picture, StudyResults};
 use crate::run::run;
 
 /// The pictures of an analysis.
@@ -54,7 +54,7 @@ pub fn table_csv(
     analysis: Option<&str>,
     watch: Watch<'_>,
 ) -> Result<Vec<u8>, StudyError> {
-    let (_, _, study) = text.one_analysis(analysis)?;
+    let study = text.one_analysis(analysis)?.study;
     let done = run(&study, watch)?;
     output::table_csv(&study, done.first().ok_or_else(no_analysis)?)
 }
@@ -88,7 +88,11 @@ pub fn pictures(
         title: caption,
         svg,
     };
-    let pictures = output::pictures(&study, &done, &answer(&study, &done));
+    let pictures = output::pictures(StudyResults {
+        study: &study,
+        done: &done,
+        answer: &answer(&study, &done),
+    });
     Ok(PicturesAnswer {
         pictures: pictures.into_iter().map(given).collect(),
     })

@@ -7,8 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::analysis::{AnalysisData, AnalysisResult};
 use crate::answer::{PointAnswer, StudyAnswer};
 use crate::error::{ErrorKind, StudyError};
-use crate::file::resolve::{Parsed, Study};
-use crate::live::StudyText;
+use crate::live::EditedAnalysis;
 use crate::live::posture::{PoseTarget, PosturesAnswer, postures_of};
 
 /// The pose of the arm to show.
@@ -114,17 +113,12 @@ fn extreme_points(answer: &StudyAnswer, section: usize) -> [Option<&PointAnswer>
     [holes.map(|worst| &worst.point), None]
 }
 
-/// The requested pose of the arm in this analysis, the only one of the study; none if there is no such point, or no
-/// longer.
-///
-/// # Errors
-/// Cancelled by the watch; a fault.
-pub(super) fn pose_at_target(
-    (text, parsed, study): (StudyText<'_>, &Parsed, &Study),
-    (answer, extremes, done): (&StudyAnswer, &[ExtremesAnswer], &[AnalysisResult<'_>]),
+/// The requested target and load case, from 1, in the answer to one analysis; none if there is no such point.
+pub(super) fn target_of(
     request: &PoseRequest,
-    watch: Watch<'_>,
-) -> Result<Option<PoseAtTarget>, StudyError> {
+    answer: &StudyAnswer,
+    extremes: &[ExtremesAnswer],
+) -> Option<(PoseTarget, usize)> {
     let places = extremes.get(request.section).or(extremes.first());
     let [worst, best] = extreme_points(answer, request.section);
     let (at, point) = match request.follow {
@@ -132,11 +126,25 @@ pub(super) fn pose_at_target(
         Follow::Best => (places.and_then(|places| places.best.clone()), best),
         Follow::Place => (request.at.clone(), None),
     };
-    let Some(at) = at else {
-        return Ok(None);
-    };
-    let case = request.case.or(point.map(|point| point.worst_case)).unwrap_or(1);
-    match postures_of((text, parsed, study), (&at, case), done.first(), watch) {
+    Some((
+        at?,
+        request.case.or(point.map(|point| point.worst_case)).unwrap_or(1),
+    ))
+}
+
+/// The arm at this target under this load case (from 1) of an analysis, which may have been evaluated; none if the
+/// target exists no longer.
+///
+/// # Errors
+/// Cancelled by the watch; a fault.
+pub(super) fn pose_at_target(
+    edited: &EditedAnalysis<'_>,
+    at: PoseTarget,
+    case: usize,
+    done: Option<&AnalysisResult<'_>>,
+    watch: Watch<'_>,
+) -> Result<Option<PoseAtTarget>, StudyError> {
+    match postures_of(edited, &at, case, done, watch) {
         Ok(pose) => Ok(Some(PoseAtTarget { at, case, pose })),
         // A former point on a path that is shorter now: a separate request for it reports why.
         Err(error) if error.kind() == ErrorKind::InvalidInput => Ok(None),

@@ -59,6 +59,7 @@ pub use view::{ViewAnswer, view};
 
 use std::path::Path;
 
+use crate::analysis::table::AnalysisTable;
 use crate::error::StudyError;
 use crate::file::resolve::{Parsed, Study};
 use crate::input::setting::Setting;
@@ -74,7 +75,7 @@ pub struct StudyText<'a> {
     pub bytes: &'a [u8],
 }
 
-impl StudyText<'_> {
+impl<'a> StudyText<'a> {
     /// The study with this analysis alone; with all if none is named.
     ///
     /// # Errors
@@ -83,22 +84,47 @@ impl StudyText<'_> {
         Parsed::of(self.shown, self.bytes)?.resolve(self.folder, analysis)
     }
 
-    /// The text with its fields, and the study with this analysis alone, or with the first.
-    fn one_analysis(&self, analysis: Option<&str>) -> Result<(Parsed, String, Study), StudyError> {
+    /// This analysis of the text, or the first.
+    fn one_analysis(self, analysis: Option<&str>) -> Result<EditedAnalysis<'a>, StudyError> {
         let parsed = Parsed::of(self.shown, self.bytes)?;
         // A study without analyses means one map.
         let first = || parsed.analysis_names().first().cloned().unwrap_or_default();
         let name = analysis.map_or_else(first, str::to_owned);
-        let study = parsed.resolve(self.folder, Some(&name))?;
-        Ok((parsed, name, study))
+        let table = parsed.analysis_tables()[parsed.index_of(&name)?].clone();
+        Ok(EditedAnalysis {
+            folder: self.folder,
+            study: parsed.resolve(self.folder, Some(&name))?,
+            parsed,
+            name,
+            table,
+        })
     }
 }
 
-/// What the points of the only analysis of this study share; of sections those of the one with this number, from 0.
-fn setting(study: &Study, section: usize) -> Result<&Setting, StudyError> {
-    let found = study
-        .analyses
-        .first()
-        .and_then(|analysis| analysis.subject.setting(section));
-    found.ok_or_else(|| StudyError::value(format!("there is no section {section}"), "sections count from 0"))
+/// One analysis of a text that is being edited, read and checked.
+struct EditedAnalysis<'a> {
+    /// Folder in which the files that the text names are searched.
+    folder: &'a Path,
+    /// The text with its fields.
+    parsed: Parsed,
+    /// The name of the analysis.
+    name: String,
+    /// The analysis as written.
+    table: AnalysisTable,
+    /// The study with this analysis alone.
+    study: Study,
+}
+
+impl EditedAnalysis<'_> {
+    /// What its points share; of sections those of the one with this number, from 0.
+    fn setting(&self, section: usize) -> Result<&Setting, StudyError> {
+        let found = self
+            .study
+            .analyses
+            .first()
+            .and_then(|analysis| analysis.subject.setting(section));
+        found.ok_or_else(|| {
+            StudyError::value(format!("there is no section {section}"), "sections count from 0")
+        })
+    }
 }

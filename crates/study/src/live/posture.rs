@@ -24,12 +24,12 @@ use serde::{Deserialize, Serialize};
 use crate::analysis::arm::arm_posture;
 use crate::analysis::{AnalysisResult, Subject};
 use crate::error::StudyError;
-use crate::file::resolve::{Parsed, Study};
+use crate::file::resolve::Study;
 use crate::input::setting::Setting;
 use crate::joint_unit::{JointUnit, joint_positions};
 use crate::live::along::{AnsweredPose, at_hole, on_path};
 use crate::live::meshes::{DrawnMesh, Shapes};
-use crate::live::{StudyText, setting};
+use crate::live::{EditedAnalysis, StudyText};
 use crate::number::without_rounding;
 use crate::pose::{At, PoseAnswer, PoseContext, PoseQuestion, answer_in};
 
@@ -182,24 +182,21 @@ pub fn postures(
     question: &PostureQuestion<'_>,
     watch: Watch<'_>,
 ) -> Result<PosturesAnswer, StudyError> {
-    let (parsed, _, study) = text.one_analysis(question.analysis)?;
-    postures_of(
-        (text, &parsed, &study),
-        (&question.at, question.case),
-        None,
-        watch,
-    )
+    let edited = text.one_analysis(question.analysis)?;
+    postures_of(&edited, &question.at, question.case, None, watch)
 }
 
-/// [`postures`] of a text that has been read, its study with this analysis alone, which may have been evaluated.
+/// [`postures`] of a text that has been read; the analysis may have been evaluated. `case` counts from 1.
 pub(super) fn postures_of(
-    (text, parsed, study): (StudyText<'_>, &Parsed, &Study),
-    (at, case): (&PoseTarget, usize),
+    edited: &EditedAnalysis<'_>,
+    at: &PoseTarget,
+    case: usize,
     done: Option<&AnalysisResult<'_>>,
     watch: Watch<'_>,
 ) -> Result<PosturesAnswer, StudyError> {
-    let setting = setting(study, at.section.unwrap_or(0))?;
-    let requested = requested((study, setting), at, done, watch)?;
+    let study = &edited.study;
+    let setting = edited.setting(at.section.unwrap_or(0))?;
+    let requested = requested(study, setting, at, done, watch)?;
     let robot = &study.robot.robot;
     let wrench = match (
         case.checked_sub(1).and_then(|case| requested.cases.get(case)),
@@ -245,15 +242,14 @@ pub(super) fn postures_of(
     let of_cases = joints
         .iter()
         .zip(&answer.postures)
-        .map(|(q, posture)| deviations(robot, setting, (q, &posture.branch), &requested));
-    let in_plane = of_cases.collect();
-    let shapes = Shapes::of(&parsed.file.robot, text.folder);
+        .map(|(q, posture)| deviations(robot, setting, q, &posture.branch, &requested));
+    let shapes = Shapes::of(&edited.parsed.file.robot, edited.folder);
     let drawn = |q: &Vec<f64>| DrawnPosture {
         meshes: shapes.drawn(robot, q),
         ..drawn(robot, q, &setting.flange_from_tool)
     };
     Ok(PosturesAnswer {
-        in_plane,
+        in_plane: of_cases.collect(),
         drawings: joints.iter().map(drawn).collect(),
         limits: limits(robot),
         chain: joints.iter().map(|q| as_chain(robot, q)).collect(),
@@ -263,7 +259,8 @@ pub(super) fn postures_of(
 
 /// The tool target of a query.
 fn requested(
-    (study, setting): (&Study, &Setting),
+    study: &Study,
+    setting: &Setting,
     at: &PoseTarget,
     done: Option<&AnalysisResult<'_>>,
     watch: Watch<'_>,
@@ -295,7 +292,7 @@ fn requested(
             let tcp = setting.base_from_reference * Point3::from(Vector3::from(xyz) * 1e-3);
             Ok(on_plane(At::Pose(pose_on_plane(setting, tcp))))
         }
-        (None, None, None, None, Some(index)) => point((study, setting), index, done, watch),
+        (None, None, None, None, Some(index)) => point(study, setting, index, done, watch),
         _ => Err(StudyError::value("give exactly one kind of target", one_of)),
     }
 }
@@ -313,7 +310,8 @@ fn pose_on_plane(setting: &Setting, tcp: Point3<f64>) -> Isometry {
 
 /// A point of a path, of holes or of a box.
 fn point(
-    (study, setting): (&Study, &Setting),
+    study: &Study,
+    setting: &Setting,
     index: usize,
     done: Option<&AnalysisResult<'_>>,
     watch: Watch<'_>,
@@ -328,11 +326,11 @@ fn point(
     match study.analyses.first().map(|analysis| &analysis.subject) {
         Some(Subject::Path(path)) => {
             within(path.track.len())?;
-            on_path((study, path), index, done, watch)
+            on_path(study, path, index, done, watch)
         }
         Some(Subject::Holes(holes)) => {
             within(holes.path.track.len())?;
-            at_hole((study, holes), index, done, watch)
+            at_hole(study, holes, index, done, watch)
         }
         Some(Subject::Volume(_, grid)) => {
             within(grid.len())?;
@@ -355,7 +353,8 @@ fn point(
 fn deviations(
     robot: &Robot,
     setting: &Setting,
-    (q, branch): (&[f64], &str),
+    q: &[f64],
+    branch: &str,
     requested: &ToolTarget,
 ) -> Vec<Option<CaseAnswer>> {
     let (cases, normal) = (&requested.cases, requested.normal);
@@ -389,7 +388,7 @@ fn deviations(
             normal,
             choice: BranchChoice::Best,
         };
-        let (u, shares) = in_plane_parts(&question, (q, branch), link_offsets).unzip();
+        let (u, shares) = in_plane_parts(&question, q, branch, link_offsets).unzip();
         // A case that is a moment alone has no direction.
         let along = Unit::try_new(wrench.force, 1e-12)
             .map(|f| permissible_force(&compliance_by_force, normal, f, setting.tolerance));
@@ -419,7 +418,8 @@ pub(super) fn is_same(a: &[f64], b: &[f64]) -> bool {
 /// name; none if the posture cannot be selected by name. On a path the `link_offsets` must be given.
 fn in_plane_parts(
     question: &Question<'_>,
-    (q, branch): (&[f64], &str),
+    q: &[f64],
+    branch: &str,
     link_offsets: Option<&[f64]>,
 ) -> Option<(f64, Vec<f64>)> {
     let arm = &question.arm;

@@ -14,10 +14,10 @@ use serde_json::{Map, Value};
 use crate::analysis::resolve::plane_of;
 use crate::analysis::{AnalysisData, AnalysisResult, Sheet, Subject};
 use crate::error::StudyError;
-use crate::file::resolve::{Parsed, Study};
+use crate::file::resolve::Study;
 use crate::input::setting::Setting;
 use crate::input::tables::{HalfSize, PlaneTable};
-use crate::live::StudyText;
+use crate::live::{EditedAnalysis, StudyText};
 use crate::number::without_rounding;
 use crate::output;
 use crate::run::run;
@@ -111,12 +111,12 @@ pub fn scene(
     analysis: Option<&str>,
     watch: Watch<'_>,
 ) -> Result<SceneAnswer, StudyError> {
-    let (parsed, name, study) = text.one_analysis(analysis)?;
-    let done = match has_points(&study) {
-        true => run(&study, watch)?,
+    let edited = text.one_analysis(analysis)?;
+    let done = match has_points(&edited.study) {
+        true => run(&edited.study, watch)?,
         false => Vec::new(),
     };
-    scene_of(&parsed, &name, (&study, &done))
+    scene_of(&edited, &done)
 }
 
 /// Whether the points of the only analysis of this study are drawn one by one.
@@ -125,15 +125,14 @@ fn has_points(study: &Study) -> bool {
     !matches!(subject, Some(Subject::Map(_) | Subject::Sections(_)))
 }
 
-/// What can be drawn of the analysis of this name, the only one of the study, and of its result if it has points.
+/// What can be drawn of this analysis, and of its result if it has points.
 pub(super) fn scene_of(
-    parsed: &Parsed,
-    name: &str,
-    (study, done): (&Study, &[AnalysisResult<'_>]),
+    edited: &EditedAnalysis<'_>,
+    done: &[AnalysisResult<'_>],
 ) -> Result<SceneAnswer, StudyError> {
-    let tables = parsed.analysis_tables();
-    let plane = plane_of(&parsed.file.plane, &tables[parsed.index_of(name)?]);
-    let setting = crate::live::setting(study, 0)?;
+    let study = &edited.study;
+    let plane = plane_of(&edited.parsed.file.plane, &edited.table);
+    let setting = edited.setting(0)?;
     let (mut sections, mut in_box) = (Vec::new(), None);
     let of_sheet = |sheet: &Sheet| {
         let half = |count: usize| 0.5 * (count as f64 - 1.0) * sheet.grid.step;

@@ -1,7 +1,6 @@
 //! The settings that an analysis resolves to: initial values for the controls of a page.
 //!
-//! Values are those of the analysis if it gives them, else those of the study, else the
-//! defaults.
+//! Values are those of the analysis if it gives them, else those of the study, else the defaults.
 
 use armill_core::robot::Branch;
 use schemars::JsonSchema;
@@ -11,10 +10,9 @@ use crate::analysis::resolve::plane_of;
 use crate::analysis::table::AnalysisTable;
 use crate::error::StudyError;
 use crate::file::format::StudyFile;
-use crate::file::resolve::{Parsed, Study};
 use crate::input::tables::HalfSize;
 use crate::live::scene::{PlateInScene, half_of};
-use crate::live::{StudyText, setting};
+use crate::live::{EditedAnalysis, StudyText};
 use crate::number::without_rounding;
 
 /// Every setting of one analysis; `null` if it has none.
@@ -73,17 +71,14 @@ pub struct ValuesAnswer {
 /// # Errors
 /// Every problem of the text that concerns the analysis; no analysis of that name.
 pub fn values(text: StudyText<'_>, analysis: Option<&str>) -> Result<ValuesAnswer, StudyError> {
-    let (parsed, name, study) = text.one_analysis(analysis)?;
-    values_of(&parsed, name, &study)
+    values_of(&text.one_analysis(analysis)?)
 }
 
-/// The settings of the analysis of this name, the only one of the study.
-pub(super) fn values_of(parsed: &Parsed, name: String, study: &Study) -> Result<ValuesAnswer, StudyError> {
-    let tables = parsed.analysis_tables();
-    let table = &tables[parsed.index_of(&name)?];
-    let file = &parsed.file;
-    let setting = setting(study, 0)?;
-    let robot = &study.robot.robot;
+/// The settings of this analysis.
+pub(super) fn values_of(edited: &EditedAnalysis<'_>) -> Result<ValuesAnswer, StudyError> {
+    let (file, table) = (&edited.parsed.file, &edited.table);
+    let setting = edited.setting(0)?;
+    let robot = &edited.study.robot.robot;
     let plane = plane_of(&file.plane, table);
     let half_size_mm = match plane.half_size_mm {
         HalfSize::Square(half) => [half; 2],
@@ -121,7 +116,7 @@ pub(super) fn values_of(parsed: &Parsed, name: String, study: &Study) -> Result<
         tilts_deg: table.tilts_deg.clone(),
         box_half_size_mm: table.in_box.as_ref().map(|of| of.half_size_mm),
         plane_corners_mm: PlateInScene::of(setting, half_of(&plane)).corners_mm,
-        analysis: name,
+        analysis: edited.name.clone(),
     })
 }
 

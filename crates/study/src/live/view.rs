@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::answer::{StudyAnswer, answer};
 use crate::error::StudyError;
-use crate::live::arm::{ExtremesAnswer, PoseAtTarget, PoseRequest, extremes_of, pose_at_target};
+use crate::live::arm::{ExtremesAnswer, PoseAtTarget, PoseRequest, extremes_of, pose_at_target, target_of};
 use crate::live::outline::{analyses, changed_text};
 use crate::live::scene::scene_of;
 use crate::live::values::values_of;
@@ -41,7 +41,8 @@ pub struct ViewAnswer {
 pub fn view(
     text: StudyText<'_>,
     analysis: Option<&str>,
-    (changes, request): (&[ChangedValue], Option<&PoseRequest>),
+    changes: &[ChangedValue],
+    request: Option<&PoseRequest>,
     watch: Watch<'_>,
 ) -> Result<ViewAnswer, StudyError> {
     let new = changed_text(text, analysis, changes)?;
@@ -49,19 +50,19 @@ pub fn view(
         bytes: new.as_bytes(),
         ..text
     };
-    let (parsed, name, study) = text.one_analysis(analysis)?;
-    let done = run(&study, watch)?;
-    let answer = answer(&study, &done);
+    let edited = text.one_analysis(analysis)?;
+    let done = run(&edited.study, watch)?;
+    let answer = answer(&edited.study, &done);
     let extremes = extremes_of(&answer, &done);
-    let given = (&answer, extremes.as_slice(), done.as_slice());
-    let arm = match request {
-        Some(request) => pose_at_target((text, &parsed, &study), given, request, watch)?,
+    let target = request.and_then(|request| target_of(request, &answer, &extremes));
+    let arm = match target {
+        Some((at, case)) => pose_at_target(&edited, at, case, done.first(), watch)?,
         None => None,
     };
     Ok(ViewAnswer {
-        analyses: analyses(&parsed),
-        scene: scene_of(&parsed, &name, (&study, &done))?,
-        values: values_of(&parsed, name, &study)?,
+        analyses: analyses(&edited.parsed),
+        scene: scene_of(&edited, &done)?,
+        values: values_of(&edited)?,
         answer,
         extremes,
         arm,

@@ -9,7 +9,7 @@ use crate::measured::treatment::ProcessedRecord;
 /// The picture of a record.
 ///
 /// If revolutions were averaged, the processed traces are their means.
-pub fn plot((title, subtitle): (String, String), treated: &ProcessedRecord) -> ForcePlot {
+pub fn plot(title: String, subtitle: String, treated: &ProcessedRecord) -> ForcePlot {
     let before = &treated.before;
     let span_s = [before.begin(), before.end()];
     let envelope = |record: &Record, value: fn(&Vector3<f64>) -> f64| {

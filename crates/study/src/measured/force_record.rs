@@ -37,7 +37,8 @@ pub enum Unread {
 /// # Errors
 /// The file cannot be read; its problems; several cycles and none given, or one that it does not have.
 pub fn read(
-    (shown, path): (&str, &Path),
+    shown: &str,
+    path: &Path,
     acts_on: ActsOn,
     requested: &ForceReadOptions,
     cycle: Option<usize>,

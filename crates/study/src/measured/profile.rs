@@ -12,10 +12,7 @@ use crate::error::StudyError;
 ///
 /// # Errors
 /// The file cannot be read; its problems.
-pub fn read(
-    (shown, path): (&str, &Path),
-    requested: &ProfileReadOptions,
-) -> Result<MeasuredProfile, StudyError> {
+pub fn read(shown: &str, path: &Path, requested: &ProfileReadOptions) -> Result<MeasuredProfile, StudyError> {
     let file = input::open(path).map_err(|error| {
         StudyError::value(
             format!("cannot read {shown}: {error}"),

@@ -7,7 +7,6 @@ use armill_core::robot::inverse::posture_at;
 use armill_report::{ArmDrawing, View};
 
 use crate::analysis::arm::arm_posture;
-
 use crate::pose::{PoseAnswer, PostureAnswer};
 
 /// Half the side of the plate in the picture of a single pose, m.

@@ -14,8 +14,9 @@ use std::path::PathBuf;
 use armill_core::measure::ballbar::profile::is_gap;
 use armill_formats::file::ResultFolder;
 use armill_formats::table::{Column, ColumnData, Table, csv};
-use armill_report::html;
-use armill_report::{BudgetBar, BudgetBars, BudgetGroup, Growth, PolarPlot, RadialSeries, WaveBar, WaveBars};
+use armill_report::{
+    BudgetBar, BudgetBars, BudgetGroup, Growth, PolarPlot, RadialSeries, WaveBar, WaveBars, html,
+};
 
 use crate::StudyError;
 use crate::analysis::cells::columns;

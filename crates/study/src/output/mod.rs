@@ -14,9 +14,8 @@
 //! .armill-files           which of these files armill made
 //! ```
 //!
-//! `NAME` is the [`slug`] of the analysis's name. `folder`: which files; `rows`: the points; `tables`, `pictures`,
-//! `plates`, `path` with `along` and `force_picture`, `holes`, `lattice`, `limits`, `arm`, `budget`, `report`: their
-//! contents.
+//! `NAME` is the [`slug`] of the analysis's name. [`folder`]: writes many files at once; `tables`, `pictures`, `arm`,
+//! [`budget`], [`report`]: their contents.
 
 mod arm;
 pub mod budget;
@@ -41,6 +40,17 @@ use crate::answer::StudyAnswer;
 use crate::error::StudyError;
 use crate::file::resolve::Study;
 use crate::file_names::slug;
+
+/// A study with its results.
+#[derive(Clone, Copy, Debug)]
+pub struct StudyResults<'a> {
+    /// The study.
+    pub study: &'a Study,
+    /// The result of each analysis, in the order of the study.
+    pub done: &'a [AnalysisResult<'a>],
+    /// The answer from these.
+    pub answer: &'a StudyAnswer,
+}
 
 /// What to write in addition to `result.json`, Parquet and VTK.
 #[derive(Clone, Copy, Debug)]
@@ -104,7 +114,7 @@ const PNG_SCALE: f64 = 2.0;
 ///
 /// # Errors
 /// Files there that may not be replaced.
-pub fn allow(study: &Study, (out, requested): (&ResultFolder, OutputOptions<'_>)) -> Result<(), StudyError> {
+pub fn allow(study: &Study, out: &ResultFolder, requested: OutputOptions<'_>) -> Result<(), StudyError> {
     let names = names(study, &[], requested);
     Ok(out.allow(names.iter().map(String::as_str))?)
 }
@@ -115,23 +125,23 @@ pub fn allow(study: &Study, (out, requested): (&ResultFolder, OutputOptions<'_>)
 /// # Errors
 /// A file cannot be written.
 pub fn write(
-    study: &Study,
-    done: &[AnalysisResult<'_>],
-    answer: &StudyAnswer,
-    (out, requested): (&ResultFolder, OutputOptions<'_>),
+    results: StudyResults<'_>,
+    out: &ResultFolder,
+    requested: OutputOptions<'_>,
     note: &(dyn Fn(&str) + Sync),
 ) -> Result<Vec<PathBuf>, StudyError> {
+    let StudyResults { study, done, answer } = results;
     let drawn = match requested.pictures {
-        Pictures::Drawn => pictures::draw(study, done, answer),
+        Pictures::Drawn => pictures(results),
         Pictures::None => Vec::new(),
     };
     let names = names(study, &drawn, requested);
-    replace((out, &names), (answer, note), |files| {
+    replace(out, &names, answer, note, |files| {
         let tables = || {
             let analyses = study.analyses.par_iter().zip(done).with_max_len(1);
             analyses.try_for_each(|(analysis, done)| {
                 let slug = slug(&analysis.name);
-                tables::files(study, (analysis, done), requested.csv, &|extension, bytes| {
+                tables::files(study, analysis, done, requested.csv, &|extension, bytes| {
                     files.save(&format!("{slug}.{extension}"), bytes)
                 })
             })
@@ -141,7 +151,7 @@ pub fn write(
                 save_pictures(&drawn, files)?;
                 files.save(
                     REPORT,
-                    report::html(study, answer, (&drawn, requested.opening)).as_bytes(),
+                    report::html(study, answer, &drawn, requested.opening).as_bytes(),
                 )
             }
             Pictures::None => Ok(()),
@@ -157,8 +167,10 @@ pub fn write(
 /// # Errors
 /// Files that may not be replaced, before anything is written; that of `work`; a file cannot be written.
 pub fn replace<T: Serialize>(
-    (out, names): (&ResultFolder, &[String]),
-    (answer, note): (&T, &(dyn Fn(&str) + Sync)),
+    out: &ResultFolder,
+    names: &[String],
+    answer: &T,
+    note: &(dyn Fn(&str) + Sync),
     work: impl FnOnce(&folder::Folder<'_>) -> Result<(), StudyError>,
 ) -> Result<Vec<PathBuf>, StudyError> {
     out.allow(names.iter().map(String::as_str))?;
@@ -224,8 +236,8 @@ pub fn save_pictures(drawn: &[Picture], files: &folder::Folder<'_>) -> Result<()
 }
 
 /// The pictures of every analysis, in the order of the report.
-pub fn pictures(study: &Study, done: &[AnalysisResult<'_>], answer: &StudyAnswer) -> Vec<Picture> {
-    pictures::draw(study, done, answer)
+pub fn pictures(results: StudyResults<'_>) -> Vec<Picture> {
+    pictures::draw(results)
 }
 
 /// A picture in pixels, as it is written in addition to its SVG.
@@ -275,7 +287,7 @@ pub fn json(answer: &StudyAnswer) -> Result<String, StudyError> {
 }
 
 /// A column whose every row has a number.
-pub fn column(name: &str, unit: &str, description: &str, (decimals, values): (u8, Vec<f64>)) -> Column {
+pub fn column(name: &str, unit: &str, description: &str, decimals: u8, values: Vec<f64>) -> Column {
     Column {
         name: name.to_owned(),
         unit: Some(unit.to_owned()),

@@ -15,12 +15,14 @@ use rayon::prelude::*;
 
 use crate::analysis::picture::{Picture, base_y};
 use crate::analysis::{self, AnalysisData, AnalysisResult, Subject};
-use crate::answer::{HolesAnswer, MapAnswer, PathAnswer, StudyAnswer};
+use crate::answer::{HolesAnswer, MapAnswer, PathAnswer};
 use crate::file::resolve::Study;
 use crate::input::setting::Setting;
+use crate::output::StudyResults;
 
 /// The pictures of every analysis, in order.
-pub(super) fn draw(study: &Study, done: &[AnalysisResult<'_>], answer: &StudyAnswer) -> Vec<Picture> {
+pub(super) fn draw(results: StudyResults<'_>) -> Vec<Picture> {
+    let StudyResults { study, done, answer } = results;
     // Maps and paths of the answer are in the order of the analyses.
     let (mut maps, mut paths) = (answer.maps.as_slice(), answer.paths.iter());
     let mut holes = answer.holes.iter();
@@ -38,13 +40,13 @@ pub(super) fn draw(study: &Study, done: &[AnalysisResult<'_>], answer: &StudyAns
         let of_holes = matches!(done.found, AnalysisData::Holes(..))
             .then(|| holes.next())
             .flatten();
-        (done, of_analysis, (path, of_holes))
+        (done, of_analysis, path, of_holes)
     });
     let given: Vec<_> = given.collect();
     let mut pictures: Vec<Picture> = given
         .into_par_iter()
         .with_max_len(1)
-        .flat_map_iter(|(done, maps, others)| pictures_of(study, done, maps, others))
+        .flat_map_iter(|(done, maps, path, holes)| pictures_of(study, done, maps, path, holes))
         .collect();
     if let Some(Ok((combined, given))) = crate::budget::of_results(study, done) {
         pictures.extend(crate::output::budget::pictures(&given, &combined));
@@ -57,7 +59,8 @@ fn pictures_of(
     study: &Study,
     done: &AnalysisResult<'_>,
     maps: &[MapAnswer],
-    (path, holes): (Option<&PathAnswer>, Option<&HolesAnswer>),
+    path: Option<&PathAnswer>,
+    holes: Option<&HolesAnswer>,
 ) -> Vec<Picture> {
     let robot = &study.robot.robot;
     match &done.found {
@@ -77,7 +80,7 @@ fn pictures_of(
             analysis::path::pictures::pictures(robot, analysis, given, found)
         }),
         AnalysisData::Holes(analysis, found) => holes.map_or_else(Vec::new, |given| {
-            analysis::holes::pictures::pictures(robot, analysis, (given, found))
+            analysis::holes::pictures::pictures(robot, analysis, given, found)
         }),
     }
 }

@@ -62,7 +62,8 @@ type Save<'a> = dyn Fn(&str, &[u8]) -> Result<(), StudyError> + Sync + 'a;
 /// That of `save`; a table or field that cannot be made, which would be a fault of armill.
 pub(super) fn files(
     study: &Study,
-    (analysis, done): (&Analysis, &AnalysisResult<'_>),
+    analysis: &Analysis,
+    done: &AnalysisResult<'_>,
     csv: Csv,
     save: &Save<'_>,
 ) -> Result<(), StudyError> {

@@ -1,8 +1,7 @@
 //! Small studies through the library: results compared with each other, with counting, and with invariants.
 //!
 //! `counts`: points and the tolerance; `same_points`: one point computed in two ways; `paths`: shapes; `deviations`:
-//! what
-//! changes them; `statements`: sentences, sources, warnings; `running`: reading, progress, files.
+//! what changes them; `statements`: sentences, sources, warnings; `running`: reading, progress, files.
 
 // A panic is how a test says that its claim is false; helper functions too.
 #![allow(clippy::unwrap_used, clippy::panic)]

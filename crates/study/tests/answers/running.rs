@@ -7,7 +7,7 @@ use armill_core::watch::Watch;
 use armill_formats::file::Writer;
 use armill_study::answer::answer;
 use armill_study::file::resolve::read;
-use armill_study::output::{OutputOptions, write};
+use armill_study::output::{OutputOptions, StudyResults, write};
 use armill_study::run::{point_count, run};
 use armill_study::{ErrorKind, StudyError, library};
 
@@ -89,8 +89,12 @@ fn the_same_study_gives_the_same_files() {
     for folder in &folders {
         let found = found(&study);
         let out = Writer::new("run", false).folder(folder.path()).unwrap();
-        let expected = (&out, OutputOptions::TABLES);
-        write(&study, &found, &answer(&study, &found), expected, &|_| ()).unwrap();
+        let results = StudyResults {
+            study: &study,
+            done: &found,
+            answer: &answer(&study, &found),
+        };
+        write(results, &out, OutputOptions::TABLES, &|_| ()).unwrap();
     }
     let mut names: Vec<_> = std::fs::read_dir(folders[0].path())
         .unwrap()

@@ -2,8 +2,7 @@
 //!
 //! `deviation`: under a load that is given; `cut`: under forces of the cut; `stock`: where the cutter meets it;
 //! `turned`: turns of the tool that are searched for; `robot`: programs of robots; `holes`: those that a program
-//! drills, and
-//! lists of them; `refused`: what is wrong.
+//! drills, and lists of them; `refused`: what is wrong.
 
 // A panic is how a test says that its claim is false; helper functions too.
 #![allow(clippy::unwrap_used, clippy::panic)]

@@ -13,6 +13,7 @@ use armill_core::kernel::{Evaluation, PostureStatus};
 use armill_core::map::Counts;
 use armill_core::nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use armill_core::optimize::HolesFound;
+use armill_core::robot::Robot;
 use armill_core::robot::jacobian::wrist_bend;
 use armill_core::workpiece::Plane;
 use schemars::JsonSchema;
@@ -21,10 +22,9 @@ use serde::Serialize;
 use crate::analysis::holes::resolve::HolesAnalysis;
 use crate::analysis::map::answer::CountsAnswer;
 use crate::analysis::path::PathSource;
-use crate::analysis::point::{PointAnswer, SettingAnswer};
+use crate::analysis::point::{PointAnswer, ReachedPoint, SettingAnswer};
 use crate::input::setting::Setting;
 use crate::number::without_rounding;
-use armill_core::robot::Robot;
 
 /// A set of holes.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -188,7 +188,7 @@ pub fn answer(robot: &Robot, name: &str, analysis: &HolesAnalysis, found: &Holes
             .collect(),
         each: order
             .iter()
-            .map(|index| hole(robot, (analysis, found), *index))
+            .map(|index| hole(robot, analysis, found, *index))
             .collect(),
         notes: notes(analysis),
     }
@@ -217,19 +217,20 @@ fn projected_across(axis: Vector3<f64>, z: &Vector3<f64>) -> Option<Vector3<f64>
 pub(crate) fn error(
     analysis: &HolesAnalysis,
     found: &HolesFound,
-    (index, evaluation): (usize, &Evaluation),
+    index: usize,
+    evaluation: &Evaluation,
 ) -> Vector3<f64> {
     let deviation = found.answers.deviations_at(index)[evaluation.worst_case];
     base_from_hole(analysis, index).inverse() * deviation
 }
 
-fn hole(robot: &Robot, (analysis, found): (&HolesAnalysis, &HolesFound), index: usize) -> HoleAnswer {
+fn hole(robot: &Robot, analysis: &HolesAnalysis, found: &HolesFound, index: usize) -> HoleAnswer {
     let (path, answers) = (&analysis.path, &found.answers);
-    let (setting, robot) = (&path.setting, &robot);
+    let setting = &path.setting;
     let stop = path.track.stop(index);
     let point = &answers.points[index];
     let evaluation = point.as_ref().ok();
-    let error = evaluation.map(|evaluation| error(analysis, found, (index, evaluation)) * 1e6);
+    let error = evaluation.map(|evaluation| error(analysis, found, index, evaluation) * 1e6);
     let tip = setting.in_reference(&stop.base_from_tool.translation.vector.into());
     let scale = |joint: usize| {
         if robot.slides(joint) {
@@ -306,12 +307,18 @@ fn worst_hole(
         cases: here.cases,
         ..path.setting.clone()
     };
-    let at = tip.vector.into();
+    let tcp = tip.vector.into();
+    let reached = ReachedPoint {
+        answers: &found.answers,
+        index,
+        evaluation,
+        tcp,
+    };
     Some(WorstHole {
         hole: index + 1,
         point: PointAnswer {
-            in_plane_mm: PointAnswer::in_plane_mm(&path.setting.plane, &at),
-            ..PointAnswer::of(robot, &setting, &found.answers, (index, evaluation, at))
+            in_plane_mm: PointAnswer::in_plane_mm(&path.setting.plane, &tcp),
+            ..PointAnswer::of(robot, &setting, &reached)
         },
     })
 }

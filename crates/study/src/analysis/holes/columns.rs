@@ -15,7 +15,7 @@ pub fn columns<'a>(robot: &'a Robot, analysis: &'a HolesAnalysis, found: &'a Hol
     let points = &analysis.path.track.path.points;
     let part = |quantity: &'static Quantity, axis: usize| {
         Numbers::of(quantity, move |_, index, evaluation| {
-            error(analysis, found, (index, evaluation))[axis] * 1e6
+            error(analysis, found, index, evaluation)[axis] * 1e6
         })
     };
     vec![

@@ -8,14 +8,13 @@
 use armill_core::kernel::BranchChoice;
 use armill_core::optimize::HolesFound;
 use armill_core::path::PathPoint;
-use armill_core::robot::BranchPattern;
+use armill_core::robot::{BranchPattern, Robot};
 use armill_report::{AxisLabels, ColourScale, HoleMap, HoleMark};
 
 use crate::analysis::holes::answer::HolesAnswer;
 use crate::analysis::holes::resolve::HolesAnalysis;
 use crate::analysis::picture::{Picture, share_bar, shares, subtitle};
 use crate::input::setting::Setting;
-use armill_core::robot::Robot;
 
 /// Holes that are numbered in the picture.
 const NUMBERED: usize = 3;
@@ -24,7 +23,8 @@ const NUMBERED: usize = 3;
 pub fn pictures(
     robot: &Robot,
     analysis: &HolesAnalysis,
-    (given, found): (&HolesAnswer, &HolesFound),
+    given: &HolesAnswer,
+    found: &HolesFound,
 ) -> Vec<Picture> {
     let named = |what: &str, caption: &str, svg: String| Picture {
         name: format!("{}-{what}", crate::file_names::slug(&given.name)),

@@ -25,9 +25,9 @@ use armill_formats::toolpath::format::{self, Format, ToolpathReadOptions};
 use crate::StudyError;
 use crate::analysis::holes::table::HolesTable;
 use crate::analysis::path::program::{FILE_HINT, ProgramTable, SpinName};
+use crate::analysis::path::robot_program::RobotInCell;
 use crate::analysis::path::{LoadSource, PathAnalysis, PathSource, program, put_on};
 use crate::analysis::resolve::Resolver;
-use crate::analysis::table::AnalysisTable;
 use crate::input::posture_search::{ComponentName, SearchTable};
 use crate::input::problem_log::ProblemLog;
 use crate::input::quantities::pose_mm_deg;
@@ -56,60 +56,110 @@ impl HolesAnalysis {
 /// Holes that a study may list.
 const MOST_HOLES: usize = 100_000;
 
-/// The holes of this analysis; `None` if it has problems, reported at their keys.
-///
-/// # Errors
-/// The problems of the files that it names.
-pub fn resolve(
-    log: &mut ProblemLog<'_>,
-    table: &AnalysisTable,
-    (folder, robot): (&Path, Option<&Robot>),
-    (setting, push, search): (Option<Setting>, Option<LoadSource<'_>>, Option<PostureSearch>),
-) -> Result<Option<HolesAnalysis>, StudyError> {
-    let of = table.holes.clone().unwrap_or_default();
-    let reported = [of.at_mm.is_some(), of.file.is_some(), table.program.is_some()];
-    if reported.iter().filter(|reported| **reported).count() != 1 {
-        let hint = "holes = { at_mm = [[0, 0, 0]] }, holes = { file = \"holes.csv\" }, or program = { file = \"drilling.ngc\" }";
-        log.problem_here("holes need exactly one list, file or program", hint);
-        return Ok(None);
-    }
-    let before = log.problems.len();
-    let found = match &table.program {
-        Some(program) => {
-            refuse_keys(log, program, &of);
-            let Some(setting) = &setting else { return Ok(None) };
-            of_program(log, program, (folder, robot), setting)?
+impl Resolver<'_> {
+    /// The holes of this analysis; `None` if it has problems, reported at their keys.
+    ///
+    /// # Errors
+    /// The problems of the files that it names.
+    pub fn holes(
+        &self,
+        log: &mut ProblemLog<'_>,
+        setting: Option<Setting>,
+        push: Option<LoadSource<'_>>,
+    ) -> Result<Option<HolesAnalysis>, StudyError> {
+        let search = setting
+            .as_ref()
+            .and_then(|setting| self.hole_search(log, setting));
+        let (table, folder) = (self.table, self.folder);
+        let of = table.holes.clone().unwrap_or_default();
+        let reported = [of.at_mm.is_some(), of.file.is_some(), table.program.is_some()];
+        if reported.iter().filter(|reported| **reported).count() != 1 {
+            let hint = "holes = { at_mm = [[0, 0, 0]] }, holes = { file = \"holes.csv\" }, or program = { file = \"drilling.ngc\" }";
+            log.problem_here("holes need exactly one list, file or program", hint);
+            return Ok(None);
         }
-        None => of_list(log, &of, folder, setting.as_ref())?,
-    };
-    let (Some((path, placing, source)), Some(setting), Some(push), Some(search)) =
-        (found, setting, push, search)
-    else {
-        return Ok(None);
-    };
-    let mut analysis = PathAnalysis {
-        source,
-        track: Track {
-            path,
-            placing,
-            base_from_part: setting.plane.base_from_part,
-            spins: None,
-        },
-        load: PathLoad::Cases(setting.load.clone()),
-        cut: None,
-        drill: None,
-        forces: None,
-        measured: None,
-        wants_limits: false,
-        features: Vec::new(),
-        setting,
-    };
-    let pushes = put_on(log, push, folder, &mut analysis)?;
-    let fine = pushes && log.problems.len() == before;
-    Ok(fine.then_some(HolesAnalysis {
-        path: analysis,
-        search,
-    }))
+        let before = log.problems.len();
+        let found = match &table.program {
+            Some(program) => {
+                refuse_keys(log, program, &of);
+                let Some(setting) = &setting else { return Ok(None) };
+                let robot = self.robot.map(|found| &found.robot);
+                of_program(log, program, folder, robot, setting)?
+            }
+            None => of_list(log, &of, folder, setting.as_ref())?,
+        };
+        let (Some((path, placing, source)), Some(setting), Some(push), Some(search)) =
+            (found, setting, push, search)
+        else {
+            return Ok(None);
+        };
+        let mut analysis = PathAnalysis {
+            source,
+            track: Track {
+                path,
+                placing,
+                base_from_part: setting.plane.base_from_part,
+                spins: None,
+            },
+            load: PathLoad::Cases(setting.load.clone()),
+            cut: None,
+            drill: None,
+            forces: None,
+            measured: None,
+            wants_limits: false,
+            features: Vec::new(),
+            setting,
+        };
+        let pushes = put_on(log, push, folder, &mut analysis)?;
+        let fine = pushes && log.problems.len() == before;
+        Ok(fine.then_some(HolesAnalysis {
+            path: analysis,
+            search,
+        }))
+    }
+
+    /// What is searched for at holes, as usual where nothing is said; `None` also where that is wrong. Each hole is for
+    /// itself: what joins points of a path has no meaning.
+    fn hole_search(&self, log: &mut ProblemLog<'_>, setting: &Setting) -> Option<PostureSearch> {
+        let own = self
+            .table
+            .posture
+            .as_ref()
+            .and_then(|posture| posture.search.as_ref());
+        let given = [
+            ("objective", own.is_some_and(|table| table.objective.is_some())),
+            (
+                "turn_deg_per_mm",
+                own.is_some_and(|table| table.turn_deg_per_mm.is_some()),
+            ),
+            (
+                "reversal_um_mm",
+                own.is_some_and(|table| table.reversal_um_mm.is_some()),
+            ),
+        ];
+        for (key, _) in given.iter().filter(|(_, given)| *given) {
+            let message = format!("`{key}` is not valid for holes: each hole is evaluated separately");
+            log.problem(
+                &format!("posture.search.{key}"),
+                message,
+                "it belongs to kind = \"path\"",
+            );
+        }
+        let table = self.of_posture(|posture| posture.search.as_ref());
+        if table.and_then(|table| table.component) == Some(ComponentName::CrossTrack) {
+            let hint = "`in-plane` or `axial`";
+            log.problem(
+                "posture.search.component",
+                "`cross-track` is not valid for holes: they have no track",
+                hint,
+            );
+            return None;
+        }
+        let usual = SearchTable::default();
+        table
+            .unwrap_or(&usual)
+            .resolve(log, setting.tolerance, setting.open)
+    }
 }
 
 /// Points, their placement, and their source.
@@ -148,11 +198,12 @@ fn refuse_keys(log: &mut ProblemLog<'_>, program: &ProgramTable, of: &HolesTable
 fn of_program(
     log: &mut ProblemLog<'_>,
     table: &ProgramTable,
-    (folder, robot): (&Path, Option<&Robot>),
+    folder: &Path,
+    robot: Option<&Robot>,
     setting: &Setting,
 ) -> Result<Option<LocatedHoles>, StudyError> {
-    let cell = robot.map(|robot| (robot, setting));
-    let Some(found) = program::read(log, table, (folder, cell))? else {
+    let cell = RobotInCell::of(robot, Some(setting));
+    let Some(found) = program::read(log, table, folder, cell)? else {
         return Ok(None);
     };
     let placing = program::placing(table, &setting.plane.base_from_part, found.robot.as_deref());
@@ -328,49 +379,4 @@ fn in_file(
         point.pace = if pace.cuts() { pace } else { Pace::Unknown };
     }
     Ok(Some(path))
-}
-
-impl Resolver<'_> {
-    /// What is searched for at holes, as usual where nothing is said; `None` also where that is wrong. Each hole is for
-    /// itself: what joins points of a path has no meaning.
-    pub fn hole_search(&self, log: &mut ProblemLog<'_>, setting: &Setting) -> Option<PostureSearch> {
-        let own = self
-            .table
-            .posture
-            .as_ref()
-            .and_then(|posture| posture.search.as_ref());
-        let given = [
-            ("objective", own.is_some_and(|table| table.objective.is_some())),
-            (
-                "turn_deg_per_mm",
-                own.is_some_and(|table| table.turn_deg_per_mm.is_some()),
-            ),
-            (
-                "reversal_um_mm",
-                own.is_some_and(|table| table.reversal_um_mm.is_some()),
-            ),
-        ];
-        for (key, _) in given.iter().filter(|(_, given)| *given) {
-            let message = format!("`{key}` is not valid for holes: each hole is evaluated separately");
-            log.problem(
-                &format!("posture.search.{key}"),
-                message,
-                "it belongs to kind = \"path\"",
-            );
-        }
-        let table = self.of_posture(|posture| posture.search.as_ref());
-        if table.and_then(|table| table.component) == Some(ComponentName::CrossTrack) {
-            let hint = "`in-plane` or `axial`";
-            log.problem(
-                "posture.search.component",
-                "`cross-track` is not valid for holes: they have no track",
-                hint,
-            );
-            return None;
-        }
-        let usual = SearchTable::default();
-        table
-            .unwrap_or(&usual)
-            .resolve(log, setting.tolerance, setting.open)
-    }
 }

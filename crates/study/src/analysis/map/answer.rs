@@ -5,13 +5,13 @@
 
 use armill_core::map::{COVERAGE, Certainty, Counts, PlaneMap, Region, probability_within};
 use armill_core::nalgebra::Point2;
+use armill_core::robot::Robot;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::analysis::point::{PointAnswer, SettingAnswer};
+use crate::analysis::point::{PointAnswer, ReachedPoint, SettingAnswer};
 use crate::input::setting::Setting;
 use crate::number::without_rounding;
-use armill_core::robot::Robot;
 
 /// A map of one plane.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -155,16 +155,17 @@ pub struct PointFlag {
 /// The result of one plane; `name` is that of the analysis, with the label of a section.
 pub fn answer(robot: &Robot, name: &str, setting: &Setting, map: &PlaneMap) -> MapAnswer {
     let counts = Counts::of(&map.answers, setting.tolerance);
-    // The TCP is the point of the plane, at any orientation of the tool.
-    let at = |index: usize| {
-        map.plane
-            .base_from_tool(map.grid.point(index), 0.0)
-            .translation
-            .vector
-            .into()
+    let point = |(index, evaluation)| {
+        // The TCP is the point of the plane, at any orientation of the tool.
+        let base_from_tool = map.plane.base_from_tool(map.grid.point(index), 0.0);
+        let reached = ReachedPoint {
+            answers: &map.answers,
+            index,
+            evaluation,
+            tcp: base_from_tool.translation.vector.into(),
+        };
+        PointAnswer::of(robot, setting, &reached)
     };
-    let point =
-        |(index, evaluation)| PointAnswer::of(robot, setting, &map.answers, (index, evaluation, at(index)));
     let (worst, best) = (map.answers.worst().map(point), map.answers.best().map(point));
     MapAnswer {
         name: name.to_owned(),

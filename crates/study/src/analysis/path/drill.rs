@@ -56,7 +56,7 @@ const POINT_DEG: f64 = 118.0;
 const NORMAL_RATIO: [f64; 2] = [0.5, 0.2];
 
 /// The drill of the table at this key; `None` if it has problems.
-pub fn resolve(log: &mut ProblemLog<'_>, (key, table): (&str, &DrillTable)) -> Option<DrillCut> {
+pub fn resolve(log: &mut ProblemLog<'_>, key: &str, table: &DrillTable) -> Option<DrillCut> {
     let of_material = format!("{key}.material");
     let material = material(log, &of_material, &table.material)?;
     let Some(together) = material.kienzle() else {

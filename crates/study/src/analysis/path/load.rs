@@ -11,8 +11,7 @@
 //! | 5 | a cut, then given cases | `cut`, then `load` of the study |
 //!
 //! Holes have a drill or given cases; other analyses without a path have given cases alone. Two sources in one analysis
-//! are refused, except for a cut that only predicts where
-//! a record starts.
+//! are refused, except for a cut that only predicts where a record starts.
 
 use std::path::Path;
 
@@ -129,20 +128,15 @@ pub fn put_on(
         LoadSource::Load(_) => Some(()),
         LoadSource::Cut(table) => cut::resolve(log, table).and_then(|cut| put_cut(log, cut, analysis)),
         LoadSource::Drill(key, table) => {
-            let drill = drill::resolve(log, (key, table));
-            drill.and_then(|drill| put_drill(log, (key, drill), analysis))
+            let drill = drill::resolve(log, key, table);
+            drill.and_then(|drill| put_drill(log, key, drill, analysis))
         }
         LoadSource::Measured(table, cut) => {
             let predicting = cut.map(|table| cut::resolve(log, table));
             if matches!(predicting, Some(None)) {
                 return Ok(false);
             }
-            let found = measured::along(
-                log,
-                table,
-                folder,
-                (&analysis.track, predicting.flatten().as_ref()),
-            )?;
+            let found = measured::along(log, table, folder, &analysis.track, predicting.flatten().as_ref())?;
             found.map(|(load, forces)| {
                 analysis.setting.uncertainty.relative = table.u_percent.unwrap_or(0.0) / 100.0;
                 (analysis.load, analysis.measured) = (load, Some(Box::new(forces)));
@@ -170,7 +164,8 @@ fn put_cut(log: &mut ProblemLog<'_>, cut: cut::Cut, analysis: &mut PathAnalysis)
 /// Puts on thrust and torque of a drill.
 fn put_drill(
     log: &mut ProblemLog<'_>,
-    (key, drill): (&str, drill::DrillCut),
+    key: &str,
+    drill: drill::DrillCut,
     analysis: &mut PathAnalysis,
 ) -> Option<()> {
     let (path, placing) = (&analysis.track.path, &analysis.track.placing);

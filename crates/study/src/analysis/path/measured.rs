@@ -158,7 +158,8 @@ pub fn along(
     log: &mut ProblemLog<'_>,
     table: &MeasuredTable,
     folder: &Path,
-    (track, cut): (&Track, Option<&Cut>),
+    track: &Track,
+    cut: Option<&Cut>,
 ) -> Result<Option<(PathLoad, MeasuredForces)>, StudyError> {
     let path = folder.join(&table.file);
     let shown = path.display().to_string();
@@ -172,7 +173,7 @@ pub fn along(
         channels: table.channels.clone(),
     };
     let cycle = table.cycle.map(|cycle| cycle as usize);
-    let found = match read((&shown, &path), acts_on, &requested, cycle) {
+    let found = match read(&shown, &path, acts_on, &requested, cycle) {
         Ok(measured) => forces(table, measured, track, cut),
         Err(Unread::File(problems)) => return Err(problems),
         Err(Unread::Value(refusal)) => Err(refusal),

@@ -7,8 +7,8 @@
 //!
 //! `shape` and [`program`] (`machine_program`, [`robot_program`]) give its points, [`feature`] marks stretches of them;
 //! `load` puts on the load: given cases, a [`cut`], a [`drill`], or [`measured`] forces; `shape_tables`: the tables of
-//! shapes. [`resolve`](mod@resolve) joins these, [`run`] evaluates the path. [`answer`], [`sentence`], [`warnings`] are its answer;
-//! [`columns`], [`pictures`] (with [`point_groups`], `turns`, [`process_limits`]) and [`report`] its files.
+//! shapes. [`resolve`](mod@resolve) joins these, [`run`] evaluates the path. [`answer`], [`sentence`], [`warnings`] are
+//! its answer; [`columns`], [`pictures`] (with [`point_groups`], `turns`, [`process_limits`]) and [`report`] its files.
 
 pub mod answer;
 pub mod columns;
@@ -41,8 +41,10 @@ pub use robot_program::RobotPath;
 
 use armill_core::load::PathLoad;
 use armill_core::path::{ForceSummary, Shape, Track};
+use armill_formats::robot::RobotDescription;
 use armill_formats::toolpath::Summary;
 
+use crate::input::memory::{OF_PATH, PointMemory};
 use crate::input::setting::Setting;
 
 /// A path with its load.
@@ -112,6 +114,17 @@ impl PathAnalysis {
     /// Whether its cut specifies the stock.
     pub fn has_stock(&self) -> bool {
         self.cut.as_ref().is_some_and(|cut| cut.stock.is_some())
+    }
+
+    /// Its points in memory.
+    pub fn memory<'a>(&'a self, robot: &'a RobotDescription) -> PointMemory<'a> {
+        PointMemory {
+            robot,
+            setting: &self.setting,
+            cases: self.load.case_count(),
+            points: self.track.len() as f64,
+            extra: &OF_PATH,
+        }
     }
 
     /// Its name in messages: its file, or its shape.

@@ -17,6 +17,7 @@ use std::fmt::Write;
 use armill_core::map::RadialDeviation;
 use armill_core::nalgebra::{Point3, Vector3};
 use armill_core::path::Parts;
+use armill_core::robot::Robot;
 use armill_report::{
     ArmDrawing, Arrow, ArrowCase, AxisLabels, Growth, Marker, MarkerKind, PathPlot, PolarPlot, RadialSeries,
     Series, Stretch, TrackMap, VectorField, View,
@@ -30,7 +31,6 @@ use crate::analysis::path::{MeasuredForces, PathAnalysis};
 use crate::analysis::picture::{Picture, axes, base_y, share_bar, shares, subtitle};
 use crate::input::setting::Setting;
 use crate::measured::force_picture::plot;
-use armill_core::robot::Robot;
 
 /// Points of the path in the picture of the arm at most.
 const MOST_IN_SPACE: usize = 8_000;
@@ -349,7 +349,7 @@ impl Drawing<'_> {
             let _ = write!(subtitle, "; mean of each revolution at {rpm} rpm");
         }
         let title = format!("{}: measured force", self.given.name);
-        let mut plot = plot((title, subtitle), &measured.treated);
+        let mut plot = plot(title, subtitle, &measured.treated);
         let [from, to] = measured.program;
         plot.marks_s = vec![
             (from, "first cut starts".to_owned()),

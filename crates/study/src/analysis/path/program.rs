@@ -17,7 +17,6 @@ use std::path::{Path, PathBuf};
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::Vector3;
 use armill_core::path::{Placing, SampledPath, Sampling, Spin, TooManyPoints};
-use armill_core::robot::Robot;
 use armill_formats::input;
 use armill_formats::toolpath::Summary;
 use armill_formats::toolpath::format::{Format, HEAD_BYTES};
@@ -30,11 +29,10 @@ use crate::StudyError;
 use crate::analysis::path::drill::DrillTable;
 use crate::analysis::path::feature::{FeatureTable, features_have_points};
 use crate::analysis::path::measured::MeasuredTable;
-use crate::analysis::path::robot_program::RobotPath;
+use crate::analysis::path::robot_program::{RobotInCell, RobotPath};
 use crate::analysis::path::{machine_program, robot_program};
 use crate::input::problem_log::ProblemLog;
 use crate::input::quantities::{at_least, pose_mm_deg, step};
-use crate::input::setting::Setting;
 
 /// A program that the tool follows.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -183,7 +181,8 @@ pub struct ReadProgram {
 pub fn read(
     log: &mut ProblemLog<'_>,
     table: &ProgramTable,
-    (folder, cell): (&Path, Option<(&Robot, &Setting)>),
+    folder: &Path,
+    cell: Option<RobotInCell<'_>>,
 ) -> Result<Option<ReadProgram>, StudyError> {
     let chord_error_mm = table.chord_error_mm.unwrap_or(CHORD_ERROR_MM);
     let chord_error = at_least(
@@ -214,7 +213,7 @@ pub fn read(
     };
     let shown = file.path.display().to_string();
     let found = match file.robot_language(log) {
-        Some(Some(language)) => robot_program::read(log, (table, language), (&file, cell))?,
+        Some(Some(language)) => robot_program::read(log, table, language, &file, cell)?,
         Some(None) => machine_program::read(log, table, &file)?,
         None => None,
     };

@@ -1,37 +1,39 @@
 //! A path, its placement and its load, from its tables.
 
-use std::path::Path;
-
 use armill_core::load::PathLoad;
 use armill_core::path::{Placing, Spin, Track};
-use armill_core::robot::Robot;
 
 use super::load::{LoadSource, put_on};
-use super::{PathAnalysis, PathSource, program, robot_program, shape};
+use super::robot_program::{self, RobotInCell};
+use super::{PathAnalysis, PathSource, program, shape};
 use crate::StudyError;
-use crate::analysis::table::AnalysisTable;
+use crate::analysis::resolve::Resolver;
 use crate::input::problem_log::ProblemLog;
 use crate::input::setting::Setting;
 
-/// The path of this analysis; `None` if it has problems, reported at their keys. `step_mm` is the pitch of the
-/// plane.
-///
-/// # Errors
-/// The problems of the files that it names.
-pub fn resolve(
-    log: &mut ProblemLog<'_>,
-    (table, step_mm): (&AnalysisTable, f64),
-    (folder, robot): (&Path, Option<&Robot>),
-    (mut setting, push): (Option<Setting>, Option<LoadSource<'_>>),
-) -> Result<Option<PathAnalysis>, StudyError> {
-    if usize::from(table.program.is_some()) + shape::count(table) != 1 {
-        let hint = "circle = { radius_mm = 100 }, line, polyline_mm, rectangle, or program = { file = \"part.ngc\" }";
-        log.problem_here("a path has exactly one shape or program", hint);
-        return Ok(None);
-    }
-    let (path, source) = match &table.program {
-        Some(of) => match program::read(log, of, (folder, robot.zip(setting.as_ref())))? {
-            Some(mut found) => {
+impl Resolver<'_> {
+    /// The path of this analysis; `None` if it has problems, reported at their keys.
+    ///
+    /// # Errors
+    /// The problems of the files that it names.
+    pub fn path(
+        &self,
+        log: &mut ProblemLog<'_>,
+        mut setting: Option<Setting>,
+        push: Option<LoadSource<'_>>,
+    ) -> Result<Option<PathAnalysis>, StudyError> {
+        let (table, robot) = (self.table, self.robot.map(|found| &found.robot));
+        if usize::from(table.program.is_some()) + shape::count(table) != 1 {
+            let hint = "circle = { radius_mm = 100 }, line, polyline_mm, rectangle, or program = { file = \"part.ngc\" }";
+            log.problem_here("a path has exactly one shape or program", hint);
+            return Ok(None);
+        }
+        let (path, source) = match &table.program {
+            Some(of) => {
+                let cell = RobotInCell::of(robot, setting.as_ref());
+                let Some(mut found) = program::read(log, of, self.folder, cell)? else {
+                    return Ok(None);
+                };
                 if let (Some(program), Some(robot), Some(setting)) = (&found.robot, robot, &mut setting) {
                     let note = robot_program::take_posture(setting, &program.followed, robot);
                     found.summary.notes.extend(note);
@@ -43,49 +45,48 @@ pub fn resolve(
                 };
                 (found.path, source)
             }
-            None => return Ok(None),
-        },
-        None => match shape::resolve(log, table, step_mm) {
-            Some((path, shape)) => (path, PathSource::Shape(shape)),
-            None => return Ok(None),
-        },
-    };
-    let (Some(setting), Some(push)) = (setting, push) else {
-        return Ok(None);
-    };
-    let base_from_part = setting.plane.base_from_part;
-    let placing = match &table.program {
-        Some(of) => program::placing(of, &base_from_part, source.robot()),
-        None => Placing {
-            spin: Spin::Fixed(table.spin_deg.unwrap_or(0.0).to_radians()),
-            ..Placing::on_plane(&setting.plane)
-        },
-    };
-    if table.program.is_some() && table.spin_deg.is_some() {
-        let hint = "use program.spin_deg";
-        log.problem("spin_deg", "`spin_deg` is valid for shapes only", hint);
-        return Ok(None);
+            None => match shape::resolve(log, table, self.plane_table().step_mm) {
+                Some((path, shape)) => (path, PathSource::Shape(shape)),
+                None => return Ok(None),
+            },
+        };
+        let (Some(setting), Some(push)) = (setting, push) else {
+            return Ok(None);
+        };
+        let base_from_part = setting.plane.base_from_part;
+        let placing = match &table.program {
+            Some(of) => program::placing(of, &base_from_part, source.robot()),
+            None => Placing {
+                spin: Spin::Fixed(table.spin_deg.unwrap_or(0.0).to_radians()),
+                ..Placing::on_plane(&setting.plane)
+            },
+        };
+        if table.program.is_some() && table.spin_deg.is_some() {
+            let hint = "use program.spin_deg";
+            log.problem("spin_deg", "`spin_deg` is valid for shapes only", hint);
+            return Ok(None);
+        }
+        let mut analysis = PathAnalysis {
+            source,
+            track: Track {
+                path,
+                placing,
+                base_from_part,
+                spins: None,
+            },
+            load: PathLoad::Cases(setting.load.clone()),
+            cut: None,
+            drill: None,
+            forces: None,
+            measured: None,
+            wants_limits: table.program.as_ref().is_some_and(|of| of.limits.unwrap_or(true)),
+            features: table
+                .program
+                .as_ref()
+                .map_or_else(Vec::new, |of| of.feature.clone()),
+            setting,
+        };
+        let pushes = put_on(log, push, self.folder, &mut analysis)?;
+        Ok(pushes.then_some(analysis))
     }
-    let mut analysis = PathAnalysis {
-        source,
-        track: Track {
-            path,
-            placing,
-            base_from_part,
-            spins: None,
-        },
-        load: PathLoad::Cases(setting.load.clone()),
-        cut: None,
-        drill: None,
-        forces: None,
-        measured: None,
-        wants_limits: table.program.as_ref().is_some_and(|of| of.limits.unwrap_or(true)),
-        features: table
-            .program
-            .as_ref()
-            .map_or_else(Vec::new, |of| of.feature.clone()),
-        setting,
-    };
-    let pushes = put_on(log, push, folder, &mut analysis)?;
-    Ok(pushes.then_some(analysis))
 }

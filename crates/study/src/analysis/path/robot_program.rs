@@ -51,6 +51,35 @@ pub struct Span {
     pub end: Option<usize>,
 }
 
+/// The robot that follows a program, and the tool and the plane that it has there.
+#[derive(Clone, Copy)]
+pub struct RobotInCell<'a> {
+    /// The robot.
+    pub robot: &'a Robot,
+    /// Tool and plane.
+    pub setting: &'a Setting,
+}
+
+impl<'a> RobotInCell<'a> {
+    /// Both, if both are known.
+    pub fn of(robot: Option<&'a Robot>, setting: Option<&'a Setting>) -> Option<RobotInCell<'a>> {
+        let (robot, setting) = robot.zip(setting)?;
+        Some(RobotInCell { robot, setting })
+    }
+
+    /// What the study specifies of the cell.
+    fn cell(&self, table: &ProgramTable) -> Cell {
+        let given = |pose: &Option<[f64; 6]>| pose.as_ref().map(pose_mm_deg);
+        Cell {
+            flange_from_tool: self.setting.flange_from_tool,
+            base_from_controller: base_from_controller(self.robot),
+            controller_from_frame: given(&table.frame_mm_deg),
+            base_from_path: given(&table.part_from_path_mm_deg)
+                .map(|part_from_path| self.setting.plane.base_from_part * part_from_path),
+        }
+    }
+}
+
 /// Size limit of a robot program, all its files together, bytes.
 const MOST_BYTES: u64 = 256 * 1024 * 1024;
 
@@ -60,8 +89,10 @@ const MOST_BYTES: u64 = 256 * 1024 * 1024;
 /// The problems of its files.
 pub fn read(
     log: &mut ProblemLog<'_>,
-    (table, language): (&ProgramTable, Language),
-    (file, cell): (&ProgramFile<'_>, Option<(&Robot, &Setting)>),
+    table: &ProgramTable,
+    language: Language,
+    file: &ProgramFile<'_>,
+    robot: Option<RobotInCell<'_>>,
 ) -> Result<Option<ReadProgram>, StudyError> {
     let others = [
         ("unit", table.unit.is_some()),
@@ -82,11 +113,11 @@ pub fn read(
     };
     let program = read_as(language, texts)?;
     let clean = log.problems.is_empty();
-    let Some((robot, setting)) = cell.filter(|_| clean) else {
+    let Some(robot) = robot.filter(|_| clean) else {
         return Ok(None);
     };
-    let cell = cell_of(table, (robot, setting));
-    let Some(mut followed) = followed(log, &program, (&table.file, robot, &cell)) else {
+    let cell = robot.cell(table);
+    let Some(mut followed) = followed(log, &program, &table.file, robot.robot, &cell) else {
         return Ok(None);
     };
     if let Some(fastest) = table.cuts_up_to_mm_per_min {
@@ -188,23 +219,13 @@ fn ending(path: &Path) -> String {
     ending.unwrap_or_default().to_lowercase()
 }
 
-/// What the study specifies of the cell.
-fn cell_of(table: &ProgramTable, (robot, setting): (&Robot, &Setting)) -> Cell {
-    let given = |pose: &Option<[f64; 6]>| pose.as_ref().map(pose_mm_deg);
-    Cell {
-        flange_from_tool: setting.flange_from_tool,
-        base_from_controller: base_from_controller(robot),
-        controller_from_frame: given(&table.frame_mm_deg),
-        base_from_path: given(&table.part_from_path_mm_deg)
-            .map(|part_from_path| setting.plane.base_from_part * part_from_path),
-    }
-}
-
 /// The program in this cell; `None` if it has problems, reported at their keys.
 fn followed(
     log: &mut ProblemLog<'_>,
     program: &RobotProgram,
-    (file, robot, cell): (&str, &Robot, &Cell),
+    file: &str,
+    robot: &Robot,
+    cell: &Cell,
 ) -> Option<Followed> {
     let reported = follow(program, robot, cell).map_err(|errors| {
         for error in errors {
@@ -261,7 +282,7 @@ pub fn sampled(
         let own_start = !points.is_empty() && path.begins(points.start);
         Span {
             pieces: points.len() - usize::from(own_start),
-            end: end_of((moves, &added), index, &path),
+            end: end_of(moves, &added, index, &path),
             points,
         }
     });
@@ -270,11 +291,7 @@ pub fn sampled(
 }
 
 /// The point of the path at which move `index` ends: its own last one, or the start of the cut that follows it.
-fn end_of(
-    (moves, added): (&[FollowedMove], &[Range<usize>]),
-    index: usize,
-    path: &SampledPath,
-) -> Option<usize> {
+fn end_of(moves: &[FollowedMove], added: &[Range<usize>], index: usize, path: &SampledPath) -> Option<usize> {
     if !added[index].is_empty() {
         return Some(added[index].end - 1);
     }

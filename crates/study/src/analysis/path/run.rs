@@ -131,7 +131,7 @@ impl Runner<'_> {
         Ok(PathResult {
             worst: worst
                 .into_iter()
-                .map(|index| self.in_full((analysis, track), &along, index))
+                .map(|index| self.in_full(analysis, track, &along, index))
                 .collect::<Result<_, Cancelled>>()?,
             jumps: jumps(self.robot, &analysis.track.path, &along.answers)
                 .take(MOST_JUMPS + 1)
@@ -214,7 +214,8 @@ impl Runner<'_> {
     /// plane through the TCP across the tool, so that shares and uncertainty are available.
     fn in_full(
         &self,
-        (analysis, track): (&PathAnalysis, &Track),
+        analysis: &PathAnalysis,
+        track: &Track,
         along: &AlongPath,
         index: usize,
     ) -> Result<PointDetail, Cancelled> {

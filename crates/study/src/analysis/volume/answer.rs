@@ -4,13 +4,13 @@
 //! setting, whose normal defines in-plane and normal deviation.
 
 use armill_core::map::VolumeMap;
+use armill_core::robot::Robot;
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::analysis::map::answer::CountsAnswer;
-use crate::analysis::point::{PointAnswer, SettingAnswer};
+use crate::analysis::point::{PointAnswer, ReachedPoint, SettingAnswer};
 use crate::input::setting::Setting;
-use armill_core::robot::Robot;
 
 /// A box of points, the tool oriented as on the plane.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -45,12 +45,13 @@ pub struct VolumeAnswer {
 pub fn answer(robot: &Robot, name: &str, setting: &Setting, volume: &VolumeMap) -> VolumeAnswer {
     let counts = volume.counts(setting.tolerance);
     let point = |(index, evaluation)| {
-        PointAnswer::of(
-            robot,
-            setting,
-            &volume.answers,
-            (index, evaluation, volume.grid.point(index)),
-        )
+        let reached = ReachedPoint {
+            answers: &volume.answers,
+            index,
+            evaluation,
+            tcp: volume.grid.point(index),
+        };
+        PointAnswer::of(robot, setting, &reached)
     };
     VolumeAnswer {
         name: name.to_owned(),

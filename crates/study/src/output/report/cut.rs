@@ -30,7 +30,7 @@ pub(super) fn rows(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
     }
     let several = given.len() > 1;
     let of = |(name, path, cut): (&str, &PathAnalysis, &Cut)| {
-        let mut rows = of_cut(answer, (name, path), cut);
+        let mut rows = of_cut(answer, name, path, cut);
         if several {
             for row in &mut rows {
                 row.name = format!("{name}: {}", row.name);
@@ -42,7 +42,7 @@ pub(super) fn rows(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
 }
 
 /// The rows of one cut, from the material to the resulting forces.
-fn of_cut(answer: &StudyAnswer, (name, path): (&str, &PathAnalysis), cut: &Cut) -> Vec<Input> {
+fn of_cut(answer: &StudyAnswer, name: &str, path: &PathAnalysis, cut: &Cut) -> Vec<Input> {
     let sources = sources_of_cut(cut);
     let places: Vec<String> = sources.iter().map(|source| place(answer, &source.key)).collect();
     let of_material = places.join("; ");

@@ -20,7 +20,8 @@ use crate::output::Opening;
 pub(super) fn html(
     study: &Study,
     answer: &StudyAnswer,
-    (pictures, opening): (&[Picture], Option<&Opening>),
+    pictures: &[Picture],
+    opening: Option<&Opening>,
 ) -> String {
     let mut report = Report::new(&answer.title).answer(&answer.answer);
     if let Some(question) = &answer.question {

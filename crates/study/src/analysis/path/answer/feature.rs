@@ -57,7 +57,7 @@ pub fn features(analysis: &PathAnalysis, found: &PathResult) -> Vec<FeatureAnswe
         let within: Vec<usize> = (0..points.len()).filter(within).collect();
         let cases = 0..found.along.answers.case_count;
         cases
-            .map(|case| of_case((feature, case), &within, analysis, found))
+            .map(|case| of_case(feature, case, &within, analysis, found))
             .collect::<Vec<_>>()
     };
     analysis.features.iter().flat_map(of).collect()
@@ -66,7 +66,8 @@ pub fn features(analysis: &PathAnalysis, found: &PathResult) -> Vec<FeatureAnswe
 /// One feature under one case. Without a result, and with the reason, if a point of it is not reached or its points
 /// do not define such a feature.
 fn of_case(
-    (feature, case): (&FeatureTable, usize),
+    feature: &FeatureTable,
+    case: usize,
     points: &[usize],
     analysis: &PathAnalysis,
     found: &PathResult,

@@ -30,6 +30,7 @@ pub use worst::WorstPoint;
 
 use armill_core::kernel::Answers;
 use armill_core::map::AlongPath;
+use armill_core::robot::Robot;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -38,7 +39,6 @@ use crate::analysis::path::run::{MOST_JUMPS, PathResult};
 use crate::analysis::point::{PointAnswer, SettingAnswer};
 use crate::input::setting::Setting;
 use crate::number::without_rounding;
-use armill_core::robot::Robot;
 
 /// A path.
 #[derive(Clone, Debug, Serialize, JsonSchema)]

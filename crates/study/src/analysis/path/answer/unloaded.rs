@@ -1,12 +1,12 @@
 //! Displacements along a path in addition to those by the load: backlash and geometry.
 
 use armill_core::optimize::reversals;
+use armill_core::robot::Robot;
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::analysis::path::PathAnalysis;
 use crate::analysis::path::run::PathResult;
-use armill_core::robot::Robot;
 
 /// Displacements in addition to those by the load; they are included in the deviations of the path.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -38,7 +38,6 @@ impl UnloadedAnswer {
     /// The displacements along this path; `None` if load and gravity alone move the tool.
     pub fn of(robot: &Robot, analysis: &PathAnalysis, found: &PathResult) -> Option<UnloadedAnswer> {
         let unloaded = found.along.backlash_geometry.as_ref()?;
-        let robot = &robot;
         let cases = found.along.answers.case_count;
         let in_plane = |(at, moved): (usize, &armill_core::nalgebra::Vector3<f64>)| {
             let parts = analysis.track.parts(at / cases, moved);

@@ -5,13 +5,13 @@
 //! part towards the spindle.
 
 use armill_core::kernel::Evaluation;
+use armill_core::robot::Robot;
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::analysis::path::PathAnalysis;
 use crate::analysis::path::run::{PathResult, PointDetail};
-use crate::analysis::point::PointAnswer;
-use armill_core::robot::Robot;
+use crate::analysis::point::{PointAnswer, ReachedPoint};
 
 /// A point with a large deviation, and why.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -51,10 +51,16 @@ fn of_point(robot: &Robot, analysis: &PathAnalysis, worst: &PointDetail) -> Opti
         worst.index,
         &worst.answers.deviations_at(0)[evaluation.worst_case],
     );
-    let at = worst.setting.plane.base_from_part.translation.vector.into();
+    let tcp = worst.setting.plane.base_from_part.translation.vector.into();
+    let reached = ReachedPoint {
+        answers: &worst.answers,
+        index: 0,
+        evaluation: &evaluation,
+        tcp,
+    };
     let point = PointAnswer {
-        in_plane_mm: PointAnswer::in_plane_mm(&analysis.setting.plane, &at),
-        ..PointAnswer::of(robot, &worst.setting, &worst.answers, (0, &evaluation, at))
+        in_plane_mm: PointAnswer::in_plane_mm(&analysis.setting.plane, &tcp),
+        ..PointAnswer::of(robot, &worst.setting, &reached)
     };
     Some(WorstPoint {
         line: here.line,
@@ -62,7 +68,7 @@ fn of_point(robot: &Robot, analysis: &PathAnalysis, worst: &PointDetail) -> Opti
         along_um: parts.along * 1e6,
         cross_um: parts.cross * 1e6,
         axial_um: parts.axial * 1e6,
-        cause: cause(robot, (analysis, worst.index), &evaluation, &point),
+        cause: cause(robot, analysis, worst.index, &evaluation, &point),
         point,
     })
 }
@@ -71,7 +77,8 @@ fn of_point(robot: &Robot, analysis: &PathAnalysis, worst: &PointDetail) -> Opti
 /// sharply.
 fn cause(
     robot: &Robot,
-    (analysis, index): (&PathAnalysis, usize),
+    analysis: &PathAnalysis,
+    index: usize,
     evaluation: &Evaluation,
     point: &PointAnswer,
 ) -> String {
