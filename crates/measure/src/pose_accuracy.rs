@@ -1,8 +1,7 @@
 //! Pose accuracy and repeatability: the result of `armill pose-accuracy`.
 //!
 //! Base and measured point are fitted, the chain is that of the robot file; the commanded position of a pose is
-//! computed
-//! from the joint positions of its cycles. Rows are cycles of one pose if their `pose` cells are the same,
+//! computed from the joint positions of its cycles. Rows are cycles of one pose if their `pose` cells are the same,
 //! or, without such a column, if the robot was in the same posture, and commanded poses, if given, are the
 //! same to the last digit.
 
@@ -99,7 +98,8 @@ pub struct PoseAnswer {
 /// Poses that determine too little or belong to another robot.
 pub fn answer(
     robot: &Robot,
-    (shown, measured): (&str, &MeasuredPoses),
+    shown: &str,
+    measured: &MeasuredPoses,
     question: &Question,
 ) -> Result<PoseAccuracyAnswer, StudyError> {
     let found = fit(

@@ -138,7 +138,7 @@ fn simulated(arguments: &BacklashArguments, study: &Study, noise: Option<f64>) -
     let folder = arguments.simulate.as_deref().unwrap_or(".".as_ref());
     let points = simulate::point_count(study, &requested.analyses)?;
     let writer = arguments.writing.writer("backlash");
-    let given = Progress::new(points).watch(|watch| simulate(study, (&requested, folder, &writer), watch))?;
+    let given = Progress::new(points).watch(|watch| simulate(study, &requested, folder, &writer, watch))?;
     let line = |one: &SimulatedFile| {
         format!(
             "{}: {} um at most, in {}",

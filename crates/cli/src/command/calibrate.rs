@@ -12,6 +12,7 @@
 //! ```
 
 use armill_core::calibrate::{ParameterSet, Prior};
+use armill_formats::measurement::poses::PoseReadOptions;
 use armill_measure::calibrate::answer::ParameterAnswer;
 use armill_measure::calibrate::{
     CalibrateAnswer, SetAnswer, ValidationPoses, answer, calibrate, drawing, read, residuals, robot_file,
@@ -37,15 +38,10 @@ pub(crate) fn run(arguments: &CalibrateArguments) -> Result<Outcome, StudyError>
     };
     let (mut question, given) = question(&arguments.poses, requested)?;
     question.prior = prior(arguments)?;
-    let validation = validation(arguments)?;
+    let validation = validation(arguments, &given)?;
     let shown = arguments.poses_file.display().to_string();
-    let measured = read((&shown, &arguments.poses_file), &found.robot, &given, &question)?;
-    let calibration = calibrate(
-        &found.robot,
-        (&shown, &measured),
-        &question,
-        (&validation, &given),
-    )?;
+    let measured = read(&shown, &arguments.poses_file, &found.robot, &given, &question)?;
+    let calibration = calibrate(&found.robot, &shown, &measured, &question, &validation)?;
     let answer = answer(&found.robot, &calibration, &question);
     let writer = arguments.writing.writer("calibrate");
     if let Some(file) = &arguments.out {
@@ -80,13 +76,17 @@ fn prior(arguments: &CalibrateArguments) -> Result<Option<Prior>, StudyError> {
 }
 
 /// A number is a fraction of the file, any other text another file.
-fn validation(arguments: &CalibrateArguments) -> Result<ValidationPoses, StudyError> {
+fn validation(
+    arguments: &CalibrateArguments,
+    given: &PoseReadOptions,
+) -> Result<ValidationPoses, StudyError> {
     let Some(text) = &arguments.validation else {
         return Ok(ValidationPoses::Nothing);
     };
     match text.parse::<f64>() {
         Err(_) => Ok(ValidationPoses::File {
             path: text.into(),
+            given: given.clone(),
             same_set_up: arguments.same_set_up,
         }),
         Ok(part) if arguments.same_set_up => Err(StudyError::value(

@@ -29,8 +29,8 @@ pub(crate) fn run(arguments: &PoseAccuracyArguments) -> Result<Outcome, StudyErr
     let found = robots::find(&arguments.robot, ".".as_ref())?;
     let (question, given) = question(&arguments.poses, ParameterSet::BaseAndTool)?;
     let shown = arguments.file.display().to_string();
-    let measured = read((&shown, &arguments.file), &found.robot, &given, &question)?;
-    let answer = answer(&found.robot, (&shown, &measured), &question)?;
+    let measured = read(&shown, &arguments.file, &found.robot, &given, &question)?;
+    let answer = answer(&found.robot, &shown, &measured, &question)?;
     print(&match arguments.json {
         true => serde_json::to_string_pretty(&answer)?,
         false => as_text(&answer),

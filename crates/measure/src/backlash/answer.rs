@@ -5,12 +5,10 @@
 use armill_core::measure::ballbar::Direction;
 use armill_core::measure::ballbar::joints::{EstimatedBacklash, Followed, JointReversal};
 use armill_core::robot::Robot;
-use armill_study::file::circles::MeasuredCircle;
 use armill_study::file::resolve::Study;
 use serde::Serialize;
 
-use super::circles::CircleAnalysis;
-use super::estimate::BacklashEstimate;
+use super::estimate::{BacklashEstimate, FollowedCircle};
 
 /// Backlash of each joint.
 #[derive(Clone, Debug, Serialize)]
@@ -100,9 +98,9 @@ pub(super) fn answer(study: &Study, found: &BacklashEstimate<'_>) -> BacklashAns
     let correlation =
         |i: usize, k: usize| gaps.covariance[(i, k)] / (gaps.estimates[i].u * gaps.estimates[k].u);
     let mut warnings: Vec<String> = (found.circles.iter())
-        .flat_map(|(measured, ..)| measured.notes.clone())
+        .flat_map(|of| of.measured.notes.clone())
         .collect();
-    for (measured, ..) in &found.circles {
+    for FollowedCircle { measured, .. } in &found.circles {
         if !measured.test.is_bidirectional() {
             warnings.push(format!(
                 "{}: only one direction: backlash is separated from smooth deviations only by its steps",
@@ -133,10 +131,7 @@ pub(super) fn answer(study: &Study, found: &BacklashEstimate<'_>) -> BacklashAns
     BacklashAnswer {
         robot: robot.name().to_owned(),
         circles: (found.circles.iter())
-            .map(|(measured, circle, followed)| {
-                let given = |joint: usize| gaps.of(joint).copied();
-                of_circle(robot, (measured, circle, followed), given)
-            })
+            .map(|of| of_circle(robot, of, |joint: usize| gaps.of(joint).copied()))
             .collect(),
         joints: (0..robot.joints().len())
             .map(|joint| of_joint(study, found, joint))
@@ -154,24 +149,26 @@ pub(super) fn answer(study: &Study, found: &BacklashEstimate<'_>) -> BacklashAns
 
 fn of_circle(
     robot: &Robot,
-    (measured, circle, followed): (&MeasuredCircle, &CircleAnalysis<'_>, &Followed),
+    of: &FollowedCircle<'_>,
     given: impl Fn(usize) -> Option<EstimatedBacklash>,
 ) -> CircleAnswer {
-    let centre = circle.centre();
+    let (measured, followed) = (of.measured, &of.followed);
+    let centre = of.circle.centre();
     CircleAnswer {
         analysis: measured.analysis.clone(),
         files: measured.files.clone(),
         radius_mm: followed.radius * 1e3,
         centre_mm: [centre.x, centre.y, centre.z].map(|m| m * 1e3),
         reversals: (followed.reversals.iter())
-            .map(|at| of_reversal(robot, (at, followed), given(at.joint)))
+            .map(|at| of_reversal(robot, at, followed, given(at.joint)))
             .collect(),
     }
 }
 
 fn of_reversal(
     robot: &Robot,
-    (at, followed): (&JointReversal, &Followed),
+    at: &JointReversal,
+    followed: &Followed,
     gap: Option<EstimatedBacklash>,
 ) -> ReversalAnswer {
     let crossed = |way| gap.and_then(|gap| followed.crossed(at, gap.gap, way));
@@ -191,8 +188,8 @@ fn of_joint(study: &Study, found: &BacklashEstimate<'_>, joint: usize) -> JointA
     let deg = |value: f64| (!slides).then(|| value.to_degrees());
     let mm = |value: f64| slides.then_some(value * 1e3);
     // All circles are of one robot; any of them determines the structure.
-    let of_file = found.circles.first().and_then(|(_, circle, _)| {
-        let structure = &circle.path.setting.model.structure;
+    let of_file = found.circles.first().and_then(|of| {
+        let structure = &of.circle.path.setting.model.structure;
         structure
             .joints_with_backlash()
             .find(|(of, _)| *of == joint)

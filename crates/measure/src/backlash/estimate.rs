@@ -21,10 +21,21 @@ pub struct EstimateOptions {
 /// What circles show. SI.
 #[derive(Clone, Debug)]
 pub struct BacklashEstimate<'a> {
-    /// Each measured circle, with the joint motion along it.
-    pub circles: Vec<(&'a MeasuredCircle, CircleAnalysis<'a>, Followed)>,
+    /// Each measured circle.
+    pub circles: Vec<FollowedCircle<'a>>,
     /// The joint estimate from all of them.
     pub gaps: BacklashFit,
+}
+
+/// A measured circle with the joint motion along it.
+#[derive(Clone, Debug)]
+pub struct FollowedCircle<'a> {
+    /// Its test.
+    pub measured: &'a MeasuredCircle,
+    /// Its path.
+    pub circle: CircleAnalysis<'a>,
+    /// The joint motion.
+    pub followed: Followed,
 }
 
 /// The points that the progress of [`estimate`] ends at.
@@ -58,12 +69,18 @@ pub fn estimate<'a>(
     watch: Watch<'_>,
 ) -> Result<(BacklashEstimate<'a>, BacklashAnswer), StudyError> {
     let circles = (measured(study)?.into_iter())
-        .map(|(measured, circle)| Ok((measured, circle, followed(study, &circle, watch)?)))
+        .map(|(measured, circle)| {
+            Ok(FollowedCircle {
+                measured,
+                circle,
+                followed: followed(study, &circle, watch)?,
+            })
+        })
         .collect::<Result<Vec<_>, StudyError>>()?;
     let observed: Vec<Observed<'_>> = (circles.iter())
-        .map(|(measured, _, followed)| Observed {
-            followed,
-            test: &measured.test,
+        .map(|of| Observed {
+            followed: &of.followed,
+            test: &of.measured.test,
         })
         .collect();
     let requested = BacklashOptions {

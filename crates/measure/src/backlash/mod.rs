@@ -6,10 +6,9 @@
 //! ```
 //!
 //! [`circles`](mod@circles): the circles of a study, and the joint motion along them. [`estimate`](mod@estimate):
-//! backlash
-//! from the measurements.
-//! [`answer`](mod@answer): its values with units. [`plan`](mod@plan): circles to measure. [`simulate`](mod@simulate):
-//! ball-bar files simulated from the robot file, with `noise`. [`output`]: tables and pictures.
+//! backlash from the measurements. [`answer`](mod@answer): its values with units. [`plan`](mod@plan): circles to
+//! measure. [`simulate`](mod@simulate): ball-bar files simulated from the robot file, with `noise`. [`output`]: tables
+//! and pictures.
 
 pub mod answer;
 pub mod circles;
@@ -20,6 +19,6 @@ pub mod plan;
 pub mod simulate;
 
 pub use answer::BacklashAnswer;
-pub use estimate::{BacklashEstimate, EstimateOptions, estimate};
+pub use estimate::{BacklashEstimate, EstimateOptions, FollowedCircle, estimate};
 pub use plan::{PlanAnswer, PlanOptions, plan};
 pub use simulate::{SimulatedFile, SimulationOptions, simulate};

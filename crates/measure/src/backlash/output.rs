@@ -18,7 +18,7 @@ use armill_study::file_names::slug;
 use armill_study::output::{Picture, RESULT, picture_files, replace, save_pictures};
 
 use super::answer::{BacklashAnswer, CircleAnswer, ReversalAnswer};
-use super::estimate::BacklashEstimate;
+use super::estimate::{BacklashEstimate, FollowedCircle};
 
 /// The table.
 const TABLE: &str = "reversals.csv";
@@ -33,10 +33,10 @@ pub fn write(
     out: &ResultFolder,
 ) -> Result<(), StudyError> {
     let pictures: Vec<Picture> = (found.circles.iter().zip(&given.circles))
-        .map(|((measured, _, followed), circle)| picture(measured, followed, (circle, found)))
+        .map(|(of, circle)| picture(of, circle, &found.gaps.fitted))
         .collect();
     let names = (pictures.iter().flat_map(picture_files)).chain([TABLE.to_owned(), RESULT.to_owned()]);
-    replace((out, &names.collect::<Vec<_>>()), (given, &|_| ()), |files| {
+    replace(out, &names.collect::<Vec<_>>(), given, &|_| (), |files| {
         files.save(TABLE, &csv::write(&table(given)?))?;
         save_pictures(&pictures, files)
     })?;
@@ -82,12 +82,10 @@ fn table(given: &BacklashAnswer) -> Result<Table, StudyError> {
     Ok(Table::new("reversals", columns)?)
 }
 
-/// The runs of one circle about their centre, the fitted smooth part and steps, and the reversals of joints.
-fn picture(
-    measured: &MeasuredCircle,
-    followed: &Followed,
-    (circle, found): (&CircleAnswer, &BacklashEstimate<'_>),
-) -> Picture {
+/// The runs of one circle about their centre, the fitted smooth part and steps, and the reversals of joints; `gaps` is
+/// the fitted backlash of each joint.
+fn picture(of: &FollowedCircle<'_>, circle: &CircleAnswer, gaps: &[f64]) -> Picture {
+    let (measured, followed) = (of.measured, &of.followed);
     let offset = least_squares_centre(&measured.test).map(|centre| centre.offset);
     let about = |a: f64| offset.map_or(0.0, |e| e.x * a.cos() + e.y * a.sin());
     let mut traces: Vec<BallbarTrace> = (measured.test.runs().iter().zip(&measured.runs))
@@ -99,13 +97,13 @@ fn picture(
         })
         .collect();
     // The part common to both directions is measured; their difference is that of the backlash.
-    let common = Common::of(measured, followed, &found.gaps.fitted);
+    let common = Common::of(measured, followed, gaps);
     for direction in Direction::BOTH {
         if !measured.test.of(direction).any(|_| true) {
             continue;
         }
         let angles: Vec<f64> = (0..=STATIONS).map(|k| station(k % STATIONS)).collect();
-        let effect = backlash_effect(followed, &found.gaps.fitted, direction, &angles);
+        let effect = backlash_effect(followed, gaps, direction, &angles);
         traces.push(BallbarTrace {
             name: format!("{} with fitted backlash", direction.name()),
             sense: sense(direction),

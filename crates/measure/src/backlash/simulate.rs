@@ -63,7 +63,9 @@ pub fn point_count(study: &Study, analyses: &[String]) -> Result<usize, StudyErr
 /// See [`circles`]; a circle that the robot cannot follow; a folder that cannot be written.
 pub fn simulate(
     study: &Study,
-    (requested, out, writer): (&SimulationOptions, &Path, &Writer),
+    requested: &SimulationOptions,
+    out: &Path,
+    writer: &Writer,
     watch: Watch<'_>,
 ) -> Result<Vec<SimulatedFile>, StudyError> {
     let mut noise = Noise::seeded(requested.seed);
@@ -72,7 +74,7 @@ pub fn simulate(
     // Nothing is written before all circles are known to be followed.
     for circle in circles(study, &requested.analyses)? {
         let along = followed(study, &circle, watch)?;
-        let (text, largest) = table(&circle, &along, (requested, &mut noise));
+        let (text, largest) = table(&circle, &along, requested, &mut noise);
         let path = out.join(format!("{}.csv", slug(circle.name)));
         if files.iter().any(|(other, _)| *other == path) {
             return Err(StudyError::value(
@@ -99,7 +101,8 @@ pub fn simulate(
 fn table(
     circle: &CircleAnalysis<'_>,
     along: &Followed,
-    (requested, noise): (&SimulationOptions, &mut Noise),
+    requested: &SimulationOptions,
+    noise: &mut Noise,
 ) -> (String, f64) {
     let mut gaps = vec![0.0; along.joint_count()];
     for (joint, gap) in circle.path.setting.model.structure.joints_with_backlash() {

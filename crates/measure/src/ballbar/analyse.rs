@@ -51,7 +51,9 @@ pub struct Question {
 
 /// What a test shows.
 #[derive(Clone, Debug)]
-pub struct BallbarAnalysis {
+pub struct BallbarAnalysis<'a> {
+    /// The test.
+    pub measured: &'a MeasuredTest,
     /// The runs as reported: from the requested centre, without outliers if these are excluded.
     pub test: CircularTest,
     /// The least-squares centre of all runs, from the set-up; none of short arcs.
@@ -86,7 +88,10 @@ pub struct BallbarAnalysis {
 ///
 /// # Errors
 /// Runs with too few samples without their outliers; a centre that is too far off.
-pub fn analyse(measured: &MeasuredTest, question: &Question) -> Result<BallbarAnalysis, StudyError> {
+pub fn analyse<'a>(
+    measured: &'a MeasuredTest,
+    question: &Question,
+) -> Result<BallbarAnalysis<'a>, StudyError> {
     let [a, b] = measured.axes();
     let mut reversals = match question.axes_reverse {
         true => of_axes([a.as_str(), b.as_str()]),
@@ -139,6 +144,7 @@ pub fn analyse(measured: &MeasuredTest, question: &Question) -> Result<BallbarAn
     let direction = |direction: Direction| of(&shown.of(direction).collect::<Vec<_>>());
     let runs = shown.runs().iter().map(|run| of(&[run]).ok_or_else(nothing));
     Ok(BallbarAnalysis {
+        measured,
         centre,
         is_centred: offset.is_some(),
         runs: runs.collect::<Result<_, _>>()?,

@@ -4,7 +4,6 @@
 
 use armill_core::measure::ballbar::parts::{Axis, Part, Parts, Term, Wave};
 use armill_core::measure::ballbar::{Difference, Direction, Quantities, Run};
-use armill_study::measured::circular_test::MeasuredTest;
 use serde::Serialize;
 
 use super::analyse::{BallbarAnalysis, Question};
@@ -201,14 +200,12 @@ pub struct OutlierAnswer {
     pub at_reversal: bool,
 }
 
-/// The result `found` for `measured`.
-pub fn answer(measured: &MeasuredTest, question: &Question, found: &BallbarAnalysis) -> BallbarAnswer {
+/// The result `found` as numbers with their units.
+pub fn answer(question: &Question, found: &BallbarAnalysis<'_>) -> BallbarAnswer {
+    let measured = found.measured;
     let axes = measured.axes();
     let um = |value: f64| value * 1e6;
-    let parts = found
-        .parts
-        .as_ref()
-        .map(|parts| of_parts(parts, (measured, found)));
+    let parts = found.parts.as_ref().map(|parts| of_parts(parts, found));
     let names: Vec<&str> = measured
         .origins
         .iter()
@@ -239,9 +236,7 @@ pub fn answer(measured: &MeasuredTest, question: &Question, found: &BallbarAnaly
                 .map(|centre| [um(centre.offset.x), um(centre.offset.y)]),
             radius_mm: found.centre.map(|centre| centre.radius * 1e3),
         },
-        runs: (0..names.len())
-            .map(|index| of_run(measured, found, index))
-            .collect(),
+        runs: (0..names.len()).map(|index| of_run(found, index)).collect(),
         directions: Direction::BOTH
             .iter()
             .filter_map(|direction| {
@@ -278,7 +273,7 @@ pub fn answer(measured: &MeasuredTest, question: &Question, found: &BallbarAnaly
         warnings: Vec::new(),
     };
     add_own_values(&mut given, found);
-    given.warnings = warnings(measured, question, (found, &given));
+    given.warnings = warnings(question, found, &given);
     given
 }
 
@@ -306,7 +301,8 @@ impl LobeAnswer {
     }
 }
 
-fn of_run(measured: &MeasuredTest, found: &BallbarAnalysis, index: usize) -> RunAnswer {
+fn of_run(found: &BallbarAnalysis<'_>, index: usize) -> RunAnswer {
+    let measured = found.measured;
     let (origin, shown) = (&measured.origins[index], &found.runs[index]);
     let run: &Run = &measured.test.runs()[index];
     let profile = armill_core::measure::ballbar::Profile::of(&found.test.runs()[index]);
@@ -328,7 +324,7 @@ fn of_run(measured: &MeasuredTest, found: &BallbarAnalysis, index: usize) -> Run
 }
 
 /// What a term is called.
-pub(crate) fn name_of(term: Term, (axes, found): (&[String; 2], &BallbarAnalysis)) -> String {
+pub(crate) fn name_of(term: Term, axes: &[String; 2], found: &BallbarAnalysis<'_>) -> String {
     let axis = |axis: Axis| match axis {
         Axis::A => &axes[0],
         Axis::B => &axes[1],
@@ -365,10 +361,11 @@ fn kind_of(term: Term) -> &'static str {
     }
 }
 
-fn of_parts(parts: &Parts, (measured, found): (&MeasuredTest, &BallbarAnalysis)) -> PartsAnswer {
+fn of_parts(parts: &Parts, found: &BallbarAnalysis<'_>) -> PartsAnswer {
+    let measured = found.measured;
     let axes = measured.axes();
     let radius = measured.test.radius();
-    let name = |term: Term| name_of(term, (&axes, found));
+    let name = |term: Term| name_of(term, &axes, found);
     // A sum of several errors is none of them.
     let of = |term: Term| parts.alone(term);
     // alpha = (radius + mismatch)/R, beta = (radius - mismatch)/R.
@@ -410,7 +407,7 @@ fn of_parts(parts: &Parts, (measured, found): (&MeasuredTest, &BallbarAnalysis))
     }
 }
 
-fn outliers(names: &[&str], found: &BallbarAnalysis) -> Vec<OutlierAnswer> {
+fn outliers(names: &[&str], found: &BallbarAnalysis<'_>) -> Vec<OutlierAnswer> {
     let of_run = names.iter().zip(&found.outliers);
     of_run
         .flat_map(|(name, outliers)| {

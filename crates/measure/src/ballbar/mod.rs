@@ -4,12 +4,10 @@
 //! files -> MeasuredTest (one circle, its runs) -> analyse -> BallbarAnalysis (SI) -> BallbarAnswer, tables, pictures, report
 //! ```
 //!
-//! Files become one circle as in a study: [`armill_study::measured::circular_test`]. [`analyse`](mod@analyse): the analysis. [`answer`](mod@answer): its
-//! values with
-//! units.
-//! [`results`]: results of the software of the ball-bar. `warnings`: what to know before use.
-//! [`teach`](mod@teach): the corrected circle, and the comparison of two tests. [`program`]: that circle as
-//! a robot program. [`output`]: tables, pictures, report.
+//! Files become one circle as in a study: [`armill_study::measured::circular_test`]. [`analyse`](mod@analyse): the
+//! analysis. [`answer`](mod@answer): its values with units. [`results`]: results of the software of the ball-bar.
+//! `warnings`: what to know before use. [`teach`](mod@teach): the corrected circle, and the comparison of two tests.
+//! [`program`]: that circle as a robot program. [`output`]: tables, pictures, report.
 
 pub mod analyse;
 pub mod answer;

@@ -24,7 +24,6 @@ use armill_report::html::{Report, Table as Rows};
 use armill_report::{BallbarPlot, BallbarTrace, Growth, PathPlot, Sense, Series};
 use armill_study::analysis::cells::{columns, input, um};
 use armill_study::error::StudyError;
-use armill_study::measured::circular_test::MeasuredTest;
 use armill_study::output::{Picture, REPORT, RESULT, picture_files, replace, save_pictures};
 
 use super::analyse::BallbarAnalysis;
@@ -41,10 +40,11 @@ const TABLES: [&str; 3] = ["runs.csv", "differences.csv", "parts.csv"];
 /// A file cannot be written.
 pub fn write(
     given: &BallbarAnswer,
-    (measured, found): (&MeasuredTest, &BallbarAnalysis),
-    (out, taught): (&ResultFolder, Option<&[u8]>),
+    found: &BallbarAnalysis<'_>,
+    out: &ResultFolder,
+    taught: Option<&[u8]>,
 ) -> Result<Vec<PathBuf>, StudyError> {
-    let drawn = pictures(given, (measured, found));
+    let drawn = pictures(given, found);
     let names: Vec<String> = TABLES
         .map(str::to_owned)
         .into_iter()
@@ -52,12 +52,8 @@ pub fn write(
         .chain(drawn.iter().flat_map(picture_files))
         .chain([REPORT.to_owned(), RESULT.to_owned()])
         .collect();
-    replace((out, &names), (given, &|_| ()), |files| {
-        let tables = [
-            runs(measured, found)?,
-            differences(measured, found)?,
-            parts(given)?,
-        ];
+    replace(out, &names, given, &|_| (), |files| {
+        let tables = [runs(found)?, differences(found)?, parts(given)?];
         for (name, table) in TABLES.iter().zip(tables) {
             files.save(name, &csv::write(&table))?;
         }
@@ -92,8 +88,8 @@ fn angles() -> Column {
     }
 }
 
-fn runs(measured: &MeasuredTest, found: &BallbarAnalysis) -> Result<Table, StudyError> {
-    let of = measured.origins.iter().zip(found.test.runs());
+fn runs(found: &BallbarAnalysis<'_>) -> Result<Table, StudyError> {
+    let of = found.measured.origins.iter().zip(found.test.runs());
     let of = of.map(|(origin, run)| {
         stations(
             &origin.name,
@@ -104,12 +100,10 @@ fn runs(measured: &MeasuredTest, found: &BallbarAnalysis) -> Result<Table, Study
     Ok(Table::new("runs", [angles()].into_iter().chain(of).collect())?)
 }
 
-fn differences(measured: &MeasuredTest, found: &BallbarAnalysis) -> Result<Table, StudyError> {
+fn differences(found: &BallbarAnalysis<'_>) -> Result<Table, StudyError> {
+    let origins = &found.measured.origins;
     let pair = |([one, other], of): &([usize; 2], Difference)| {
-        let name = format!(
-            "{}_minus_{}",
-            measured.origins[*one].name, measured.origins[*other].name
-        );
+        let name = format!("{}_minus_{}", origins[*one].name, origins[*other].name);
         stations(
             &name,
             "difference of two runs of the same direction",
@@ -161,15 +155,12 @@ fn parts(given: &BallbarAnswer) -> Result<Table, StudyError> {
 }
 
 /// The circle, the repeats of each direction that has some, the directions.
-pub(crate) fn pictures(
-    given: &BallbarAnswer,
-    (measured, found): (&MeasuredTest, &BallbarAnalysis),
-) -> Vec<Picture> {
-    let mut pictures = vec![circle(given, (measured, found))];
+pub(crate) fn pictures(given: &BallbarAnswer, found: &BallbarAnalysis<'_>) -> Vec<Picture> {
+    let mut pictures = vec![circle(given, found)];
     pictures.extend(
         Direction::BOTH
             .iter()
-            .filter_map(|direction| repeats(*direction, (measured, found))),
+            .filter_map(|direction| repeats(*direction, found)),
     );
     pictures.extend(found.between.span().map(|_| directions(given, found)));
     pictures
@@ -194,14 +185,14 @@ fn under(given: &BallbarAnswer) -> String {
     parts.join(", ")
 }
 
-fn circle(given: &BallbarAnswer, (measured, found): (&MeasuredTest, &BallbarAnalysis)) -> Picture {
+fn circle(given: &BallbarAnswer, found: &BallbarAnalysis<'_>) -> Picture {
     let trace = |index: usize| {
         let run = &found.test.runs()[index];
         let radii = Profile::of(run).stations();
         // The first point again, so that the line closes; missing samples interrupt it.
         let closed = (0..=STATIONS).map(|k| radii[k % STATIONS].map_or(f64::NAN, |dr| dr * 1e6));
         BallbarTrace {
-            name: measured.origins[index].name.clone(),
+            name: found.measured.origins[index].name.clone(),
             sense: match run.direction() {
                 Direction::Clockwise => Sense::Clockwise,
                 Direction::Anticlockwise => Sense::Anticlockwise,
@@ -245,7 +236,7 @@ fn along(name: String, values: &[Option<f64>], of: fn(f64) -> f64) -> Series {
 }
 
 /// What runs of a direction differ by from its first; `None` of a single run.
-fn repeats(direction: Direction, (measured, found): (&MeasuredTest, &BallbarAnalysis)) -> Option<Picture> {
+fn repeats(direction: Direction, found: &BallbarAnalysis<'_>) -> Option<Picture> {
     let first = found
         .test
         .runs()
@@ -254,7 +245,7 @@ fn repeats(direction: Direction, (measured, found): (&MeasuredTest, &BallbarAnal
     let of = found.repeats.iter().filter(|([one, _], _)| *one == first);
     let series: Vec<Series> = of
         .map(|([one, other], of)| {
-            let [one, other] = [*one, *other].map(|index| measured.origins[index].name.as_str());
+            let [one, other] = [*one, *other].map(|index| found.measured.origins[index].name.as_str());
             along(format!("|{one} − {other}|"), &of.stations, f64::abs)
         })
         .collect();
@@ -277,7 +268,7 @@ fn repeats(direction: Direction, (measured, found): (&MeasuredTest, &BallbarAnal
     })
 }
 
-fn directions(given: &BallbarAnswer, found: &BallbarAnalysis) -> Picture {
+fn directions(given: &BallbarAnswer, found: &BallbarAnalysis<'_>) -> Picture {
     let picture = PathPlot {
         title: "Clockwise minus anticlockwise".to_owned(),
         subtitle: under(given),

@@ -112,7 +112,7 @@ pub fn taught_program(
         within: ALL,
         ..expected.clone()
     };
-    program(study, &analysis.setting, (&track, &along.answers), &expected)
+    program(study, &analysis.setting, &track, &along.answers, &expected)
 }
 
 /// The requested circle, its centre and its radius.

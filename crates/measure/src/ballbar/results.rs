@@ -65,7 +65,7 @@ pub(super) fn results(measured: &MeasuredTest) -> Vec<ResultsAnswer> {
 }
 
 /// Adds the values of armill to those of the software of the ball-bar.
-pub(super) fn add_own_values(given: &mut BallbarAnswer, found: &BallbarAnalysis) {
+pub(super) fn add_own_values(given: &mut BallbarAnswer, found: &BallbarAnalysis<'_>) {
     let [a, b] = &given.axes;
     // The reversal of that name: given ones may be added to those of the axes, or replace them.
     let step = |axis: &str, side: &str| {

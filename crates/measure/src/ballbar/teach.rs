@@ -106,14 +106,14 @@ pub struct ComparedQuantity {
 }
 
 /// The corrected circle at `points` equally spaced angles with lobes up to `most_lobes`, or as many as the samples
-/// resolve:
-/// its values and itself. For the test as reported: without outliers if these were excluded.
+/// resolve: its values and itself. For the test as reported: without outliers if these were excluded.
 ///
 /// # Errors
 /// Runs that are no full turns.
 pub fn teach(
-    shown: &BallbarAnalysis,
-    (points, most_lobes): (usize, usize),
+    shown: &BallbarAnalysis<'_>,
+    points: usize,
+    most_lobes: usize,
 ) -> Result<(TaughtAnswer, TaughtCircle), StudyError> {
     let found = taught(&shown.test, most_lobes).ok_or_else(|| {
         StudyError::value(
@@ -168,18 +168,16 @@ fn table(radius: f64, corrections: &[f64]) -> Result<Table, StudyError> {
 ///
 /// # Errors
 /// Tests of different circles: radius, plane or feed.
-pub fn before(
-    (before, first): (&MeasuredTest, &BallbarAnalysis),
-    (after, second): (&MeasuredTest, &BallbarAnalysis),
-) -> Result<BeforeAnswer, StudyError> {
-    same_circle(before, after)?;
-    let g = |found: &BallbarAnalysis, direction: usize| {
+pub fn before(before: &BallbarAnalysis<'_>, after: &BallbarAnalysis<'_>) -> Result<BeforeAnswer, StudyError> {
+    same_circle(before.measured, after.measured)?;
+    let g = |found: &BallbarAnalysis<'_>, direction: usize| {
         found.directions[direction].and_then(|of| of.circular.ok())
     };
-    let both = |found: &BallbarAnalysis| found.all.circular.ok().filter(|_| found.test.is_bidirectional());
-    let f = |found: &BallbarAnalysis, end: usize| Some(found.all.radial[end].deviation);
-    let compared = |what: &'static str, of: &dyn Fn(&BallbarAnalysis) -> Option<f64>| {
-        let [before, after] = [first, second].map(|found| of(found).map(|value| value * 1e6));
+    let both =
+        |found: &BallbarAnalysis<'_>| found.all.circular.ok().filter(|_| found.test.is_bidirectional());
+    let f = |found: &BallbarAnalysis<'_>, end: usize| Some(found.all.radial[end].deviation);
+    let compared = |what: &'static str, of: &dyn Fn(&BallbarAnalysis<'_>) -> Option<f64>| {
+        let [before, after] = [before, after].map(|found| of(found).map(|value| value * 1e6));
         let left = before.zip(after).filter(|(before, _)| *before != 0.0);
         ComparedQuantity {
             what,
@@ -189,7 +187,7 @@ pub fn before(
         }
     };
     Ok(BeforeAnswer {
-        files: before.files.clone(),
+        files: before.measured.files.clone(),
         compared: vec![
             compared("G CW", &|found| g(found, 0)),
             compared("G CCW", &|found| g(found, 1)),

@@ -1,19 +1,18 @@
 //! What a user must know before the numbers of a circular test are used.
 
 use armill_core::measure::ballbar::Direction;
-use armill_study::measured::circular_test::MeasuredTest;
 
 use super::analyse::{BallbarAnalysis, Centring, Question};
 use super::answer::BallbarAnswer;
 
 /// One sentence each: missing data, excluded or suspicious data, quantities that cannot be separated.
 pub(super) fn warnings(
-    measured: &MeasuredTest,
     question: &Question,
-    (found, given): (&BallbarAnalysis, &BallbarAnswer),
+    found: &BallbarAnalysis<'_>,
+    given: &BallbarAnswer,
 ) -> Vec<String> {
-    let mut warnings = measured.notes.clone();
-    let unused = measured.unused.iter();
+    let mut warnings = found.measured.notes.clone();
+    let unused = found.measured.unused.iter();
     warnings.extend(unused.map(|of| format!("unused column: {of}")));
     for direction in Direction::BOTH {
         match found.test.of(direction).count() {

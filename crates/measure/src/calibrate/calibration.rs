@@ -3,7 +3,7 @@
 
 use armill_core::calibrate::{Calibrated, MeasuredPose, ParameterSet, PoseErrors, Refusal, fit};
 use armill_core::robot::Robot;
-use armill_formats::measurement::poses::{MeasuredPoses, PoseReadOptions};
+use armill_formats::measurement::poses::MeasuredPoses;
 use armill_study::StudyError;
 
 use super::question::{Question, ValidationPoses, read};
@@ -51,9 +51,10 @@ pub struct Calibration {
 /// Poses that determine too little or belong to another robot; validation poses that cannot be read or are too few.
 pub fn calibrate(
     robot: &Robot,
-    (shown, measured): (&str, &MeasuredPoses),
+    shown: &str,
+    measured: &MeasuredPoses,
     question: &Question,
-    (validation, given): (&ValidationPoses, &PoseReadOptions),
+    validation: &ValidationPoses,
 ) -> Result<Calibration, StudyError> {
     let (kept, apart) = parted(shown, measured.poses.len(), validation)?;
     let chosen = |places: &[usize]| -> Vec<MeasuredPose> {
@@ -90,14 +91,18 @@ pub fn calibrate(
     let validation = match validation {
         ValidationPoses::Nothing => None,
         ValidationPoses::Fraction(_) => Some(evaluated(shown, &chosen(&apart), lines(&apart))?),
-        ValidationPoses::File { path, same_set_up } => {
+        ValidationPoses::File {
+            path,
+            given,
+            same_set_up,
+        } => {
             let file = path.display().to_string();
-            let other = read((&file, path), robot, given, question)?;
+            let other = read(&file, path, robot, given, question)?;
             Some(match same_set_up {
                 true => evaluated(&file, &other.poses, other.lines)?,
                 false => PoseSet {
                     beyond: beyond(&found_from, &other.poses),
-                    ..elsewhere(robot, &after, (&file, other), question)?
+                    ..elsewhere(robot, &after, &file, other, question)?
                 },
             })
         }
@@ -116,7 +121,8 @@ pub fn calibrate(
 fn elsewhere(
     robot: &Robot,
     after: &Calibrated,
-    (file, other): (&str, MeasuredPoses),
+    file: &str,
+    other: MeasuredPoses,
     question: &Question,
 ) -> Result<PoseSet, StudyError> {
     let calibrated = after

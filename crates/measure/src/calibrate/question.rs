@@ -22,6 +22,8 @@ pub enum ValidationPoses {
     File {
         /// Where it is.
         path: PathBuf,
+        /// Values that it does not give.
+        given: PoseReadOptions,
         /// Otherwise base and point are fitted again for it.
         same_set_up: bool,
     },
@@ -58,7 +60,8 @@ impl Question {
 /// # Errors
 /// The file cannot be read; its problems; orientations that are requested but missing.
 pub fn read(
-    (shown, path): (&str, &Path),
+    shown: &str,
+    path: &Path,
     robot: &Robot,
     given: &PoseReadOptions,
     question: &Question,

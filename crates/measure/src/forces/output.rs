@@ -33,7 +33,7 @@ pub fn write(
     treated: &ProcessedRecord,
     out: &ResultFolder,
 ) -> Result<Vec<PathBuf>, StudyError> {
-    let svg = plot(("measured force".to_owned(), subtitle(answer)), treated).to_svg();
+    let svg = plot("measured force".to_owned(), subtitle(answer), treated).to_svg();
     let mut files = vec![("forces.csv", csv::write(&forces(treated)?))];
     if let Some(turns) = &treated.turns {
         files.push(("revolutions.csv", csv::write(&turns_table(turns)?)));
@@ -137,10 +137,10 @@ fn turns_table(turns: &[Revolution]) -> Result<Table, StudyError> {
 
 /// A column of instants, s.
 fn time(name: &str, description: &str, values: Vec<f64>) -> Column {
-    column(name, "s", description, (TIME_DECIMALS, values))
+    column(name, "s", description, TIME_DECIMALS, values)
 }
 
 /// A column of forces, N.
 fn force(name: &str, description: &str, values: Vec<f64>) -> Column {
-    column(name, "N", description, (FORCE_DECIMALS, values))
+    column(name, "N", description, FORCE_DECIMALS, values)
 }

@@ -1,8 +1,7 @@
 //! Springs with uncertainties, residuals, prediction of left-out tests, outliers, open questions: one JSON value.
 //!
 //! With a prior the fit has less weight for readings with large residuals (Huber), without one it is plain least
-//! squares. Residuals are
-//! predicted minus measured. Method and meaning of the numbers: `docs/theory/identification.md`.
+//! squares. Residuals are predicted minus measured. Method and meaning of the numbers: `docs/theory/identification.md`.
 
 use armill_core::identify::fit::Scatter;
 use armill_core::identify::{

@@ -5,9 +5,9 @@
 //! robot + Question + count     -> PlanAnswer: tests to do, as a table to fill in
 //! ```
 //!
-//! [`question`] (settings of the command), [`answer`](mod@answer) (springs, uncertainties,
-//! residuals, as one JSON value), [`robot_file`] (the robot with its new compliances), [`plan`](mod@plan) (tests to do,
-//! as a table to fill in).
+//! [`question`] (settings of the command), [`answer`](mod@answer) (springs, uncertainties, residuals, as one JSON
+//! value), [`robot_file`] (the robot with its new compliances), [`plan`](mod@plan) (tests to do, as a table to fill
+//! in).
 
 pub mod answer;
 pub mod plan;

@@ -84,9 +84,8 @@ impl Question {
         }
     }
 
-    /// The unknowns of the groups, for this robot. Lost motion needs tests: their torques determine how soon a
-    /// backlash is
-    /// taken up.
+    /// The unknowns of the groups, for this robot. Lost motion needs tests: their torques determine how soon a backlash
+    /// is taken up.
     ///
     /// # Errors
     /// An unknown group; a list without drives; an implausible uncertainty of the points.

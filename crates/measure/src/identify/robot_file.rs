@@ -1,9 +1,7 @@
 //! The robot file with identified compliances, for predictions.
 //!
 //! It contains springs with their uncertainties, the covariance of those of revolute joints, the error of left-out
-//! tests as the error
-//! of the model, and a source that names the tests.
-//! Lost motion is left out.
+//! tests as the error of the model, and a source that names the tests. Lost motion is left out.
 
 use armill_core::identify::Role;
 use armill_core::robot::Robot;

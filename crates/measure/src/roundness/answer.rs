@@ -1,8 +1,7 @@
 //! The result of a profile.
 //!
-//! `lsci, mzci, mcci, mici` with `centre_mm`, `radius_mm` or `radii_mm`, and `ront_mm` are a public contract. A
-//! centre has
-//! two coordinates where the points had two, and three, in the axes of the file, where they had three.
+//! `lsci, mzci, mcci, mici` with `centre_mm`, `radius_mm` or `radii_mm`, and `ront_mm` are a public contract. A centre
+//! has two coordinates where the points had two, and three, in the axes of the file, where they had three.
 
 use armill_core::nalgebra::Point2;
 use armill_core::roundness::{Plane, ReferenceCircle, Zone};

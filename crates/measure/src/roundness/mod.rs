@@ -5,8 +5,7 @@
 //! ```
 //!
 //! [`evaluate`](mod@evaluate): the circles of a profile, and its other quantities. [`answer`](mod@answer): the values
-//! of the
-//! numbers. [`output`]: table and picture of it.
+//! of the numbers. [`output`]: table and picture of it.
 
 pub mod answer;
 pub mod evaluate;

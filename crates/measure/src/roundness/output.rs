@@ -82,20 +82,22 @@ pub fn plot(answer: &RoundnessAnswer, evaluation: &RoundnessEvaluation) -> Polar
         references.push(reference(
             &given("MZCI", answer.ront_mm),
             polar,
-            (zone.centre, &[zone.inner, zone.outer]),
+            zone.centre,
+            &[zone.inner, zone.outer],
         ));
     }
     // For an arc the smallest circle is another one, which would dominate the picture.
     if !is_open(polar) {
         let outer = &evaluation.circumscribed;
         let name = given("MCCI", answer.mcci.ront_mm);
-        references.push(reference(&name, polar, (outer.centre, &[outer.radius])));
+        references.push(reference(&name, polar, outer.centre, &[outer.radius]));
     }
     if let (Ok(inner), Some(answer)) = (&evaluation.inscribed, &answer.mici) {
         references.push(reference(
             &given("MICI", answer.ront_mm),
             polar,
-            (inner.centre, &[inner.radius]),
+            inner.centre,
+            &[inner.radius],
         ));
     }
     PolarPlot {
@@ -120,7 +122,7 @@ fn is_open(polar: &Polar) -> bool {
 }
 
 /// Circles about `centre` with these radii (m), as seen from the centre of `polar`, where it has points.
-fn reference(name: &str, polar: &Polar, (centre, radii): (Point2<f64>, &[f64])) -> RadialReference {
+fn reference(name: &str, polar: &Polar, centre: Point2<f64>, radii: &[f64]) -> RadialReference {
     let shift = centre - polar.centre;
     let gap = &polar.gap;
     let (begin, sweep) = match is_open(polar) {
@@ -185,19 +187,22 @@ fn table(evaluation: &RoundnessEvaluation) -> Result<Table, StudyError> {
             "angle_deg",
             "deg",
             "about the centre of the least-squares circle",
-            (7, all(&|i| polar.angles[i].to_degrees())),
+            7,
+            all(&|i| polar.angles[i].to_degrees()),
         ),
         column(
             "radius_mm",
             "mm",
             "distance from that centre",
-            (9, all(&|i| (polar.radius + polar.deviations[i]) * 1e3)),
+            9,
+            all(&|i| (polar.radius + polar.deviations[i]) * 1e3),
         ),
         column(
             "deviation_um",
             "um",
             "outward from the least-squares circle",
-            (6, all(&|i| polar.deviations[i] * 1e6)),
+            6,
+            all(&|i| polar.deviations[i] * 1e6),
         ),
     ];
     if let Some(measured) = &evaluation.measured {
@@ -206,7 +211,8 @@ fn table(evaluation: &RoundnessEvaluation) -> Result<Table, StudyError> {
             "deviation_measured_um",
             "um",
             "the same before the filter",
-            (6, values),
+            6,
+            values,
         ));
     }
     Ok(Table::new("roundness", columns)?)

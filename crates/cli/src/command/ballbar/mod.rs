@@ -15,7 +15,7 @@ use armill_measure::ballbar::{
 };
 use armill_programs::Written;
 use armill_study::StudyError;
-use armill_study::measured::circular_test::{MeasuredTest, read};
+use armill_study::measured::circular_test::read;
 use armill_study::studies;
 
 use super::program::{self, save};
@@ -31,13 +31,13 @@ pub(crate) fn run(arguments: &BallbarArguments) -> Result<Outcome, StudyError> {
     let (requested, question) = (arguments.file_options()?, arguments.question()?);
     let measured = read(&arguments.files, &requested)?;
     let found = analyse(&measured, &question)?;
-    let mut answer = answer(&measured, &question, &found);
+    let mut answer = answer(&question, &found);
     if !arguments.before.is_empty() {
         let first = read(&arguments.before, &requested)?;
         let shown = analyse(&first, &question)?;
-        answer.before = Some(before((&first, &shown), (&measured, &found))?);
+        answer.before = Some(before(&shown, &found)?);
     }
-    let taught = taught(arguments, (&measured, &found))?;
+    let taught = taught(arguments, &found)?;
     let table = match &taught {
         None => None,
         Some((given, circle, _)) => {
@@ -49,7 +49,7 @@ pub(crate) fn run(arguments: &BallbarArguments) -> Result<Outcome, StudyError> {
     let writer = arguments.writing.writer("ballbar");
     if let Some(out) = &arguments.out {
         let out = writer.folder(out)?;
-        output::write(&answer, (&measured, &found), (&out, table.as_deref()))?;
+        output::write(&answer, &found, &out, table.as_deref())?;
         say(&format!(
             "tables, pictures and report in {}",
             out.path().display()
@@ -80,8 +80,9 @@ type Program = (PathBuf, Written);
 /// The corrected circle, if requested, and its program.
 fn taught(
     arguments: &BallbarArguments,
-    (measured, found): (&MeasuredTest, &BallbarAnalysis),
+    found: &BallbarAnalysis<'_>,
 ) -> Result<Option<(TaughtAnswer, TaughtCircle, Option<Program>)>, StudyError> {
+    let measured = found.measured;
     let file_feed = measured.feed.map(|feed| feed * 60e3);
     let program = program::requested(&arguments.program, arguments.feed_mm_per_min.or(file_feed))?;
     if arguments.teach.is_none() && program.is_none() {
@@ -92,7 +93,7 @@ fn taught(
         .as_ref()
         .map(|(_, requested)| points_within(radius, requested.within));
     let points = arguments.point_count(needed)?;
-    let (given, circle) = teach(found, (points, arguments.teach_lobes))?;
+    let (given, circle) = teach(found, points, arguments.teach_lobes)?;
     let Some((folder, requested)) = program else {
         return Ok(Some((given, circle, None)));
     };
