@@ -92,15 +92,16 @@ pub struct Advice {
 /// Greatest number of stretches reported.
 const MOST_STRETCHES: usize = 10;
 
-/// Recommended measures for the path of `placing`.
+/// Recommended measures for the path of `placing`, whose study was read from `found`.
 ///
 /// # Errors
 /// As of [`PlacementSearch::search`].
 pub fn advise(
-    (found, study): (&FoundStudy, &Study),
+    found: &FoundStudy,
     placing: &PlacementSearch<'_>,
     journal: &mut Journal<'_>,
-    (watch, given): (Watch<'_>, &dyn Fn(&str)),
+    watch: Watch<'_>,
+    given: &dyn Fn(&str),
 ) -> Result<Advice, StudyError> {
     let quiet = Watch {
         finished: &|_| (),
@@ -113,7 +114,7 @@ pub fn advise(
             "`armill place` finds the best place of holes",
         ));
     }
-    let name = placing.name();
+    let (study, name) = (placing.study(), placing.name());
     let drawn = alone(study.clone(), name);
     let nominal = statistics(&drawn, &run(&drawn, quiet)?);
     let placed = placing.search(journal, watch, given)?;
@@ -157,7 +158,7 @@ pub fn advise(
         recommended,
         placement: placed.answer,
         moves,
-        out_of_tolerance: out_of_tolerance(advised, (analysis, of_path), &path),
+        out_of_tolerance: out_of_tolerance(advised, analysis, of_path, &path),
         turns: path.search.filter(|_| turns),
         compensated,
         compensated_u_um: path.worst.map_or(0.0, |worst| worst.in_plane_u_um),
@@ -219,7 +220,8 @@ fn is_better(one: &StatisticsAnswer, other: &StatisticsAnswer) -> bool {
 /// Stretches of the path out of tolerance, the worst first.
 fn out_of_tolerance(
     study: &Study,
-    (analysis, found): (&PathAnalysis, &PathResult),
+    analysis: &PathAnalysis,
+    found: &PathResult,
     path: &PathAnswer,
 ) -> Vec<StretchAnswer> {
     let points = &analysis.track.path.points;

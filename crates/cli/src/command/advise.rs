@@ -30,7 +30,7 @@ pub(crate) fn run(arguments: &AdviseArguments) -> Result<Outcome, StudyError> {
         let progress = Progress::of("places", placing.place_count());
         progress.watch(|watch| {
             let note = |what: &str| progress.set_message(what);
-            advise((&found, &study), &placing, &mut journal, (watch, &note))
+            advise(&found, &placing, &mut journal, watch, &note)
         })
     })??;
     let json = serde_json::to_string_pretty(&advice.answer)? + "\n";

@@ -36,7 +36,7 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<Outcome, StudyError> {
     let compared = in_pool(arguments.threads, || {
         let progress = Progress::new(of.point_count());
         let compared = progress.watch(|watch| compare(&of, watch))?;
-        write(&compared, (&out, requested), &|name| progress.set_message(name))?;
+        write(&compared, &out, requested, &|name| progress.set_message(name))?;
         Ok::<_, StudyError>(compared)
     })??;
     let answer = &compared.answer;

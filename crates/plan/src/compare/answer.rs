@@ -1,8 +1,7 @@
 //! The comparison as one JSON value.
 //!
 //! `cells[]` are the compared cells, in the order given; `analyses[]` the analyses they have in common, paths first,
-//! each with its
-//! cells best first.
+//! each with its cells best first.
 
 use std::cmp::Ordering;
 
@@ -15,9 +14,8 @@ use serde::Serialize;
 use super::cells::Cell;
 use super::curve::Curve;
 use super::numbers::CellNumbers;
-use super::sentence;
 use super::traits::TraitAnswer;
-use super::{ComparableCells, ComparisonResult, Entry};
+use super::{ComparableCells, ComparisonResult, Entry, sentence};
 
 /// The whole comparison.
 #[derive(Clone, Debug, Serialize)]

@@ -140,7 +140,7 @@ impl Other {
         };
         let mut fits = Ok(());
         let read = study.read_changed(|file| {
-            fits = other_robot::put(file, (&self.found_as, &self.robot));
+            fits = other_robot::put(file, &self.found_as, &self.robot);
         });
         match fits {
             Err(StudyError::Value { message, hint }) => {

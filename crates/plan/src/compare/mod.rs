@@ -11,10 +11,9 @@
 //! Cells are ranked by the fraction of all points that is within the tolerance and the joint limits, then by the points
 //! that are reached within the joint limits, then by the largest deviation.
 //!
-//! `cells`: the cells; `other_robot`: a study with another robot; `common_analyses`: the analyses they share; `numbers`: a cell in numbers; `traits`:
-//! differences of the
-//! cells;
-//! `curve`: the deviation along a path; `answer`: the result; `sentence`: the ranking as text; `output`: files.
+//! `cells`: the cells; `other_robot`: a study with another robot; `common_analyses`: the analyses they share;
+//! `numbers`: a cell in numbers; `traits`: differences of the cells; `curve`: the deviation along a path; `answer`: the
+//! result; `sentence`: the ranking as text; `output`: files.
 
 mod answer;
 mod cells;
@@ -33,15 +32,14 @@ pub use output::write;
 pub use traits::TraitAnswer;
 
 use armill_core::watch::Watch;
-
 use armill_study::analysis::{AnalysisData, AnalysisResult};
-use armill_study::answer::StudyAnswer;
-use armill_study::answer::answer as answer_study;
+use armill_study::answer::{StudyAnswer, answer as answer_study};
 use armill_study::error::StudyError;
 use armill_study::file::resolve::Study;
 use armill_study::run::{point_count, run};
-use curve::Curve;
-use numbers::AnalysisNumbers;
+
+use self::curve::Curve;
+use self::numbers::AnalysisNumbers;
 
 /// Cells with analyses in common; the others are left out.
 #[derive(Clone, Debug)]
@@ -138,7 +136,7 @@ fn of_cell(cell: usize, study: &Study, done: &[AnalysisResult<'_>], answer: &Stu
             AnalysisData::Path(analysis, found) => {
                 let requested = paths
                     .next()
-                    .map(|given| AnalysisNumbers::path(given, (analysis, &found.along.answers)));
+                    .map(|given| AnalysisNumbers::path(given, analysis, &found.along.answers));
                 let curve = Curve::along(analysis, &found.along.answers);
                 add(requested, traits::of_path(study, analysis), Some(curve));
             }

@@ -1,8 +1,7 @@
 //! One analysis in one cell, in numbers.
 //!
 //! `95 %`: the deviation that 95 of 100 reached points do not exceed (nearest rank). Points have equal weight,
-//! independent
-//! apart.
+//! independent apart.
 
 use armill_core::kernel::Answers;
 use armill_core::map::Counts;
@@ -65,16 +64,14 @@ pub(super) struct AnalysisNumbers {
 
 impl AnalysisNumbers {
     /// A path.
-    pub(super) fn path(
-        given: &PathAnswer,
-        (analysis, answers): (&PathAnalysis, &Answers),
-    ) -> AnalysisNumbers {
+    pub(super) fn path(given: &PathAnswer, analysis: &PathAnalysis, answers: &Answers) -> AnalysisNumbers {
         let branch = given.followed_branch.as_ref().unwrap_or(&given.branch);
         AnalysisNumbers {
             name: given.name.clone(),
             kind: "path",
             numbers: numbers(
-                (branch, analysis.setting.tolerance),
+                branch,
+                analysis.setting.tolerance,
                 answers,
                 given.worst.as_ref(),
                 &given.setting,
@@ -88,7 +85,7 @@ impl AnalysisNumbers {
         AnalysisNumbers {
             name: given.name.clone(),
             kind: "holes",
-            numbers: numbers((&given.branch, limit), answers, worst, &given.setting),
+            numbers: numbers(&given.branch, limit, answers, worst, &given.setting),
         }
     }
 
@@ -98,7 +95,8 @@ impl AnalysisNumbers {
             name: given.name.clone(),
             kind: "map",
             numbers: numbers(
-                (&given.branch, limit),
+                &given.branch,
+                limit,
                 answers,
                 given.worst.as_ref(),
                 &given.setting,
@@ -112,7 +110,8 @@ impl AnalysisNumbers {
             name: given.name.clone(),
             kind: "volume",
             numbers: numbers(
-                (&given.branch, limit),
+                &given.branch,
+                limit,
                 answers,
                 given.worst.as_ref(),
                 &given.setting,
@@ -123,7 +122,8 @@ impl AnalysisNumbers {
 
 /// Points `answers` and their tolerance (m), worst at `worst`.
 fn numbers(
-    (branch, limit): (&str, f64),
+    branch: &str,
+    limit: f64,
     answers: &Answers,
     worst: Option<&PointAnswer>,
     setting: &SettingAnswer,

@@ -18,7 +18,7 @@ use armill_study::input::tables::PostureTable;
 ///
 /// # Errors
 /// A study with gravity; a robot without compliance and without a compliance class.
-pub(super) fn put(file: &mut StudyFile, (name, robot): (&str, &RobotDescription)) -> Result<(), StudyError> {
+pub(super) fn put(file: &mut StudyFile, name: &str, robot: &RobotDescription) -> Result<(), StudyError> {
     let own = std::mem::replace(&mut file.robot, name.to_owned());
     file.compliance = assumed(robot)?;
     file.statement.clear();

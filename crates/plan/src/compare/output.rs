@@ -32,7 +32,8 @@ const TABLE: &str = "cells.csv";
 /// A file cannot be written.
 pub fn write(
     compared: &ComparisonResult,
-    (out, requested): (&ResultFolder, Pictures),
+    out: &ResultFolder,
+    requested: Pictures,
     note: &(dyn Fn(&str) + Sync),
 ) -> Result<Vec<PathBuf>, StudyError> {
     let drawn = match requested {
@@ -46,7 +47,7 @@ pub fn write(
         .chain(report)
         .chain([RESULT.to_owned()])
         .collect();
-    replace((out, &names), (&compared.answer, note), |files| {
+    replace(out, &names, &compared.answer, note, |files| {
         files.save(TABLE, &csv::write(&table(&compared.answer)?))?;
         save_pictures(&drawn, files)?;
         if requested == Pictures::Drawn {

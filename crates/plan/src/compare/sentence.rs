@@ -5,8 +5,7 @@
 //! ```
 //!
 //! A point is within the tolerance if the robot is inside its joint limits, too. If cells have different tolerances,
-//! each
-//! is reported with its own.
+//! each is reported with its own.
 
 use armill_core::map::COVERAGE;
 use armill_study::analysis::words::micrometres;
@@ -147,8 +146,9 @@ pub(super) fn assumed(cells: &[CellNumbers]) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use armill_study::answer::CountsAnswer;
+
+    use super::*;
 
     fn cell(name: &str, part: f64, largest: Option<f64>) -> CellNumbers {
         CellNumbers {

@@ -5,10 +5,9 @@
 //! ```
 //!
 //! Only positions are changed; orientations and all other bytes remain. Between its targets the robot still moves
-//! linearly or
-//! on an arc, and one target may need different corrections: at a corner, because forces turn with the feed, or for
-//! several moves. The residual is reported: the written program is read again, sampled at the same
-//! points, and evaluated by the deviation of its tool.
+//! linearly or on an arc, and one target may need different corrections: at a corner, because forces turn with the
+//! feed, or for several moves. The residual is reported: the written program is read again, sampled at the same points,
+//! and evaluated by the deviation of its tool.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -68,7 +67,8 @@ const ONE_PLACE: f64 = 1e-6;
 pub(crate) fn in_place(
     runner: &Runner<'_>,
     analysis: &PathAnalysis,
-    (followed, load): (&Followed, &PathLoad),
+    followed: &Followed,
+    load: &PathLoad,
     commanded: &Track,
 ) -> Result<Option<Result<RewrittenProgram, String>>, StudyError> {
     let Some(robot) = analysis.source.robot() else {
@@ -192,7 +192,8 @@ impl TargetCorrections {
     /// The node of a target of a cut, with the correction `by`; none for a target given by joint positions.
     fn add(
         &mut self,
-        (target, line): (&Target, u32),
+        target: &Target,
+        line: u32,
         path_from_frame: Option<Isometry>,
         by: Vector3<f64>,
     ) -> Option<usize> {
@@ -278,7 +279,8 @@ impl Writer<'_> {
             let given = &self.robot.program.moves[of.index];
             let end = span.end.and_then(|end| {
                 corrections.add(
-                    (&given.target, given.line),
+                    &given.target,
+                    given.line,
                     of.path_from_frame,
                     self.correction(end),
                 )
@@ -286,8 +288,7 @@ impl Writer<'_> {
             let passed = via(given).zip(of.via).and_then(|(via, at)| {
                 let (nearest, part) = self.nearest(span, &at)?;
                 // At an end of the arc it would not determine its middle.
-                let node =
-                    corrections.add((via, given.line), of.path_from_frame, self.correction(nearest))?;
+                let node = corrections.add(via, given.line, of.path_from_frame, self.correction(nearest))?;
                 ((0.0..1.0).contains(&part) && part > 0.0).then_some((node, part))
             });
             for (index, t) in parts(span) {

@@ -102,8 +102,7 @@ pub struct Commanded<'a> {
 }
 
 /// Compensates every path of the study, or the one called `name`. A circle is closed: its first point is commanded
-/// again at
-/// its end.
+/// again at its end.
 ///
 /// # Errors
 /// No such path; a robot without compliance; a path that misses its stock; cancelled by the watch.
@@ -116,7 +115,7 @@ pub fn compensate<'a>(
     let runner = Runner::new(&study.robot.robot, watch)?;
     let all: Vec<Commanded<'a>> = study
         .paths(name)
-        .map(|(name, path)| of_path(&runner, (name, path), compensation))
+        .map(|(name, path)| of_path(&runner, name, path, compensation))
         .collect::<Result<_, _>>()?;
     if all.is_empty() {
         let message = match name {
@@ -131,8 +130,8 @@ pub fn compensate<'a>(
     Ok(all)
 }
 
-/// Points that the progress of [`compensate`] ends at: a path is followed once, and about
-/// three times more to determine the commanded one.
+/// Points that the progress of [`compensate`] ends at: a path is followed once, and about three times more to determine
+/// the commanded one.
 pub fn point_count(study: &Study, name: Option<&str>) -> usize {
     let of = |(_, path): (&str, &PathAnalysis)| {
         let again = usize::from(path.source.robot().is_some());
@@ -143,7 +142,8 @@ pub fn point_count(study: &Study, name: Option<&str>) -> usize {
 
 fn of_path<'a>(
     runner: &Runner<'_>,
-    (name, path): (&str, &'a PathAnalysis),
+    name: &str,
+    path: &'a PathAnalysis,
     compensation: Compensation,
 ) -> Result<Commanded<'a>, StudyError> {
     let closed;
@@ -172,7 +172,7 @@ fn of_path<'a>(
         compensation,
         runner.watch,
     )?;
-    let rewritten = in_place(runner, analysis, (&followed, &load), &found.track)?;
+    let rewritten = in_place(runner, analysis, &followed, &load, &found.track)?;
     let (in_place, notes) = match rewritten {
         None => (None, Vec::new()),
         Some(Ok(written)) => (Some(written), Vec::new()),
@@ -211,12 +211,7 @@ fn of_path<'a>(
         notes,
     };
     Ok(Commanded {
-        picture: picture(
-            name,
-            drawn,
-            (&before.deviations, before.case_count),
-            (&found, in_place.as_ref()),
-        ),
+        picture: picture(name, drawn, before, &found, in_place.as_ref()),
         csv: csv::write(&table(name, &found.track)?),
         setting: &path.setting,
         path: (found.track, found.along.answers),
@@ -286,8 +281,9 @@ const MOST_POINTS: usize = 1200;
 fn picture(
     name: &str,
     drawn: &Track,
-    (before, cases): (&[Vector3<f64>], usize),
-    (found, in_place): (&Compensated, Option<&RewrittenProgram>),
+    before: &Answers,
+    found: &Compensated,
+    in_place: Option<&RewrittenProgram>,
 ) -> String {
     let points = &drawn.path.points;
     let handful = points.len().div_ceil(MOST_POINTS).max(1);
@@ -305,7 +301,7 @@ fn picture(
     };
     let after = found.along.answers.case_count;
     let mut all = vec![
-        series("nominal", before, cases),
+        series("nominal", &before.deviations, before.case_count),
         series("compensated", &found.residual, after),
     ];
     all.extend(

@@ -44,8 +44,7 @@ pub struct PlacementAnswer {
     /// Seed of the search.
     pub seed: u64,
     /// Whether the tool turns with the part though the study does not say so: its inclination varies from point to
-    /// point, and
-    /// its spin is relative to the axes of base. The table of the path then has its spin at each point.
+    /// point, and its spin is relative to the axes of base. The table of the path then has its spin at each point.
     pub tool_turns_with_part: bool,
     /// Rounds that an earlier run, which was stopped, had done.
     pub rounds_taken_up: usize,

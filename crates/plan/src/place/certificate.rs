@@ -1,10 +1,8 @@
 //! Check for better placements on grids, near the best placement and over the whole range.
 //!
 //! Near it every degree of freedom is stepped in both directions. Over the whole range the pitch is as fine as the
-//! effort allows, the same in
-//! all millimetres and in all degrees. A placement is evaluated until it is known to be no better. For the largest
-//! deviation
-//! some points of the path may show that first; the others are evaluated completely.
+//! effort allows, the same in all millimetres and in all degrees. A placement is evaluated until it is known to be no
+//! better. For the largest deviation some points of the path may show that first; the others are evaluated completely.
 
 use armill_core::kernel::PartPlacement;
 use armill_core::optimize::{Objective, Placeable, RankBy, Score};

@@ -98,10 +98,11 @@ impl PlacementSearch<'_> {
     }
 
     /// Nothing free: the placement of the study.
-    fn nominal(&self) -> Freedom {
+    pub(super) fn nominal(&self) -> Freedom {
         let setting = &self.analysis.setting;
         Freedom::new(
-            (setting, self.rail()),
+            setting,
+            self.rail(),
             ToolTurn::of(&self.analysis.track),
             &PlaceTable::default(),
         )
@@ -119,11 +120,11 @@ fn part_placement(freedom: &Freedom, place: &PlacementParameters) -> PartPlaceme
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use armill_study::answer::answer;
-    use armill_study::file::resolve::Study;
-    use armill_study::file::resolve::read;
+    use armill_study::file::resolve::{Study, read};
     use armill_study::run::run;
+
+    use super::*;
 
     /// A circle with this plane under two cases.
     fn study(centre_mm: [f64; 3], tilt_deg: f64) -> Study {

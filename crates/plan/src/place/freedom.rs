@@ -1,4 +1,5 @@
-//! What may move, as numbers from 0 to 1, and the place that they mean. The formula is in [`armill_study::file::placement`].
+//! What may move, as numbers from 0 to 1, and the place that they mean. The formula is in
+//! [`armill_study::file::placement`].
 
 use armill_core::frame::{Isometry, fixed_angles};
 use armill_core::kernel::PartPlacement;
@@ -49,7 +50,7 @@ pub struct PlaceAnswer {
 impl Freedom {
     /// For a path with `setting` and its rail at `rail` (m), with the spin of the tool as in `turn`, within the
     /// bounds of `table`.
-    pub fn new((setting, rail): (&Setting, f64), turn: ToolTurn, table: &PlaceTable) -> Freedom {
+    pub fn new(setting: &Setting, rail: f64, turn: ToolTurn, table: &PlaceTable) -> Freedom {
         let base_from_reference = setting.base_from_reference;
         let reference_from_part = base_from_reference.inverse() * setting.plane.base_from_part;
         let tilt = setting.tilt.unwrap_or(0.0);

@@ -7,8 +7,7 @@
 //! `freedom`: free degrees; `search`: from spread placements to the best; `certificate`: whether grids contain a
 //! better one; `rounds`: all of that for every fixture and margin; [`journal`]: state of an interrupted
 //! search; [`answer`]: the values of the result; `result`: the study at the placement; `pictures`; [`evaluate`]:
-//! scores of
-//! given placements. Theory: `docs/theory/placement.md`.
+//! scores of given placements. Theory: `docs/theory/placement.md`.
 //!
 //! If fixtures are given each is searched separately, and the best is used. For the margin to limits and singularities
 //! the search is repeated for several margins, with the previous placement as an additional start.
@@ -38,8 +37,6 @@ use armill_core::path::{LoadedTrack, Spin};
 use armill_core::robot::{BranchPattern, Robot};
 use armill_core::watch::Watch;
 use armill_core::workpiece::Plane;
-
-use answer::rank_by_name;
 use armill_study::ENOUGH_JOINTS;
 use armill_study::analysis::Subject;
 use armill_study::analysis::path::PathAnalysis;
@@ -52,9 +49,11 @@ use armill_study::input::posture_search::{ComponentName, ObjectiveName};
 use armill_study::input::setting::Setting;
 use armill_study::joint_unit::JointUnit;
 use armill_study::number::decimals;
-use freedom::Freedom;
-use rounds::{Best, MARGINS_DEG, Prepared, Site};
-use search::Effort;
+
+use self::answer::rank_by_name;
+use self::freedom::Freedom;
+use self::rounds::{Best, FoundPlacements, MARGINS_DEG, Prepared, Site, SiteSearch};
+use self::search::Effort;
 
 /// Default range of the part in each direction, mm.
 const USUAL_MM: f64 = 300.0;
@@ -76,8 +75,7 @@ pub struct PlacementSearch<'a> {
 
 impl<'a> PlacementSearch<'a> {
     /// For the path named in `requested`, or in the table of the study, or the only one; what `requested` does not
-    /// give is
-    /// taken from the study, else the default.
+    /// give is taken from the study, else the default.
     ///
     /// # Errors
     /// No such path, or several; empty bounds; words that name no branch.
@@ -131,6 +129,11 @@ impl<'a> PlacementSearch<'a> {
             table,
             seed,
         })
+    }
+
+    /// Its study.
+    pub fn study(&self) -> &Study {
+        self.study
     }
 
     /// Name of the path.
@@ -199,7 +202,13 @@ impl<'a> PlacementSearch<'a> {
             given,
         };
         journal.take_up(prepared.fingerprint(&objective));
-        let mut best = prepared.best((objective, effort), "", None, journal)?;
+        let search = SiteSearch {
+            objective,
+            effort,
+            name: "",
+            also: None,
+        };
+        let mut best = prepared.best(&search, journal)?;
         let mut front = prepared.front(objective, &best, journal)?;
         if let Some((_, first)) = front.first() {
             best = first.clone();
@@ -208,12 +217,13 @@ impl<'a> PlacementSearch<'a> {
         if let Some((_, first)) = front.first_mut() {
             *first = best.clone();
         }
-        let answer = self.answer(
-            &prepared,
-            objective,
-            (&best, certificate, &front),
-            journal.taken(),
-        );
+        let found = FoundPlacements {
+            best,
+            certificate,
+            front,
+        };
+        let answer = self.answer(&prepared, objective, &found, journal.taken());
+        let best = found.best;
         let freedom = &sites[best.site].freedom;
         let mut pictures = prepared
             .searched(freedom, objective, effort)
@@ -234,13 +244,12 @@ impl<'a> PlacementSearch<'a> {
         &self,
         prepared: &Prepared<'_>,
         objective: PlacementObjective,
-        (best, certificate, front): (&Best, CertificateAnswer, &[(f64, Best)]),
+        found: &FoundPlacements,
         rounds_taken_up: usize,
     ) -> PlacementAnswer {
         let (track, setting) = (&self.analysis.track, &self.analysis.setting);
         let turn = ToolTurn::of(track);
-        let rail = self.rail();
-        let drawn = Freedom::new((setting, rail), turn, &PlaceTable::default());
+        let drawn = self.nominal();
         let as_requested = PlacementObjective {
             branches: match setting.choice {
                 BranchChoice::Of(pattern) => pattern,
@@ -256,6 +265,7 @@ impl<'a> PlacementSearch<'a> {
             )
         };
         let of = |best: &Best| &prepared.sites[best.site];
+        let best = &found.best;
         let place = of(best).freedom.answer(&best.spot.at);
         PlacementAnswer {
             format: 1,
@@ -270,8 +280,8 @@ impl<'a> PlacementSearch<'a> {
             home_deg: place.rail_mm.and_then(|rail| self.home_with_rail(rail)),
             place,
             free: of(best).freedom.reported(&best.spot.at),
-            certificate,
-            by_margin: front
+            certificate: found.certificate.clone(),
+            by_margin: (found.front)
                 .iter()
                 .map(|(margin, best)| MarginAnswer {
                     margin_deg: decimals(margin.to_degrees(), 4),
@@ -366,7 +376,7 @@ impl<'a> PlacementSearch<'a> {
         if self.table.fixture.is_empty() {
             return vec![Site {
                 name: None,
-                freedom: Freedom::new((setting, self.rail()), turn, &self.table),
+                freedom: Freedom::new(setting, self.rail(), turn, &self.table),
             }];
         }
         let at = |fixture: &'_ FixtureTable| {
@@ -376,7 +386,7 @@ impl<'a> PlacementSearch<'a> {
                 tilt,
                 ..setting.clone()
             };
-            Freedom::new((&there, self.rail()), turn, &self.table)
+            Freedom::new(&there, self.rail(), turn, &self.table)
         };
         let sites = self.table.fixture.iter().map(|fixture| Site {
             name: Some(&fixture.name),

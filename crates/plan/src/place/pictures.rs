@@ -58,7 +58,7 @@ impl Searched<'_> {
         }
         pairs
             .into_iter()
-            .map(|pair| self.section(best, answer, (pair, &free), watch))
+            .map(|pair| self.section(best, answer, pair, watch))
             .collect()
     }
 
@@ -66,9 +66,10 @@ impl Searched<'_> {
         &self,
         best: &Spot,
         answer: &PlacementAnswer,
-        (pair, free): ([usize; 2], &[(usize, [f64; 2])]),
+        pair: [usize; 2],
         watch: Watch<'_>,
     ) -> Result<Picture, Cancelled> {
+        let free: Vec<(usize, [f64; 2])> = self.freedom.free().collect();
         let parts: Vec<f64> = (0..CELLS).map(|k| k as f64 / (CELLS - 1) as f64).collect();
         let mut placements: Vec<PartPlacement> = Vec::with_capacity(CELLS * CELLS);
         for across in &parts {

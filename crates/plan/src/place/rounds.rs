@@ -29,6 +29,24 @@ pub(super) struct Best {
     pub spot: Spot,
 }
 
+/// A search over all sites.
+pub(super) struct SiteSearch<'a> {
+    pub objective: PlacementObjective,
+    pub effort: Effort,
+    /// Its rounds are kept under this name.
+    pub name: &'a str,
+    /// One more place to start from.
+    pub also: Option<&'a Best>,
+}
+
+/// The result of all searches of one path.
+pub(super) struct FoundPlacements {
+    pub best: Best,
+    pub certificate: CertificateAnswer,
+    /// The best placement for each margin, rad.
+    pub front: Vec<(f64, Best)>,
+}
+
 /// Data common to all searches of one path.
 pub(super) struct Prepared<'a> {
     pub of: &'a PlacementSearch<'a>,
@@ -62,14 +80,14 @@ impl Prepared<'_> {
         }
     }
 
-    /// The best place of all sites; `also` is one more place to start from. Rounds are kept under `name`.
-    pub fn best(
-        &self,
-        (objective, effort): (PlacementObjective, Effort),
-        name: &str,
-        also: Option<&Best>,
-        journal: &mut Journal<'_>,
-    ) -> Result<Best, StudyError> {
+    /// The best place of all sites.
+    pub fn best(&self, search: &SiteSearch<'_>, journal: &mut Journal<'_>) -> Result<Best, StudyError> {
+        let SiteSearch {
+            objective,
+            effort,
+            name,
+            also,
+        } = *search;
         let mut best: Option<Best> = None;
         for (site, of) in self.sites.iter().enumerate() {
             let searched = self.searched(&of.freedom, objective, effort);
@@ -204,10 +222,13 @@ impl Prepared<'_> {
                 continue;
             }
             let objective = PlacementObjective { margin, ..objective };
-            let effort = self.effort.cheaper();
-            let name = format!("margin {:.0} ", margin.to_degrees());
-            let also = front.last().map(|(_, best)| best);
-            let found = self.best((objective, effort), &name, also, journal)?;
+            let search = SiteSearch {
+                objective,
+                effort: self.effort.cheaper(),
+                name: &format!("margin {:.0} ", margin.to_degrees()),
+                also: front.last().map(|(_, best)| best),
+            };
+            let found = self.best(&search, journal)?;
             if found.spot.score.unreachable > 0 {
                 break;
             }
