@@ -93,7 +93,7 @@ pub(super) fn at_hole(
         joints: joints_at(&found.answers, index),
         link_offsets: None,
     };
-    Ok(turned((track, load), index, found.spins[index], pose))
+    Ok(turned(track, load, index, found.spins[index], pose))
 }
 
 /// A point of this track with the tool turned about its axis by a further `spin` (rad).
