@@ -76,4 +76,4 @@ def test_the_placement_is_found_and_is_robust_to_other_compliances():
     text, pictures = ran("placement-with-sensitivity")
     assert pictures == 2
     assert "nominal   cost 139.74 um (the study reports 139.74)" in text
-    assert "the placement found is better in 100.0 % of all draws" in text and "U twice as soft" in text
+    assert "the recommended placement is better in 100.0 % of all draws" in text and "U twice as soft" in text

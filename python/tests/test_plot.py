@@ -403,7 +403,7 @@ def test_a_placement_shows_its_front_and_the_costs_that_are_given():
     line = lines(front)["smallest, by margin"]
     assert line.get_xydata().tolist() == [[each["margin_deg"], each["cost_um"]] for each in found["by_margin"]]
     assert f"nominal {plot._style.number(found['nominal']['cost_um'])} µm" in legend(front)
-    assert lines(tilt)["others as found"].get_xdata()[0] == 60 and tilt.get_xlabel() == "tilt of the part (deg)"
+    assert lines(tilt)["others as recommended"].get_xdata()[0] == 60 and tilt.get_xlabel() == "tilt of the part (deg)"
     assert plot.placement(found)[0].get_ylabel() == "largest in-plane deviation (µm)"
     with pytest.raises(plot.Missing, match="tilt is not a coordinate"):
         plot.placement(found, {"tilt": ([1], [1])})

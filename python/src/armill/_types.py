@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping
-from typing import Any, Literal, Protocol, TypeAlias
-
-import numpy.typing as npt
+from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias
 
 from armill._armill import Robot, Study
+
+if TYPE_CHECKING:
+    # The import of armill does not load numpy.
+    import numpy.typing as npt
 
 Path: TypeAlias = str | os.PathLike[str]
 #: A robot, its name in the library, or the path of a robot file.
@@ -62,7 +64,7 @@ class ArrowStream(Protocol):
 
 
 #: The path of a table, a data frame, an Arrow table, or arrays by column name.
-TableLike: TypeAlias = Path | ArrowStream | Mapping[str, npt.ArrayLike]
+TableLike: TypeAlias = "Path | ArrowStream | Mapping[str, npt.ArrayLike]"
 
 
 class SE3(Protocol):
@@ -79,4 +81,4 @@ class Transform(Protocol):
 
 
 #: Matrices (..., 4, 4), poses of spatialmath, transforms of scipy, or a pair of rotations of scipy and translations.
-Poses: TypeAlias = npt.ArrayLike | SE3 | Transform | tuple[Transform, npt.ArrayLike]
+Poses: TypeAlias = "npt.ArrayLike | SE3 | Transform | tuple[Transform, npt.ArrayLike]"

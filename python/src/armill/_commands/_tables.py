@@ -10,8 +10,6 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, cast
 
-import numpy as np
-
 from armill import _armill
 
 
@@ -72,6 +70,9 @@ def _columns(table: Any) -> dict[str, list[Any]]:
 
 
 def _values(name: str, values: Any) -> list[Any]:
+    # The import of armill does not load numpy.
+    import numpy as np
+
     array = np.ma.asanyarray(values) if np.ma.isMaskedArray(values) else np.asarray(values)
     if array.ndim != 1:
         raise ValueError(f"column `{name}` has the shape {array.shape}: expected (rows,)")

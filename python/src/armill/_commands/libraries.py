@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
-import numpy.typing as npt
+from typing import TYPE_CHECKING, Literal
 
 from armill._answer import Answer
 from armill._commands._call import call, command
 from armill._types import Path, Progress, RobotLike
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
 
 
 @command

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-
-import numpy.typing as npt
+from typing import TYPE_CHECKING
 
 from armill._answer import Answer
 from armill._commands._call import call, command
 from armill._types import Component, Objective, Path, Progress, RankBy, RobotLike, StudyLike
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
 
 
 @command
