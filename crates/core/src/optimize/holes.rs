@@ -37,7 +37,8 @@ pub struct HolesFound {
 /// [`Cancelled`] if the watch cancels.
 ///
 /// # Panics
-/// If the load does not [cover](PathLoad::covers) the points of the track, or there is no point or no spin.
+/// If the load does not [cover](crate::load::PathLoad::covers) the points of the track, or there is no point or no
+/// spin.
 pub fn hole_postures(
     question: &Question<'_>,
     path: LoadedTrack<'_>,

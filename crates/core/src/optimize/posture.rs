@@ -125,7 +125,7 @@ pub(super) const WITHIN: f64 = 1e-3;
 /// [`Cancelled`] if the watch cancels.
 ///
 /// # Panics
-/// If the load does not [cover](PathLoad::covers) the points of the track, or there is no spin.
+/// If the load does not [cover](crate::load::PathLoad::covers) the points of the track, or there is no spin.
 pub fn postures_along(
     question: &Question<'_>,
     path: LoadedTrack<'_>,
