@@ -3145,8 +3145,7 @@ export interface components {
             /**
              * Format: double
              * @description Standard deviation of ball-bar runs of the same direction; if no direction has two, that of the robot file or
-             *     study;
-             *     none if neither gives it.
+             *     study; none if neither gives it.
              */
             repeatability_um: number | null;
             /** @description Their combinations. */

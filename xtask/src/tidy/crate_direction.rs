@@ -234,7 +234,8 @@ mod tests {
     #[test]
     fn dependencies_downwards_pass_and_one_that_is_missing_is_reported() {
         let three = "[dependencies]\narmill-core.workspace = true\narmill-formats = \"1\"\narmill-report = \"1\"\nserde = \"1\"\n";
-        let three = &format!("{three}armill-web = \"1\"\n");
+        let ours = ["measure", "plan", "programs", "web"].map(|name| format!("armill-{name} = \"1\"\n"));
+        let three = &format!("{three}{}", ours.concat());
         let all = format!("{three}armill-study = \"1\"\n");
         assert!(reported(&[("crates/cli/Cargo.toml", &all)]).is_empty());
         assert_eq!(

@@ -12,7 +12,7 @@ const SLICES: usize = 8;
 
 /// Slices of a box across base x, as seen from the robot.
 ///
-/// At most [`SLICES`] of them, the first and the last among them; y grows to the left.
+/// At most eight of them, the first and the last among them; y grows to the left.
 pub fn slices(name: &str, volume: &VolumeMap, setting: &Setting) -> Picture {
     let [nx, ny, nz] = volume.grid.counts;
     let count = nx.min(SLICES);
