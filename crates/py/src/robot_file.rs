@@ -21,7 +21,7 @@ impl RobotFile {
     /// # Errors
     /// A robot that cannot be written.
     pub(crate) fn of(py: Python<'_>, robot: &Robot) -> PyResult<RobotFile> {
-        if let Some(name) = robot.source.library_name() {
+        if let Some(name) = robot.source.name_in_library() {
             return Ok(RobotFile {
                 path: name.to_owned(),
                 _folder: None,

@@ -124,7 +124,7 @@ impl RobotSource {
     }
 
     /// Its name, if it is a robot of the library as it is.
-    pub(crate) fn library_name(&self) -> Option<&str> {
+    pub(crate) fn name_in_library(&self) -> Option<&str> {
         let mut entries = library::ROBOTS.iter();
         let found = entries.find(|entry| entry.name == self.name && entry.text.as_bytes() == self.bytes)?;
         self.compliance.is_none().then_some(found.name)

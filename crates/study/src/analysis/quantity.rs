@@ -1,8 +1,8 @@
 //! What is known of a point of an analysis: the closed list of quantities.
 //!
-//! Tables, VTK files and the page take their columns from it. Each quantity names the function that computes it, the
-//! page of the theory with its equations, and the case that compares it with the numbers of others: from any number
-//! to its proof in three steps. The page `docs/guide/quantities.md` is made from this list.
+//! Tables and VTK files take their columns from it. Each quantity names the function that computes it, the page of the
+//! theory with its equations, and the case that compares it with the numbers of others, as far as there
+//! are any. The page `docs/guide/quantities.md` is made from this list.
 //!
 //! Capitals in a key stand for a name or number: `share_NAME_um` is one column for each contributor.
 
@@ -25,12 +25,12 @@ pub struct Quantity {
 /// Where a quantity comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Origin {
-    /// The file that computes it, below `crates/core/src/`.
+    /// The file that computes it, below `crates/`.
     pub file: &'static str,
     /// The function there, behind the name of its type if it has one.
     pub function: &'static str,
-    /// The page of `docs/theory/` with its equations.
-    pub theory: &'static str,
+    /// The page of `docs/theory/` with its equations; none if no page has them yet.
+    pub theory: Option<&'static str>,
     /// The folder of `validation/` that compares it with the numbers of others; none if nothing does yet.
     pub validation: Option<&'static str>,
 }
@@ -69,39 +69,45 @@ const fn input(key: &'static str, unit: Option<&'static str>, decimals: u8, word
 }
 
 const SUM: Origin = Origin {
-    file: "predict.rs",
+    file: "core/src/predict.rs",
     function: "predict",
-    theory: "deviation",
+    theory: Some("deviation"),
     validation: Some("force-to-deflection"),
 };
 const ON_PLANE: Origin = Origin {
-    file: "workpiece.rs",
+    file: "core/src/workpiece.rs",
     function: "Split::of",
-    theory: "deviation",
+    theory: Some("deviation"),
     validation: Some("plane-split"),
 };
 const ALONG_TRACK: Origin = Origin {
-    file: "path/track.rs",
+    file: "core/src/path/track.rs",
     function: "Track::parts",
-    theory: "deviation",
-    validation: Some("plane-split"),
+    theory: Some("deviation"),
+    validation: None,
 };
 const WITHOUT_LOAD: Origin = Origin {
-    file: "predict.rs",
+    file: "core/src/predict.rs",
     function: "geometry_and_backlash",
-    theory: "unloaded",
-    validation: Some("joint-backlash-closed-forms"),
+    theory: Some("unloaded"),
+    validation: None,
 };
 const POSTURE: Origin = Origin {
-    file: "robot/inverse/mod.rs",
+    file: "core/src/robot/inverse/mod.rs",
     function: "postures",
-    theory: "inverse",
+    theory: Some("inverse"),
     validation: Some("inverse-vs-opw"),
 };
 const SPIN: Origin = Origin {
-    file: "optimize/posture.rs",
+    file: "core/src/optimize/posture.rs",
     function: "postures_along",
-    theory: "placement",
+    theory: None,
+    validation: None,
+};
+const IN_HOLE: Origin = Origin {
+    file: "study/src/analysis/holes/answer.rs",
+    function: "error",
+    theory: None,
     validation: None,
 };
 
@@ -110,9 +116,9 @@ pub const LIMIT_MARGIN: Quantity = angle(
     "limit_margin_deg",
     "least distance of a joint to its limit (mm for a prismatic joint), negative outside",
     Origin {
-        file: "robot/model.rs",
+        file: "core/src/robot/model.rs",
         function: "Robot::limit_margin",
-        theory: "inverse",
+        theory: None,
         validation: Some("mh12-readings"),
     },
 );
@@ -123,7 +129,12 @@ pub const WORST_CASE: Quantity = Quantity {
     ..deviation(
         "worst_case",
         "load case with the largest in-plane deviation, from 1",
-        ON_PLANE,
+        Origin {
+            file: "core/src/kernel/mod.rs",
+            function: "evaluate",
+            validation: None,
+            ..ON_PLANE
+        },
     )
 };
 /// The envelope across the normal.
@@ -152,9 +163,9 @@ pub const PROBABILITY_WITHIN: Quantity = Quantity {
         "probability_within",
         "probability that the in-plane deviation is within the tolerance",
         Origin {
-            file: "map/certainty.rs",
+            file: "core/src/map/certainty.rs",
             function: "probability_within",
-            theory: "deviation",
+            theory: Some("deviation"),
             validation: None,
         },
     )
@@ -190,7 +201,7 @@ pub const SHARE: Quantity = deviation(
     "share_NAME_um",
     "share of the joint (base, flange, tool, geometry, thermal growth) in the in-plane deviation; the sum of the shares is the deviation",
     Origin {
-        validation: Some("tx200-compliance"),
+        validation: None,
         ..SUM
     },
 );
@@ -244,19 +255,19 @@ pub const AXIAL: Quantity = deviation(
 /// The part without load, along the track.
 pub const UNLOADED_ALONG: Quantity = deviation(
     "unloaded_along_um",
-    "part of along_um due to backlash and geometry",
+    "part of along_um due to backlash, geometry and thermal growth",
     WITHOUT_LOAD,
 );
 /// The part without load, across the track.
 pub const UNLOADED_CROSS: Quantity = deviation(
     "unloaded_cross_um",
-    "part of cross_um due to backlash and geometry",
+    "part of cross_um due to backlash, geometry and thermal growth",
     WITHOUT_LOAD,
 );
 /// The part without load, along the tool.
 pub const UNLOADED_AXIAL: Quantity = deviation(
     "unloaded_axial_um",
-    "part of axial_um due to backlash and geometry",
+    "part of axial_um due to backlash, geometry and thermal growth",
     WITHOUT_LOAD,
 );
 
@@ -267,9 +278,9 @@ pub const WRIST_BEND: Quantity = angle(
     "wrist_bend_deg",
     "angle between axes 4 and 6; empty for an arm without named branches",
     Origin {
-        file: "robot/jacobian.rs",
+        file: "core/src/robot/jacobian.rs",
         function: "wrist_bend",
-        theory: "inverse",
+        theory: None,
         validation: None,
     },
 );
@@ -277,16 +288,16 @@ pub const WRIST_BEND: Quantity = angle(
 pub const HOLE_X: Quantity = deviation(
     "hole_x_um",
     "deviation across the hole, along x of the part projected into its plane",
-    ON_PLANE,
+    IN_HOLE,
 );
 /// Across a hole.
 pub const HOLE_Y: Quantity = deviation(
     "hole_y_um",
     "deviation across the hole, to the left of its x",
-    ON_PLANE,
+    IN_HOLE,
 );
 /// Along a hole.
-pub const DEPTH: Quantity = deviation("depth_um", "deviation out of the part: too shallow", ON_PLANE);
+pub const DEPTH: Quantity = deviation("depth_um", "deviation out of the part: too shallow", IN_HOLE);
 
 /// All quantities, in the order of the tables: of a path, of holes, of every analysis.
 pub const ALL: [&Quantity; 26] = [
