@@ -3924,10 +3924,9 @@ export interface components {
             in_plane_um: number;
             /**
              * Format: double
-             * @description Its standard uncertainty, from compliances, load, tool length, repeatability and model error; of postures with a
-             *     name.
+             * @description Its standard uncertainty, from compliances, load, tool length, repeatability and model error.
              */
-            in_plane_u_um: number | null;
+            in_plane_u_um: number;
             /**
              * Format: double
              * @description Along the outward normal.
@@ -3944,11 +3943,8 @@ export interface components {
                 number,
                 number
             ];
-            /**
-             * @description Share of each of `answer.contributors` in the in-plane deviation; their sum is the deviation. Of postures with a
-             *     name.
-             */
-            share_um: number[] | null;
+            /** @description Share of each of `answer.contributors` in the in-plane deviation; their sum is the deviation. */
+            share_um: number[];
             /**
              * Format: double
              * @description Force that meets the tolerance in the direction of this case; none without a force or without an in-plane

@@ -38,10 +38,7 @@ export type Follow = Schemas["Follow"];
 export type Extremes = Schemas["ExtremesAnswer"];
 export type ArmDrawing = Schemas["DrawnPosture"];
 export type DrawnMesh = Schemas["DrawnMesh"];
-/** Uncertainty, shares and permissible forces exist for postures with a named branch. */
 export type CaseValues = Schemas["CaseAnswer"] & {
-  in_plane_u_um?: number | null;
-  share_um?: number[] | null;
   permissible_along_load_n?: number | null;
   permissible_any_direction_n?: number | null;
 };

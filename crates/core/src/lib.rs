@@ -30,6 +30,7 @@ pub mod robot;
 pub mod roundness;
 pub mod source;
 pub mod spatial;
+pub mod units;
 pub mod watch;
 pub mod workpiece;
 

@@ -10,7 +10,7 @@
 mod arms;
 
 use armill_core::frame::Isometry;
-use armill_core::kernel::{BranchChoice, Evaluation, Question, evaluate_on_path};
+use armill_core::kernel::{BranchChoice, Evaluation, Question, evaluate, evaluate_posture};
 use armill_core::load::InputUncertainty;
 use armill_core::measure::pose_accuracy::{Attained, pose_accuracy};
 use armill_core::nalgebra::{Unit, Vector3};
@@ -18,6 +18,7 @@ use armill_core::predict::predict;
 use armill_core::robot::{Backlash, BacklashSide, JointCompliance, Robot};
 use armill_core::source::{Arm, ArmState, Links, StiffnessModel, repeatability};
 use armill_core::spatial::Wrench;
+use armill_core::watch::Watch;
 use arms::Stream;
 
 const DRAWS: usize = 20_000;
@@ -69,7 +70,8 @@ impl Cell {
             choice: BranchChoice::Of(self.robot.nominal_branch()),
             ..Question::unloaded(self.arm(&self.compliance, &self.model, &tool), None)
         };
-        let answers = evaluate_on_path(&question, &self.pose(), &self.link_offsets);
+        let at_pose = evaluate(&question, 1, |_| self.pose(), Watch::NONE).unwrap();
+        let answers = evaluate_posture(&question, at_pose.joints_at(0), Some(&self.link_offsets));
         (
             *answers.points[0].as_ref().unwrap(),
             answers.joints_at(0).to_vec(),

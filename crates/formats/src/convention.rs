@@ -17,6 +17,7 @@
 
 use armill_core::frame::{Isometry, fixed_angles, from_xyz_and_fixed_angles};
 use armill_core::nalgebra::{Quaternion, Translation3, UnitQuaternion, Vector3};
+use armill_core::units::{from_deg, from_mm, to_deg, to_mm};
 
 /// How a maker writes an orientation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -125,7 +126,7 @@ impl Convention {
             if (quaternion.norm() - 1.0).abs() > UNIT {
                 return Err(PoseError::NotUnit(quaternion.norm()));
             }
-            let translation = Translation3::new(x * 1e-3, y * 1e-3, z * 1e-3);
+            let translation = Translation3::new(from_mm(x), from_mm(y), from_mm(z));
             return Ok(Isometry::from_parts(
                 translation,
                 UnitQuaternion::from_quaternion(quaternion),
@@ -134,14 +135,13 @@ impl Convention {
         let [x, y, z, a, b, c] = *numbers else {
             return Err(wrong_count());
         };
-        let position = Vector3::new(x, y, z) * 1e-3;
-        let fixed = |x: f64, y: f64, z: f64| {
-            from_xyz_and_fixed_angles(position, Vector3::new(x, y, z).map(f64::to_radians))
-        };
+        let position = from_mm(Vector3::new(x, y, z));
+        let fixed =
+            |x: f64, y: f64, z: f64| from_xyz_and_fixed_angles(position, Vector3::new(x, y, z).map(from_deg));
         Ok(match self {
             Convention::Kuka => fixed(c, b, a),
             Convention::Staubli => {
-                let about = |axis, deg: f64| UnitQuaternion::from_axis_angle(&axis, deg.to_radians());
+                let about = |axis, deg: f64| UnitQuaternion::from_axis_angle(&axis, from_deg(deg));
                 let turn =
                     about(Vector3::x_axis(), a) * about(Vector3::y_axis(), b) * about(Vector3::z_axis(), c);
                 Isometry::from_parts(position.into(), turn)
@@ -158,19 +158,18 @@ impl Convention {
     ///
     /// Of the quaternions that mean one rotation the one with real part >= 0.
     pub fn numbers_of(self, pose: &Isometry) -> Vec<f64> {
-        let place = pose.translation.vector * 1e3;
+        let place = to_mm(pose.translation.vector);
         let turn = match self {
             Convention::Kuka => {
-                let fixed = fixed_angles(&pose.rotation).map(f64::to_degrees);
+                let fixed = fixed_angles(&pose.rotation).map(to_deg);
                 vec![fixed.z, fixed.y, fixed.x]
             }
-            Convention::Fanuc | Convention::Yaskawa => fixed_angles(&pose.rotation)
-                .map(f64::to_degrees)
-                .as_slice()
-                .to_vec(),
+            Convention::Fanuc | Convention::Yaskawa => {
+                fixed_angles(&pose.rotation).map(to_deg).as_slice().to_vec()
+            }
             // Turns about moving axes x, y, z are those about the fixed axes of the inverse, the other way round.
             Convention::Staubli => (-fixed_angles(&pose.rotation.inverse()))
-                .map(f64::to_degrees)
+                .map(to_deg)
                 .as_slice()
                 .to_vec(),
             Convention::Ur => pose.rotation.scaled_axis().as_slice().to_vec(),

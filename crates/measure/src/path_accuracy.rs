@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 
 use armill_core::measure::path_accuracy::{CYCLES, PathAccuracy, PointAccuracy, path_accuracy};
 use armill_core::nalgebra::Vector3;
+use armill_core::units::{to_mm, to_um};
 use armill_formats::input;
 use armill_formats::measurement::trace::{self, Traces};
 use armill_formats::table::{Column, ColumnData, Table, csv};
@@ -153,10 +154,10 @@ pub fn answer(measured: &Measured) -> Result<(PathAccuracy, PathAccuracyAnswer),
         cycles: found.cycles,
         points: found.points.len(),
         not_passed: found.not_passed,
-        at_mm: reported(most * 1e3),
+        at_mm: reported(to_mm(most)),
         at_worst: place(&found.points[at]),
-        at_mean_mm: reported(sum / found.points.len() as f64 * 1e3),
-        rt_mm: repeated.map(|(_, rt)| reported(rt * 1e3)),
+        at_mean_mm: reported(to_mm(sum / found.points.len() as f64)),
+        rt_mm: repeated.map(|(_, rt)| reported(to_mm(rt))),
         rt_worst: repeated.map(|(at, _)| place(&found.points[at])),
         unused: measured.unused.clone(),
         notes: notes(&found),
@@ -209,15 +210,13 @@ pub fn points(measured: &Measured, found: &PathAccuracy) -> Result<Vec<u8>, Stud
         columns.push(column(name, ColumnData::Float(all().map(of).collect())));
     };
     for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
-        floats(&format!("{letter}_mm"), &|point| point.commanded[axis] * 1e3);
+        floats(&format!("{letter}_mm"), &|point| to_mm(point.commanded[axis]));
     }
     for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
-        floats(&format!("offset_{letter}_mm"), &|point| point.offset[axis] * 1e3);
+        floats(&format!("offset_{letter}_mm"), &|point| to_mm(point.offset[axis]));
     }
-    floats("at_mm", &|point| point.offset.norm() * 1e3);
-    let rt = all()
-        .map(|point| point.repeatability.map(|rt| rt * 1e3))
-        .collect();
+    floats("at_mm", &|point| to_mm(point.offset.norm()));
+    let rt = all().map(|point| point.repeatability.map(to_mm)).collect();
     columns.push(column("rt_mm", ColumnData::OptionalFloat(rt)));
     Ok(csv::write(&Table::new("points", columns)?))
 }
@@ -232,13 +231,13 @@ pub fn drawing(reported: &PathAccuracyAnswer, found: &PathAccuracy) -> String {
         .map(|point| {
             along += before.map_or(0.0, |before| (point.commanded - before).norm());
             before = Some(point.commanded);
-            along * 1e3
+            to_mm(along)
         })
         .collect();
     let series = |name: &str, of: &dyn Fn(&PointAccuracy) -> f64| Series {
         name: name.to_owned(),
         position: position.clone(),
-        deviation_um: found.points.iter().map(|point| of(point) * 1e6).collect(),
+        deviation_um: found.points.iter().map(|point| to_um(of(point))).collect(),
     };
     let mut all = vec![series("barycentre from the path (AT is the largest)", &|point| {
         point.offset.norm()
@@ -266,7 +265,7 @@ pub fn drawing(reported: &PathAccuracyAnswer, found: &PathAccuracy) -> String {
 }
 
 fn mm(vector: Vector3<f64>) -> [f64; 3] {
-    [0, 1, 2].map(|axis| reported(vector[axis] * 1e3))
+    [0, 1, 2].map(|axis| reported(to_mm(vector[axis])))
 }
 
 /// To a nanometre.

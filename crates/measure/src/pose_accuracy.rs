@@ -13,6 +13,7 @@ use armill_core::measure::pose_accuracy::{
 };
 use armill_core::nalgebra::{UnitQuaternion, Vector3};
 use armill_core::robot::Robot;
+use armill_core::units::{to_deg, to_mm};
 use armill_formats::measurement::poses::MeasuredPoses;
 use armill_study::StudyError;
 use serde::Serialize;
@@ -250,20 +251,20 @@ fn of_pose(measured: &MeasuredPoses, visits: &[[Attained; 2]], places: &[usize])
             .map(|(turn, offset)| UnitQuaternion::from_scaled_axis(offset) * turn),
     };
     let found: PoseAccuracy = pose_accuracy(&meant, &attained)?;
-    let mm = |vector: Vector3<f64>| [0, 1, 2].map(|axis| reported(vector[axis] * 1e3));
-    let deg = |vector: Vector3<f64>| [0, 1, 2].map(|axis| reported(vector[axis].to_degrees()));
+    let mm = |vector: Vector3<f64>| [0, 1, 2].map(|axis| reported(to_mm(vector[axis])));
+    let deg = |vector: Vector3<f64>| [0, 1, 2].map(|axis| reported(to_deg(vector[axis])));
     Some(PoseAnswer {
         name: match &measured.names {
             Some(names) => names[places[0]].clone(),
             None => format!("line {}", measured.lines[places[0]]),
         },
         cycles: found.cycles,
-        ap_mm: reported(found.accuracy() * 1e3),
+        ap_mm: reported(to_mm(found.accuracy())),
         ap_xyz_mm: mm(found.offset),
-        rp_mm: reported(found.repeatability? * 1e3),
+        rp_mm: reported(to_mm(found.repeatability?)),
         ap_turn_deg: found.turn_offset.map(deg),
         rp_turn_deg: found.turn_repeatability.map(deg),
-        vap_mm: variation(measured, visits, places).map(|vap| reported(vap * 1e3)),
+        vap_mm: variation(measured, visits, places).map(|vap| reported(to_mm(vap))),
     })
 }
 

@@ -7,6 +7,7 @@
 //! A step is used only if it improves the path. The resulting study is run and written as any other.
 
 use armill_core::optimize::Compensation;
+use armill_core::units::{to_mm, to_um};
 use armill_core::watch::Watch;
 use armill_study::analysis::path::PathAnalysis;
 use armill_study::analysis::path::run::PathResult;
@@ -149,11 +150,11 @@ pub fn advise(
         format: 1,
         analysis: name.to_owned(),
         advice: Vec::new(),
-        tolerance_um: analysis.setting.tolerance * 1e6,
+        tolerance_um: to_um(analysis.setting.tolerance),
         force_factor: recommended
             .max_in_plane_um
             .filter(|um| *um > 0.0 && analysis.setting.model.is_drives_alone())
-            .map(|um| analysis.setting.tolerance * 1e6 / um),
+            .map(|um| to_um(analysis.setting.tolerance) / um),
         nominal,
         recommended,
         placement: placed.answer,
@@ -245,12 +246,12 @@ fn out_of_tolerance(
         Some(StretchAnswer {
             first_line: points[first].line,
             last_line: points[last].line,
-            from_mm: points[first].along * 1e3,
-            to_mm: points[last].along * 1e3,
+            from_mm: to_mm(points[first].along),
+            to_mm: to_mm(points[last].along),
             points: stretch.len(),
             unreachable: stretch.iter().filter(|index| answers[**index].is_err()).count(),
             max_in_plane_um: evaluation
-                .map(|evaluation| evaluation.in_plane * 1e6)
+                .map(|evaluation| to_um(evaluation.in_plane))
                 .fold(0.0, f64::max),
             mostly_by: worst.map(|(_, worst)| {
                 largest_contributor(&study.robot.robot, &worst.point, &path.setting.contributors)

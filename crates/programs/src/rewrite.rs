@@ -5,6 +5,7 @@
 //! offset: [`RobotProgram::check_rewritten`] reads the new files and compares every move.
 
 use armill_core::frame::Isometry;
+use armill_core::units::to_um;
 
 use super::languages::{read_as, spell};
 use super::program::{Frame, Motion, RobotProgram, Spelled, Target};
@@ -97,7 +98,7 @@ impl RobotProgram {
             if one.spelled == other.spelled && apart > SAME_PLACE {
                 return Err(RewriteError::Shared {
                     lines: [one.line, other.line],
-                    apart_um: apart * 1e6,
+                    apart_um: to_um(apart),
                 });
             }
         }
@@ -221,7 +222,7 @@ fn compare(found: Isometry, expected: Isometry, line: u32) -> Result<(), Rewrite
         true => Ok(()),
         false => Err(RewriteError::Leans {
             line,
-            apart_um: apart * 1e6,
+            apart_um: to_um(apart),
         }),
     }
 }

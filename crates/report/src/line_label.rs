@@ -14,6 +14,7 @@ use crate::font::{Weight, text_width_px};
 use crate::line::Stations;
 use crate::page::text_box;
 use crate::svg::{Anchor, Point, Rect, Style, Svg, Text};
+use armill_core::units::{from_deg, to_deg};
 
 /// Distance of trial places along a line.
 const TRIAL_STEP_PX: f64 = 6.0;
@@ -100,7 +101,7 @@ pub(crate) fn write_labels(svg: &mut Svg, lines: &[Labelled], room: &LabelRoom<'
                 break;
             };
             own.push((at, SAME_LINE_PX));
-            let (sin, cos) = turn_deg.to_radians().sin_cos();
+            let (sin, cos) = from_deg(turn_deg).sin_cos();
             let count = (half[0] / half[1]).ceil().max(1.0) as usize;
             for k in 0..=2 * count {
                 let d = half[0] * (k as f64 / count as f64 - 1.0);
@@ -155,7 +156,7 @@ impl LabelPosition {
 
     /// The turn of the text: steep lines read upwards, like the vertical axis.
     fn turn_deg(&self) -> f64 {
-        let turn = self.sin.atan2(self.cos).to_degrees();
+        let turn = to_deg(self.sin.atan2(self.cos));
         if turn > STEEPEST_DEG {
             turn - 180.0
         } else if turn <= STEEPEST_DEG - 180.0 {

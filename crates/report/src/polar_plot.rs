@@ -15,6 +15,7 @@ use crate::page::{BORDER_PX, Heading};
 use crate::plane::Growth;
 use crate::svg::{Point, Style, Svg, Text};
 use crate::ticks::Ticks;
+use armill_core::units::from_deg;
 
 /// Radius of the rim, and width of the picture.
 pub(crate) const RADIUS_PX: f64 = 190.0;
@@ -165,7 +166,7 @@ impl PolarPlot {
 
     /// The point of the picture at an angle and a distance from the centre.
     pub(crate) fn on_circle(&self, centre: Point, angle_deg: f64, radius_px: f64) -> Point {
-        let (sin, cos) = angle_deg.to_radians().sin_cos();
+        let (sin, cos) = from_deg(angle_deg).sin_cos();
         [
             centre[0] + self.growth.sign() * radius_px * cos,
             centre[1] - radius_px * sin,
@@ -284,7 +285,7 @@ impl Rings {
 
     /// Less than this is nothing.
     fn slack_um(&self) -> f64 {
-        self.ticks.step * 1e-6
+        self.ticks.step / 1e6
     }
 
     /// The rings, the nominal one dashed.

@@ -1,6 +1,7 @@
 //! The units of a joint: degrees and rad/(N m) if it is revolute, millimetres and µm/N if it is prismatic.
 
 use armill_core::robot::Robot;
+use armill_core::units::{from_deg, from_mm};
 use armill_formats::robot::RobotDescription;
 
 use crate::error::StudyError;
@@ -66,9 +67,9 @@ pub fn joint_positions(described: &RobotDescription, given: &[f64]) -> Result<Ve
     }
     let to_si = |(i, value): (usize, &f64)| {
         if robot.slides(i) {
-            value * 1e-3
+            from_mm(value)
         } else {
-            value.to_radians()
+            from_deg(value)
         }
     };
     Ok(given.iter().enumerate().map(to_si).collect())

@@ -11,6 +11,7 @@
 
 use armill_core::robot::Robot;
 use armill_core::source::StiffnessModel;
+use armill_core::units::to_um;
 
 use crate::number::without_rounding;
 
@@ -54,7 +55,7 @@ pub fn parts(robot: &Robot, model: &StiffnessModel) -> Vec<String> {
         parts.push("the calibrated arm".to_owned());
     }
     if let Some(thermal) = model.thermal {
-        let growth = without_rounding(thermal.growth * 1e6);
+        let growth = without_rounding(to_um(thermal.growth));
         parts.push(format!("thermal growth of the links by {growth} um/m"));
     }
     if structure.repeatability > 0.0 {

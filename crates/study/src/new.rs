@@ -8,6 +8,7 @@ use armill_core::nalgebra::Point3;
 use armill_core::robot::forward::forward;
 use armill_core::robot::inverse::{ToolAt, postures};
 use armill_core::robot::{Robot, reach};
+use armill_core::units::{from_mm, to_mm};
 use armill_core::workpiece::Plane;
 use serde::Serialize;
 
@@ -134,7 +135,7 @@ impl Plate {
     /// The plate of the template, its lengths times `factor`, rounded to convenient numbers.
     fn scaled(robot: &Robot, factor: f64) -> Plate {
         let scaled = |mm: f64, step: f64| (mm * factor / step).round().max(1.0) * step;
-        let shoulder = forward(robot, &vec![0.0; robot.joints().len()]).origin(1).z * 1e3;
+        let shoulder = to_mm(forward(robot, &vec![0.0; robot.joints().len()]).origin(1).z);
         // The height range of an arm with a low shoulder is smaller than its reach.
         let height = (800.0 * factor).min(shoulder + (800.0 - SHOULDER_OF_TEMPLATE) * factor);
         let x = scaled(1000.0, 50.0);
@@ -148,7 +149,7 @@ impl Plate {
 
     /// Whether the arm reaches the corners of the plate.
     fn is_reached(&self, robot: &Robot) -> bool {
-        let centre = Point3::new(self.x, 0.0, self.z) * 1e-3;
+        let centre = from_mm(Point3::new(self.x, 0.0, self.z));
         let plane = Plane::tilted(centre, std::f64::consts::FRAC_PI_2);
         let flange_from_tool = Isometry::translation(0.0, 0.0, TOOL_OF_TEMPLATE);
         let at = ToolAt {
@@ -156,7 +157,7 @@ impl Plate {
             near: None,
             home: None,
         };
-        let half = self.half_size * 1e-3;
+        let half = from_mm(self.half_size);
         [[-half, -half], [-half, half], [half, -half], [half, half]]
             .into_iter()
             .all(|corner| postures(robot, &plane.base_from_tool(corner.into(), 0.0), at).is_ok())

@@ -15,11 +15,13 @@ use armill_core::robot::Robot;
 use armill_core::robot::convention::{
     Change, Comparison, Explanation, NotInspected, PoseDifference, Reading, Verdict, inspect,
 };
+use armill_core::units::{from_deg, from_mm, to_deg, to_mm};
 use armill_core::watch::Watch;
 use armill_formats::robot::RobotDescription;
 use serde::Serialize;
 
 use crate::error::StudyError;
+use crate::number::decimals;
 use crate::{BASE_LINK, base_from_reference};
 
 /// What was read, and how.
@@ -159,9 +161,9 @@ fn reading(robot: &Robot, index: usize, joints: &[f64], pose: &Isometry) -> Resu
     }
     let to_si = |(i, value): (usize, &f64)| {
         if robot.slides(i) {
-            value * 1e-3
+            from_mm(value)
         } else {
-            value.to_radians()
+            from_deg(value)
         }
     };
     Ok(Reading {
@@ -173,8 +175,8 @@ fn reading(robot: &Robot, index: usize, joints: &[f64], pose: &Isometry) -> Resu
 /// In mm and deg.
 fn apart(apart: PoseDifference) -> ApartAnswer {
     ApartAnswer {
-        apart_mm: apart.metres * 1e3,
-        apart_deg: apart.radians.to_degrees(),
+        apart_mm: to_mm(apart.metres),
+        apart_deg: to_deg(apart.radians),
     }
 }
 
@@ -220,13 +222,13 @@ impl Words<'_> {
                 let at = self.counted.translation.vector + self.counted.rotation * Vector3::new(0.0, 0.0, by);
                 format!(
                     "the base of the pendant is {:.2} mm above {}{}",
-                    by * 1e3,
+                    to_mm(by),
                     self.base,
                     self.frame_at(&at)
                 )
             }
             Change::BaseShift { by } => {
-                let [x, y, z]: [f64; 3] = (by * 1e3).into();
+                let [x, y, z]: [f64; 3] = to_mm(by).into();
                 format!(
                     "the base of the pendant is at ({x:.2}, {y:.2}, {z:.2}) mm of {}",
                     self.base
@@ -281,6 +283,6 @@ impl Words<'_> {
 
 /// Degrees in -180 to 180 with the digits that a pendant shows.
 fn degrees(radians: f64) -> f64 {
-    let turned = (radians.to_degrees() * 1e3).round() / 1e3;
+    let turned = decimals(to_deg(radians), 3);
     turned - 360.0 * ((turned - 180.0) / 360.0).ceil()
 }

@@ -21,6 +21,7 @@ use armill_core::robot::{Posture, Robot, Unreachable};
 use armill_core::source::stiffness_model::FREE_FALL;
 use armill_core::source::{Arm, ArmState, Gravity, Links, StiffnessModel, Unstable};
 use armill_core::spatial::Wrench;
+use armill_core::units::{to_deg, to_mm, to_um, to_urad};
 use armill_formats::robot::RobotDescription;
 use armill_formats::sources::Source;
 use schemars::JsonSchema;
@@ -367,7 +368,6 @@ fn posture_answer(
     let reference_from_tool = base_from_reference.inv_mul(&posture.base_from_tool);
     let axis = Unit::new_unchecked(posture.base_from_tool * Vector3::z());
     let rotation = reference_from_tool.rotation.quaternion();
-    let um = |v: Vector3<f64>| [v.x * 1e6, v.y * 1e6, v.z * 1e6];
     PostureAnswer {
         branch: posture.name.to_string(),
         joints_deg: posture
@@ -380,7 +380,7 @@ fn posture_answer(
         limit_margin_deg: margin.map(|(i, margin)| from_si(i, margin)),
         limit_joint: margin.map(|(i, _)| robot.joints()[i].name.clone()),
         tool: ToolAnswer {
-            xyz_mm: (reference_from_tool.translation.vector * 1e3).into(),
+            xyz_mm: to_mm(reference_from_tool.translation.vector).into(),
             quaternion_wxyz: [rotation.w, rotation.i, rotation.j, rotation.k],
         },
         singularity: posture.singularity.map(|s| s.to_string()),
@@ -391,14 +391,14 @@ fn posture_answer(
         stiffness: compliance.map(|c| stiffness_answer(&c, axis)),
         loaded_compliance: loaded_compliance.map(|c| six_rows(&c)),
         unstable: unstable.map(|unstable| unstable.to_string()),
-        deviation_um: deviation.as_ref().map(|d| um(d.twist.linear)),
-        rotation_urad: deviation.as_ref().map(|d| um(d.twist.angular)),
+        deviation_um: deviation.as_ref().map(|d| to_um(d.twist.linear).into()),
+        rotation_urad: deviation.as_ref().map(|d| to_urad(d.twist.angular).into()),
         joint_share_um: deviation
             .as_ref()
-            .map(|d| d.shares.iter().map(|s| um(s.linear)).collect()),
+            .map(|d| d.shares.iter().map(|s| to_um(s.linear).into()).collect()),
         deviation_u_um: deviation
             .as_ref()
-            .map(|d| um(d.covariance.diagonal().map(|v| v.max(0.0).sqrt()))),
+            .map(|d| to_um(d.covariance.diagonal().map(|v| v.max(0.0).sqrt())).into()),
     }
 }
 
@@ -414,7 +414,7 @@ fn stiffness_answer(compliance: &Matrix6<f64>, axis: Unit<Vector3<f64>>) -> Stif
             .condition_number
             .is_finite()
             .then_some(stiffness.condition_number),
-        principal_um_per_n: principal.map(|p| p.value * 1e6),
+        principal_um_per_n: principal.map(|p| to_um(p.value)),
         principal_direction: principal.map(|p| p.direction.into()),
         permissible_n_per_um: permissible_force_in_worst_direction(&by_force, axis, 1e-6).0,
     }
@@ -423,13 +423,13 @@ fn stiffness_answer(compliance: &Matrix6<f64>, axis: Unit<Vector3<f64>>) -> Stif
 /// Why there is no posture, in word and numbers.
 fn unreachable_answer(miss: Unreachable) -> UnreachableAnswer {
     let turned = match miss {
-        Unreachable::NotFound { turned, .. } => Some(turned.to_degrees()),
+        Unreachable::NotFound { turned, .. } => Some(to_deg(turned)),
         _ => None,
     };
     UnreachableAnswer {
         reason: miss.word().to_owned(),
         // No value if the arm is not stable.
-        amount_mm: miss.amount().unwrap_or_default() * 1e3,
+        amount_mm: to_mm(miss.amount().unwrap_or_default()),
         amount_deg: turned,
         message: miss.to_string(),
     }

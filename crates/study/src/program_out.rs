@@ -18,6 +18,7 @@ use armill_core::kernel::Answers;
 use armill_core::nalgebra::Translation3;
 use armill_core::path::{Pace, Thinning, Track, thinned};
 use armill_core::robot::inverse::{ToolAt, postures};
+use armill_core::units::to_mm;
 use armill_programs::{Draft, DraftPoint, Language, Written, write};
 
 use crate::error::StudyError;
@@ -205,7 +206,7 @@ impl Maker<'_> {
             .min_by(|a, b| away(a).total_cmp(&away(b)));
         let joints = nearest.filter(|joints| away(joints) < FARTHEST).ok_or_else(|| {
             let line = self.track.path.points[index].line;
-            let mm = self.requested.retract * 1e3;
+            let mm = to_mm(self.requested.retract);
             let message = format!("line {line}: the robot cannot retract by {mm} mm here in its posture");
             StudyError::value(message, "a shorter --retract-mm")
         })?;

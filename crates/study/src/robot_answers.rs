@@ -3,6 +3,7 @@
 //! A revolute joint is reported in deg and rad/(N m), a prismatic one in mm and µm/N, under keys that name the unit.
 
 use armill_core::robot::{Amount, Attachment, Axis, Joint, Motion, Robot, TorqueCurve, reach};
+use armill_core::units::{to_deg, to_mm, to_per_mm, to_um};
 use armill_formats::robot::RobotDescription;
 use armill_formats::sources::Source;
 use schemars::JsonSchema;
@@ -38,7 +39,7 @@ impl RobotRow {
             name: name.to_owned(),
             title: found.title.clone(),
             payload_kg: found.payload_kg,
-            reach_mm: reach(&found.robot).map(|m| decimals(m * 1e3, 3)),
+            reach_mm: reach(&found.robot).map(|m| decimals(to_mm(m), 3)),
             inverse: found.robot.inverse().word(),
             compliance_known: found.robot.compliance().is_some(),
         }
@@ -280,7 +281,7 @@ impl RobotDetails {
         let robot = &found.robot;
         let frames = robot.frames().iter().map(|frame| FrameDetails {
             name: frame.name.clone(),
-            origin_mm: (frame.base_from_frame.translation.vector * 1e3).into(),
+            origin_mm: to_mm(frame.base_from_frame.translation.vector).into(),
         });
         RobotDetails {
             name: robot.name().to_owned(),
@@ -296,7 +297,7 @@ impl RobotDetails {
             frames: frames.collect(),
             payload_kg: found.payload_kg,
             assumed: found.remarks.clone(),
-            reach_mm: reach(robot).map(|m| without_rounding(m * 1e3)),
+            reach_mm: reach(robot).map(|m| without_rounding(to_mm(m))),
             sources: found.sources.clone(),
         }
     }
@@ -363,8 +364,8 @@ impl StructureDetails {
                     }
                 } else {
                     SpringCompliance::Sliding {
-                        compliance_um_per_n: value * 1e6,
-                        compliance_u_um_per_n: u * 1e6,
+                        compliance_um_per_n: to_um(value),
+                        compliance_u_um_per_n: to_um(u),
                     }
                 },
             }
@@ -372,7 +373,7 @@ impl StructureDetails {
         let masses = structure.masses.iter().map(|mass| MassDetails {
             at: attachment_name(robot, mass.attachment),
             mass_kg: mass.mass,
-            centre_mm: (mass.centre.coords * 1e3).into(),
+            centre_mm: to_mm(mass.centre.coords).into(),
         });
         let curves = (0..robot.joints().len()).filter_map(|joint| {
             let curve = structure.curve(joint)?;
@@ -389,14 +390,14 @@ impl StructureDetails {
             torque_curves: curves.collect(),
             compensator: structure.compensator.map(|c| CompensatorDetails {
                 joint: name(c.joint),
-                fixed_radius_mm: c.fixed_radius * 1e3,
-                arm_radius_mm: c.arm_radius * 1e3,
-                free_length_mm: c.free_length * 1e3,
-                stiffness_n_per_mm: c.stiffness * 1e-3,
-                angle_deg: c.angle.to_degrees(),
+                fixed_radius_mm: to_mm(c.fixed_radius),
+                arm_radius_mm: to_mm(c.arm_radius),
+                free_length_mm: to_mm(c.free_length),
+                stiffness_n_per_mm: to_per_mm(c.stiffness),
+                angle_deg: to_deg(c.angle),
             }),
             covariance_known: structure.covariance.is_some(),
-            scatter_um: structure.repeatability * 1e6,
+            scatter_um: to_um(structure.repeatability),
             model_error_percent: without_rounding(structure.model_error * 100.0),
         }
     }

@@ -4,6 +4,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
 use armill_core::nalgebra::Vector3;
+use armill_core::units::from_mm;
 use armill_formats::file::{ResultFolder, Writer};
 use armill_formats::input::{self, Inputs};
 use armill_formats::measurement::load_tests;
@@ -182,9 +183,9 @@ impl Job {
                 PointsName::Common => PointsModel::Common,
                 PointsName::Separate => PointsModel::Separate,
             },
-            point_u: point_u_mm * 1e-3,
+            point_u: from_mm(point_u_mm),
             prior: PriorModel::Typical,
-            tool_point: tool_mm * 1e-3,
+            tool_point: from_mm(tool_mm),
             units: Units::Checked,
         };
         let file = inside(root, &options.tests).map_err(|_| {

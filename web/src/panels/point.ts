@@ -12,7 +12,7 @@ export function point(live: Live): HTMLElement {
     const values = live.pose?.in_plane[live.posture]?.[live.load_case - 1];
     if (!posture || !values) return show(h("p", { class: live.pose_error ? "note warn" : "note" }, live.pose_error ?? "Click a point of the plate or path."));
     const answered = live.answeredPoint;
-    const u = values.in_plane_u_um ?? answered?.in_plane_u_um ?? null;
+    const u = values.in_plane_u_um;
     const along = values.permissible_along_load_n ?? answered?.permissible_along_load_n;
     const any = values.permissible_any_direction_n ?? answered?.permissible_any_direction_n;
     const tolerance = live.setting?.tolerance_um ?? Infinity;

@@ -5,11 +5,11 @@ import type { CaseValues, Pose } from "../../src/types";
 const values = (...in_plane: number[]): CaseValues[] =>
   in_plane.map((in_plane_um) => ({
     in_plane_um,
-    in_plane_u_um: null,
+    in_plane_u_um: 0,
     normal_um: 0,
     full_um: in_plane_um,
     deviation_um: [in_plane_um, 0, 0],
-    share_um: null,
+    share_um: [],
     permissible_along_load_n: null,
     permissible_any_direction_n: null,
   }));

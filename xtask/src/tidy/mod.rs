@@ -35,6 +35,7 @@ mod robot_formats;
 mod sources;
 mod thin_command;
 mod thin_python;
+mod unit_factors;
 mod units;
 mod unsafe_code;
 mod vague_names;
@@ -75,6 +76,7 @@ const RULES: &[Rule] = &[
     file_length::RULE,
     vague_names::RULE,
     plain_words::RULE,
+    unit_factors::RULE,
     units::RULE,
     notation_page::RULE,
     exit_codes::RULE,

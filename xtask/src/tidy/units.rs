@@ -125,7 +125,7 @@ fn says_its_unit(name: &str) -> bool {
 }
 
 /// Whether the line, or the comments and attributes right above it, say the unit in words.
-fn is_exempt(file: &RustFile, line: usize) -> bool {
+pub(super) fn is_exempt(file: &RustFile, line: usize) -> bool {
     let lines = &file.lines[..line.min(file.lines.len())];
     let Some((own, above)) = lines.split_last() else {
         return false;

@@ -3,6 +3,7 @@
 //! `--radius-mm`, `--direction`, `--start-deg`, `--feed-mm-per-min` and `--plane` give what the files do not contain.
 //! `--direction` and `--cyclic` are text until they are read below: words of ball-bar files; a period or a keyword.
 
+use armill_core::units::{from_deg, from_mm};
 use std::path::PathBuf;
 
 use armill_formats::measurement::ballbar::{BallbarReadOptions, direction_of};
@@ -134,9 +135,9 @@ impl BallbarArguments {
         finite("--start-deg", self.start_deg.as_slice())?;
         Ok(FileOptions {
             given: BallbarReadOptions {
-                radius: positive("--radius-mm", self.radius_mm)?.map(|mm| mm * 1e-3),
+                radius: positive("--radius-mm", self.radius_mm)?.map(from_mm),
                 direction: direction.transpose()?,
-                start: self.start_deg.map(f64::to_radians),
+                start: self.start_deg.map(from_deg),
             },
             plane: self.plane.clone(),
             feed: positive("--feed-mm-per-min", self.feed_mm_per_min)?.map(|feed| feed / 60e3),
@@ -162,7 +163,7 @@ impl BallbarArguments {
                         "millimetres such as 10, or `search`",
                     )
                 })?;
-                Cyclic::Period(above_zero("--cyclic", period)? * 1e-3)
+                Cyclic::Period(from_mm(above_zero("--cyclic", period)?))
             }
         };
         Ok(Question {
@@ -172,7 +173,7 @@ impl BallbarArguments {
             },
             most_lobes: self.lobes,
             cyclic,
-            reversals: self.reversal_deg.iter().map(|deg| deg.to_radians()).collect(),
+            reversals: self.reversal_deg.iter().map(from_deg).collect(),
             axes_reverse: !self.no_axes,
             without_outliers: self.leave_out_outliers,
         })
@@ -203,7 +204,7 @@ impl BallbarArguments {
         finite("--zero-deg", &[self.zero_deg])?;
         Ok(CirclePlacement {
             analysis: self.analysis.clone(),
-            zero: self.zero_deg.to_radians(),
+            zero: from_deg(self.zero_deg),
             mirrored: self.mirrored,
         })
     }

@@ -8,6 +8,7 @@
 //! joint   backlash   +-   inflation   robot file                        from all circles together
 //! ```
 
+use armill_core::units::{from_mm, from_um};
 use armill_measure::backlash::answer::{CircleAnswer, JointAnswer, ReversalAnswer};
 use armill_measure::backlash::plan::{
     ExpectedAnswer, IdentifiabilityAnswer, ProposedAnswer, candidate_count,
@@ -42,7 +43,7 @@ pub(crate) fn run(arguments: &BacklashArguments) -> Result<Outcome, StudyError> 
         .noise_um
         .map(|um| above_zero("--noise-um", um))
         .transpose()?;
-    let noise = noise.map(|um| um * 1e-6);
+    let noise = noise.map(from_um);
     let study = studies::find(&arguments.study)?.read()?;
     print(&match (&arguments.simulate, arguments.circles) {
         (Some(_), _) => simulated(arguments, &study, noise)?,
@@ -112,12 +113,12 @@ fn planned(
     let requested = PlanOptions {
         analyses: arguments.analysis.clone(),
         count,
-        half: half.map(|mm| mm * 1e-3),
+        half: half.map(from_mm),
         radii: radii
-            .map(|mm| Ok(mm? * 1e-3))
+            .map(|mm| Ok(from_mm(mm?)))
             .collect::<Result<_, StudyError>>()?,
         most_lobes: arguments.lobes,
-        noise: noise.unwrap_or(PLAN_NOISE_UM * 1e-6),
+        noise: noise.unwrap_or(from_um(PLAN_NOISE_UM)),
     };
     let progress = Progress::of("circles", candidate_count(study, &requested)?);
     let given = progress.watch(|watch| plan(study, &requested, watch))?;

@@ -12,6 +12,7 @@
 //! ```
 
 use armill_core::calibrate::{ParameterSet, Prior};
+use armill_core::units::{from_deg, from_mm};
 use armill_formats::measurement::poses::PoseReadOptions;
 use armill_measure::calibrate::answer::ParameterAnswer;
 use armill_measure::calibrate::{
@@ -70,8 +71,8 @@ fn prior(arguments: &CalibrateArguments) -> Result<Option<Prior>, StudyError> {
         return Ok(None);
     };
     Ok(Some(Prior {
-        length: above_zero("--prior-mm", mm)? * 1e-3,
-        angle: above_zero("--prior-deg", deg)?.to_radians(),
+        length: from_mm(above_zero("--prior-mm", mm)?),
+        angle: from_deg(above_zero("--prior-deg", deg)?),
     }))
 }
 

@@ -16,6 +16,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use armill_core::nalgebra::Vector3;
+use armill_core::units::{from_mm, from_um};
 use armill_formats::input;
 use armill_formats::measurement::load_tests;
 use armill_formats::robot::RobotDescription;
@@ -65,12 +66,12 @@ fn question(arguments: &IdentifyArguments) -> Result<Question, StudyError> {
             PointsArgument::Common => PointsModel::Common,
             PointsArgument::Separate => PointsModel::Separate,
         },
-        point_u: above_zero("--point-u-mm", arguments.point_u_mm)? * 1e-3,
+        point_u: from_mm(above_zero("--point-u-mm", arguments.point_u_mm)?),
         prior: match arguments.prior {
             PriorArgument::Typical => PriorModel::Typical,
             PriorArgument::None => PriorModel::None,
         },
-        tool_point: tool_point_mm * 1e-3,
+        tool_point: from_mm(tool_point_mm),
         units: if arguments.trust_units {
             Units::Trusted
         } else {
@@ -90,7 +91,7 @@ fn plan_tests(
         &found.robot,
         question,
         count,
-        [arguments.pull_n, arguments.gauge_um * 1e-6],
+        [arguments.pull_n, from_um(arguments.gauge_um)],
     )?;
     match &arguments.out {
         Some(file) => {

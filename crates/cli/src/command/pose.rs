@@ -20,6 +20,7 @@
 use armill_core::nalgebra::{Point3, Unit, Vector3};
 use armill_core::robot::{JointCompliance, RobotError};
 use armill_core::spatial::Wrench;
+use armill_core::units::{from_deg, from_mm};
 use armill_core::workpiece::Plane;
 use armill_formats::robot::RobotDescription;
 use armill_study::input::quantities::pose_mm_deg;
@@ -108,20 +109,20 @@ fn at(arguments: &PoseArguments) -> Result<At, StudyError> {
         finite("--joints-deg", joints)?;
         return Ok(At::JointsDeg(joints.clone()));
     }
-    let tcp = three("--at-mm", arguments.at_mm.as_deref().unwrap_or_default())? * 1e-3;
+    let tcp = from_mm(three("--at-mm", arguments.at_mm.as_deref().unwrap_or_default())?);
     let tilt_deg = arguments.tilt_deg.unwrap_or(0.0);
     finite("--tilt-deg", &[tilt_deg])?;
     let axis = match &arguments.axis {
         Some(axis) => Unit::try_new(three("--axis", axis)?, 1e-12)
             .ok_or_else(|| StudyError::value("--axis 0,0,0 has no direction", "such as --axis 0,0,-1"))?,
-        None => Plane::tilted(Point3::origin(), tilt_deg.to_radians()).tool_axis(),
+        None => Plane::tilted(Point3::origin(), from_deg(tilt_deg)).tool_axis(),
     };
     let spin_deg = arguments.spin_deg.unwrap_or(0.0);
     finite("--spin-deg", &[spin_deg])?;
     Ok(At::Tool {
         tcp: tcp.into(),
         axis,
-        spin: spin_deg.to_radians(),
+        spin: from_deg(spin_deg),
     })
 }
 

@@ -2,6 +2,7 @@
 
 use armill_core::calibrate::ParameterSet;
 use armill_core::nalgebra::Vector3;
+use armill_core::units::from_mm;
 use armill_formats::measurement::poses::{PoseReadOptions, TurnOrder};
 use armill_measure::calibrate::answer::FrameAnswer;
 use armill_measure::calibrate::{ErrorsAnswer, Question};
@@ -22,10 +23,10 @@ pub(super) fn question(
         Some(tool_mm) => three("--tool-mm", tool_mm)?,
         None => Vector3::zeros(),
     };
-    let turn_length = above_zero("--turn-mm", options.turn_mm)? * 1e-3;
+    let turn_length = from_mm(above_zero("--turn-mm", options.turn_mm)?);
     let question = Question {
         requested,
-        tool_point: tool_point_mm * 1e-3,
+        tool_point: from_mm(tool_point_mm),
         turn_length: options.turns.then_some(turn_length),
         prior: None,
     };

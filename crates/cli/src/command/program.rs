@@ -1,5 +1,6 @@
 //! Options of a robot program in SI, for `compensate` and `ballbar`; and its files, written.
 
+use armill_core::units::{from_mm, from_um};
 use std::path::{Path, PathBuf};
 
 use armill_formats::file::{Writer, create_folder};
@@ -43,9 +44,9 @@ pub(super) fn requested(
             .into_owned(),
         frame_number: options.frame,
         tool_number: options.tool,
-        within: within("--within-um", options.within_um, [0.1, 1e6])? * 1e-6,
-        retract: within("--retract-mm", options.retract_mm, [0.0, 1e4])? * 1e-3,
-        blend: within("--blend-mm", options.blend_mm, [0.0, 1e3])? * 1e-3,
+        within: from_um(within("--within-um", options.within_um, [0.1, 1e6])?),
+        retract: from_mm(within("--retract-mm", options.retract_mm, [0.0, 1e4])?),
+        blend: from_mm(within("--blend-mm", options.blend_mm, [0.0, 1e3])?),
         feed: match feed_mm_per_min {
             Some(feed) => Some(within("--feed-mm-per-min", feed, [1.0, 1e6])? / 60e3),
             None => None,

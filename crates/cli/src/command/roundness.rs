@@ -14,6 +14,7 @@
 //!
 //! Roundness is reported to a nanometre, positions to a ten thousandth of a millimetre.
 
+use armill_core::units::um_from_mm;
 use std::path::Path;
 
 use armill_formats::measurement::profile::ProfileReadOptions;
@@ -124,7 +125,7 @@ fn as_text(answer: &RoundnessAnswer) -> String {
             "plane        normal {}, x along {}, flatness {:.3} um",
             direction(plane.normal),
             direction(plane.x_axis),
-            plane.flatness_mm * 1e3
+            um_from_mm(plane.flatness_mm)
         ));
     }
     lines.push(String::new());
@@ -167,9 +168,9 @@ fn as_text(answer: &RoundnessAnswer) -> String {
     lines.push(String::new());
     lines.push(format!(
         "about LSCI   RONp {:.3} um, RONv {:.3} um, RONq {:.3} um",
-        lsci.ronp_mm * 1e3,
-        lsci.ronv_mm * 1e3,
-        lsci.ronq_mm * 1e3
+        um_from_mm(lsci.ronp_mm),
+        um_from_mm(lsci.ronv_mm),
+        um_from_mm(lsci.ronq_mm)
     ));
     if !answer.harmonics.is_empty() {
         lines.push(String::new());
@@ -213,7 +214,7 @@ fn circle(name: &str, ront_mm: f64, radius: &str, centre_mm: &[f64]) -> String {
         .collect();
     format!(
         "{name:<8} {:>12.3} {radius:>14}   ({})",
-        ront_mm * 1e3,
+        um_from_mm(ront_mm),
         centre.join(", ")
     )
 }

@@ -10,7 +10,7 @@ use super::question::{BranchChoice, Question};
 use crate::frame::{Isometry, both_across};
 use crate::predict::deviation_of;
 use crate::robot::forward::{Frames, forward_into};
-use crate::robot::inverse::{Finder, InverseSolution, InverseTarget};
+use crate::robot::inverse::{Finder, InverseSolution, InverseTarget, name_of, tool_on};
 use crate::robot::{Overrun, PostureName, Unreachable};
 use crate::source::arm_state::LoadedPosture;
 use crate::source::{ArmState, Contributor, Links};
@@ -83,6 +83,11 @@ impl<'q> General<'q> {
         detail: AnswerDetail,
         link_offsets: &'q [f64],
     ) -> General<'q> {
+        assert_eq!(
+            link_offsets.len(),
+            question.arm.robot.joints().len(),
+            "one link offset per joint"
+        );
         General {
             links: LinkOffsets::Known(link_offsets),
             ..General::new(question, detail)
@@ -128,6 +133,26 @@ impl<'q> General<'q> {
             }
         }
         self.least(question, base_from_tool)
+    }
+
+    /// The answer in the posture at these joint positions, rad (m).
+    pub(super) fn answer_in(
+        &mut self,
+        question: &Question<'_>,
+        joints: &[f64],
+    ) -> Result<Evaluation, Unreachable> {
+        let arm = &question.arm;
+        let (name, singularity) = name_of(arm.robot, joints);
+        let posture = InverseSolution {
+            name,
+            joints: joints.to_vec(),
+            singularity,
+        };
+        forward_into(arm.robot, joints, &mut self.frames);
+        let base_from_tool = tool_on(&self.frames, arm.flange_from_tool);
+        let evaluation = self.evaluate_posture(question, &base_from_tool, &posture)?;
+        self.keep();
+        Ok(evaluation)
     }
 
     /// Copies joint positions, deviations and shares of the last answer.

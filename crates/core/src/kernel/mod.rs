@@ -3,8 +3,8 @@
 //! [`evaluate`] is the main entry. It finds a posture for each tool pose, the deviation under each load case, the
 //! envelope over the load cases and the worst case. Ortho-parallel arms whose only springs are the drives go through
 //! [`lanes`], many points in one instruction. Where the lanes cannot decide, and for every other model, `general`
-//! computes one point after the other. [`evaluate_loaded`] uses a separate load at every point, [`evaluate_on_path`]
-//! one point of a path with backlash and geometry in addition to the load, [`evaluate_at_joints`] any chain at given
+//! computes one point after the other. [`evaluate_loaded`] uses a separate load at every point, [`evaluate_posture`]
+//! one posture at given joint positions, [`evaluate_at_joints`] any chain at given
 //! joint positions with a user-defined output, [`postures_at`] every posture of many poses. Blocks run on all threads
 //! of the current rayon pool. Every point is written by index, so any number of threads gives the same bits.
 //!
@@ -40,37 +40,34 @@ use rayon::prelude::*;
 
 use crate::frame::Isometry;
 use crate::watch::{Cancelled, Watch};
-use answer::{AnswerDetail, Slot};
+use answer::AnswerDetail;
 use general::General;
 use solver::{BLOCK, Order, Solver};
 
-/// Answers `question` at one pose of a path with known `link_offsets` in the backlash, rad (m), one per joint. Backlash
-/// and geometry are included: backlash in the shares of its joints, geometry in no share.
+/// Answers `question` in the posture at `joints`, rad (m), whatever branch it chooses. With `link_offsets` in the
+/// backlash, rad (m), one per joint, these are used; on a path friction keeps them, see
+/// [`BacklashGeometry`](crate::map::BacklashGeometry). Without, those are used that give the largest in-plane
+/// deviation, as in [`evaluate`]. Backlash, geometry and thermal growth are in deviations, shares and uncertainty.
 ///
 /// # Panics
-/// If the question has no load case, or the number of link offsets is wrong.
-pub fn evaluate_on_path(question: &Question<'_>, base_from_tool: &Isometry, link_offsets: &[f64]) -> Answers {
+/// If the question has no load case, or the number of joint positions or link offsets is wrong.
+pub fn evaluate_posture(question: &Question<'_>, joints: &[f64], link_offsets: Option<&[f64]>) -> Answers {
+    let dof = question.arm.robot.joints().len();
     assert!(
         !question.cases.is_empty(),
         "a question needs at least one load case"
     );
-    assert_eq!(
-        link_offsets.len(),
-        question.arm.robot.joints().len(),
-        "one link offset per joint"
-    );
+    assert_eq!(joints.len(), dof, "one position per joint");
     let mut answers = Answers::new(question, 1, AnswerDetail::Shares);
-    let mut general = General::on_path(question, AnswerDetail::Shares, link_offsets);
+    let mut general = match link_offsets {
+        Some(link_offsets) => General::on_path(question, AnswerDetail::Shares, link_offsets),
+        None => General::new(question, AnswerDetail::Shares),
+    };
     for mut slots in answers.blocks(1) {
-        let Slot {
-            point,
-            joints,
-            deviations,
-            shares,
-        } = slots.at(0);
-        *point = general
-            .answer(question, base_from_tool, None)
-            .inspect(|_| general.write(joints, deviations, shares));
+        let slot = slots.at(0);
+        *slot.point = general
+            .answer_in(question, joints)
+            .inspect(|_| general.write(slot.joints, slot.deviations, slot.shares));
     }
     answers
 }

@@ -32,6 +32,7 @@ use armill_core::identify::{LoadTest, Measured, Reading};
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::{Axis, Robot};
 use armill_core::spatial::Wrench;
+use armill_core::units::to_deg;
 
 use self::columns::{Column, Columns};
 use self::sheet::Sheet;
@@ -343,7 +344,7 @@ impl Reader<'_> {
         let (scale, unit) = if self.robot.slides(joint) {
             (1e3, "mm")
         } else {
-            (1f64.to_degrees(), "deg")
+            (to_deg(1f64), "deg")
         };
         let message = format!(
             "joint {} at {:.1} {unit} is outside its limits {:.1} to {:.1} {unit}",

@@ -13,6 +13,7 @@
 use armill_core::nalgebra::{Matrix6, Point3, Vector3};
 use armill_core::robot::spring::springs_of;
 use armill_core::robot::{Attachment, Axis, JointCompliance, Mass, Spring};
+use armill_core::units::{from_mm, from_um};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -208,7 +209,7 @@ impl SpringTable {
                 (axis, self.compliance_rad_per_n_m, self.compliance_u_rad_per_n_m)
             }
             (None, Some(axis)) if !turning => {
-                let si = |um: Option<f64>| um.map(|um| um * 1e-6);
+                let si = |um: Option<f64>| um.map(from_um);
                 (axis, si(self.compliance_um_per_n), si(self.compliance_u_um_per_n))
             }
             (Some(_), None) | (None, Some(_)) => {
@@ -257,7 +258,7 @@ impl MassTable {
         Ok(Mass {
             attachment: attachment(&self.at, joints)?,
             mass: self.mass_kg,
-            centre: Point3::from(Vector3::from(self.centre_mm) * 1e-3),
+            centre: Point3::from(from_mm(Vector3::from(self.centre_mm))),
         })
     }
 }

@@ -21,6 +21,7 @@ use std::io::BufRead;
 
 use armill_core::nalgebra::{Point3, Unit, Vector3};
 use armill_core::path::{Course, DepthOfCut, GivenSpin, Move, Operation, Pace, Step};
+use armill_core::units::from_deg;
 
 use super::Summary;
 use super::direction::{LARGEST, direction};
@@ -71,7 +72,7 @@ fn known() -> Vec<(String, Column)> {
         ("j", Column::Axis(1)),
         ("k", Column::Axis(2)),
         ("rapid", Column::Rapid),
-        ("spin_deg", Column::Spin(1_f64.to_radians())),
+        ("spin_deg", Column::Spin(from_deg(1_f64))),
         ("spin_rad", Column::Spin(1.0)),
         ("spindle_rpm", Column::Spindle),
         ("op", Column::Operation),

@@ -5,6 +5,7 @@
 use armill_core::measure::ballbar::Direction;
 use armill_core::measure::ballbar::joints::{EstimatedBacklash, Followed, JointReversal};
 use armill_core::robot::Robot;
+use armill_core::units::{to_deg, to_mm, to_um};
 use armill_study::file::resolve::Study;
 use serde::Serialize;
 
@@ -141,8 +142,8 @@ pub(super) fn answer(study: &Study, found: &BacklashEstimate<'_>) -> BacklashAns
             .map(|i| (0..given).map(|k| correlation(i, k)).collect())
             .collect(),
         samples: gaps.samples,
-        rms_before_um: gaps.rms_before * 1e6,
-        rms_after_um: gaps.rms_after * 1e6,
+        rms_before_um: to_um(gaps.rms_before),
+        rms_after_um: to_um(gaps.rms_after),
         warnings,
     }
 }
@@ -157,8 +158,8 @@ fn of_circle(
     CircleAnswer {
         analysis: measured.analysis.clone(),
         files: measured.files.clone(),
-        radius_mm: followed.radius * 1e3,
-        centre_mm: [centre.x, centre.y, centre.z].map(|m| m * 1e3),
+        radius_mm: to_mm(followed.radius),
+        centre_mm: [centre.x, centre.y, centre.z].map(to_mm),
         reversals: (followed.reversals.iter())
             .map(|at| of_reversal(robot, at, followed, given(at.joint)))
             .collect(),
@@ -174,10 +175,10 @@ fn of_reversal(
     let crossed = |way| gap.and_then(|gap| followed.crossed(at, gap.gap, way));
     ReversalAnswer {
         joint: robot.joints()[at.joint].name.clone(),
-        at_deg: at.angle.to_degrees(),
-        step_um: gap.map(|gap| followed.step(at, gap.gap) * 1e6),
-        crossed_cw_deg: crossed(Direction::Clockwise).map(f64::to_degrees),
-        crossed_ccw_deg: crossed(Direction::Anticlockwise).map(f64::to_degrees),
+        at_deg: to_deg(at.angle),
+        step_um: gap.map(|gap| to_um(followed.step(at, gap.gap))),
+        crossed_cw_deg: crossed(Direction::Clockwise).map(to_deg),
+        crossed_ccw_deg: crossed(Direction::Anticlockwise).map(to_deg),
     }
 }
 
@@ -185,8 +186,8 @@ fn of_joint(study: &Study, found: &BacklashEstimate<'_>, joint: usize) -> JointA
     let (robot, gaps) = (&study.robot.robot, &found.gaps);
     let slides = robot.slides(joint);
     let given = gaps.of(joint);
-    let deg = |value: f64| (!slides).then(|| value.to_degrees());
-    let mm = |value: f64| slides.then_some(value * 1e3);
+    let deg = |value: f64| (!slides).then(|| to_deg(value));
+    let mm = |value: f64| slides.then_some(to_mm(value));
     // All circles are of one robot; any of them determines the structure.
     let of_file = found.circles.first().and_then(|of| {
         let structure = &of.circle.path.setting.model.structure;

@@ -9,6 +9,7 @@
 use armill_core::measure::ballbar::joints::Followed;
 use armill_core::measure::ballbar::profile::{STATIONS, station};
 use armill_core::measure::ballbar::{Direction, Profile, Run, least_squares_centre};
+use armill_core::units::{to_deg, to_um};
 use armill_formats::file::ResultFolder;
 use armill_formats::table::{Column, ColumnData, Table, csv};
 use armill_report::{BallbarPlot, BallbarTrace, Growth, RayMark, Sense};
@@ -107,12 +108,12 @@ fn picture(of: &FollowedCircle<'_>, circle: &CircleAnswer, gaps: &[f64]) -> Pict
         traces.push(BallbarTrace {
             name: format!("{} with fitted backlash", direction.name()),
             sense: sense(direction),
-            angle_deg: (0..=STATIONS).map(|k| station(k).to_degrees()).collect(),
+            angle_deg: (0..=STATIONS).map(|k| to_deg(station(k))).collect(),
             radial_um: angles
                 .iter()
                 .zip(effect)
                 .enumerate()
-                .map(|(k, (a, dr))| (common.0[k % STATIONS] + dr - about(*a)) * 1e6)
+                .map(|(k, (a, dr))| to_um(common.0[k % STATIONS] + dr - about(*a)))
                 .collect(),
             start_deg: None,
         });
@@ -155,9 +156,9 @@ fn trace(name: String, direction: Direction, radius: impl Fn(f64) -> f64) -> Bal
     BallbarTrace {
         name,
         sense: sense(direction),
-        angle_deg: (0..=STATIONS).map(|k| station(k).to_degrees()).collect(),
+        angle_deg: (0..=STATIONS).map(|k| to_deg(station(k))).collect(),
         radial_um: (0..=STATIONS)
-            .map(|k| radius(station(k % STATIONS)) * 1e6)
+            .map(|k| to_um(radius(station(k % STATIONS))))
             .collect(),
         start_deg: None,
     }

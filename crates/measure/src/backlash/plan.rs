@@ -5,6 +5,7 @@ use armill_core::measure::ballbar::joints::plan::ExpectedUncertainty;
 use armill_core::measure::ballbar::joints::{CirclePlanOptions, Domain, Followed, Normal, Proposed, propose};
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::Robot;
+use armill_core::units::{to_deg, to_mm, to_um};
 use armill_core::watch::Watch;
 use armill_study::analysis::runner::Runner;
 use armill_study::error::StudyError;
@@ -151,7 +152,7 @@ pub fn plan(study: &Study, expected: &PlanOptions, watch: Watch<'_>) -> Result<P
     )?;
     let corner = |sign: f64| {
         let at = domain.middle + domain.half * sign;
-        [at.x, at.y, at.z].map(|m| m * 1e3)
+        [at.x, at.y, at.z].map(to_mm)
     };
     let mut planes: Vec<&'static str> = domain.normals.iter().map(|normal| normal.plane()).collect();
     planes.dedup();
@@ -160,10 +161,10 @@ pub fn plan(study: &Study, expected: &PlanOptions, watch: Watch<'_>) -> Result<P
         box_mm: [corner(-1.0), corner(1.0)],
         along: ALONG,
         planes,
-        radii_mm: domain.radii.iter().map(|m| m * 1e3).collect(),
+        radii_mm: domain.radii.iter().map(to_mm).collect(),
         candidates: found.candidates[0],
         followed: found.candidates[1],
-        noise_um: expected.noise * 1e6,
+        noise_um: to_um(expected.noise),
         begun: begun.iter().map(|circle| circle.name.to_owned()).collect(),
         known: known(robot, &found.begun),
         circles: found.circles.iter().map(|one| proposed(robot, one)).collect(),
@@ -193,9 +194,9 @@ fn proposed(robot: &Robot, one: &Proposed) -> ProposedAnswer {
     };
     ProposedAnswer {
         plane: candidate.normal.plane(),
-        centre_mm: [candidate.centre.x, candidate.centre.y, candidate.centre.z].map(|m| m * 1e3),
-        rotation_deg: [roll, pitch, yaw].map(|turn| decimals(turn.to_degrees(), 9)),
-        radius_mm: candidate.circle.radius * 1e3,
+        centre_mm: [candidate.centre.x, candidate.centre.y, candidate.centre.z].map(to_mm),
+        rotation_deg: [roll, pitch, yaw].map(|turn| decimals(to_deg(turn), 9)),
+        radius_mm: to_mm(candidate.circle.radius),
         reversals: (0..robot.joints().len())
             .map(|joint| TurnsAnswer {
                 joint: robot.joints()[joint].name.clone(),
@@ -215,8 +216,8 @@ fn known(robot: &Robot, known: &ExpectedUncertainty) -> IdentifiabilityAnswer {
                 let slides = robot.slides(gap.joint);
                 ExpectedAnswer {
                     joint: name(&gap.joint),
-                    backlash_u_deg: (!slides).then(|| gap.u.to_degrees()),
-                    backlash_u_mm: slides.then_some(gap.u * 1e3),
+                    backlash_u_deg: (!slides).then(|| to_deg(gap.u)),
+                    backlash_u_mm: slides.then_some(to_mm(gap.u)),
                 }
             })
             .collect(),

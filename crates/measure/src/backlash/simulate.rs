@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 
 use armill_core::measure::ballbar::Direction;
 use armill_core::measure::ballbar::joints::Followed;
+use armill_core::units::{from_deg, to_mm, to_um};
 use armill_core::watch::Watch;
 use armill_formats::file::{Writer, create_folder};
 use armill_study::error::StudyError;
@@ -111,13 +112,13 @@ fn table(
     let degrees: Vec<f64> = (0..SAMPLES)
         .map(|k| (f64::from(k) + 0.5) * 360.0 / f64::from(SAMPLES))
         .collect();
-    let angles: Vec<f64> = degrees.iter().map(|deg| deg.to_radians()).collect();
+    let angles: Vec<f64> = degrees.iter().map(from_deg).collect();
     let mut text = format!(
         "# simulated by armill: backlash of {} joints, noise {} um, seed {}\n# radius_mm: {}\nangle_deg,radius_dev_um,direction,run\n",
         gaps.iter().filter(|gap| **gap > 0.0).count(),
-        decimals(requested.noise * 1e6, 6),
+        decimals(to_um(requested.noise), 6),
         requested.seed,
-        decimals(circle.circle.radius * 1e3, 9)
+        decimals(to_mm(circle.circle.radius), 9)
     );
     let mut largest: f64 = 0.0;
     for run in 1..=requested.runs {
@@ -128,7 +129,7 @@ fn table(
                 rows.reverse();
             }
             for (deg, dr) in rows {
-                let um = (dr + requested.noise * noise.normal()) * 1e6;
+                let um = to_um(dr + requested.noise * noise.normal());
                 largest = largest.max(um.abs());
                 let _ = writeln!(text, "{deg},{um:.4},{},{run}", direction.name());
             }

@@ -8,6 +8,7 @@ use armill_core::measure::ballbar::{
     Centre, CircularTest, Difference, Direction, Lobes, Outlier, Quantities, Run, between_directions,
     hysteresis, least_squares_centre, lobes, mean_bidirectional, most_lobes, outliers, quantities, repeats,
 };
+use armill_core::units::{to_deg, to_mm};
 use armill_study::StudyError;
 use armill_study::measured::circular_test::MeasuredTest;
 use armill_study::number::decimals;
@@ -98,7 +99,7 @@ pub fn analyse<'a>(
         false => Vec::new(),
     };
     reversals.extend(question.reversals.iter().map(|angle| Reversal {
-        name: format!("at {} deg", decimals(angle.to_degrees(), 3)),
+        name: format!("at {} deg", decimals(to_deg(angle), 3)),
         steps: vec![Step {
             angle: *angle,
             outwards: [1.0; 2],
@@ -171,9 +172,9 @@ fn period_of(test: &CircularTest, period: f64) -> Result<f64, StudyError> {
     }
     let message = format!(
         "a cyclic error with a period of {} mm is outside {} to {} mm: four samples, and the radius",
-        decimals(period * 1e3, 6),
-        decimals(least * 1e3, 3),
-        decimals(most * 1e3, 3)
+        decimals(to_mm(period), 6),
+        decimals(to_mm(least), 3),
+        decimals(to_mm(most), 3)
     );
     Err(StudyError::value(message, "give the period in mm, or `search`"))
 }

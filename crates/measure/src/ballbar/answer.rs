@@ -4,6 +4,7 @@
 
 use armill_core::measure::ballbar::parts::{Axis, Part, Parts, Term, Wave};
 use armill_core::measure::ballbar::{Difference, Direction, Quantities, Run};
+use armill_core::units::{to_deg, to_mm, to_um};
 use serde::Serialize;
 
 use super::analyse::{BallbarAnalysis, Question};
@@ -204,7 +205,6 @@ pub struct OutlierAnswer {
 pub fn answer(question: &Question, found: &BallbarAnalysis<'_>) -> BallbarAnswer {
     let measured = found.measured;
     let axes = measured.axes();
-    let um = |value: f64| value * 1e6;
     let parts = found.parts.as_ref().map(|parts| of_parts(parts, found));
     let names: Vec<&str> = measured
         .origins
@@ -214,15 +214,15 @@ pub fn answer(question: &Question, found: &BallbarAnalysis<'_>) -> BallbarAnswer
     let difference = |of: [String; 2], difference: &Difference| {
         difference.span().map(|span| DifferenceAnswer {
             of,
-            max_um: um(span.largest),
-            max_at_deg: span.angle.to_degrees(),
-            rms_um: um(span.rms),
+            max_um: to_um(span.largest),
+            max_at_deg: to_deg(span.angle),
+            rms_um: to_um(span.rms),
         })
     };
     let both = found.test.is_bidirectional();
     let mut given = BallbarAnswer {
         files: measured.files.clone(),
-        radius_mm: measured.test.radius() * 1e3,
+        radius_mm: to_mm(measured.test.radius()),
         feed_mm_per_min: measured.feed.map(|feed| feed * 60e3),
         plane: measured.plane.clone(),
         centring: CentringAnswer {
@@ -233,8 +233,8 @@ pub fn answer(question: &Question, found: &BallbarAnalysis<'_>) -> BallbarAnswer
             },
             offset_um: found
                 .centre
-                .map(|centre| [um(centre.offset.x), um(centre.offset.y)]),
-            radius_mm: found.centre.map(|centre| centre.radius * 1e3),
+                .map(|centre| [to_um(centre.offset.x), to_um(centre.offset.y)]),
+            radius_mm: found.centre.map(|centre| to_mm(centre.radius)),
         },
         runs: (0..names.len()).map(|index| of_run(found, index)).collect(),
         directions: Direction::BOTH
@@ -247,9 +247,9 @@ pub fn answer(question: &Question, found: &BallbarAnalysis<'_>) -> BallbarAnswer
                 })
             })
             .collect(),
-        circular_bidirectional_um: found.all.circular.ok().filter(|_| both).map(um),
-        mean_bidirectional_um: found.mean_bidirectional.map(um),
-        hysteresis_um: found.hysteresis.map(um),
+        circular_bidirectional_um: found.all.circular.ok().filter(|_| both).map(to_um),
+        mean_bidirectional_um: found.mean_bidirectional.map(to_um),
+        hysteresis_um: found.hysteresis.map(to_um),
         repeatability: (found.repeats.iter())
             .filter_map(|([one, other], of)| {
                 difference([names[*one].to_owned(), names[*other].to_owned()], of)
@@ -281,11 +281,11 @@ impl ShownAnswer {
     fn of(shown: &Quantities) -> ShownAnswer {
         let [least, greatest] = shown.radial;
         ShownAnswer {
-            circular_um: shown.circular.ok().map(|g| g * 1e6),
-            radial_max_um: greatest.deviation * 1e6,
-            radial_max_at_deg: greatest.angle.to_degrees(),
-            radial_min_um: least.deviation * 1e6,
-            radial_min_at_deg: least.angle.to_degrees(),
+            circular_um: shown.circular.ok().map(to_um),
+            radial_max_um: to_um(greatest.deviation),
+            radial_max_at_deg: to_deg(greatest.angle),
+            radial_min_um: to_um(least.deviation),
+            radial_min_at_deg: to_deg(least.angle),
         }
     }
 }
@@ -295,8 +295,8 @@ impl LobeAnswer {
         let waves = lobe.waves as f64;
         LobeAnswer {
             waves: lobe.waves,
-            amplitude_um: lobe.amplitude * 1e6,
-            crest_deg: (lobe.phase.to_degrees() / waves).rem_euclid(360.0 / waves),
+            amplitude_um: to_um(lobe.amplitude),
+            crest_deg: (to_deg(lobe.phase) / waves).rem_euclid(360.0 / waves),
         }
     }
 }
@@ -312,13 +312,9 @@ fn of_run(found: &BallbarAnalysis<'_>, index: usize) -> RunAnswer {
         file: origin.file.clone(),
         direction: run.direction().name(),
         samples: run.angle().len(),
-        start_deg: run.angle()[0].to_degrees().rem_euclid(360.0),
-        arc_deg: shown.arc.to_degrees(),
-        gaps_deg: profile
-            .gaps()
-            .iter()
-            .map(|gap| gap.map(f64::to_degrees))
-            .collect(),
+        start_deg: to_deg(run.angle()[0]).rem_euclid(360.0),
+        arc_deg: to_deg(shown.arc),
+        gaps_deg: profile.gaps().iter().map(|gap| gap.map(to_deg)).collect(),
         shown: ShownAnswer::of(shown),
     }
 }
@@ -383,8 +379,8 @@ fn of_parts(parts: &Parts, found: &BallbarAnalysis<'_>) -> PartsAnswer {
             .map(|part| PartAnswer {
                 what: name(part.term),
                 kind: kind_of(part.term),
-                value_um: part.value * 1e6,
-                u_um: part.u * 1e6,
+                value_um: to_um(part.value),
+                u_um: to_um(part.u),
             })
             .collect(),
         scale_um_per_m: scale.map(|(mean, half)| {
@@ -398,12 +394,12 @@ fn of_parts(parts: &Parts, found: &BallbarAnalysis<'_>) -> PartsAnswer {
         squareness_u_urad: of(Term::Squareness).map(|part| 2.0 * part.u * per_m),
         servo_mismatch_s: servo.map(|(part, feed)| 2.0 * part.value / feed),
         servo_mismatch_u_s: servo.map(|(part, feed)| 2.0 * part.u / feed),
-        cyclic_period_mm: found.requested.period.map(|period| period * 1e3),
+        cyclic_period_mm: found.requested.period.map(to_mm),
         not_identifiable: (parts.together.iter())
             .map(|set| set.iter().map(|term| name(*term)).collect())
             .collect(),
-        rms_before_um: parts.rms_before * 1e6,
-        rms_after_um: parts.rms_after * 1e6,
+        rms_before_um: to_um(parts.rms_before),
+        rms_after_um: to_um(parts.rms_after),
     }
 }
 
@@ -413,8 +409,8 @@ fn outliers(names: &[&str], found: &BallbarAnalysis<'_>) -> Vec<OutlierAnswer> {
         .flat_map(|(name, outliers)| {
             outliers.iter().map(|outlier| OutlierAnswer {
                 run: (*name).to_owned(),
-                angle_deg: outlier.angle.to_degrees(),
-                off_um: outlier.off * 1e6,
+                angle_deg: to_deg(outlier.angle),
+                off_um: to_um(outlier.off),
                 at_reversal: outlier.at_reversal,
             })
         })

@@ -18,6 +18,7 @@ use std::path::PathBuf;
 
 use armill_core::measure::ballbar::profile::{STATIONS, station};
 use armill_core::measure::ballbar::{Difference, Direction, Profile};
+use armill_core::units::{to_deg, to_um};
 use armill_formats::file::ResultFolder;
 use armill_formats::table::{Column, ColumnData, Table, csv};
 use armill_report::html::{Report, Table as Rows};
@@ -73,7 +74,7 @@ fn stations(name: &str, description: &str, values: &[Option<f64>]) -> Column {
         unit: Some("um".to_owned()),
         description: description.to_owned(),
         decimals: Some(3),
-        data: ColumnData::OptionalFloat(values.iter().map(|value| value.map(|v| v * 1e6)).collect()),
+        data: ColumnData::OptionalFloat(values.iter().map(|value| value.map(to_um)).collect()),
     }
 }
 
@@ -84,7 +85,7 @@ fn angles() -> Column {
         unit: Some("deg".to_owned()),
         description: "from the first axis of the plane towards the second".to_owned(),
         decimals: Some(3),
-        data: ColumnData::Float((0..STATIONS).map(|k| station(k).to_degrees()).collect()),
+        data: ColumnData::Float((0..STATIONS).map(|k| to_deg(station(k))).collect()),
     }
 }
 
@@ -190,14 +191,14 @@ fn circle(given: &BallbarAnswer, found: &BallbarAnalysis<'_>) -> Picture {
         let run = &found.test.runs()[index];
         let radii = Profile::of(run).stations();
         // The first point again, so that the line closes; missing samples interrupt it.
-        let closed = (0..=STATIONS).map(|k| radii[k % STATIONS].map_or(f64::NAN, |dr| dr * 1e6));
+        let closed = (0..=STATIONS).map(|k| radii[k % STATIONS].map_or(f64::NAN, to_um));
         BallbarTrace {
             name: found.measured.origins[index].name.clone(),
             sense: match run.direction() {
                 Direction::Clockwise => Sense::Clockwise,
                 Direction::Anticlockwise => Sense::Anticlockwise,
             },
-            angle_deg: (0..=STATIONS).map(|k| station(k).to_degrees()).collect(),
+            angle_deg: (0..=STATIONS).map(|k| to_deg(station(k))).collect(),
             radial_um: closed.collect(),
             start_deg: Some(given.runs[index].start_deg),
         }
@@ -227,10 +228,10 @@ fn circle(given: &BallbarAnswer, found: &BallbarAnalysis<'_>) -> Picture {
 fn along(name: String, values: &[Option<f64>], of: fn(f64) -> f64) -> Series {
     Series {
         name,
-        position: (0..STATIONS).map(|k| station(k).to_degrees()).collect(),
+        position: (0..STATIONS).map(|k| to_deg(station(k))).collect(),
         deviation_um: values
             .iter()
-            .map(|value| value.map_or(f64::NAN, |v| of(v * 1e6)))
+            .map(|value| value.map_or(f64::NAN, |v| of(to_um(v))))
             .collect(),
     }
 }

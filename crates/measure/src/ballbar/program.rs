@@ -20,6 +20,7 @@ use armill_core::map::along_path;
 use armill_core::nalgebra::Vector2;
 use armill_core::path::{Shape, Track};
 use armill_core::spatial::Wrench;
+use armill_core::units::to_mm;
 use armill_core::watch::Watch;
 use armill_programs::Written;
 use armill_study::analysis::path::PathAnalysis;
@@ -75,8 +76,8 @@ pub fn taught_program(
         return Err(StudyError::value(
             format!(
                 "the circle of the study has {} mm, that of the ball-bar {} mm",
-                armill_study::number::decimals(radius * 1e3, 6),
-                armill_study::number::decimals(taught.radius * 1e3, 6)
+                armill_study::number::decimals(to_mm(radius), 6),
+                armill_study::number::decimals(to_mm(taught.radius), 6)
             ),
             "use the same circle in both; give --radius-mm if the files do not contain it",
         ));

@@ -1,6 +1,7 @@
 //! Results of the software of the ball-bar, with the value of armill for comparison where both have the same quantity.
 
 use armill_core::measure::ballbar::parts::Term;
+use armill_core::units::to_um;
 use armill_formats::measurement::ballbar::Feature;
 use armill_study::measured::circular_test::MeasuredTest;
 use serde::Serialize;
@@ -72,7 +73,7 @@ pub(super) fn add_own_values(given: &mut BallbarAnswer, found: &BallbarAnalysis<
         let name = format!("{axis}{side}");
         let index = found.requested.reversals.iter().position(|of| of.name == name)?;
         let part = found.parts.as_ref()?.alone(Term::Reversal(index))?;
-        Some(part.value * 1e6)
+        Some(to_um(part.value))
     };
     let squareness = given.parts.as_ref().and_then(|parts| parts.squareness_urad);
     let ours = [

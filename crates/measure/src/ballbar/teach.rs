@@ -9,6 +9,7 @@
 use std::f64::consts::TAU;
 
 use armill_core::measure::ballbar::{Extreme, Taught, taught};
+use armill_core::units::{to_deg, to_mm, to_um};
 use armill_formats::table::{Column, ColumnData, Table, csv};
 use armill_study::StudyError;
 use armill_study::measured::circular_test::MeasuredTest;
@@ -121,19 +122,19 @@ pub fn teach(
             "measure full turns",
         )
     })?;
-    let um = |extremes: [Extreme; 2]| extremes.map(|extreme| extreme.deviation * 1e6);
+    let um = |extremes: [Extreme; 2]| extremes.map(|extreme| to_um(extreme.deviation));
     let corrections: Vec<f64> = (0..points)
         .map(|k| found.correction(TAU * k as f64 / points as f64))
         .collect();
     let given = TaughtAnswer {
         points,
         most_lobes: found.lobes.harmonics.last().map_or(most_lobes, |lobe| lobe.waves),
-        largest_correction_um: corrections.iter().map(|c| c.abs()).fold(0.0, f64::max) * 1e6,
-        circular_before_um: found.before.circular.ok().map(|g| g * 1e6),
-        circular_expected_um: found.expected.circular.ok().map(|g| g * 1e6),
+        largest_correction_um: to_um(corrections.iter().map(|c| c.abs()).fold(0.0, f64::max)),
+        circular_before_um: found.before.circular.ok().map(to_um),
+        circular_expected_um: found.expected.circular.ok().map(to_um),
         radial_before_um: um(found.before.radial),
         radial_expected_um: um(found.expected.radial),
-        stays_um: found.stays.map(|stays| stays * 1e6),
+        stays_um: found.stays.map(to_um),
     };
     let circle = TaughtCircle {
         radius: shown.test.radius(),
@@ -155,11 +156,11 @@ fn table(radius: f64, corrections: &[f64]) -> Result<Table, StudyError> {
     };
     let taught = |k: usize| radius + corrections[k];
     let columns = vec![
-        column("angle_deg", "deg", (6, &|k| angle(k).to_degrees())),
-        column("radius_mm", "mm", (6, &|k| taught(k) * 1e3)),
-        column("correction_um", "um", (3, &|k| corrections[k] * 1e6)),
-        column("x_mm", "mm", (6, &|k| taught(k) * angle(k).cos() * 1e3)),
-        column("y_mm", "mm", (6, &|k| taught(k) * angle(k).sin() * 1e3)),
+        column("angle_deg", "deg", (6, &|k| to_deg(angle(k)))),
+        column("radius_mm", "mm", (6, &|k| to_mm(taught(k)))),
+        column("correction_um", "um", (3, &|k| to_um(corrections[k]))),
+        column("x_mm", "mm", (6, &|k| to_mm(taught(k) * angle(k).cos()))),
+        column("y_mm", "mm", (6, &|k| to_mm(taught(k) * angle(k).sin()))),
     ];
     Ok(Table::new("taught", columns)?)
 }
@@ -177,7 +178,7 @@ pub fn before(before: &BallbarAnalysis<'_>, after: &BallbarAnalysis<'_>) -> Resu
         |found: &BallbarAnalysis<'_>| found.all.circular.ok().filter(|_| found.test.is_bidirectional());
     let f = |found: &BallbarAnalysis<'_>, end: usize| Some(found.all.radial[end].deviation);
     let compared = |what: &'static str, of: &dyn Fn(&BallbarAnalysis<'_>) -> Option<f64>| {
-        let [before, after] = [before, after].map(|found| of(found).map(|value| value * 1e6));
+        let [before, after] = [before, after].map(|found| of(found).map(to_um));
         let left = before.zip(after).filter(|(before, _)| *before != 0.0);
         ComparedQuantity {
             what,
@@ -203,7 +204,7 @@ pub fn before(before: &BallbarAnalysis<'_>, after: &BallbarAnalysis<'_>) -> Resu
 /// Refuses to compare tests of different circles; values that one of them lacks are not compared.
 fn same_circle(before: &MeasuredTest, after: &MeasuredTest) -> Result<(), StudyError> {
     let [one, other] = [before, after].map(|of| of.test.radius());
-    let mm = |radius: f64| format!("{} mm", radius * 1e3);
+    let mm = |radius: f64| format!("{} mm", to_mm(radius));
     let feed = |feed: f64| format!("{} mm/min", decimals(feed * 60e3, 3));
     let feeds = before.feed.zip(after.feed);
     let planes = before.plane.as_ref().zip(after.plane.as_ref());

@@ -3,6 +3,7 @@
 use armill_core::calibrate::{Estimate, ParameterLocation, PoseErrors, Spread, Unknown};
 use armill_core::frame::{Isometry, fixed_angles};
 use armill_core::robot::Robot;
+use armill_core::units::{to_deg, to_mm};
 use armill_study::number::decimals;
 use serde::Serialize;
 
@@ -176,11 +177,11 @@ pub fn answer(robot: &Robot, calibration: &Calibration, question: &Question) -> 
         tracker_from_base: frame(ParameterLocation::Base, &after.tracker_from_base),
         flange_from_point: frame(ParameterLocation::Tool, &after.flange_from_point),
         prior: question.prior.map(|prior| PriorAnswer {
-            length_mm: reported(prior.length * 1e3),
-            angle_deg: reported(prior.angle.to_degrees()),
+            length_mm: reported(to_mm(prior.length)),
+            angle_deg: reported(to_deg(prior.angle)),
         }),
         effective_parameters: decimals(after.effective_parameters, 3),
-        standard_deviation_mm: reported(after.standard_deviation * 1e3),
+        standard_deviation_mm: reported(to_mm(after.standard_deviation)),
         unused: calibration.unused.clone(),
         not_measured: calibration.not_measured,
         notes,
@@ -239,7 +240,7 @@ fn set_answer(set: &PoseSet) -> SetAnswer {
     let rms = set.after.of_position().map_or(0.0, |spread| spread.rms);
     let pose = |place: &usize| PoseAnswer {
         line: set.lines[*place],
-        error_mm: reported(lengths[*place] * 1e3),
+        error_mm: reported(to_mm(lengths[*place])),
         is_outlier: lengths[*place] > OUTLIER * rms,
     };
     SetAnswer {
@@ -264,12 +265,12 @@ pub(crate) fn errors_answer(errors: &PoseErrors) -> ErrorsAnswer {
     let turn = errors.of_turn();
     let by_axis = errors.rms_by_axis();
     ErrorsAnswer {
-        mean_mm: reported(position.mean * 1e3),
-        rms_mm: reported(position.rms * 1e3),
-        max_mm: reported(position.largest * 1e3),
-        rms_xyz_mm: [0, 1, 2].map(|axis| reported(by_axis[axis] * 1e3)),
-        turn_mean_deg: turn.map(|turn| reported(turn.mean.to_degrees())),
-        turn_max_deg: turn.map(|turn| reported(turn.largest.to_degrees())),
+        mean_mm: reported(to_mm(position.mean)),
+        rms_mm: reported(to_mm(position.rms)),
+        max_mm: reported(to_mm(position.largest)),
+        rms_xyz_mm: [0, 1, 2].map(|axis| reported(to_mm(by_axis[axis]))),
+        turn_mean_deg: turn.map(|turn| reported(to_deg(turn.mean))),
+        turn_max_deg: turn.map(|turn| reported(to_deg(turn.largest))),
     }
 }
 
@@ -287,10 +288,10 @@ pub(crate) fn frame_answer(
     let at = isometry.translation.vector;
     let turned = fixed_angles(&isometry.rotation);
     FrameAnswer {
-        at_mm: [0, 1, 2].map(|axis| reported(at[axis] * 1e3)),
-        at_u_mm: [0, 1, 2].map(|axis| u(axis).map(|u| reported(u * 1e3))),
-        turned_deg: [0, 1, 2].map(|axis| reported(turned[axis].to_degrees())),
-        turned_u_deg: [3, 4, 5].map(|axis| u(axis).map(|u| reported(u.to_degrees()))),
+        at_mm: [0, 1, 2].map(|axis| reported(to_mm(at[axis]))),
+        at_u_mm: [0, 1, 2].map(|axis| u(axis).map(|u| reported(to_mm(u)))),
+        turned_deg: [0, 1, 2].map(|axis| reported(to_deg(turned[axis]))),
+        turned_u_deg: [3, 4, 5].map(|axis| u(axis).map(|u| reported(to_deg(u)))),
     }
 }
 
@@ -303,8 +304,8 @@ fn parameter(robot: &Robot, estimate: &Estimate) -> ParameterAnswer {
         }
         _ => None,
     };
-    let length = |length: f64| (!turns).then(|| reported(length * 1e3));
-    let angle = |angle: f64| turns.then(|| reported(angle.to_degrees()));
+    let length = |length: f64| (!turns).then(|| reported(to_mm(length)));
+    let angle = |angle: f64| turns.then(|| reported(to_deg(angle)));
     ParameterAnswer {
         name: unknown_name(robot, &estimate.unknown),
         zero: estimate.unknown.is_zero_of(robot),

@@ -8,6 +8,7 @@ use std::fmt::Write;
 
 use armill_core::calibrate::PoseErrors;
 use armill_core::robot::Robot;
+use armill_core::units::to_mm;
 use armill_formats::robot::armill::{Geometry, with_geometry};
 use armill_report::{ErrorDistribution, ErrorSet};
 use armill_study::StudyError;
@@ -24,7 +25,7 @@ pub fn residuals(calibration: &Calibration) -> String {
         for (place, line) in set.lines.iter().enumerate() {
             let _ = write!(text, "{name},{line}");
             for errors in [&set.before, &set.after] {
-                let error = errors.position[place] * 1e3;
+                let error = to_mm(errors.position[place]);
                 let _ = write!(
                     text,
                     ",{:.4},{:.4},{:.4},{:.4}",
@@ -46,7 +47,7 @@ pub fn residuals(calibration: &Calibration) -> String {
 
 /// Errors of position before and after, as SVG.
 pub fn drawing(given: &CalibrateAnswer, calibration: &Calibration) -> String {
-    let lengths = |errors: &PoseErrors| errors.position.iter().map(|e| e.norm() * 1e3).collect();
+    let lengths = |errors: &PoseErrors| errors.position.iter().map(|e| to_mm(e.norm())).collect();
     let of = |name: &str, set: &PoseSet| ErrorSet {
         name: name.to_owned(),
         before_mm: lengths(&set.before),
@@ -85,7 +86,7 @@ pub fn robot_file(
         })
         .filter(|(_, motions)| !motions.is_empty())
         .collect();
-    let rms = |set: &PoseSet| set.after.of_position().map_or(0.0, |spread| spread.rms * 1e3);
+    let rms = |set: &PoseSet| set.after.of_position().map_or(0.0, |spread| to_mm(spread.rms));
     let validation = calibration.validation.as_ref().map_or(String::new(), |set| {
         format!("; {} validation poses: {:.3} mm rms", set.lines.len(), rms(set))
     });

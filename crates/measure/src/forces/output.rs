@@ -10,6 +10,7 @@ use std::path::PathBuf;
 
 use armill_core::load::record::revolutions::Revolution;
 use armill_core::nalgebra::Vector3;
+use armill_core::units::to_mm;
 use armill_formats::file::ResultFolder;
 use armill_formats::table::{Column, Table, csv};
 use armill_study::StudyError;
@@ -86,7 +87,7 @@ struct Short(f64);
 
 impl std::fmt::Display for Short {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{}", (self.0 * 1e3).round() / 1e3)
+        write!(f, "{}", to_mm(self.0).round() / 1e3)
     }
 }
 

@@ -10,6 +10,7 @@ use armill_core::identify::{
 };
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::Robot;
+use armill_core::units::{to_mm, to_per_um, to_um};
 use armill_formats::measurement::load_tests::LoadTests;
 use armill_study::StudyError;
 use schemars::JsonSchema;
@@ -256,24 +257,24 @@ fn reported(
             compliance_rad_per_n_m: turns.then_some(value),
             compliance_u_rad_per_n_m: turns.then_some(u),
             stiffness_n_m_per_rad: stiffness.filter(|_| turns),
-            compliance_um_per_n: (!turns).then_some(value * 1e6),
-            compliance_u_um_per_n: (!turns).then_some(u * 1e6),
-            stiffness_n_per_um: stiffness.filter(|_| !turns).map(|k| k * 1e-6),
+            compliance_um_per_n: (!turns).then_some(to_um(value)),
+            compliance_u_um_per_n: (!turns).then_some(to_um(u)),
+            stiffness_n_per_um: stiffness.filter(|_| !turns).map(to_per_um),
             fraction_known_from_tests,
         });
     }
     let point = |shift: Option<[Vector3<f64>; 2]>| {
         shift.map(|[shift, u]| PointAnswer {
-            shift_mm: (shift * 1e3).into(),
-            shift_u_mm: (u * 1e3).into(),
-            tool_point_mm: ((question.tool_point + shift) * 1e3).into(),
+            shift_mm: to_mm(shift).into(),
+            shift_u_mm: to_mm(u).into(),
+            tool_point_mm: to_mm(question.tool_point + shift).into(),
         })
     };
     let errors = |errors: Option<Errors>| {
         errors.map(|errors| ErrorsAnswer {
-            mean_um: errors.mean * 1e6,
-            rms_um: errors.rms * 1e6,
-            max_um: errors.largest * 1e6,
+            mean_um: to_um(errors.mean),
+            rms_um: to_um(errors.rms),
+            max_um: to_um(errors.largest),
             fraction_of_measured: errors.relative,
         })
     };
@@ -332,10 +333,10 @@ fn test_answer(name: &str, test: &LoadTest, outcome: &TestOutcome) -> TestAnswer
     for (k, reading) in test.readings.iter().enumerate() {
         match reading.what {
             Measured::Displacement(axis) => {
-                answer.residual_um[axis.index()] = outcome.residuals.get(k).map(|r| r * 1e6);
-                answer.left_out_um[axis.index()] = outcome.left_out.get(k).map(|r| r * 1e6);
+                answer.residual_um[axis.index()] = outcome.residuals.get(k).map(to_um);
+                answer.left_out_um[axis.index()] = outcome.left_out.get(k).map(to_um);
             }
-            Measured::Turn(_) => answer.turn_residual_urad = outcome.residuals.get(k).map(|r| r * 1e6),
+            Measured::Turn(_) => answer.turn_residual_urad = outcome.residuals.get(k).map(to_um),
         }
     }
     answer

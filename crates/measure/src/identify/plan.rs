@@ -15,6 +15,7 @@ use armill_core::robot::Robot;
 use armill_core::robot::inverse::posture_at;
 use armill_core::source::elastic::displacement;
 use armill_core::spatial::Wrench;
+use armill_core::units::{to_deg, to_mm, to_um};
 use armill_formats::table::csv;
 use armill_study::StudyError;
 use schemars::JsonSchema;
@@ -85,7 +86,7 @@ pub fn plan(
         ));
     }
     within("--pull-n", pull, PULL_N, "N")?;
-    within("--gauge-um", gauge * 1e6, GAUGE_UM, "um")?;
+    within("--gauge-um", to_um(gauge), GAUGE_UM, "um")?;
     let unknowns = question.unknowns(robot, &[])?;
     let requested = PlanQuestion {
         tests: count,
@@ -120,7 +121,7 @@ pub fn plan(
                 .map(|(i, q)| rounded(robot, i, *q))
                 .collect(),
             force_n: test.force.into(),
-            expected_mm: (expected(robot, question, test) * 1e3).into(),
+            expected_mm: to_mm(expected(robot, question, test)).into(),
         })
         .collect();
     let mut postures: Vec<&Vec<f64>> = tests.iter().map(|test| &test.joints_deg).collect();
@@ -146,7 +147,7 @@ pub fn plan(
 
 /// Unit of joint `i` in the table, per rad (m): degrees, mm.
 fn scale(robot: &Robot, i: usize) -> f64 {
-    if robot.slides(i) { 1e3 } else { 1f64.to_degrees() }
+    if robot.slides(i) { 1e3 } else { to_deg(1f64) }
 }
 
 /// Joint `i` as the table has it: whole degrees (mm).
@@ -181,7 +182,7 @@ fn table(robot: &Robot, tests: &[PlannedTestAnswer]) -> String {
     header.extend(["expected_dx_mm", "expected_dy_mm", "expected_dz_mm"].map(str::to_owned));
     let mut lines = vec![header.join(",")];
     // Adding 0 turns -0 into 0.
-    let plain = |value: &f64| format!("{}", (value * 1e3).round() / 1e3 + 0.0);
+    let plain = |value: &f64| format!("{}", to_mm(value).round() / 1e3 + 0.0);
     for (index, test) in tests.iter().enumerate() {
         let mut cells = vec![format!("{}", index + 1)];
         cells.extend(test.joints_deg.iter().chain(&test.force_n).map(plain));

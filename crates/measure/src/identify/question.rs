@@ -12,6 +12,7 @@ use armill_core::identify::unknown::{base, bending, drives, lost_motion, tool};
 use armill_core::identify::{LoadTest, Points, Prior, Role, Unknown};
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::{Axis, Robot};
+use armill_core::units::to_mm;
 use armill_formats::robot::spring_tables::SpringKind;
 use armill_study::{StudyError, robot_answers};
 
@@ -90,7 +91,7 @@ impl Question {
     /// # Errors
     /// An unknown group; a list without drives; an implausible uncertainty of the points.
     pub fn unknowns(&self, robot: &Robot, tests: &[LoadTest]) -> Result<Vec<Unknown>, StudyError> {
-        within("--point-u-mm", self.point_u * 1e3, POINT_U_MM, "mm")?;
+        within("--point-u-mm", to_mm(self.point_u), POINT_U_MM, "mm")?;
         let groups: Vec<&str> = self.unknowns.split('+').map(str::trim).collect();
         if let Some(unknown) = groups.iter().find(|group| !GROUPS.contains(group)) {
             let message = format!("--unknowns: `{unknown}` is not a group of springs");

@@ -5,6 +5,7 @@
 
 use armill_core::nalgebra::Point2;
 use armill_core::roundness::{Plane, ReferenceCircle, Zone};
+use armill_core::units::{to_deg, to_mm, to_um};
 use armill_formats::measurement::profile::MeasuredProfile;
 use serde::Serialize;
 
@@ -143,13 +144,13 @@ pub fn answer(
     let plane = evaluation.plane.as_ref();
     let round = |circle: &ReferenceCircle| CircleAnswer {
         centre_mm: place(plane, &circle.centre),
-        radius_mm: circle.radius * 1e3,
-        ront_mm: circle.peak_to_valley * 1e3,
+        radius_mm: to_mm(circle.radius),
+        ront_mm: to_mm(circle.peak_to_valley),
     };
     let zone = |zone: &Zone| ZoneAnswer {
         centre_mm: place(plane, &zone.centre),
-        radii_mm: [zone.inner * 1e3, zone.outer * 1e3],
-        ront_mm: zone.peak_to_valley() * 1e3,
+        radii_mm: [to_mm(zone.inner), to_mm(zone.outer)],
+        ront_mm: to_mm(zone.peak_to_valley()),
     };
     let as_measured = evaluation.measured.as_ref().unwrap_or(&evaluation.polar);
     RoundnessAnswer {
@@ -161,17 +162,17 @@ pub fn answer(
             normal: plane.normal.into(),
             x_axis: plane.x.into(),
             y_axis: plane.y.into(),
-            flatness_mm: plane.flatness * 1e3,
+            flatness_mm: to_mm(plane.flatness),
         }),
-        largest_gap_deg: as_measured.gap.width.to_degrees(),
+        largest_gap_deg: to_deg(as_measured.gap.width),
         filter_upr: question.upr,
         lsci: LeastSquaresAnswer {
             centre_mm: place(plane, &evaluation.least_squares.centre),
-            radius_mm: evaluation.least_squares.radius * 1e3,
-            ront_mm: evaluation.least_squares.peak_to_valley * 1e3,
-            ronp_mm: evaluation.polar.highest_peak() * 1e3,
-            ronv_mm: evaluation.polar.deepest_valley() * 1e3,
-            ronq_mm: evaluation.polar.root_mean_square() * 1e3,
+            radius_mm: to_mm(evaluation.least_squares.radius),
+            ront_mm: to_mm(evaluation.least_squares.peak_to_valley),
+            ronp_mm: to_mm(evaluation.polar.highest_peak()),
+            ronv_mm: to_mm(evaluation.polar.deepest_valley()),
+            ronq_mm: to_mm(evaluation.polar.root_mean_square()),
         },
         mzci: evaluation.zone.as_ref().ok().map(zone),
         mzci_refused: evaluation.zone.as_ref().err().map(ToString::to_string),
@@ -183,8 +184,8 @@ pub fn answer(
             .iter()
             .map(|wave| HarmonicAnswer {
                 waves: wave.waves,
-                amplitude_um: wave.amplitude * 1e6,
-                phase_deg: wave.phase.to_degrees(),
+                amplitude_um: to_um(wave.amplitude),
+                phase_deg: to_deg(wave.phase),
             })
             .collect(),
         outliers: evaluation
@@ -192,8 +193,8 @@ pub fn answer(
             .iter()
             .map(|(index, off)| OutlierAnswer {
                 line: measured.lines[*index],
-                angle_deg: as_measured.angles[*index].to_degrees(),
-                off_um: off * 1e6,
+                angle_deg: to_deg(as_measured.angles[*index]),
+                off_um: to_um(off),
             })
             .collect(),
         notes: notes(measured, question, evaluation),
@@ -204,15 +205,15 @@ pub fn answer(
 /// A point of the profile in the axes of the file, mm.
 fn place(plane: Option<&Plane>, at: &Point2<f64>) -> Vec<f64> {
     match plane {
-        Some(plane) => (plane.at(at) * 1e3).iter().copied().collect(),
-        None => vec![at.x * 1e3, at.y * 1e3],
+        Some(plane) => to_mm(plane.at(at)).iter().copied().collect(),
+        None => vec![to_mm(at.x), to_mm(at.y)],
     }
 }
 
 /// What to know of the numbers.
 fn notes(measured: &MeasuredProfile, question: &Question, evaluation: &RoundnessEvaluation) -> Vec<String> {
     let as_measured = evaluation.measured.as_ref().unwrap_or(&evaluation.polar);
-    let gap_deg = as_measured.gap.width.to_degrees();
+    let gap_deg = to_deg(as_measured.gap.width);
     let waves = as_measured.most_waves();
     let mut notes = Vec::new();
     if gap_deg >= 90.0 {

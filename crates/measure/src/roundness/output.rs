@@ -9,6 +9,7 @@ use std::path::PathBuf;
 
 use armill_core::nalgebra::Point2;
 use armill_core::roundness::Polar;
+use armill_core::units::{to_deg, to_mm, to_um, um_from_mm};
 use armill_formats::file::ResultFolder;
 use armill_formats::table::{Table, csv};
 use armill_report::{Growth, PolarPlot, RadialReference, RadialSeries};
@@ -61,7 +62,7 @@ pub fn write(
 /// The picture of a profile.
 pub fn plot(answer: &RoundnessAnswer, evaluation: &RoundnessEvaluation) -> PolarPlot {
     let polar = &evaluation.polar;
-    let given = |name: &str, ront_mm: f64| format!("{name}, RONt {:.2} µm", ront_mm * 1e3);
+    let given = |name: &str, ront_mm: f64| format!("{name}, RONt {:.2} µm", um_from_mm(ront_mm));
     let filter = match answer.filter_upr {
         Some(upr) => format!("Gaussian filter {upr} UPR"),
         None => "not filtered".to_owned(),
@@ -69,8 +70,8 @@ pub fn plot(answer: &RoundnessAnswer, evaluation: &RoundnessEvaluation) -> Polar
     let drawn: Vec<usize> = drawn(polar);
     let mut series = RadialSeries {
         name: "profile".to_owned(),
-        angle_deg: drawn.iter().map(|i| polar.angles[*i].to_degrees()).collect(),
-        radial_um: drawn.iter().map(|i| polar.deviations[*i] * 1e6).collect(),
+        angle_deg: drawn.iter().map(|i| to_deg(polar.angles[*i])).collect(),
+        radial_um: drawn.iter().map(|i| to_um(polar.deviations[*i])).collect(),
     };
     if !is_open(polar) {
         // The first point again closes the line.
@@ -118,7 +119,7 @@ pub fn plot(answer: &RoundnessAnswer, evaluation: &RoundnessEvaluation) -> Polar
 
 /// Whether the points leave so much open that no line is drawn there.
 fn is_open(polar: &Polar) -> bool {
-    polar.gap.width.to_degrees() > OPEN_DEG
+    to_deg(polar.gap.width) > OPEN_DEG
 }
 
 /// Circles about `centre` with these radii (m), as seen from the centre of `polar`, where it has points.
@@ -140,8 +141,8 @@ fn reference(name: &str, polar: &Polar, centre: Point2<f64>, radii: &[f64]) -> R
             let (along, across) = (shift.x * cos + shift.y * sin, shift.y * cos - shift.x * sin);
             // From the centre of the plot the circle is met at `along` and the remaining part of the radius.
             let distance = along + (radius * radius - across * across).max(0.0).sqrt();
-            seen.angle_deg.push(angle.to_degrees());
-            seen.radial_um.push((distance - polar.radius) * 1e6);
+            seen.angle_deg.push(to_deg(angle));
+            seen.radial_um.push(to_um(distance - polar.radius));
         }
         // Ends the line of this circle.
         seen.angle_deg.push(0.0);
@@ -149,7 +150,7 @@ fn reference(name: &str, polar: &Polar, centre: Point2<f64>, radii: &[f64]) -> R
     }
     RadialReference {
         seen,
-        centre_um: [shift.x * 1e6, shift.y * 1e6],
+        centre_um: [to_um(shift.x), to_um(shift.y)],
     }
 }
 
@@ -188,25 +189,25 @@ fn table(evaluation: &RoundnessEvaluation) -> Result<Table, StudyError> {
             "deg",
             "about the centre of the least-squares circle",
             7,
-            all(&|i| polar.angles[i].to_degrees()),
+            all(&|i| to_deg(polar.angles[i])),
         ),
         column(
             "radius_mm",
             "mm",
             "distance from that centre",
             9,
-            all(&|i| (polar.radius + polar.deviations[i]) * 1e3),
+            all(&|i| to_mm(polar.radius + polar.deviations[i])),
         ),
         column(
             "deviation_um",
             "um",
             "outward from the least-squares circle",
             6,
-            all(&|i| polar.deviations[i] * 1e6),
+            all(&|i| to_um(polar.deviations[i])),
         ),
     ];
     if let Some(measured) = &evaluation.measured {
-        let values = all(&|i| measured.deviations[i] * 1e6);
+        let values = all(&|i| to_um(measured.deviations[i]));
         columns.push(column(
             "deviation_measured_um",
             "um",

@@ -3,6 +3,7 @@
 //! `cells[]` are the compared cells, in the order given; `analyses[]` the analyses they have in common, paths first,
 //! each with its cells best first.
 
+use armill_core::units::to_mm;
 use std::cmp::Ordering;
 
 use armill_formats::sources::Source;
@@ -245,9 +246,9 @@ fn unlike_paths(of: &ComparableCells, group: &[Entry], name: &str) -> Vec<String
             return None;
         }
         let size =
-            |path: &PathAnalysis| format!("{} points over {:.1} mm", path.track.len(), path.length() * 1e3);
+            |path: &PathAnalysis| format!("{} points over {:.1} mm", path.track.len(), to_mm(path.length()));
         let how = match reference.track.len() == other.track.len() {
-            true => format!("points differ by up to {:.3} mm", apart * 1e3),
+            true => format!("points differ by up to {:.3} mm", to_mm(apart)),
             false => format!("{} against {}", size(reference), size(other)),
         };
         Some(format!(

@@ -1,6 +1,7 @@
 //! The in-plane deviation along a path, short enough for a chart.
 
 use armill_core::kernel::Answers;
+use armill_core::units::to_um;
 use armill_study::analysis::path::PathAnalysis;
 use armill_study::analysis::path::point_groups::PointGroups;
 
@@ -19,7 +20,7 @@ impl Curve {
         let points = &analysis.track.path.points;
         let handfuls = PointGroups::of(points.len());
         let in_plane = |i: usize| match &answers.points[i] {
-            Ok(evaluation) => evaluation.in_plane * 1e6,
+            Ok(evaluation) => to_um(evaluation.in_plane),
             Err(_) => f64::NAN,
         };
         Curve {

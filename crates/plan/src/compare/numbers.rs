@@ -5,6 +5,7 @@
 
 use armill_core::kernel::Answers;
 use armill_core::map::Counts;
+use armill_core::units::to_um;
 use armill_study::analysis::path::PathAnalysis;
 use armill_study::answer::{
     CountsAnswer, HolesAnswer, MapAnswer, PathAnswer, PointAnswer, SettingAnswer, VolumeAnswer,
@@ -131,13 +132,13 @@ fn numbers(
     let counts = Counts::of(answers, limit);
     let mut deviations: Vec<f64> = answers
         .evaluations()
-        .map(|(_, evaluation)| evaluation.in_plane * 1e6)
+        .map(|(_, evaluation)| to_um(evaluation.in_plane))
         .collect();
     deviations.sort_by(f64::total_cmp);
     let reached = deviations.len();
     let normal = answers
         .evaluations()
-        .map(|(_, evaluation)| evaluation.normal.abs() * 1e6);
+        .map(|(_, evaluation)| to_um(evaluation.normal.abs()));
     let share = worst.and_then(|worst| worst.mostly_by(&setting.contributors));
     CellNumbers {
         cell: String::new(),

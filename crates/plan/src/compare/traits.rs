@@ -7,6 +7,7 @@ use armill_core::frame::Isometry;
 use armill_core::load::LoadFrame;
 use armill_core::map::VolumeMap;
 use armill_core::nalgebra::Vector3;
+use armill_core::units::{to_deg, to_mm, to_um};
 use armill_study::analysis::Sheet;
 use armill_study::analysis::holes::resolve::HolesAnalysis;
 use armill_study::analysis::path::PathAnalysis;
@@ -39,7 +40,7 @@ pub(super) fn of_sheet(study: &Study, sheet: &Sheet) -> Vec<(&'static str, Strin
         "{} x {} points, {} mm apart",
         grid.columns,
         grid.rows,
-        plain(grid.step * 1e3)
+        plain(to_mm(grid.step))
     );
     all(study, setting, [place, load(setting), points])
 }
@@ -48,7 +49,7 @@ pub(super) fn of_sheet(study: &Study, sheet: &Sheet) -> Vec<(&'static str, Strin
 pub(super) fn of_volume(study: &Study, setting: &Setting, volume: &VolumeMap) -> Vec<(&'static str, String)> {
     let corner = setting.in_reference(&volume.grid.corner());
     let [x, y, z] = volume.grid.counts;
-    let step = plain(volume.grid.step * 1e3);
+    let step = plain(to_mm(volume.grid.step));
     let place = format!(
         "corner at {} mm from {}",
         numbers(&corner.coords, 1e3),
@@ -67,7 +68,7 @@ pub(super) fn of_volume(study: &Study, setting: &Setting, volume: &VolumeMap) ->
 
 /// A path.
 pub(super) fn of_path(study: &Study, analysis: &PathAnalysis) -> Vec<(&'static str, String)> {
-    let (count, mm) = (analysis.track.len(), analysis.length() * 1e3);
+    let (count, mm) = (analysis.track.len(), to_mm(analysis.length()));
     along(study, analysis, format!("{count} points over {mm:.1} mm"))
 }
 
@@ -86,7 +87,7 @@ fn along(study: &Study, analysis: &PathAnalysis, points: String) -> Vec<(&'stati
         (_, _, Some(measured)) => format!("measured: {}", measured.table.file),
         (_, Some(drill), None) => format!("drilling {}", drill.material.name),
         (Some(cut), None, None) => {
-            let (cutter, stock) = (cut.cutting.cutter.diameter() * 1e3, cut.stock.is_some());
+            let (cutter, stock) = (to_mm(cut.cutting.cutter.diameter()), cut.stock.is_some());
             let out_of = if stock { ", out of a stock" } else { "" };
             format!("cutting {} with {} mm{out_of}", cut.material.name, plain(cutter))
         }
@@ -113,7 +114,7 @@ fn all(study: &Study, setting: &Setting, [place, load, points]: [String; 3]) -> 
         ("tool", pose("TCP", "from the flange", &setting.flange_from_tool)),
         ("posture", setting.branch() + searched),
         ("load", load),
-        ("tolerance", format!("{} µm", plain(setting.tolerance * 1e6))),
+        ("tolerance", format!("{} µm", plain(to_um(setting.tolerance)))),
         ("stiffness model", parts(robot, &setting.model).join("; ")),
         ("points", points),
     ]
@@ -131,7 +132,7 @@ fn pose(what: &str, from: &str, at: &Isometry) -> String {
     format!(
         "{what} at {} mm, rotated by {} deg {from}",
         numbers(&at.translation.vector, 1e3),
-        numbers(&Vector3::new(x, y, z), 1f64.to_degrees())
+        numbers(&Vector3::new(x, y, z), to_deg(1f64))
     )
 }
 

@@ -2,6 +2,7 @@
 
 use armill_core::nalgebra::Vector3;
 use armill_core::path::{Parts, Track};
+use armill_core::units::to_um;
 use serde::Serialize;
 
 /// Distances of the tool from the nominal path, over all points and load cases.
@@ -25,12 +26,12 @@ impl ErrorAnswer {
         let parts = |at: usize| track.parts(at / cases, &errors[at]);
         let largest = |of: &dyn Fn(Parts) -> f64| {
             let sizes = (0..errors.len()).map(|at| of(parts(at)).abs());
-            sizes.fold(0.0, f64::max) * 1e6
+            to_um(sizes.fold(0.0, f64::max))
         };
         let square: f64 = errors.iter().map(Vector3::norm_squared).sum();
         ErrorAnswer {
-            max_um: errors.iter().map(Vector3::norm).fold(0.0, f64::max) * 1e6,
-            rms_um: (square / errors.len().max(1) as f64).sqrt() * 1e6,
+            max_um: to_um(errors.iter().map(Vector3::norm).fold(0.0, f64::max)),
+            rms_um: to_um((square / errors.len().max(1) as f64).sqrt()),
             max_in_plane_um: largest(&|parts| parts.along.hypot(parts.cross)),
             max_cross_um: largest(&|parts| parts.cross),
             max_axial_um: largest(&|parts| parts.axial),

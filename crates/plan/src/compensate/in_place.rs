@@ -17,6 +17,7 @@ use armill_core::load::PathLoad;
 use armill_core::nalgebra::{Point3, Translation3, Vector3};
 use armill_core::optimize::{Shares, fitted, residual_of};
 use armill_core::path::{LoadedTrack, Move, Sampler, Sampling, Spin, Track};
+use armill_core::units::to_um;
 use armill_formats::file::ResultFolder;
 use armill_programs::{Motion, Moved, ProgramText, RobotMove, Spelled, Target, follow, read_as};
 use armill_study::analysis::path::robot_program::Span;
@@ -382,7 +383,7 @@ impl Writer<'_> {
                     "the moves of lines {} share one target, which is up to {:.1} µm from the best position for each: use separate targets for \
                      better results",
                     lines.join(", "),
-                    farthest * 1e6
+                    to_um(farthest)
                 ));
             }
         }

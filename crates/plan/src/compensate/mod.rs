@@ -27,6 +27,7 @@ use armill_core::kernel::Answers;
 use armill_core::nalgebra::{UnitQuaternion, Vector3};
 use armill_core::optimize::{Compensated, Compensation, compensated};
 use armill_core::path::{LoadedTrack, Pace, Shape, Track};
+use armill_core::units::{to_deg, to_mm, to_um};
 use armill_core::watch::Watch;
 use armill_formats::table::{Column, ColumnData, Table, csv};
 use armill_report::{PathPlot, Series};
@@ -188,7 +189,7 @@ fn of_path<'a>(
     let file = format!("{}.commanded.csv", armill_study::file_names::slug(name));
     let correction = |index: usize| {
         let moved = found.track.path.points[index].at - drawn.path.points[index].at;
-        moved.norm() * 1e6
+        to_um(moved.norm())
     };
     let given = CompensatedPath {
         name: name.to_owned(),
@@ -197,7 +198,7 @@ fn of_path<'a>(
         after: ErrorAnswer::of(drawn, &found.residual, found.along.answers.case_count),
         largest_correction_um: (0..drawn.len()).map(correction).fold(0.0, f64::max),
         rounds: found.rounds,
-        last_round_um: found.last_move * 1e6,
+        last_round_um: to_um(found.last_move),
         contraction_ratio: found.contraction,
         unreachable: found.unmoved,
         outside_joint_limits: found
@@ -232,7 +233,7 @@ fn table(name: &str, track: &Track) -> Result<Table, StudyError> {
     };
     let mut columns = Vec::new();
     for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
-        let values = points.iter().map(|point| point.at[axis] * 1e3).collect();
+        let values = points.iter().map(|point| to_mm(point.at[axis])).collect();
         columns.push(column(
             &format!("{letter}_mm"),
             Some("mm"),
@@ -247,7 +248,7 @@ fn table(name: &str, track: &Track) -> Result<Table, StudyError> {
         columns.push(column(letter, None, (9, ColumnData::Float(values))));
     }
     let spins = (0..points.len())
-        .map(|index| spin(track, index).to_degrees())
+        .map(|index| to_deg(spin(track, index)))
         .collect();
     columns.push(column("spin_deg", Some("deg"), (6, ColumnData::Float(spins))));
     let feed = |pace: Pace| match pace {
@@ -292,11 +293,11 @@ fn picture(
         position: points
             .iter()
             .step_by(handful)
-            .map(|point| point.along * 1e3)
+            .map(|point| to_mm(point.along))
             .collect(),
         deviation_um: errors
             .chunks(handful * cases)
-            .map(|some| some.iter().map(Vector3::norm).fold(0.0, f64::max) * 1e6)
+            .map(|some| to_um(some.iter().map(Vector3::norm).fold(0.0, f64::max)))
             .collect(),
     };
     let after = found.along.answers.case_count;

@@ -1,6 +1,7 @@
 //! The best placement, as values of a result.
 
 use armill_core::optimize::{PlacementEvaluation, RankBy};
+use armill_core::units::to_um;
 use armill_study::analysis::words::micrometres;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -102,8 +103,8 @@ impl OutcomeAnswer {
         let PlacementEvaluation { score, uncertainty } = evaluated;
         let cost = if score.cost.is_finite() { score.cost } else { 0.0 };
         OutcomeAnswer {
-            cost_um: cost * 1e6,
-            cost_u_um: uncertainty * 1e6,
+            cost_um: to_um(cost),
+            cost_u_um: to_um(uncertainty),
             probability_above_tolerance: evaluated.probability_above(limit),
             unreachable_points: score.unreachable,
             branch: score.branch.map(|branch| branch.to_string()),

@@ -6,6 +6,7 @@
 
 use armill_core::kernel::PartPlacement;
 use armill_core::optimize::{Objective, Placeable, RankBy, Score};
+use armill_core::units::to_mm;
 use armill_core::watch::{Cancelled, Watch};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -187,7 +188,7 @@ impl Searched<'_> {
         let [metres, radians] = grid.pitch;
         let answer = GridAnswer {
             places,
-            pitch_mm: metres * 1e3,
+            pitch_mm: to_mm(metres),
             pitch_deg: radians / PER_DEG,
             better,
         };

@@ -5,6 +5,7 @@ use armill_core::frame::{Isometry, fixed_angles};
 use armill_core::kernel::PartPlacement;
 use armill_core::nalgebra::{Translation3, Unit, UnitQuaternion, Vector3};
 use armill_core::optimize::ToolTurn;
+use armill_core::units::{from_deg, from_mm, to_deg, to_mm};
 use armill_study::file::placement::PlaceTable;
 use armill_study::input::setting::Setting;
 use armill_study::number::decimals;
@@ -60,8 +61,8 @@ impl Freedom {
         for (bounds, (key, reported)) in bounds.iter_mut().zip(table.bounds()) {
             if let Some(reported) = reported {
                 *bounds = reported.map(|value| match key.ends_with("_mm") {
-                    true => value * 1e-3,
-                    false => value.to_radians(),
+                    true => from_mm(value),
+                    false => from_deg(value),
                 });
             }
         }
@@ -124,8 +125,8 @@ impl Freedom {
         let values = self.values(at);
         let reported = |(degree, bounds): (usize, [f64; 2])| {
             let unit = |value: f64| match is_angle(degree) {
-                true => value.to_degrees(),
-                false => value * 1e3,
+                true => to_deg(value),
+                false => to_mm(value),
             };
             let [least, greatest] = bounds;
             let edge = 1e-3 * (greatest - least);
@@ -148,13 +149,13 @@ impl Freedom {
         let rotation = fixed_angles(&self.reference_from_part(values).rotation);
         // A tenth of a micrometre: finer than a part can be placed.
         let reported = |value: f64| decimals(value, 4) + 0.0;
-        let deg = |angle: f64| reported(angle.to_degrees());
+        let deg = |angle: f64| reported(to_deg(angle));
         PlaceAnswer {
-            centre_mm: [x, y, z].map(|value| reported(value * 1e3)),
+            centre_mm: [x, y, z].map(|value| reported(to_mm(value))),
             tilt_deg: by_tilt.then(|| deg(tilt)),
             rotation_deg: (!by_tilt).then(|| rotation.map(deg).into()),
             spin_deg: deg(spin),
-            rail_mm: self.rail.then(|| reported(rail * 1e3)),
+            rail_mm: self.rail.then(|| reported(to_mm(rail))),
         }
     }
 }

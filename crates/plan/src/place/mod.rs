@@ -35,6 +35,7 @@ use armill_core::nalgebra::{Point3, UnitQuaternion, Vector3};
 use armill_core::optimize::{PlacementObjective, PostureSearch, PostureSelection, ToolTurn, on_part};
 use armill_core::path::{LoadedTrack, Spin};
 use armill_core::robot::{BranchPattern, Robot};
+use armill_core::units::{from_deg, from_mm, to_deg, to_mm};
 use armill_core::watch::Watch;
 use armill_core::workpiece::Plane;
 use armill_study::ENOUGH_JOINTS;
@@ -98,7 +99,7 @@ impl<'a> PlacementSearch<'a> {
             return Err(StudyError::value(message, hint));
         }
         if let Some([least, greatest]) = table.rail_mm {
-            check_rail(&study.robot.robot, [least * 1e-3, greatest * 1e-3])?;
+            check_rail(&study.robot.robot, [from_mm(least), from_mm(greatest)])?;
         }
         if holes.is_some() && table.spin_deg.is_some() {
             let message =
@@ -117,7 +118,7 @@ impl<'a> PlacementSearch<'a> {
             let at = analysis
                 .setting
                 .in_reference(&analysis.setting.plane.at(Point3::origin().xy()));
-            let about = |at: f64| Some([at * 1e3 - USUAL_MM, at * 1e3 + USUAL_MM]);
+            let about = |at: f64| Some([to_mm(at) - USUAL_MM, to_mm(at) + USUAL_MM]);
             (table.x_mm, table.y_mm, table.z_mm) = (about(at.x), about(at.y), about(at.z));
         }
         Ok(PlacementSearch {
@@ -272,7 +273,7 @@ impl<'a> PlacementSearch<'a> {
             analysis: self.name.to_owned(),
             component: component_name(objective.component),
             objective: objective_name(objective.objective),
-            margin_deg: decimals(objective.margin.to_degrees(), 4),
+            margin_deg: decimals(to_deg(objective.margin), 4),
             rank_by: rank_by_name(objective.rank_by),
             nominal: outcome(&drawn, as_requested, &[]),
             recommended: outcome(&of(best).freedom, objective, &best.spot.at),
@@ -284,7 +285,7 @@ impl<'a> PlacementSearch<'a> {
             by_margin: (found.front)
                 .iter()
                 .map(|(margin, best)| MarginAnswer {
-                    margin_deg: decimals(margin.to_degrees(), 4),
+                    margin_deg: decimals(to_deg(margin), 4),
                     cost_um: outcome(&of(best).freedom, objective, &best.spot.at).cost_um,
                     fixture: of(best).name.map(str::to_owned),
                     place: of(best).freedom.answer(&best.spot.at),
@@ -343,7 +344,7 @@ impl<'a> PlacementSearch<'a> {
                 .unwrap_or(ObjectiveName::Worst)
                 .objective(setting.tolerance),
             branches,
-            margin: table.margin_deg.unwrap_or(0.0).to_radians(),
+            margin: from_deg(table.margin_deg.unwrap_or(0.0)),
             selection: match self.holes {
                 Some(search) => PostureSelection::PerPoint(search.spins),
                 None => PostureSelection::ForPath,
@@ -353,9 +354,9 @@ impl<'a> PlacementSearch<'a> {
                 .unwrap_or(RankByName::Nominal)
                 .rank_by(setting.tolerance),
             wrist: match (table.least_wrist_deg, self.holes) {
-                (Some(least), _) => least.to_radians(),
+                (Some(least), _) => from_deg(least),
                 (None, Some(search)) => search.wrist,
-                (None, None) => USUAL_WRIST_DEG.to_radians(),
+                (None, None) => from_deg(USUAL_WRIST_DEG),
             },
         })
     }
@@ -416,11 +417,11 @@ fn check_rail(robot: &Robot, [least, greatest]: [f64; 2]) -> Result<(), StudyErr
         Some(limits) if least < limits.lower || greatest > limits.upper => {
             let message = format!(
                 "`rail_mm` ranges from {} to {} mm, joint {} from {} to {} mm",
-                least * 1e3,
-                greatest * 1e3,
+                to_mm(least),
+                to_mm(greatest),
                 joint.name,
-                limits.lower * 1e3,
-                limits.upper * 1e3
+                to_mm(limits.lower),
+                to_mm(limits.upper)
             );
             Err(StudyError::value(message, "bounds inside those of the joint"))
         }
@@ -479,11 +480,11 @@ fn chosen<'a>(
 
 /// The plane in this fixture, base, and its tilt if it is given by one.
 fn plane_of(fixture: &FixtureTable, setting: &Setting) -> (Plane, Option<f64>) {
-    let centre = Vector3::from(fixture.centre_mm) * 1e-3;
+    let centre = from_mm(Vector3::from(fixture.centre_mm));
     let reference_from_part = match fixture.rotation_deg {
-        Some(angles) => from_xyz_and_fixed_angles(centre, Vector3::from(angles).map(f64::to_radians)),
+        Some(angles) => from_xyz_and_fixed_angles(centre, Vector3::from(angles).map(from_deg)),
         None => {
-            let tilt = fixture.tilt_deg.unwrap_or(0.0).to_radians();
+            let tilt = from_deg(fixture.tilt_deg.unwrap_or(0.0));
             Plane::tilted(centre.into(), tilt).base_from_part
         }
     };
@@ -493,6 +494,6 @@ fn plane_of(fixture: &FixtureTable, setting: &Setting) -> (Plane, Option<f64>) {
     let tilt = fixture
         .rotation_deg
         .is_none()
-        .then(|| fixture.tilt_deg.unwrap_or(0.0).to_radians());
+        .then(|| from_deg(fixture.tilt_deg.unwrap_or(0.0)));
     (plane, tilt)
 }

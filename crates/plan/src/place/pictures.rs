@@ -2,6 +2,7 @@
 
 use armill_core::kernel::PartPlacement;
 use armill_core::optimize::{Placeable, PlacementObjective, RankBy};
+use armill_core::units::{to_deg, to_um};
 use armill_core::watch::{Cancelled, Watch};
 use armill_report::{AxisLabels, Cell, CellMap, Marker, MarkerKind, PathPlot, Series};
 use armill_study::output::Picture;
@@ -29,7 +30,7 @@ pub(super) fn front(answer: &PlacementAnswer, limit: f64) -> Option<Picture> {
             deviation_um: answer.by_margin.iter().map(|at| at.cost_um).collect(),
         }],
         envelope: None,
-        tolerance_um: Some(limit * 1e6),
+        tolerance_um: Some(to_um(limit)),
     };
     Some(Picture {
         name: "placement-margin".to_owned(),
@@ -94,16 +95,12 @@ impl Searched<'_> {
         }
         .scores(&placements, None, quiet)?;
         let cells = scores.iter().map(|score| match score {
-            Some(score) if score.unreachable == 0 => Cell::Deviation(score.cost * 1e6),
+            Some(score) if score.unreachable == 0 => Cell::Deviation(to_um(score.cost)),
             _ => Cell::PointsUnreachable,
         });
         let scale = |which: usize| {
             let (degree, [least, greatest]) = free[pair[which]];
-            let unit = if is_angle(degree) {
-                1.0_f64.to_degrees()
-            } else {
-                1e3
-            };
+            let unit = if is_angle(degree) { to_deg(1.0_f64) } else { 1e3 };
             move |part: f64| (least + (greatest - least) * part) * unit
         };
         let names = pair.map(|which| WORDS[free[which].0]);

@@ -2,6 +2,7 @@
 
 use armill_core::kernel::{PlacedPath, Question};
 use armill_core::optimize::{Placeable, PlacementObjective, RankBy, Score};
+use armill_core::units::{from_deg, to_deg, to_um};
 use armill_core::watch::Watch;
 use armill_study::error::StudyError;
 
@@ -144,7 +145,7 @@ impl Prepared<'_> {
             0 if matches!(rank_by, RankBy::WithinTolerance(_)) => {
                 format!("best so far {:.2} sigma from the tolerance", score.cost)
             }
-            0 => format!("best so far {:.2} µm", score.cost * 1e6),
+            0 => format!("best so far {:.2} µm", to_um(score.cost)),
             lost => format!("best so far: no posture at {lost} points"),
         });
     }
@@ -217,7 +218,7 @@ impl Prepared<'_> {
             return Ok(front);
         }
         front.push((objective.margin, best.clone()));
-        for margin in MARGINS_DEG.map(f64::to_radians) {
+        for margin in MARGINS_DEG.map(from_deg) {
             if margin <= objective.margin {
                 continue;
             }
@@ -225,7 +226,7 @@ impl Prepared<'_> {
             let search = SiteSearch {
                 objective,
                 effort: self.effort.cheaper(),
-                name: &format!("margin {:.0} ", margin.to_degrees()),
+                name: &format!("margin {:.0} ", to_deg(margin)),
                 also: front.last().map(|(_, best)| best),
             };
             let found = self.best(&search, journal)?;

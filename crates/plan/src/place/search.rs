@@ -9,6 +9,7 @@
 
 use armill_core::kernel::PartPlacement;
 use armill_core::optimize::{Placeable, Score};
+use armill_core::units::to_um;
 use armill_core::watch::{Cancelled, Watch};
 use fcmaes_core::{Cmaes, CmaesParams, Fitness};
 
@@ -253,7 +254,7 @@ struct Run {
 
 /// Feasibility first, as one number.
 fn cost_um(score: &Score) -> f64 {
-    score.unreachable as f64 * LOST_UM + score.cost * 1e6
+    score.unreachable as f64 * LOST_UM + to_um(score.cost)
 }
 
 /// Largest difference of two places in any degree.

@@ -1,6 +1,7 @@
 //! The cell in which a program runs, and the poses of the program's frames and tools in it.
 
 use armill_core::frame::{Isometry, fixed_angles};
+use armill_core::units::{to_deg, to_mm};
 
 use super::angle;
 use super::error::FollowError;
@@ -160,7 +161,7 @@ impl Placed {
         Err(FollowError::Tip {
             line: given.line,
             tip_mm: format!("{x}, {y}, {z}"),
-            apart_mm: apart * 1e3,
+            apart_mm: to_mm(apart),
             tool_mm_deg: format!("[{x}, {y}, {z}, {rx}, {ry}, {rz}]"),
         })
     }
@@ -200,7 +201,7 @@ impl Placed {
             notes.push(format!(
                 "the axes of the program's tool are rotated by {:.2} deg relative to those of the study's tool, whose \
                  z is the tool direction",
-                self.turned.to_degrees()
+                to_deg(self.turned)
             ));
         }
         notes
@@ -224,8 +225,8 @@ const DECIMALS: usize = 3;
 
 /// x, y, z in mm and rotations about fixed x, y, z in deg.
 fn mm_deg(pose: &Isometry) -> [String; 6] {
-    let at = pose.translation.vector * 1e3;
-    let turned = fixed_angles(&pose.rotation).map(f64::to_degrees);
+    let at = to_mm(pose.translation.vector);
+    let turned = fixed_angles(&pose.rotation).map(to_deg);
     [at.x, at.y, at.z, turned.x, turned.y, turned.z].map(|value| {
         let said = fixed(value, DECIMALS);
         let short = said.trim_end_matches('0').trim_end_matches('.');

@@ -5,6 +5,7 @@ use super::read::{Job, Reader};
 use crate::arc_row::{ArcEnd, Next};
 use crate::program::{FramedTarget, Motion, Speed};
 use crate::spelling::{Line, Part, number};
+use armill_core::units::from_mm;
 
 impl Reader<'_> {
     /// MOVJ, MOVL, MOVS or MOVC, with the words after it.
@@ -104,7 +105,7 @@ impl Reader<'_> {
             Some(value) => {
                 let what = "speeds V= are read as mm/s; a parameter of the controller may make them cm/min or inch/min";
                 self.messages.note(line.number, what);
-                Speed::Tip(value * 1e-3)
+                Speed::Tip(from_mm(value))
             }
             None => {
                 let message = format!("`{value}` is not a valid speed");

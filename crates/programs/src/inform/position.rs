@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use armill_core::frame::Isometry;
+use armill_core::units::from_deg;
 use armill_formats::convention::Convention;
 
 use crate::messages::ProgramMessages;
@@ -255,9 +256,7 @@ impl Positions {
             Some(Kind::Pulse) => Some(Target::Elsewhere {
                 name: name.to_owned(),
             }),
-            Some(Kind::Angle) => Some(Target::Joints(
-                numbers.iter().map(|deg| deg.to_radians()).collect(),
-            )),
+            Some(Kind::Angle) => Some(Target::Joints(numbers.iter().map(from_deg).collect())),
             Some(Kind::Base | Kind::User) => {
                 let pose = numbers.get(..6).unwrap_or(&numbers);
                 if numbers.len() > 6 {

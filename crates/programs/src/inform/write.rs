@@ -1,6 +1,7 @@
 //! A draft as a relative job: positions in a user frame, RCONF for each; long programs are split.
 
 use armill_core::frame::Isometry;
+use armill_core::units::{to_deg, to_mm};
 use armill_formats::convention::Convention;
 
 use crate::draft::{Bounds, Draft, DraftError, DraftPoint, Written};
@@ -40,7 +41,7 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
         frames: 1..=63,
         tools: 0..=63,
     })?;
-    draft.check_speeds(|speed| speed * 1e3 >= SPEEDS[0] / 2.0)?;
+    draft.check_speeds(|speed| to_mm(speed) >= SPEEDS[0] / 2.0)?;
     let parts: Vec<(String, &[DraftPoint])> = draft.parts(MOST_POSITIONS, "").collect();
     let main = split.then(|| file(&draft.name, main(draft, &parts)));
     let jobs = parts
@@ -87,7 +88,7 @@ fn notes(draft: &Draft, split: bool) -> Vec<String> {
     if draft
         .points
         .iter()
-        .any(|point| point.speed.is_some_and(|speed| speed * 1e3 > SPEEDS[1]))
+        .any(|point| point.speed.is_some_and(|speed| to_mm(speed) > SPEEDS[1]))
     {
         notes.push(format!(
             "speeds above {} mm/s are refused by most controllers",
@@ -195,7 +196,7 @@ fn job(draft: &Draft, name: &str, points: &[DraftPoint]) -> String {
     for (at, point) in points.iter().enumerate() {
         let level = if draft.blend(point) > 0.0 { 1 } else { 0 };
         let said = match draft.tip_speed(point) {
-            Some(speed) => format!("MOVL C{at:05} V={} PL={level}", fixed(speed * 1e3, 1)),
+            Some(speed) => format!("MOVL C{at:05} V={} PL={level}", fixed(to_mm(speed), 1)),
             None => format!("MOVJ C{at:05} {JOINT_SPEED} PL={level}"),
         };
         line(&mut out, &said);
@@ -209,7 +210,7 @@ fn rconf(point: &DraftPoint) -> String {
     let configuration = point.branch.map(Configuration::of).unwrap_or_default();
     let set = |said: Option<bool>| i32::from(said.unwrap_or(false));
     let turned = |joint: usize| {
-        let deg = point.joints.get(joint).copied().unwrap_or(0.0).to_degrees();
+        let deg = to_deg(point.joints.get(joint).copied().unwrap_or(0.0));
         i32::from(!(deg > -180.0 && deg <= 180.0))
     };
     format!(

@@ -1,5 +1,6 @@
 //! Moves: their targets by components, by name, relative to the previous move, or composed of frames.
 
+use armill_core::units::from_deg;
 use armill_formats::convention::Convention;
 
 use super::aggregate::{AXES, Aggregate, LocatedAggregate, POSE};
@@ -59,7 +60,7 @@ impl<'a> Reader<'a> {
                 (target, Former::Pose(numbers, self.modal.base, self.modal.tool))
             }
             KrlTarget::Axes(axes) => {
-                let joints = axes.iter().map(|deg| deg.to_radians()).collect();
+                let joints = axes.iter().map(from_deg).collect();
                 (Target::Joints(joints), Former::Axes(axes))
             }
             KrlTarget::PassedOver => {

@@ -6,6 +6,7 @@
 use std::fmt::Write;
 
 use armill_core::frame::Isometry;
+use armill_core::units::{to_deg, to_mm};
 use armill_formats::convention::Convention;
 
 use super::aggregate::whole;
@@ -186,7 +187,7 @@ fn axes(joints: &[f64]) -> String {
     let axes: Vec<String> = joints
         .iter()
         .zip(super::aggregate::AXES)
-        .map(|(joint, name)| format!("{name} {}", fixed(joint.to_degrees(), AXIS)))
+        .map(|(joint, name)| format!("{name} {}", fixed(to_deg(joint), AXIS)))
         .collect();
     format!("{{AXIS: {}}}", axes.join(","))
 }
@@ -218,7 +219,7 @@ impl Modal {
         }
         let mut approximated = "";
         if blend > 0.0 {
-            let blend = fixed(blend * 1e3, BLEND);
+            let blend = fixed(to_mm(blend), BLEND);
             if self.blend.as_ref() != Some(&blend) {
                 _ = write!(out, "$APO.CDIS={blend}\r\n");
                 self.blend = Some(blend);

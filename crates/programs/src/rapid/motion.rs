@@ -1,6 +1,7 @@
 //! Moves and their arguments.
 
 use armill_core::frame::Isometry;
+use armill_core::units::from_mm;
 
 use super::frames::MoveFrames;
 use super::read::Reader;
@@ -149,12 +150,12 @@ impl<'a> Reader<'a> {
             Value::Name(reference) => {
                 let digits = reference.name.strip_prefix('v')?;
                 let speed: u32 = digits.parse().ok()?;
-                Some(Speed::Tip(f64::from(speed) * 1e-3))
+                Some(Speed::Tip(from_mm(f64::from(speed))))
             }
             _ => None,
         };
         match given {
-            Some(speed) if speed > 0.0 => Speed::Tip(speed * 1e-3),
+            Some(speed) if speed > 0.0 => Speed::Tip(from_mm(speed)),
             _ => ready().unwrap_or_else(|| {
                 let text = shown(&self.text()[node.bytes.clone()]);
                 let sentence = format!("the speed `{text}` is not defined: the tip speed is not known");

@@ -3,6 +3,7 @@
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::{Translation3, UnitQuaternion, Vector3};
 use armill_core::robot::BranchPattern;
+use armill_core::units::{from_deg, from_mm};
 use armill_formats::convention::Convention;
 
 use super::read::Reader;
@@ -80,7 +81,7 @@ impl<'a> Reader<'a> {
                 if external {
                     self.external(at);
                 }
-                Some(joints.iter().map(|deg| deg.to_radians()).collect())
+                Some(joints.iter().map(from_deg).collect())
             }
             None => {
                 let missing = self.why(node, self.messages.index());
@@ -167,7 +168,7 @@ impl<'a> Reader<'a> {
                 let (base, by) = match (name.as_str(), plain.as_slice()) {
                     ("offs" | "reltool", [base, x, y, z]) => {
                         let of = |node: &Node| self.number(node, found.text).ok_or(Missing::Computed);
-                        (*base, Vector3::new(of(x)?, of(y)?, of(z)?) * 1e-3)
+                        (*base, from_mm(Vector3::new(of(x)?, of(y)?, of(z)?)))
                     }
                     _ => return Err(Missing::Computed),
                 };
@@ -202,7 +203,7 @@ impl<'a> Reader<'a> {
                 .find(|argument| argument.name.as_deref() == Some(name));
             if let Some(node) = given.and_then(|argument| argument.value.as_ref()) {
                 let deg = self.number(node, text).ok_or(Missing::Computed)?;
-                turn *= UnitQuaternion::from_axis_angle(&axis, deg.to_radians());
+                turn *= UnitQuaternion::from_axis_angle(&axis, from_deg(deg));
             }
         }
         Ok(turn)

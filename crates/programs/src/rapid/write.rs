@@ -3,6 +3,7 @@
 //! Tool and work object are data of the module, named by their numbers (`tool_2`, `wobj_1`): the data stored on the
 //! controller under other names are not changed.
 
+use armill_core::units::{from_mm, to_deg, to_mm};
 use std::fmt::Write;
 
 use super::spell::whole;
@@ -214,10 +215,10 @@ fn line(point: &DraftPoint, blend: f64, kept: &str) -> String {
     let target = format!("[{target},{},{ABSENT}]", confdata(point));
     let zone = ZONES
         .iter()
-        .find(|(_, radius)| blend >= radius * (1.0 - 1e-12) * 1e-3);
+        .find(|(_, radius)| blend >= from_mm(radius * (1.0 - 1e-12)));
     let zone = zone.map_or("fine", |(name, _)| name);
     match point.speed {
-        Some(speed) => format!("    MoveL {target},{},{zone},{kept};\r\n", speed_of(speed * 1e3)),
+        Some(speed) => format!("    MoveL {target},{},{zone},{kept};\r\n", speed_of(to_mm(speed))),
         None => format!("    MoveJ {target},v200,{zone},{kept};\r\n"),
     }
 }
@@ -235,14 +236,14 @@ fn joints(point: &DraftPoint) -> String {
     let joints: Vec<String> = point
         .joints
         .iter()
-        .map(|joint| fixed(joint.to_degrees(), JOINT))
+        .map(|joint| fixed(to_deg(joint), JOINT))
         .collect();
     format!("[{}]", joints.join(","))
 }
 
 /// The quarter turns of axes 1, 4 and 6, and the posture.
 fn confdata(point: &DraftPoint) -> String {
-    let quarter = |axis: usize| (point.joints[axis].to_degrees() / 90.0).floor() as i64;
+    let quarter = |axis: usize| (to_deg(point.joints[axis]) / 90.0).floor() as i64;
     let cfx = point.branch.map_or(0, |branch| cfx(Configuration::of(branch)));
     format!("[{},{},{},{cfx}]", quarter(0), quarter(3), quarter(5))
 }

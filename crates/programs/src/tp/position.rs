@@ -1,5 +1,6 @@
 //! The positions of a listing: `P[1:"name"]{ GP1: UF : 0, UT : 1, CONFIG : '...', X = 1.0 mm, ... };`.
 
+use armill_core::units::{from_deg, from_mm};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -193,7 +194,7 @@ fn one_field(line: &Line, part: Part, position: &mut Open, messages: &mut Progra
         (_, Some(axis)) => {
             if let Some(value) = taught(line, &key, value, position, messages) {
                 let turning = part.text.trim_end().to_ascii_lowercase().ends_with("deg");
-                let value = if turning { value.to_radians() } else { value * 1e-3 };
+                let value = if turning { from_deg(value) } else { from_mm(value) };
                 position.joints.insert(axis, value);
             }
         }

@@ -2,6 +2,7 @@
 //! programs are split.
 
 use armill_core::frame::Isometry;
+use armill_core::units::{to_deg, to_mm};
 use armill_formats::convention::Convention;
 
 use crate::draft::{Bounds, Draft, DraftError, DraftPoint, Written};
@@ -89,7 +90,7 @@ fn notes(draft: &Draft, split: bool) -> Vec<String> {
     if draft
         .points
         .iter()
-        .any(|point| point.speed.is_some_and(|speed| speed * 1e3 > FASTEST))
+        .any(|point| point.speed.is_some_and(|speed| to_mm(speed) > FASTEST))
     {
         notes.push(format!("speeds above {FASTEST} mm/s are refused by controllers"));
     }
@@ -149,7 +150,7 @@ fn moves(draft: &Draft, points: &[DraftPoint]) -> Vec<String> {
 
 /// A speed in m/s as controllers write it: a whole number in the coarser unit that fits; `None` if it is too slow.
 fn feed(speed: f64) -> Option<String> {
-    let mm_per_second = speed * 1e3;
+    let mm_per_second = to_mm(speed);
     let cm_per_minute = (mm_per_second * 6.0).round();
     if (mm_per_second - mm_per_second.round()).abs() < 1e-6 && mm_per_second >= 0.5 {
         return Some(format!("{}mm/sec", fixed(mm_per_second, 0)));
@@ -165,9 +166,7 @@ fn positions(draft: &Draft, points: &[DraftPoint]) -> String {
         if draft.is_first(point) {
             let joints: Vec<String> = (1..)
                 .zip(&point.joints)
-                .map(|(axis, value)| {
-                    format!("J{axis}= {:>9} deg", fixed(value.to_degrees(), super::DECIMALS))
-                })
+                .map(|(axis, value)| format!("J{axis}= {:>9} deg", fixed(to_deg(value), super::DECIMALS)))
                 .collect();
             let rows: Vec<String> = joints
                 .chunks(3)
@@ -206,7 +205,7 @@ fn configuration(point: &DraftPoint) -> String {
     let said = point.branch.map(Configuration::of).unwrap_or_default();
     let letter = |set: Option<bool>, [not, yes]: [char; 2]| if set == Some(true) { yes } else { not };
     let turn = |joint: usize| {
-        let deg = point.joints.get(joint).copied().unwrap_or(0.0).to_degrees();
+        let deg = to_deg(point.joints.get(joint).copied().unwrap_or(0.0));
         let turns = ((deg.abs() + 180.0) / 360.0).floor();
         fixed(turns.copysign(deg), 0)
     };

@@ -1,6 +1,7 @@
 //! A pose as `p[x, y, z, rx, ry, rz]`.
 
 use armill_core::frame::Isometry;
+use armill_core::units::from_mm;
 use armill_formats::convention::Convention;
 
 use super::SYNTAX;
@@ -15,7 +16,7 @@ const MOST_DECIMALS: usize = 12;
 /// The numbers of a pose, m and rad.
 pub(super) fn numbers(pose: &Isometry) -> [f64; 6] {
     let of = Convention::Ur.numbers_of(pose);
-    std::array::from_fn(|index| if index < 3 { of[index] * 1e-3 } else { of[index] })
+    std::array::from_fn(|index| if index < 3 { from_mm(of[index]) } else { of[index] })
 }
 
 /// A complete pose.

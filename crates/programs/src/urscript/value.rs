@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use armill_core::frame::Isometry;
+use armill_core::units::{from_deg, to_deg};
 use armill_formats::convention::Convention;
 
 use super::read::Reader;
@@ -242,8 +243,8 @@ impl<'a> Reader<'a> {
             .map(|argument| argument.value);
         let bytes = word.start..cursor.before();
         match (name, arguments.next(), arguments.next()) {
-            ("d2r", Some(Value::Number(deg)), None) => Value::Number(deg.to_radians()),
-            ("r2d", Some(Value::Number(rad)), None) => Value::Number(rad.to_degrees()),
+            ("d2r", Some(Value::Number(deg)), None) => Value::Number(from_deg(deg)),
+            ("r2d", Some(Value::Number(rad)), None) => Value::Number(to_deg(rad)),
             ("get_inverse_kin", Some(pose @ Value::Pose(_)), _) => pose,
             ("pose_inv", Some(Value::Pose(posed)), None) => self.computed(posed.in_base().inverse(), bytes),
             ("pose_trans", Some(Value::Pose(frame)), Some(Value::Pose(target))) => Value::Pose(Posed {

@@ -6,6 +6,7 @@ use std::ops::Range;
 
 use armill_core::frame::Isometry;
 use armill_core::robot::BranchPattern;
+use armill_core::units::{from_deg, from_mm};
 use armill_formats::convention::Convention;
 
 use super::tags::{Attribute, Piece, attributes, pieces, value};
@@ -219,7 +220,7 @@ impl GivenValue<'_> {
             "jointRx" => {
                 let joints = self.numbers(&["j1", "j2", "j3", "j4", "j5", "j6"], messages);
                 Some(joints.map_or(Datum::Refused, |joints| {
-                    Datum::Joints(Target::Joints(joints.into_iter().map(f64::to_radians).collect()))
+                    Datum::Joints(Target::Joints(joints.into_iter().map(from_deg).collect()))
                 }))
             }
             "mdesc" => {
@@ -229,7 +230,7 @@ impl GivenValue<'_> {
                 let tip = self.numbers(&["tmax"], messages);
                 Some(tip.map_or(Datum::Refused, |tip| {
                     let limit = tip.first().copied().filter(|tip| *tip < NO_LIMIT && *tip >= 0.0);
-                    Datum::Speed(limit.map(|tip| tip * 1e-3))
+                    Datum::Speed(limit.map(from_mm))
                 }))
             }
             _ => None,

@@ -1,6 +1,7 @@
 //! A draft as a project: data with frame, tool and points, and programs with the moves; long programs are split.
 
 use armill_core::frame::Isometry;
+use armill_core::units::{to_deg, to_mm};
 use armill_formats::convention::Convention;
 
 use crate::draft::{Bounds, Draft, DraftError, DraftPoint, Written};
@@ -37,7 +38,7 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
         frames: 0..=99,
         tools: 0..=99,
     })?;
-    draft.check_speeds(|speed| speed * 1e3 >= SLOWEST)?;
+    draft.check_speeds(|speed| to_mm(speed) >= SLOWEST)?;
     let speeds = speeds(draft);
     let moves = moves(draft, &speeds);
     let mut programs = Vec::new();
@@ -96,8 +97,8 @@ type Pace = (Option<String>, String);
 
 fn pace(draft: &Draft, point: &DraftPoint) -> Pace {
     (
-        point.speed.map(|speed| fixed(speed * 1e3, 3)),
-        fixed(draft.blend(point) * 1e3, 3),
+        point.speed.map(|speed| fixed(to_mm(speed), 3)),
+        fixed(to_mm(draft.blend(point)), 3),
     )
 }
 
@@ -203,7 +204,7 @@ fn data(draft: &Draft, speeds: &[Pace]) -> String {
         let deg = point
             .joints
             .iter()
-            .map(|joint| fixed(joint.to_degrees(), JOINT_DECIMALS));
+            .map(|joint| fixed(to_deg(joint), JOINT_DECIMALS));
         (1..)
             .zip(deg)
             .map(|(axis, deg)| format!("j{axis}=\"{deg}\""))

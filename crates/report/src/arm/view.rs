@@ -12,6 +12,8 @@
 //!
 //! Parallel: lengths do not shrink with distance, and a length across the line of sight is true.
 
+use armill_core::units::from_deg;
+
 /// A point or direction in base components, mm where it is a point.
 pub(crate) type Vec3 = [f64; 3];
 
@@ -48,8 +50,8 @@ impl View {
             Self::Side => (-90.0, 0.0),
             Self::Top => (-90.0, 90.0),
         };
-        let (sa, ca) = azimuth_deg.to_radians().sin_cos();
-        let (se, ce) = elevation_deg.to_radians().sin_cos();
+        let (sa, ca) = from_deg(azimuth_deg).sin_cos();
+        let (se, ce) = from_deg(elevation_deg).sin_cos();
         let toward = [ce * ca, ce * sa, se];
         let right = [-sa, ca, 0.0];
         Projection {

@@ -8,12 +8,13 @@ use armill_core::nalgebra::Vector3;
 use armill_core::robot::Robot;
 use armill_core::robot::forward::{forward, joint_axis};
 use armill_core::robot::inverse::tool_on;
+use armill_core::units::to_mm;
 use armill_report::{ArmJoint, ArmPosture};
 
 /// The arm at these joint positions (rad, m), base frame.
 pub fn arm_posture(robot: &Robot, joints: &[f64], flange_from_tool: &Isometry) -> ArmPosture {
     let frames = forward(robot, joints);
-    let mm = |v: &Vector3<f64>| -> [f64; 3] { (v * 1e3).into() };
+    let mm = |v: &Vector3<f64>| -> [f64; 3] { to_mm(v).into() };
     let base_from_tool = tool_on(&frames, flange_from_tool);
     ArmPosture {
         base_mm: [0.0; 3],

@@ -19,6 +19,7 @@ use std::ops::Range;
 use armill_core::kernel::{Answers, Evaluation};
 use armill_core::map::probability_within;
 use armill_core::robot::Robot;
+use armill_core::units::to_um;
 use armill_formats::table::{Column, ColumnData, Table};
 use rayon::prelude::*;
 
@@ -156,12 +157,12 @@ pub type EvaluationValue = fn(&Evaluation) -> f64;
 
 /// The envelope of the load cases at a point: quantities that need the evaluation alone.
 pub const ENVELOPE: [(&Quantity, EvaluationValue); 4] = [
-    (&quantity::IN_PLANE, |evaluation| evaluation.in_plane * 1e6),
+    (&quantity::IN_PLANE, |evaluation| to_um(evaluation.in_plane)),
     (&quantity::IN_PLANE_U, |evaluation| {
-        evaluation.in_plane_uncertainty * 1e6
+        to_um(evaluation.in_plane_uncertainty)
     }),
-    (&quantity::NORMAL, |evaluation| evaluation.normal * 1e6),
-    (&quantity::FULL, |evaluation| evaluation.full * 1e6),
+    (&quantity::NORMAL, |evaluation| to_um(evaluation.normal)),
+    (&quantity::FULL, |evaluation| to_um(evaluation.full)),
 ];
 
 /// Quantities without values at points where shares are not computed.
@@ -198,13 +199,13 @@ fn numbers<'a>(robot: &'a Robot, contributors: Vec<String>, answers: &Answers) -
         columns.push(Numbers::of(quantity, of).named("NAME", &joint.name));
     }
     for (i, contributor) in contributors.iter().enumerate().filter(|_| shared) {
-        let of = move |rows: &Rows<'_>, index: usize, _: &Evaluation| rows.answers.shares_at(index)[i] * 1e6;
+        let of = move |rows: &Rows<'_>, index: usize, _: &Evaluation| to_um(rows.answers.shares_at(index)[i]);
         columns.push(Numbers::of(&quantity::SHARE, of).named("NAME", contributor));
     }
     for case in 0..cases {
         for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
             let of = move |rows: &Rows<'_>, index: usize, _: &Evaluation| {
-                rows.answers.deviations_at(index)[case][axis] * 1e6
+                to_um(rows.answers.deviations_at(index)[case][axis])
             };
             let column = Numbers::of(&quantity::OF_CASE, of);
             columns.push(

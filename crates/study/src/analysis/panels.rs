@@ -1,5 +1,6 @@
 //! Several plates on one sheet, each above its permissible region.
 
+use armill_core::units::to_um;
 use armill_report::{AxisLabels, ColourScale, MapSeries, Panel};
 
 use crate::analysis::picture::{Picture, QUANTITY, subtitle};
@@ -19,7 +20,7 @@ pub fn sheet(name: &str, panels: Vec<Panel>, setting: &Setting, axes: AxisLabels
         panels,
         axes,
         quantity: QUANTITY.to_owned(),
-        tolerance_um: Some(setting.tolerance * 1e6),
+        tolerance_um: Some(to_um(setting.tolerance)),
         scale: ColourScale::Viridis,
         show_regions: true,
     };
@@ -27,7 +28,7 @@ pub fn sheet(name: &str, panels: Vec<Panel>, setting: &Setting, axes: AxisLabels
         name: slug(name),
         caption: format!(
             "{name}: in-plane deviation above, the region within {:.0} µm below.",
-            setting.tolerance * 1e6
+            to_um(setting.tolerance)
         ),
         svg: sheet.to_svg(),
     }

@@ -5,6 +5,7 @@
 use armill_core::kernel::Evaluation;
 use armill_core::map::PlaneMap;
 use armill_core::robot::{Robot, Unreachable};
+use armill_core::units::{to_deg, to_mm, to_um};
 use armill_report::{AxisLabels, Grid, PointState, ShareBar, ShareBars};
 
 use crate::analysis::point::PointAnswer;
@@ -40,13 +41,13 @@ pub fn axes(setting: &Setting) -> AxisLabels {
 
 /// One line under the title: posture, load, tool, tilt.
 pub fn subtitle(setting: &Setting) -> String {
-    let tool = match setting.flange_from_tool.translation.vector.norm() * 1e3 {
+    let tool = match to_mm(setting.flange_from_tool.translation.vector.norm()) {
         0.0 => "bare flange".to_owned(),
         length => format!("TCP {length:.0} mm from the flange"),
     };
     let tilt = setting
         .tilt
-        .map_or(String::new(), |tilt| format!(", tilt {:.0}°", tilt.to_degrees()));
+        .map_or(String::new(), |tilt| format!(", tilt {:.0}°", to_deg(tilt)));
     let cases = setting.cases.len();
     let worst = match cases {
         // Forces of the cut are not cases of the study.
@@ -65,7 +66,7 @@ pub fn subtitle(setting: &Setting) -> String {
 pub fn base_y(setting: &Setting) -> f64 {
     let centre = setting.in_reference(&setting.plane.base_from_part.translation.vector.into());
     if setting.tilt.is_some() {
-        centre.y * 1e3
+        to_mm(centre.y)
     } else {
         0.0
     }
@@ -98,10 +99,10 @@ pub fn grid(map: &PlaneMap, setting: &Setting) -> Grid {
     let y0 = base_y(setting);
     Grid {
         horizontal_mm: (0..map.grid.columns)
-            .map(|i| y0 - map.grid.coordinate(i, map.grid.columns) * 1e3)
+            .map(|i| y0 - to_mm(map.grid.coordinate(i, map.grid.columns)))
             .collect(),
         vertical_mm: (0..map.grid.rows)
-            .map(|i| map.grid.coordinate(i, map.grid.rows) * 1e3)
+            .map(|i| to_mm(map.grid.coordinate(i, map.grid.rows)))
             .collect(),
         points: map.answers.points.iter().map(state).collect(),
     }
@@ -110,8 +111,8 @@ pub fn grid(map: &PlaneMap, setting: &Setting) -> Grid {
 /// The state of a point: its deviation, marked if outside joint limits, or that it is not reached.
 pub fn state(point: &Result<Evaluation, Unreachable>) -> PointState {
     match point {
-        Ok(evaluation) if evaluation.within_limits() => PointState::Reached(evaluation.in_plane * 1e6),
-        Ok(evaluation) => PointState::OutsideJointLimits(evaluation.in_plane * 1e6),
+        Ok(evaluation) if evaluation.within_limits() => PointState::Reached(to_um(evaluation.in_plane)),
+        Ok(evaluation) => PointState::OutsideJointLimits(to_um(evaluation.in_plane)),
         Err(_) => PointState::Unreachable,
     }
 }

@@ -13,6 +13,7 @@ use armill_core::kernel::{Answers, Evaluation};
 use armill_core::load::LoadFrame;
 use armill_core::nalgebra::{Point3, Unit};
 use armill_core::robot::Robot;
+use armill_core::units::{to_deg, to_mm, to_um};
 use armill_core::workpiece::Plane;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -72,20 +73,20 @@ impl SettingAnswer {
         let centre = setting.in_reference(&setting.plane.base_from_part.translation.vector.into());
         SettingAnswer {
             base: setting.base_name.clone(),
-            centre_mm: clean(centre.coords.map(|c| c * 1e3).into()),
-            tilt_deg: setting.tilt.map(f64::to_degrees).map(without_rounding),
+            centre_mm: clean(centre.coords.map(to_mm).into()),
+            tilt_deg: setting.tilt.map(to_deg).map(without_rounding),
             normal_axis: clean(setting.plane.normal().into_inner().into()),
-            tool_length_mm: without_rounding(setting.flange_from_tool.translation.vector.norm() * 1e3),
+            tool_length_mm: without_rounding(to_mm(setting.flange_from_tool.translation.vector.norm())),
             load_frame: if turns { "feed" } else { crate::BASE_LINK },
             cases_n: cases.iter().map(|w| clean(w.force.into())).collect(),
             moments_n_m: cases.iter().map(|w| clean(w.moment.into())).collect(),
             load_source: setting.load_source.clone(),
             load_u_percent: without_rounding(setting.uncertainty.relative * 100.0),
             load_u_n: setting.uncertainty.forces.map(|u| clean(u.into())),
-            tool_length_u_mm: without_rounding(setting.uncertainty.tool_length * 1e3),
-            scatter_um: setting.model.structure.repeatability * 1e6,
+            tool_length_u_mm: without_rounding(to_mm(setting.uncertainty.tool_length)),
+            scatter_um: to_um(setting.model.structure.repeatability),
             model_error_percent: without_rounding(setting.model.structure.model_error * 100.0),
-            tolerance_um: without_rounding(setting.tolerance * 1e6),
+            tolerance_um: without_rounding(to_um(setting.tolerance)),
             model: parts(robot, &setting.model),
             contributors: setting.model.contributor_names(robot.joints()),
         }
@@ -155,8 +156,8 @@ impl PointAnswer {
     pub fn in_plane_mm(plane: &Plane, at: &Point3<f64>) -> [f64; 2] {
         let in_part = plane.base_from_part.inverse_transform_point(at);
         [
-            without_rounding(-in_part.x * 1e3),
-            without_rounding(in_part.y * 1e3),
+            without_rounding(to_mm(-in_part.x)),
+            without_rounding(to_mm(in_part.y)),
         ]
     }
 
@@ -168,7 +169,7 @@ impl PointAnswer {
             evaluation,
             tcp,
         } = *point;
-        let position = |(i, q): (usize, &f64)| if robot.slides(i) { q * 1e3 } else { q.to_degrees() };
+        let position = |(i, q): (usize, &f64)| if robot.slides(i) { to_mm(q) } else { to_deg(q) };
         let compliance = by_force(&setting.compliance_at(robot, answers.joints_at(index)));
         let normal = setting.plane.normal();
         // A case that is a moment alone has no direction.
@@ -176,7 +177,7 @@ impl PointAnswer {
             .map(|f| permissible_force(&compliance, normal, f, setting.tolerance));
         let any = permissible_force_in_worst_direction(&compliance, normal, setting.tolerance).0;
         PointAnswer {
-            xyz_mm: clean(setting.in_reference(&tcp).coords.map(|c| c * 1e3).into()),
+            xyz_mm: clean(setting.in_reference(&tcp).coords.map(to_mm).into()),
             in_plane_mm: PointAnswer::in_plane_mm(&setting.plane, &tcp),
             branch: evaluation.name.to_string(),
             joints_deg: answers
@@ -188,11 +189,11 @@ impl PointAnswer {
             within_limits: evaluation.within_limits(),
             singularity: evaluation.singularity.map(|s| s.to_string()),
             worst_case: evaluation.worst_case + 1,
-            in_plane_um: evaluation.in_plane * 1e6,
-            in_plane_u_um: evaluation.in_plane_uncertainty * 1e6,
-            normal_um: evaluation.normal * 1e6,
-            full_um: evaluation.full * 1e6,
-            joint_share_um: answers.shares_at(index).iter().map(|share| share * 1e6).collect(),
+            in_plane_um: to_um(evaluation.in_plane),
+            in_plane_u_um: to_um(evaluation.in_plane_uncertainty),
+            normal_um: to_um(evaluation.normal),
+            full_um: to_um(evaluation.full),
+            joint_share_um: answers.shares_at(index).iter().map(to_um).collect(),
             permissible_along_load_n: along.filter(|n| n.is_finite()),
             permissible_any_direction_n: Some(any).filter(|n| n.is_finite()),
         }

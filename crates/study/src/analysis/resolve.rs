@@ -16,6 +16,7 @@ use armill_core::kernel::BranchChoice;
 use armill_core::load::{InputUncertainty, LoadCases, LoadFrame};
 use armill_core::optimize::PostureSearch;
 use armill_core::robot::{BranchPattern, Robot};
+use armill_core::units::{from_mm, from_um};
 use armill_core::workpiece::Grid;
 use armill_formats::robot::RobotDescription;
 
@@ -225,7 +226,7 @@ impl Resolver<'_> {
         let (model, load) = (model?, load?);
         let uncertainty = InputUncertainty {
             relative: given.and_then(|load| load.u_percent).unwrap_or(0.0) / 100.0,
-            tool_length: tool.and_then(|t| t.length_u_mm).unwrap_or(0.0) * 1e-3,
+            tool_length: from_mm(tool.and_then(|t| t.length_u_mm).unwrap_or(0.0)),
             ..InputUncertainty::NONE
         };
         let u_n = given.and_then(|load| load.u_n).unwrap_or_default();
@@ -242,7 +243,7 @@ impl Resolver<'_> {
         let cases = with_frame.in_base(&plane.base_from_part)?;
         let flange_from_tool =
             tool.map_or_else(Isometry::identity, |t| pose_mm_deg(&t.flange_from_tool_mm_deg));
-        let tolerance = tolerance_um * 1e-6;
+        let tolerance = from_um(tolerance_um);
         Some(Setting {
             base_name,
             base_from_reference,
@@ -268,7 +269,7 @@ impl Resolver<'_> {
         let table = self.of_posture(|posture| posture.search.as_ref());
         let table = table.filter(|_| self.table.kind == AnalysisKind::Path)?;
         let tolerance_um = self.table.tolerance_um.unwrap_or(self.common.tolerance_um);
-        table.resolve(log, tolerance_um * 1e-6, open)
+        table.resolve(log, from_um(tolerance_um), open)
     }
 
     /// The frame that coordinates count from, in base.

@@ -10,6 +10,7 @@ use armill_core::kernel::{Answers, Evaluation};
 use armill_core::map::{PlaneMap, VolumeMap};
 use armill_core::nalgebra::Point3;
 use armill_core::path::Track;
+use armill_core::units::to_mm;
 
 use crate::input::setting::Setting;
 use crate::number::decimals;
@@ -69,7 +70,7 @@ impl<'a> Rows<'a> {
             setting
                 .in_reference(&at)
                 .coords
-                .map(|c| decimals(c * 1e3, i32::from(MM_DECIMALS)))
+                .map(|c| decimals(to_mm(c), i32::from(MM_DECIMALS)))
                 .into()
         };
         Rows {
@@ -98,9 +99,9 @@ impl<'a> Rows<'a> {
             origin_mm: setting
                 .in_reference(&volume.grid.corner())
                 .coords
-                .map(|c| c * 1e3)
+                .map(to_mm)
                 .into(),
-            step_mm: volume.grid.step * 1e3,
+            step_mm: to_mm(volume.grid.step),
             counts: volume.grid.counts,
         };
         Rows::new("", setting, &volume.answers, layout, points)

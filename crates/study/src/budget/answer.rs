@@ -5,6 +5,7 @@
 
 use armill_core::budget::turn::largest;
 use armill_core::budget::{Comparison, Contribution, Datum, Origin, Share, WavePair};
+use armill_core::units::{to_deg, to_mm, to_um};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -217,7 +218,6 @@ const SOURCES: [&str; 3] = [
 
 /// The result for `combined`.
 pub fn answer(experiment: &Experiment, path: &PathAnalysis, combined: &CombinedCurves) -> BudgetAnswer {
-    let um = |value: f64| value * 1e6;
     let (balance, sums) = (&combined.balance, &combined.balance.sums);
     let shares = balance.comparison.as_ref().map(|given| &given.shares[..]);
     let datum = |is_removed: bool| {
@@ -232,31 +232,31 @@ pub fn answer(experiment: &Experiment, path: &PathAnalysis, combined: &CombinedC
     let mut given = BudgetAnswer {
         analysis: experiment.analysis.clone(),
         branch: path.setting.branch(),
-        radius_mm: experiment.radius * 1e3,
+        radius_mm: to_mm(experiment.radius),
         files: files(experiment, path),
         datum: DatumAnswer {
             centre: datum(experiment.removed.centre),
             radius: datum(experiment.removed.radius),
         },
         angles: combined.turn.angle().len(),
-        arc_deg: combined.turn.arc().to_degrees(),
+        arc_deg: to_deg(combined.turn.arc()),
         contributions: contributions
             .map(|(index, (one, datum))| contribution(combined, one, datum, shares.map(|all| all[index])))
             .collect(),
         load_cases: combined.cases,
         load_envelope_um: [
-            um(least.iter().copied().fold(f64::MAX, f64::min)),
-            um(greatest.iter().copied().fold(f64::MIN, f64::max)),
+            to_um(least.iter().copied().fold(f64::MAX, f64::min)),
+            to_um(greatest.iter().copied().fold(f64::MIN, f64::max)),
         ],
-        repeatability_um: combined.repeatability.map(um),
+        repeatability_um: combined.repeatability.map(to_um),
         sums: SumsAnswer {
-            load_um: um(sums.of_origin[0]),
-            unloaded_um: um(sums.of_origin[1]),
-            as_functions_um: um(sums.largest),
-            with_scatter_um: um(sums.largest_with_scatter),
-            u_um: um(sums.u),
-            root_sum_square_um: um(sums.root_sum_square),
-            plain_um: um(sums.plain),
+            load_um: to_um(sums.of_origin[0]),
+            unloaded_um: to_um(sums.of_origin[1]),
+            as_functions_um: to_um(sums.largest),
+            with_scatter_um: to_um(sums.largest_with_scatter),
+            u_um: to_um(sums.u),
+            root_sum_square_um: to_um(sums.root_sum_square),
+            plain_um: to_um(sums.plain),
         },
         without_load: combined
             .without_load
@@ -303,13 +303,13 @@ fn contribution(
             Origin::Load => "load",
             Origin::Unloaded => "unloaded",
         },
-        largest_um: most * 1e6,
-        largest_at_deg: turn.angle()[at].to_degrees(),
-        rms_um: turn.rms(&one.bias) * 1e6,
-        bias_u_um: one.u.map(|u| u * 1e6),
-        scatter_um: turn.rms(&one.scatter) * 1e6,
-        centre_um: [datum.centre.x * 1e6, datum.centre.y * 1e6],
-        radius_um: datum.radius * 1e6,
+        largest_um: to_um(most),
+        largest_at_deg: to_deg(turn.angle()[at]),
+        rms_um: to_um(turn.rms(&one.bias)),
+        bias_u_um: one.u.map(to_um),
+        scatter_um: to_um(turn.rms(&one.scatter)),
+        centre_um: [to_um(datum.centre.x), to_um(datum.centre.y)],
+        radius_um: to_um(datum.radius),
         explained_alone_percent: share.map(|share| share.alone * 100.0),
         explained_without_percent: share.map(|share| share.without * 100.0),
     }
@@ -319,49 +319,49 @@ fn without_load(combined: &CombinedCurves, path: &UnloadedPath) -> WithoutLoadAn
     let turn = &combined.turn;
     let most = |curve: &[f64]| {
         let (at, most) = largest(curve);
-        (most * 1e6, turn.angle()[at].to_degrees())
+        (to_um(most), to_deg(turn.angle()[at]))
     };
     let [(predicted_um, predicted_at_deg), (measured_um, measured_at_deg)] =
         [most(&path.predicted), most(&path.measured)];
     WithoutLoadAnswer {
         predicted_um,
         predicted_at_deg,
-        predicted_rms_um: turn.rms(&path.predicted) * 1e6,
+        predicted_rms_um: to_um(turn.rms(&path.predicted)),
         measured_um,
         measured_at_deg,
-        measured_rms_um: turn.rms(&path.measured) * 1e6,
+        measured_rms_um: to_um(turn.rms(&path.measured)),
         explained_percent: path.agreement.explained * 100.0,
         likeness_percent: path.agreement.likeness.map(|share| share * 100.0),
     }
 }
 
 fn part(experiment: &Experiment, combined: &CombinedCurves, given: &Comparison) -> PartAnswer {
-    let at_deg = |at: usize| combined.turn.angle()[at].to_degrees();
+    let at_deg = |at: usize| to_deg(combined.turn.angle()[at]);
     let of_file = experiment.part.as_ref();
     let (at, most) = largest(&given.measured);
     let percent = |share: f64| share * 100.0;
     PartAnswer {
         points: of_file.map_or(0, |part| part.points),
-        largest_um: most * 1e6,
+        largest_um: to_um(most),
         largest_at_deg: at_deg(at),
-        rms_um: given.measured_rms * 1e6,
+        rms_um: to_um(given.measured_rms),
         centre_mm: of_file
             .and_then(|part| part.centre)
-            .map(|centre| centre.map(|m| m * 1e3)),
-        radius_um: given.datum.radius * 1e6,
-        u_um: of_file.map_or(0.0, |part| part.u * 1e6),
+            .map(|centre| centre.map(to_mm)),
+        radius_um: to_um(given.datum.radius),
+        u_um: of_file.map_or(0.0, |part| to_um(part.u)),
         explained_percent: percent(given.together.explained),
         explainable_percent: percent(given.explainable),
         likeness_percent: given.together.likeness.map(percent),
         best_size_percent: given.together.gain.map(percent),
         turns_as_good_percent: given.turns_as_good.map(percent),
         residual: ResidualAnswer {
-            rms_um: given.together.residual_rms * 1e6,
-            largest_um: given.together.residual_largest.1 * 1e6,
+            rms_um: to_um(given.together.residual_rms),
+            largest_um: to_um(given.together.residual_largest.1),
             largest_at_deg: at_deg(given.together.residual_largest.0),
-            beyond_known_um: given.beyond_known * 1e6,
+            beyond_known_um: to_um(given.beyond_known),
         },
-        least_wave_um: given.least_wave * 1e6,
+        least_wave_um: to_um(given.least_wave),
         waves: given
             .waves
             .iter()
@@ -372,12 +372,12 @@ fn part(experiment: &Experiment, combined: &CombinedCurves, given: &Comparison) 
 
 fn wave(pair: &WavePair, least: f64) -> WaveAnswer {
     let given = pair.reported(least);
-    let deg = |phase: Option<f64>| phase.map(f64::to_degrees);
+    let deg = |phase: Option<f64>| phase.map(to_deg);
     WaveAnswer {
         waves: pair.measured.waves,
-        measured_um: pair.measured.amplitude * 1e6,
+        measured_um: to_um(pair.measured.amplitude),
         measured_phase_deg: deg(given.measured_phase),
-        predicted_um: pair.predicted.amplitude * 1e6,
+        predicted_um: to_um(pair.predicted.amplitude),
         predicted_phase_deg: deg(given.predicted_phase),
         phase_difference_deg: deg(given.phase_difference),
         explained_percent: given.explained.map(|share| share * 100.0),
@@ -430,7 +430,7 @@ fn warnings(experiment: &Experiment, combined: &CombinedCurves, given: &BudgetAn
     if second > SECOND_ORDER_UM {
         warnings.push(format!(
             "the load moves the centre by {:.2} mm: it is removed to first order, up to {second:.1} um remain",
-            moved * 1e3
+            to_mm(moved)
         ));
     }
     if combined.turn.arc() < 0.999 * std::f64::consts::TAU {

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use armill_core::frame::Isometry;
 use armill_core::robot::{Joint, Robot};
 use armill_core::source::geometric::displacement;
+use armill_core::units::to_mm;
 use armill_formats::robot::RobotDescription;
 use armill_formats::sources::Source;
 
@@ -54,7 +55,7 @@ fn other_arm(actual: &Robot, believed: &Robot) -> Option<String> {
     });
     let most = off.fold(0.0, f64::max);
     (most > ANOTHER_ARM).then(|| {
-        let (most, allowed) = (decimals(most * 1e3, 1), decimals(ANOTHER_ARM * 1e3, 0));
+        let (most, allowed) = (decimals(to_mm(most), 1), decimals(to_mm(ANOTHER_ARM), 0));
         format!("has its flange up to {most} mm (allowed: {allowed} mm) from that of")
     })
 }

@@ -5,6 +5,7 @@
 use std::path::Path;
 
 use armill_core::measure::ballbar::CircularTest;
+use armill_core::units::to_mm;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -70,8 +71,8 @@ impl MeasuredCircle {
         if (test.radius() / radius - 1.0).abs() > SAME_RADIUS {
             let message = format!(
                 "the ball-bar circle has a radius of {} mm, `{analysis}` has {} mm",
-                crate::number::decimals(test.radius() * 1e3, 3),
-                crate::number::decimals(radius * 1e3, 3)
+                crate::number::decimals(to_mm(test.radius()), 3),
+                crate::number::decimals(to_mm(radius), 3)
             );
             log.problem(&files, message, "use the path that was driven, with its radius");
             return None;

@@ -18,6 +18,7 @@ use armill_core::measure::ballbar::centre::seen_from;
 use armill_core::measure::ballbar::{CircularTest, Direction, Run, RunError, least_squares_centre};
 use armill_core::path::Shape;
 use armill_core::roundness::{Plane, Profile};
+use armill_core::units::{from_deg, from_mm, from_um, to_mm};
 use armill_formats::measurement::ballbar::BallbarReadOptions;
 use armill_formats::measurement::profile::{Points, ProfileReadOptions};
 use schemars::JsonSchema;
@@ -137,7 +138,7 @@ impl Experiment {
         // Files are read even if the circle is not known: their problems belong to the same list.
         let radius_mm = table
             .radius_mm
-            .or(circle.as_ref().map(|(_, radius)| radius * 1e3));
+            .or(circle.as_ref().map(|(_, radius)| to_mm(radius)));
         let part = table
             .part
             .as_ref()
@@ -158,8 +159,8 @@ impl Experiment {
             format!(
                 "the circle of the ball-bar has {} mm, that of the cut {} mm: the path error without load is \
                  assumed to be the same",
-                crate::number::decimals(other * 1e3, 3),
-                crate::number::decimals(radius * 1e3, 3)
+                crate::number::decimals(to_mm(other), 3),
+                crate::number::decimals(to_mm(radius), 3)
             )
         }));
         Some(Experiment {
@@ -232,7 +233,7 @@ pub(super) struct AngleMapping {
 impl AngleMapping {
     pub(super) fn new(zero_deg: Option<f64>, mirrored: bool) -> AngleMapping {
         AngleMapping {
-            zero: zero_deg.unwrap_or(0.0).to_radians(),
+            zero: from_deg(zero_deg.unwrap_or(0.0)),
             sign: if mirrored { -1.0 } else { 1.0 },
         }
     }
@@ -304,14 +305,14 @@ fn part(
     };
     // An unknown circle is a problem already, and the part cannot be checked further.
     let radius_mm = radius_mm?;
-    let nominal = radius_mm * 1e-3;
+    let nominal = from_mm(radius_mm);
     let turned = AngleMapping::new(table.zero_deg, table.mirrored);
     let angle = points.iter().map(|p| turned.angle(p.y.atan2(p.x))).collect();
     let deviation: Vec<f64> = points.iter().map(|p| p.coords.norm() - nominal).collect();
     if let Some(most) = deviation.iter().copied().find(|by| by.abs() > FARTHEST * nominal) {
         let message = format!(
             "{file}: a point is {:.3} mm off a circle of {radius_mm} mm",
-            most * 1e3
+            to_mm(most)
         );
         let hint = "give the measured radius, such as radius_mm = 100; centre = \"least-squares\"";
         log.problem(key, message, hint);
@@ -322,7 +323,7 @@ fn part(
             run,
             points: count,
             centre,
-            u: table.part_u_um.unwrap_or(0.0) * 1e-6,
+            u: from_um(table.part_u_um.unwrap_or(0.0)),
         }),
         Err(error) => {
             log.problem(
@@ -373,7 +374,7 @@ pub(super) fn bar(
     }
     let requested = FileOptions {
         given: BallbarReadOptions {
-            radius: radius_mm.map(|mm| mm * 1e-3),
+            radius: radius_mm.map(from_mm),
             ..BallbarReadOptions::default()
         },
         ..FileOptions::default()

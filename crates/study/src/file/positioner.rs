@@ -22,6 +22,7 @@ use armill_core::robot::jacobian::screws_at;
 use armill_core::robot::model::NamedFrame;
 use armill_core::robot::{Attachment, Spring};
 use armill_core::spatial::Twist;
+use armill_core::units::{to_deg, to_mm};
 use armill_formats::robot::RobotDescription;
 use armill_formats::sources::Source;
 
@@ -67,9 +68,9 @@ pub(super) fn with_positioner(
     if let Some((joint, outside)) = positioner.limit_margin(&q).filter(|(_, margin)| *margin < 0.0) {
         let name = &positioner.joints()[joint].name;
         let beyond = if positioner.slides(joint) {
-            format!("{:.1} mm", -outside * 1e3)
+            format!("{:.1} mm", to_mm(-outside))
         } else {
-            format!("{:.1} deg", -outside.to_degrees())
+            format!("{:.1} deg", -to_deg(outside))
         };
         let message = format!("the positioner's joint {name} is {beyond} outside its range");
         log.problem(

@@ -2,6 +2,7 @@
 
 use armill_core::optimize::{Component, Objective, PostureSearch, Spins};
 use armill_core::robot::BranchPattern;
+use armill_core::units::{from_deg, from_per_mm};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -129,8 +130,8 @@ impl SearchTable {
         let count = steps as usize + usize::from(!full);
         Ok(PostureSearch {
             spins: Spins {
-                first: first.to_radians(),
-                step: step.to_radians(),
+                first: from_deg(first),
+                step: from_deg(step),
                 count,
             },
             component: self.component.unwrap_or(ComponentName::InPlane).component(),
@@ -139,10 +140,10 @@ impl SearchTable {
                 .unwrap_or(ObjectiveName::Worst)
                 .objective(tolerance),
             branches,
-            turn_rate: self.turn_deg_per_mm.unwrap_or(1.0).to_radians() * 1e3,
+            turn_rate: from_per_mm(from_deg(self.turn_deg_per_mm.unwrap_or(1.0))),
             turn_price: TURN_PRICE * tolerance,
             back_price: self.reversal_um_mm.unwrap_or(0.0) * 1e-9,
-            wrist: self.least_wrist_deg.unwrap_or(3.0).to_radians(),
+            wrist: from_deg(self.least_wrist_deg.unwrap_or(3.0)),
         })
     }
 }

@@ -7,6 +7,7 @@ use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
 use armill_core::load::{LoadCases, LoadFrame};
 use armill_core::nalgebra::{Point3, Vector3};
 use armill_core::spatial::Wrench;
+use armill_core::units::{from_deg, from_mm};
 use armill_core::workpiece::{Grid, Plane};
 
 use crate::input::memory::{GIB, LEAST_EXTRA_BYTES, MOST_BYTES};
@@ -16,7 +17,7 @@ use crate::input::tables::{HalfSize, LoadFrameName, LoadTable, PlaneTable};
 /// A length above 0, m.
 pub fn positive(log: &mut ProblemLog<'_>, path: &str, value_mm: f64) -> Option<f64> {
     if value_mm > 0.0 {
-        return Some(value_mm * 1e-3);
+        return Some(from_mm(value_mm));
     }
     log.problem(
         path,
@@ -37,7 +38,7 @@ pub fn step(log: &mut ProblemLog<'_>, path: &str, value_mm: f64) -> Option<f64> 
 /// A length of at least `least_mm`, m.
 pub fn at_least(log: &mut ProblemLog<'_>, path: &str, value_mm: f64, least_mm: f64) -> Option<f64> {
     if value_mm >= least_mm {
-        return Some(value_mm * 1e-3);
+        return Some(from_mm(value_mm));
     }
     // As short as possible: 1e-30 has 30 zeros otherwise.
     let value = match value_mm.abs() {
@@ -58,7 +59,7 @@ pub fn sizes(log: &mut ProblemLog<'_>, path: &str, half_size_mm: &[f64]) -> Opti
         .iter()
         .find(|half| !(0.0..=LARGEST_MM).contains(*half))
     else {
-        return Some(half_size_mm.iter().map(|half| half * 1e-3).collect());
+        return Some(half_size_mm.iter().map(from_mm).collect());
     };
     let message = format!("`{path}` is {wrong} mm: must be from 0 to {LARGEST_MM} mm");
     log.problem(path, message, "0 (a single line of points) or more");
@@ -103,7 +104,7 @@ pub fn plane_at(
     table: &PlaneTable,
     base_from_reference: &Isometry,
 ) -> Option<(Plane, Option<f64>)> {
-    let centre = Point3::from(Vector3::from(table.centre_mm) * 1e-3);
+    let centre = Point3::from(from_mm(Vector3::from(table.centre_mm)));
     let (reference_from_part, tilt) = match (table.tilt_deg, table.rotation_deg) {
         (Some(_), Some(_)) => {
             log.problem(
@@ -114,11 +115,11 @@ pub fn plane_at(
             return None;
         }
         (None, Some(angles)) => {
-            let rotation = Vector3::from(angles).map(f64::to_radians);
+            let rotation = Vector3::from(angles).map(from_deg);
             (from_xyz_and_fixed_angles(centre.coords, rotation), None)
         }
         (tilt, None) => {
-            let tilt = tilt.unwrap_or(0.0).to_radians();
+            let tilt = from_deg(tilt.unwrap_or(0.0));
             (Plane::tilted(centre, tilt).base_from_part, Some(tilt))
         }
     };
@@ -168,6 +169,6 @@ pub fn load_cases(log: &mut ProblemLog<'_>, table: &LoadTable) -> Option<LoadCas
 /// The pose of six numbers: x, y, z in mm, turns about fixed x, y, z in degrees.
 pub fn pose_mm_deg(values: &[f64; 6]) -> Isometry {
     let [x, y, z, rx, ry, rz] = *values;
-    let angles = Vector3::new(rx, ry, rz).map(f64::to_radians);
-    from_xyz_and_fixed_angles(Vector3::new(x, y, z) * 1e-3, angles)
+    let angles = Vector3::new(rx, ry, rz).map(from_deg);
+    from_xyz_and_fixed_angles(from_mm(Vector3::new(x, y, z)), angles)
 }

@@ -18,6 +18,7 @@ use armill_core::robot::spring::cutter_springs;
 use armill_core::robot::{Robot, Structure};
 use armill_core::source::stiffness_model::FREE_FALL;
 use armill_core::source::{Gravity, StiffnessModel, ThermalGrowth, repeatability};
+use armill_core::units::{from_deg, from_mm};
 use armill_formats::robot::spring_tables::SpringTableError;
 
 use crate::input::problem_log::ProblemLog;
@@ -48,7 +49,7 @@ pub fn model(
     let before = log.problems.len();
     let mut structure = robot.structure().clone();
     if let Some(pose_mm) = given.repeatability_mm {
-        structure.repeatability = repeatability::deviation_of(pose_mm * 1e-3);
+        structure.repeatability = repeatability::deviation_of(from_mm(pose_mm));
     }
     if let Some(tool) = tool {
         add_tool(log, tool, robot, &mut structure);
@@ -125,7 +126,7 @@ fn add_tool(log: &mut ProblemLog<'_>, tool: &ToolTable, robot: &Robot, structure
 
 /// The two springs of a cutter, from mm and GPa.
 fn cutter(length_mm: f64, diameter_mm: f64, modulus_gpa: f64) -> [armill_core::robot::Spring; 2] {
-    cutter_springs(length_mm * 1e-3, diameter_mm * 1e-3, modulus_gpa * 1e9)
+    cutter_springs(from_mm(length_mm), from_mm(diameter_mm), modulus_gpa * 1e9)
 }
 
 /// Young's modulus, GPa: usual values of cutting-tool handbooks; grades differ by some 10 %.
@@ -181,9 +182,9 @@ pub fn positions(robot: &Robot, given: &[f64]) -> Vec<f64> {
     let joints = 0..robot.joints().len();
     let si = |(joint, value): (usize, &f64)| {
         if robot.slides(joint) {
-            value * 1e-3
+            from_mm(value)
         } else {
-            value.to_radians()
+            from_deg(value)
         }
     };
     joints.zip(given).map(si).collect()

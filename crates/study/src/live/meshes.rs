@@ -7,6 +7,7 @@
 use std::path::{Component, Path, PathBuf};
 
 use armill_core::robot::Robot;
+use armill_core::units::to_mm;
 use armill_formats::input;
 use armill_formats::robot::format::Format;
 use armill_formats::robot::urdf::meshes::{Mesh, meshes};
@@ -58,8 +59,8 @@ impl Shapes {
             DrawnMesh {
                 link: mesh.link.clone(),
                 file: mesh.file.clone(),
-                scale_mm: mesh.scale.map(|factor| factor * 1e3),
-                xyz_mm: at.translation.vector.map(|m| without_rounding(m * 1e3)).into(),
+                scale_mm: mesh.scale.map(to_mm),
+                xyz_mm: at.translation.vector.map(|m| without_rounding(to_mm(m))).into(),
                 quaternion_wxyz: [turn.w, turn.x, turn.y, turn.z].map(without_rounding),
             }
         };

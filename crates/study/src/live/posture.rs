@@ -7,17 +7,16 @@
 //! At a point of a path, the deviation of the posture followed is that of the path: see `along`.
 
 use armill_core::compliance::{by_force, permissible_force, permissible_force_in_worst_direction};
-use armill_core::frame::{Isometry, both_across, tool_orientation};
-use armill_core::kernel::{BranchChoice, Question, evaluate, evaluate_on_path};
+use armill_core::frame::{Isometry, tool_orientation};
+use armill_core::kernel::{BranchChoice, Question, evaluate_posture};
 use armill_core::nalgebra::{Point2, Point3, Unit, Vector3};
-use armill_core::predict::predict;
 use armill_core::robot::Robot;
 use armill_core::robot::forward::{forward, joint_axis};
 use armill_core::robot::inverse::tool_on;
-use armill_core::source::{Arm, ArmState, Links};
+use armill_core::source::Arm;
 use armill_core::spatial::Wrench;
+use armill_core::units::{from_mm, to_um};
 use armill_core::watch::Watch;
-use armill_core::workpiece::Split;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -144,18 +143,16 @@ pub struct ChainPosition {
 pub struct CaseAnswer {
     /// Length of its component in the plane.
     pub in_plane_um: f64,
-    /// Its standard uncertainty, from compliances, load, tool length, repeatability and model error; of postures with a
-    /// name.
-    pub in_plane_u_um: Option<f64>,
+    /// Its standard uncertainty, from compliances, load, tool length, repeatability and model error.
+    pub in_plane_u_um: f64,
     /// Along the outward normal.
     pub normal_um: f64,
     /// Its length.
     pub full_um: f64,
     /// The whole vector, of the TCP, base axes.
     pub deviation_um: [f64; 3],
-    /// Share of each of `answer.contributors` in the in-plane deviation; their sum is the deviation. Of postures with a
-    /// name.
-    pub share_um: Option<Vec<f64>>,
+    /// Share of each of `answer.contributors` in the in-plane deviation; their sum is the deviation.
+    pub share_um: Vec<f64>,
     /// Force that meets the tolerance in the direction of this case; none without a force or without an in-plane
     /// deviation.
     pub permissible_along_load_n: Option<f64>,
@@ -239,10 +236,7 @@ pub(super) fn postures_of(
         .iter()
         .map(|posture| joint_positions(&study.robot, &posture.joints_deg));
     let joints: Vec<Vec<f64>> = joints.collect::<Result<_, StudyError>>()?;
-    let of_cases = joints
-        .iter()
-        .zip(&answer.postures)
-        .map(|(q, posture)| deviations(robot, setting, q, &posture.branch, &requested));
+    let of_cases = joints.iter().map(|q| deviations(robot, setting, q, &requested));
     let shapes = Shapes::of(&edited.parsed.file.robot, edited.folder);
     let drawn = |q: &Vec<f64>| DrawnPosture {
         meshes: shapes.drawn(robot, q),
@@ -284,12 +278,12 @@ fn requested(
     match (at.y_mm, at.z_mm, &at.joints_deg, at.xyz_mm, at.point) {
         (Some(y), Some(z), None, None, None) => {
             // y' is opposite to x of the part.
-            let in_part = Point2::new(-y * 1e-3, z * 1e-3);
+            let in_part = Point2::new(from_mm(-y), from_mm(z));
             Ok(on_plane(At::Pose(setting.plane.base_from_tool(in_part, 0.0))))
         }
         (None, None, Some(joints), None, None) => Ok(on_plane(At::JointsDeg(joints.clone()))),
         (None, None, None, Some(xyz), None) => {
-            let tcp = setting.base_from_reference * Point3::from(Vector3::from(xyz) * 1e-3);
+            let tcp = setting.base_from_reference * Point3::from(from_mm(Vector3::from(xyz)));
             Ok(on_plane(At::Pose(pose_on_plane(setting, tcp))))
         }
         (None, None, None, None, Some(index)) => point(study, setting, index, done, watch),
@@ -354,7 +348,6 @@ fn deviations(
     robot: &Robot,
     setting: &Setting,
     q: &[f64],
-    branch: &str,
     requested: &ToolTarget,
 ) -> Vec<Option<CaseAnswer>> {
     let (cases, normal) = (&requested.cases, requested.normal);
@@ -368,42 +361,34 @@ fn deviations(
         model: &setting.model,
         flange_from_tool: &setting.flange_from_tool,
     };
-    let mut arm_state = ArmState::new(arm);
-    arm_state.set_joints(q);
-    let mut positions = vec![0.0; q.len()];
     let compliance_by_force = by_force(&setting.compliance_at(robot, q));
     let any = permissible_force_in_worst_direction(&compliance_by_force, normal, setting.tolerance).0;
-    let mut of = |wrench: &Wrench| {
-        let mut links = match link_offsets {
-            Some(link_offsets) => Links::KeptByFriction(link_offsets),
-            None => Links::Farthest(both_across(&normal), &mut positions),
-        };
-        let moved = predict(&mut arm_state, wrench, &mut links).ok()?.twist.linear;
-        let split = Split::of(&moved, normal);
+    let of = |wrench: &Wrench| {
         let question = Question {
             arm,
-            home: Some(q),
+            home: None,
             cases: std::slice::from_ref(wrench),
             uncertainty: setting.uncertainty,
             normal,
             choice: BranchChoice::Best,
         };
-        let (u, shares) = in_plane_parts(&question, q, branch, link_offsets).unzip();
+        let answers = evaluate_posture(&question, q, link_offsets);
+        let evaluation = answers.points[0].as_ref().ok()?;
         // A case that is a moment alone has no direction.
         let along = Unit::try_new(wrench.force, 1e-12)
             .map(|f| permissible_force(&compliance_by_force, normal, f, setting.tolerance));
         Some(CaseAnswer {
-            in_plane_um: split.in_plane * 1e6,
-            in_plane_u_um: u,
-            normal_um: split.normal * 1e6,
-            full_um: split.full * 1e6,
-            deviation_um: (moved * 1e6).into(),
-            share_um: shares,
+            in_plane_um: to_um(evaluation.in_plane),
+            in_plane_u_um: to_um(evaluation.in_plane_uncertainty),
+            normal_um: to_um(evaluation.normal),
+            full_um: to_um(evaluation.full),
+            deviation_um: to_um(answers.deviations_at(0)[0]).into(),
+            share_um: answers.shares_at(0).iter().map(to_um).collect(),
             permissible_along_load_n: along.filter(|n| n.is_finite()),
             permissible_any_direction_n: Some(any).filter(|n| n.is_finite()),
         })
     };
-    cases.iter().map(&mut of).collect()
+    cases.iter().map(of).collect()
 }
 
 /// Positions (rad, m) that are the same posture, whatever was computed on the way there.
@@ -412,29 +397,6 @@ const SAME_POSTURE: f64 = 1e-6;
 /// Whether these positions (rad, m) are the same posture.
 pub(super) fn is_same(a: &[f64], b: &[f64]) -> bool {
     a.iter().zip(b).all(|(a, b)| (a - b).abs() < SAME_POSTURE)
-}
-
-/// Standard uncertainty (um) of the in-plane deviation and the shares in it, as in a map, of the posture `q` of this
-/// name; none if the posture cannot be selected by name. On a path the `link_offsets` must be given.
-fn in_plane_parts(
-    question: &Question<'_>,
-    q: &[f64],
-    branch: &str,
-    link_offsets: Option<&[f64]>,
-) -> Option<(f64, Vec<f64>)> {
-    let arm = &question.arm;
-    let question = Question {
-        choice: BranchChoice::Of(branch.parse().ok()?),
-        ..*question
-    };
-    let base_from_tool = tool_on(&forward(arm.robot, q), arm.flange_from_tool);
-    let answers = match link_offsets {
-        Some(link_offsets) => evaluate_on_path(&question, &base_from_tool, link_offsets),
-        None => evaluate(&question, 1, |_| base_from_tool, Watch::NONE).ok()?,
-    };
-    let evaluation = answers.points[0].as_ref().ok()?;
-    let shares = answers.shares_at(0).iter().map(|share| share * 1e6).collect();
-    is_same(answers.joints_at(0), q).then_some((evaluation.in_plane_uncertainty * 1e6, shares))
 }
 
 /// The arm at these joint positions (rad, m).

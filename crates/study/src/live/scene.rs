@@ -5,6 +5,7 @@
 
 use armill_core::map::BoxGrid;
 use armill_core::nalgebra::{Point3, Vector3};
+use armill_core::units::{from_mm, to_mm, to_um};
 use armill_core::watch::Watch;
 use armill_formats::table::ColumnData;
 use schemars::JsonSchema;
@@ -18,7 +19,7 @@ use crate::file::resolve::Study;
 use crate::input::setting::Setting;
 use crate::input::tables::{HalfSize, PlaneTable};
 use crate::live::{EditedAnalysis, StudyText};
-use crate::number::without_rounding;
+use crate::number::{decimals, without_rounding};
 use crate::output;
 use crate::run::run;
 
@@ -168,8 +169,8 @@ pub(super) fn scene_of(
 /// Half the sides of a plane, m.
 pub(super) fn half_of(plane: &PlaneTable) -> [f64; 2] {
     match plane.half_size_mm {
-        HalfSize::Square(half) => [half * 1e-3; 2],
-        HalfSize::Oblong(halves) => halves.map(|half| half * 1e-3),
+        HalfSize::Square(half) => [from_mm(half); 2],
+        HalfSize::Oblong(halves) => halves.map(from_mm),
     }
 }
 
@@ -236,11 +237,11 @@ fn points(study: &Study, done: &AnalysisResult<'_>) -> Result<PointsInScene, Stu
     };
     let counted = place("x_mm").iter().zip(place("y_mm")).zip(place("z_mm"));
     let in_base = counted
-        .map(|((x, y), z)| mm(&(setting.base_from_reference * (Point3::new(*x, *y, *z) * 1e-3)).coords));
+        .map(|((x, y), z)| mm(&(setting.base_from_reference * (from_mm(Point3::new(*x, *y, *z)))).coords));
     let deviation = |index: usize| {
         let evaluation = answers.points[index].as_ref().ok()?;
         let deviation = answers.deviations_at(index)[evaluation.worst_case];
-        Some(deviation.map(|m| (m * 1e9).round() * 1e-3).into())
+        Some(deviation.map(|m| decimals(to_um(m), 3)).into())
     };
     let drawn = table
         .columns()
@@ -279,12 +280,12 @@ fn column_values(data: &ColumnData) -> Value {
 
 /// A number to a nanometre.
 fn number(value: f64) -> Value {
-    Value::from((value * 1e6).round() / 1e6)
+    Value::from(decimals(value, 6))
 }
 
 /// Metres as mm, without the rounding of frame changes.
 fn mm(v: &Vector3<f64>) -> [f64; 3] {
-    clean(v * 1e3)
+    clean(to_mm(v))
 }
 
 fn clean(v: Vector3<f64>) -> [f64; 3] {

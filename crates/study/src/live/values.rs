@@ -3,6 +3,7 @@
 //! Values are those of the analysis if it gives them, else those of the study, else the defaults.
 
 use armill_core::robot::Branch;
+use armill_core::units::to_mm;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -101,7 +102,7 @@ pub(super) fn values_of(edited: &EditedAnalysis<'_>) -> Result<ValuesAnswer, Stu
         half_size_mm,
         step_mm: table.step_mm.unwrap_or(plane.step_mm),
         flange_from_tool_mm_deg: tool.map_or([0.0; 6], |tool| tool.flange_from_tool_mm_deg),
-        tool_length_mm: without_rounding(setting.flange_from_tool.translation.vector.norm() * 1e3),
+        tool_length_mm: without_rounding(to_mm(setting.flange_from_tool.translation.vector.norm())),
         load_frame: load.map(|load| load.frame.map_or("base", |frame| frame.word())),
         cases_n: load.map_or_else(Vec::new, |load| load.cases_n.clone()),
         tolerance_um: table.tolerance_um.unwrap_or(file.tolerance_um),

@@ -4,6 +4,7 @@ use armill_core::frame::Isometry;
 use armill_core::nalgebra::Point3;
 use armill_core::robot::Robot;
 use armill_core::robot::inverse::posture_at;
+use armill_core::units::{from_deg, from_mm, to_mm};
 use armill_report::{ArmDrawing, View};
 
 use crate::analysis::arm::arm_posture;
@@ -15,7 +16,7 @@ const PLATE: f64 = 0.15;
 /// The arm in the first posture of an answer that is inside limits, the others faintly, with a plate in front of the
 /// tool.
 pub fn posture_drawing(robot: &Robot, flange_from_tool: &Isometry, answer: &PoseAnswer) -> String {
-    let to_si = |(i, q): (usize, &f64)| if robot.slides(i) { q * 1e-3 } else { q.to_radians() };
+    let to_si = |(i, q): (usize, &f64)| if robot.slides(i) { from_mm(q) } else { from_deg(q) };
     let joints =
         |posture: &PostureAnswer| -> Vec<f64> { posture.joints_deg.iter().enumerate().map(to_si).collect() };
     let draw = |posture: &PostureAnswer| arm_posture(robot, &joints(posture), flange_from_tool);
@@ -23,7 +24,7 @@ pub fn posture_drawing(robot: &Robot, flange_from_tool: &Isometry, answer: &Pose
         let base_from_tool = posture_at(robot, &joints(posture), flange_from_tool).base_from_tool;
         [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| -> [f64; 3] {
             let corner = base_from_tool * Point3::new(x * PLATE, y * PLATE, 0.0);
-            (corner.coords * 1e3).into()
+            to_mm(corner.coords).into()
         })
     };
     let chosen = answer

@@ -12,6 +12,7 @@
 use std::path::PathBuf;
 
 use armill_core::measure::ballbar::profile::is_gap;
+use armill_core::units::{to_deg, to_um};
 use armill_formats::file::ResultFolder;
 use armill_formats::table::{Column, ColumnData, Table, csv};
 use armill_report::{
@@ -169,15 +170,15 @@ fn circle(given: &BudgetAnswer, combined: &CombinedCurves) -> String {
                 .get(k + 1)
                 .copied()
                 .or_else(|| Some(angle.first()? + std::f64::consts::TAU));
-            angle_deg.push(angle[k].to_degrees());
-            radial_um.push(curve[k] * 1e6);
+            angle_deg.push(to_deg(angle[k]));
+            radial_um.push(to_um(curve[k]));
             if next.is_some_and(|next| is_gap(next - angle[k])) {
-                angle_deg.push(angle[k].to_degrees());
+                angle_deg.push(to_deg(angle[k]));
                 radial_um.push(f64::NAN);
             }
         }
-        angle_deg.extend(angle.first().map(|first| first.to_degrees()));
-        radial_um.extend(curve.first().map(|first| first * 1e6));
+        angle_deg.extend(angle.first().map(to_deg));
+        radial_um.extend(curve.first().map(to_um));
         RadialSeries {
             name: name.to_owned(),
             angle_deg,
@@ -366,13 +367,8 @@ fn table_of(given: &BudgetAnswer, combined: &CombinedCurves) -> Result<Table, St
         decimals: Some(decimals),
         data: ColumnData::Float(data),
     };
-    let um = |curve: &[f64]| (4, curve.iter().map(|value| value * 1e6).collect());
-    let angle = combined
-        .turn
-        .angle()
-        .iter()
-        .map(|angle| angle.to_degrees())
-        .collect();
+    let um = |curve: &[f64]| (4, curve.iter().map(to_um).collect());
+    let angle = combined.turn.angle().iter().map(to_deg).collect();
     let mut columns = vec![column("angle_deg".to_owned(), "deg", (4, angle))];
     let balance = &combined.balance;
     for (one, said) in balance.contributions.iter().zip(&given.contributions) {

@@ -10,6 +10,7 @@
 //! Analyses are drawn on all threads, their pictures are in the order of the analyses.
 
 use armill_core::path::Shape;
+use armill_core::units::to_mm;
 use armill_report::Overlay;
 use rayon::prelude::*;
 
@@ -102,7 +103,7 @@ fn overlays(study: &Study, setting: &Setting) -> Vec<Overlay> {
         }
         let y0 = base_y(setting);
         let points = path.track.path.points.iter().map(|point| point.at);
-        let mut points_mm: Vec<[f64; 2]> = points.map(|at| [y0 - at.x * 1e3, at.y * 1e3]).collect();
+        let mut points_mm: Vec<[f64; 2]> = points.map(|at| [y0 - to_mm(at.x), to_mm(at.y)]).collect();
         // Of a circle the first point is not sampled again at its end.
         if matches!(shape, Shape::Circle { .. }) {
             points_mm.extend(points_mm.first().copied());

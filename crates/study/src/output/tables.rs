@@ -2,6 +2,7 @@
 //! boxes: the envelopes, and the deviation of each case as an array of vectors.
 
 use armill_core::kernel::Evaluation;
+use armill_core::units::to_um;
 use armill_formats::table::vtk::{Image, PointArray, PointValues, PolyData, write_image, write_poly_data};
 use armill_formats::table::{Table, csv};
 use rayon::prelude::*;
@@ -173,7 +174,7 @@ fn arrays(series: &[Rows<'_>]) -> Vec<PointArray> {
     arrays.par_extend((0..cases).into_par_iter().map(|case| {
         let vector = |rows: &Rows<'_>, index: usize| {
             let reached = rows.answers.points[index].is_ok();
-            reached.then(|| rows.answers.deviations_at(index)[case].map(|c| c * 1e6).into())
+            reached.then(|| rows.answers.deviations_at(index)[case].map(to_um).into())
         };
         PointArray {
             name: format!("deviation_case_{}_um", case + 1),

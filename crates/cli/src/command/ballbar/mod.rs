@@ -7,6 +7,7 @@
 
 mod text;
 
+use armill_core::units::to_um;
 use std::path::PathBuf;
 
 use armill_measure::ballbar::{
@@ -110,7 +111,7 @@ fn taught(
     if sagitta > requested.within {
         written.notes.push(format!(
             "linear moves between {points} points deviate by {:.1} um from the circle; {} points are within {} um",
-            sagitta * 1e6,
+            to_um(sagitta),
             points_within(radius, requested.within),
             arguments.program.within_um
         ));

@@ -164,6 +164,7 @@ fn parts(answer: &BallbarAnswer) -> Vec<String> {
     if let (Some(late), Some(u)) = (parts.servo_mismatch_s, parts.servo_mismatch_u_s) {
         lines.push(format!(
             "servo        {a} lags {b} by {:+.3} ms, +- {:.3} ms",
+            // unit: ms
             late * 1e3,
             2e3 * u
         ));

@@ -5,6 +5,7 @@
 //! stdout.
 
 use armill_core::robot::convention::PoseDifference;
+use armill_core::units::{from_deg, from_mm};
 use armill_core::watch::Watch;
 use armill_formats::convention::Convention;
 use armill_formats::robot::pendant::reading;
@@ -33,8 +34,8 @@ pub(super) fn run(arguments: &RobotsCheckArguments) -> Result<Outcome, StudyErro
         })
     });
     let within = PoseDifference {
-        metres: above_zero("--within-mm", arguments.within_mm)? * 1e-3,
-        radians: above_zero("--within-deg", arguments.within_deg)?.to_radians(),
+        metres: from_mm(above_zero("--within-mm", arguments.within_mm)?),
+        radians: from_deg(above_zero("--within-deg", arguments.within_deg)?),
     };
     let question = PendantQuestion {
         readings: readings.collect::<Result<_, _>>()?,

@@ -1,6 +1,7 @@
 //! `armill robots NAME`: all data of one robot, as text or as [`RobotDetails`]; `--drawing` draws it.
 
 use armill_core::robot::reach;
+use armill_core::units::to_mm;
 use armill_formats::robot::RobotDescription;
 use armill_study::joint_unit::JointUnit;
 use armill_study::number::without_rounding;
@@ -56,10 +57,10 @@ fn as_text(found: &RobotDescription) -> String {
         lines.push(format!("Nominal branch: {}", robot.nominal_branch()));
     }
     lines.push(format!("Inverse kinematics: {}", robot.inverse()));
-    lines.extend(reach(robot).map(|m| format!("Reach of the wrist centre from axis 1: {:.0} mm", m * 1e3)));
+    lines.extend(reach(robot).map(|m| format!("Reach of the wrist centre from axis 1: {:.0} mm", to_mm(m))));
     lines.extend(found.payload_kg.map(|kg| format!("Payload: {kg} kg")));
     for frame in robot.frames() {
-        let at = frame.base_from_frame.translation.vector * 1e3;
+        let at = to_mm(frame.base_from_frame.translation.vector);
         lines.push(format!(
             "Frame {}: at ({}, {}, {}) mm of base_link",
             frame.name,

@@ -13,6 +13,7 @@
 
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::{JointCompliance, Robot};
+use armill_core::units::{to_mm, to_per_mm, to_um};
 use armill_study::joint_unit::JointUnit;
 use armill_study::robot_answers::attachment_name;
 
@@ -49,7 +50,7 @@ pub(super) fn as_text(robot: &Robot) -> Vec<String> {
         ));
     }
     for mass in &structure.masses {
-        let centre = mass.centre.coords * 1e3;
+        let centre = to_mm(mass.centre.coords);
         lines.push(format!(
             "  mass at {}: {} kg, centre ({:.3}, {:.3}, {:.3}) mm",
             attachment_name(robot, mass.attachment),
@@ -71,7 +72,7 @@ pub(super) fn as_text(robot: &Robot) -> Vec<String> {
         let name = &robot.joints()[c.joint].name;
         lines.push(format!(
             "  gravity compensator of {name}: {} N/mm",
-            c.stiffness * 1e-3
+            to_per_mm(c.stiffness)
         ));
     }
     if structure.covariance.is_some() {
@@ -80,7 +81,7 @@ pub(super) fn as_text(robot: &Robot) -> Vec<String> {
     if structure.repeatability > 0.0 {
         lines.push(format!(
             "  repeatability: {:.1} um along any axis, one standard deviation",
-            structure.repeatability * 1e6
+            to_um(structure.repeatability)
         ));
     }
     if structure.model_error > 0.0 {

@@ -5,7 +5,7 @@ use nalgebra::{Point2, Point3};
 use super::*;
 use crate::arms;
 use crate::frame::Isometry;
-use crate::kernel::{BranchChoice, Question, evaluate, evaluate_on_path};
+use crate::kernel::{BranchChoice, Question, evaluate, evaluate_posture};
 use crate::load::{LoadCases, LoadFrame, PathLoad};
 use crate::map::{AlongPath, along_path};
 use crate::path::{Placing, Shape, Spin};
@@ -210,7 +210,8 @@ fn a_single_point_deviates_as_on_the_path_and_its_shares_add_up() {
             .as_ref()
             .unwrap()
             .link_offsets_at(index, 6);
-        let alone = evaluate_on_path(&requested, &stop.base_from_tool, link_offsets);
+        let joints = along.answers.joints_at(index);
+        let alone = evaluate_posture(&requested, joints, Some(link_offsets));
         let (evaluation, there) = (alone.points[0].unwrap(), along.answers.points[index].unwrap());
         assert!((evaluation.in_plane - there.in_plane).abs() < 1e-12);
         assert!((alone.shares_at(0).iter().sum::<f64>() - evaluation.in_plane).abs() < 1e-15);
@@ -239,7 +240,7 @@ fn a_single_point_deviates_as_on_the_path_and_its_shares_add_up() {
             },
             ..requested
         };
-        let exact = evaluate_on_path(&exact, &stop.base_from_tool, link_offsets).points[0].unwrap();
+        let exact = evaluate_posture(&exact, joints, Some(link_offsets)).points[0].unwrap();
         assert!(evaluation.in_plane_uncertainty > exact.in_plane_uncertainty);
     }
 }
@@ -273,7 +274,7 @@ fn a_single_point_uses_the_side_of_the_backlash_with_the_largest_deviation() {
                 }
             };
             let link_offsets: Vec<f64> = (0..6).map(placements).collect();
-            evaluate_on_path(&requested, &stop.base_from_tool, &link_offsets).points[0]
+            evaluate_posture(&requested, given.joints_at(0), Some(&link_offsets)).points[0]
                 .unwrap()
                 .in_plane
         });

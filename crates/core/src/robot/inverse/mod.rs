@@ -23,6 +23,7 @@ mod three_turns;
 pub(crate) mod two_links;
 
 pub use closed_form::ClosedForm;
+pub(crate) use finder::name as name_of;
 pub use finder::{Finder, InverseSolution, InverseTarget};
 pub use fixed_joint::FixedJoint;
 pub use kind::Inverse;
@@ -123,7 +124,7 @@ pub fn verify(frames: &Frames, base_from_flange: &Isometry) -> Result<(), Unreac
 pub fn posture_at(robot: &Robot, q: &[f64], flange_from_tool: &Isometry) -> Posture {
     let frames = forward(robot, q);
     let base_from_tool = tool_on(&frames, flange_from_tool);
-    let (name, singularity) = finder::name(robot, q);
+    let (name, singularity) = name_of(robot, q);
     Posture {
         name,
         joints: q.to_vec(),

@@ -25,6 +25,7 @@ use std::f64::consts::TAU;
 use std::io::BufRead;
 
 use armill_core::measure::ballbar::{CircularTest, Direction, Run};
+use armill_core::units::from_deg;
 
 use super::columns::{Column, Columns, HEADER_HINT};
 use super::remarks::Remarks;
@@ -383,7 +384,7 @@ impl Table {
                 false => angle,
             };
             let far = |most: f64| angle.iter().any(|a| a.abs() > most);
-            if degrees && !far(RADIANS.to_radians()) && angle.len() >= Run::LEAST {
+            if degrees && !far(from_deg(RADIANS)) && angle.len() >= Run::LEAST {
                 let message = format!("no angle of this run exceeds {RADIANS} deg");
                 let hint = "if the angles are radians, name the column `angle_rad`";
                 problems.push(first.problem(&self.path, 0..first.text.len(), message, hint));

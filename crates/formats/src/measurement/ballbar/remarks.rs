@@ -13,6 +13,7 @@
 
 use super::{BallbarReadOptions, direction_of};
 use armill_core::measure::ballbar::Direction;
+use armill_core::units::{from_deg, from_mm};
 
 use crate::document::Problems;
 use crate::document::lines::Line;
@@ -89,7 +90,7 @@ impl Remarks {
         };
         match key.trim().to_lowercase().as_str() {
             "radius_mm" | "nominal_radius_mm" => {
-                let radius = quantity([0.0, 1e4], "mm", "radius_mm: 100")? * 1e-3;
+                let radius = from_mm(quantity([0.0, 1e4], "mm", "radius_mm: 100")?);
                 match self.radius.replace(radius) {
                     Some(before) if (before - radius).abs() > 1e-9 * radius => Err(twice("nominal radius")),
                     _ => Ok(()),
@@ -107,7 +108,7 @@ impl Remarks {
                 _ => Ok(()),
             },
             "start_deg" => {
-                let start = quantity([-1e4, 1e4], "deg", "start_deg: 0")?.to_radians();
+                let start = from_deg(quantity([-1e4, 1e4], "deg", "start_deg: 0")?);
                 self.parts += 1;
                 self.start = Some(start);
                 match self.option_start {

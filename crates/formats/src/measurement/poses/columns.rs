@@ -15,6 +15,7 @@
 use std::str::FromStr;
 
 use armill_core::robot::{Motion, Robot};
+use armill_core::units::from_deg;
 
 use crate::measurement::profile::LengthUnit;
 
@@ -180,7 +181,7 @@ pub(super) fn named(name: &str, robot: &Robot) -> Result<Option<Column>, (String
         return Ok(None);
     };
     let factor = match (quantity.turns(robot), unit) {
-        (true, "deg") => Some(1f64.to_radians()),
+        (true, "deg") => Some(from_deg(1f64)),
         (true, "rad") => Some(1.0),
         (true, _) => None,
         (false, unit) => unit.parse::<LengthUnit>().ok().map(LengthUnit::factor),

@@ -15,6 +15,7 @@ use armill_core::calibrate::MeasuredPose;
 use armill_core::frame::from_xyz_and_fixed_angles;
 use armill_core::nalgebra::{UnitQuaternion, Vector3};
 use armill_core::robot::Robot;
+use armill_core::units::to_deg;
 
 use super::columns::{Column, Mapping, Quantity, missing, named, of_data_set};
 use crate::document::lines::{Line, Lines};
@@ -282,7 +283,7 @@ impl<'a> Table<'a> {
         let value = number * column.factor;
         if column.quantity.turns(self.robot) {
             if value.abs() > MOST_TURN {
-                let message = format!("an angle of {:.1} deg exceeds two turns", value.to_degrees());
+                let message = format!("an angle of {:.1} deg exceeds two turns", to_deg(value));
                 return Err((
                     message,
                     "if the values are degrees, use `_deg` in the column name",

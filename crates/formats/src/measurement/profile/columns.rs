@@ -9,6 +9,7 @@
 //!
 //! Names and units are not case-sensitive.
 
+use armill_core::units::{from_deg, from_mm, to_deg, to_mm};
 use std::fmt;
 use std::str::FromStr;
 
@@ -119,7 +120,7 @@ impl Quantity {
     /// The factor to SI of a unit.
     fn factor(self, unit: &str) -> Option<f64> {
         match (self, unit) {
-            (Quantity::Angle, "deg") => Some(1f64.to_radians()),
+            (Quantity::Angle, "deg") => Some(from_deg(1f64)),
             (Quantity::Angle, "rad") => Some(1.0),
             (Quantity::Angle, _) => None,
             _ => unit.parse::<LengthUnit>().ok().map(LengthUnit::factor),
@@ -197,11 +198,11 @@ impl Layout {
                     let message = "deviations need the radius to which they refer".to_owned();
                     return Err((message, "give it (option `radius_mm`)"));
                 };
-                if !(radius_mm > 0.0 && radius_mm * 1e-3 <= FARTHEST) {
+                if !(radius_mm > 0.0 && from_mm(radius_mm) <= FARTHEST) {
                     let message = format!("a radius of {radius_mm} mm is not above 0 mm, or exceeds 1e9 mm");
                     return Err((message, "give the radius at which the deviation is 0"));
                 }
-                return Ok(Layout::Deviation(radius_mm * 1e-3));
+                return Ok(Layout::Deviation(from_mm(radius_mm)));
             }
             _ => {
                 let message = "these columns do not give points of a profile".to_owned();
@@ -234,13 +235,13 @@ impl Layout {
         let around = |quantity: Quantity, radius: f64| {
             let angle = value(Quantity::Angle);
             if angle.abs() > MOST_TURNS {
-                let message = format!("an angle of {} deg exceeds 1000 turns", angle.to_degrees());
+                let message = format!("an angle of {} deg exceeds 1000 turns", to_deg(angle));
                 return Err((Quantity::Angle, message));
             }
             if !(radius > 0.0 && radius <= FARTHEST) {
                 let message = format!(
                     "a radius of {} mm is not above 0 mm, or exceeds 1e9 mm",
-                    radius * 1e3
+                    to_mm(radius)
                 );
                 return Err((quantity, message));
             }

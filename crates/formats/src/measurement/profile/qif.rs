@@ -16,6 +16,7 @@
 //!
 //! Source: QIF 2.1 and 3.0, Part 3, Features (ANSI/DMSC) as used in the samples of the standard.
 
+use armill_core::units::{to_mm, to_um};
 use std::collections::BTreeMap;
 use std::io::Read;
 
@@ -148,12 +149,12 @@ fn numbers<const N: usize>(node: Node<'_, '_>) -> Option<[f64; N]> {
 fn reported(circles: &[ActualCircle]) -> String {
     let one = |circle: &ActualCircle| {
         let mut words = vec![circle.name.clone()];
-        words.extend(circle.diameter.map(|d| format!("diameter {:.4} mm", d * 1e3)));
+        words.extend(circle.diameter.map(|d| format!("diameter {:.4} mm", to_mm(d))));
         words.extend(circle.centre.map(|at| {
-            let [x, y, z] = at.map(|x| x * 1e3);
+            let [x, y, z] = at.map(to_mm);
             format!("at ({x:.4}, {y:.4}, {z:.4}) mm")
         }));
-        words.extend(circle.form.map(|form| format!("form {:.2} um", form * 1e6)));
+        words.extend(circle.form.map(|form| format!("form {:.2} um", to_um(form))));
         words.join(" ")
     };
     let mut listed: Vec<String> = circles.iter().take(MOST_LISTED).map(one).collect();

@@ -4,6 +4,7 @@
 //! chain becomes one that names both: the source of the nominal lengths and the source of the small motions.
 
 use armill_core::robot::{Amount, Axis, Motion};
+use armill_core::units::{to_deg, to_mm};
 use toml_edit::{Array, DocumentMut, InlineTable, Item, Value, value};
 
 use super::identified::set_sources;
@@ -108,8 +109,8 @@ fn table(motion: &Motion) -> InlineTable {
         Amount::Joint(_) => 0.0,
     };
     let (word, axis, field, by): (_, Axis, _, f64) = match *motion {
-        Motion::Along(axis, amount) => ("along", axis, "length_mm", constant(amount) * 1e3),
-        Motion::About(axis, amount) => ("about", axis, "angle_deg", constant(amount).to_degrees()),
+        Motion::Along(axis, amount) => ("along", axis, "length_mm", to_mm(constant(amount))),
+        Motion::About(axis, amount) => ("about", axis, "angle_deg", to_deg(constant(amount))),
     };
     let mut table = InlineTable::new();
     table.insert(word, axis.letter().to_string().into());

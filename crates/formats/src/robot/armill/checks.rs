@@ -13,6 +13,7 @@
 
 use armill_core::robot::joint::{Coupling, Sign};
 use armill_core::robot::{Amount, BranchPattern, Joint, JointCompliance, Limits, Motion, TorqueCurve};
+use armill_core::units::{from_deg, from_mm};
 
 use super::file::{JointEntry, MotionEntry, RobotFile};
 use crate::document::{Document, Problem};
@@ -74,8 +75,8 @@ impl Checks<'_> {
             }
         };
         let amount = match (entry.length_mm, entry.angle_deg, &entry.joint) {
-            (Some(length), None, None) if !turns => Amount::Constant(length * 1e-3),
-            (None, Some(angle), None) if turns => Amount::Constant(angle.to_radians()),
+            (Some(length), None, None) if !turns => Amount::Constant(from_mm(length)),
+            (None, Some(angle), None) if turns => Amount::Constant(from_deg(angle)),
             (None, None, Some(name)) => Amount::Joint(self.next_joint(path, name, file, used)?),
             _ => {
                 let hint = "`along` takes `length_mm` or `joint`, `about` takes `angle_deg` or `joint`";
@@ -155,14 +156,14 @@ impl Checks<'_> {
                 } else {
                     Sign::Positive
                 },
-                zero_offset: entry.zero_offset_deg.map_or(0.0, f64::to_radians)
-                    + entry.zero_offset_mm.map_or(0.0, |mm| mm * 1e-3),
+                zero_offset: entry.zero_offset_deg.map_or(0.0, from_deg)
+                    + entry.zero_offset_mm.map_or(0.0, from_mm),
                 coupling: self.coupling(&path, entry, &file.joint[..index]),
                 limits: self.limits(&path, entry),
                 max_speed: entry
                     .max_speed_deg_per_s
-                    .map(f64::to_radians)
-                    .or(entry.max_speed_mm_per_s.map(|mm| mm * 1e-3)),
+                    .map(from_deg)
+                    .or(entry.max_speed_mm_per_s.map(from_mm)),
             });
         }
         joints
@@ -269,9 +270,9 @@ impl Checks<'_> {
         }
         let to_si = |value: f64| {
             if unit == "deg" {
-                value.to_radians()
+                from_deg(value)
             } else {
-                value * 1e-3
+                from_mm(value)
             }
         };
         Some(Limits {

@@ -1,5 +1,6 @@
 //! The robot file as written: its tables and keys.
 
+use armill_core::units::{from_deg, from_mm, from_um};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -165,20 +166,20 @@ pub(super) enum BacklashSideName {
 impl JointEntry {
     /// Compliance along or about the axis, m/N or rad/(N m).
     pub(super) fn compliance(&self) -> Option<f64> {
-        let sliding = self.compliance_um_per_n.map(|um| um * 1e-6);
+        let sliding = self.compliance_um_per_n.map(from_um);
         self.compliance_rad_per_n_m.or(sliding)
     }
 
     /// Its standard uncertainty, same unit; zero where none is given.
     pub(super) fn compliance_uncertainty(&self) -> f64 {
-        let sliding = self.compliance_u_um_per_n.map(|um| um * 1e-6);
+        let sliding = self.compliance_u_um_per_n.map(from_um);
         self.compliance_u_rad_per_n_m.or(sliding).unwrap_or(0.0)
     }
 
     /// Backlash and its standard uncertainty, rad or m.
     pub(super) fn backlash(&self) -> Option<[f64; 2]> {
-        let rad = |deg: Option<f64>| deg.map(f64::to_radians);
-        let m = |mm: Option<f64>| mm.map(|mm| mm * 1e-3);
+        let rad = |deg: Option<f64>| deg.map(from_deg);
+        let m = |mm: Option<f64>| mm.map(from_mm);
         let gap = rad(self.backlash_deg).or(m(self.backlash_mm))?;
         let u = rad(self.backlash_u_deg).or(m(self.backlash_u_mm));
         Some([gap, u.unwrap_or(0.0)])

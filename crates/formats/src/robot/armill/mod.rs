@@ -30,6 +30,7 @@ use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::Robot;
 use armill_core::robot::model::NamedFrame;
+use armill_core::units::{from_deg, from_mm};
 
 use self::checks::Checks;
 use self::file::{FrameEntry, JointEntry, RobotFile};
@@ -94,9 +95,9 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
 
 /// A frame of the file, m and rad; its angles turn about the fixed axes x, y, z in that order.
 fn named_frame(entry: &FrameEntry) -> NamedFrame {
-    let rotation = Vector3::from(entry.rotation_deg).map(f64::to_radians);
+    let rotation = Vector3::from(entry.rotation_deg).map(from_deg);
     let base_from_frame: Isometry =
-        from_xyz_and_fixed_angles(Vector3::from(entry.origin_mm) * 1e-3, rotation);
+        from_xyz_and_fixed_angles(from_mm(Vector3::from(entry.origin_mm)), rotation);
     NamedFrame {
         name: entry.name.clone(),
         base_from_frame,

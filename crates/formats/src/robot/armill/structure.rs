@@ -8,6 +8,7 @@
 use armill_core::nalgebra::DMatrix;
 use armill_core::robot::{Backlash, BacklashSide, Compensator, JointCurve, Structure, TorqueCurve};
 use armill_core::source::repeatability;
+use armill_core::units::{from_deg, from_mm, from_per_mm};
 
 use super::checks::Checks;
 use super::file::{BacklashSideName, CovarianceTable, JointEntry, RobotFile};
@@ -47,7 +48,7 @@ impl Checks<'_> {
             .collect();
         structure.compensator = self.compensator(file, &joints);
         structure.repeatability = (file.repeatability.as_ref())
-            .map_or(0.0, |table| repeatability::deviation_of(table.pose_mm * 1e-3));
+            .map_or(0.0, |table| repeatability::deviation_of(from_mm(table.pose_mm)));
         structure.model_error = (file.model_error.as_ref()).map_or(0.0, |table| table.percent / 100.0);
         if let Some(table) = &file.covariance {
             structure.covariance = self.covariance(table, &names, &structure, file);
@@ -147,11 +148,11 @@ impl Checks<'_> {
         }
         Some(Compensator {
             joint,
-            fixed_radius: table.fixed_radius_mm * 1e-3,
-            arm_radius: table.arm_radius_mm * 1e-3,
-            angle: table.angle_deg.to_radians(),
-            free_length: table.free_length_mm * 1e-3,
-            stiffness: table.stiffness_n_per_mm * 1e3,
+            fixed_radius: from_mm(table.fixed_radius_mm),
+            arm_radius: from_mm(table.arm_radius_mm),
+            angle: from_deg(table.angle_deg),
+            free_length: from_mm(table.free_length_mm),
+            stiffness: from_per_mm(table.stiffness_n_per_mm),
         })
     }
 

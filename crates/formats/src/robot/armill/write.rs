@@ -8,6 +8,7 @@
 
 use armill_core::frame::{Isometry, fixed_angles};
 use armill_core::robot::{Amount, Joint, Motion};
+use armill_core::units::{from_deg, from_mm, to_deg, to_mm};
 
 use super::super::description::RobotDescription;
 
@@ -220,12 +221,12 @@ fn pose(base_from_frame: &Isometry) -> (String, String) {
 
 /// A length in m as mm.
 fn millimetres(m: f64, within: f64) -> String {
-    shortest(m, m * 1e3, within, |mm| mm * 1e-3)
+    shortest(m, to_mm(m), within, from_mm)
 }
 
 /// An angle in rad as deg.
 fn degrees(rad: f64, within: f64) -> String {
-    shortest(rad, rad.to_degrees(), within, f64::to_radians)
+    shortest(rad, to_deg(rad), within, from_deg)
 }
 
 /// The shortest decimal of `shown` that `to_si` takes back to `si`.

@@ -15,6 +15,7 @@ use std::ops::Range;
 use armill_core::robot::chain::LONGEST;
 use armill_core::robot::joint::Sign;
 use armill_core::robot::{Amount, Axis, Motion};
+use armill_core::units::{from_deg, from_mm, to_mm};
 
 use super::cursor::Cursor;
 use crate::document::{Problems, Source};
@@ -40,15 +41,15 @@ impl Kind {
     /// A constant of the file in m or rad.
     pub fn si(self, constant: f64) -> f64 {
         match self {
-            Kind::Along(_) => constant * 1e-3,
-            Kind::About(_) => constant.to_radians(),
+            Kind::Along(_) => from_mm(constant),
+            Kind::About(_) => from_deg(constant),
         }
     }
 
     /// The largest constant, and its unit.
     fn longest(self) -> (f64, &'static str) {
         match self {
-            Kind::Along(_) => (LONGEST * 1e3, "mm"),
+            Kind::Along(_) => (to_mm(LONGEST), "mm"),
             Kind::About(_) => (360.0, "deg"),
         }
     }

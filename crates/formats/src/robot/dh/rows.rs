@@ -14,6 +14,7 @@ use std::f64::consts::TAU;
 
 use armill_core::robot::chain::LONGEST;
 use armill_core::robot::joint::Sign;
+use armill_core::units::{from_deg, from_mm};
 
 use super::super::{MOST_JOINTS, TWO_TURNS};
 use super::table::{Cell, Table};
@@ -307,8 +308,8 @@ impl RowReader<'_> {
         };
         let name = name.text.to_lowercase();
         let si = match UNITS.iter().find(|(unit, _)| name.ends_with(unit)) {
-            Some(("_mm", _)) => value * 1e-3,
-            Some(("_deg", _)) => value.to_radians(),
+            Some(("_mm", _)) => from_mm(value),
+            Some(("_deg", _)) => from_deg(value),
             _ => value,
         };
         let angle = name.ends_with("deg") || name.ends_with("rad");

@@ -34,6 +34,7 @@ use std::ops::Range;
 
 use armill_core::robot::joint::Sign;
 use armill_core::robot::{Amount, Axis, Joint, Motion, Robot};
+use armill_core::units::from_deg;
 
 use self::yaml::{Entry, Scalar};
 use super::TWO_TURNS;
@@ -214,7 +215,7 @@ fn angle(text: &str) -> Result<f64, &'static str> {
             .strip_suffix(')')
     };
     let value = match (inside("deg"), inside("rad")) {
-        (Some(degrees), _) => degrees.trim().parse::<f64>().map(f64::to_radians),
+        (Some(degrees), _) => degrees.trim().parse::<f64>().map(from_deg),
         (_, Some(radians)) => radians.trim().parse::<f64>(),
         _ => text.parse::<f64>(),
     };

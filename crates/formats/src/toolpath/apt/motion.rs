@@ -8,6 +8,7 @@ use std::f64::consts::TAU;
 
 use armill_core::nalgebra::{Point3, Unit, Vector3};
 use armill_core::path::{Arc, Course, Move, Pace};
+use armill_core::units::{to_deg, to_mm};
 
 use super::Dialect;
 use super::modal::{Feed, Interpreter};
@@ -261,14 +262,13 @@ impl Interpreter<'_> {
                 [least.min(radius), most.max(radius)]
             });
         if most - least > RADIUS_SLACK[0] * most + RADIUS_SLACK[1] || least <= SAME_POINT {
-            let mm = |radius: f64| radius * 1e3;
             let written = circle.radius.map_or_else(String::new, |radius| {
-                format!(", and {:.4} mm is written", mm(radius))
+                format!(", and {:.4} mm is written", to_mm(radius))
             });
             let message = format!(
                 "this arc begins {:.4} mm from its centre and ends {:.4} mm from it{written}",
-                mm(a.norm()),
-                mm(b.norm())
+                to_mm(a.norm()),
+                to_mm(b.norm())
             );
             let hint = "the CIRCLE before gives the centre; both ends must be on the circle";
             self.report(statement, statement.parameters_span(), message, hint);
@@ -289,7 +289,7 @@ impl Interpreter<'_> {
                 if apart.min(TAU - apart) > TURN_SLACK {
                     let message = format!(
                         "a helix of {turns} turns that ends {:.3} deg from where it begins",
-                        angle.to_degrees()
+                        to_deg(angle)
                     );
                     let hint = "it is ambiguous whether the part of a turn is additional: write the helix as full \
                         turns, or as lines";

@@ -22,6 +22,7 @@
 //! Source: NISTIR 6556, section 3.3.2; EXISTS and named parameters: LinuxCNC documentation.
 
 use super::refusal::Refusal;
+use armill_core::units::{from_deg, to_deg};
 
 /// Brackets inside brackets.
 pub(super) const DEEPEST: usize = 100;
@@ -226,21 +227,21 @@ impl<'a> Reader<'a> {
         let argument = self.bracketed()?;
         let (value, what) = match *name {
             "abs" => (argument.abs(), "ABS"),
-            "acos" => (argument.acos().to_degrees(), "ACOS"),
-            "asin" => (argument.asin().to_degrees(), "ASIN"),
-            "cos" => (argument.to_radians().cos(), "COS"),
+            "acos" => (to_deg(argument.acos()), "ACOS"),
+            "asin" => (to_deg(argument.asin()), "ASIN"),
+            "cos" => (from_deg(argument).cos(), "COS"),
             "exp" => (argument.exp(), "EXP"),
             "fix" => (argument.floor(), "FIX"),
             "fup" => (argument.ceil(), "FUP"),
             "ln" => (argument.ln(), "LN"),
             "round" => (argument.round(), "ROUND"),
-            "sin" => (argument.to_radians().sin(), "SIN"),
+            "sin" => (from_deg(argument).sin(), "SIN"),
             "sqrt" => (argument.sqrt(), "SQRT"),
-            "tan" => (argument.to_radians().tan(), "TAN"),
+            "tan" => (from_deg(argument).tan(), "TAN"),
             _ => {
                 self.expect(b'/')?;
                 let other = self.bracketed()?;
-                (argument.atan2(other).to_degrees(), "ATAN")
+                (to_deg(argument.atan2(other)), "ATAN")
             }
         };
         finite(value, what)

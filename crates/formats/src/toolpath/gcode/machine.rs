@@ -24,6 +24,7 @@ use super::tools::{Tool, ToolTable};
 use crate::toolpath::LengthUnit;
 use crate::toolpath::direction::LARGEST;
 use crate::toolpath::notes::Notes;
+use armill_core::units::from_deg;
 
 /// What F means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -104,7 +105,7 @@ fn plus(first: Axes, by: f64, second: Axes) -> Axes {
 /// Turns X and Y by this angle about Z.
 fn turned(mut of: Axes, degrees: f64) -> Axes {
     if degrees != 0.0 {
-        let (sine, cosine) = degrees.to_radians().sin_cos();
+        let (sine, cosine) = from_deg(degrees).sin_cos();
         (of[0], of[1]) = (of[0] * cosine - of[1] * sine, of[0] * sine + of[1] * cosine);
     }
     of

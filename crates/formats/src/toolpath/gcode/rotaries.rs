@@ -17,6 +17,7 @@
 //! five-axis samples approach moves run along this axis.
 
 use armill_core::nalgebra::{Rotation3, Unit, Vector3};
+use armill_core::units::from_deg;
 
 /// An axis of rotation, about X, Y or Z.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,7 +47,7 @@ impl Rotary {
             Rotary::B => Vector3::y_axis(),
             Rotary::C => Vector3::z_axis(),
         };
-        Rotation3::from_axis_angle(&axis, degrees[self.index()].to_radians())
+        Rotation3::from_axis_angle(&axis, from_deg(degrees[self.index()]))
     }
 }
 

@@ -15,6 +15,7 @@ use std::f64::consts::TAU;
 
 use armill_core::nalgebra::{Point3, Rotation3, Unit, Vector2, Vector3};
 use armill_core::path::{Arc, Course, Move, Operation, Pace, Step};
+use armill_core::units::from_deg;
 
 use super::canonical::{ArcFeed, Axes, Canonical};
 use super::motion::sweep;
@@ -185,7 +186,7 @@ impl<'a> Tracer<'a> {
                 }
             }
             Canonical::SetG92Offset(shift) => self.frame.shift = self.lengths(&shift),
-            Canonical::SetXyRotation(degrees) => self.frame.turn = degrees.to_radians(),
+            Canonical::SetXyRotation(degrees) => self.frame.turn = from_deg(degrees),
             Canonical::SetFeedMode { per_revolution } => self.per_revolution = per_revolution,
             Canonical::SetFeedRate(rate) | Canonical::FeedRateInNewUnit(rate) => {
                 self.feed = rate * self.unit.metres();

@@ -15,6 +15,7 @@ use armill_core::nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use armill_core::optimize::HolesFound;
 use armill_core::robot::Robot;
 use armill_core::robot::jacobian::wrist_bend;
+use armill_core::units::{to_deg, to_mm, to_um};
 use armill_core::workpiece::Plane;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -167,11 +168,11 @@ pub fn answer(robot: &Robot, name: &str, analysis: &HolesAnalysis, found: &Holes
         refused: evaluation.iter().filter(|(index, _)| is_refused(*index)).count(),
         fraction_within: good as f64 / count.max(1) as f64,
         counts: CountsAnswer::of(&counts),
-        mean_in_plane_um: (!evaluation.is_empty()).then_some(mean * 1e6),
-        max_in_plane_um: answers.worst().map(|(_, evaluation)| evaluation.in_plane * 1e6),
+        mean_in_plane_um: (!evaluation.is_empty()).then_some(to_um(mean)),
+        max_in_plane_um: answers.worst().map(|(_, evaluation)| to_um(evaluation.in_plane)),
         max_depth_um: evaluation
             .iter()
-            .map(|(_, evaluation)| evaluation.normal.abs() * 1e6)
+            .map(|(_, evaluation)| to_um(evaluation.normal.abs()))
             .max_by(f64::total_cmp),
         turns: analysis.search.spins.count,
         setting: SettingAnswer::of(robot, setting),
@@ -230,20 +231,16 @@ fn hole(robot: &Robot, analysis: &HolesAnalysis, found: &HolesFound, index: usiz
     let stop = path.track.stop(index);
     let point = &answers.points[index];
     let evaluation = point.as_ref().ok();
-    let error = evaluation.map(|evaluation| error(analysis, found, index, evaluation) * 1e6);
+    let error = evaluation.map(|evaluation| to_um(error(analysis, found, index, evaluation)));
     let tip = setting.in_reference(&stop.base_from_tool.translation.vector.into());
     let scale = |joint: usize| {
-        if robot.slides(joint) {
-            1e3
-        } else {
-            1f64.to_degrees()
-        }
+        if robot.slides(joint) { 1e3 } else { to_deg(1f64) }
     };
     let joints = answers.joints_at(index);
     HoleAnswer {
         hole: index + 1,
         line: path.track.path.points[index].line,
-        xyz_mm: tip.coords.map(|c| without_rounding(c * 1e3)).into(),
+        xyz_mm: tip.coords.map(|c| without_rounding(to_mm(c))).into(),
         normal_axis: stop.normal.into_inner().map(without_rounding).into(),
         state: match point {
             Ok(evaluation) if evaluation.in_plane <= setting.tolerance => "within",
@@ -262,12 +259,12 @@ fn hole(robot: &Robot, analysis: &HolesAnalysis, found: &HolesFound, index: usiz
             .filter(|status| **status != PostureStatus::Usable)
             .map(|status| status.word()),
         branch: evaluation.map(|evaluation| evaluation.name.to_string()),
-        turn_deg: evaluation.map(|_| without_rounding(found.spins[index].to_degrees())),
+        turn_deg: evaluation.map(|_| without_rounding(to_deg(found.spins[index]))),
         x_um: error.map(|error| error.x),
         y_um: error.map(|error| error.y),
         depth_um: error.map(|error| error.z),
-        in_plane_um: evaluation.map(|evaluation| evaluation.in_plane * 1e6),
-        in_plane_u_um: evaluation.map(|evaluation| evaluation.in_plane_uncertainty * 1e6),
+        in_plane_um: evaluation.map(|evaluation| to_um(evaluation.in_plane)),
+        in_plane_u_um: evaluation.map(|evaluation| to_um(evaluation.in_plane_uncertainty)),
         joints_deg: match evaluation {
             Some(_) => joints.iter().enumerate().map(|(i, q)| q * scale(i)).collect(),
             None => Vec::new(),
@@ -278,9 +275,7 @@ fn hole(robot: &Robot, analysis: &HolesAnalysis, found: &HolesFound, index: usiz
         limit_joint: evaluation
             .filter(|evaluation| evaluation.limit_margin.is_finite())
             .map(|evaluation| robot.joints()[evaluation.limit_joint].name.clone()),
-        wrist_bend_deg: evaluation
-            .and_then(|_| wrist_bend(robot, joints))
-            .map(f64::to_degrees),
+        wrist_bend_deg: evaluation.and_then(|_| wrist_bend(robot, joints)).map(to_deg),
         singularity: evaluation
             .and_then(|evaluation| evaluation.singularity)
             .map(|s| s.to_string()),

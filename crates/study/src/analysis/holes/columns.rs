@@ -4,6 +4,7 @@
 use armill_core::optimize::HolesFound;
 use armill_core::robot::Robot;
 use armill_core::robot::jacobian::wrist_bend;
+use armill_core::units::{to_deg, to_um};
 
 use crate::analysis::columns::Numbers;
 use crate::analysis::holes::answer::error;
@@ -15,18 +16,16 @@ pub fn columns<'a>(robot: &'a Robot, analysis: &'a HolesAnalysis, found: &'a Hol
     let points = &analysis.path.track.path.points;
     let part = |quantity: &'static Quantity, axis: usize| {
         Numbers::of(quantity, move |_, index, evaluation| {
-            error(analysis, found, index, evaluation)[axis] * 1e6
+            to_um(error(analysis, found, index, evaluation)[axis])
         })
     };
     vec![
         Numbers::of(&quantity::HOLE, |_, index, _| index as f64 + 1.0),
         Numbers::of(&quantity::LINE, move |_, index, _| f64::from(points[index].line)),
-        Numbers::of(&quantity::TURN, move |_, index, _| {
-            found.spins[index].to_degrees()
-        }),
+        Numbers::of(&quantity::TURN, move |_, index, _| to_deg(found.spins[index])),
         Numbers::of(&quantity::WRIST_BEND, move |rows, index, _| {
             let bend = wrist_bend(robot, rows.answers.joints_at(index));
-            bend.map_or(f64::NAN, f64::to_degrees)
+            bend.map_or(f64::NAN, to_deg)
         }),
         part(&quantity::HOLE_X, 0),
         part(&quantity::HOLE_Y, 1),

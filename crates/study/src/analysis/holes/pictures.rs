@@ -9,6 +9,7 @@ use armill_core::kernel::BranchChoice;
 use armill_core::optimize::HolesFound;
 use armill_core::path::PathPoint;
 use armill_core::robot::{BranchPattern, Robot};
+use armill_core::units::{to_mm, to_um};
 use armill_report::{AxisLabels, ColourScale, HoleMap, HoleMark};
 
 use crate::analysis::holes::answer::HolesAnswer;
@@ -73,12 +74,12 @@ fn map(analysis: &HolesAnalysis, given: &HolesAnswer, found: &HolesFound) -> Str
     let mark = |(index, point): (usize, &PathPoint)| {
         let evaluation = found.answers.points[index].as_ref().ok();
         let moved = evaluation.map(|evaluation| {
-            path_from_base * found.answers.deviations_at(index)[evaluation.worst_case] * 1e6
+            to_um(path_from_base * found.answers.deviations_at(index)[evaluation.worst_case])
         });
         HoleMark {
-            at_mm: [point.at.x * 1e3, point.at.y * 1e3],
+            at_mm: [to_mm(point.at.x), to_mm(point.at.y)],
             error_um: moved.map_or([f64::NAN; 2], |moved| [moved.x, moved.y]),
-            deviation_um: evaluation.map(|evaluation| evaluation.in_plane * 1e6),
+            deviation_um: evaluation.map(|evaluation| to_um(evaluation.in_plane)),
             name: match worst(index) {
                 true => (index + 1).to_string(),
                 false => String::new(),
@@ -93,7 +94,7 @@ fn map(analysis: &HolesAnalysis, given: &HolesAnswer, found: &HolesFound) -> Str
             vertical: "y of the holes' frame (mm)".to_owned(),
         },
         quantity: "deviation across the hole (µm)".to_owned(),
-        tolerance_um: Some(analysis.path.setting.tolerance * 1e6),
+        tolerance_um: Some(to_um(analysis.path.setting.tolerance)),
         scale: ColourScale::Viridis,
         holes: track.path.points.iter().enumerate().map(mark).collect(),
     };

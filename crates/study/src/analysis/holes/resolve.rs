@@ -19,6 +19,7 @@ use armill_core::nalgebra::{Point3, Unit, Vector3};
 use armill_core::optimize::PostureSearch;
 use armill_core::path::{Hole, Pace, Placing, SampledPath, Spin, Step, Track, drilled_holes, path_of_holes};
 use armill_core::robot::Robot;
+use armill_core::units::from_mm;
 use armill_formats::input;
 use armill_formats::toolpath::format::{self, Format, ToolpathReadOptions};
 
@@ -303,7 +304,7 @@ fn listed(
     };
     (log.problems.len() == before).then(|| {
         let hole = |(index, at): (usize, &[f64; 3])| Hole {
-            at: Point3::from(Vector3::from(*at) * 1e-3),
+            at: Point3::from(from_mm(Vector3::from(*at))),
             axis: axis_of(index),
             line: index as u32 + 1,
         };

@@ -6,6 +6,7 @@
 use armill_core::map::{COVERAGE, Certainty, Counts, PlaneMap, Region, probability_within};
 use armill_core::nalgebra::Point2;
 use armill_core::robot::Robot;
+use armill_core::units::{to_mm, to_mm2, to_um};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -189,11 +190,11 @@ pub fn answer(robot: &Robot, name: &str, setting: &Setting, map: &PlaneMap) -> M
 /// Area, boundary and shapes inside, in mm.
 fn region_answer(region: &Region) -> RegionAnswer {
     RegionAnswer {
-        area_mm2: region.area * 1e6,
+        area_mm2: to_mm2(region.area),
         boundary_mm: boundary(region),
         rectangle_mm: region.rectangle.map(|r| [in_plane(&r.lower), in_plane(&r.upper)]),
         circle_centre_mm: region.disc.map(|d| in_plane(&d.centre)),
-        circle_radius_mm: region.disc.map(|d| without_rounding(d.radius * 1e3)),
+        circle_radius_mm: region.disc.map(|d| without_rounding(to_mm(d.radius))),
     }
 }
 
@@ -204,9 +205,9 @@ fn certainty_answer(certainty: &Certainty) -> CertaintyAnswer {
         fraction_robustly_within: certainty.fraction_robust,
         fraction_possibly_within: certainty.fraction_possibly,
         fraction_expected_within: certainty.expected_fraction,
-        area_robust_mm2: certainty.robust.area * 1e6,
+        area_robust_mm2: to_mm2(certainty.robust.area),
         boundary_robust_mm: boundary(&certainty.robust),
-        area_possibly_mm2: certainty.possibly.area * 1e6,
+        area_possibly_mm2: to_mm2(certainty.possibly.area),
         boundary_possibly_mm: boundary(&certainty.possibly),
     }
 }
@@ -219,7 +220,7 @@ fn boundary(region: &Region) -> Vec<Vec<[f64; 2]>> {
 
 /// Part coordinates as y', z' in mm.
 fn in_plane(at: &Point2<f64>) -> [f64; 2] {
-    [without_rounding(-at.x * 1e3), without_rounding(at.y * 1e3)]
+    [without_rounding(to_mm(-at.x)), without_rounding(to_mm(at.y))]
 }
 
 /// Every point, row by row; deviations rounded to 1e-4 um, probabilities to as many decimals.
@@ -241,16 +242,16 @@ fn grid_answer(map: &PlaneMap, tolerance: f64) -> GridAnswer {
     GridAnswer {
         points: grid.len(),
         y_mm: (0..grid.columns)
-            .map(|i| without_rounding(-grid.coordinate(i, grid.columns) * 1e3))
+            .map(|i| without_rounding(to_mm(-grid.coordinate(i, grid.columns))))
             .collect(),
         z_mm: (0..grid.rows)
-            .map(|i| without_rounding(grid.coordinate(i, grid.rows) * 1e3))
+            .map(|i| without_rounding(to_mm(grid.coordinate(i, grid.rows))))
             .collect(),
-        in_plane_um: of(&|evaluation| evaluation.in_plane * 1e6),
-        in_plane_u_um: of(&|evaluation| evaluation.in_plane_uncertainty * 1e6),
+        in_plane_um: of(&|evaluation| to_um(evaluation.in_plane)),
+        in_plane_u_um: of(&|evaluation| to_um(evaluation.in_plane_uncertainty)),
         probability_within: of(&|evaluation| probability_within(evaluation, tolerance)),
-        normal_um: of(&|evaluation| evaluation.normal * 1e6),
-        full_um: of(&|evaluation| evaluation.full * 1e6),
+        normal_um: of(&|evaluation| to_um(evaluation.normal)),
+        full_um: of(&|evaluation| to_um(evaluation.full)),
         flags: flags(map),
     }
 }

@@ -4,6 +4,7 @@ use armill_core::kernel::{Answers, Evaluation};
 use armill_core::map::{COVERAGE, PlaneMap};
 use armill_core::nalgebra::{Point3, Vector3};
 use armill_core::robot::{Robot, Unreachable};
+use armill_core::units::{to_mm, to_um};
 use armill_report::{
     ArmDrawing, CircleMm, ColourScale, DeviationMap, Growth, Marker, MarkerKind, Overlay, RectangleMm,
     RegionMap, StiffnessEllipse, View,
@@ -37,7 +38,7 @@ fn spread_um(map: &PlaneMap) -> Vec<f64> {
             .as_ref()
             .map_or(0.0, |evaluation| evaluation.in_plane_uncertainty)
     };
-    points.map(|point| COVERAGE * uncertainty(point) * 1e6).collect()
+    points.map(|point| to_um(COVERAGE * uncertainty(point))).collect()
 }
 
 /// The map of a plane with its best and worst point, and the region within the tolerance with the largest shapes
@@ -61,7 +62,7 @@ fn plane(answer: &MapAnswer, setting: &Setting, map: &PlaneMap, overlays: Vec<Ov
             .as_ref()
             .map(|p| marker("largest", MarkerKind::Point, at(p.in_plane_mm))),
     ];
-    let tolerance_um = setting.tolerance * 1e6;
+    let tolerance_um = to_um(setting.tolerance);
     let deviation = DeviationMap {
         title: answer.name.clone(),
         subtitle: subtitle(setting),
@@ -176,7 +177,7 @@ fn ellipse(robot: &Robot, setting: &Setting, slug: &str, answers: &Answers, inde
     let translational = compliance.fixed_view::<3, 3>(0, 0).into_owned();
     let across = setting.plane.base_from_part * -Vector3::x();
     let up = setting.plane.base_from_part * Vector3::y();
-    let between = |a: &Vector3<f64>, b: &Vector3<f64>| a.dot(&(translational * b)) * 1e6;
+    let between = |a: &Vector3<f64>, b: &Vector3<f64>| to_um(a.dot(&(translational * b)));
     let picture = StiffnessEllipse {
         title: "compliance in the plane where the deviation is largest".to_owned(),
         subtitle: subtitle(setting),
@@ -200,7 +201,7 @@ fn plate_corners(map: &PlaneMap) -> [[f64; 3]; 4] {
     let (x, y) = (half(map.grid.columns), half(map.grid.rows));
     let corner = |sx: f64, sy: f64| -> [f64; 3] {
         let at = map.plane.base_from_part * Point3::new(sx * x, sy * y, 0.0);
-        (at.coords * 1e3).into()
+        to_mm(at.coords).into()
     };
     [
         corner(-1.0, -1.0),

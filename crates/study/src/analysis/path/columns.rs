@@ -2,6 +2,7 @@
 //! deviation of the worst case relative to the track, with their part due to backlash and geometry.
 
 use armill_core::path::{Pace, Parts, Track};
+use armill_core::units::{to_deg, to_mm, to_um};
 
 use crate::analysis::columns::Numbers;
 use crate::analysis::path::run::PathResult;
@@ -13,14 +14,14 @@ pub fn columns<'a>(track: &'a Track, found: &'a PathResult) -> Vec<Numbers<'a>> 
     let part = |quantity: &'static Quantity, of: fn(Parts) -> f64| {
         Numbers::of(quantity, move |rows, index, evaluation| {
             let deviation = rows.answers.deviations_at(index)[evaluation.worst_case];
-            of(track.parts(index, &deviation)) * 1e6
+            to_um(of(track.parts(index, &deviation)))
         })
     };
     let mut columns = vec![
         Numbers::of(&quantity::LINE, move |_, index, _| f64::from(points[index].line)),
-        Numbers::of(&quantity::DISTANCE, move |_, index, _| points[index].along * 1e3),
+        Numbers::of(&quantity::DISTANCE, move |_, index, _| to_mm(points[index].along)),
         Numbers::of(&quantity::FEED, move |_, index, _| match points[index].pace {
-            Pace::Feed(speed) => speed * 1e3,
+            Pace::Feed(speed) => to_mm(speed),
             _ => f64::NAN,
         }),
         part(&quantity::ALONG, |parts| parts.along),
@@ -29,7 +30,7 @@ pub fn columns<'a>(track: &'a Track, found: &'a PathResult) -> Vec<Numbers<'a>> 
     ];
     columns.extend(found.searched.as_ref().map(|searched| {
         let spins = &searched.posture.spins;
-        Numbers::of(&quantity::TURN, move |_, index, _| spins[index].to_degrees())
+        Numbers::of(&quantity::TURN, move |_, index, _| to_deg(spins[index]))
     }));
     columns.extend(unloaded(track, found));
     columns
@@ -43,7 +44,7 @@ fn unloaded<'a>(track: &'a Track, found: &'a PathResult) -> Vec<Numbers<'a>> {
     let part = |quantity: &'static Quantity, of: fn(Parts) -> f64| {
         Numbers::of(quantity, move |rows, index, evaluation| {
             let moved = unloaded.displacements[index * rows.answers.case_count + evaluation.worst_case];
-            of(track.parts(index, &moved)) * 1e6
+            to_um(of(track.parts(index, &moved)))
         })
     };
     vec![

@@ -16,6 +16,7 @@ use armill_core::load::{
 };
 use armill_core::nalgebra::Point3;
 use armill_core::path::{Cutting, GreatestForce, Stock, StockError};
+use armill_core::units::{from_deg, from_mm, from_um};
 use armill_formats::material::Material;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -178,12 +179,12 @@ pub fn resolve(log: &mut ProblemLog<'_>, table: &CutTable) -> Option<Cut> {
         cutting: Cutting {
             cutter,
             law,
-            depth: table.axial_depth_mm * 1e-3,
+            depth: from_mm(table.axial_depth_mm),
             immersion,
             feed: table
                 .feed_mm_per_min
                 .filter(|feed| *feed > 0.0)
-                .map(|feed| feed * 1e-3 / 60.0),
+                .map(|feed| from_mm(feed) / 60.0),
             spindle: table
                 .spindle_rpm
                 .filter(|speed| *speed > 0.0)
@@ -209,7 +210,7 @@ fn stock(log: &mut ProblemLog<'_>, table: &CutTable) -> Option<Option<Stock>> {
     let Some(reported) = &table.stock else {
         return Some(None);
     };
-    let corners = [reported.from_mm, reported.to_mm].map(|mm| Point3::from(mm.map(|c| c * 1e-3)));
+    let corners = [reported.from_mm, reported.to_mm].map(|mm| Point3::from(mm.map(from_mm)));
     let cell_mm = reported
         .cell_mm
         .unwrap_or(table.cutter.diameter_mm / CELLS_ACROSS);
@@ -217,7 +218,7 @@ fn stock(log: &mut ProblemLog<'_>, table: &CutTable) -> Option<Option<Stock>> {
         let hint = "from_mm = [-50, -50, -20], to_mm = [50, 50, 0]: two corners in the frame of the program";
         log.problem("cut.stock", error.to_string(), hint);
     };
-    Stock::new(corners, cell_mm * 1e-3)
+    Stock::new(corners, from_mm(cell_mm))
         .map_err(refused)
         .ok()
         .map(Some)
@@ -238,8 +239,8 @@ pub fn material(log: &mut ProblemLog<'_>, key: &str, name: &str) -> Option<Mater
 
 /// The end mill of the table: flat without a corner radius, else with rounded corners.
 fn cutter(table: &CutterTable) -> Result<Cutter, CuttingError> {
-    let diameter = table.diameter_mm * 1e-3;
-    let corner = table.corner_radius_mm.unwrap_or(0.0) * 1e-3;
+    let diameter = from_mm(table.diameter_mm);
+    let corner = from_mm(table.corner_radius_mm.unwrap_or(0.0));
     let cutter = if corner == 0.0 {
         Cutter::flat(diameter, table.flutes)?
     } else {
@@ -248,12 +249,12 @@ fn cutter(table: &CutterTable) -> Result<Cutter, CuttingError> {
     let helix = table.helix_deg.unwrap_or(HELIX_DEG);
     let hand = if helix < 0.0 { Hand::Left } else { Hand::Right };
     let runout = Runout {
-        offset: table.runout_um.unwrap_or(0.0) * 1e-6,
+        offset: from_um(table.runout_um.unwrap_or(0.0)),
         ..Runout::default()
     };
     cutter
-        .with_helix(helix.abs().to_radians(), hand)?
-        .with_rake(table.rake_deg.unwrap_or(0.0).to_radians())?
+        .with_helix(from_deg(helix.abs()), hand)?
+        .with_rake(from_deg(table.rake_deg.unwrap_or(0.0)))?
         .with_runout(runout)
 }
 
@@ -267,7 +268,7 @@ fn immersion(log: &mut ProblemLog<'_>, table: &CutTable) -> Option<Immersion> {
         log.problem("cut", "a cut on one side needs its `radial_depth_mm`", hint);
         return None;
     };
-    let depth = depth * 1e-3;
+    let depth = from_mm(depth);
     Some(match table.side {
         SideName::Up => Immersion::Up(depth),
         SideName::Down => Immersion::Down(depth),

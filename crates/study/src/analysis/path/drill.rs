@@ -6,6 +6,7 @@
 use std::f64::consts::TAU;
 
 use armill_core::path::Drill;
+use armill_core::units::{from_deg, from_mm};
 use armill_formats::material::Material;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -86,13 +87,13 @@ pub fn resolve(log: &mut ProblemLog<'_>, key: &str, table: &DrillTable) -> Optio
         .ok()?;
     Some(DrillCut {
         drill: Drill {
-            diameter: table.diameter_mm * 1e-3,
-            point_angle: table.point_deg.unwrap_or(POINT_DEG).to_radians(),
+            diameter: from_mm(table.diameter_mm),
+            point_angle: from_deg(table.point_deg.unwrap_or(POINT_DEG)),
             law,
             feed: table
                 .feed_mm_per_min
                 .filter(|feed| *feed > 0.0)
-                .map(|feed| feed * 1e-3 / 60.0),
+                .map(|feed| from_mm(feed) / 60.0),
             spindle: table.spindle_rpm.map(|speed| speed * TAU / 60.0),
         },
         material,

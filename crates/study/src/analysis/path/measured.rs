@@ -13,6 +13,7 @@ use armill_core::load::{ActsOn, LoadFrame, PathLoad, Record, RecordError};
 use armill_core::nalgebra::{UnitQuaternion, Vector3};
 use armill_core::path::{Clock, NoTime, Speeds, Track};
 use armill_core::spatial::Wrench;
+use armill_core::units::from_deg;
 use armill_core::watch::Watch;
 use armill_formats::measurement::format::ForceReadOptions;
 use schemars::JsonSchema;
@@ -198,7 +199,7 @@ fn forces(
         low_pass_hz: table.low_pass_hz,
         spindle_rpm: table.spindle_rpm,
     };
-    let turn = table.sensor_turned_deg.unwrap_or(0.0).to_radians();
+    let turn = from_deg(table.sensor_turned_deg.unwrap_or(0.0));
     let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), turn);
     let treated = treat(measured.record.on_tool().turned(&turn), &treatment)?;
     let clock = clock(table, track)?;

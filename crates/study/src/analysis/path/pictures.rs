@@ -18,6 +18,7 @@ use armill_core::map::RadialDeviation;
 use armill_core::nalgebra::{Point3, Vector3};
 use armill_core::path::Parts;
 use armill_core::robot::Robot;
+use armill_core::units::{to_mm, to_um};
 use armill_report::{
     ArmDrawing, Arrow, ArrowCase, AxisLabels, Growth, Marker, MarkerKind, PathPlot, PolarPlot, RadialSeries,
     Series, Stretch, TrackMap, VectorField, View,
@@ -117,7 +118,7 @@ impl Drawing<'_> {
         let point = &self.found.along.answers.points[index];
         point
             .as_ref()
-            .map_or(f64::NAN, |evaluation| evaluation.in_plane * 1e6)
+            .map_or(f64::NAN, |evaluation| to_um(evaluation.in_plane))
     }
 
     /// The name of a load case: its force, if it is constant.
@@ -150,14 +151,14 @@ impl Drawing<'_> {
     /// The path seen along its z, stretch by stretch, with the worst points numbered.
     fn track(&self) -> String {
         let points = &self.analysis.track.path.points;
-        let at = |i: usize| [points[i].at.x * 1e3, points[i].at.y * 1e3];
+        let at = |i: usize| [to_mm(points[i].at.x), to_mm(points[i].at.y)];
         let stretch = |range: std::ops::Range<usize>| Stretch {
             points_mm: range.clone().map(at).collect(),
             deviation_um: range.map(|i| self.in_plane_um(i)).collect(),
         };
         let stretches = self.analysis.track.path.stretches().map(stretch).collect();
         let [low, high] = self.analysis.track.path.corners();
-        let apart_mm = APART * (high.x - low.x).max(high.y - low.y) * 1e3;
+        let apart_mm = to_mm(APART * (high.x - low.x).max(high.y - low.y));
         let mut markers: Vec<Marker> = Vec::new();
         for (i, worst) in self.found.worst.iter().enumerate() {
             let at_mm = at(worst.index);
@@ -184,7 +185,7 @@ impl Drawing<'_> {
                 vertical: "path y (mm)".to_owned(),
             },
             quantity: "deviation across the tool (µm)".to_owned(),
-            tolerance_um: Some(self.analysis.setting.tolerance * 1e6),
+            tolerance_um: Some(to_um(self.analysis.setting.tolerance)),
             stretches,
             markers,
             ..TrackMap::default()
@@ -197,17 +198,17 @@ impl Drawing<'_> {
         let (track, answers) = (&self.analysis.track, &self.found.along.answers);
         let points = &track.path.points;
         let y0 = base_y(&self.analysis.setting);
-        let at = |i: usize| [y0 - points[i].at.x * 1e3, points[i].at.y * 1e3];
+        let at = |i: usize| [y0 - to_mm(points[i].at.x), to_mm(points[i].at.y)];
         let every = points.len().div_ceil(ARROWS).max(1);
         let reached = |i: &usize| answers.points[*i].is_ok();
         let arrows = |case: usize| {
             let arrow = |i: usize| {
-                let deviation: Vector3<f64> = self
-                    .analysis
-                    .setting
-                    .plane
-                    .in_part(&answers.deviations_at(i)[case])
-                    * 1e6;
+                let deviation: Vector3<f64> = to_um(
+                    self.analysis
+                        .setting
+                        .plane
+                        .in_part(&answers.deviations_at(i)[case]),
+                );
                 Arrow {
                     at_mm: at(i),
                     deviation_um: [-deviation.x, deviation.y],
@@ -259,7 +260,7 @@ impl Drawing<'_> {
         };
         let part = |name: &str, of: fn(Parts) -> f64| {
             series(name.to_owned(), &|i| {
-                of(track.parts(i, &answers.deviations_at(i)[0])) * 1e6
+                to_um(of(track.parts(i, &answers.deviations_at(i)[0])))
             })
         };
         let (across, quantity) = match handfuls.are_points() {
@@ -269,7 +270,7 @@ impl Drawing<'_> {
         let in_plane = |case: usize| {
             let of = move |i: usize| {
                 let parts = track.parts(i, &answers.deviations_at(i)[case]);
-                parts.along.hypot(parts.cross) * 1e6
+                to_um(parts.along.hypot(parts.cross))
             };
             series(self.case_name(case), &of)
         };
@@ -292,7 +293,7 @@ impl Drawing<'_> {
             quantity: quantity.to_owned(),
             series: all,
             envelope: Some(series(envelope.to_owned(), &|i| self.in_plane_um(i))),
-            tolerance_um: Some(self.analysis.setting.tolerance * 1e6),
+            tolerance_um: Some(to_um(self.analysis.setting.tolerance)),
         };
         self.picture("along", "the deviation along the path.", picture.to_svg())
     }
@@ -308,7 +309,7 @@ impl Drawing<'_> {
                 .outward
                 .iter()
                 .chain(radial.outward.first())
-                .map(|value| value * 1e6)
+                .map(to_um)
                 .collect(),
         };
         let picture = PolarPlot {
@@ -371,7 +372,7 @@ impl Drawing<'_> {
             .filter(|i| answers.points[*i].is_ok());
         let stride = track.len().div_ceil(MOST_IN_SPACE).max(1);
         let base =
-            |at: &Point3<f64>| -> [f64; 3] { ((track.placing.base_from_path * at).coords * 1e3).into() };
+            |at: &Point3<f64>| -> [f64; 3] { to_mm((track.placing.base_from_path * at).coords).into() };
         let mut path_mm: Vec<[f64; 3]> = track
             .path
             .points

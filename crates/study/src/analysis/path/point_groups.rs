@@ -1,6 +1,7 @@
 //! Downsampling of a path for a chart: groups of consecutive points, each drawn as its largest value.
 
 use armill_core::path::PathPoint;
+use armill_core::units::to_mm;
 
 /// Points that a chart shows at most: of a longer path each represents the largest value of a group.
 const MOST_POINTS: usize = 1200;
@@ -27,7 +28,7 @@ impl PointGroups {
     /// Distance along the path of the first of each, mm.
     pub fn positions_mm(self, points: &[PathPoint]) -> Vec<f64> {
         let first = points.iter().step_by(self.each);
-        first.map(|point| point.along * 1e3).collect()
+        first.map(|point| to_mm(point.along)).collect()
     }
 
     /// The largest absolute value in each group; of single points the value itself. NaN if none is a number.

@@ -12,6 +12,7 @@
 
 use armill_core::load::PathLoad;
 use armill_core::map::{CutLimits, Permitted, PermittedForces, PointLimits};
+use armill_core::units::{to_mm, to_um};
 use armill_formats::table::{Column, ColumnData, Table};
 use armill_report::{AxisLabels, ProcessMap};
 
@@ -64,7 +65,7 @@ pub fn table(name: &str, analysis: &PathAnalysis, found: &PathResult) -> Result<
             Some("mm"),
             "distance along all cuts before",
             Some(MM_DECIMALS),
-            numbers(&|point| Some(at(point).along * 1e3)),
+            numbers(&|point| Some(to_mm(at(point).along))),
         ),
         column(
             "in_plane_um",
@@ -73,7 +74,7 @@ pub fn table(name: &str, analysis: &PathAnalysis, found: &PathResult) -> Result<
             Some(MM_DECIMALS),
             numbers(&|point| {
                 let evaluation = found.along.answers.points[point.index].as_ref().ok()?;
-                Some(evaluation.in_plane * 1e6)
+                Some(to_um(evaluation.in_plane))
             }),
         ),
         force(
@@ -122,7 +123,7 @@ pub fn table(name: &str, analysis: &PathAnalysis, found: &PathResult) -> Result<
             Some("mm"),
             &format!("{description}, everything else as in the study"),
             Some(MM_DECIMALS),
-            numbers(&|point| given(part)(point).map(|permitted| permitted.value() * 1e3)),
+            numbers(&|point| given(part)(point).map(|permitted| to_mm(permitted.value()))),
         ));
         columns.push(column(
             &format!("permitted_{name}_verdict"),
@@ -143,7 +144,7 @@ pub fn table(name: &str, analysis: &PathAnalysis, found: &PathResult) -> Result<
 /// Depth over feed with the line of the tolerance; `None` without a cut.
 pub fn picture(name: &str, subtitle: String, analysis: &PathAnalysis, found: &PathResult) -> Option<Picture> {
     let sheet = found.limits.as_ref()?.depth_by_feed.as_ref()?;
-    let mm = |values: &[f64]| values.iter().map(|value| value * 1e3).collect();
+    let mm = |values: &[f64]| values.iter().map(to_mm).collect();
     let drawing = ProcessMap {
         title: format!("{name}: depth and feed within the tolerance"),
         subtitle,
@@ -154,8 +155,8 @@ pub fn picture(name: &str, subtitle: String, analysis: &PathAnalysis, found: &Pa
         quantity: "largest deviation across the tool (µm)".to_owned(),
         horizontal: mm(&sheet.feeds_per_tooth),
         vertical: mm(&sheet.depths),
-        deviation_um: sheet.deviations.iter().map(|deviation| deviation * 1e6).collect(),
-        tolerance_um: analysis.setting.tolerance * 1e6,
+        deviation_um: sheet.deviations.iter().map(to_um).collect(),
+        tolerance_um: to_um(analysis.setting.tolerance),
         drawn: drawn(found),
     };
     Some(Picture {
@@ -174,5 +175,5 @@ fn drawn(found: &PathResult) -> Option<[f64; 2]> {
     };
     let (worst, _) = found.along.answers.worst()?;
     let cut = cuts.points[worst].cut?;
-    Some([cut.feed.hypot(cut.rise) * 1e3, cut.depth * 1e3])
+    Some([to_mm(cut.feed.hypot(cut.rise)), to_mm(cut.depth)])
 }

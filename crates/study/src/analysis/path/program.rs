@@ -17,6 +17,7 @@ use std::path::{Path, PathBuf};
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::Vector3;
 use armill_core::path::{Placing, SampledPath, Sampling, Spin, TooManyPoints};
+use armill_core::units::from_deg;
 use armill_formats::input;
 use armill_formats::toolpath::Summary;
 use armill_formats::toolpath::format::{Format, HEAD_BYTES};
@@ -318,7 +319,7 @@ pub fn placing(table: &ProgramTable, base_from_part: &Isometry, robot: Option<&R
             (base_from_path, base_from_path.rotation.inverse() * normal)
         }
     };
-    let spin = table.spin_deg.unwrap_or(0.0).to_radians();
+    let spin = from_deg(table.spin_deg.unwrap_or(0.0));
     Placing {
         base_from_path,
         axis,

@@ -2,6 +2,7 @@
 
 use armill_core::load::PathLoad;
 use armill_core::path::{Placing, Spin, Track};
+use armill_core::units::from_deg;
 
 use super::load::{LoadSource, put_on};
 use super::robot_program::{self, RobotInCell};
@@ -57,7 +58,7 @@ impl Resolver<'_> {
         let placing = match &table.program {
             Some(of) => program::placing(of, &base_from_part, source.robot()),
             None => Placing {
-                spin: Spin::Fixed(table.spin_deg.unwrap_or(0.0).to_radians()),
+                spin: Spin::Fixed(from_deg(table.spin_deg.unwrap_or(0.0))),
                 ..Placing::on_plane(&setting.plane)
             },
         };

@@ -3,7 +3,7 @@
 //! `along_path` or `postures_along`, then `worst_points`, `jumps`, `radial_deviations`, `program_limits` of the core.
 
 use armill_core::frame::Isometry;
-use armill_core::kernel::{Answers, evaluate, evaluate_on_path};
+use armill_core::kernel::{Answers, evaluate_posture};
 use armill_core::load::PathLoad;
 use armill_core::map::{
     AlongPath, Jump, ProgramLimits, RadialDeviation, along_path, along_postures, jumps, program_limits,
@@ -13,7 +13,8 @@ use armill_core::nalgebra::{Point3, Translation3, UnitQuaternion};
 use armill_core::optimize::{Objective, PostureFound, PostureSearch, postures_along};
 use armill_core::path::{ForceSummary, LoadedTrack, NoForces, Shape, Stock, Track};
 use armill_core::spatial::Wrench;
-use armill_core::watch::{Cancelled, Watch};
+use armill_core::units::to_mm;
+use armill_core::watch::Cancelled;
 use armill_core::workpiece::Plane;
 
 use crate::analysis::path::PathAnalysis;
@@ -84,7 +85,7 @@ const STOCK_HINT: &str = "check the position of the stock relative to the progra
 fn nothing_cut(analysis: &PathAnalysis, stock: &Stock) -> StudyError {
     let mm = |corners: [Point3<f64>; 2]| {
         let [low, high] =
-            corners.map(|at| format!("({:.1}, {:.1}, {:.1})", at.x * 1e3, at.y * 1e3, at.z * 1e3));
+            corners.map(|at| format!("({:.1}, {:.1}, {:.1})", to_mm(at.x), to_mm(at.y), to_mm(at.z)));
         format!("{low} to {high} mm")
     };
     let message = format!(
@@ -132,7 +133,7 @@ impl Runner<'_> {
             worst: worst
                 .into_iter()
                 .map(|index| self.in_full(analysis, track, &along, index))
-                .collect::<Result<_, Cancelled>>()?,
+                .collect(),
             jumps: jumps(self.robot, &analysis.track.path, &along.answers)
                 .take(MOST_JUMPS + 1)
                 .collect(),
@@ -218,7 +219,7 @@ impl Runner<'_> {
         track: &Track,
         along: &AlongPath,
         index: usize,
-    ) -> Result<PointDetail, Cancelled> {
+    ) -> PointDetail {
         let mut cases = vec![Wrench::ZERO; along.answers.case_count];
         track.wrenches(&along.load, index, &mut cases);
         let stop = track.stop(index);
@@ -232,23 +233,17 @@ impl Runner<'_> {
             plane: across,
             tilt: None,
             cases,
-            choice: along.choice_at(index),
-            // The posture is that of the path, whatever the redundant joints.
-            home: Some(along.answers.joints_at(index).to_vec()),
             ..analysis.setting.clone()
         };
-        let question = self.question(&setting);
-        let answers = match &along.backlash_geometry {
-            Some(unloaded) => {
-                let link_offsets = unloaded.link_offsets_at(index, along.answers.joint_count);
-                evaluate_on_path(&question, &stop.base_from_tool, link_offsets)
-            }
-            None => evaluate(&question, 1, |_| stop.base_from_tool, Watch::NONE)?,
-        };
-        Ok(PointDetail {
+        let unloaded = along.backlash_geometry.as_ref();
+        let link_offsets =
+            unloaded.map(|unloaded| unloaded.link_offsets_at(index, along.answers.joint_count));
+        let joints = along.answers.joints_at(index);
+        let answers = evaluate_posture(&self.question(&setting), joints, link_offsets);
+        PointDetail {
             index,
             setting,
             answers,
-        })
+        }
     }
 }

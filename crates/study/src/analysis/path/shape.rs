@@ -5,6 +5,7 @@
 
 use armill_core::nalgebra::{Point2, Vector2};
 use armill_core::path::{SampledPath, Shape};
+use armill_core::units::from_mm;
 
 use crate::analysis::path::program::MOST_POINTS;
 use crate::analysis::table::AnalysisTable;
@@ -59,11 +60,11 @@ pub fn resolve(
 /// The shape of the table in part axes; `None` if it has none.
 fn shape(table: &AnalysisTable) -> Option<Shape> {
     // The study's y' runs against x of the part.
-    let at = |[y, z]: [f64; 2]| Point2::new(-y * 1e-3, z * 1e-3);
+    let at = |[y, z]: [f64; 2]| Point2::new(from_mm(-y), from_mm(z));
     if let Some(circle) = &table.circle {
         return Some(Shape::Circle {
             centre: at(circle.centre_mm.unwrap_or_default()),
-            radius: circle.radius_mm * 1e-3,
+            radius: from_mm(circle.radius_mm),
         });
     }
     if let Some(line) = &table.line {
@@ -73,7 +74,7 @@ fn shape(table: &AnalysisTable) -> Option<Shape> {
         return Some(Shape::Polyline(points.iter().copied().map(at).collect()));
     }
     let rectangle = table.rectangle.as_ref()?;
-    let size = Vector2::from(rectangle.size_mm) * 1e-3;
+    let size = from_mm(Vector2::from(rectangle.size_mm));
     Some(Shape::rectangle(
         at(rectangle.centre_mm.unwrap_or_default()),
         size,

@@ -2,6 +2,7 @@
 
 use armill_core::kernel::PostureStatus;
 use armill_core::optimize::{Component, PostureSearch};
+use armill_core::units::{to_deg, to_mm, to_um};
 use armill_report::{AxisLabels, Cell, CellMap};
 
 use crate::analysis::path::PathAnalysis;
@@ -20,7 +21,7 @@ pub fn picture(name: &str, subtitle: String, analysis: &PathAnalysis, found: &Pa
     });
     let turns = lattice.spins.len();
     let cell = |(deviation, status): (&f64, &PostureStatus)| match status {
-        PostureStatus::Usable => Cell::Deviation(deviation * 1e6),
+        PostureStatus::Usable => Cell::Deviation(to_um(deviation)),
         PostureStatus::OutsideLimits => Cell::OutsideJointLimits,
         PostureStatus::Singular => Cell::Singular,
         PostureStatus::Unstable | PostureStatus::OutOfReach => Cell::OutOfReach,
@@ -42,21 +43,24 @@ pub fn picture(name: &str, subtitle: String, analysis: &PathAnalysis, found: &Pa
         title: format!("{name}: spin of the tool along the path"),
         subtitle,
         quantity: quantity(search).to_owned(),
-        across: columns.iter().map(|c| points[of_column(c)].along * 1e3).collect(),
-        up: lattice.spins.iter().map(|spin| spin.to_degrees()).collect(),
+        across: columns
+            .iter()
+            .map(|c| to_mm(points[of_column(c)].along))
+            .collect(),
+        up: lattice.spins.iter().map(to_deg).collect(),
         cells: columns.iter().flat_map(cells).collect(),
         chosen: columns
             .iter()
             .map(of_column)
             .map(|index| {
                 if usable(index) {
-                    searched.posture.spins[index].to_degrees()
+                    to_deg(searched.posture.spins[index])
                 } else {
                     f64::NAN
                 }
             })
             .collect(),
-        tolerance_um: Some(analysis.setting.tolerance * 1e6),
+        tolerance_um: Some(to_um(analysis.setting.tolerance)),
         labels: AxisLabels {
             horizontal: "along the path (mm)".to_owned(),
             vertical: "spin of the tool (deg)".to_owned(),

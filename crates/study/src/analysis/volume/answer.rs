@@ -5,6 +5,7 @@
 
 use armill_core::map::VolumeMap;
 use armill_core::robot::Robot;
+use armill_core::units::to_mm;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -61,11 +62,11 @@ pub fn answer(robot: &Robot, name: &str, setting: &Setting, volume: &VolumeMap) 
         volume_within_mm3: volume.volume_within(setting.tolerance) * 1e9,
         counts: CountsAnswer::of(&counts),
         point_counts: volume.grid.counts,
-        step_mm: volume.grid.step * 1e3,
+        step_mm: to_mm(volume.grid.step),
         origin_mm: setting
             .in_reference(&volume.grid.corner())
             .coords
-            .map(|c| crate::number::without_rounding(c * 1e3))
+            .map(|c| crate::number::without_rounding(to_mm(c)))
             .into(),
         best: volume.answers.best().map(point),
         worst: volume.answers.worst().map(point),

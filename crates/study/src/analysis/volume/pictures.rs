@@ -1,6 +1,7 @@
 //! The picture of a box: slices of it.
 
 use armill_core::map::VolumeMap;
+use armill_core::units::{to_mm, to_um};
 use armill_report::{AxisLabels, Grid, Panel, PointState};
 
 use crate::analysis::panels::sheet;
@@ -18,15 +19,15 @@ pub fn slices(name: &str, volume: &VolumeMap, setting: &Setting) -> Picture {
     let count = nx.min(SLICES);
     // Spread over the box, both ends among them.
     let chosen = (0..count).map(|k| if count == 1 { 0 } else { k * (nx - 1) / (count - 1) });
-    let origin = setting.in_reference(&volume.grid.corner()) * 1e3;
-    let step = volume.grid.step * 1e3;
+    let origin = to_mm(setting.in_reference(&volume.grid.corner()));
+    let step = to_mm(volume.grid.step);
     let panels = chosen.map(|i| {
         // Rows upwards, y from right to left: as seen from the robot.
         let points = (0..nz).flat_map(|k| (0..ny).rev().map(move |j| i + nx * (j + ny * k)));
         let points: Vec<PointState> = points.map(|index| state(&volume.answers.points[index])).collect();
         let within = points
             .iter()
-            .filter(|p| p.value_um().is_some_and(|v| v <= setting.tolerance * 1e6))
+            .filter(|p| p.value_um().is_some_and(|v| v <= to_um(setting.tolerance)))
             .count();
         Panel {
             title: format!("x = {:.0} mm", origin.x + i as f64 * step),
@@ -52,7 +53,7 @@ pub fn slices(name: &str, volume: &VolumeMap, setting: &Setting) -> Picture {
     let mut picture = sheet(name, panels.collect(), setting, axes);
     picture.caption = format!(
         "{name}: slices of the box across {frame} x; above the in-plane deviation, below the region within {:.0} µm.",
-        setting.tolerance * 1e6
+        to_um(setting.tolerance)
     );
     picture
 }

@@ -25,7 +25,7 @@ pub fn table(volumes: &[VolumeAnswer]) -> Table {
                     volume.branch.clone(),
                     percent(volume.fraction_within),
                     percent(volume.fraction_within_and_inside_joint_limits),
-                    format!("{:.1}", volume.volume_within_mm3 * 1e-6),
+                    format!("{:.1}", volume.volume_within_mm3 / 1e6),
                     volume.point_counts.iter().product::<usize>().to_string(),
                 ]
             })

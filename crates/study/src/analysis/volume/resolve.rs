@@ -2,6 +2,7 @@
 
 use armill_core::map::BoxGrid;
 use armill_core::nalgebra::{Translation3, Vector3};
+use armill_core::units::from_mm;
 
 use crate::analysis::resolve::Resolver;
 use crate::input::problem_log::ProblemLog;
@@ -21,7 +22,8 @@ impl Resolver<'_> {
         let (half_size, step, setting) = (half_size?, step?, setting?);
         let centre = table.centre_mm.unwrap_or_else(|| self.plane_table().centre_mm);
         // The sides of the box are parallel to the axes of the frame in which its centre is specified.
-        let base_from_centre = setting.base_from_reference * Translation3::from(Vector3::from(centre) * 1e-3);
+        let base_from_centre =
+            setting.base_from_reference * Translation3::from(from_mm(Vector3::from(centre)));
         let points: f64 = half_size
             .iter()
             .map(|half| 2.0 * (half / step).floor() + 1.0)

@@ -6,6 +6,7 @@
 use std::f64::consts::TAU;
 
 use armill_core::load::{Cutter, CuttingLaw, Estimate, Hand, Immersion};
+use armill_core::units::{to_deg, to_mm, to_um};
 use armill_report::html::Input;
 
 use crate::analysis::Subject;
@@ -50,12 +51,12 @@ fn of_cut(answer: &StudyAnswer, name: &str, path: &PathAnalysis, cut: &Cut) -> V
     rows.extend(coefficients(&cut.cutting.law, &of_material));
     let study = |name: &str, value: String, unit: &str| input(name, value, unit, THE_STUDY);
     rows.push(study("cutter", cutter(&cut.cutting.cutter), ""));
-    rows.push(study("axial depth", plain(cut.cutting.depth * 1e3), "mm"));
+    rows.push(study("axial depth", plain(to_mm(cut.cutting.depth)), "mm"));
     let (radial, unit) = match cut.cutting.immersion {
         Immersion::Slot => ("whole diameter, a slot".to_owned(), ""),
-        Immersion::Up(depth) => (format!("{}, up-milling", plain(depth * 1e3)), "mm"),
-        Immersion::Down(depth) => (format!("{}, down-milling", plain(depth * 1e3)), "mm"),
-        Immersion::Centred(depth) => (format!("{}, centred", plain(depth * 1e3)), "mm"),
+        Immersion::Up(depth) => (format!("{}, up-milling", plain(to_mm(depth))), "mm"),
+        Immersion::Down(depth) => (format!("{}, down-milling", plain(to_mm(depth))), "mm"),
+        Immersion::Centred(depth) => (format!("{}, centred", plain(to_mm(depth))), "mm"),
     };
     rows.push(study("radial depth", radial, unit));
     let given = |value: Option<f64>| {
@@ -72,10 +73,10 @@ fn of_cut(answer: &StudyAnswer, name: &str, path: &PathAnalysis, cut: &Cut) -> V
     rows.push(study("spindle", rpm, unit(spindle, "rev/min")));
     if let Some(stock) = &cut.stock {
         let [from, to] = stock.corners().map(|corner| {
-            let [x, y, z] = [corner.x, corner.y, corner.z].map(|metres| plain(metres * 1e3));
+            let [x, y, z] = [corner.x, corner.y, corner.z].map(|metres| plain(to_mm(metres)));
             format!("({x}, {y}, {z})")
         });
-        let cell = plain(stock.pitch() * 1e3);
+        let cell = plain(to_mm(stock.pitch()));
         rows.push(study("stock", format!("{from} to {to}, cells of {cell}"), "mm"));
     }
     let given = answer.paths.iter().find(|path| path.name == name);
@@ -152,12 +153,12 @@ const THE_STUDY_OR_ASSUMED: &str = "the study; assumed by armill if not specifie
 
 /// A cutter in the form of a catalogue; zero values are left out.
 fn cutter(cutter: &Cutter) -> String {
-    let mut parts = vec![format!("{} mm", plain(cutter.diameter() * 1e3))];
+    let mut parts = vec![format!("{} mm", plain(to_mm(cutter.diameter())))];
     let corner = cutter.corner_radius();
     if corner >= cutter.radius() {
         parts.push("ball nose".to_owned());
     } else if corner > 0.0 {
-        parts.push(format!("corner radius {} mm", plain(corner * 1e3)));
+        parts.push(format!("corner radius {} mm", plain(to_mm(corner))));
     }
     parts.push(match cutter.flutes() {
         1 => "1 flute".to_owned(),
@@ -167,12 +168,12 @@ fn cutter(cutter: &Cutter) -> String {
         Hand::Right => "right-hand",
         Hand::Left => "left-hand",
     };
-    parts.push(format!("{hand} helix {} deg", plain(cutter.helix().to_degrees())));
+    parts.push(format!("{hand} helix {} deg", plain(to_deg(cutter.helix()))));
     if cutter.rake() != 0.0 {
-        parts.push(format!("rake {} deg", plain(cutter.rake().to_degrees())));
+        parts.push(format!("rake {} deg", plain(to_deg(cutter.rake()))));
     }
     if cutter.runout().offset > 0.0 {
-        parts.push(format!("runout {} µm", plain(cutter.runout().offset * 1e6)));
+        parts.push(format!("runout {} µm", plain(to_um(cutter.runout().offset))));
     }
     parts.join(", ")
 }

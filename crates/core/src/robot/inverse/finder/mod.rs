@@ -351,7 +351,7 @@ impl<'r> Finder<'r> {
 }
 
 /// Name of the posture at the joint positions `q`, and the singularity that it is near, if any.
-pub(super) fn name(robot: &Robot, q: &[f64]) -> (PostureName, Option<Singularity>) {
+pub(crate) fn name(robot: &Robot, q: &[f64]) -> (PostureName, Option<Singularity>) {
     let arm = Arm::of(robot);
     let theta: Vec<f64> = (arm.first..q.len()).map(|i| robot.theta(i, q)).collect();
     match arm.inverse.names() {

@@ -5,6 +5,7 @@
 
 use armill_core::map::EquilibriumSummary;
 use armill_core::path::StockEngagement;
+use armill_core::units::{to_mm, to_um};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -87,8 +88,8 @@ impl StockAnswer {
             points_in_air: engagement.in_air,
             points_in_slot: engagement.slots,
             points_leaning: engagement.leaning,
-            largest_axial_depth_mm: engagement.largest_depth * 1e3,
-            largest_radial_depth_mm: engagement.largest_width * 1e3,
+            largest_axial_depth_mm: to_mm(engagement.largest_depth),
+            largest_radial_depth_mm: to_mm(engagement.largest_width),
             removed_mm3: engagement.removed * 1e9,
         }
     }
@@ -98,7 +99,7 @@ impl RestAnswer {
     /// The equilibrium of force and tool, with the line where it first does not exist.
     pub fn of(analysis: &PathAnalysis, equilibrium: &EquilibriumSummary) -> RestAnswer {
         RestAnswer {
-            nominal_max_in_plane_um: equilibrium.largest_nominal * 1e6,
+            nominal_max_in_plane_um: to_um(equilibrium.largest_nominal),
             points_unsettled: equilibrium.unsettled,
             first_unsettled_line: equilibrium
                 .first_unsettled
@@ -112,10 +113,10 @@ const OTHER_DIAMETER: f64 = 0.01;
 
 /// Tools of the program of another size than the cutter of the study.
 fn other_tools(analysis: &PathAnalysis) -> Option<String> {
-    let cutter_mm = analysis.cut.as_ref()?.cutting.cutter.diameter() * 1e3;
+    let cutter_mm = to_mm(analysis.cut.as_ref()?.cutting.cutter.diameter());
     let mut others: Vec<String> = Vec::new();
     for (_, operation) in &analysis.track.path.operations {
-        let Some(diameter_mm) = operation.diameter.map(|diameter| diameter * 1e3) else {
+        let Some(diameter_mm) = operation.diameter.map(to_mm) else {
             continue;
         };
         let given = format!("{} mm", without_rounding(diameter_mm));
@@ -190,8 +191,8 @@ fn of_rest(analysis: &PathAnalysis, found: &PathResult) -> Vec<String> {
                 notes.push(format!(
                     "the tool deflects so far that the cut changes: the largest deviation across it is {:.1} µm in \
                      force-deflection equilibrium, {:.1} µm under the nominal force",
-                    largest * 1e6,
-                    equilibrium.largest_nominal * 1e6
+                    to_um(largest),
+                    to_um(equilibrium.largest_nominal)
                 ));
             }
             if let Some(first) = equilibrium.first_unsettled {

@@ -11,6 +11,7 @@
 
 use armill_core::nalgebra::Vector3;
 use armill_core::path::{DeviatedPoint, FeatureErrors, feature_errors};
+use armill_core::units::{to_mm, to_um};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -102,7 +103,7 @@ fn of_case(
         }
     };
     let deviated: Vec<DeviatedPoint> = points.iter().map(deviated).collect();
-    let um = |v: Vector3<f64>| Some(v.map(|c| c * 1e6).into());
+    let um = |v: Vector3<f64>| Some(v.map(to_um).into());
     match feature_errors(feature.kind.kind(), &deviated) {
         Some(FeatureErrors::Circle {
             radius,
@@ -110,22 +111,22 @@ fn of_case(
             centre_shift,
             roundness,
         }) => {
-            given.radius_mm = Some(without_rounding(radius * 1e3));
-            given.radius_change_um = Some(radius_change * 1e6);
+            given.radius_mm = Some(without_rounding(to_mm(radius)));
+            given.radius_change_um = Some(to_um(radius_change));
             given.shift_um = um(centre_shift);
-            given.roundness_um = Some(roundness * 1e6);
+            given.roundness_um = Some(to_um(roundness));
         }
         Some(FeatureErrors::Line {
             straightness_across,
             straightness_normal: straightness_axial,
             offset,
         }) => {
-            given.straightness_across_um = Some(straightness_across * 1e6);
-            given.straightness_axial_um = Some(straightness_axial * 1e6);
+            given.straightness_across_um = Some(to_um(straightness_across));
+            given.straightness_axial_um = Some(to_um(straightness_axial));
             given.shift_um = um(offset);
         }
         Some(FeatureErrors::Plane { flatness, offset }) => {
-            given.flatness_um = Some(flatness * 1e6);
+            given.flatness_um = Some(to_um(flatness));
             let normal = deviated.first().map_or_else(Vector3::z, |p| p.axis.into_inner());
             given.shift_um = um(normal * offset);
         }

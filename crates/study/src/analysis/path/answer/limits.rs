@@ -4,6 +4,7 @@
 //! cuts. Lengths are in mm, forces in N, as given next to each value.
 
 use armill_core::map::{CutLimits, Permitted, PermittedForces, PointLimits};
+use armill_core::units::to_mm;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -63,7 +64,7 @@ impl LimitsAnswer {
         };
         let cut = |part: fn(&CutLimits) -> Option<Permitted>| {
             limits.least(part).map(|(point, permitted)| LimitAnswer {
-                value: permitted.value() * 1e3,
+                value: to_mm(permitted.value()),
                 unit: "mm",
                 verdict: verdict(permitted),
                 line: line(point),

@@ -31,6 +31,7 @@ pub use worst::WorstPoint;
 use armill_core::kernel::Answers;
 use armill_core::map::AlongPath;
 use armill_core::robot::Robot;
+use armill_core::units::{to_deg, to_mm, to_um};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -132,7 +133,7 @@ pub fn answer(robot: &Robot, name: &str, analysis: &PathAnalysis, found: &PathRe
     let of_cases = found
         .radial
         .iter()
-        .map(|radial| radial.roundness.peak_to_valley * 1e6);
+        .map(|radial| to_um(radial.roundness.peak_to_valley));
     let worst_points = worst::worst_points(robot, analysis, found);
     let [along, cross, axial] = largest_parts(analysis, found);
     PathAnswer {
@@ -144,11 +145,11 @@ pub fn answer(robot: &Robot, name: &str, analysis: &PathAnalysis, found: &PathRe
         outside_joint_limits: evaluation()
             .filter(|evaluation| !evaluation.within_limits())
             .count(),
-        length_mm: analysis.length() * 1e3,
-        max_in_plane_um: answers.worst().map(|(_, evaluation)| evaluation.in_plane * 1e6),
-        min_in_plane_um: answers.best().map(|(_, evaluation)| evaluation.in_plane * 1e6),
+        length_mm: to_mm(analysis.length()),
+        max_in_plane_um: answers.worst().map(|(_, evaluation)| to_um(evaluation.in_plane)),
+        min_in_plane_um: answers.best().map(|(_, evaluation)| to_um(evaluation.in_plane)),
         max_full_um: evaluation()
-            .map(|evaluation| evaluation.full * 1e6)
+            .map(|evaluation| to_um(evaluation.full))
             .max_by(f64::total_cmp),
         max_along_um: along,
         max_cross_um: cross,
@@ -206,18 +207,17 @@ fn largest_parts(analysis: &PathAnalysis, found: &PathResult) -> [Option<f64>; 3
             ]);
         }
     }
-    std::array::from_fn(|i| largest.map(|largest| largest[i] * 1e6))
+    std::array::from_fn(|i| largest.map(|largest| to_um(largest[i])))
 }
 
 /// Each case of a circle that is a shape; none for other paths, and for a circle that is not reached everywhere.
 fn circle_cases(found: &PathResult) -> Vec<CircleCase> {
-    let um = |value: f64| value * 1e6;
     let of_case = |(case, radial): (usize, &armill_core::map::RadialDeviation)| CircleCase {
         case: case + 1,
-        max_radial_um: um(radial.outward.iter().copied().fold(f64::MIN, f64::max)),
-        min_radial_um: um(radial.outward.iter().copied().fold(f64::MAX, f64::min)),
-        centre_shift_um: [um(-radial.centre_shift.x), um(radial.centre_shift.y)],
-        roundness_um: um(radial.roundness.peak_to_valley),
+        max_radial_um: to_um(radial.outward.iter().copied().fold(f64::MIN, f64::max)),
+        min_radial_um: to_um(radial.outward.iter().copied().fold(f64::MAX, f64::min)),
+        centre_shift_um: [to_um(-radial.centre_shift.x), to_um(radial.centre_shift.y)],
+        roundness_um: to_um(radial.roundness.peak_to_valley),
     };
     found.radial.iter().enumerate().map(of_case).collect()
 }
@@ -229,7 +229,7 @@ fn jumps(robot: &Robot, analysis: &PathAnalysis, found: &PathResult) -> Vec<Stri
         format!(
             "joint {} turns by {:.0} deg at once in line {}",
             joints[jump.joint].name,
-            jump.by.to_degrees(),
+            to_deg(jump.by),
             analysis.track.path.points[jump.index].line
         )
     });
@@ -242,7 +242,7 @@ fn jumps(robot: &Robot, analysis: &PathAnalysis, found: &PathResult) -> Vec<Stri
 fn joint_ranges(robot: &Robot, answers: &Answers) -> Vec<[f64; 2]> {
     let range = |joint: usize| {
         let slides = robot.slides(joint);
-        let scale = if slides { 1e3 } else { 1f64.to_degrees() };
+        let scale = if slides { 1e3 } else { to_deg(1f64) };
         let positions = answers
             .evaluations()
             .map(|(index, _)| answers.joints_at(index)[joint] * scale);

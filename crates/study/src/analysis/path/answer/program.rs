@@ -1,6 +1,7 @@
 //! The data of a path that is given by a program.
 
 use armill_core::path::Operation;
+use armill_core::units::to_um;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -62,7 +63,7 @@ fn operations(analysis: &PathAnalysis, found: &PathResult) -> Vec<OperationAnswe
         let largest = points
             .iter()
             .flatten()
-            .map(|evaluation| evaluation.in_plane * 1e6);
+            .map(|evaluation| to_um(evaluation.in_plane));
         OperationAnswer {
             name: operation.name.clone(),
             tool: operation.tool,

@@ -6,6 +6,7 @@
 use armill_core::kernel::{Answers, PostureStatus};
 use armill_core::optimize::{Component, Objective, reversals};
 use armill_core::path::PathPoint;
+use armill_core::units::{to_deg, to_um};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -71,7 +72,7 @@ impl SearchAnswer {
     /// The result along this path; `None` without a search.
     pub fn of(analysis: &PathAnalysis, found: &PathResult) -> Option<SearchAnswer> {
         let (search, searched) = (analysis.setting.search.as_ref()?, found.searched.as_ref()?);
-        let spins = searched.posture.spins.iter().map(|spin| spin.to_degrees());
+        let spins = searched.posture.spins.iter().map(to_deg);
         let least = spins.clone().fold(f64::INFINITY, f64::min);
         let points = &analysis.track.path.points;
         Some(SearchAnswer {
@@ -127,9 +128,9 @@ impl StatisticsAnswer {
             .filter(|evaluation| evaluation.in_plane <= analysis.setting.tolerance)
             .count();
         StatisticsAnswer {
-            max_in_plane_um: answers.worst().map(|(_, evaluation)| evaluation.in_plane * 1e6),
+            max_in_plane_um: answers.worst().map(|(_, evaluation)| to_um(evaluation.in_plane)),
             mean_in_plane_um: (count > 0).then(|| {
-                evaluation().map(|evaluation| evaluation.in_plane).sum::<f64>() / count as f64 * 1e6
+                to_um(evaluation().map(|evaluation| evaluation.in_plane).sum::<f64>() / count as f64)
             }),
             fraction_within: within as f64 / answers.points.len().max(1) as f64,
             unreachable: answers.points.len() - count,

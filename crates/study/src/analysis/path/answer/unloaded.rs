@@ -2,6 +2,7 @@
 
 use armill_core::optimize::reversals;
 use armill_core::robot::Robot;
+use armill_core::units::{to_deg, to_mm, to_um};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -49,25 +50,27 @@ impl UnloadedAnswer {
             let slides = robot.slides(joint);
             JointBacklash {
                 name: robot.joints()[joint].name.clone(),
-                backlash_deg: (!slides).then(|| backlash.gap.to_degrees()),
-                backlash_mm: slides.then_some(backlash.gap * 1e3),
+                backlash_deg: (!slides).then(|| to_deg(backlash.gap)),
+                backlash_mm: slides.then_some(to_mm(backlash.gap)),
                 reversals: turned_back[joint],
             }
         });
         Some(UnloadedAnswer {
-            max_in_plane_um: unloaded
-                .displacements
-                .iter()
-                .enumerate()
-                .map(in_plane)
-                .fold(0.0, f64::max)
-                * 1e6,
-            max_full_um: unloaded
-                .displacements
-                .iter()
-                .map(armill_core::nalgebra::Vector3::norm)
-                .fold(0.0, f64::max)
-                * 1e6,
+            max_in_plane_um: to_um(
+                unloaded
+                    .displacements
+                    .iter()
+                    .enumerate()
+                    .map(in_plane)
+                    .fold(0.0, f64::max),
+            ),
+            max_full_um: to_um(
+                unloaded
+                    .displacements
+                    .iter()
+                    .map(armill_core::nalgebra::Vector3::norm)
+                    .fold(0.0, f64::max),
+            ),
             joints: play.collect(),
             measured_arm: model.actual.is_some(),
         })

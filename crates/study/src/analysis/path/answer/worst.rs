@@ -6,6 +6,7 @@
 
 use armill_core::kernel::Evaluation;
 use armill_core::robot::Robot;
+use armill_core::units::{to_deg, to_mm, to_um};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -64,10 +65,10 @@ fn of_point(robot: &Robot, analysis: &PathAnalysis, worst: &PointDetail) -> Opti
     };
     Some(WorstPoint {
         line: here.line,
-        distance_mm: here.along * 1e3,
-        along_um: parts.along * 1e6,
-        cross_um: parts.cross * 1e6,
-        axial_um: parts.axial * 1e6,
+        distance_mm: to_mm(here.along),
+        along_um: to_um(parts.along),
+        cross_um: to_um(parts.cross),
+        axial_um: to_um(parts.axial),
         cause: cause(robot, analysis, worst.index, &evaluation, &point),
         point,
     })
@@ -101,7 +102,7 @@ fn cause(
     if let Some(before) = index.checked_sub(1).map(|i| &points[i]) {
         let turn = before.direction.angle(&points[index].direction);
         if turn > SHARP {
-            parts.push(format!("the feed turns by {:.0} deg here", turn.to_degrees()));
+            parts.push(format!("the feed turns by {:.0} deg here", to_deg(turn)));
         }
     }
     parts.join(", ")
